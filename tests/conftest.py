@@ -1,0 +1,27 @@
+"""Fixtures that all tests share."""
+
+from collections.abc import Iterator
+
+import pytest
+from support import PIPELINES
+
+from vibroacoustics.loading import load_study
+from vibroacoustics.parameters.study import Study
+
+
+@pytest.fixture(autouse=True, scope="session")
+def _own_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Keep the tests out of the user's cache; child processes inherit the setting."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
+        yield
+
+
+@pytest.fixture(scope="session")
+def thesis_study() -> Study:
+    return load_study(PIPELINES / "copeland_thesis.toml")
+
+
+@pytest.fixture(scope="session")
+def derived_study() -> Study:
+    return load_study(PIPELINES / "copeland_derived.toml")

@@ -1,0 +1,56 @@
+"""What several test modules need: paths, and the force and moment of one option."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from vibroacoustics.balancers import BALANCERS
+from vibroacoustics.mechanisms import MECHANISMS
+from vibroacoustics.moving_parts import Array, Balancing, MovingPart, wrench
+from vibroacoustics.orders import order_spectrum
+from vibroacoustics.parameters.study import Study
+
+ROOT = Path(__file__).parents[1]
+PIPELINES = ROOT / "pipelines"
+MACHINE_FILE = ROOT / "data" / "machines" / "copeland_zp41k3e.toml"
+
+CRANK_ANGLE = 2.0 * np.pi * np.arange(256) / 256
+ROUNDING = 1e-12
+"""Relative rounding error of a low order's phasor: sums of 256 terms at 2.2e-16 each are good to
+6e-14; the rest is for the few operations that follow."""
+
+
+def wrench_rounding(parts: Sequence[MovingPart], frequency_hz: float) -> tuple[float, float]:
+    """Bound of the rounding of force and moment over crank angle, N and N m.
+
+    The Fourier derivative multiplies the rounding eps |r| of the path by orders squared, up to
+    128²; the moment takes it times |r|, in two products.
+    """
+    omega = 2.0 * np.pi * frequency_hz
+    force = moment = 0.0
+    for part in parts:
+        reach = float(np.max(np.linalg.norm(part.position_m, axis=0)))
+        own = part.mass_kg * omega**2 * 128**2 * np.finfo(float).eps * reach
+        force += own
+        moment += 2.0 * own * reach
+    return force, moment
+
+
+def machine_parts(study: Study) -> list[MovingPart]:
+    """Moving parts of the bare machine."""
+    mechanisms = MECHANISMS[study.machine.kind]
+    return [part for mechanism in mechanisms for part in mechanism(study.machine, CRANK_ANGLE)]
+
+
+def balancing(study: Study, option: str, speed_rpm: float) -> Balancing:
+    """What an option of the study adds."""
+    parameters = study.options[option]
+    return BALANCERS[parameters.kind](parameters, study.machine, speed_rpm, CRANK_ANGLE)
+
+
+def wrench_orders(study: Study, option: str, speed_rpm: float) -> tuple[Array, Array]:
+    """Order spectra (3, 41) of the resultant force and moment of machine and option."""
+    parts = [*machine_parts(study), *balancing(study, option, speed_rpm).parts]
+    force, moment = wrench(parts, speed_rpm / 60.0)
+    return order_spectrum(force, 40), order_spectrum(moment, 40)

@@ -1,0 +1,172 @@
+"""Balancing options: what they add and what they refuse."""
+
+from typing import get_args
+
+import numpy as np
+import pytest
+from support import CRANK_ANGLE, balancing
+
+from vibroacoustics.balancers import BALANCERS
+from vibroacoustics.balancers.pendulum import (
+    Drive,
+    floquet_multipliers,
+    pendulum_mass,
+    periodic_state,
+    revolution,
+    settle,
+    swing,
+)
+from vibroacoustics.balancers.spring_mass import printed_mass, sprung_mass_response, tuned_mass
+from vibroacoustics.errors import ParameterError
+from vibroacoustics.parameters.options import Option
+
+DRIVE = Drive(length_m=25e-3, damping_ratio=0.02, stroke_m=6.75e-3, frequency_hz=3500.0 / 60.0)
+
+
+def test_every_kind_of_option_has_a_balancer():
+    union = get_args(Option)[0]
+    kinds = {get_args(m.model_fields["kind"].annotation)[0] for m in get_args(union)}
+    assert kinds == set(BALANCERS)
+
+
+def test_every_option_tells_its_added_mass(thesis_study):
+    for option in thesis_study.options:
+        added = balancing(thesis_study, option, 3500.0)
+        parts_kg = sum(part.mass_kg for part in added.parts)
+        assert added.facts["added_mass_kg"] == pytest.approx(parts_kg, rel=1e-12)
+        assert all(np.isfinite(value) for value in added.facts.values())
+        assert {part.source for part in added.parts} <= {"balancer"}
+
+
+def test_reports_carry_their_unit(thesis_study):
+    for option in thesis_study.options:
+        for name in balancing(thesis_study, option, 3500.0).facts:
+            assert name.endswith(("_kg", "_deg", "_mm", "_w", "_multiplier")), name
+
+
+# --- pendulum ------------------------------------------------------------------------------------
+
+
+def test_variation_is_the_derivative_of_slope():
+    state, step = np.array([1.2, -0.4]), 1e-6
+    columns = [
+        (DRIVE.slope(0.7, state + step * unit) - DRIVE.slope(0.7, state - step * unit)) / 2.0 / step
+        for unit in np.eye(2)
+    ]
+    # Central difference: step² of a third derivative near 1, and eps / step = 2e-10.
+    np.testing.assert_allclose(DRIVE.variation(0.7, 1.2), np.transpose(columns), atol=1e-9)
+
+
+def test_revolution_tangent_is_the_derivative_of_the_map():
+    state, step = np.array([1.4, 0.1]), 1e-5
+    _, tangent = revolution(DRIVE, state)
+    columns = [
+        (revolution(DRIVE, state + step * unit)[0] - revolution(DRIVE, state - step * unit)[0])
+        / (2.0 * step)
+        for unit in np.eye(2)
+    ]
+    # step² of a third derivative that grows with (2π)³ = 250; integration 1e-12 / step.
+    np.testing.assert_allclose(tangent, np.transpose(columns), atol=1e-6)
+
+
+def test_area_shrinks_by_the_damping():
+    """Liouville: product of the multipliers = exp(-2π · 2ζ ω_n/ω)."""
+    natural = np.sqrt(9.80665 / DRIVE.length_m) / (2.0 * np.pi * DRIVE.frequency_hz)
+    product = np.prod(floquet_multipliers(DRIVE, settle(DRIVE)))
+    # 1e-12 per step of the integration, some hundred steps
+    assert product.real == pytest.approx(np.exp(-4.0 * np.pi * 0.02 * natural), abs=1e-9)
+
+
+def test_settled_state_repeats():
+    state = settle(DRIVE)
+    after, _ = revolution(DRIVE, state)
+    np.testing.assert_allclose(after, state, atol=1e-10)
+    angle = swing(DRIVE, state, CRANK_ANGLE)
+    assert angle[0] == pytest.approx(state[0])
+
+
+def test_slow_pendulum_hangs():
+    """Far below 991 rpm, and away from its 189 rpm, the bob follows linear theory to (A/l)²."""
+    drive = Drive(25e-3, 0.02, 1e-4, 500.0 / 60.0)
+    state = settle(drive)
+    ratio = np.sqrt(9.80665 / 25e-3) / (2.0 * np.pi * 500.0 / 60.0)
+    linear = (1e-4 / 25e-3) / (ratio**2 - 1.0 + 2j * 0.02 * ratio)
+    assert state[0] == pytest.approx(linear.real, rel=1e-4)
+
+
+def test_periodic_state_from_hanging_keeps_to_it():
+    hanging = periodic_state(DRIVE, np.array([-0.27, 0.0]))
+    assert np.max(np.abs(swing(DRIVE, hanging, CRANK_ANGLE))) < 0.5
+    assert np.max(np.abs(floquet_multipliers(DRIVE, hanging))) > 1.0
+
+
+@pytest.mark.parametrize("reach", [6.75e-3, 5e-3])
+def test_pendulum_must_reach_farther_than_the_stroke(reach):
+    with pytest.raises(ParameterError, match=r"horizontal_reach_mm = .* mm.*6\.75 mm"):
+        pendulum_mass(6.75e-3, 0.0727, reach)
+
+
+# --- mass between springs ------------------------------------------------------------------------
+
+
+def test_too_stiff_springs_are_refused():
+    with pytest.raises(ParameterError, match=r"stiffness_n_per_mm = 5 N/mm.*below 4\.883 N/mm"):
+        tuned_mass(5000.0, 0.0727, 2.0 * np.pi * 3500.0 / 60.0)
+
+
+def test_too_soft_springs_for_the_printed_equation():
+    with pytest.raises(ParameterError, match=r"stiffness_n_per_mm = 4 N/mm.*above 4\.883 N/mm"):
+        printed_mass(4000.0, 0.0727, 2.0 * np.pi * 3500.0 / 60.0)
+
+
+def test_undamped_resonance_is_refused():
+    with pytest.raises(ParameterError, match="resonance at 1000 rpm"):
+        sprung_mass_response(
+            1.0, 0.5 * (2.0 * np.pi * 1000.0 / 60.0) ** 2, 0.0, np.pi * 100.0 / 3.0
+        )
+
+
+def test_stiff_springs_carry_the_mass_along():
+    assert sprung_mass_response(0.1, 1e12, 0.0, 300.0) == pytest.approx(1.0, abs=1e-8)
+
+
+def test_dissipated_power_is_force_times_velocity(thesis_study):
+    """Mean of c (v1 - v2)² over the revolution, by quadrature; physics.md B3: 23 W at µ = 1."""
+    option = thesis_study.options["spring-mass"].model_copy(
+        update={"stiffness_n_per_m": 2442.0, "damping_ratio": 0.05}
+    )
+    study = thesis_study.model_copy(update={"options": {"it": option}})
+    added = balancing(study, "it", 3500.0)
+    assert added.facts["dissipated_power_w"] == pytest.approx(23.0, abs=0.5)
+    omega = 2.0 * np.pi * 3500.0 / 60.0
+    (part,) = added.parts
+    ring = 6.75e-3 * np.cos(CRANK_ANGLE)
+    slip = (
+        omega * np.gradient(np.pad(part.position_m[0] - ring, 1, "wrap"), 2.0 * np.pi / 256)[1:-1]
+    )
+    damper = 2.0 * 0.05 * np.sqrt(2.0 * 2442.0 * part.mass_kg)
+    # np.gradient errs by h²/6 = 1e-4 in the slip, twice that in the power.
+    assert np.mean(damper * slip**2) == pytest.approx(added.facts["dissipated_power_w"], rel=3e-4)
+
+
+# --- the others ----------------------------------------------------------------------------------
+
+
+def test_ring_damping_power(thesis_study):
+    """c (ω r)² / 2 with 5 N s/m, 6.75 mm, 3500 rpm: 15.30 W."""
+    facts = balancing(thesis_study, "damping", 3500.0).facts
+    assert facts["dissipated_power_w"] == pytest.approx(15.302, abs=5e-4)
+
+
+def test_twin_ring_moves_in_opposite_phase(thesis_study):
+    (twin,) = balancing(thesis_study, "twin-oldham", 3500.0).parts
+    np.testing.assert_allclose(twin.position_m[0], -6.75e-3 * np.cos(CRANK_ANGLE), atol=1e-18)
+    assert np.all(twin.position_m[2] == pytest.approx(0.110 - 0.200))
+
+
+def test_counterweights_act_at_the_height_of_the_ring(thesis_study):
+    parts = balancing(thesis_study, "counterweight-half", 3500.0).parts
+    moments = np.array([part.mass_kg * part.position_m[0, 0] for part in parts])
+    heights = np.array([part.position_m[2, 0] for part in parts])
+    assert moments.sum() == pytest.approx(-0.5 * 0.0727 * 6.75e-3)
+    assert moments @ heights / moments.sum() == pytest.approx(0.110)

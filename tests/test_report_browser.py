@@ -1,0 +1,128 @@
+"""The report in headless Chromium, at desktop and phone width."""
+
+import os
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from selenium.webdriver import Chrome
+from selenium.webdriver.chrome.options import Options
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.by import By
+from test_report import make_results
+
+from vibroacoustics.report import render
+
+pytestmark = pytest.mark.slow
+
+HEADINGS = (
+    "Verdict",
+    "Comparison",
+    "Orders",
+    "Force over a revolution",
+    "Mounts",
+    "Radiation and levels",
+    "Scores",
+    "Assumptions",
+    "Provenance",
+)
+WIDTHS = {"desktop": 1280, "phone": 390}
+
+
+def _browser_paths() -> tuple[str, str]:
+    """Chromium and its driver; their absence is an error in CI and a skip elsewhere."""
+    found = shutil.which("chromium"), shutil.which("chromedriver")
+    if found[0] is None or found[1] is None:
+        if os.environ.get("CI"):
+            pytest.fail("chromium and chromedriver are needed in CI")
+        pytest.skip("chromium or chromedriver is not installed")
+    return found[0], found[1]
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Chrome]:
+    chromium, driver = _browser_paths()
+    options = Options()
+    options.binary_location = chromium
+    for argument in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage"):
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    chrome = Chrome(options=options, service=Service(driver))
+    yield chrome
+    chrome.quit()
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    facts = {"a-balancer-with-quite-a-long-name": {"hanging_multiplier": 3.0}}
+    factors = {"none": 1.0, "a-balancer-with-quite-a-long-name": 1.8, "halved": 0.5}
+    path = tmp_path_factory.mktemp("report") / "report.html"
+    path.write_bytes(render(make_results(factors, facts=facts))["report.html"])
+    return path
+
+
+@pytest.fixture(params=WIDTHS)
+def opened(request: pytest.FixtureRequest, browser: Chrome, page: Path) -> Chrome:
+    """The browser with the page open at one of the widths."""
+    phone = request.param == "phone"
+    metrics = {
+        "width": WIDTHS[request.param],
+        "height": 844,
+        "deviceScaleFactor": 2 if phone else 1,
+        "mobile": phone,
+    }
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+    browser.get(page.as_uri())
+    return browser
+
+
+def test_nothing_is_logged(opened: Chrome) -> None:
+    assert opened.get_log("browser") == []
+
+
+def test_the_page_does_not_scroll_sideways(opened: Chrome) -> None:
+    for details in opened.find_elements(By.TAG_NAME, "summary"):
+        details.click()
+    width, window = opened.execute_script(
+        "return [document.documentElement.scrollWidth, window.innerWidth]"
+    )
+    assert window in WIDTHS.values()
+    assert width <= window
+
+
+def test_every_figure_is_decoded(opened: Chrome) -> None:
+    widths = opened.execute_script("return [...document.images].map(image => image.naturalWidth)")
+    assert len(widths) >= 8
+    assert all(width > 0 for width in widths)
+
+
+def test_every_section_has_its_heading(opened: Chrome) -> None:
+    found = [heading.text for heading in opened.find_elements(By.TAG_NAME, "h2")]
+    assert found == list(HEADINGS)
+    assert len(opened.find_elements(By.TAG_NAME, "h1")) == 1
+
+
+def test_other_microphones_open_on_click(opened: Chrome) -> None:
+    details = opened.find_element(By.TAG_NAME, "details")
+    assert not details.find_element(By.TAG_NAME, "table").is_displayed()
+    details.find_element(By.TAG_NAME, "summary").click()
+    assert details.find_element(By.TAG_NAME, "table").is_displayed()
+
+
+def test_all_text_can_be_read(opened: Chrome) -> None:
+    smallest = opened.execute_script(
+        "return Math.min(...[...document.querySelectorAll('p, li, td, th, dd, figcaption, .tag')]"
+        ".map(element => parseFloat(getComputedStyle(element).fontSize)))"
+    )
+    assert smallest >= 12.0
+
+
+def test_the_name_of_a_row_stays_in_view(opened: Chrome) -> None:
+    cell = opened.find_element(By.CSS_SELECTOR, "#comparison tbody th")
+    scroll = opened.find_element(By.CSS_SELECTOR, "#comparison .scroll")
+    opened.execute_script("arguments[0].scrollLeft = 200", scroll)
+    left = opened.execute_script(
+        "return arguments[0].getBoundingClientRect().left", cell
+    ) - opened.execute_script("return arguments[0].getBoundingClientRect().left", scroll)
+    assert 0.0 <= left <= 5.0

@@ -1,0 +1,32 @@
+"""From mechanism to microphone: what a compressor's moving parts do to its feet and to the ear.
+
+The public functions take or return one `xarray.Dataset`, so that a notebook needs no files:
+`load_study`, `run`, `open_results`, `score`, `write_report`.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .loading import load_study
+    from .outputs import write_report
+    from .pipeline import run
+    from .scoring import score
+    from .storage import open_results
+
+__all__ = ["load_study", "open_results", "run", "score", "write_report"]
+
+_HOME = {
+    "load_study": "loading",
+    "open_results": "storage",
+    "run": "pipeline",
+    "score": "scoring",
+    "write_report": "outputs",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public function when it is first asked for: `--help` must not load k-Wave."""
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__} has no attribute {name}")
+    return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)

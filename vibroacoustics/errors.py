@@ -1,0 +1,21 @@
+"""Errors that a user can act on. Each message is one clear line."""
+
+
+class VibroacousticsError(Exception):
+    """Base of every error raised on purpose; the command line prints it and exits with code 2."""
+
+
+class ParameterError(VibroacousticsError):
+    """An input value is missing, unknown, of the wrong type or outside its allowed range."""
+
+
+class SchemaError(VibroacousticsError):
+    """A variable left a stage with the wrong dimensions or unit."""
+
+
+class SolverError(VibroacousticsError):
+    """A computation did not converge or gave values that cannot be right."""
+
+
+class StorageError(VibroacousticsError):
+    """A file cannot be read or written, or its content does not match its hash."""

@@ -1,0 +1,259 @@
+"""TOML to a validated `Study`. Every refusal is one line: file, field, value, unit, range."""
+
+import csv
+import math
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Final
+
+from .errors import ParameterError
+from .parameters.machine import Machine
+from .parameters.study import ParameterRecord, Study
+from .units import si_key, split_key
+from .validation import validated
+
+MAXIMUM_FILE_BYTES: Final = 1_000_000
+QUANTITY_KEYS: Final = {"value", "source", "range"}
+
+
+def load_study(path: str | Path) -> Study:
+    """Read a study file, the study it extends, its machine and its published table.
+
+    Parameters
+    ----------
+    path : TOML file. Keys carry their unit; a value is a number or
+        `{ value, source, range }`. `extends` names a study whose values it takes over.
+
+    Raises
+    ------
+    ParameterError
+        Anything is missing, unknown, of the wrong type or outside its allowed range.
+    """
+    path = Path(path)
+    content, origin = _read_with_base(path)
+    reader = _Reader(path, origin)
+    machine_table = content.pop("machine", None)
+    if not isinstance(machine_table, dict) or not isinstance(machine_table.get("file"), str):
+        raise ParameterError(f"{path}: machine.file = missing: name the machine's TOML file")
+    machine_file = origin[("machine", "file")].parent / machine_table.pop("file")
+    overrides = machine_table.pop("override", {})
+    if machine_table:
+        raise ParameterError(f"{path}: machine.{next(iter(machine_table))}: unknown key")
+    machine, machine_records = _load_machine(machine_file, overrides, reader)
+    scoring = content.get("scoring")
+    if isinstance(scoring, dict) and "published_table" in scoring:
+        table_file = origin[("scoring", "published_table")].parent / scoring.pop("published_table")
+        scoring["published"] = _read_published_table(table_file)
+    content = reader.to_si(content, ())
+    content.update(machine=machine, source_file=path.name)
+    content["records"] = (*machine_records, *reader.records)
+    return validated(Study, content, reader)
+
+
+def _load_machine(
+    path: Path, overrides: Any, study: "_Reader"
+) -> tuple[Machine, list[ParameterRecord]]:
+    """The machine of the file with the study's overrides; every value of it needs a source."""
+    content = _read_toml(path)
+    reader = _Reader(path, {}, sources_required=True)
+    reader.origin = dict.fromkeys(_leaves(content), path)
+    if not isinstance(overrides, dict):
+        raise ParameterError(f"{study.path}: machine.override: must be a table")
+    for keys in _leaves(overrides):
+        value = overrides
+        for key in keys:
+            value = value[key]
+        _override(content, keys, value, study.path)
+        reader.origin[keys] = study.origin[("machine", "override", *keys)]
+        reader.overridden.add(keys)
+    content = reader.to_si(content, ())
+    return validated(Machine, content, reader), reader.records
+
+
+def _override(content: dict[str, Any], keys: tuple[str, ...], value: Any, file: Path) -> None:
+    """Replace one existing value; a key in another unit of the same quantity replaces it too."""
+    table: Any = content
+    for key in keys[:-1]:
+        table = table.get(key) if isinstance(table, dict) else None
+    same = [key for key in table or () if si_key(key)[0] == si_key(keys[-1])[0]]
+    if not isinstance(table, dict) or not same:
+        raise ParameterError(
+            f"{file}: machine.override.{'.'.join(keys)}: the machine has no such value"
+        )
+    del table[same[0]]
+    table[keys[-1]] = value
+
+
+def _read_toml(path: Path) -> dict[str, Any]:
+    try:
+        if path.stat().st_size > MAXIMUM_FILE_BYTES:
+            raise ParameterError(f"{path}: larger than {MAXIMUM_FILE_BYTES} bytes")
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise ParameterError(f"{path}: no such file") from None
+    except OSError as error:
+        raise ParameterError(f"{path}: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise ParameterError(f"{path}: is not UTF-8 text") from None
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise ParameterError(f"{path}: is not valid TOML: {error}") from None
+
+
+def _read_with_base(path: Path) -> tuple[dict[str, Any], dict[tuple[str, ...], Path]]:
+    """Merge a study over the one it extends; also tell the file that each value comes from."""
+    content = _read_toml(path)
+    base_name = content.pop("extends", None)
+    origin = dict.fromkeys(_leaves(content), path)
+    if base_name is None:
+        return content, origin
+    if not isinstance(base_name, str):
+        raise ParameterError(f"{path}: extends = {base_name!r}: must be a file name")
+    base_path = path.parent / base_name
+    base = _read_toml(base_path)
+    if "extends" in base:
+        raise ParameterError(f"{base_path}: extends: a study that is extended must stand alone")
+    base_origin = dict.fromkeys(_leaves(base), base_path)
+    return _merge(base, content), base_origin | origin
+
+
+def _merge(base: dict[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
+    merged = dict(base)
+    for key, value in over.items():
+        nested = isinstance(value, dict) and isinstance(merged.get(key), dict)
+        merged[key] = _merge(merged[key], value) if nested and not _quantity(value) else value
+    return merged
+
+
+def _quantity(value: Any) -> bool:
+    return isinstance(value, dict) and "value" in value
+
+
+def _leaves(content: Mapping[str, Any], prefix: tuple[str, ...] = ()) -> list[tuple[str, ...]]:
+    """Key paths of all values; a quantity table is one value."""
+    found: list[tuple[str, ...]] = []
+    for key, value in content.items():
+        if isinstance(value, dict) and not _quantity(value):
+            found += _leaves(value, (*prefix, key))
+        else:
+            found.append((*prefix, key))
+    return found
+
+
+class _Reader:
+    """Turns the values of one file to SI and keeps the record of where each comes from."""
+
+    def __init__(
+        self, path: Path, origin: dict[tuple[str, ...], Path], sources_required: bool = False
+    ) -> None:
+        self.path = path
+        self.origin = origin
+        self.sources_required = sources_required
+        self.overridden: set[tuple[str, ...]] = set()
+        self.records: list[ParameterRecord] = []
+        self.file_keys: dict[tuple[str, ...], tuple[str, Any]] = {}
+
+    def to_si(self, content: Mapping[str, Any], prefix: tuple[str, ...]) -> dict[str, Any]:
+        result: dict[str, Any] = {}
+        for key, value in content.items():
+            keys = (*prefix, key)
+            if isinstance(value, dict) and not _quantity(value):
+                result[key] = self.to_si(value, keys)
+                continue
+            name, factor = si_key(key)
+            if name in result:
+                raise ParameterError(f"{self.place(keys)}: given twice, in two units")
+            number = self._number(keys, value)
+            self.file_keys[(*prefix, name)] = (key, number)
+            result[name] = _scale(number, factor)
+        return result
+
+    def file(self, keys: tuple[str, ...]) -> Path:
+        return self.origin.get(keys, self.path)
+
+    def place(self, keys: tuple[str, ...]) -> str:
+        """File and dotted key as written; an overridden machine value stands in the study."""
+        prefix = ("machine", "override") if keys in self.overridden else ()
+        dotted = ".".join((*prefix, *keys))
+        return f"{self.file(keys)}: {dotted}" if dotted else f"{self.file(keys)}"
+
+    def _number(self, keys: tuple[str, ...], value: Any) -> Any:
+        """The bare value of a leaf; records its source and checks it against its own range."""
+        where = self.place(keys)
+        if not _quantity(value):
+            if self.sources_required and _is_number(value):
+                raise ParameterError(f"{where} = {value}: needs a source: {{ value, source }}")
+            return tuple(value) if isinstance(value, list) else value
+        unknown = set(value) - QUANTITY_KEYS
+        if unknown:
+            raise ParameterError(f"{where}: unknown key {sorted(unknown)[0]}")
+        source = value.get("source")
+        if not isinstance(source, str) or not source.strip():
+            raise ParameterError(f"{where}: source is missing")
+        number = value["value"]
+        unit = split_key(keys[-1])[1]
+        symbol = unit.symbol if unit else ""
+        lowest, highest = _range(where, value.get("range"))
+        if source.startswith("assumed") and lowest is None:
+            raise ParameterError(f"{where}: an assumed value needs a range")
+        if lowest is not None and _is_number(number) and not lowest <= number <= highest:
+            raise ParameterError(
+                f"{where} = {number:g} {symbol}: outside its own range {lowest:g} to {highest:g}"
+            )
+        self.records.append(
+            ParameterRecord(
+                file=self.file(keys).name,
+                field=".".join(keys),
+                value=f"{number:g}" if _is_number(number) else str(number),
+                unit=symbol,
+                source=source,
+                lowest=lowest,
+                highest=highest,
+            )
+        )
+        return tuple(number) if isinstance(number, list) else number
+
+
+def _range(where: str, given: Any) -> tuple[float, float] | tuple[None, None]:
+    if given is None:
+        return None, None
+    if not isinstance(given, list) or len(given) != 2 or not all(map(_is_number, given)):
+        raise ParameterError(f"{where}: range must be two numbers [lowest, highest]")
+    return float(given[0]), float(given[1])
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _scale(value: Any, factor: float) -> Any:
+    """Convert a number or a list of numbers; leave everything else to the validation."""
+    if isinstance(value, tuple):
+        return tuple(_scale(item, factor) for item in value)
+    if factor == 1.0 or isinstance(value, bool) or not isinstance(value, int | float):
+        return value
+    return value * factor
+
+
+def _read_published_table(path: Path) -> dict[str, Any]:
+    """A published table of scores: `criterion,OPTION,…`, one line a criterion, last the sums."""
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except OSError as error:
+        raise ParameterError(f"{path}: cannot be read: {error.strerror}") from None
+    source = " ".join(line.lstrip("# ") for line in lines if line.startswith("#"))
+    rows = list(csv.reader(line for line in lines if line.strip() and not line.startswith("#")))
+    try:
+        options = tuple(rows[0][1:])
+        numbers = [tuple(float(cell) for cell in row[1:]) for row in rows[1:]]
+        if len(rows) < 3 or any(len(row) != len(options) for row in numbers):
+            raise ValueError("rows of different length")
+    except (ValueError, IndexError) as error:
+        raise ParameterError(f"{path}: is no table of scores: {error}") from None
+    return {
+        "source": source,
+        "options": options,
+        "criteria": tuple(row[0] for row in rows[1:-1]),
+        "scores": tuple(zip(*numbers[:-1], strict=True)),
+        "sums": numbers[-1],
+    }

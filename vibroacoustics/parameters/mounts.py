@@ -1,0 +1,15 @@
+"""The mounts between the machine's feet and the floor."""
+
+from pydantic import Field
+
+from .base import Parameters
+
+
+class Mounts(Parameters):
+    """Four equal grommets in a square below the shell."""
+
+    pitch_m: float = Field(ge=0.01, le=2.0)
+    """Side of the square that the grommets form."""
+    lateral_stiffness_n_per_m: float = Field(ge=1e2, le=1e9)
+    vertical_stiffness_n_per_m: float = Field(ge=1e2, le=1e9)
+    loss_factor_ratio: float = Field(ge=0.0, le=1.0)

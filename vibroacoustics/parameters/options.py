@@ -1,0 +1,87 @@
+"""Parameters of the balancing options, one class per kind."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from .base import Parameters
+
+ADDED_MASS = Field(gt=0.0, le=100.0)
+
+
+class NoBalancer(Parameters):
+    """The machine as it is; the reference of every change."""
+
+    kind: Literal["none"]
+
+
+class Pendulum(Parameters):
+    """Two equal pendulums hung from the Oldham ring (thesis 7.1).
+
+    The masses follow from (7.5): all of the ring's momentum is to be taken by bobs that swing out
+    by `horizontal_reach_m` at the end of the stroke.
+    """
+
+    kind: Literal["pendulum"]
+    length_m: float = Field(ge=1e-3, le=1.0)
+    horizontal_reach_m: float = Field(ge=1e-3, le=1.0)
+    damping_ratio: float = Field(ge=1e-4, le=1.0)
+    """Damping of the bearing, as a fraction of critical of the hanging pendulum."""
+
+
+class SpringMass(Parameters):
+    """A mass between two springs on the Oldham ring (thesis 7.2), as dynamics tune it."""
+
+    kind: Literal["spring-mass"]
+    stiffness_n_per_m: float = Field(gt=0.0, le=1e7)
+    """Stiffness K of each of the two springs."""
+    tuned_speed_rpm: float = Field(ge=60.0, le=60000.0)
+    damping_ratio: float = Field(ge=0.0, le=1.0)
+    """Damping of the mass on both springs, as a fraction of critical."""
+    height_below_ring_m: float = Field(ge=-1.0, le=1.0)
+
+
+class SpringMassPrinted(Parameters):
+    """The same with the mass of equation (7.20) as printed, which has a sign error."""
+
+    kind: Literal["spring-mass-printed"]
+    stiffness_n_per_m: float = Field(gt=0.0, le=1e7)
+    tuned_speed_rpm: float = Field(ge=60.0, le=60000.0)
+    damping_ratio: float = Field(ge=0.0, le=1.0)
+    height_below_ring_m: float = Field(ge=-1.0, le=1.0)
+
+
+class TwinOldham(Parameters):
+    """A second Oldham ring in opposite phase at the other end of the shaft (thesis 7.3)."""
+
+    kind: Literal["twin-oldham"]
+    mass_kg: float = ADDED_MASS
+    stroke_ratio: float = Field(gt=0.0, le=10.0)
+    """Stroke amplitude of the twin over that of the ring."""
+    distance_below_ring_m: float = Field(ge=-2.0, le=2.0)
+
+
+class RingDamping(Parameters):
+    """Rubber or springs between ring and frame (thesis 7.4)."""
+
+    kind: Literal["ring-damping"]
+    damping_ns_per_m: float = Field(ge=0.0, le=1e6)
+
+
+class RotatingCounterweight(Parameters):
+    """A share of the ring's mass moment added to the shaft's two counterweights."""
+
+    kind: Literal["rotating-counterweight"]
+    share_ratio: float = Field(ge=0.0, le=2.0)
+
+
+Option = Annotated[
+    NoBalancer
+    | Pendulum
+    | SpringMass
+    | SpringMassPrinted
+    | TwinOldham
+    | RingDamping
+    | RotatingCounterweight,
+    Field(discriminator="kind"),
+]

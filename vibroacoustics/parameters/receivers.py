@@ -1,0 +1,13 @@
+"""Where the microphones stand."""
+
+from pydantic import Field
+
+from .base import Parameters
+
+
+class Receiver(Parameters):
+    """One microphone. x along the Oldham stroke, y across, height above the floor."""
+
+    x_m: float = Field(ge=-20.0, le=20.0)
+    y_m: float = Field(ge=-20.0, le=20.0)
+    height_m: float = Field(ge=0.0, le=20.0)

@@ -1,0 +1,34 @@
+"""The compressor's shell as a sound radiator."""
+
+from pydantic import Field, model_validator
+
+from .base import Parameters
+
+
+class Shell(Parameters):
+    """Upright closed cylinder with flat caps, standing over the floor on its mounts."""
+
+    outer_diameter_m: float = Field(ge=0.02, le=2.0)
+    height_m: float = Field(ge=0.02, le=3.0)
+    centre_of_mass_height_m: float = Field(gt=0.0, le=3.0)
+    """Height of the machine's centre of mass above the bottom of the shell."""
+    floor_clearance_m: float = Field(ge=0.0, le=0.5)
+    """Height of the bottom of the shell above the floor."""
+
+    @model_validator(mode="after")
+    def _centre_of_mass_inside(self) -> "Shell":
+        if self.centre_of_mass_height_m >= self.height_m:
+            raise ValueError(
+                f"centre_of_mass_height_mm = {1e3 * self.centre_of_mass_height_m:g} mm: must be "
+                f"below height_mm = {1e3 * self.height_m:g} mm"
+            )
+        return self
+
+    @property
+    def radius_m(self) -> float:
+        return self.outer_diameter_m / 2.0
+
+    @property
+    def floor_z_m(self) -> float:
+        """Vertical coordinate of the floor; the origin is the centre of mass at rest."""
+        return -self.centre_of_mass_height_m - self.floor_clearance_m

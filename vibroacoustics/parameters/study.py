@@ -1,0 +1,136 @@
+"""A study: one machine, its operating points, options, microphones and scoring."""
+
+from typing import Any, Literal
+
+from pydantic import Field, model_validator
+
+from ..units import shaft_frequency_hz
+from .base import Parameters
+from .machine import Machine
+from .options import NoBalancer, Option
+from .radiation import RadiationSettings
+from .receivers import Receiver
+
+CriterionName = Literal[
+    "foot_force_1x_n",
+    "residual_moment_nm",
+    "level_change_db",
+    "speed_sensitivity_db",
+    "added_mass_kg",
+]
+
+
+class Operation(Parameters):
+    speed_rpm: tuple[float, ...] = Field(min_length=1, max_length=100)
+    crank_angle_samples: int = Field(default=256, ge=64, le=65536)
+    maximum_order: int = Field(default=40, ge=2, le=1000)
+
+    @model_validator(mode="after")
+    def _speeds(self) -> "Operation":
+        for speed in self.speed_rpm:
+            if not 60.0 <= speed <= 60000.0:
+                raise ValueError(f"speed_rpm = {speed:g} rpm: allowed 60 to 60000 rpm")
+        if len(set(self.speed_rpm)) < len(self.speed_rpm):
+            raise ValueError("speed_rpm lists a speed twice")
+        if 2 * self.maximum_order >= self.crank_angle_samples:
+            raise ValueError(
+                f"maximum_order = {self.maximum_order}: must be below half of "
+                f"crank_angle_samples = {self.crank_angle_samples}"
+            )
+        return self
+
+
+class PublishedTable(Parameters):
+    """A published table of scores, as printed."""
+
+    source: str
+    options: tuple[str, ...]
+    criteria: tuple[str, ...]
+    scores: tuple[tuple[float, ...], ...]
+    """One row per option."""
+    sums: tuple[float, ...]
+
+
+class CriterionScale(Parameters):
+    """Weight of a criterion and the values that count as best and worst, in its unit.
+
+    Fixed scales keep a score from changing when an option is added or left out.
+    """
+
+    weight: float = Field(ge=0.0, le=1e6)
+    best: float
+    worst: float
+
+    @model_validator(mode="after")
+    def _apart(self) -> "CriterionScale":
+        if self.worst <= self.best:
+            raise ValueError(f"worst = {self.worst:g} must exceed best = {self.best:g}")
+        return self
+
+
+class Scoring(Parameters):
+    criteria: dict[CriterionName, CriterionScale] = Field(min_length=1)
+    random_weightings: int = Field(default=2000, ge=1, le=1_000_000)
+    seed: int = Field(default=20061, ge=0)
+    published: PublishedTable | None = None
+
+    @model_validator(mode="after")
+    def _some_weight(self) -> "Scoring":
+        if sum(scale.weight for scale in self.criteria.values()) <= 0.0:
+            raise ValueError("at least one criterion needs a weight above 0")
+        return self
+
+
+class ParameterRecord(Parameters):
+    """Where a value comes from: one row of the assumptions table."""
+
+    file: str
+    field: str
+    value: str
+    unit: str
+    source: str
+    lowest: float | None = None
+    highest: float | None = None
+
+    @property
+    def assumed(self) -> bool:
+        return self.source.startswith("assumed")
+
+
+class Study(Parameters):
+    title: str = Field(min_length=1)
+    machine: Machine
+    operation: Operation
+    options: dict[str, Option]
+    receivers: dict[str, Receiver] = Field(min_length=1)
+    catalogue_receiver: str
+    radiation: RadiationSettings
+    scoring: Scoring
+    records: tuple[ParameterRecord, ...] = ()
+    source_file: str = ""
+
+    @model_validator(mode="after")
+    def _consistent(self) -> "Study":
+        if not isinstance(self.options.get("none"), NoBalancer):
+            raise ValueError('options: an option named none with kind = "none" is required')
+        if self.catalogue_receiver not in self.receivers:
+            raise ValueError(
+                f"catalogue_receiver = {self.catalogue_receiver}: not among the receivers "
+                f"({', '.join(self.receivers)})"
+            )
+        highest = self.operation.maximum_order * shaft_frequency_hz(max(self.operation.speed_rpm))
+        if highest > self.radiation.maximum_frequency_hz:
+            raise ValueError(
+                f"radiation.maximum_frequency_hz = {self.radiation.maximum_frequency_hz:g} Hz: "
+                f"order {self.operation.maximum_order} reaches {highest:g} Hz"
+            )
+        if self.machine.published_noise.speed_rpm not in self.operation.speed_rpm:
+            raise ValueError(
+                "operation.speed_rpm: must include the speed of the published noise, "
+                f"{self.machine.published_noise.speed_rpm:g} rpm, to fix the remainder"
+            )
+        return self
+
+    def parameters(self) -> dict[str, Any]:
+        """All parameters as plain JSON values."""
+        return self.model_dump(mode="json")

@@ -1,0 +1,78 @@
+"""Where a result comes from: software, versions, parameters, time."""
+
+import hashlib
+import json
+import subprocess
+from datetime import UTC, datetime
+from functools import cache
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any, Final
+
+from .parameters.study import Study
+
+SCHEMA_VERSION: Final = "1"
+PACKAGES: Final = ("numpy", "scipy", "pyfftw", "xarray", "netCDF4", "k-wave-python", "pydantic")
+
+
+def attributes(study: Study) -> dict[str, Any]:
+    """Global attributes of a result: everything that is needed to make it again."""
+    parameters = canonical_json(study.parameters())
+    return {
+        "Conventions": "CF-1.11",
+        "title": study.title,
+        "history": f"{_now()} vibroacoustics {software_version()}: run {study.source_file}",
+        "source": f"vibroacoustics {software_version()}",
+        "references": "see the sources in the attribute parameters",
+        "schema_version": SCHEMA_VERSION,
+        "software_version": software_version(),
+        "git_revision": git_revision(),
+        "package_versions": canonical_json(package_versions()),
+        "created_utc": _now(),
+        "parameters": parameters,
+        "parameters_sha256": sha256(parameters.encode()),
+        "random_seed": study.scoring.seed,
+        "phasor_convention": "x(t) = Re{X exp(+j w t)}, X is a complex peak",
+    }
+
+
+def canonical_json(value: Any) -> str:
+    """ASCII JSON with sorted keys: the same text for the same content."""
+    return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
+
+
+def sha256(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()
+
+
+def software_version() -> str:
+    return version("vibroacoustics")
+
+
+def package_versions() -> dict[str, str]:
+    """Installed versions of the packages that make the numbers."""
+    return {name: _version(name) for name in PACKAGES}
+
+
+@cache
+def git_revision() -> str:
+    """Revision of the source tree, or `unknown` outside of one."""
+    folder = Path(__file__).resolve().parent
+    command = ["git", "-C", str(folder), "describe", "--always", "--dirty", "--abbrev=12"]
+    try:
+        return subprocess.run(  # noqa: S603 - fixed command
+            command, capture_output=True, text=True, timeout=5, check=True
+        ).stdout.strip()
+    except (OSError, subprocess.SubprocessError):
+        return "unknown"
+
+
+def _version(name: str) -> str:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return "not installed"
+
+
+def _now() -> str:
+    return datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")

@@ -1,0 +1,73 @@
+"""Closed forms: Green's functions and the radiation of spheres. Time factor exp(+j omega t)."""
+
+import numpy as np
+from scipy import special
+
+from ..constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from .arrays import Array, ComplexArray
+from .box import Box, BoxField
+
+
+def wavenumber(frequency_hz: Array) -> Array:
+    """k = 2 pi f / c, rad/m."""
+    number: Array = 2 * np.pi * np.asarray(frequency_hz, dtype=float) / SPEED_OF_SOUND_M_PER_S
+    return number
+
+
+def free_green(points: Array, source: Array, frequency_hz: Array) -> ComplexArray:
+    """Free-field Green's function G = exp(-jkr)/(4 pi r), 1/m, (frequency, point).
+
+    Points (point, 3) and source (3,) in m. Pierce, Acoustics (2019), section 4.3.
+    """
+    distance = np.linalg.norm(points - source, axis=-1)
+    k = wavenumber(frequency_hz)[:, None]
+    value: ComplexArray = np.exp(-1j * k * distance) / (4 * np.pi * distance)
+    return value
+
+
+def green(
+    points: Array, source: Array, frequency_hz: Array, floor_z_m: float | None
+) -> ComplexArray:
+    """Green's function in free field (no floor), or above a hard floor.
+
+    The floor adds the source's equal mirror image.
+    """
+    direct = free_green(points, source, frequency_hz)
+    if floor_z_m is None:
+        return direct
+    image = np.array([source[0], source[1], 2.0 * floor_z_m - source[2]])
+    return direct + free_green(points, image, frequency_hz)
+
+
+def box_green(box: Box, source: Array, frequency_hz: Array, floor_z_m: float | None) -> BoxField:
+    """Green's function on both layers of a box."""
+    return BoxField(
+        green(box.inner, source, frequency_hz, floor_z_m),
+        green(box.outer, source, frequency_hz, floor_z_m),
+    )
+
+
+def outgoing_hankel(order: int, argument: Array, derivative: bool = False) -> ComplexArray:
+    """Spherical Hankel function of the second kind h_n = j_n - j y_n, or its derivative."""
+    real = special.spherical_jn(order, argument, derivative)
+    imaginary = special.spherical_yn(order, argument, derivative)
+    hankel: ComplexArray = real - 1j * imaginary
+    return hankel
+
+
+def sphere_pressure(
+    order: int, radius_m: float, distance_m: float, cosine: Array, frequency_hz: Array
+) -> ComplexArray:
+    """Sound pressure of a sphere with the normal velocity P_n(cos theta), per m/s.
+
+    p = -j rho c h_n(kr)/h_n'(ka) P_n(cos theta); order 0 pulsates, order 1 oscillates.
+    Cosines (angle,) of the polar angle; result (frequency, angle), Pa.
+    Morse and Ingard, Theoretical Acoustics (1968), section 7.2.
+    """
+    k = wavenumber(frequency_hz)
+    impedance = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S
+    radial = outgoing_hankel(order, k * distance_m) / outgoing_hankel(order, k * radius_m, True)
+    pressure: ComplexArray = (
+        -1j * impedance * np.multiply.outer(radial, special.eval_legendre(order, cosine))
+    )
+    return pressure

@@ -1,0 +1,59 @@
+"""Transfer vectors between the tabulated frequencies."""
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from ..constants import SPEED_OF_SOUND_M_PER_S
+from ..errors import ParameterError
+from .arrays import Array, ComplexArray
+
+
+def interpolate(
+    tabulated_hz: Array, transfer: ComplexArray, distance_m: Array, frequency_hz: Array
+) -> ComplexArray:
+    """Transfer vectors at any frequency from 0 to the highest tabulated one.
+
+    T exp(jkr)/(j omega), with r the distance of the receiver, is smooth: neither the delay nor the
+    growth with frequency is left. A real impulse response makes it conjugate symmetric, so the
+    table continues to negative frequencies and a cubic spline through both halves covers the range
+    below the first entry. At 0 Hz the result is 0. For shell-sized bodies at 1 m, tabulated every
+    25 Hz, the error is below 0.01 dB (0.1 dB in directions 20 dB below the strongest).
+
+    Parameters
+    ----------
+    tabulated_hz : (n,), rising, above 0.
+    transfer : (..., n), Pa per unit velocity.
+    distance_m : (...), of each receiver from the origin; must broadcast against `transfer[..., 0]`.
+    frequency_hz : (m,).
+
+    Returns
+    -------
+    (..., m), Pa per unit velocity.
+
+    Raises
+    ------
+    ParameterError
+        A frequency is negative or above the table.
+    """
+    lowest, highest = float(np.min(frequency_hz)), float(np.max(frequency_hz))
+    if lowest < 0.0 or highest > tabulated_hz[-1] * (1.0 + 1e-9):
+        raise ParameterError(
+            f"radiation.maximum_frequency_hz: the transfer vectors cover 0 to "
+            f"{tabulated_hz[-1]:g} Hz, {highest if lowest >= 0 else lowest:g} Hz is needed"
+        )
+    smooth = transfer / _trend(tabulated_hz, distance_m)
+    spline = CubicSpline(
+        np.concatenate([-tabulated_hz[::-1], tabulated_hz]),
+        np.concatenate([smooth[..., ::-1].conj(), smooth], axis=-1),
+        axis=-1,
+    )
+    result: ComplexArray = spline(frequency_hz) * _trend(frequency_hz, distance_m)
+    return result
+
+
+def _trend(frequency_hz: Array, distance_m: Array) -> ComplexArray:
+    """Delay and growth that are taken out before interpolation: j omega exp(-jkr)."""
+    omega = 2.0 * np.pi * frequency_hz
+    delay_s = np.asarray(distance_m)[..., None] / SPEED_OF_SOUND_M_PER_S
+    trend: ComplexArray = 1j * omega * np.exp(-1j * omega * delay_s)
+    return trend

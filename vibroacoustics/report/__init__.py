@@ -1,0 +1,44 @@
+"""The report: what a finished run says, as HTML, CSV, Markdown, plain text and figures."""
+
+import xarray as xr
+
+from .comparison import comparison_csv, comparison_text
+from .figures import (
+    force_figures,
+    level_figures,
+    mount_figures,
+    order_figures,
+    score_figures,
+    transfer_figures,
+)
+from .html import html
+from .markdown import comparison_markdown
+from .scores import scores_csv
+
+__all__ = ["comparison_text", "render"]
+
+_FIGURES = (
+    order_figures,
+    force_figures,
+    mount_figures,
+    transfer_figures,
+    level_figures,
+    score_figures,
+)
+
+
+def render(results: xr.Dataset) -> dict[str, bytes]:
+    """All files of the report, by name; `/` in a name stands for a folder.
+
+    Parameters
+    ----------
+    results : dataset of a finished run, its attributes included
+    """
+    pictures = [picture for make in _FIGURES for picture in make(results)]
+    return {
+        "report.html": html(results, pictures),
+        "comparison.csv": comparison_csv(results),
+        "comparison.md": comparison_markdown(results),
+        "scores.csv": scores_csv(results),
+        **{f"figures/{picture.name}.png": picture.png for picture in pictures},
+    }

@@ -1,0 +1,152 @@
+"""The comparison of the options: one value per option, speed and microphone."""
+
+from collections.abc import Callable, Iterable
+from itertools import product
+from typing import Final
+
+import xarray as xr
+
+from . import rounding
+from .study import REFERENCE_OPTION, catalogue_receiver, first_order_hz, options, speeds
+from .tables import Table, to_csv, to_text
+
+HEADS: Final = {
+    "force_1x_n": "Force 1×, N",
+    "force_2x_n": "Force 2×, N",
+    "moment_1x_nm": "Moment 1×, N m",
+    "foot_force_1x_n": "Foot force 1×, N",
+    "level_1x_db": "Level 1×, dB",
+    "level_2x_db": "Level 2×, dB",
+    "level_1x_dba": "Level 1×, dB(A)",
+    "level_modelled_dba": "Modelled level, dB(A)",
+    "level_total_dba": "Total level, dB(A)",
+    "change_1x_db": "Δ 1×, dB",
+    "change_modelled_dba": "Δ modelled, dB",
+    "change_total_dba": "Δ total, dB",
+}
+
+COLUMNS: Final = tuple(HEADS)
+
+_SOURCES: Final[dict[str, Callable[[xr.Dataset], xr.DataArray]]] = {
+    "force_1x_n": lambda results: results["force_amplitude"].sel(order=1),
+    "force_2x_n": lambda results: results["force_amplitude"].sel(order=2),
+    "moment_1x_nm": lambda results: results["moment_amplitude"].sel(order=1),
+    "foot_force_1x_n": lambda results: results["foot_force_amplitude"].sel(order=1).max("foot"),
+    "level_1x_db": lambda results: results["order_level"].sel(order=1, weighting="Z"),
+    "level_2x_db": lambda results: results["order_level"].sel(order=2, weighting="Z"),
+    "level_1x_dba": lambda results: results["order_level"].sel(order=1, weighting="A"),
+    "level_modelled_dba": lambda results: results["level_modelled"].sel(weighting="A"),
+    "level_total_dba": lambda results: results["level_total"],
+    "change_1x_db": lambda results: results["change_1x"],
+    "change_modelled_dba": lambda results: results["change_modelled"],
+    "change_total_dba": lambda results: results["change_total"],
+}
+
+_TERMINAL: Final = {
+    "force_1x_n": "force 1x N",
+    "moment_1x_nm": "moment N m",
+    "foot_force_1x_n": "foot 1x N",
+    "level_1x_db": "1x dB",
+    "level_modelled_dba": "modelled dB(A)",
+    "change_1x_db": "Δ1x dB",
+    "change_total_dba": "Δtotal dB",
+}
+
+
+def column(results: xr.Dataset, name: str) -> xr.DataArray:
+    """One column over option, speed and, for levels, receiver; the unit is in its name."""
+    return _SOURCES[name](results).reset_coords(drop=True)
+
+
+def comparison(results: xr.Dataset) -> xr.Dataset:
+    """The columns of `comparison.csv` as variables over (option, speed, receiver).
+
+    Forces in N and moments in N m are semi-major axes, peak; the foot force is the largest over
+    the feet; levels in dB re 20 µPa.
+    """
+    columns = xr.Dataset({name: column(results, name) for name in COLUMNS})
+    return columns.broadcast_like(columns["level_total_dba"]).transpose(
+        "option", "speed", "receiver"
+    )
+
+
+def comparison_csv(results: xr.Dataset) -> bytes:
+    """One row per option, speed and microphone, to nine significant digits."""
+    compared = comparison(results)
+    receivers = [str(name) for name in compared["receiver"].values]
+    keys: Iterable[tuple[str | float, ...]] = product(options(results), speeds(results), receivers)
+    values = zip(*(compared[name].values.ravel() for name in COLUMNS), strict=True)
+    rows = [(*key, *map(float, row)) for key, row in zip(keys, values, strict=True)]
+    return to_csv(("option", "speed_rpm", "receiver", *COLUMNS), rows)
+
+
+def comparison_tables(results: xr.Dataset, receiver: str) -> list[Table]:
+    """One table per speed, rounded for reading."""
+    return _tables(results, receiver, HEADS)
+
+
+def comparison_text(results: xr.Dataset) -> str:
+    """Compact plain-text tables for the terminal, at the catalogue's microphone."""
+    tables = _tables(results, catalogue_receiver(results), _TERMINAL)
+    return "\n".join(to_text(table) for table in tables)
+
+
+def _tables(results: xr.Dataset, receiver: str, heads: dict[str, str]) -> list[Table]:
+    compared = comparison(results).sel(receiver=receiver)
+    pairs = zip(speeds(results), first_order_hz(results), strict=True)
+    return [
+        Table(
+            f"{speed:g} rpm (1× at {frequency:.1f} Hz), microphone {receiver}",
+            ("Option", *heads.values()),
+            tuple(_row(compared.sel(speed=speed), option, heads) for option in options(results)),
+        )
+        for speed, frequency in pairs
+    ]
+
+
+def _row(compared: xr.Dataset, option: str, heads: dict[str, str]) -> tuple[str, ...]:
+    own = _numbers(compared, option)
+    reference = _numbers(compared, REFERENCE_OPTION)
+    return (option, *(_CELLS[name](own, reference, name) for name in heads))
+
+
+_Numbers = dict[str, float]
+
+
+def _numbers(compared: xr.Dataset, option: str) -> _Numbers:
+    return {name: float(compared[name].sel(option=option)) for name in COLUMNS}
+
+
+def _amount(own: _Numbers, reference: _Numbers, name: str) -> str:
+    return rounding.significant(own[name])
+
+
+def _level(own: _Numbers, reference: _Numbers, name: str) -> str:
+    return rounding.level(own[name])
+
+
+def _change_of(level_name: str) -> Callable[[_Numbers, _Numbers, str], str]:
+    def cell(own: _Numbers, reference: _Numbers, name: str) -> str:
+        return rounding.level_change(own[name], own[level_name], reference[level_name])
+
+    return cell
+
+
+def _total_change(own: _Numbers, reference: _Numbers, name: str) -> str:
+    return rounding.signed(own[name], 3)
+
+
+_CELLS: Final[dict[str, Callable[[_Numbers, _Numbers, str], str]]] = {
+    "force_1x_n": _amount,
+    "force_2x_n": _amount,
+    "moment_1x_nm": _amount,
+    "foot_force_1x_n": _amount,
+    "level_1x_db": _level,
+    "level_2x_db": _level,
+    "level_1x_dba": _level,
+    "level_modelled_dba": _level,
+    "level_total_dba": _level,
+    "change_1x_db": _change_of("level_1x_db"),
+    "change_modelled_dba": _change_of("level_modelled_dba"),
+    "change_total_dba": _total_change,
+}

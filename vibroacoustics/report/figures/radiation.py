@@ -1,0 +1,133 @@
+"""From the motion of the housing to the sound at the microphones."""
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+
+from .. import rounding
+from ..comparison import comparison
+from ..study import catalogue_receiver, first_order_hz, options, speeds
+from .style import (
+    COLOURS,
+    Picture,
+    draw,
+    file_name,
+    frequency_ticks,
+    legend_below,
+    line_looks,
+    wrap,
+)
+
+NEGLIGIBLE: Final = 1e-4
+"""Motions whose transfer stays below this share of the largest of its kind are not drawn."""
+
+_KINDS: Final = (("translations", "t", "Pa per m/s"), ("rotations", "r", "Pa per rad/s"))
+
+
+def transfer_figures(results: xr.Dataset) -> list[Picture]:
+    """Transfer vectors, a figure per microphone, and the check of k-Wave's Green's function."""
+    receivers = [str(name) for name in results["receiver"].values]
+    return [*(_transfer(results, receiver) for receiver in receivers), _difference(results)]
+
+
+def level_figures(results: xr.Dataset) -> list[Picture]:
+    """Where line, modelled level and total lie, for every option and speed."""
+    receiver = catalogue_receiver(results)
+    compared = comparison(results).sel(receiver=receiver)
+    names = options(results)
+    kinds = {
+        "level_1x_dba": ("1× line", "o", 6, COLOURS[3]),
+        "level_modelled_dba": ("all modelled orders", "|", 13, COLOURS[1]),
+        "level_total_dba": ("total", "s", 6, COLOURS[0]),
+    }
+
+    def paint(panels: Sequence[Axes]) -> None:
+        for axes, speed in zip(panels, speeds(results), strict=True):
+            for column, (label, marker, size, colour) in kinds.items():
+                values = compared[column].sel(speed=speed).values
+                shown = np.where(values >= rounding.LEVEL_FLOOR_DB, values, np.nan)
+                (dots,) = axes.plot(shown, range(len(names)), marker, color=colour, label=label)
+                dots.set(markersize=size, markeredgewidth=1.6)
+            axes.set_title(f"{speed:g} rpm", loc="left")
+            axes.set_yticks(range(len(names)), [wrap(name) for name in names])
+            axes.invert_yaxis()
+        panels[-1].set_xlabel("A-weighted level, dB(A) re 20 µPa")
+        legend_below(panels[0], 3)
+
+    total = compared["level_total_dba"]
+    return [
+        Picture(
+            "levels",
+            f"A-weighted levels at {receiver} for every option and speed: 1× line, all modelled "
+            f"orders, and the total near {float(total.mean()):.1f} dB(A).",
+            f"A-weighted levels at {receiver}. The total stays where it is because the modelled "
+            "orders lie far below it."
+            if float(compared["level_modelled_dba"].max()) < float(total.min()) - 10.0
+            else f"A-weighted levels at {receiver}: 1× line, all modelled orders and the total.",
+            draw(len(speeds(results)), 0.7 + 0.26 * len(names), paint, sharex=True),
+        )
+    ]
+
+
+def _transfer(results: xr.Dataset, receiver: str) -> Picture:
+    simulated = abs(results["transfer_vector"].sel(receiver=receiver))
+    closed = abs(results["transfer_vector_closed_form"].sel(receiver=receiver))
+
+    def paint(panels: Sequence[Axes]) -> None:
+        for axes, (title, letter, unit) in zip(panels, _KINDS, strict=True):
+            _transfer_panel(axes, simulated, closed, letter)
+            axes.set_title(title.capitalize(), loc="left")
+            axes.set_ylabel(unit)
+            for frequency in first_order_hz(results):
+                axes.axvline(frequency, color="#888888", linewidth=0.9, linestyle=":")
+        panels[-1].set_xlabel("Frequency, Hz")
+
+    return Picture(
+        f"transfer_{file_name(receiver)}",
+        f"Sound pressure at {receiver} per velocity of the housing against frequency, for "
+        "translations and rotations; k-Wave and closed form.",
+        f"Sound pressure at {receiver} per velocity of the housing: coloured lines with k-Wave's "
+        "Green's function, black dots with the closed form. tx, ty, tz: motion along x, y, z; "
+        "rx, ry, rz: rotation about them; motions that do not radiate there are left out. "
+        "Upright dotted lines: 1× at the speeds of the study.",
+        draw(2, 2.5, paint, 0, sharex=True),
+    )
+
+
+def _transfer_panel(axes: Axes, simulated: xr.DataArray, closed: xr.DataArray, letter: str) -> None:
+    dofs = [dof for dof in map(str, simulated["dof"].values) if dof.startswith(letter)]
+    largest = simulated.sel(dof=dofs).max("dof")
+    radiating = [dof for dof in dofs if bool((simulated.sel(dof=dof) > NEGLIGIBLE * largest).any())]
+    colours = dict(zip(dofs, (COLOURS[3], COLOURS[1], COLOURS[5]), strict=True))
+    for dof, dash in zip(radiating, ("-", "--", "-."), strict=False):
+        curve = simulated.sel(dof=dof)
+        axes.loglog(curve["frequency"], curve, dash, color=colours[dof], label=dof)
+        axes.loglog(curve["frequency"], closed.sel(dof=dof), ":", color="black", linewidth=1.1)
+    if radiating:
+        axes.legend(loc="lower right", frameon=False, ncols=3)
+    frequency_ticks(axes, simulated["frequency"].values)
+
+
+def _difference(results: xr.Dataset) -> Picture:
+    gap = results["green_difference"].transpose("receiver", "frequency")
+    names = [str(name) for name in gap["receiver"].values]
+
+    def paint(panels: Sequence[Axes]) -> None:
+        (axes,) = panels
+        for curve, name, look in zip(gap, names, line_looks(len(names)), strict=True):
+            axes.plot(gap["frequency"], curve, label=wrap(name, 24), **look)
+        axes.axhline(0.0, color="#888888", linewidth=0.8)
+        axes.set_xlabel("Frequency, Hz")
+        axes.set_ylabel("k-Wave − closed form, dB")
+        legend_below(axes)
+
+    return Picture(
+        "green_difference",
+        "Difference between k-Wave's Green's function and the closed form against frequency, at "
+        f"every microphone; at most {float(abs(gap).max()):.2f} dB.",
+        "k-Wave's Green's function against the closed form, level difference at every microphone.",
+        draw(1, 2.4, paint, (len(names) + 1) // 2),
+    )

@@ -1,0 +1,50 @@
+"""How the score of each option comes about."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+
+from .. import labels
+from ..study import options
+from .style import COLOURS, Picture, draw, legend_below, wrap
+
+
+def score_figures(results: xr.Dataset) -> list[Picture]:
+    """Weighted utilities that add up to the weighted sum, a bar per option."""
+    parts = contributions(results)
+    names = options(results)
+
+    def paint(panels: Sequence[Axes]) -> None:
+        (axes,) = panels
+        left = np.zeros(len(names))
+        for index, part in enumerate(parts.transpose("criterion", "option")):
+            label = wrap(labels.name(str(part["criterion"].item())), 50)
+            colour = COLOURS[1:][index % (len(COLOURS) - 1)]
+            axes.barh(range(len(names)), part.values, left=left, color=colour, label=label)
+            left = left + part.values
+        axes.set_yticks(range(len(names)), [wrap(name) for name in names])
+        axes.invert_yaxis()
+        axes.set_xlim(0.0, 1.0)
+        axes.set_xlabel("Score by weighted sum, 0 worst to 1 best")
+        legend_below(axes, 1)
+
+    height = 0.8 + 0.26 * len(names)
+    return [
+        Picture(
+            "scores",
+            "Score of every option as a stacked bar of its weighted criteria; the sums are in the "
+            "table of scores.",
+            "Weighted sum of the utilities: the longer a part, the better the option is by that "
+            "criterion.",
+            draw(1, height, paint, parts.sizes["criterion"] + 1),
+        )
+    ]
+
+
+def contributions(results: xr.Dataset) -> xr.DataArray:
+    """Weight times utility of each option and criterion; they add up to the weighted sum."""
+    worst, best = results["criterion_worst"], results["criterion_best"]
+    utility = ((worst - results["criterion_value"]) / (worst - best)).clip(0.0, 1.0)
+    return utility * results["weight"]

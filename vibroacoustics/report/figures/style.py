@@ -1,0 +1,126 @@
+"""One look for all figures: narrow, so that they can be read on a phone; colour-blind safe."""
+
+import io
+import re
+from collections.abc import Callable, Sequence
+from itertools import cycle, islice
+from typing import Any, Final, NamedTuple
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+from numpy.typing import NDArray
+
+WIDTH_INCH: Final = 4.6
+DOTS_PER_INCH: Final = 160
+LEGEND_ROW_INCH: Final = 0.2
+
+COLOURS: Final = (
+    "#000000",
+    "#d55e00",
+    "#e69f00",
+    "#0072b2",
+    "#cc79a7",
+    "#009e73",
+    "#56b4e9",
+    "#7a5195",
+)
+"""Okabe & Ito's palette without its yellow, and a violet."""
+
+DASHES: Final = ("-", "--", "-.", ":")
+MARKERS: Final = ("o", "s", "^", "D", "v", "P")
+
+STYLE: Final[dict[str, Any]] = {
+    "font.size": 9.0,
+    "axes.titlesize": 9.5,
+    "axes.labelsize": 9.0,
+    "legend.fontsize": 8.5,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#dddddd",
+    "grid.linewidth": 0.6,
+    "axes.axisbelow": True,
+    "lines.linewidth": 1.6,
+    "axes.unicode_minus": True,
+}
+
+
+class Picture(NamedTuple):
+    """A finished figure: file name without ending, text in its place, caption, PNG."""
+
+    name: str
+    alt: str
+    caption: str
+    png: bytes
+
+
+def draw(
+    panels: int,
+    panel_height_inch: float,
+    paint: Callable[[Sequence[Axes]], None],
+    legend_rows: int = 1,
+    **share: Any,
+) -> bytes:
+    """PNG of panels below each other, painted by `paint`, with room for a legend below."""
+    with matplotlib.rc_context({**matplotlib.rcParamsDefault, "backend": "agg", **STYLE}):
+        figure = Figure(
+            figsize=(WIDTH_INCH, panel_height_inch * panels + LEGEND_ROW_INCH * (legend_rows + 1)),
+            dpi=DOTS_PER_INCH,
+            layout=ConstrainedLayoutEngine(w_pad=0.08, h_pad=0.08),
+        )
+        FigureCanvasAgg(figure)
+        axes = figure.subplots(panels, 1, squeeze=False, **share)[:, 0]
+        paint(axes)
+        content = io.BytesIO()
+        figure.savefig(content, format="png", metadata={"Software": None})
+    return content.getvalue()
+
+
+def line_looks(count: int) -> list[dict[str, Any]]:
+    """Colour and dash of `count` lines; the dashes keep lines apart that lie on each other."""
+    colours = islice(cycle(COLOURS), count)
+    return [
+        {"color": colour, "linestyle": DASHES[(index + index // len(COLOURS)) % len(DASHES)]}
+        for index, colour in enumerate(colours)
+    ]
+
+
+def frequency_ticks(axes: Axes, frequency_hz: NDArray[np.float64]) -> None:
+    """Ticks at 1, 2, 5, 10 … Hz within the range, as plain numbers; no minor ticks."""
+    ticks = [digit * 10**power for power in range(6) for digit in (1, 2, 5)]
+    shown = [tick for tick in ticks if frequency_hz.min() <= tick <= frequency_hz.max()]
+    axes.set_xticks(shown, [f"{tick}" for tick in shown])
+    axes.minorticks_off()
+
+
+def legend_below(axes: Axes, columns: int = 2) -> None:
+    """Legend outside of the axes, below the last panel."""
+    figure = axes.get_figure()
+    handles, labels = axes.get_legend_handles_labels()
+    if figure is not None and handles:
+        figure.legend(handles, labels, loc="outside lower center", ncols=columns, frameon=False)
+
+
+def wrap(name: str, width: int = 20) -> str:
+    """A long name on several lines, broken at its hyphens and spaces where it can be."""
+    lines = [""]
+    for piece in re.findall(r"[^\s\-_]+[\s\-_]*|[\s\-_]+", name):
+        for part in (piece[start : start + width] for start in range(0, len(piece), width)):
+            if len(lines[-1]) + len(part.rstrip()) > width:
+                lines.append("")
+            lines[-1] += part
+    return plain("\n".join(line.rstrip() for line in lines))
+
+
+def plain(text: str) -> str:
+    """Text that matplotlib does not take for mathematics."""
+    return text.replace("$", r"\$")
+
+
+def file_name(name: str) -> str:
+    """A name that is safe in a path."""
+    return re.sub(r"[^A-Za-z0-9_-]+", "_", name)

@@ -1,0 +1,77 @@
+"""The housing on its mounts, and the places of the microphones."""
+
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from . import labels, rounding
+from .study import first_order_hz, parameters
+from .tables import Table
+
+DOMINANT: Final = 0.02
+"""Degrees of freedom with a smaller share of the mode's kinetic energy are not named."""
+
+
+def modes_table(results: xr.Dataset) -> Table:
+    """Natural frequencies and what the housing does in each mode."""
+    frequency = results["natural_frequency"]
+    rows = tuple(
+        (
+            str(mode).replace("_", " ").capitalize(),
+            rounding.fixed(frequency.sel(mode=mode).item()),
+            shape_words(results, str(mode)),
+        )
+        for mode in frequency["mode"].values
+    )
+    head = ("Mode", "Natural frequency, Hz", "Motion by share of kinetic energy")
+    return Table("Rigid-body modes on the mounts", head, rows, frozenset({0, 2}))
+
+
+def shape_words(results: xr.Dataset, mode: str) -> str:
+    """The dominant motions of a mode, by their share of its kinetic energy."""
+    housing = parameters(results)["machine"]["housing"]
+    inertia = [housing["mass_kg"]] * 3 + [housing[f"inertia_{a}_kg_m2"] for a in ("xx", "yy", "zz")]
+    energy = np.array(inertia) * results["mode_shape"].sel(mode=mode).values ** 2
+    shares = energy / energy.sum()
+    dofs = [str(dof) for dof in results["dof"].values]
+    strongest = [index for index in np.argsort(-shares, kind="stable") if shares[index] > DOMINANT]
+    return ", ".join(f"{labels.DOF_WORDS[dofs[i]]} {100.0 * shares[i]:.0f} %" for i in strongest)
+
+
+def isolation_sentence(results: xr.Dataset) -> str:
+    """How the 1x line lies to the natural frequencies."""
+    shaft, modes = first_order_hz(results), results["natural_frequency"].values
+    where = f"1× lies at {rounding.span(shaft, rounding.fixed)} Hz"
+    highest = rounding.fixed(float(modes.max()))
+    if shaft.min() > np.sqrt(2.0) * modes.max():
+        return f"{where}, well above the highest mode at {highest} Hz: the mounts isolate."
+    if shaft.min() > modes.max():
+        return f"{where}, just above the highest mode at {highest} Hz: resonance is near."
+    return f"{where}, the highest mode at {highest} Hz: the 1× line can meet a resonance."
+
+
+def receivers_table(results: xr.Dataset) -> Table:
+    """Where the microphones stand."""
+    receivers = parameters(results)["receivers"]
+    rows = tuple(
+        (
+            str(name),
+            *(rounding.fixed(receivers[str(name)][key], 3) for key in ("x_m", "y_m", "height_m")),
+        )
+        for name in results["receiver"].values
+    )
+    head = ("Microphone", "x, m", "y, m", "Height above the floor, m")
+    return Table("Microphones; x and y from the shaft", head, rows)
+
+
+def green_sentence(results: xr.Dataset) -> str:
+    """Largest difference between k-Wave and the closed form, and where."""
+    gap = abs(results["green_difference"])
+    worst = gap.where(gap == gap.max(), drop=True).isel(receiver=0, frequency=0)
+    return (
+        f"k-Wave's Green's function differs from the closed form by at most "
+        f"{rounding.fixed(float(gap.max()), 2)} dB (at {worst['receiver'].item()}, "
+        f"{worst['frequency'].item():g} Hz), over {results['frequency'].values.min():g} to "
+        f"{results['frequency'].values.max():g} Hz."
+    )

@@ -1,0 +1,54 @@
+"""Names and units in plain words for the vocabulary's coded labels."""
+
+from typing import Final
+
+from ..units import split_key
+
+_MORE_UNITS: Final = {"nm": "N m", "db": "dB", "w": "W"}
+
+DOF_WORDS: Final = {
+    "tx": "moves along x",
+    "ty": "moves along y",
+    "tz": "moves along z",
+    "rx": "turns about x",
+    "ry": "turns about y",
+    "rz": "turns about z",
+}
+
+_NAMES: Final = {
+    "foot_force_1x_n": "Largest foot force, 1×",
+    "residual_moment_nm": "Residual moment, 1×",
+    "level_change_db": "Change of the modelled level, energy mean of the microphones",
+    "speed_sensitivity_db": "Spread of the foot-force change over the speeds",
+    "added_mass_kg": "Added mass",
+    "settled_angle_deg": "Mean angle in which the pendulum settles, from hanging (to either side)",
+    "hanging_multiplier": "Growth per revolution when hanging (Floquet multiplier)",
+    "settled_multiplier": "Growth per revolution when settled (Floquet multiplier)",
+    "stroke_amplitude_mm": "Stroke amplitude of the sprung mass",
+    "dissipated_power_w": "Dissipated power",
+    "weighted_sum": "Weighted sum",
+    "topsis": "TOPSIS",
+}
+
+
+def name(label: str) -> str:
+    """Plain words for a label such as `added_mass_kg`, without its unit."""
+    return _NAMES.get(label) or _split(label)[0].replace("_", " ").capitalize()
+
+
+def unit(label: str) -> str:
+    """Unit in the suffix of a label; empty where it has none."""
+    return _split(label)[1]
+
+
+def named(label: str) -> str:
+    """Plain words and unit: `Added mass, kg`."""
+    return ", ".join(part for part in (name(label), unit(label)) if part)
+
+
+def _split(label: str) -> tuple[str, str]:
+    stem, _, suffix = label.rpartition("_")
+    if stem and suffix in _MORE_UNITS:
+        return stem, _MORE_UNITS[suffix]
+    known, found = split_key(label)
+    return known, found.symbol if found else ""

@@ -1,0 +1,26 @@
+"""The figures that the options report of themselves."""
+
+import numpy as np
+import xarray as xr
+
+from . import labels, rounding
+from .study import balancers, speeds
+from .tables import Table
+
+
+def facts_table(results: xr.Dataset) -> Table | None:
+    """One row per option and figure, one column per speed; None without options."""
+    facts = results["option_fact"].transpose("option", "fact", "speed")
+    rows = tuple(
+        (
+            option,
+            labels.name(str(fact)),
+            labels.unit(str(fact)) or "1",
+            *(rounding.significant(value) for value in values),
+        )
+        for option in balancers(results)
+        for fact, values in zip(facts["fact"].values, facts.sel(option=option).values, strict=True)
+        if np.isfinite(values).any()
+    )
+    head = ("Option", "Figure", "Unit", *(f"At {speed:g} rpm" for speed in speeds(results)))
+    return Table("Figures of the options", head, rows, frozenset({0, 1, 2})) if rows else None

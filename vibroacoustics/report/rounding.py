@@ -1,0 +1,64 @@
+"""Numbers as a reader sees them: rounded, with a true minus sign, never rounding noise."""
+
+from collections.abc import Callable, Iterable
+from typing import Final
+
+import numpy as np
+
+LEVEL_FLOOR_DB: Final = -40.0
+"""Levels below are far under any hearing and next to rounding errors: shown as `< −40`."""
+
+FORCE_FLOOR: Final = 1e-6
+"""Forces (N) and moments (N m) below are rounding errors: shown as 0."""
+
+NOTHING: Final = "–"
+
+
+def significant(value: float, digits: int = 3) -> str:
+    """A quantity to `digits` significant digits; 0 below FORCE_FLOOR."""
+    if not np.isfinite(value):
+        return NOTHING
+    if abs(value) < FORCE_FLOOR:
+        return "0"
+    decimals = digits - 1 - int(np.floor(np.log10(abs(value))))
+    return _minus(f"{value:.{max(decimals, 0)}f}")
+
+
+def fixed(value: float, decimals: int = 1) -> str:
+    """A number with fixed decimals."""
+    if not np.isfinite(value):
+        return NOTHING
+    return _minus(f"{round(value, decimals) + 0.0:.{decimals}f}")
+
+
+def signed(value: float, decimals: int = 1) -> str:
+    """A change with its sign; no sign where it rounds to zero."""
+    rounded = round(value, decimals) if np.isfinite(value) else value
+    return fixed(value, decimals) if not rounded > 0.0 else f"+{fixed(value, decimals)}"
+
+
+def level(value_db: float) -> str:
+    """A level to 0.1 dB, or that it lies below the floor."""
+    if value_db < LEVEL_FLOOR_DB:
+        return f"< {fixed(LEVEL_FLOOR_DB, 0)}"
+    return fixed(value_db)
+
+
+def level_change(change_db: float, level_db: float, reference_db: float) -> str:
+    """A change of level; `–` where the reference is silent, `silent` where the line vanishes."""
+    if reference_db < LEVEL_FLOOR_DB:
+        return NOTHING
+    return "silent" if level_db < LEVEL_FLOOR_DB else signed(change_db)
+
+
+def span(values: Iterable[float], write: Callable[[float], str]) -> str:
+    """`1.6 to 24.5`, or one number where both ends read the same."""
+    finite = [value for value in values if np.isfinite(value)]
+    if not finite:
+        return NOTHING
+    lowest, highest = write(min(finite)), write(max(finite))
+    return lowest if lowest == highest else f"{lowest} to {highest}"
+
+
+def _minus(text: str) -> str:
+    return text.replace("-", "−")

@@ -1,0 +1,129 @@
+"""Tables of the scores, and of the published scores with their sums added up again."""
+
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from . import labels, rounding
+from .study import options
+from .tables import Table, to_csv
+
+SUM_TOLERANCE: Final = 1e-6
+
+
+def scores_csv(results: xr.Dataset) -> bytes:
+    """One row per option: criteria, score and rank by method, share of first places."""
+    criteria, methods = _names(results, "criterion"), _names(results, "method")
+    columns = [*criteria]
+    blocks = [results["criterion_value"].transpose("option", "criterion").values]
+    for method in methods:
+        for name in ("score", "rank"):
+            columns.append(f"{name}_{method}")
+            blocks.append(results[name].sel({"method": method}).values[:, None])
+    columns.append("first_place_share")
+    blocks.append(results["first_place_share"].values[:, None])
+    values = np.concatenate(blocks, axis=1)
+    rows = zip(options(results), values, strict=True)
+    return to_csv(("option", *columns), ([name, *map(float, row)] for name, row in rows))
+
+
+def criteria_table(results: xr.Dataset) -> Table:
+    """What is scored: weight, and the values that count as best and worst."""
+    rows = tuple(
+        (
+            labels.name(criterion),
+            labels.unit(criterion),
+            f"{100.0 * results['weight'].sel(criterion=criterion).item():.3g} %",
+            rounding.significant(results["criterion_best"].sel(criterion=criterion).item()),
+            rounding.significant(results["criterion_worst"].sel(criterion=criterion).item()),
+        )
+        for criterion in _names(results, "criterion")
+    )
+    head = ("Criterion", "Unit", "Weight", "Best (utility 1)", "Worst (utility 0)")
+    return Table("Criteria, each the worst over the speeds", head, rows, frozenset({0, 1}))
+
+
+def values_table(results: xr.Dataset) -> Table:
+    """Value of every criterion for every option."""
+    criteria = _names(results, "criterion")
+    rows = tuple(
+        (
+            option,
+            *(
+                rounding.significant(
+                    results["criterion_value"].sel(option=option, criterion=criterion).item()
+                )
+                for criterion in criteria
+            ),
+        )
+        for option in options(results)
+    )
+    head = ("Option", *(labels.named(criterion) for criterion in criteria))
+    return Table("Values of the criteria", head, rows)
+
+
+def scores_table(results: xr.Dataset) -> Table:
+    """Score and rank by method and the share of first places."""
+    methods = _names(results, "method")
+    head = ["Option"]
+    for method in methods:
+        head += [f"{labels.name(method)}, score 0 to 1", f"{labels.name(method)}, rank"]
+    rows = tuple(
+        _scores_row(results.sel(option=option), option, methods) for option in _ranked(results)
+    )
+    return Table(
+        "Scores and ranks, best first by the first method",
+        (*head, "First in random weightings"),
+        rows,
+    )
+
+
+def published_table(results: xr.Dataset) -> Table | None:
+    """The published scores as printed, with the sums that they really have; None if not given."""
+    if "published_score" not in results:
+        return None
+    rows = tuple(
+        _published_row(results.sel(published_option=option), option)
+        for option in _names(results, "published_option")
+    )
+    criteria = _names(results, "published_criterion")
+    head = ("Option", *criteria, "Sum as printed", "Sum added up", "Check")
+    return Table("Published scores, as printed", head, rows, frozenset({0, len(head) - 1}))
+
+
+def wrong_sums(results: xr.Dataset) -> list[str]:
+    """Published options whose printed sum is not the sum of their scores."""
+    if "published_score" not in results:
+        return []
+    gap = abs(results["published_sum"] - results["recomputed_sum"])
+    return [str(name) for name in gap["published_option"].values[gap.values > SUM_TOLERANCE]]
+
+
+def published_source(results: xr.Dataset) -> str:
+    """Where the published scores are printed."""
+    return str(results["published_score"].attrs["source"]) if "published_score" in results else ""
+
+
+def _scores_row(of_option: xr.Dataset, option: str, methods: list[str]) -> tuple[str, ...]:
+    cells = [option]
+    for method in methods:
+        own = of_option.sel({"method": method})
+        cells += [rounding.fixed(own["score"].item(), 2), rounding.fixed(own["rank"].item(), 0)]
+    return (*cells, f"{100.0 * of_option['first_place_share'].item():.1f} %")
+
+
+def _published_row(printed: xr.Dataset, option: str) -> tuple[str, ...]:
+    scores = [f"{score:g}" for score in printed["published_score"].values]
+    claimed, real = printed["published_sum"].item(), printed["recomputed_sum"].item()
+    verdict = "adds up" if abs(claimed - real) <= SUM_TOLERANCE else "does not add up"
+    return (option, *scores, f"{claimed:g}", f"{real:g}", verdict)
+
+
+def _ranked(results: xr.Dataset) -> list[str]:
+    order = np.argsort(results["rank"].isel(method=0).values, kind="stable")
+    return [options(results)[index] for index in order]
+
+
+def _names(results: xr.Dataset, dim: str) -> list[str]:
+    return [str(name) for name in results[dim].values]

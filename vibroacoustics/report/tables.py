@@ -1,0 +1,78 @@
+"""A table as data, and its forms as CSV, Markdown and plain text."""
+
+import csv
+import io
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+
+class Table(NamedTuple):
+    """Rows of finished text under a head; the first column names the row."""
+
+    caption: str
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    words: frozenset[int] = frozenset({0})
+    """Columns of words, set flush left; numbers are set flush right."""
+
+
+def to_csv(columns: Sequence[str], rows: Iterable[Sequence[str | float]]) -> bytes:
+    """CSV with a head line; numbers to nine significant digits."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows([_exact(cell) for cell in row] for row in rows)
+    return text.getvalue().encode()
+
+
+def to_markdown(table: Table) -> str:
+    """Pipe table below its caption."""
+    rule = ["---" if column in table.words else "---:" for column in range(len(table.head))]
+    lines = [_pipes(table.head), _pipes(rule), *(_pipes(row) for row in table.rows)]
+    return "\n".join([f"**{escape_markdown(table.caption)}**", "", *lines])
+
+
+def to_text(table: Table, widest_first: int = 20) -> str:
+    """Columns of ASCII-only text below the caption, for a terminal."""
+    rows = [[_ascii(cell) for cell in row] for row in (table.head, *table.rows)]
+    for row in rows:
+        row[0] = _shorten(row[0], widest_first)
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = [
+        "  ".join(
+            cell.ljust(width) if column in table.words else cell.rjust(width)
+            for column, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ).rstrip()
+        for row in rows
+    ]
+    return "\n".join([_ascii(table.caption), lines[0], "-" * len(lines[0]), *lines[1:], ""])
+
+
+def escape_markdown(text: str) -> str:
+    """Text on one line that Markdown shows as it is."""
+    for character in "\\`*_[]|":
+        text = text.replace(character, f"\\{character}")
+    return text.replace("<", "&lt;").replace("\n", " ")
+
+
+def _exact(cell: str | float) -> str:
+    return cell if isinstance(cell, str) else f"{cell:.9g}"
+
+
+def _pipes(cells: Iterable[str]) -> str:
+    return "| " + " | ".join(escape_markdown(cell) for cell in cells) + " |"
+
+
+def _ascii(text: str) -> str:
+    plain = (
+        text.replace("−", "-")
+        .replace("–", "-")
+        .replace("\u00a0", " ")
+        .replace("×", "x")
+        .replace("Δ", "change ")
+    )
+    return plain.replace("\n", " ")
+
+
+def _shorten(text: str, width: int) -> str:
+    return text if len(text) <= width else f"{text[: width - 3]}..."

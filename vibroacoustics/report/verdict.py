@@ -1,0 +1,180 @@
+"""The verdict that opens the report: headline, reasons, best and worst."""
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from . import labels, rounding
+from .comparison import column, comparison
+from .option_verdict import MIXED, NO_CHANGE, WORSE, OptionVerdict, option_verdicts
+from .shifts import FOOT_FORCE, FORCE, LINE, MODELLED, MOMENT, TOTAL, Quantity, at_receiver, shift
+from .study import (
+    REFERENCE_OPTION,
+    balancers,
+    catalogue_receiver,
+    first_order_hz,
+    parameters,
+    speeds,
+)
+from .tables import Table
+
+HEARD_DB: Final = 1.0
+"""A change of the total below about 1 dB is not heard, even side by side."""
+
+MEASURED_DB: Final = 0.1
+"""A change of the total below 0.1 dB drowns in the repeatability of a measurement."""
+
+COMPARED: Final = (FORCE, MOMENT, FOOT_FORCE, LINE, MODELLED, TOTAL)
+
+
+def headline(results: xr.Dataset) -> str:
+    """One sentence: what balancing does to the 1x line and to the total."""
+    receiver, names = catalogue_receiver(results), balancers(results)
+    if not names:
+        return f"This study has no balancing option beside {REFERENCE_OPTION}."
+    line = np.concatenate([shift(results, LINE, name).gain_db for name in names])
+    total = np.concatenate([shift(results, TOTAL, name).gain_db for name in names])
+    change = rounding.span(line, rounding.signed)
+    return (
+        f"At {receiver} the balancing options change the 1× line by {change} dB, "
+        f"{_total_words(float(abs(total).max()), _published(results))}"
+    )
+
+
+def reasons(results: xr.Dataset) -> list[str]:
+    """Sentences that explain the headline."""
+    texts = [_as_it_is(results), _remainder(results)]
+    if not balancers(results):
+        return texts
+    return [*texts, *_warnings(option_verdicts(results)), _ranking(results)]
+
+
+def extremes_table(results: xr.Dataset) -> Table | None:
+    """Best and worst option by each quantity, each the largest over the speeds."""
+    if not balancers(results):
+        return None
+    rows = tuple(_extremes(results, quantity) for quantity in COMPARED)
+    head = ("Quantity, largest over the speeds", "Without balancer", "Best option", "Worst option")
+    return Table(
+        f"Best and worst, levels at {catalogue_receiver(results)}",
+        head,
+        rows,
+        frozenset({0, 1, 2, 3}),
+    )
+
+
+def _total_words(change_db: float, published_dba: float) -> str:
+    total = f"the total of {published_dba:g} dB(A)"
+    if change_db < 0.0005:
+        return f"and {total} by less than 0.001 dB: not at all."
+    size = f"by at most {rounding.fixed(change_db, 3)} dB"
+    if change_db < MEASURED_DB:
+        return f"but {total} hardly at all: {size}, which nobody can hear or measure."
+    if change_db < HEARD_DB:
+        return f"but {total} only {size}, which can be measured but hardly heard."
+    return f"and {total} {size}, which can be heard."
+
+
+def _as_it_is(results: xr.Dataset) -> str:
+    """Forces and levels without a balancer."""
+    own = comparison(results).sel(
+        {"option": REFERENCE_OPTION, "receiver": catalogue_receiver(results)}
+    )
+    shaken = ", ".join(
+        f"{FORCE.write(force)} and {MOMENT.write(moment)} at {speed:g} rpm ({frequency:.1f} Hz)"
+        for speed, frequency, force, moment in zip(
+            speeds(results),
+            first_order_hz(results),
+            own["force_1x_n"].values,
+            own["moment_1x_nm"].values,
+            strict=True,
+        )
+    )
+    return (
+        f"Without a balancer the moving parts shake the housing at 1× with {shaken}; at 2× with "
+        f"{_twice(float(own['force_2x_n'].max()))}. A foot passes on at most "
+        f"{FOOT_FORCE.write(float(own['foot_force_1x_n'].max()))}; at {own['receiver'].item()} the "
+        f"1× line has {rounding.span(own['level_1x_db'].values, rounding.level)} dB or "
+        f"{rounding.span(own['level_1x_dba'].values, rounding.level)} dB(A)."
+    )
+
+
+def _twice(force_n: float) -> str:
+    return "nothing" if force_n < rounding.FORCE_FLOOR else f"up to {FORCE.write(force_n)}"
+
+
+def _remainder(results: xr.Dataset) -> str:
+    """Why the total hardly follows the line."""
+    receiver = catalogue_receiver(results)
+    modelled = float(column(results, "level_modelled_dba").sel(receiver=receiver).max())
+    gap = _published(results) - modelled
+    carried = (
+        f"all shaft orders together reach at most {rounding.level(modelled)} dB(A) at {receiver}, "
+        f"whatever the option: {rounding.fixed(gap)} dB below the published level"
+        if gap > 0.0
+        else f"the shaft orders reach {rounding.level(modelled)} dB(A) at {receiver} with some "
+        "option, above the published level"
+    )
+    return (
+        f"In the model {carried}. The rest, {rounding.fixed(results['level_remainder'].item(), 2)} "
+        "dB(A), comes from sources that balancing does not touch; it is held constant."
+    )
+
+
+def _warnings(verdicts: Sequence[OptionVerdict]) -> list[str]:
+    """Name the options that make something worse, and those that do nothing."""
+    worse = [own.option for own in verdicts if own.judgement == WORSE]
+    idle = [own.option for own in verdicts if own.judgement == NO_CHANGE]
+    mixed = [
+        f"{own.option} (worse: {', '.join(own.worse_in)})"
+        for own in verdicts
+        if own.judgement == MIXED
+    ]
+    texts = [
+        f"Worse than no balancer: {', '.join(worse)}." if worse else "",
+        f"Better in one respect, worse in another: {'; '.join(mixed)}." if mixed else "",
+        f"Without any effect on force, feet and sound: {', '.join(idle)}." if idle else "",
+        "" if worse or mixed else "No option makes the force, the feet or the 1× line worse.",
+    ]
+    return [text for text in texts if text]
+
+
+def _ranking(results: xr.Dataset) -> str:
+    """Which option the study's weights prefer, and how sure that is."""
+    method = str(results["method"].values[0])
+    own = results[["score", "rank", "first_place_share"]].sel({"method": method})
+    winners = [str(name) for name in own["option"].values[own["rank"].values == 1.0]]
+    share = 100.0 * float(own["first_place_share"].sel(option=winners).sum())
+    draws = parameters(results)["scoring"]["random_weightings"]
+    verb = "ranks" if len(winners) == 1 else "rank"
+    score = rounding.fixed(float(own["score"].max()), 2)
+    return (
+        f"By the study's weights {' and '.join(winners)} {verb} first "
+        f"({labels.name(method).lower()}, score {score} of 1), "
+        f"and in {share:.0f} % of {draws} weightings drawn at random."
+    )
+
+
+def _extremes(results: xr.Dataset, quantity: Quantity) -> tuple[str, ...]:
+    """Quantity, its reference, its best and its worst option with the largest over the speeds."""
+    values = at_receiver(column(results, quantity.column), catalogue_receiver(results))
+    highest = values.max("speed")
+    worst = highest.sel(option=balancers(results)).clip(min=quantity.floor)
+    best_name, worst_name = (str(find("option").item()) for find in (worst.idxmin, worst.idxmax))
+    write = _write_total if quantity == TOTAL else quantity.write
+    return (
+        quantity.words,
+        write(highest.sel(option=REFERENCE_OPTION).item()),
+        *(f"{write(highest.sel(option=name).item())}: {name}" for name in (best_name, worst_name)),
+    )
+
+
+def _write_total(value_dba: float) -> str:
+    """The total to 0.001 dB: its changes are that small."""
+    return f"{rounding.fixed(value_dba, 3)} dB(A)"
+
+
+def _published(results: xr.Dataset) -> float:
+    return float(parameters(results)["machine"]["published_noise"]["level_dba"])

@@ -1,0 +1,207 @@
+"""The vocabulary: dimensions, unit and long name of every variable that leaves a stage."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from .errors import SchemaError
+
+
+class Variable(NamedTuple):
+    dims: tuple[str, ...]
+    units: str
+    long_name: str
+    complex_peak: bool = False
+
+
+RIGID_BODY_DOFS: Final = ("tx", "ty", "tz", "rx", "ry", "rz")
+AXES: Final = ("x", "y", "z")
+WEIGHTINGS: Final = ("Z", "A", "C")
+DOF_UNIT_NOTE: Final = "translations in m, rotations in rad"
+
+COORDINATES: Final[dict[str, Variable]] = {
+    "speed": Variable(("speed",), "rpm", "shaft speed"),
+    "option": Variable(("option",), "", "balancing option"),
+    "source": Variable(("source",), "", "moving part that makes the force"),
+    "axis": Variable(("axis",), "", "axis of the machine"),
+    "crank_angle": Variable(("crank_angle",), "rad", "crank angle"),
+    "order": Variable(("order",), "1", "shaft order"),
+    "dof": Variable(("dof",), "", "degree of freedom of the housing at its centre of mass"),
+    "foot": Variable(("foot",), "", "mounting foot"),
+    "mode": Variable(("mode",), "", "rigid-body mode on the mounts"),
+    "receiver": Variable(("receiver",), "", "microphone"),
+    "frequency": Variable(("frequency",), "Hz", "frequency"),
+    "mount_frequency": Variable(("mount_frequency",), "Hz", "frequency of the mounts' response"),
+    "weighting": Variable(("weighting",), "", "frequency weighting (IEC 61672-1)"),
+    "fact": Variable(("fact",), "", "reported figure of an option, unit in its name"),
+    "criterion": Variable(("criterion",), "", "scoring criterion, unit in its name"),
+    "method": Variable(("method",), "", "scoring method"),
+    "published_option": Variable(("published_option",), "", "option in the published table"),
+    "published_criterion": Variable(("published_criterion",), "", "criterion in the table"),
+    "order_frequency": Variable(("speed", "order"), "Hz", "frequency of a shaft order"),
+    "time": Variable(("speed", "crank_angle"), "s", "time from crank angle zero"),
+    "receiver_position": Variable(
+        ("receiver", "axis"), "m", "microphone position from the centre of mass at rest"
+    ),
+    "distance": Variable(("receiver",), "m", "distance of the microphone from the origin"),
+    "foot_position": Variable(
+        ("foot", "axis"), "m", "foot position from the centre of mass at rest"
+    ),
+}
+
+_FORCES = ("speed", "option", "source", "axis")
+_ORDERS = ("speed", "option", "order")
+_CHANGES = ("speed", "option", "receiver")
+
+VARIABLES: Final[dict[str, Variable]] = {
+    "force": Variable((*_FORCES, "crank_angle"), "N", "force of the moving parts on the housing"),
+    "moment": Variable(
+        (*_FORCES, "crank_angle"), "N m", "moment on the housing about its centre of mass"
+    ),
+    "force_order": Variable((*_FORCES, "order"), "N", "force order spectrum", True),
+    "moment_order": Variable((*_FORCES, "order"), "N m", "moment order spectrum", True),
+    "force_amplitude": Variable(
+        _ORDERS, "N", "resultant force, semi-major axis of its ellipse, peak"
+    ),
+    "moment_amplitude": Variable(
+        _ORDERS, "N m", "resultant moment, semi-major axis of its ellipse, peak"
+    ),
+    "option_fact": Variable(("speed", "option", "fact"), "", "reported figure of an option"),
+    "velocity_order": Variable(
+        ("speed", "option", "source", "dof", "order"), "m s-1", "velocity of the housing", True
+    ),
+    "foot_force_order": Variable(
+        ("speed", "option", "source", "foot", "axis", "order"), "N", "force into the foot", True
+    ),
+    "foot_force_amplitude": Variable(
+        ("speed", "option", "foot", "order"), "N", "force into the foot, semi-major axis, peak"
+    ),
+    "natural_frequency": Variable(("mode",), "Hz", "natural frequency on the mounts"),
+    "mode_shape": Variable(("mode", "dof"), "1", "mass-normalised shape of the mode"),
+    "mount_transmissibility": Variable(
+        ("axis", "mount_frequency"), "1", "sum of foot forces per force at the centre of mass", True
+    ),
+    "transfer_vector": Variable(
+        ("receiver", "dof", "frequency"), "Pa s m-1", "pressure per velocity of the housing", True
+    ),
+    "transfer_vector_closed_form": Variable(
+        ("receiver", "dof", "frequency"),
+        "Pa s m-1",
+        "pressure per velocity, with the closed-form Green's function",
+        True,
+    ),
+    "green_difference": Variable(
+        ("receiver", "frequency"), "dB", "k-Wave's Green's function against the closed form"
+    ),
+    "pressure_order": Variable(
+        ("speed", "option", "source", "receiver", "order"), "Pa", "sound pressure", True
+    ),
+    "order_level": Variable(
+        ("speed", "option", "receiver", "order", "weighting"), "dB", "level of a shaft order"
+    ),
+    "level_modelled": Variable(
+        ("speed", "option", "receiver", "weighting"), "dB", "level of all modelled orders"
+    ),
+    "level_total": Variable(_CHANGES, "dB", "A-weighted level with the unmodelled remainder"),
+    "level_remainder": Variable((), "dB", "A-weighted level that the model does not explain"),
+    "change_1x": Variable(_CHANGES, "dB", "change of the 1x line against none"),
+    "change_modelled": Variable(_CHANGES, "dB", "change of the modelled A-weighted level"),
+    "change_total": Variable(_CHANGES, "dB", "change of the A-weighted total level"),
+    "criterion_value": Variable(("option", "criterion"), "", "criterion, worst over the speeds"),
+    "weight": Variable(("criterion",), "1", "weight of the criterion"),
+    "criterion_best": Variable(("criterion",), "", "value that counts as best, utility 1"),
+    "criterion_worst": Variable(("criterion",), "", "value that counts as worst, utility 0"),
+    "score": Variable(("option", "method"), "1", "score, 0 worst to 1 best"),
+    "rank": Variable(("option", "method"), "1", "rank, 1 is best"),
+    "first_place_share": Variable(
+        ("option",), "1", "share of random weightings in which the option ranks first"
+    ),
+    "published_score": Variable(
+        ("published_option", "published_criterion"), "1", "published score, as printed"
+    ),
+    "published_sum": Variable(("published_option",), "1", "published sum, as printed"),
+    "recomputed_sum": Variable(("published_option",), "1", "sum of the published scores"),
+}
+
+
+def stamp(
+    name: str, values: Any, coords: Mapping[str, Any] | None = None, **attrs: str
+) -> xr.DataArray:
+    """Label an array as the vocabulary's variable `name`.
+
+    Parameters
+    ----------
+    name : a key of VARIABLES; it fixes the dims and the unit
+    values : array whose shape follows those dims
+    coords : coordinate values by name
+    attrs : further attributes, such as `source`
+
+    Raises
+    ------
+    SchemaError
+        The name is unknown or the number of dimensions does not fit.
+    """
+    variable = _look_up(name)
+    array = np.asarray(values)
+    if array.ndim != len(variable.dims):
+        raise SchemaError(f"{name}: has {array.ndim} dimensions, needs {variable.dims}")
+    labelled = xr.DataArray(array, dims=variable.dims, coords=coords, name=name)
+    labelled.attrs = {"units": variable.units, "long_name": variable.long_name, **attrs}
+    if variable.complex_peak:
+        labelled.attrs["phasor"] = "complex peak, x(t) = Re{X exp(+j w t)}"
+    if "dof" in variable.dims:
+        labelled.attrs["note"] = DOF_UNIT_NOTE
+    return labelled
+
+
+def check(dataset: xr.Dataset, required: Sequence[str] = ()) -> xr.Dataset:
+    """Return the dataset if all of its variables obey the vocabulary.
+
+    Raises
+    ------
+    SchemaError
+        A variable is unknown, missing, has other dims or another unit, or is complex where
+        it must not be.
+    """
+    for name in required:
+        if name not in dataset:
+            raise SchemaError(f"variable {name} is missing")
+    for key, array in dataset.data_vars.items():
+        _check_variable(str(key), array)
+    for key in dataset.coords:
+        if str(key) not in COORDINATES:
+            raise SchemaError(f"coordinate {key} is not in the vocabulary")
+    return dataset
+
+
+def label_coordinates(dataset: xr.Dataset) -> xr.Dataset:
+    """Give every coordinate its unit and long name."""
+    for name, coordinate in dataset.coords.items():
+        variable = COORDINATES.get(str(name))
+        if variable is None:
+            raise SchemaError(f"coordinate {name} is not in the vocabulary")
+        coordinate.attrs = {"long_name": variable.long_name}
+        if variable.units:
+            coordinate.attrs["units"] = variable.units
+    return dataset
+
+
+def _look_up(name: str) -> Variable:
+    try:
+        return VARIABLES[name]
+    except KeyError:
+        raise SchemaError(f"variable {name} is not in the vocabulary") from None
+
+
+def _check_variable(name: str, array: xr.DataArray) -> None:
+    variable = _look_up(name)
+    if array.dims != variable.dims:
+        raise SchemaError(f"{name}: dims are {array.dims}, must be {variable.dims}")
+    if array.attrs.get("units") != variable.units:
+        raise SchemaError(
+            f"{name}: unit is {array.attrs.get('units')!r}, must be {variable.units!r}"
+        )
+    if np.iscomplexobj(array.data) != variable.complex_peak:
+        raise SchemaError(f"{name}: must {'' if variable.complex_peak else 'not '}be complex")

@@ -1,0 +1,172 @@
+"""Results on disk: atomic netCDF with a hash, and a content-addressed cache.
+
+A netCDF file that is killed while it is written opens cleanly with variables missing. So the
+content is made in memory, written beside its name, synced and moved into place; `NAME.sha256`
+follows. A file counts as done only if the hash matches.
+"""
+
+import io
+import os
+import tempfile
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import platformdirs
+import xarray as xr
+from filelock import FileLock
+
+from .errors import StorageError
+from .provenance import canonical_json, sha256
+
+REAL_SUFFIX, IMAGINARY_SUFFIX = "_re", "_im"
+
+
+def write_results(results: xr.Dataset, path: str | Path) -> Path:
+    """Write a dataset as netCDF4, whole or not at all, and its hash beside it.
+
+    Complex variables are stored as pairs `NAME_re`, `NAME_im`, each with a checksum. An older
+    hash goes first, so that at no moment does a file stand beside the hash of another.
+    """
+    path = Path(path)
+    content = to_bytes(results)
+    _hash_path(path).unlink(missing_ok=True)
+    write_bytes(path, content)
+    write_bytes(_hash_path(path), f"{sha256(content)}  {path.name}\n".encode())
+    return path
+
+
+def open_results(path: str | Path) -> xr.Dataset:
+    """Read a dataset that `write_results` wrote, into memory.
+
+    Raises
+    ------
+    StorageError
+        The file is missing, has no hash, does not match it, or is no netCDF.
+    """
+    path = Path(path)
+    content = _read(path)
+    expected = _read(_hash_path(path)).split(b" ")[0].decode("ascii", "replace")
+    if sha256(content) != expected:
+        raise StorageError(f"{path}: content does not match its hash; run the study again")
+    return from_bytes(content, path)
+
+
+def write_bytes(path: Path, content: bytes) -> None:
+    """Write a file so that it appears whole or not at all.
+
+    Raises
+    ------
+    StorageError
+        The folder cannot be written.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(content)
+                file.flush()
+                os.fsync(file.fileno())
+            os.chmod(temporary, 0o644)
+            os.replace(temporary, path)
+        except BaseException:
+            os.unlink(temporary)
+            raise
+        _sync_folder(path.parent)
+    except OSError as error:
+        raise StorageError(f"{path}: cannot be written: {error.strerror}") from None
+
+
+def to_bytes(results: xr.Dataset) -> bytes:
+    """The dataset as the bytes of a netCDF4 file."""
+    split = _split_complex(results)
+    encoding = {
+        name: {"fletcher32": True, "zlib": True, "complevel": 4}
+        for name, variable in split.variables.items()
+        if variable.ndim and variable.dtype.kind in "fiu"
+    }
+    return bytes(split.to_netcdf(engine="netcdf4", format="NETCDF4", encoding=encoding))
+
+
+def from_bytes(content: bytes, path: Path) -> xr.Dataset:
+    """The dataset from the bytes of a netCDF4 file; complex pairs are joined again."""
+    try:
+        return _join_complex(xr.load_dataset(io.BytesIO(content).getvalue(), engine="netcdf4"))
+    except (OSError, ValueError) as error:
+        raise StorageError(f"{path}: is no result file: {error}") from None
+
+
+def cache_folder() -> Path:
+    """Folder of the cache of expensive results."""
+    return Path(platformdirs.user_cache_dir("vibroacoustics"))
+
+
+def cached(
+    kind: str, material: Mapping[str, Any], compute: Callable[[], xr.Dataset]
+) -> tuple[xr.Dataset, bool]:
+    """Result from the cache, or computed and put there.
+
+    Parameters
+    ----------
+    kind : first part of the file name
+    material : everything that shapes the result, as JSON values; its hash is the address
+    compute : makes the result
+
+    Returns
+    -------
+    result, whether it came from the cache
+    """
+    path = cache_folder() / f"{kind}-{sha256(canonical_json(material).encode())[:32]}.nc"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with FileLock(f"{path}.lock"):
+        try:
+            return open_results(path), True
+        except StorageError:
+            result = compute()
+            write_results(result, path)
+            return result, False
+
+
+def _split_complex(results: xr.Dataset) -> xr.Dataset:
+    split = results.copy()
+    for name, array in results.data_vars.items():
+        if np.iscomplexobj(array.data):
+            split = split.drop_vars(str(name))
+            split[f"{name}{REAL_SUFFIX}"] = array.real.assign_attrs(array.attrs)
+            split[f"{name}{IMAGINARY_SUFFIX}"] = array.imag.assign_attrs(array.attrs)
+    return split
+
+
+def _join_complex(split: xr.Dataset) -> xr.Dataset:
+    results = split.copy()
+    for name in map(str, split.data_vars):
+        if not name.endswith(REAL_SUFFIX):
+            continue
+        stem = name.removesuffix(REAL_SUFFIX)
+        real, imaginary = split[name], split[stem + IMAGINARY_SUFFIX]
+        results = results.drop_vars([name, stem + IMAGINARY_SUFFIX])
+        results[stem] = (real + 1j * imaginary).assign_attrs(real.attrs)
+    return results
+
+
+def _hash_path(path: Path) -> Path:
+    return path.with_name(path.name + ".sha256")
+
+
+def _read(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except FileNotFoundError:
+        raise StorageError(f"{path}: no such file") from None
+    except OSError as error:
+        raise StorageError(f"{path}: cannot be read: {error.strerror}") from None
+
+
+def _sync_folder(folder: Path) -> None:
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
