@@ -46,7 +46,14 @@ def machine_parts(study: Study) -> list[MovingPart]:
 def balancing(study: Study, option: str, speed_rpm: float) -> Balancing:
     """What an option of the study adds."""
     parameters = study.options[option]
-    return BALANCERS[parameters.kind](parameters, study.machine, speed_rpm, CRANK_ANGLE)
+    key = (parameters.model_dump_json(), study.machine.model_dump_json(), speed_rpm)
+    if key not in _BALANCING:  # a pendulum takes half a second to settle
+        balancer = BALANCERS[parameters.kind]
+        _BALANCING[key] = balancer(parameters, study.machine, speed_rpm, CRANK_ANGLE)
+    return _BALANCING[key]
+
+
+_BALANCING: dict[tuple[str, str, float], Balancing] = {}
 
 
 def wrench_orders(study: Study, option: str, speed_rpm: float) -> tuple[Array, Array]:

@@ -7,7 +7,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 from support import MACHINE_FILE, PIPELINES, ROOT
 
@@ -296,7 +296,10 @@ def test_wrong_type(tree, old, new, words):
     ("table", "new"),
     [
         ("machine", 'machine = { value = 1, file = "../data/machines/copeland_zp41k3e.toml" }'),
-        ("scoring", 'scoring = { value = 1, published_table = "../data/validation/thesis_table_3.csv" }'),
+        (
+            "scoring",
+            'scoring = { value = 1, published_table = "../data/validation/thesis_table_3.csv" }',
+        ),
         ("receivers", "receivers = 3"),
         ("options", "options = []"),
         ("scoring", "scoring = 'none'"),
@@ -482,7 +485,8 @@ anything = st.recursive(
     | st.integers(min_value=10**300, max_value=10**320)
     | st.floats()
     | st.text(max_size=8),
-    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=4), inner, max_size=3),
+    lambda inner: st.lists(inner, max_size=3)
+    | st.dictionaries(st.text(max_size=4), inner, max_size=3),
     max_leaves=5,
 )  # fmt: skip
 
@@ -527,7 +531,12 @@ def module_tree(tmp_path_factory) -> Path:
     return root
 
 
-@settings(max_examples=200, deadline=None)
+# One change is small as it is, and shrinking it takes minutes.
+UNSHRUNK = (Phase.explicit, Phase.reuse, Phase.generate)
+
+
+@pytest.mark.slow
+@settings(max_examples=120, deadline=None, phases=UNSHRUNK)
 @given(place=st.sampled_from(PATHS), value=anything, rename=st.booleans())
 def test_any_value_anywhere_loads_or_is_refused_in_one_line(module_tree, place, value, rename):
     """Replace, remove or rename one value or table of the study or of its machine."""

@@ -120,8 +120,7 @@ def test_doctor(cache: Path) -> None:
         ("maximum_order = 16", "speed_rpm = [0.0, 2900.0]", ["speed_rpm = 0 rpm", "60"]),
         (
             "[operation]",
-            "[machine.override.oldham]\n"
-            'mass_kg = { value = -1.0, source = "test" }\n[operation]',
+            '[machine.override.oldham]\nmass_kg = { value = -1.0, source = "test" }\n[operation]',
             ["oldham.mass_kg = -1.0 kg", "allowed above 0"],
         ),
         (

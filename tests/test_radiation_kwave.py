@@ -61,8 +61,8 @@ def test_time_step_does_not_matter(box, monkeypatch):
     fields = []
     for courant in (0.3, 0.6):
         monkeypatch.setattr(room_grid, "COURANT_NUMBER", courant)
-        fields.append(simulated(box, (0.4, 0.1, 0.1), None, 0.08, 1000.0)[0].outer)
-    np.testing.assert_allclose(*fields, atol=1e-3 * np.abs(fields[0]).max())
+        fields.append(simulated(box, (1.0, 0.1, 0.1), None, 0.08, 1000.0)[0].outer)
+    np.testing.assert_allclose(*fields, atol=2e-3 * np.abs(fields[0]).max())
 
 
 def test_step_with_fftw_equals_step_with_numpy(box):
@@ -119,8 +119,8 @@ def test_grid_puts_floor_microphone_and_image_on_nodes(box):
 @pytest.mark.parametrize(
     ("microphone", "message"),
     [
-        ((0.0, 0.0, 0.0), "at least 0.09 m off the box"),
-        ((0.15, 0.0, 0.0), "at least 0.09 m off the box"),
+        ((0.0, 0.0, 0.0), "m off the box around the shell"),
+        ((0.15, 0.0, 0.0), "m off the box around the shell"),
         ((0.5, 0.0, -0.2), "lies below the floor"),
     ],
 )

@@ -226,9 +226,24 @@ def test_cylinder_converges_with_the_spacing(clearance):
         )
         levels.append(10 * np.log10((np.abs(p) ** 2).mean(axis=1)))
     coarse, middle = (np.abs(level - levels[-1]).max() for level in levels[:2])
-    # Second order predicts (1.25² - 1)/(2² - 1) = 0.19 for the ratio of the two differences.
+    # How the grid happens to cut the caps changes from spacing to spacing, so the order of
+    # convergence shows on the sphere only (below); here the differences must be small and shrink.
+    assert coarse < 0.6
     assert middle < 0.3
-    assert middle < 0.5 * coarse
+    assert middle < coarse
+
+
+def test_error_falls_with_the_square_of_the_spacing():
+    """An oscillating sphere at 1 m on the axis, complex error against the exact field, 250 Hz up."""
+    frequency = FREQUENCY_HZ[3:]
+    expected = sphere_pressure(1, 0.12, 1.0, np.ones(1), frequency)[:, 0]
+    errors = []
+    for spacing in (0.03, 0.015):
+        near = NearField(Sphere(0.12), spacing, 1000.0)
+        field = near.radiate(rigid_body("tx"), frequency)
+        simulated = pressure(near, field, np.array([1.0, 0.0, 0.0]), frequency_hz=frequency)
+        errors.append(np.abs(simulated / expected - 1).max())
+    assert errors[1] < errors[0] / 3.0
 
 
 def test_translation_of_a_body_on_the_floor_displaces_air():

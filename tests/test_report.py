@@ -151,7 +151,7 @@ def _facts(coords: dict[str, Any], facts: dict[str, dict[str, float]]) -> xr.Dat
 
 def _scores(options: list[str], gain: np.ndarray) -> xr.Dataset:
     option, criterion = {"option": options}, {"criterion": ["foot_force_1x_n"]}
-    by_method = {**option, "method": ["weighted_sum"]}
+    by_method = {**option, "scoring_method": ["weighted_sum"]}
     utility = np.clip((4.0 - gain) / 4.0, 0.0, 1.0)
     rank = 1.0 + (utility[:, None] < utility[None, :]).sum(axis=1)
     first = (rank == 1.0) / (rank == 1.0).sum()
@@ -338,7 +338,7 @@ def test_published_sums_are_checked(results: xr.Dataset) -> None:
 
 def test_contributions_add_up_to_the_weighted_sum(results: xr.Dataset) -> None:
     added = contributions(results).sum("criterion").values
-    assert added == pytest.approx(results["score"].sel({"method": "weighted_sum"}).values)
+    assert added == pytest.approx(results["score"].sel({"scoring_method": "weighted_sum"}).values)
 
 
 def test_assumed_inputs_come_first(results: xr.Dataset) -> None:

@@ -4,6 +4,9 @@
 class VibroacousticsError(Exception):
     """Base of every error raised on purpose; the command line prints it and exits with code 2."""
 
+    def __init__(self, message: str) -> None:
+        super().__init__(" ".join(message.splitlines()))  # names and values may hold line breaks
+
 
 class ParameterError(VibroacousticsError):
     """An input value is missing, unknown, of the wrong type or outside its allowed range."""

@@ -1,7 +1,8 @@
 """TOML to a validated `Study`. Every refusal is one line: file, field, value, unit, range."""
 
 import csv
-import math
+import os
+import sys
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
@@ -14,6 +15,7 @@ from .units import si_key, split_key
 from .validation import validated
 
 MAXIMUM_FILE_BYTES: Final = 1_000_000
+MAXIMUM_DEPTH: Final = 16
 QUANTITY_KEYS: Final = {"value", "source", "range"}
 
 
@@ -36,15 +38,20 @@ def load_study(path: str | Path) -> Study:
     machine_table = content.pop("machine", None)
     if not isinstance(machine_table, dict) or not isinstance(machine_table.get("file"), str):
         raise ParameterError(f"{path}: machine.file = missing: name the machine's TOML file")
-    machine_file = origin[("machine", "file")].parent / machine_table.pop("file")
+    machine_file = _beside(origin.get(("machine", "file"), path), machine_table.pop("file"))
     overrides = machine_table.pop("override", {})
     if machine_table:
         raise ParameterError(f"{path}: machine.{next(iter(machine_table))}: unknown key")
     machine, machine_records = _load_machine(machine_file, overrides, reader)
     scoring = content.get("scoring")
     if isinstance(scoring, dict) and "published_table" in scoring:
-        table_file = origin[("scoring", "published_table")].parent / scoring.pop("published_table")
-        scoring["published"] = _read_published_table(table_file)
+        name = scoring.pop("published_table")
+        origin_file = origin.get(("scoring", "published_table"), path)
+        if not isinstance(name, str):
+            raise ParameterError(
+                f"{origin_file}: scoring.published_table = {name!r}: must be a file name"
+            )
+        scoring["published"] = _read_published_table(_beside(origin_file, name))
     content = reader.to_si(content, ())
     content.update(machine=machine, source_file=path.name)
     content["records"] = (*machine_records, *reader.records)
@@ -60,7 +67,14 @@ def _load_machine(
     reader.origin = dict.fromkeys(_leaves(content), path)
     if not isinstance(overrides, dict):
         raise ParameterError(f"{study.path}: machine.override: must be a table")
+    replaced = set()
     for keys in _leaves(overrides):
+        quantity = (*keys[:-1], si_key(keys[-1])[0])
+        if quantity in replaced:
+            raise ParameterError(
+                f"{study.path}: machine.override.{'.'.join(keys)}: given twice, in two units"
+            )
+        replaced.add(quantity)
         value = overrides
         for key in keys:
             value = value[key]
@@ -76,28 +90,37 @@ def _override(content: dict[str, Any], keys: tuple[str, ...], value: Any, file: 
     table: Any = content
     for key in keys[:-1]:
         table = table.get(key) if isinstance(table, dict) else None
-    same = [key for key in table or () if si_key(key)[0] == si_key(keys[-1])[0]]
-    if not isinstance(table, dict) or not same:
+    named = table if isinstance(table, dict) else {}
+    same = [key for key in named if si_key(key)[0] == si_key(keys[-1])[0]]
+    if not same:
         raise ParameterError(
             f"{file}: machine.override.{'.'.join(keys)}: the machine has no such value"
         )
-    del table[same[0]]
-    table[keys[-1]] = value
+    del named[same[0]]
+    named[keys[-1]] = value
 
 
 def _read_toml(path: Path) -> dict[str, Any]:
     try:
         if path.stat().st_size > MAXIMUM_FILE_BYTES:
             raise ParameterError(f"{path}: larger than {MAXIMUM_FILE_BYTES} bytes")
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        content = tomllib.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
         raise ParameterError(f"{path}: no such file") from None
     except OSError as error:
         raise ParameterError(f"{path}: cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
         raise ParameterError(f"{path}: is not UTF-8 text") from None
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:  # TOMLDecodeError is a ValueError
         raise ParameterError(f"{path}: is not valid TOML: {error}") from None
+    if _deeper_than(content, MAXIMUM_DEPTH):
+        raise ParameterError(f"{path}: tables are nested deeper than {MAXIMUM_DEPTH} levels")
+    return content
+
+
+def _deeper_than(content: Mapping[str, Any], depth: int) -> bool:
+    tables = (value for value in content.values() if isinstance(value, dict))
+    return depth == 0 or any(_deeper_than(table, depth - 1) for table in tables)
 
 
 def _read_with_base(path: Path) -> tuple[dict[str, Any], dict[tuple[str, ...], Path]]:
@@ -109,7 +132,7 @@ def _read_with_base(path: Path) -> tuple[dict[str, Any], dict[tuple[str, ...], P
         return content, origin
     if not isinstance(base_name, str):
         raise ParameterError(f"{path}: extends = {base_name!r}: must be a file name")
-    base_path = path.parent / base_name
+    base_path = _beside(path, base_name)
     base = _read_toml(base_path)
     if "extends" in base:
         raise ParameterError(f"{base_path}: extends: a study that is extended must stand alone")
@@ -117,8 +140,18 @@ def _read_with_base(path: Path) -> tuple[dict[str, Any], dict[tuple[str, ...], P
     return _merge(base, content), base_origin | origin
 
 
+def _beside(file: Path, name: str) -> Path:
+    """A file named relative to the folder of another."""
+    return Path(os.path.normpath(file.parent / name))
+
+
 def _merge(base: dict[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
-    merged = dict(base)
+    given = {si_key(key)[0] for key, value in over.items() if not _table(value)}
+    merged = {  # a value in another unit of the same quantity is replaced too
+        key: value
+        for key, value in base.items()
+        if key in over or _table(value) or si_key(key)[0] not in given
+    }
     for key, value in over.items():
         nested = isinstance(value, dict) and isinstance(merged.get(key), dict)
         merged[key] = _merge(merged[key], value) if nested and not _quantity(value) else value
@@ -127,6 +160,10 @@ def _merge(base: dict[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
 
 def _quantity(value: Any) -> bool:
     return isinstance(value, dict) and "value" in value
+
+
+def _table(value: Any) -> bool:
+    return isinstance(value, dict) and not _quantity(value)
 
 
 def _leaves(content: Mapping[str, Any], prefix: tuple[str, ...] = ()) -> list[tuple[str, ...]]:
@@ -223,14 +260,17 @@ def _range(where: str, given: Any) -> tuple[float, float] | tuple[None, None]:
 
 
 def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    """A finite number that a float can hold; TOML's integers have no limit."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return False
+    return abs(value) <= sys.float_info.max
 
 
 def _scale(value: Any, factor: float) -> Any:
     """Convert a number or a list of numbers; leave everything else to the validation."""
     if isinstance(value, tuple):
         return tuple(_scale(item, factor) for item in value)
-    if factor == 1.0 or isinstance(value, bool) or not isinstance(value, int | float):
+    if factor == 1.0 or not _is_number(value):
         return value
     return value * factor
 
@@ -241,6 +281,8 @@ def _read_published_table(path: Path) -> dict[str, Any]:
         lines = path.read_text(encoding="utf-8").splitlines()
     except OSError as error:
         raise ParameterError(f"{path}: cannot be read: {error.strerror}") from None
+    except ValueError as error:  # no UTF-8, no file name
+        raise ParameterError(f"{path}: cannot be read: {error}") from None
     source = " ".join(line.lstrip("# ") for line in lines if line.startswith("#"))
     rows = list(csv.reader(line for line in lines if line.strip() and not line.startswith("#")))
     try:

@@ -42,10 +42,12 @@ def canonical_json(value: Any) -> str:
 
 
 def sha256(content: bytes) -> str:
+    """SHA-256 of the content, in hexadecimal."""
     return hashlib.sha256(content).hexdigest()
 
 
 def software_version() -> str:
+    """Version of this package."""
     return version("vibroacoustics")
 
 
@@ -56,15 +58,19 @@ def package_versions() -> dict[str, str]:
 
 @cache
 def git_revision() -> str:
-    """Revision of the source tree, or `unknown` outside of one."""
-    folder = Path(__file__).resolve().parent
-    command = ["git", "-C", str(folder), "describe", "--always", "--dirty", "--abbrev=12"]
+    """Revision of the source tree, or `unknown` where this file is not tracked by one."""
     try:
-        return subprocess.run(  # noqa: S603 - fixed command
-            command, capture_output=True, text=True, timeout=5, check=True
-        ).stdout.strip()
+        _git("ls-files", "--error-unmatch", Path(__file__).name)
+        return _git("describe", "--always", "--dirty", "--abbrev=12")
     except (OSError, subprocess.SubprocessError):
         return "unknown"
+
+
+def _git(*arguments: str) -> str:
+    command = ["git", "-C", str(Path(__file__).resolve().parent), *arguments]
+    return subprocess.run(  # noqa: S603 - fixed command
+        command, capture_output=True, text=True, timeout=5, check=True
+    ).stdout.strip()
 
 
 def _version(name: str) -> str:

@@ -37,7 +37,7 @@ COORDINATES: Final[dict[str, Variable]] = {
     "weighting": Variable(("weighting",), "", "frequency weighting (IEC 61672-1)"),
     "fact": Variable(("fact",), "", "reported figure of an option, unit in its name"),
     "criterion": Variable(("criterion",), "", "scoring criterion, unit in its name"),
-    "method": Variable(("method",), "", "scoring method"),
+    "scoring_method": Variable(("scoring_method",), "", "scoring method"),
     "published_option": Variable(("published_option",), "", "option in the published table"),
     "published_criterion": Variable(("published_criterion",), "", "criterion in the table"),
     "order_frequency": Variable(("speed", "order"), "Hz", "frequency of a shaft order"),
@@ -113,8 +113,8 @@ VARIABLES: Final[dict[str, Variable]] = {
     "weight": Variable(("criterion",), "1", "weight of the criterion"),
     "criterion_best": Variable(("criterion",), "", "value that counts as best, utility 1"),
     "criterion_worst": Variable(("criterion",), "", "value that counts as worst, utility 0"),
-    "score": Variable(("option", "method"), "1", "score, 0 worst to 1 best"),
-    "rank": Variable(("option", "method"), "1", "rank, 1 is best"),
+    "score": Variable(("option", "scoring_method"), "1", "score, 0 worst to 1 best"),
+    "rank": Variable(("option", "scoring_method"), "1", "rank, 1 is best"),
     "first_place_share": Variable(
         ("option",), "1", "share of random weightings in which the option ranks first"
     ),

@@ -41,7 +41,7 @@ def level_change(results: xr.Dataset) -> xr.DataArray:
 def speed_sensitivity(results: xr.Dataset) -> xr.DataArray:
     """Spread over the speeds of the change of the 1x foot force against `none`, dB."""
     foot = results["foot_force_amplitude"].sel(order=1).max("foot")
-    ratio = foot / foot.sel(option="none", drop=True)
+    ratio = (foot / foot.sel(option="none", drop=True)).clip(min=1e-6)  # below -120 dB is rounding
     change: xr.DataArray = 20.0 * xr.apply_ufunc(np.log10, ratio)
     return change.max("speed") - change.min("speed")
 
@@ -89,7 +89,7 @@ def score(results: xr.Dataset, settings: Scoring | None = None) -> xr.Dataset:
     ranks = np.stack([rankdata(-column.round(9), method="min") for column in scores.T], axis=1)
     first = first_place_share(utility, settings.random_weightings, settings.seed)
     option, criterion = {"option": results["option"].values}, {"criterion": names}
-    by_method = {**option, "method": list(METHODS)}
+    by_method = {**option, "scoring_method": list(METHODS)}
     return check(
         xr.Dataset(
             {
@@ -166,14 +166,14 @@ def published_table(table: PublishedTable) -> xr.Dataset:
 
 def ranking_text(scores: xr.Dataset) -> str:
     """The options from best to worst as plain text, one line each."""
-    first = scores["score"].isel(method=0)
+    first = scores["score"].isel(scoring_method=0)
     order = np.argsort(-first.values, kind="stable")
-    head = "  ".join(f"{name:>12}" for name in scores["method"].values)
+    head = "  ".join(f"{name:>12}" for name in scores["scoring_method"].values)
     lines = [f"{'rank':>4}  {'option':<24}  {head}  {'first place':>11}"]
     for option in scores["option"].values[order]:
         row = scores.sel(option=option)
         values = "  ".join(f"{value:12.3f}" for value in row["score"].values)
-        rank = int(row["rank"].isel(method=0))
+        rank = int(row["rank"].isel(scoring_method=0))
         share = 100.0 * row["first_place_share"].item()
         lines.append(f"{rank:>4}  {option:<24}  {values}  {share:>9.0f} %")
     return "\n".join(lines)

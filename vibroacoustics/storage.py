@@ -5,7 +5,6 @@ content is made in memory, written beside its name, synced and moved into place;
 follows. A file counts as done only if the hash matches.
 """
 
-import io
 import os
 import tempfile
 from collections.abc import Callable, Mapping
@@ -81,7 +80,7 @@ def write_bytes(path: Path, content: bytes) -> None:
 
 def to_bytes(results: xr.Dataset) -> bytes:
     """The dataset as the bytes of a netCDF4 file."""
-    split = _split_complex(results)
+    split = _ascii_attributes(_split_complex(results))
     encoding = {
         name: {"fletcher32": True, "zlib": True, "complevel": 4}
         for name, variable in split.variables.items()
@@ -93,7 +92,7 @@ def to_bytes(results: xr.Dataset) -> bytes:
 def from_bytes(content: bytes, path: Path) -> xr.Dataset:
     """The dataset from the bytes of a netCDF4 file; complex pairs are joined again."""
     try:
-        return _join_complex(xr.load_dataset(io.BytesIO(content).getvalue(), engine="netcdf4"))
+        return _join_complex(xr.load_dataset(content, engine="netcdf4"))
     except (OSError, ValueError) as error:
         raise StorageError(f"{path}: is no result file: {error}") from None
 
@@ -119,7 +118,10 @@ def cached(
     result, whether it came from the cache
     """
     path = cache_folder() / f"{kind}-{sha256(canonical_json(material).encode())[:32]}.nc"
-    path.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise StorageError(f"{path}: cannot be written: {error.strerror}") from None
     with FileLock(f"{path}.lock"):
         try:
             return open_results(path), True
@@ -127,6 +129,16 @@ def cached(
             result = compute()
             write_results(result, path)
             return result, False
+
+
+def _ascii_attributes(results: xr.Dataset) -> xr.Dataset:
+    """String attributes in ASCII, others escaped: not every reader knows netCDF's other strings."""
+    attributes = [results.attrs, *(results[name].attrs for name in results.variables)]
+    for attrs in attributes:
+        for name, value in attrs.items():
+            if isinstance(value, str) and not value.isascii():
+                attrs[name] = value.encode("ascii", "backslashreplace").decode()
+    return results
 
 
 def _split_complex(results: xr.Dataset) -> xr.Dataset:
@@ -142,12 +154,14 @@ def _split_complex(results: xr.Dataset) -> xr.Dataset:
 def _join_complex(split: xr.Dataset) -> xr.Dataset:
     results = split.copy()
     for name in map(str, split.data_vars):
-        if not name.endswith(REAL_SUFFIX):
-            continue
         stem = name.removesuffix(REAL_SUFFIX)
+        if stem == name or stem + IMAGINARY_SUFFIX not in split:
+            continue
         real, imaginary = split[name], split[stem + IMAGINARY_SUFFIX]
         results = results.drop_vars([name, stem + IMAGINARY_SUFFIX])
-        results[stem] = (real + 1j * imaginary).assign_attrs(real.attrs)
+        joined = np.empty(real.shape, dtype=complex)  # a sum would lose -0.0 and infinities
+        joined.real, joined.imag = real.values, imaginary.values
+        results[stem] = real.copy(data=joined)
     return results
 
 

@@ -71,7 +71,7 @@ class CriterionScale(Parameters):
 class Scoring(Parameters):
     criteria: dict[CriterionName, CriterionScale] = Field(min_length=1)
     random_weightings: int = Field(default=2000, ge=1, le=1_000_000)
-    seed: int = Field(default=20061, ge=0)
+    seed: int = Field(default=20061, ge=0, lt=2**63)
     published: PublishedTable | None = None
 
     @model_validator(mode="after")

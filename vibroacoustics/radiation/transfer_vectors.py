@@ -78,7 +78,7 @@ def transfer_vectors(
     return _labelled(positions, frequency, simulated, closed_form, difference).assign_attrs(
         solver=f"cut cells {SOLVER_VERSION}, k-wave-python {kwave_version()}",
         surroundings=settings.surroundings,
-        near_field_cells=list(near.grid.shape),
+        near_field_cells=" x ".join(map(str, near.grid.shape)),
         near_field_spacing_m=near.grid.spacing_m,
         near_field_time_step_s=near.grid.time_step_s,
         room_time_step_courant_number=room_grid.COURANT_NUMBER,

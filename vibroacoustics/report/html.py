@@ -38,7 +38,7 @@ def _context(results: xr.Dataset, pictures: Sequence[Picture]) -> dict[str, Any]
     receiver = catalogue_receiver(results)
     return {
         "style": resources.files(__package__).joinpath("templates/style.css").read_text("utf-8"),
-        "title": results.attrs["title"],
+        "title": parameters(results)["title"],
         "machine": parameters(results)["machine"]["name"],
         "created": results.attrs["created_utc"],
         "receiver": receiver,
@@ -86,6 +86,7 @@ def _sources(results: xr.Dataset) -> dict[str, Any]:
         "assumed_count": assumptions.assumed_count(results),
         "remainder": assumptions.remainder_sentence(results),
         "not_modelled": assumptions.NOT_MODELLED,
+        "structure_borne": assumptions.structure_borne_sentence(results),
         "errata": assumptions.errata_table(results),
         "provenance": provenance.provenance_table(results),
     }

@@ -5,7 +5,7 @@ import xarray as xr
 from . import verdict
 from .comparison import comparison_tables
 from .rounding import FORCE_FLOOR, LEVEL_FLOOR_DB, fixed
-from .study import catalogue_receiver, other_receivers
+from .study import catalogue_receiver, other_receivers, parameters
 from .tables import escape_markdown, to_markdown
 
 
@@ -14,7 +14,7 @@ def comparison_markdown(results: xr.Dataset) -> bytes:
     receivers = [catalogue_receiver(results), *other_receivers(results)]
     tables = [table for name in receivers for table in comparison_tables(results, name)]
     parts = [
-        f"# {escape_markdown(results.attrs['title'])}",
+        f"# {escape_markdown(parameters(results)['title'])}",
         escape_markdown(verdict.headline(results)),
         "\n".join(f"- {escape_markdown(text)}" for text in verdict.reasons(results)),
         _legend(),

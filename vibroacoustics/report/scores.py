@@ -14,13 +14,13 @@ SUM_TOLERANCE: Final = 1e-6
 
 def scores_csv(results: xr.Dataset) -> bytes:
     """One row per option: criteria, score and rank by method, share of first places."""
-    criteria, methods = _names(results, "criterion"), _names(results, "method")
+    criteria, methods = _names(results, "criterion"), _names(results, "scoring_method")
     columns = [*criteria]
     blocks = [results["criterion_value"].transpose("option", "criterion").values]
     for method in methods:
         for name in ("score", "rank"):
             columns.append(f"{name}_{method}")
-            blocks.append(results[name].sel({"method": method}).values[:, None])
+            blocks.append(results[name].sel({"scoring_method": method}).values[:, None])
     columns.append("first_place_share")
     blocks.append(results["first_place_share"].values[:, None])
     values = np.concatenate(blocks, axis=1)
@@ -65,7 +65,7 @@ def values_table(results: xr.Dataset) -> Table:
 
 def scores_table(results: xr.Dataset) -> Table:
     """Score and rank by method and the share of first places."""
-    methods = _names(results, "method")
+    methods = _names(results, "scoring_method")
     head = ["Option"]
     for method in methods:
         head += [f"{labels.name(method)}, score 0 to 1", f"{labels.name(method)}, rank"]
@@ -108,7 +108,7 @@ def published_source(results: xr.Dataset) -> str:
 def _scores_row(of_option: xr.Dataset, option: str, methods: list[str]) -> tuple[str, ...]:
     cells = [option]
     for method in methods:
-        own = of_option.sel({"method": method})
+        own = of_option.sel({"scoring_method": method})
         cells += [rounding.fixed(own["score"].item(), 2), rounding.fixed(own["rank"].item(), 0)]
     return (*cells, f"{100.0 * of_option['first_place_share'].item():.1f} %")
 
@@ -121,7 +121,7 @@ def _published_row(printed: xr.Dataset, option: str) -> tuple[str, ...]:
 
 
 def _ranked(results: xr.Dataset) -> list[str]:
-    order = np.argsort(results["rank"].isel(method=0).values, kind="stable")
+    order = np.argsort(results["rank"].isel(scoring_method=0).values, kind="stable")
     return [options(results)[index] for index in order]
 
 

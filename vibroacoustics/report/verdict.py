@@ -143,8 +143,8 @@ def _warnings(verdicts: Sequence[OptionVerdict]) -> list[str]:
 
 def _ranking(results: xr.Dataset) -> str:
     """Which option the study's weights prefer, and how sure that is."""
-    method = str(results["method"].values[0])
-    own = results[["score", "rank", "first_place_share"]].sel({"method": method})
+    method = str(results["scoring_method"].values[0])
+    own = results[["score", "rank", "first_place_share"]].sel({"scoring_method": method})
     winners = [str(name) for name in own["option"].values[own["rank"].values == 1.0]]
     share = 100.0 * float(own["first_place_share"].sel(option=winners).sum())
     draws = parameters(results)["scoring"]["random_weightings"]

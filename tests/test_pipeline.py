@@ -1,0 +1,115 @@
+"""The stages together, with made-up transfer vectors in place of the radiation step."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from vibroacoustics import pipeline, storage
+from vibroacoustics.errors import ParameterError
+from vibroacoustics.orders import semi_major_axis
+from vibroacoustics.schema import RIGID_BODY_DOFS, VARIABLES, stamp
+
+ROUNDING = 1e-12
+NOT_MADE_HERE = {"transfer_vector_closed_form", "green_difference"}
+
+
+def _transfer_vectors(study, gain=1.0) -> xr.Dataset:
+    """Pressure that grows with frequency, differently per receiver and dof."""
+    frequency = np.arange(25.0, study.radiation.maximum_frequency_hz + 1.0, 25.0)
+    generator = np.random.default_rng(3)
+    shape = (len(study.receivers), 6, 1)
+    size = generator.standard_normal(shape) + 1j * generator.standard_normal(shape)
+    return xr.Dataset(
+        {
+            "transfer_vector": stamp(
+                "transfer_vector",
+                gain * 0.01 * size * frequency,
+                {
+                    "receiver": list(study.receivers),
+                    "dof": list(RIGID_BODY_DOFS),
+                    "frequency": frequency,
+                    "distance": ("receiver", np.ones(len(study.receivers))),
+                },
+            )
+        },
+        attrs={"method": "made up"},
+    )
+
+
+@pytest.fixture(scope="module")
+def results(thesis_study) -> xr.Dataset:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(
+            pipeline, "_transfer_vectors", lambda study, _: (_transfer_vectors(study), False)
+        )
+        return pipeline.run(thesis_study)
+
+
+def test_run_makes_the_whole_vocabulary(results):
+    assert set(results.data_vars) >= set(VARIABLES) - NOT_MADE_HERE
+    for name, array in results.data_vars.items():
+        if name != "option_fact":  # a figure that an option does not have is NaN
+            assert np.all(np.isfinite(array)), name
+
+
+def test_sums_over_source_are_the_totals(results):
+    """Every resultant and every pressure is the sum of its sources."""
+    force = results["force_order"].sum("source").transpose("speed", "option", "axis", "order")
+    np.testing.assert_allclose(
+        results["force_amplitude"], semi_major_axis(force.values, axis=2), rtol=ROUNDING
+    )
+    pressure = np.abs(results["pressure_order"].sum("source")) / np.sqrt(2.0)
+    first = 20.0 * np.log10(pressure.sel(order=1) / 20e-6)
+    line = results["order_level"].sel(order=1, weighting="Z")
+    np.testing.assert_allclose(line, first.transpose(*line.dims), atol=1e-9)
+
+
+def test_order_0_of_the_motion_is_rest(results):
+    assert not results["velocity_order"].sel(order=0).values.any()
+
+
+def test_changes_of_none_are_zero(results):
+    for name in ("change_1x", "change_modelled", "change_total"):
+        assert not results[name].sel(option="none").values.any(), name
+
+
+def test_damping_changes_nothing(results):
+    none, damped = (results.sel(option=name, drop=True) for name in ("none", "damping"))
+    for name in ("force_order", "velocity_order", "foot_force_order", "level_total"):
+        np.testing.assert_array_equal(none[name], damped[name])
+
+
+def test_catalogue_level_comes_out_where_it_was_measured(results, thesis_study):
+    total = results["level_total"].sel(
+        option="none", speed=2900.0, receiver=thesis_study.catalogue_receiver
+    )
+    assert total == pytest.approx(56.0, abs=1e-9)
+
+
+def test_total_is_never_below_the_modelled_level(results):
+    assert np.all(results["level_total"] >= results["level_modelled"].sel(weighting="A"))
+    assert np.all(results["level_total"] >= results["level_remainder"])
+
+
+def test_change_of_the_total_is_smaller_than_that_of_the_modelled_level(results):
+    """A constant remainder only hides."""
+    slack = 1e-9
+    assert np.all(abs(results["change_total"]) <= abs(results["change_modelled"]) + slack)
+
+
+def test_halved_force_is_6_db_at_most(results):
+    """counterweight-half turns half of the x force into y: foot forces stay below the bare ones."""
+    foot = results["foot_force_amplitude"].sel(order=1).max("foot")
+    assert np.all(foot.sel(option="counterweight-half") < foot.sel(option="none"))
+
+
+def test_results_survive_the_disk(results, tmp_path):
+    again = storage.open_results(storage.write_results(results, tmp_path / "results.nc"))
+    xr.testing.assert_identical(results, again[list(results.data_vars)])
+
+
+def test_model_louder_than_the_catalogue_is_refused(thesis_study, monkeypatch):
+    loud = (_transfer_vectors(thesis_study, gain=1e6), False)
+    monkeypatch.setattr(pipeline, "_transfer_vectors", lambda *_: loud)
+    with pytest.raises(ParameterError, match=r"published_noise\.level_dba = 56 dB\(A\)"):
+        pipeline.run(thesis_study)
