@@ -154,7 +154,7 @@ def test_bad_studies(
     """One clear line, exit code 2, no traceback, nothing written."""
     text = SMALL.read_text().replace("../../pipelines", str(ROOT / "pipelines"))
     if words is None:  # a room of 19 m at the finest spacing: larger than any memory
-        text = text.replace("[radiation]\n", "").replace("room_spacing_mm = 80.0", "")
+        text = text.replace("[radiation]\n", "").replace("room_spacing_mm = 60.0", "")
         new += "room_spacing_mm = 5.0\n"
         words = ["room_spacing_mm", "GiB"]
     study = tmp_path / "bad.toml"

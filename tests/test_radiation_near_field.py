@@ -234,7 +234,7 @@ def test_cylinder_converges_with_the_spacing(clearance):
 
 
 def test_error_falls_with_the_square_of_the_spacing():
-    """An oscillating sphere at 1 m on the axis, complex error against the exact field, 250 Hz up."""
+    """Oscillating sphere, 1 m on the axis: complex error against the exact field, from 250 Hz."""
     frequency = FREQUENCY_HZ[3:]
     expected = sphere_pressure(1, 0.12, 1.0, np.ones(1), frequency)[:, 0]
     errors = []
