@@ -272,7 +272,7 @@ def test_reciprocal_green_functions_leave_no_pressure_of_their_own():
 
 def test_memory_is_checked_before_the_run(monkeypatch):
     monkeypatch.setattr("psutil.virtual_memory", type("M", (), {"available": 2**20}))
-    with pytest.raises(ParameterError, match=r"near_field_spacing_m: the grid of \d+×\d+×\d+"):
+    with pytest.raises(ParameterError, match=r"near_field_spacing_mm: the grid of \d+×\d+×\d+"):
         NearField(Sphere(0.1), 0.0125, 1000.0)
 
 

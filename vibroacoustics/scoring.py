@@ -76,8 +76,9 @@ def score(results: xr.Dataset, settings: Scoring | None = None) -> xr.Dataset:
     first_place_share
     """
     settings = settings or _stored_settings(results)
-    names = list(settings.criteria)
-    scales = list(settings.criteria.values())
+    # In the order of the registry: a seed then means the same weightings from any file.
+    names = [name for name in CRITERIA if name in settings.criteria]
+    scales = [settings.criteria[name] for name in names]
     best = np.array([scale.best for scale in scales])
     worst = np.array([scale.worst for scale in scales])
     shares = np.array([scale.weight for scale in scales])

@@ -1,4 +1,8 @@
-"""Fast Fourier transforms for k-Wave's NumPy backend: pyFFTW with cached plans, or SciPy."""
+"""Fast Fourier transforms for k-Wave's NumPy backend: pyFFTW with cached plans, or SciPy.
+
+The fields are real, so half of each spectrum tells the rest: `fftn` is the real-to-complex
+transform and `ifftn` its inverse. `kwave.build_simulation` cuts k-Wave's operators to match.
+"""
 
 from typing import Any, Final
 
@@ -11,16 +15,19 @@ THREADS: Final = 2
 
 
 class ScipyFft:
-    """The part of `numpy.fft` that k-Wave uses, on SciPy's threads."""
+    """The part of `numpy.fft` that k-Wave uses, for real fields, on SciPy's threads."""
 
     fftfreq = staticmethod(np.fft.fftfreq)
 
-    def fftn(self, values: Array | ComplexArray) -> ComplexArray:
-        result: ComplexArray = scipy.fft.fftn(values, workers=THREADS)
+    def __init__(self, shape: tuple[int, ...]) -> None:
+        self._shape = shape
+
+    def fftn(self, values: Array) -> ComplexArray:
+        result: ComplexArray = scipy.fft.rfftn(values, workers=THREADS)
         return result
 
-    def ifftn(self, values: ComplexArray) -> ComplexArray:
-        result: ComplexArray = scipy.fft.ifftn(values, workers=THREADS)
+    def ifftn(self, values: ComplexArray) -> Array:
+        result: Array = scipy.fft.irfftn(values, s=self._shape, workers=THREADS)
         return result
 
 
@@ -37,32 +44,39 @@ class PyfftwFft:
     def __init__(self, shape: tuple[int, ...]) -> None:
         import pyfftw
 
-        def plan(direction: str) -> Any:
-            arrays = [pyfftw.empty_aligned(shape, dtype="complex128") for _ in range(2)]
+        half = (*shape[:-1], shape[-1] // 2 + 1)
+        arrays = {
+            "real": lambda: pyfftw.empty_aligned(shape, dtype="float64"),
+            "complex": lambda: pyfftw.empty_aligned(half, dtype="complex128"),
+        }
+
+        def plan(source: str, target: str, direction: str) -> Any:
             return pyfftw.FFTW(
-                *arrays,
+                arrays[source](),
+                arrays[target](),
                 axes=tuple(range(len(shape))),
                 direction=direction,
                 flags=("FFTW_ESTIMATE",),
                 threads=THREADS,
             )
 
-        self._forward, self._backward = plan("FFTW_FORWARD"), plan("FFTW_BACKWARD")
+        self._forward = plan("real", "complex", "FFTW_FORWARD")
+        self._backward = plan("complex", "real", "FFTW_BACKWARD")
 
-    def fftn(self, values: Array | ComplexArray) -> ComplexArray:
-        return _execute(self._forward, values)
+    def fftn(self, values: Array) -> ComplexArray:
+        result: ComplexArray = _execute(self._forward, values)
+        return result
 
-    def ifftn(self, values: ComplexArray) -> ComplexArray:
-        result = _execute(self._backward, values)
+    def ifftn(self, values: ComplexArray) -> Array:
+        result: Array = _execute(self._backward, values)
         result *= 1.0 / result.size
         return result
 
 
-def _execute(plan: Any, values: Array | ComplexArray) -> ComplexArray:
+def _execute(plan: Any, values: Any) -> Any:
     plan.input_array[...] = values
     plan.execute()
-    result: ComplexArray = plan.output_array
-    return result
+    return plan.output_array
 
 
 class NumpyWith:
@@ -80,4 +94,4 @@ def fft_namespace(shape: tuple[int, ...]) -> NumpyWith:
     try:
         return NumpyWith(PyfftwFft(shape))
     except ImportError:
-        return NumpyWith(ScipyFft())
+        return NumpyWith(ScipyFft(shape))

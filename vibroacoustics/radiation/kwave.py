@@ -89,7 +89,18 @@ def build_simulation(grid: RoomGrid, source_pressure: Array, steps: int) -> Any:
     )
     simulation.xp = fft_namespace(grid.shape)
     simulation.setup()
+    _keep_half_spectra(simulation)
     return simulation
+
+
+def _keep_half_spectra(simulation: Any) -> None:
+    """Cut k-Wave's operators to the half of the spectrum that real fields need (see `fft`)."""
+    half = simulation.grid_shape[-1] // 2 + 1
+    for name in ("op_grad_list", "op_div_list"):
+        operators = getattr(simulation, name)
+        setattr(simulation, name, [np.ascontiguousarray(full[..., :half]) for full in operators])
+    simulation.source_kappa = np.ascontiguousarray(simulation.source_kappa[..., :half])
+    simulation._setup_source_operators()  # they hold on to the operator of the source
 
 
 def kwave_green(
@@ -203,7 +214,7 @@ def check_receiver(
         raise ParameterError(
             f"receivers.{name}: the microphone must stand at least {least:.3g} m off the box "
             f"around the shell ({box.lower.round(3).tolist()} to {box.upper.round(3).tolist()} m), "
-            f"got {distance:.3g} m; a smaller radiation.room_spacing_m lets it stand closer"
+            f"got {distance:.3g} m; a smaller radiation.room_spacing_mm lets it stand closer"
         )
     _check_memory(name, grid)
 
@@ -213,7 +224,7 @@ def _check_memory(name: str, grid: RoomGrid) -> None:
     available = psutil.virtual_memory().available / 2**30
     if needed > available:
         raise ParameterError(
-            f"radiation.room_spacing_m: the k-Wave grid of {grid.shape[0]}×{grid.shape[1]}×"
+            f"radiation.room_spacing_mm: the k-Wave grid of {grid.shape[0]}×{grid.shape[1]}×"
             f"{grid.shape[2]} nodes for receivers.{name} needs {needed:.3g} GiB, "
             f"{available:.3g} GiB are available"
         )

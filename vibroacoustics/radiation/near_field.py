@@ -9,6 +9,7 @@ A hard floor is the lowest face plane of the grid, so the scattering between bod
 of the solution; what the rest of the room sends back to the body is not.
 """
 
+from functools import cached_property
 from typing import Final
 
 import numpy as np
@@ -55,13 +56,21 @@ class NearField:
     ) -> None:
         self.grid: NearGrid = near_grid(body, spacing_m, floor_z_m, box_margin_m)
         _check_memory(self.grid.shape)
-        self.cells: CutCells = cut_cells(body, self.grid.origin, spacing_m, self.grid.shape)
+        self._body = body
         self.box: Box = closed_box(
             self.grid.box_lower, self.grid.box_upper, spacing_m, self.grid.on_floor
         )
-        self._wall_normals = outward_normal(body, self.cells.wall_centroids)
         self.pulse_width_s = pulse_width_s(maximum_frequency_hz)
         self.layers = _recording_layers(self.grid)
+
+    @cached_property
+    def cells(self) -> CutCells:
+        """Geometry of the fluid in the grid."""
+        return cut_cells(self._body, self.grid.origin, self.grid.spacing_m, self.grid.shape)
+
+    @cached_property
+    def _wall_normals(self) -> Array:
+        return outward_normal(self._body, self.cells.wall_centroids)
 
     @property
     def most_steps(self) -> int:
@@ -143,7 +152,7 @@ def _check_memory(shape: tuple[int, int, int]) -> None:
     available = psutil.virtual_memory().available / 2**30
     if needed > available:
         raise ParameterError(
-            f"radiation.near_field_spacing_m: the grid of {shape[0]}×{shape[1]}×{shape[2]} cells "
+            f"radiation.near_field_spacing_mm: the grid of {shape[0]}×{shape[1]}×{shape[2]} cells "
             f"needs {needed:.3g} GiB, {available:.3g} GiB are available"
         )
 

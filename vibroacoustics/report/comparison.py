@@ -4,7 +4,9 @@ from collections.abc import Callable, Iterable
 from itertools import product
 from typing import Final
 
+import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from . import rounding
 from .study import REFERENCE_OPTION, catalogue_receiver, first_order_hz, options, speeds
@@ -93,28 +95,31 @@ def comparison_text(results: xr.Dataset) -> str:
 
 def _tables(results: xr.Dataset, receiver: str, heads: dict[str, str]) -> list[Table]:
     compared = comparison(results).sel(receiver=receiver)
+    numbers = {name: compared[name].transpose("speed", "option").values for name in COLUMNS}
+    reference = options(results).index(REFERENCE_OPTION)
     pairs = zip(speeds(results), first_order_hz(results), strict=True)
     return [
         Table(
             f"{speed:g} rpm (1× at {frequency:.1f} Hz), microphone {receiver}",
             ("Option", *heads.values()),
-            tuple(_row(compared.sel(speed=speed), option, heads) for option in options(results)),
+            tuple(
+                (option, *_cells(_at(numbers, i, j), _at(numbers, i, reference), heads))
+                for j, option in enumerate(options(results))
+            ),
         )
-        for speed, frequency in pairs
+        for i, (speed, frequency) in enumerate(pairs)
     ]
-
-
-def _row(compared: xr.Dataset, option: str, heads: dict[str, str]) -> tuple[str, ...]:
-    own = _numbers(compared, option)
-    reference = _numbers(compared, REFERENCE_OPTION)
-    return (option, *(_CELLS[name](own, reference, name) for name in heads))
 
 
 _Numbers = dict[str, float]
 
 
-def _numbers(compared: xr.Dataset, option: str) -> _Numbers:
-    return {name: float(compared[name].sel(option=option)) for name in COLUMNS}
+def _at(numbers: dict[str, NDArray[np.float64]], speed: int, option: int) -> _Numbers:
+    return {name: float(values[speed, option]) for name, values in numbers.items()}
+
+
+def _cells(own: _Numbers, reference: _Numbers, heads: dict[str, str]) -> Iterable[str]:
+    return (_CELLS[name](own, reference, name) for name in heads)
 
 
 def _amount(own: _Numbers, reference: _Numbers, name: str) -> str:
