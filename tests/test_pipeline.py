@@ -28,9 +28,11 @@ def _transfer_vectors(study, gain=1.0) -> xr.Dataset:
                     "receiver": list(study.receivers),
                     "dof": list(RIGID_BODY_DOFS),
                     "frequency": frequency,
-                    "distance": ("receiver", np.ones(len(study.receivers))),
                 },
             )
+        },
+        coords={
+            "distance": ("receiver", np.ones(shape[0])),
         },
         attrs={"method": "made up"},
     )

@@ -74,7 +74,7 @@ def _forces(study: Study, progress: Progress) -> xr.Dataset:
     """Force and moment of every source, and what each option reports of itself."""
     samples = study.operation.crank_angle_samples
     crank_angle = 2.0 * np.pi * np.arange(samples) / samples
-    speeds, options = study.operation.speed_rpm, study.options
+    speeds, options = list(study.operation.speed_rpm), list(study.options)
     machine_parts = [
         part
         for mechanism in MECHANISMS[study.machine.kind]
@@ -82,33 +82,30 @@ def _forces(study: Study, progress: Progress) -> xr.Dataset:
     ]
     added = _balancing(study, crank_angle, progress)
     sources = [*_unique(part.source for part in machine_parts), "balancer"]
-    facts = _unique(fact for balancing in added.values() for fact in balancing.facts)
-    force = np.zeros((len(speeds), len(options), len(sources), 3, samples))
-    moment = np.zeros_like(force)
-    figures = np.full((len(speeds), len(options), len(facts)), np.nan)
-    for i, speed in enumerate(speeds):
-        for j, name in enumerate(options):
-            parts = [*machine_parts, *added[speed, name].parts]
-            force[i, j], moment[i, j] = _by_source(parts, sources, speed, samples)
-            for fact, value in added[speed, name].facts.items():
-                figures[i, j, facts.index(fact)] = value
+    wrenches = np.array(  # speed, option, force and moment, source, axis, crank angle
+        [
+            [_by_source([*machine_parts, *added[s, o].parts], sources, s) for o in options]
+            for s in speeds
+        ]
+    )
     coords = {
-        "speed": list(speeds),
-        "option": list(options),
+        "speed": speeds,
+        "option": options,
         "source": sources,
         "axis": list(AXES),
         "crank_angle": crank_angle,
     }
-    time = crank_angle / (2.0 * np.pi) / shaft_frequency_hz(1.0)
-    facts_coords = {"speed": list(speeds), "option": list(options), "fact": facts}
+    revolution_s = 1.0 / (shaft_frequency_hz(1.0) * np.array(speeds))
     return check(
         xr.Dataset(
             {
-                "force": stamp("force", force, coords),
-                "moment": stamp("moment", moment, coords),
-                "option_fact": stamp("option_fact", figures, facts_coords),
+                "force": stamp("force", wrenches[:, :, 0], coords),
+                "moment": stamp("moment", wrenches[:, :, 1], coords),
+                "option_fact": _option_facts(added, speeds, options),
             },
-            coords={"time": (("speed", "crank_angle"), time / np.array(speeds)[:, None])},
+            coords={
+                "time": (("speed", "crank_angle"), np.outer(revolution_s, crank_angle / 2 / np.pi))
+            },
         )
     )
 
@@ -131,9 +128,10 @@ def _balancing(
 
 
 def _by_source(
-    parts: Sequence[MovingPart], sources: Sequence[str], speed_rpm: float, samples: int
+    parts: Sequence[MovingPart], sources: Sequence[str], speed_rpm: float
 ) -> tuple[Array, Array]:
-    """Force and moment per source, shape (source, axis, crank_angle)."""
+    """Force and moment per source, shape (source, axis, crank_angle) each."""
+    samples = parts[0].position_m.shape[-1]
     force = np.zeros((len(sources), 3, samples))
     moment = np.zeros_like(force)
     for number, source in enumerate(sources):
@@ -141,6 +139,19 @@ def _by_source(
         if own:
             force[number], moment[number] = wrench(own, shaft_frequency_hz(speed_rpm))
     return force, moment
+
+
+def _option_facts(
+    added: dict[tuple[float, str], Balancing], speeds: Sequence[float], options: Sequence[str]
+) -> xr.DataArray:
+    """The figures that the options report; NaN where an option has none of that name."""
+    facts = _unique(fact for balancing in added.values() for fact in balancing.facts)
+    figures = [
+        [[added[s, o].facts.get(fact, np.nan) for fact in facts] for o in options] for s in speeds
+    ]
+    return stamp(
+        "option_fact", figures, {"speed": list(speeds), "option": list(options), "fact": facts}
+    )
 
 
 def _orders(study: Study, results: xr.Dataset) -> xr.Dataset:

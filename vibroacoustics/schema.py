@@ -16,8 +16,9 @@ class Variable(NamedTuple):
     complex_peak: bool = False
 
 
-RIGID_BODY_DOFS: Final = ("tx", "ty", "tz", "rx", "ry", "rz")
 AXES: Final = ("x", "y", "z")
+RIGID_BODY_DOFS: Final = ("tx", "ty", "tz", "rx", "ry", "rz")
+"""Translations (m/s) and rotations (rad/s) along and about x, y, z at the centre of mass."""
 WEIGHTINGS: Final = ("Z", "A", "C")
 DOF_UNIT_NOTE: Final = "translations in m, rotations in rad"
 
@@ -42,10 +43,7 @@ COORDINATES: Final[dict[str, Variable]] = {
     "published_criterion": Variable(("published_criterion",), "", "criterion in the table"),
     "order_frequency": Variable(("speed", "order"), "Hz", "frequency of a shaft order"),
     "time": Variable(("speed", "crank_angle"), "s", "time from crank angle zero"),
-    "receiver_position": Variable(
-        ("receiver", "axis"), "m", "microphone position from the centre of mass at rest"
-    ),
-    "distance": Variable(("receiver",), "m", "distance of the microphone from the origin"),
+    "distance": Variable(("receiver",), "m", "distance of the microphone from the centre of mass"),
     "foot_position": Variable(
         ("foot", "axis"), "m", "foot position from the centre of mass at rest"
     ),

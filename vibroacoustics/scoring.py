@@ -7,7 +7,6 @@ from typing import Final
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
-from scipy.stats import rankdata
 
 from .errors import ParameterError
 from .parameters.study import PublishedTable, Scoring
@@ -87,7 +86,7 @@ def score(results: xr.Dataset, settings: Scoring | None = None) -> xr.Dataset:
     utility = utilities(values, best, worst)
     scores = np.stack([method(utility, shares) for method in METHODS.values()], axis=1)
     # Rounded, so that options that differ by rounding errors share their rank.
-    ranks = np.stack([rankdata(-column.round(9), method="min") for column in scores.T], axis=1)
+    ranks = 1 + (scores.round(9) > scores.round(9)[:, None]).sum(axis=1)
     first = first_place_share(utility, settings.random_weightings, settings.seed)
     option, criterion = {"option": results["option"].values}, {"criterion": names}
     by_method = {**option, "scoring_method": list(METHODS)}

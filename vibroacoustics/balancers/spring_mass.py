@@ -5,7 +5,7 @@ import numpy as np
 from ..errors import ParameterError
 from ..moving_parts import Array, Balancing, MovingPart, path
 from ..parameters.machine import Machine
-from ..parameters.options import SpringMass, SpringMassPrinted
+from ..parameters.options import SpringMass, SpringMassPrinted, SprungMass
 from ..units import shaft_frequency_hz
 
 
@@ -93,7 +93,7 @@ def sprung_mass_response(
 
 
 def _sprung_mass(
-    option: SpringMass | SpringMassPrinted,
+    option: SprungMass,
     mass_kg: float,
     machine: Machine,
     speed_rpm: float,

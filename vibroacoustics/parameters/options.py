@@ -29,10 +29,9 @@ class Pendulum(Parameters):
     """Damping of the bearing, as a fraction of critical of the hanging pendulum."""
 
 
-class SpringMass(Parameters):
-    """A mass between two springs on the Oldham ring (thesis 7.2), as dynamics tune it."""
+class SprungMass(Parameters):
+    """A mass between two springs on the Oldham ring (thesis 7.2)."""
 
-    kind: Literal["spring-mass"]
     stiffness_n_per_m: float = Field(gt=0.0, le=1e7)
     """Stiffness K of each of the two springs."""
     tuned_speed_rpm: float = Field(ge=60.0, le=60000.0)
@@ -41,14 +40,16 @@ class SpringMass(Parameters):
     height_below_ring_m: float = Field(ge=-1.0, le=1.0)
 
 
-class SpringMassPrinted(Parameters):
-    """The same with the mass of equation (7.20) as printed, which has a sign error."""
+class SpringMass(SprungMass):
+    """The sprung mass as dynamics tune it."""
+
+    kind: Literal["spring-mass"]
+
+
+class SpringMassPrinted(SprungMass):
+    """The sprung mass of equation (7.20) as printed, which has a sign error."""
 
     kind: Literal["spring-mass-printed"]
-    stiffness_n_per_m: float = Field(gt=0.0, le=1e7)
-    tuned_speed_rpm: float = Field(ge=60.0, le=60000.0)
-    damping_ratio: float = Field(ge=0.0, le=1.0)
-    height_below_ring_m: float = Field(ge=-1.0, le=1.0)
 
 
 class TwinOldham(Parameters):

@@ -2,16 +2,13 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 
 from ..errors import ParameterError
+from ..schema import RIGID_BODY_DOFS
 from .arrays import Array
 from .bodies import Body, outward_normal
-
-RIGID_BODY_DOFS: Final = ("tx", "ty", "tz", "rx", "ry", "rz")
-"""Translations (m/s) and rotations (rad/s) along and about x, y, z at the origin."""
 
 
 @dataclass(frozen=True)

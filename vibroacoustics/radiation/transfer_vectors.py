@@ -10,6 +10,7 @@ from ..constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from ..parameters.radiation import RadiationSettings
 from ..parameters.receivers import Receiver
 from ..parameters.shell import Shell
+from ..schema import RIGID_BODY_DOFS, check, stamp
 from . import near_grid, room_grid
 from .arrays import Array, ComplexArray, Progress, no_progress
 from .bodies import Cylinder
@@ -18,9 +19,9 @@ from .interpolation import interpolate
 from .join import join
 from .kwave import check_receiver, green_difference_db, kwave_green, kwave_version
 from .near_field import NearField
-from .patterns import RIGID_BODY_DOFS, rigid_body
+from .patterns import rigid_body
 
-SOLVER_VERSION: Final = "1"
+SOLVER_VERSION: Final = "2"
 """Raised with every change that alters results, so that no cache serves old ones."""
 
 
@@ -160,19 +161,18 @@ def _labelled(
     closed_form: ComplexArray,
     difference: Array,
 ) -> xr.Dataset:
-    dims = ("receiver", "dof", "frequency")
-    units = {"units": "Pa s m-1", "comment": "rotations: Pa s rad-1; complex peak, exp(+j omega t)"}
     distances = [float(np.linalg.norm(position)) for position in positions.values()]
-    return xr.Dataset(
-        {
-            "transfer_vector": (dims, simulated, units),
-            "transfer_vector_closed_form": (dims, closed_form, units),
-            "green_difference": (("receiver", "frequency"), difference, {"units": "dB"}),
-        },
-        coords={
-            "receiver": list(positions),
-            "dof": list(RIGID_BODY_DOFS),
-            "frequency": ("frequency", frequency, {"units": "Hz"}),
-            "distance": ("receiver", distances, {"units": "m"}),
-        },
+    by_receiver = {"receiver": list(positions), "frequency": frequency}
+    coords = {**by_receiver, "dof": list(RIGID_BODY_DOFS)}
+    return check(
+        xr.Dataset(
+            {
+                "transfer_vector": stamp("transfer_vector", simulated, coords),
+                "transfer_vector_closed_form": stamp(
+                    "transfer_vector_closed_form", closed_form, coords
+                ),
+                "green_difference": stamp("green_difference", difference, by_receiver),
+            },
+            coords={"distance": ("receiver", distances)},
+        )
     )

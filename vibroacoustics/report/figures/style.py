@@ -67,15 +67,18 @@ def draw(
 ) -> bytes:
     """PNG of panels below each other, painted by `paint`, with room for a legend below."""
     with matplotlib.rc_context({**matplotlib.rcParamsDefault, "backend": "agg", **STYLE}):
+        layout = ConstrainedLayoutEngine(w_pad=0.08, h_pad=0.08)
         figure = Figure(
             figsize=(WIDTH_INCH, panel_height_inch * panels + LEGEND_ROW_INCH * (legend_rows + 1)),
             dpi=DOTS_PER_INCH,
-            layout=ConstrainedLayoutEngine(w_pad=0.08, h_pad=0.08),
+            layout=layout,
         )
         FigureCanvasAgg(figure)
         axes = figure.subplots(panels, 1, squeeze=False, **share)[:, 0]
         paint(axes)
         content = io.BytesIO()
+        layout.execute(figure)  # once; saving with a layout engine would draw everything twice
+        figure.set_layout_engine("none")
         figure.savefig(content, format="png", metadata={"Software": None})
     return content.getvalue()
 
