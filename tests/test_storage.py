@@ -95,6 +95,15 @@ def test_plain_netcdf4_reads_it(results, tmp_path):
                 assert variable.filters()["fletcher32"], variable.name
 
 
+def test_gnu_octave_can_read_it(results, tmp_path):
+    """Octave's netCDF knows no strings (type 12) in variables, and ASCII attributes only."""
+    path = storage.write_results(results.assign_attrs(title="Größe"), tmp_path / "r.nc")
+    with netCDF4.Dataset(path) as file:
+        assert all(variable.dtype is not str for variable in file.variables.values())
+        assert file.variables["receiver"].dtype == "S1"
+        assert file.getncattr("title").isascii()
+
+
 def test_folder_is_made(results, tmp_path):
     path = tmp_path / "a" / "b" / "results.nc"
     assert storage.write_results(results, path) == path

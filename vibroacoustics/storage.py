@@ -81,10 +81,12 @@ def write_bytes(path: Path, content: bytes) -> None:
 def to_bytes(results: xr.Dataset) -> bytes:
     """The dataset as the bytes of a netCDF4 file."""
     split = _ascii_attributes(_split_complex(results))
+    numbers = {"fletcher32": True, "zlib": True, "complevel": 4}
+    names = {"fletcher32": True, "dtype": "S1"}  # arrays of characters: GNU Octave cannot read netCDF's strings
     encoding = {
-        name: {"fletcher32": True, "zlib": True, "complevel": 4}
+        name: numbers if variable.dtype.kind in "fiu" else names
         for name, variable in split.variables.items()
-        if variable.ndim and variable.dtype.kind in "fiu"
+        if variable.ndim
     }
     return bytes(split.to_netcdf(engine="netcdf4", format="NETCDF4", encoding=encoding))
 
@@ -92,7 +94,7 @@ def to_bytes(results: xr.Dataset) -> bytes:
 def from_bytes(content: bytes, path: Path) -> xr.Dataset:
     """The dataset from the bytes of a netCDF4 file; complex pairs are joined again."""
     try:
-        return _join_complex(xr.load_dataset(content, engine="netcdf4"))
+        return _plain_text(_join_complex(xr.load_dataset(content, engine="netcdf4")))
     except (OSError, ValueError) as error:
         raise StorageError(f"{path}: is no result file: {error}") from None
 
@@ -163,6 +165,14 @@ def _join_complex(split: xr.Dataset) -> xr.Dataset:
         joined.real, joined.imag = real.values, imaginary.values
         results[stem] = real.copy(data=joined)
     return results
+
+
+def _plain_text(results: xr.Dataset) -> xr.Dataset:
+    """Text that was read as Python objects as arrays of `str`, as it was written."""
+    texts = [name for name, variable in results.variables.items() if variable.dtype == object]
+    return results.assign_coords(
+        {name: results[name].astype(str).assign_attrs(results[name].attrs) for name in texts}
+    )
 
 
 def _hash_path(path: Path) -> Path:
