@@ -82,7 +82,10 @@ def to_bytes(results: xr.Dataset) -> bytes:
     """The dataset as the bytes of a netCDF4 file."""
     split = _ascii_attributes(_split_complex(results))
     numbers = {"fletcher32": True, "zlib": True, "complevel": 4}
-    names = {"fletcher32": True, "dtype": "S1"}  # arrays of characters: GNU Octave cannot read netCDF's strings
+    names = {
+        "fletcher32": True,
+        "dtype": "S1",
+    }  # arrays of characters: GNU Octave cannot read netCDF's strings
     encoding = {
         name: numbers if variable.dtype.kind in "fiu" else names
         for name, variable in split.variables.items()
