@@ -41,7 +41,7 @@ def test_every_option_tells_its_added_mass(thesis_study):
 def test_reports_carry_their_unit(thesis_study):
     for option in thesis_study.options:
         for name in balancing(thesis_study, option, 3500.0).facts:
-            assert name.endswith(("_kg", "_deg", "_mm", "_w", "_multiplier")), name
+            assert name.endswith(("_kg", "_deg", "_mm", "_w", "_rpm", "_multiplier")), name
 
 
 # --- pendulum ------------------------------------------------------------------------------------

@@ -1,5 +1,6 @@
 """The command line as a user meets it: exit codes, one-line errors, files, speed of --help."""
 
+import csv
 import os
 import subprocess
 import sys
@@ -58,6 +59,20 @@ def test_run_writes_everything(finished: Path) -> None:
     rows = (finished / "comparison.csv").read_text().splitlines()
     assert rows[0].startswith(CSV_COLUMNS)
     assert len(rows) - 1 == 8 * 2 * 4  # options, speeds, receivers
+
+
+@pytest.mark.slow
+def test_level_of_the_line_is_that_of_fine_grids(finished: Path) -> None:
+    """44.2 dB at 12.5 mm cells (reports/showcase); 35 mm cells err by about (35/12.5)² x 0.02 dB
+    for motion along x, and by 0.4 dB for the rocking that adds a tenth (docs/radiation.md)."""
+    with (finished / "comparison.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    line = {
+        (row["option"], row["speed_rpm"], row["receiver"]): float(row["level_1x_db"])
+        for row in rows
+    }
+    assert line["none", "2900", "front_1m"] == pytest.approx(44.2, abs=0.3)
+    assert line["none", "3500", "front_1m"] == pytest.approx(48.4, abs=0.3)
 
 
 @pytest.mark.slow
@@ -162,6 +177,21 @@ def test_bad_studies(
     outcome = command("run", study, "--out", tmp_path / "out", cache=cache)
     assert_refused(outcome, "bad.toml", *words)
     assert not (tmp_path / "out").exists()
+
+
+def test_output_that_cannot_be_written(cache: Path, tmp_path: Path) -> None:
+    """Refused before anything is computed."""
+    (tmp_path / "file").write_text("")
+    outcome = command("run", SMALL, "--out", tmp_path / "file" / "out", cache=cache)
+    assert_refused(outcome, "file/out", "cannot be written")
+
+
+@pytest.mark.slow
+def test_cache_file_is_no_result(finished: Path, cache: Path) -> None:
+    """A file of the cache has a hash and is netCDF, but no run."""
+    (cached,) = (cache / "vibroacoustics").glob("*.nc")
+    for name in ("report", "score"):
+        assert_refused(command(name, cached, cache=cache), cached.name, "schema_version")
 
 
 def test_missing_study(cache: Path, tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ from vibroacoustics.orders import semi_major_axis
 from vibroacoustics.schema import RIGID_BODY_DOFS, VARIABLES, stamp
 
 ROUNDING = 1e-12
-NOT_MADE_HERE = {"transfer_vector_closed_form", "green_difference"}
+NOT_MADE_HERE = {"green_difference"}
 
 
 def _transfer_vectors(study, gain=1.0) -> xr.Dataset:
@@ -19,21 +19,16 @@ def _transfer_vectors(study, gain=1.0) -> xr.Dataset:
     generator = np.random.default_rng(3)
     shape = (len(study.receivers), 6, 1)
     size = generator.standard_normal(shape) + 1j * generator.standard_normal(shape)
+    coords = {
+        "receiver": list(study.receivers),
+        "dof": list(RIGID_BODY_DOFS),
+        "frequency": frequency,
+        "distance": ("receiver", np.ones(len(study.receivers))),
+    }
+    values = gain * 0.01 * size * frequency
+    names = ("transfer_vector", "transfer_vector_closed_form")
     return xr.Dataset(
-        {
-            "transfer_vector": stamp(
-                "transfer_vector",
-                gain * 0.01 * size * frequency,
-                {
-                    "receiver": list(study.receivers),
-                    "dof": list(RIGID_BODY_DOFS),
-                    "frequency": frequency,
-                },
-            )
-        },
-        coords={
-            "distance": ("receiver", np.ones(shape[0])),
-        },
+        {name: stamp(name, values, coords) for name in names},
         attrs={"method": "made up"},
     )
 

@@ -134,6 +134,7 @@ def _sound(
             "level_modelled": stamp("level_modelled", modelled, weighted),
             "level_total": stamp("level_total", total, at),
             "level_remainder": stamp("level_remainder", published_dba),
+            "line_difference": stamp("line_difference", np.full(total.shape, -0.02), at),
             "green_difference": stamp("green_difference", np.full((len(receivers), 3), -0.07), gap),
         }
     )
@@ -192,7 +193,7 @@ def _attributes(receivers: list[str], published_dba: float) -> dict[str, str]:
         "receivers": {name: {"x_m": 1.0, "y_m": 0.0, "height_m": 0.2} for name in receivers},
         "machine": {"name": "Machine", "housing": HOUSING, "published_noise": noise, "errata": []},
         "radiation": {"surroundings": "hard-floor"},
-        "scoring": {"random_weightings": 100},
+        "scoring": {"random_weightings": 100, "published": {"source": "T"}},
         "records": [
             {**record, "field": "measured", "source": "thesis"},
             {**record, "field": "guessed", "source": "assumed", "lowest": 0.5, "highest": 2.0},
@@ -221,7 +222,7 @@ def test_comparison_csv_has_the_columns_and_one_row_per_option_speed_and_receive
     results: xr.Dataset,
 ) -> None:
     lines = comparison_csv(results).decode().splitlines()
-    assert lines[0] == COLUMNS
+    assert lines[0] == f"{COLUMNS},level_modelled_db,level_modelled_dbc"
     assert len(lines) == 1 + 5 * 2 * 2
 
 
@@ -379,7 +380,7 @@ def test_names_are_escaped() -> None:
     assert "<script" not in page["report.html"].decode()
     assert "&lt;script&gt;" in page["report.html"].decode()
     assert "<script" not in page["comparison.md"].decode()
-    assert "figures/transfer_a_b_.png" in page
+    assert "figures/transfer_1_a_b_.png" in page
 
 
 def test_the_report_is_the_same_twice(results: xr.Dataset, files: dict[str, bytes]) -> None:

@@ -31,6 +31,9 @@ def main() -> None:
     except VibroacousticsError as error:
         print(f"error: {' '.join(str(error).split())}", file=sys.stderr)
         sys.exit(INPUT_ERROR)
+    except MemoryError as error:
+        print(f"error: not enough memory: {error}", file=sys.stderr)
+        sys.exit(INPUT_ERROR)
 
 
 @app.command("run")
@@ -44,10 +47,12 @@ def run_command(
     """Run a study and write results.nc, report.html, tables and figures."""
     from . import loading, outputs, pipeline, report
 
+    folder = out or Path("reports") / study_file.stem
     study = loading.load_study(study_file)
+    outputs.check_folder(folder)
     with _progress_bar() as progress:
         results = pipeline.run(study, progress)
-    written = outputs.write_all(results, out or Path("reports") / study_file.stem)
+    written = outputs.write_all(results, folder)
     typer.echo(report.comparison_text(results))
     typer.echo(f"report: {written}")
 
@@ -60,9 +65,9 @@ def report_command(
     ] = None,
 ) -> None:
     """Write the report of results again, without computing anything."""
-    from . import outputs, storage
+    from . import outputs
 
-    results = storage.open_results(results_file)
+    results = outputs.open_run(results_file)
     typer.echo(f"report: {outputs.write_report(results, out or results_file.parent)}")
 
 
@@ -75,9 +80,9 @@ def score_command(
     ] = None,
 ) -> None:
     """Score the options again and print the ranking."""
-    from . import loading, scoring, storage
+    from . import loading, outputs, scoring
 
-    results = storage.open_results(results_file)
+    results = outputs.open_run(results_file)
     settings = loading.load_study(scoring_of).scoring if scoring_of else None
     typer.echo(scoring.ranking_text(scoring.score(results, settings)))
 

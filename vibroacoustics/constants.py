@@ -5,9 +5,6 @@ from typing import Final
 REFERENCE_PRESSURE_PA: Final = 20e-6
 """Reference sound pressure, Pa (ISO 1683)."""
 
-REFERENCE_POWER_W: Final = 1e-12
-"""Reference sound power, W (ISO 1683)."""
-
 SPEED_OF_SOUND_M_PER_S: Final = 343.0
 """Speed of sound in dry air at 20 °C, m/s (ISO 9613-1: 343.2)."""
 

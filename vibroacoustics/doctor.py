@@ -37,7 +37,7 @@ def _kwave() -> str:
     from .radiation import kwave
 
     try:
-        kwave.load_kwave()
+        kwave.check_kwave()
     except VibroacousticsError as error:
         return f"not usable: {error}"
     return "solver loads, without a network"

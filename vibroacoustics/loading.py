@@ -52,6 +52,9 @@ def load_study(path: str | Path) -> Study:
                 f"{origin_file}: scoring.published_table = {name!r}: must be a file name"
             )
         scoring["published"] = _read_published_table(_beside(origin_file, name))
+    for name in ("records", "source_file"):  # filled in here, not by a file
+        if name in content:
+            raise ParameterError(f"{path}: {name}: unknown key")
     content = reader.to_si(content, ())
     content.update(machine=machine, source_file=path.name)
     content["records"] = (*machine_records, *reader.records)

@@ -1,14 +1,50 @@
 """What a run leaves on disk: the dataset, the report, its tables and figures."""
 
+import os
 from pathlib import Path
 from typing import Final
 
 import xarray as xr
 
 from . import report, storage
+from .errors import StorageError
+from .provenance import SCHEMA_VERSION
 
 RESULTS_NAME: Final = "results.nc"
 REPORT_NAME: Final = "report.html"
+
+
+def open_run(path: str | Path) -> xr.Dataset:
+    """Results of a run, checked to be what a report and a score can be made of.
+
+    Raises
+    ------
+    StorageError
+        The file cannot be read, or holds something else, or another version of the vocabulary.
+    """
+    results = storage.open_results(path)
+    version = results.attrs.get("schema_version")
+    if version != SCHEMA_VERSION:
+        raise StorageError(
+            f"{path}: schema_version = {version}: is no result of this version's run; "
+            f"allowed {SCHEMA_VERSION}"
+        )
+    return results
+
+
+def check_folder(folder: str | Path) -> None:
+    """Refuse a folder that cannot be written, before anything is computed.
+
+    Raises
+    ------
+    StorageError
+        It lies under a file or in a folder without write permission.
+    """
+    existing = Path(folder).absolute()
+    while not existing.exists():
+        existing = existing.parent
+    if not existing.is_dir() or not os.access(existing, os.W_OK):
+        raise StorageError(f"{folder}: cannot be written: {existing} is no writable folder")
 
 
 def write_report(results: xr.Dataset, folder: str | Path) -> Path:

@@ -18,7 +18,16 @@ from .mechanisms import MECHANISMS
 from .moving_parts import Array, Balancing, MovingPart, wrench
 from .orders import order_spectrum, semi_major_axis
 from .parameters.study import Study
-from .schema import AXES, RIGID_BODY_DOFS, VARIABLES, WEIGHTINGS, check, label_coordinates, stamp
+from .schema import (
+    AXES,
+    REFERENCE_OPTION,
+    RIGID_BODY_DOFS,
+    VARIABLES,
+    WEIGHTINGS,
+    check,
+    label_coordinates,
+    stamp,
+)
 from .transfer import FOOT_NAMES, RigidBodyOnMounts
 from .units import shaft_frequency_hz
 
@@ -26,7 +35,6 @@ Progress = Callable[[str, int, int], None]
 """Called with what is being done, steps done and steps in all."""
 
 MOUNT_FREQUENCY_HZ: Final[Array] = np.asarray(np.geomspace(1.0, 200.0, 400), dtype=np.float64)
-REFERENCE_OPTION: Final = "none"
 
 
 def run(study: Study, progress: Progress = lambda *_: None) -> xr.Dataset:
@@ -242,14 +250,33 @@ def _transfer_vectors(study: Study, progress: Progress) -> tuple[xr.Dataset, boo
 
 def _pressures(results: xr.Dataset) -> xr.Dataset:
     """Pressure at each microphone: contraction of velocity and transfer vector over the dofs."""
-    transfer = radiation.interpolate_transfer_vector(
-        results["transfer_vector"], results["order_frequency"]
+    pressure, closed_form = (
+        xr.dot(
+            results["velocity_order"],
+            radiation.interpolate_transfer_vector(results[name], results["order_frequency"]),
+            dim="dof",
+        )
+        for name in ("transfer_vector", "transfer_vector_closed_form")
     )
-    pressure = xr.dot(results["velocity_order"], transfer, dim="dof")
     dims = VARIABLES["pressure_order"].dims
+    first, second = (
+        levels.sound_pressure_level(field.sel(order=1).sum("source").transpose(*_CHANGE).values)
+        for field in (pressure, closed_form)
+    )
     coords = {name: results[name] for name in dims}
-    values = pressure.transpose(*dims).values
-    return check(xr.Dataset({"pressure_order": stamp("pressure_order", values, coords)}))
+    return check(
+        xr.Dataset(
+            {
+                "pressure_order": stamp("pressure_order", pressure.transpose(*dims).values, coords),
+                "line_difference": stamp(
+                    "line_difference", first - second, {name: results[name] for name in _CHANGE}
+                ),
+            }
+        )
+    )
+
+
+_CHANGE: Final = ("speed", "option", "receiver")
 
 
 def _levels(study: Study, results: xr.Dataset) -> xr.Dataset:

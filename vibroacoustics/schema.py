@@ -20,7 +20,9 @@ AXES: Final = ("x", "y", "z")
 RIGID_BODY_DOFS: Final = ("tx", "ty", "tz", "rx", "ry", "rz")
 """Translations (m/s) and rotations (rad/s) along and about x, y, z at the centre of mass."""
 WEIGHTINGS: Final = ("Z", "A", "C")
-DOF_UNIT_NOTE: Final = "translations in m, rotations in rad"
+REFERENCE_OPTION: Final = "none"
+"""The option against which every change is told."""
+DOF_UNIT_NOTE: Final = "unit of the translations; for rotations with rad in place of m"
 
 COORDINATES: Final[dict[str, Variable]] = {
     "speed": Variable(("speed",), "rpm", "shaft speed"),
@@ -77,7 +79,7 @@ VARIABLES: Final[dict[str, Variable]] = {
         ("speed", "option", "foot", "order"), "N", "force into the foot, semi-major axis, peak"
     ),
     "natural_frequency": Variable(("mode",), "Hz", "natural frequency on the mounts"),
-    "mode_shape": Variable(("mode", "dof"), "1", "mass-normalised shape of the mode"),
+    "mode_shape": Variable(("mode", "dof"), "kg-1/2", "mass-normalised shape of the mode"),
     "mount_transmissibility": Variable(
         ("axis", "mount_frequency"), "1", "sum of foot forces per force at the centre of mass", True
     ),
@@ -92,6 +94,9 @@ VARIABLES: Final[dict[str, Variable]] = {
     ),
     "green_difference": Variable(
         ("receiver", "frequency"), "dB", "k-Wave's Green's function against the closed form"
+    ),
+    "line_difference": Variable(
+        _CHANGES, "dB", "1x level with k-Wave's Green's function against the closed form"
     ),
     "pressure_order": Variable(
         ("speed", "option", "source", "receiver", "order"), "Pa", "sound pressure", True
@@ -150,7 +155,9 @@ def stamp(
     if variable.complex_peak:
         labelled.attrs["phasor"] = "complex peak, x(t) = Re{X exp(+j w t)}"
     if "dof" in variable.dims:
-        labelled.attrs["note"] = DOF_UNIT_NOTE
+        labelled.attrs["note"] = (
+            "unit of the translations; rotations per m" if name == "mode_shape" else DOF_UNIT_NOTE
+        )
     return labelled
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from .errors import ParameterError
 from .parameters.study import PublishedTable, Scoring
-from .schema import check, stamp
+from .schema import REFERENCE_OPTION, check, stamp
 
 Real = NDArray[np.float64]
 
@@ -33,14 +33,16 @@ def level_change(results: xr.Dataset) -> xr.DataArray:
     """
     power = 10.0 ** (results["level_modelled"].sel(weighting="A") / 10.0)
     mean_level = 10.0 * xr.apply_ufunc(np.log10, power.mean("receiver"))
-    change: xr.DataArray = mean_level - mean_level.sel(option="none", drop=True)
+    change: xr.DataArray = mean_level - mean_level.sel(option=REFERENCE_OPTION, drop=True)
     return change.max("speed")
 
 
 def speed_sensitivity(results: xr.Dataset) -> xr.DataArray:
     """Spread over the speeds of the change of the 1x foot force against `none`, dB."""
     foot = results["foot_force_amplitude"].sel(order=1).max("foot")
-    ratio = (foot / foot.sel(option="none", drop=True)).clip(min=1e-6)  # below -120 dB is rounding
+    ratio = (foot / foot.sel(option=REFERENCE_OPTION, drop=True)).clip(
+        min=1e-6
+    )  # below -120 dB is rounding
     change: xr.DataArray = 20.0 * xr.apply_ufunc(np.log10, ratio)
     return change.max("speed") - change.min("speed")
 

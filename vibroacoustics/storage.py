@@ -30,7 +30,10 @@ def write_results(results: xr.Dataset, path: str | Path) -> Path:
     """
     path = Path(path)
     content = to_bytes(results)
-    _hash_path(path).unlink(missing_ok=True)
+    try:
+        _hash_path(path).unlink(missing_ok=True)
+    except OSError as error:
+        raise _not_writable(path, error) from None
     write_bytes(path, content)
     write_bytes(_hash_path(path), f"{sha256(content)}  {path.name}\n".encode())
     return path
@@ -75,7 +78,11 @@ def write_bytes(path: Path, content: bytes) -> None:
             raise
         _sync_folder(path.parent)
     except OSError as error:
-        raise StorageError(f"{path}: cannot be written: {error.strerror}") from None
+        raise _not_writable(path, error) from None
+
+
+def _not_writable(path: Path, error: OSError) -> StorageError:
+    return StorageError(f"{path}: cannot be written: {error.strerror}")
 
 
 def to_bytes(results: xr.Dataset) -> bytes:
@@ -125,9 +132,10 @@ def cached(
     path = cache_folder() / f"{kind}-{sha256(canonical_json(material).encode())[:32]}.nc"
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        lock = FileLock(f"{path}.lock").acquire()
     except OSError as error:
-        raise StorageError(f"{path}: cannot be written: {error.strerror}") from None
-    with FileLock(f"{path}.lock"):
+        raise _not_writable(path, error) from None
+    with lock:
         try:
             return open_results(path), True
         except StorageError:

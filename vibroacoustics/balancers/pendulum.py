@@ -147,7 +147,10 @@ def periodic_state(drive: Drive, guess: State) -> State:
     state = np.array(guess)
     for _ in range(NEWTON_STEPS):
         after, tangent = revolution(drive, state)
-        step = np.linalg.solve(tangent - np.eye(2), state - after)
+        try:
+            step = np.linalg.solve(tangent - np.eye(2), state - after)
+        except np.linalg.LinAlgError:  # a bifurcation: the motion is not isolated
+            break
         state = state + step
         if np.max(np.abs(step)) < STATE_TOLERANCE:
             return float(state[0]), float(state[1])

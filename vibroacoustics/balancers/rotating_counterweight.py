@@ -10,7 +10,7 @@ from ..parameters.options import RotatingCounterweight
 def rotating_counterweight(
     option: RotatingCounterweight, machine: Machine, speed_rpm: float, crank_angle: Array
 ) -> Balancing:
-    """Rotating mass moment opposite the crank pin, spread over both counterweights.
+    """Rotating mass moment opposite the crank pin, made by changes of both counterweights.
 
     A linear oscillation F cos ωt is two counter-rotating forces F/2. One half on the shaft
     cancels the forward one: the peak force halves in every direction (-6 dB). The two planes act

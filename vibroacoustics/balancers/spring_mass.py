@@ -81,7 +81,7 @@ def sprung_mass_response(
         No damping at resonance.
     """
     spring = 2.0 * stiffness_n_per_m
-    damper = 2.0 * damping_ratio * np.sqrt(spring * mass_kg)
+    damper = damping_coefficient(mass_kg, stiffness_n_per_m, damping_ratio)
     coupling = spring + 1j * angular_frequency * damper
     remainder = coupling - mass_kg * angular_frequency**2
     if abs(remainder) < 1e-9 * spring:
@@ -90,6 +90,11 @@ def sprung_mass_response(
             f"{angular_frequency * 30 / np.pi:.4g} rpm"
         )
     return complex(coupling / remainder)
+
+
+def damping_coefficient(mass_kg: float, stiffness_n_per_m: float, damping_ratio: float) -> float:
+    """Damper of the mass on both springs: c = 2 ζ √(2K m2), N s/m."""
+    return 2.0 * damping_ratio * float(np.sqrt(2.0 * stiffness_n_per_m * mass_kg))
 
 
 def _sprung_mass(
@@ -106,14 +111,16 @@ def _sprung_mass(
     amplitude = machine.kinematics.orbit_radius_m * ratio
     position = np.real(amplitude * np.exp(1j * crank_angle))
     height = machine.oldham.height_m - option.height_below_ring_m
-    damper = 2.0 * option.damping_ratio * np.sqrt(2.0 * option.stiffness_n_per_m * mass_kg)
+    damper = damping_coefficient(mass_kg, option.stiffness_n_per_m, option.damping_ratio)
+    resonance = np.sqrt(2.0 * option.stiffness_n_per_m / mass_kg)
     slip = angular_frequency * machine.kinematics.orbit_radius_m * abs(ratio - 1.0)
     return Balancing(
         (MovingPart("balancer", mass_kg, path(position, 0.0, height)),),
         {
             "added_mass_kg": mass_kg,
             "stroke_amplitude_mm": 1e3 * abs(amplitude),
-            "dissipated_power_w": 0.5 * damper * slip**2,
+            "resonance_speed_rpm": float(resonance) * 30.0 / np.pi,
+            "dissipated_power_w": float(0.5 * damper * slip**2),
         },
     )
 

@@ -4,6 +4,7 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
+from ..constants import SPEED_OF_SOUND_M_PER_S
 from .base import Parameters
 
 
@@ -21,7 +22,7 @@ class RadiationSettings(Parameters):
 
     @model_validator(mode="after")
     def _grids_resolve_the_wave(self) -> "RadiationSettings":
-        shortest_wave_m = 343.0 / self.maximum_frequency_hz
+        shortest_wave_m = SPEED_OF_SOUND_M_PER_S / self.maximum_frequency_hz
         for name, nodes in (("near_field_spacing_m", 8.0), ("room_spacing_m", 3.5)):
             largest = shortest_wave_m / nodes
             if getattr(self, name) > largest:

@@ -1,5 +1,7 @@
 """The compressor's shell as a sound radiator."""
 
+from math import hypot
+
 from pydantic import Field, model_validator
 
 from .base import Parameters
@@ -27,6 +29,12 @@ class Shell(Parameters):
     @property
     def radius_m(self) -> float:
         return self.outer_diameter_m / 2.0
+
+    def distance_m(self, x_m: float, y_m: float, height_m: float) -> float:
+        """Distance of a point, given by its height above the floor, from the shell's surface."""
+        above_bottom = height_m - self.floor_clearance_m
+        sideways = max(hypot(x_m, y_m) - self.radius_m, 0.0)
+        return hypot(sideways, max(above_bottom - self.height_m, -above_bottom, 0.0))
 
     @property
     def floor_z_m(self) -> float:

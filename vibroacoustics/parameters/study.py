@@ -4,6 +4,7 @@ from typing import Any, Literal
 
 from pydantic import Field, model_validator
 
+from ..schema import REFERENCE_OPTION
 from ..units import shaft_frequency_hz
 from .base import Parameters
 from .machine import Machine
@@ -111,12 +112,22 @@ class Study(Parameters):
 
     @model_validator(mode="after")
     def _consistent(self) -> "Study":
-        if not isinstance(self.options.get("none"), NoBalancer):
+        if not isinstance(self.options.get(REFERENCE_OPTION), NoBalancer):
             raise ValueError('options: an option named none with kind = "none" is required')
         if self.catalogue_receiver not in self.receivers:
             raise ValueError(
                 f"catalogue_receiver = {self.catalogue_receiver}: not among the receivers "
                 f"({', '.join(self.receivers)})"
+            )
+        microphone = self.receivers[self.catalogue_receiver]
+        distance = self.machine.shell.distance_m(
+            microphone.x_m, microphone.y_m, microphone.height_m
+        )
+        published = self.machine.published_noise
+        if not 0.95 <= distance / published.distance_m <= 1.05:
+            raise ValueError(
+                f"catalogue_receiver = {self.catalogue_receiver}: stands {distance:.3g} m from the "
+                f"shell; the published noise holds at {published.distance_m:g} m"
             )
         highest = self.operation.maximum_order * shaft_frequency_hz(max(self.operation.speed_rpm))
         if highest > self.radiation.maximum_frequency_hz:
@@ -124,10 +135,10 @@ class Study(Parameters):
                 f"radiation.maximum_frequency_hz = {self.radiation.maximum_frequency_hz:g} Hz: "
                 f"order {self.operation.maximum_order} reaches {highest:g} Hz"
             )
-        if self.machine.published_noise.speed_rpm not in self.operation.speed_rpm:
+        if published.speed_rpm not in self.operation.speed_rpm:
             raise ValueError(
                 "operation.speed_rpm: must include the speed of the published noise, "
-                f"{self.machine.published_noise.speed_rpm:g} rpm, to fix the remainder"
+                f"{published.speed_rpm:g} rpm, to fix the remainder"
             )
         return self
 

@@ -1,6 +1,5 @@
 """From the shell's velocity to the pressure at the microphones."""
 
-from .interpolation import interpolate
 from .transfer_vectors import cache_key_material, interpolate_transfer_vector, transfer_vectors
 
-__all__ = ["cache_key_material", "interpolate", "interpolate_transfer_vector", "transfer_vectors"]
+__all__ = ["cache_key_material", "interpolate_transfer_vector", "transfer_vectors"]

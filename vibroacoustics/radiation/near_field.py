@@ -148,7 +148,7 @@ def _grid_frequency(frequency_hz: Array, grid: NearGrid) -> tuple[Array, Array]:
 
 
 def _check_memory(shape: tuple[int, int, int]) -> None:
-    needed = _BYTES_PER_CELL * float(np.prod(shape)) / 2**30
+    needed = _BYTES_PER_CELL * np.prod(shape, dtype=float) / 2**30
     available = psutil.virtual_memory().available / 2**30
     if needed > available:
         raise ParameterError(

@@ -27,7 +27,11 @@ NOT_MODELLED: Final = (
     "Both bobs of a pendulum option are taken on the same side, so that their vertical forces add; "
     "on opposite sides the vertical 1× force would cancel. Stops are not modelled.",
     "A weight on the shaft turns: it lowers the force along the stroke of the ring and makes one "
-    "across it.",
+    "across it. The machine's own counterweights may already hold part of it; they are taken to "
+    "balance scroll, pin and brake only.",
+    "A second ring has no gas force that presses its keys: they are likely to rattle, which can be "
+    "louder than the 1× line that it removes. A sprung mass is tuned to one speed.",
+    "Levels hold at the study's microphones; a rocking machine sounds louder in other directions.",
     "The weight of moving parts times their sideways shift is left out of the moment: some mN m.",
     "The shaft turns at constant speed; torque ripple, twice-line torque of the motor and key "
     "slap are not modelled.",

@@ -8,8 +8,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..schema import REFERENCE_OPTION
 from . import rounding
-from .study import REFERENCE_OPTION, catalogue_receiver, first_order_hz, options, speeds
+from .study import catalogue_receiver, first_order_hz, options, speeds
 from .tables import Table, to_csv, to_text
 
 HEADS: Final = {
@@ -45,14 +46,20 @@ _SOURCES: Final[dict[str, Callable[[xr.Dataset], xr.DataArray]]] = {
 }
 
 _TERMINAL: Final = {
-    "force_1x_n": "force 1x N",
-    "moment_1x_nm": "moment N m",
+    "force_1x_n": "1x N",
+    "force_2x_n": "2x N",
+    "moment_1x_nm": "1x N m",
     "foot_force_1x_n": "foot 1x N",
     "level_1x_db": "1x dB",
-    "level_modelled_dba": "modelled dB(A)",
+    "level_2x_db": "2x dB",
+    "level_modelled_dba": "model dB(A)",
     "change_1x_db": "Δ1x dB",
     "change_total_dba": "Δtotal dB",
 }
+
+
+_BESIDE: Final[dict[str, str]] = {"level_modelled_db": "Z", "level_modelled_dbc": "C"}
+"""Further columns of the CSV: the modelled level in the other weightings."""
 
 
 def column(results: xr.Dataset, name: str) -> xr.DataArray:
@@ -77,9 +84,14 @@ def comparison_csv(results: xr.Dataset) -> bytes:
     compared = comparison(results)
     receivers = [str(name) for name in compared["receiver"].values]
     keys: Iterable[tuple[str | float, ...]] = product(options(results), speeds(results), receivers)
-    values = zip(*(compared[name].values.ravel() for name in COLUMNS), strict=True)
+    beside = (
+        results["level_modelled"].sel(weighting=weighting).transpose("option", "speed", "receiver")
+        for weighting in _BESIDE.values()
+    )
+    arrays = [*(compared[name] for name in COLUMNS), *beside]
+    values = zip(*(array.values.ravel() for array in arrays), strict=True)
     rows = [(*key, *map(float, row)) for key, row in zip(keys, values, strict=True)]
-    return to_csv(("option", "speed_rpm", "receiver", *COLUMNS), rows)
+    return to_csv(("option", "speed_rpm", "receiver", *COLUMNS, *_BESIDE), rows)
 
 
 def comparison_tables(results: xr.Dataset, receiver: str) -> list[Table]:

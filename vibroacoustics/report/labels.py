@@ -25,6 +25,7 @@ _NAMES: Final = {
     "hanging_multiplier": "Growth per revolution when hanging (Floquet multiplier)",
     "settled_multiplier": "Growth per revolution when settled (Floquet multiplier)",
     "stroke_amplitude_mm": "Stroke amplitude of the sprung mass",
+    "resonance_speed_rpm": "Speed at which the sprung mass resonates",
     "dissipated_power_w": "Dissipated power",
     "weighted_sum": "Weighted sum",
     "topsis": "TOPSIS",

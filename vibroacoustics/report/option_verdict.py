@@ -77,8 +77,9 @@ def fact_sentences(known: Facts, judgement: str) -> list[str]:
 
 def _shift_sentence(shifts: Sequence[Shift], judgement: str, receiver: str) -> str:
     if judgement == NO_CHANGE:
-        return "1× force, 1× moment, 1× foot force and 1× line stay the same."
-    parts = [f"the {own.quantity.words} {own.sentence()}" for own in shifts[:-1]]
+        return "1× force, 1× moment, 1× foot force, 1× line and modelled level stay the same."
+    mechanical = [own for own in shifts if not own.quantity.is_level]
+    parts = [f"the {own.quantity.words} {own.sentence()}" for own in mechanical]
     return f"At 1×, {'; '.join(parts)}. ".replace("the 1× ", "the ") + (
         f"At {receiver} the 1× line {shifts[-1].sentence()}."
     )
@@ -139,6 +140,14 @@ def _stroke(known: Facts, judgement: str) -> str:
     return f"Its mass moves with an amplitude of {rounding.span(stroke, rounding.significant)} mm."
 
 
+def _resonance(known: Facts, judgement: str) -> str:
+    speed = known.get("resonance_speed_rpm")
+    if speed is None:
+        return ""
+    size = rounding.span(speed, lambda value: rounding.fixed(value, 0))
+    return f"Its mass resonates on the springs at {size} rpm, also on the way up to speed."
+
+
 def _power(known: Facts, judgement: str) -> str:
     power = known.get("dissipated_power_w")
     if power is None:
@@ -160,6 +169,7 @@ _FACT_SENTENCES: Final[tuple[Callable[[Facts, str], str], ...]] = (
     _hanging,
     _settled,
     _stroke,
+    _resonance,
     _power,
     _mass,
 )

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from . import labels, rounding
-from .study import options
+from .study import options, parameters
 from .tables import Table, to_csv
 
 SUM_TOLERANCE: Final = 1e-6
@@ -102,7 +102,11 @@ def wrong_sums(results: xr.Dataset) -> list[str]:
 
 def published_source(results: xr.Dataset) -> str:
     """Where the published scores are printed."""
-    return str(results["published_score"].attrs["source"]) if "published_score" in results else ""
+    return (
+        str(parameters(results)["scoring"]["published"]["source"])
+        if "published_score" in results
+        else ""
+    )
 
 
 def _scores_row(of_option: xr.Dataset, option: str, methods: list[str]) -> tuple[str, ...]:

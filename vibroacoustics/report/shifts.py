@@ -7,9 +7,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..schema import REFERENCE_OPTION
 from . import rounding
 from .comparison import column
-from .study import REFERENCE_OPTION, catalogue_receiver
+from .study import catalogue_receiver
 
 NO_BREAK: Final = "\u00a0"
 
@@ -47,7 +48,7 @@ LINE: Final = Quantity("level_1x_db", "1× line", "dB")
 MODELLED: Final = Quantity("level_modelled_dba", "modelled level", "dB(A)")
 TOTAL: Final = Quantity("level_total_dba", "total level", "dB(A)")
 
-JUDGED: Final = (FORCE, MOMENT, FOOT_FORCE, LINE)
+JUDGED: Final = (FORCE, MOMENT, FOOT_FORCE, MODELLED, LINE)
 """An option is called better or worse by these."""
 
 

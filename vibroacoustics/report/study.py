@@ -1,15 +1,14 @@
 """What the report reads from the attributes of a results dataset."""
 
 import json
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..schema import REFERENCE_OPTION
 from ..units import shaft_frequency_hz
-
-REFERENCE_OPTION: Final = "none"
 
 
 def parameters(results: xr.Dataset) -> dict[str, Any]:

@@ -6,12 +6,12 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
+from ..schema import REFERENCE_OPTION
 from . import labels, rounding
 from .comparison import column, comparison
-from .option_verdict import MIXED, NO_CHANGE, WORSE, OptionVerdict, option_verdicts
+from .option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, OptionVerdict, option_verdicts
 from .shifts import FOOT_FORCE, FORCE, LINE, MODELLED, MOMENT, TOTAL, Quantity, at_receiver, shift
 from .study import (
-    REFERENCE_OPTION,
     balancers,
     catalogue_receiver,
     first_order_hz,
@@ -150,10 +150,20 @@ def _ranking(results: xr.Dataset) -> str:
     draws = parameters(results)["scoring"]["random_weightings"]
     verb = "ranks" if len(winners) == 1 else "rank"
     score = rounding.fixed(float(own["score"].max()), 2)
+    unlucky = [
+        option.option
+        for option in option_verdicts(results)
+        if option.judgement == BETTER
+        and own["rank"].sel(option=option.option) > own["rank"].sel(option=REFERENCE_OPTION)
+    ]
+    behind = (
+        f" {' and '.join(unlucky)} ranks below {REFERENCE_OPTION} all the same: no balancer adds "
+        "no mass and does not depend on the speed."
+    )
     return (
         f"By the study's weights {' and '.join(winners)} {verb} first "
         f"({labels.name(method).lower()}, score {score} of 1), "
-        f"and in {share:.0f} % of {draws} weightings drawn at random."
+        f"and in {share:.0f} % of {draws} weightings drawn at random.{behind if unlucky else ''}"
     )
 
 

@@ -73,6 +73,7 @@ def level_figures(results: xr.Dataset) -> list[Picture]:
 
 
 def _transfer(results: xr.Dataset, receiver: str) -> Picture:
+    receivers = results["receiver"].values.tolist()
     simulated = abs(results["transfer_vector"].sel(receiver=receiver))
     closed = abs(results["transfer_vector_closed_form"].sel(receiver=receiver))
 
@@ -86,7 +87,7 @@ def _transfer(results: xr.Dataset, receiver: str) -> Picture:
         panels[-1].set_xlabel("Frequency, Hz")
 
     return Picture(
-        f"transfer_{file_name(receiver)}",
+        f"transfer_{1 + receivers.index(receiver)}_{file_name(receiver)}",
         f"Sound pressure at {receiver} per velocity of the housing against frequency, for "
         "translations and rotations; k-Wave and closed form.",
         f"Sound pressure at {receiver} per velocity of the housing: coloured lines with k-Wave's "
