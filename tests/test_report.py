@@ -380,7 +380,7 @@ def test_names_are_escaped() -> None:
     assert "<script" not in page["report.html"].decode()
     assert "&lt;script&gt;" in page["report.html"].decode()
     assert "<script" not in page["comparison.md"].decode()
-    assert "figures/transfer_1_a_b_.png" in page
+    assert "figures/transfer_a_b_.png" in page
 
 
 def test_the_report_is_the_same_twice(results: xr.Dataset, files: dict[str, bytes]) -> None:

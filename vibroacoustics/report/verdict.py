@@ -48,7 +48,8 @@ def reasons(results: xr.Dataset) -> list[str]:
     texts = [_as_it_is(results), _remainder(results)]
     if not balancers(results):
         return texts
-    return [*texts, *_warnings(option_verdicts(results)), _ranking(results)]
+    verdicts = option_verdicts(results)
+    return [*texts, *_warnings(verdicts), _ranking(results, verdicts)]
 
 
 def extremes_table(results: xr.Dataset) -> Table | None:
@@ -141,7 +142,7 @@ def _warnings(verdicts: Sequence[OptionVerdict]) -> list[str]:
     return [text for text in texts if text]
 
 
-def _ranking(results: xr.Dataset) -> str:
+def _ranking(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> str:
     """Which option the study's weights prefer, and how sure that is."""
     method = str(results["scoring_method"].values[0])
     own = results[["score", "rank", "first_place_share"]].sel({"scoring_method": method})
@@ -152,7 +153,7 @@ def _ranking(results: xr.Dataset) -> str:
     score = rounding.fixed(float(own["score"].max()), 2)
     unlucky = [
         option.option
-        for option in option_verdicts(results)
+        for option in verdicts
         if option.judgement == BETTER
         and own["rank"].sel(option=option.option) > own["rank"].sel(option=REFERENCE_OPTION)
     ]

@@ -28,9 +28,8 @@ _KINDS: Final = (("translations", "t", "Pa per m/s"), ("rotations", "r", "Pa per
 
 
 def transfer_figures(results: xr.Dataset) -> list[Picture]:
-    """Transfer vectors, a figure per microphone, and the check of k-Wave's Green's function."""
-    receivers = [str(name) for name in results["receiver"].values]
-    return [*(_transfer(results, receiver) for receiver in receivers), _difference(results)]
+    """Transfer vectors at the catalogue's microphone, and the check of k-Wave's at all."""
+    return [_transfer(results, catalogue_receiver(results)), _difference(results)]
 
 
 def level_figures(results: xr.Dataset) -> list[Picture]:
@@ -73,7 +72,6 @@ def level_figures(results: xr.Dataset) -> list[Picture]:
 
 
 def _transfer(results: xr.Dataset, receiver: str) -> Picture:
-    receivers = results["receiver"].values.tolist()
     simulated = abs(results["transfer_vector"].sel(receiver=receiver))
     closed = abs(results["transfer_vector_closed_form"].sel(receiver=receiver))
 
@@ -87,13 +85,13 @@ def _transfer(results: xr.Dataset, receiver: str) -> Picture:
         panels[-1].set_xlabel("Frequency, Hz")
 
     return Picture(
-        f"transfer_{1 + receivers.index(receiver)}_{file_name(receiver)}",
+        f"transfer_{file_name(receiver)}",
         f"Sound pressure at {receiver} per velocity of the housing against frequency, for "
         "translations and rotations; k-Wave and closed form.",
         f"Sound pressure at {receiver} per velocity of the housing: coloured lines with k-Wave's "
         "Green's function, black dots with the closed form. tx, ty, tz: motion along x, y, z; "
         "rx, ry, rz: rotation about them; motions that do not radiate there are left out. "
-        "Upright dotted lines: 1× at the speeds of the study.",
+        "Upright dotted lines: 1× at the speeds of the study. Other microphones: in results.nc.",
         draw(2, 2.5, paint, 0, sharex=True),
     )
 

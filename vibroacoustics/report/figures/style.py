@@ -58,6 +58,10 @@ class Picture(NamedTuple):
     png: bytes
 
 
+FAST: Final = {"compress_level": 1}
+"""Larger files by a third, written in half the time."""
+
+
 def draw(
     panels: int,
     panel_height_inch: float,
@@ -78,8 +82,8 @@ def draw(
         paint(axes)
         content = io.BytesIO()
         layout.execute(figure)  # once; saving with a layout engine would draw everything twice
-        figure.set_layout_engine("none")
-        figure.savefig(content, format="png", metadata={"Software": None})
+        figure.set_layout_engine(None)
+        figure.savefig(content, format="png", metadata={"Software": None}, pil_kwargs=FAST)
     return content.getvalue()
 
 
