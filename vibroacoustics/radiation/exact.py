@@ -1,11 +1,14 @@
 """Closed forms: Green's functions and the radiation of spheres. Time factor exp(+j omega t)."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy import special
 
 from ..constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from .arrays import Array, ComplexArray
 from .box import Box, BoxField
+from .mirrors import Mirror, images
 
 
 def wavenumber(frequency_hz: Array) -> Array:
@@ -26,24 +29,25 @@ def free_green(points: Array, source: Array, frequency_hz: Array) -> ComplexArra
 
 
 def green(
-    points: Array, source: Array, frequency_hz: Array, floor_z_m: float | None
+    points: Array, source: Array, frequency_hz: Array, mirrors: Sequence[Mirror] = ()
 ) -> ComplexArray:
-    """Green's function in free field (no floor), or above a hard floor.
+    """Green's function of a room of plane walls: the sum over the source's images, 1/m.
 
-    The floor adds the source's equal mirror image.
+    Exact for hard walls at right angles to each other (Pierce, Acoustics (2019), section 5.1).
     """
-    direct = free_green(points, source, frequency_hz)
-    if floor_z_m is None:
-        return direct
-    image = np.array([source[0], source[1], 2.0 * floor_z_m - source[2]])
-    return direct + free_green(points, image, frequency_hz)
+    total = np.zeros((np.size(frequency_hz), points.shape[0]), dtype=complex)
+    for position, strength in zip(*images(source, mirrors), strict=True):
+        total += strength * free_green(points, position, frequency_hz)
+    return total
 
 
-def box_green(box: Box, source: Array, frequency_hz: Array, floor_z_m: float | None) -> BoxField:
+def box_green(
+    box: Box, source: Array, frequency_hz: Array, mirrors: Sequence[Mirror] = ()
+) -> BoxField:
     """Green's function on both layers of a box."""
     return BoxField(
-        green(box.inner, source, frequency_hz, floor_z_m),
-        green(box.outer, source, frequency_hz, floor_z_m),
+        green(box.inner, source, frequency_hz, mirrors),
+        green(box.outer, source, frequency_hz, mirrors),
     )
 
 
