@@ -140,8 +140,7 @@ class StockEngine:
 def array_namespace() -> Any:
     """CuPy, where it is installed and finds a device, else NumPy."""
     try:
-        import cupy
-
+        cupy: Any = importlib.import_module("cupy")
         return cupy if cupy.cuda.runtime.getDeviceCount() > 0 else np
     except Exception:  # no CuPy, no driver or no device: CuPy has an exception for each
         return np

@@ -22,7 +22,7 @@ Layouts, with half lengths h = n//2 + 1: pressure (x, y, hz); fields of axis 0 (
 along the first.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any, Final
@@ -35,7 +35,7 @@ from numpy.typing import DTypeLike
 from .arrays import Array, ComplexArray
 from .fft import LINE_AXIS, Slab, slab_type
 
-_SLAB_BYTES: Final = 2**17
+_SLAB_BYTES: Final = 2**18
 """Size of a slab's work array: two of them and what they are combined with fit the cache."""
 _VALUES_PER_NODE: Final = 12.5
 """Two pressures; three velocities, densities and footprints; k-space correction in each layout."""
@@ -119,9 +119,7 @@ class SpectralStep:
         signal = float(self._signal[done]) if done < self._signal.size else None
         for field in self._fields:
             self._each_thread(
-                lambda thread, field=field: field.advance(
-                    thread, self._pressure, self._next_pressure, signal
-                )
+                field.advance, iter(field.slabs), self._pressure, self._next_pressure, signal
             )
         self._pressure, self._next_pressure = self._next_pressure, self._pressure
         self._steps_done += 1
@@ -134,9 +132,8 @@ class SpectralStep:
         along_x, along_y, along_z = block or (slice(None),) * 3
         rows = range(self._shape[0])[along_x]
         part = np.empty((len(rows), *self._pressure.shape[1:]), dtype=self._pressure.dtype)
-        self._each_thread(
-            lambda thread: self._fields[0].read(thread, self._pressure, along_x, part)
-        )
+        field = self._fields[0]
+        self._each_thread(field.read, iter(field.slabs), self._pressure, along_x, part)
         part = scipy.fft.ifft(part, axis=1)[:, along_y] / self._shape[0]
         result: Array = scipy.fft.irfft(part, n=self._shape[2], axis=2)[:, :, along_z]
         return result
@@ -152,11 +149,14 @@ class SpectralStep:
     def __exit__(self, *error: object) -> None:
         self.close()
 
-    def _each_thread(self, work: Callable[[int], None]) -> None:
+    def _each_thread(self, work: Callable[..., None], *arguments: Any) -> None:
+        """Call a function in each thread, with its number first; they share the arguments."""
         if self._pool is None:
-            work(0)
+            work(0, *arguments)
         else:
-            list(self._pool.map(work, range(self._threads)))
+            calls = [self._pool.submit(work, thread, *arguments) for thread in range(self._threads)]
+            for call in calls:
+                call.result()
 
 
 class _AxisField:
@@ -194,16 +194,32 @@ class _AxisField:
         self._velocity_factor = real.type(velocity_factor / nodes)
         self._density_factor = real.type(density_factor / nodes)
         self._pressure_factor = real.type(pressure_factor)
-        self._slabs = [
-            _slabs(self._velocity, LINE_AXIS[axis], thread, threads) for thread in range(threads)
+        self.slabs = _slabs(self._velocity)
+        sizes = {planes.stop - planes.start for planes in self.slabs}
+        self._work: list[dict[int, Slab]] = [
+            {
+                size: slab_type()((size, *lines), LINE_AXIS[axis], self._velocity.dtype)
+                for size in sizes
+            }
+            for _ in range(threads)
         ]
 
     def advance(
-        self, thread: int, old: ComplexArray, new: ComplexArray, signal: float | None
+        self,
+        thread: int,
+        slabs: Iterator[slice],
+        old: ComplexArray,
+        new: ComplexArray,
+        signal: float | None,
     ) -> None:
-        """Advance a thread's share of the lines, and add their density to the new pressure."""
+        """Advance slabs while there are any, and add their density to the new pressure.
+
+        Threads share the iterator: a slower one gets fewer slabs. No two slabs write to the same
+        numbers, so the result does not depend on who takes which.
+        """
         real = self._correction.dtype.type
-        for planes, slab in self._slabs[thread]:
+        for planes in slabs:
+            slab = self._work[thread][planes.stop - planes.start]
             first, correction = planes.start, self._correction[planes]
             lines, positions = slab.wavenumber, slab.position.view(real)
             velocity, density = self._velocity[planes], self._density[planes]
@@ -220,9 +236,17 @@ class _AxisField:
             slab.to_wavenumber()
             _SCATTER[self._axis](lines, first, new, self._pressure_factor)
 
-    def read(self, thread: int, pressure: ComplexArray, rows: slice, part: ComplexArray) -> None:
-        """Fill a thread's share of the pressure at some positions of axis 0."""
-        for planes, slab in self._slabs[thread]:
+    def read(
+        self,
+        thread: int,
+        slabs: Iterator[slice],
+        pressure: ComplexArray,
+        rows: slice,
+        part: ComplexArray,
+    ) -> None:
+        """Fill slabs of the pressure at some positions of axis 0."""
+        for planes in slabs:
+            slab = self._work[thread][planes.stop - planes.start]
             _GATHER[0](pressure, planes.start, slab.wavenumber)
             slab.to_position()
             part[:, planes] = slab.position[:, rows].swapaxes(0, 1)
@@ -239,19 +263,11 @@ def half_shape(shape: Sequence[int]) -> tuple[int, ...]:
     return (*shape[:-1], shape[-1] // 2 + 1)
 
 
-def _slabs(
-    field: ComplexArray, line_axis: int, thread: int, threads: int
-) -> list[tuple[slice, Slab]]:
-    """Every `threads`-th slab of a field, as planes and work arrays; these are shared by size."""
+def _slabs(field: ComplexArray) -> list[slice]:
+    """Planes of a field in portions of the work arrays' size."""
+    planes = field.shape[0]
     count = max(1, _SLAB_BYTES // field[0].nbytes)
-    work: dict[int, Slab] = {}
-    slabs = []
-    for first in range(thread * count, field.shape[0], threads * count):
-        size = min(count, field.shape[0] - first)
-        if size not in work:
-            work[size] = slab_type()((size, *field.shape[1:]), line_axis, field.dtype)
-        slabs.append((slice(first, first + size), work[size]))
-    return slabs
+    return [slice(first, min(first + count, planes)) for first in range(0, planes, count)]
 
 
 def _of_wavenumber(
@@ -339,7 +355,9 @@ def _gather_z(pressure: ComplexArray, first: int, lines: ComplexArray) -> None:
 
 
 @_kernel
-def _scatter_x(lines: ComplexArray, first: int, pressure: ComplexArray, factor: float) -> None:
+def _scatter_x(
+    lines: ComplexArray, first: int, pressure: ComplexArray, factor: np.floating[Any]
+) -> None:
     """Write the pressure of a new step: x comes first, the others add to it."""
     for plane in range(lines.shape[0]):
         for x in range(lines.shape[1]):
@@ -349,7 +367,9 @@ def _scatter_x(lines: ComplexArray, first: int, pressure: ComplexArray, factor: 
 
 
 @_kernel
-def _scatter_y(lines: ComplexArray, first: int, pressure: ComplexArray, factor: float) -> None:
+def _scatter_y(
+    lines: ComplexArray, first: int, pressure: ComplexArray, factor: np.floating[Any]
+) -> None:
     for plane in range(lines.shape[0]):
         for y in range(lines.shape[1]):
             line, row = lines[plane, y], pressure[first + plane, y]
@@ -358,7 +378,9 @@ def _scatter_y(lines: ComplexArray, first: int, pressure: ComplexArray, factor: 
 
 
 @_kernel
-def _scatter_z(lines: ComplexArray, first: int, pressure: ComplexArray, factor: float) -> None:
+def _scatter_z(
+    lines: ComplexArray, first: int, pressure: ComplexArray, factor: np.floating[Any]
+) -> None:
     """Add to wavenumbers (kx, ky) and, the fields being real, to (-kx, -ky)."""
     nx, ny, half = pressure.shape
     nz = lines.shape[2]
@@ -390,7 +412,7 @@ def _multiply(lines: ComplexArray, correction: Array, derivative: ComplexArray) 
 
 
 @_kernel
-def _advance(field: Array, change: Array, damping: Array, factor: float) -> None:
+def _advance(field: Array, change: Array, damping: Array, factor: np.floating[Any]) -> None:
     """Field <- d (d field - factor change), kept and put in place of the change."""
     for plane in range(field.shape[0]):
         for row in range(field.shape[1]):
@@ -402,7 +424,9 @@ def _advance(field: Array, change: Array, damping: Array, factor: float) -> None
 
 
 @_kernel
-def _add(field: ComplexArray, copy: ComplexArray, footprint: ComplexArray, factor: float) -> None:
+def _add(
+    field: ComplexArray, copy: ComplexArray, footprint: ComplexArray, factor: np.floating[Any]
+) -> None:
     for plane in range(field.shape[0]):
         for row in range(field.shape[1]):
             for column in range(field.shape[2]):
