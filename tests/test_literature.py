@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from support import CRANK_ANGLE, balancing, machine_parts, wrench_orders
 
-from vibroacoustics import levels, scoring
+from vibroacoustics import levels, scoring, sound_power
 from vibroacoustics.balancers.pendulum import (
     Drive,
     multiplier,
@@ -322,3 +322,38 @@ def test_frequency_weightings_of_iec_61672_1(n, a_db, c_db):
 def test_one_pascal_rms_is_93_98_db():
     # 20 lg(1 / 20e-6) = 93.979
     assert levels.sound_pressure_level(np.sqrt(2.0)) == pytest.approx(93.979400, abs=1e-6)
+
+
+# --- sound power ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("margin", "correction"),
+    [(6.0, 1.3), (10.0, 0.5)],  # ISO 3744:2010, 8.2.3; ISO 3741:2010, 9.1.4
+)
+def test_background_corrections_as_printed(margin, correction):
+    assert sound_power.background_correction_db(margin) == pytest.approx(correction, abs=0.05)
+
+
+def test_sound_power_of_a_printed_example():
+    """Test sheet of phonometry for ISO 3744 (MIT licence): S = 100.53 m², Lp 70.5 to 64.5 dB in
+    octaves from 63 Hz to 8 kHz gives LW 90.5 to 84.5 dB, LW 105.8 dB and LWA 103.7 dB. The sums
+    may err by half a digit of their parts besides that of their own."""
+    pressure = np.array([70.5, 74.5, 78.5, 80.5, 79.5, 76.5, 71.5, 64.5])
+    surface = sound_power.hemisphere_area_m2(4.0)
+    assert surface == pytest.approx(100.53, abs=0.005)
+    power = sound_power.sound_power_level(pressure, surface)
+    assert power == pytest.approx(pressure + 20.0, abs=0.05)
+    octaves = 1000.0 * 10.0 ** (0.3 * np.arange(-4, 4))
+    assert levels.energy_sum(power, axis=0) == pytest.approx(105.8, abs=0.1)
+    total = sound_power.a_weighted_level(power, levels.a_weighting(octaves))
+    assert total == pytest.approx(103.7, abs=0.1)
+
+
+@pytest.mark.parametrize(
+    ("frequency", "overstated"), [(48.0, 3.6), (58.0, 2.8), (97.0, 1.2), (117.0, 0.9)]
+)
+def test_near_field_of_a_dipole_at_1_m(frequency, overstated):
+    """radiation.md: p² of a dipole at 1 m overstates the sound power by 10 lg(1 + 1/(kr)²)."""
+    wavenumber = 2.0 * np.pi * frequency / 343.0
+    assert 10.0 * np.log10(1.0 + wavenumber**-2) == pytest.approx(overstated, abs=0.05)

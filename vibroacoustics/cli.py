@@ -1,4 +1,7 @@
-"""The command line: run, report, score, doctor. Heavy imports wait until a command needs them."""
+"""The command line: run, radiation, report, score, doctor.
+
+Heavy imports wait until a command needs them.
+"""
 
 import sys
 from collections.abc import Callable, Iterator
@@ -55,6 +58,27 @@ def run_command(
     written = outputs.write_all(results, folder)
     typer.echo(report.comparison_text(results))
     typer.echo(f"report: {written}")
+
+
+@app.command("radiation")
+def radiation_command(
+    study_file: StudyFile,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE STUDY."),
+    ] = None,
+) -> None:
+    """Compute the housing's radiation alone: transfer vectors, map, directivity, sound power."""
+    from . import loading, outputs, pipeline, report
+
+    folder = out or Path("reports") / study_file.stem
+    study = loading.load_study(study_file)
+    outputs.check_folder(folder)
+    with _progress_bar() as progress:
+        radiated = pipeline.radiate(study, progress)
+    written = outputs.write_radiation(radiated, folder)
+    typer.echo(report.radiation_text(radiated))
+    typer.echo(f"transfer vectors: {written}")
 
 
 @app.command("report")

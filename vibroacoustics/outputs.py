@@ -12,6 +12,7 @@ from .provenance import SCHEMA_VERSION
 
 RESULTS_NAME: Final = "results.nc"
 REPORT_NAME: Final = "report.html"
+TRANSFER_VECTORS_NAME: Final = "transfer_vectors.nc"
 
 
 def open_run(path: str | Path) -> xr.Dataset:
@@ -66,3 +67,18 @@ def write_all(results: xr.Dataset, folder: str | Path) -> Path:
     """Write the dataset and then the report; returns the path of the report."""
     storage.write_results(results, Path(folder) / RESULTS_NAME)
     return write_report(results, folder)
+
+
+def write_radiation(radiated: xr.Dataset, folder: str | Path) -> Path:
+    """Write transfer vectors and their figures, each whole or not at all; the dataset last.
+
+    Everything is rendered before the first file is written.
+
+    Returns
+    -------
+    path of the dataset
+    """
+    pictures = report.radiation_figures(radiated)
+    for picture in pictures:
+        storage.write_bytes(Path(folder) / f"{picture.name}.png", picture.png)
+    return storage.write_results(radiated, Path(folder) / TRANSFER_VECTORS_NAME)

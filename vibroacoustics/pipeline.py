@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from . import levels, provenance, radiation, scoring, storage
+from . import levels, provenance, radiation, scoring, sound_power, storage
 from .balancers import BALANCERS
 from .constants import REFERENCE_PRESSURE_PA
 from .errors import ParameterError
@@ -33,6 +33,9 @@ from .units import shaft_frequency_hz
 
 Progress = Callable[[str, int, int], None]
 """Called with what is being done, steps done and steps in all."""
+
+UNIT_VELOCITY_PEAK: Final = np.sqrt(2.0) * 1e-3
+"""1 mm/s (1 mrad/s) root mean square as a peak."""
 
 MOUNT_FREQUENCY_HZ: Final[Array] = np.asarray(np.geomspace(1.0, 200.0, 400), dtype=np.float64)
 
@@ -58,6 +61,51 @@ def run(study: Study, progress: Progress = lambda *_: None) -> xr.Dataset:
         return _run(study, progress)
     except ParameterError as error:
         raise ParameterError(f"{study.source_file}: {error}") from None
+
+
+def radiate(study: Study, progress: Progress = lambda *_: None) -> xr.Dataset:
+    """Only the radiation of the housing: transfer vectors, from the cache if they are there.
+
+    Parameters
+    ----------
+    study : from `load_study`
+    progress : told of the advance of long work
+
+    Raises
+    ------
+    ParameterError, SolverError, StorageError
+        An input is out of range, a computation failed, the cache cannot be written.
+    """
+    try:
+        radiated, was_cached = _transfer_vectors(study, progress)
+    except ParameterError as error:
+        raise ParameterError(f"{study.source_file}: {error}") from None
+    results = radiated.assign_attrs(
+        provenance.attributes(study),
+        reference_pressure_pa=REFERENCE_PRESSURE_PA,
+        transfer_vectors="from the cache" if was_cached else "computed in this run",
+        radiation=provenance.canonical_json(radiated.attrs),
+    )
+    return check(label_coordinates(results))
+
+
+def unit_sound_power(surface_transfer_vector: xr.DataArray, surface_m2: float) -> xr.DataArray:
+    """Sound power level (dof, frequency) of a housing that moves at 1 mm/s or 1 mrad/s rms, dB.
+
+    Parameters
+    ----------
+    surface_transfer_vector : (position, dof, frequency), at the positions of an arrangement
+    surface_m2 : area of its measurement surface, m²
+    """
+    ordered = surface_transfer_vector.transpose("position", "dof", "frequency")
+    peak = UNIT_VELOCITY_PEAK * ordered.values
+    mean = sound_power.energy_mean(levels.sound_pressure_level(peak), axis=0)
+    return stamp(
+        "unit_sound_power_level",
+        sound_power.sound_power_level(mean, surface_m2),
+        {name: ordered[name].values for name in ("dof", "frequency")},
+        surface=f"{surface_m2:.4g} m2",
+    )
 
 
 def _run(study: Study, progress: Progress) -> xr.Dataset:

@@ -36,6 +36,12 @@ COORDINATES: Final[dict[str, Variable]] = {
     "mode": Variable(("mode",), "", "rigid-body mode on the mounts"),
     "receiver": Variable(("receiver",), "", "microphone"),
     "frequency": Variable(("frequency",), "Hz", "frequency"),
+    "line_frequency": Variable(("line_frequency",), "Hz", "frequency of the 1x line"),
+    "position": Variable(("position",), "1", "microphone position on the measurement surface"),
+    "map_row": Variable(("map_row",), "1", "row of the map"),
+    "map_column": Variable(("map_column",), "1", "column of the map"),
+    "polar_angle": Variable(("polar_angle",), "rad", "angle from the upward vertical"),
+    "azimuth": Variable(("azimuth",), "rad", "angle about the vertical, from x towards y"),
     "mount_frequency": Variable(("mount_frequency",), "Hz", "frequency of the mounts' response"),
     "weighting": Variable(("weighting",), "", "frequency weighting (IEC 61672-1)"),
     "fact": Variable(("fact",), "", "reported figure of an option, unit in its name"),
@@ -46,6 +52,9 @@ COORDINATES: Final[dict[str, Variable]] = {
     "order_frequency": Variable(("speed", "order"), "Hz", "frequency of a shaft order"),
     "time": Variable(("speed", "crank_angle"), "s", "time from crank angle zero"),
     "distance": Variable(("receiver",), "m", "distance of the microphone from the centre of mass"),
+    "map_x": Variable(("map_row", "map_column"), "m", "x from the centre of mass"),
+    "map_y": Variable(("map_row", "map_column"), "m", "y from the centre of mass"),
+    "map_z": Variable(("map_row", "map_column"), "m", "z from the centre of mass"),
     "foot_position": Variable(
         ("foot", "axis"), "m", "foot position from the centre of mass at rest"
     ),
@@ -91,6 +100,32 @@ VARIABLES: Final[dict[str, Variable]] = {
         "Pa s m-1",
         "pressure per velocity, with the closed-form Green's function",
         True,
+    ),
+    "transfer_vector_error": Variable(
+        ("receiver", "dof", "frequency"),
+        "Pa s m-1",
+        "estimated standard error of the transfer vector from the grids",
+    ),
+    "map_transfer_vector": Variable(
+        ("map_row", "map_column", "dof", "line_frequency"),
+        "Pa s m-1",
+        "pressure per velocity of the housing on the map",
+        True,
+    ),
+    "directivity_transfer_vector": Variable(
+        ("polar_angle", "azimuth", "dof", "line_frequency"),
+        "Pa s m-1",
+        "pressure per velocity of the housing around the machine",
+        True,
+    ),
+    "surface_transfer_vector": Variable(
+        ("position", "dof", "frequency"),
+        "Pa s m-1",
+        "pressure per velocity of the housing on the measurement surface",
+        True,
+    ),
+    "unit_sound_power_level": Variable(
+        ("dof", "frequency"), "dB", "sound power level at 1 mm/s or 1 mrad/s, root mean square"
     ),
     "green_difference": Variable(
         ("receiver", "frequency"), "dB", "k-Wave's Green's function against the closed form"

@@ -16,6 +16,7 @@ UNITS: Final[dict[str, Unit]] = {
     "mm": Unit("mm", "m", 1e-3),
     "cm": Unit("cm", "m", 1e-2),
     "m": Unit("m", "m", 1.0),
+    "m2": Unit("m²", "m2", 1.0),
     "cm3": Unit("cm³", "m3", 1e-6),
     "m3": Unit("m³", "m3", 1.0),
     "g": Unit("g", "kg", 1e-3),
@@ -35,6 +36,7 @@ UNITS: Final[dict[str, Unit]] = {
     "hz": Unit("Hz", "hz", 1.0),
     "khz": Unit("kHz", "hz", 1e3),
     "rpm": Unit("rpm", "rpm", 1.0),  # the label of a speed; see shaft_frequency_hz
+    "db": Unit("dB", "db", 1.0),
     "dba": Unit("dB(A)", "dba", 1.0),
     "percent": Unit("%", "ratio", 1e-2),
     "ratio": Unit("", "ratio", 1.0),

@@ -11,6 +11,7 @@ from .machine import Machine
 from .options import NoBalancer, Option
 from .radiation import RadiationSettings
 from .receivers import Receiver
+from .sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
 
 CriterionName = Literal[
     "foot_force_1x_n",
@@ -107,6 +108,9 @@ class Study(Parameters):
     catalogue_receiver: str
     radiation: RadiationSettings
     scoring: Scoring
+    sound_power: SoundPowerSettings | None = None
+    map: MapSettings | None = None
+    directivity: DirectivitySettings | None = None
     records: tuple[ParameterRecord, ...] = ()
     source_file: str = ""
 

@@ -70,16 +70,21 @@ def draw(
     **share: Any,
 ) -> bytes:
     """PNG of panels below each other, painted by `paint`, with room for a legend below."""
+    height_inch = panel_height_inch * panels + LEGEND_ROW_INCH * (legend_rows + 1)
+
+    def paint_panels(figure: Figure) -> None:
+        paint(figure.subplots(panels, 1, squeeze=False, **share)[:, 0])
+
+    return render(WIDTH_INCH, height_inch, paint_panels)
+
+
+def render(width_inch: float, height_inch: float, paint: Callable[[Figure], None]) -> bytes:
+    """PNG of a figure of this size in the common style, painted by `paint`."""
     with matplotlib.rc_context({**matplotlib.rcParamsDefault, "backend": "agg", **STYLE}):
         layout = ConstrainedLayoutEngine(w_pad=0.08, h_pad=0.08)
-        figure = Figure(
-            figsize=(WIDTH_INCH, panel_height_inch * panels + LEGEND_ROW_INCH * (legend_rows + 1)),
-            dpi=DOTS_PER_INCH,
-            layout=layout,
-        )
+        figure = Figure(figsize=(width_inch, height_inch), dpi=DOTS_PER_INCH, layout=layout)
         FigureCanvasAgg(figure)
-        axes = figure.subplots(panels, 1, squeeze=False, **share)[:, 0]
-        paint(axes)
+        paint(figure)
         content = io.BytesIO()
         layout.execute(figure)  # once; saving with a layout engine would draw everything twice
         figure.set_layout_engine(None)

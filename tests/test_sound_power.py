@@ -1,0 +1,141 @@
+"""Sound power from levels: corrections, areas, settings, and what the method overstates."""
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from vibroacoustics import pipeline
+from vibroacoustics.errors import ParameterError
+from vibroacoustics.levels import a_weighting
+from vibroacoustics.parameters.sound_power import (
+    DirectivitySettings,
+    MapSettings,
+    SoundPowerSettings,
+)
+from vibroacoustics.schema import stamp
+from vibroacoustics.sound_power import (
+    a_weighted_level,
+    background_correction_db,
+    box_area_m2,
+    energy_mean,
+    environment_correction_db,
+    hemisphere_area_m2,
+    sound_power_level,
+    sphere_area_m2,
+    surface_area_m2,
+)
+
+
+def test_energy_mean_of_two_levels():
+    # 10 lg((1 + 10)/2) above the lower one
+    assert energy_mean([60.0, 70.0]) == pytest.approx(60.0 + 10.0 * np.log10(5.5))
+    assert energy_mean(np.full((10, 3), 41.0)) == pytest.approx(np.full(3, 41.0))
+
+
+def test_background_correction_holds_from_6_to_15_db():
+    assert background_correction_db(10.0) == pytest.approx(-10.0 * np.log10(0.9))
+    assert background_correction_db(15.0) == pytest.approx(0.1396, abs=5e-5)
+    assert background_correction_db(15.01) == 0.0
+    limited = background_correction_db(np.array([0.0, 3.0, 5.9, 6.0]))
+    np.testing.assert_array_equal(limited, limited[-1])  # an upper bound of the level
+
+
+def test_environment_correction_refuses_a_live_room():
+    surface = hemisphere_area_m2(1.0)
+    assert environment_correction_db(surface, 4.0 * surface) == pytest.approx(10.0 * np.log10(2.0))
+    with pytest.raises(ParameterError, match=r"K2 is 4\.8 dB.*allows 4 dB, from 16\.6 m²"):
+        environment_correction_db(surface, 2.0 * surface)
+    assert environment_correction_db(surface, 16.63) == pytest.approx(4.0, abs=0.002)
+
+
+def test_areas_of_spheres():
+    assert sphere_area_m2(2.0) == pytest.approx(16.0 * np.pi)
+    assert [hemisphere_area_m2(2.0, planes) for planes in (1, 2, 3)] == pytest.approx(
+        [8.0 * np.pi, 4.0 * np.pi, 2.0 * np.pi]
+    )
+
+
+@pytest.mark.parametrize("distance", [0.25, 1.0])
+def test_areas_of_boxes_are_those_of_the_standard(distance):
+    """Equations 9 to 11 with their half-sides a, b and height c."""
+    length, width, height = 0.7, 0.5, 1.1
+    c, b = height + distance, width / 2.0 + distance
+    a = length / 2.0 + distance
+    area = [box_area_m2(length, width, height, distance, planes) for planes in (1, 2, 3)]
+    assert area[0] == pytest.approx(4.0 * (a * b + b * c + c * a))
+    a = (length + distance) / 2.0
+    assert area[1] == pytest.approx(2.0 * (2.0 * a * b + b * c + 2.0 * c * a))
+    b = (width + distance) / 2.0
+    assert area[2] == pytest.approx(2.0 * (2.0 * a * b + b * c + c * a))
+
+
+def test_sound_power_level_takes_off_both_corrections():
+    assert sound_power_level(50.0, 10.0) == pytest.approx(60.0)
+    assert sound_power_level(50.0, 10.0, 1.0, 2.0) == pytest.approx(57.0)
+
+
+def test_a_weighted_level_sums_the_lines():
+    level, frequency = np.array([80.0, 80.0]), np.array([100.0, 1000.0])
+    alone = 80.0 + a_weighting(frequency)
+    total = a_weighted_level(level, a_weighting(frequency))
+    assert total == pytest.approx(10.0 * np.log10(np.sum(10.0 ** (alone / 10.0))))
+
+
+def test_area_of_a_study():
+    box = (0.242, 0.242, 0.462)
+    assert surface_area_m2(SoundPowerSettings(), *box) == pytest.approx(2.0 * np.pi)
+    settings = SoundPowerSettings(arrangement="iso3744-box", distance_m=0.5)
+    assert surface_area_m2(settings, *box) == pytest.approx(box_area_m2(*box, 0.5))
+
+
+def test_unit_sound_power_is_that_of_a_uniform_field():
+    """1 Pa s/m at 1 mm/s rms is 1 mPa rms, 33.98 dB, everywhere."""
+    field = stamp(
+        "surface_transfer_vector",
+        np.full((10, 1, 2), 1.0 + 0.0j),
+        {"dof": ["tx"], "frequency": [50.0, 100.0]},
+    )
+    level = pipeline.unit_sound_power(field, 2.0 * np.pi)
+    expected = 20.0 * np.log10(1e-3 / 20e-6) + 10.0 * np.log10(2.0 * np.pi)
+    np.testing.assert_allclose(level.values, [[expected, expected]])
+
+
+# --- settings ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"radius_m": 0.5}, "greater than or equal to 1"),
+        ({"arrangement": "iso3744-box", "radius_m": 2.0}, "radius_mm: has no meaning"),
+        ({"distance_m": 1.0}, "distance_mm: has no meaning"),
+        ({"arrangement": "en12102-box", "distance_m": 0.5}, "distance_mm = 500 mm: is 1000 mm"),
+        ({"arrangement": "iso3744-box", "distance_m": 0.2}, "greater than or equal to 0.25"),
+        ({"background_margin_db": 5.0}, "greater than or equal to 6"),
+        ({"absorption_area_m2": 0.0}, "greater than 0"),
+        ({"arrangement": "iso3745"}, "Input should be"),
+    ],
+)
+def test_sound_power_settings_refuse(settings, words):
+    with pytest.raises(ValidationError, match=words):
+        SoundPowerSettings(**settings)
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"horizontal_m": (1.0, 1.0)}, r"horizontal_mm = \[1000, 1000\] mm: must rise"),
+        ({"spacing_m": 0.005}, "gives 241001 points; allowed up to 20000"),
+        ({"normal": "w"}, "Input should be"),
+        ({"vertical_m": (0.0, 21.0)}, "less than or equal to 20"),
+    ],
+)
+def test_map_settings_refuse(settings, words):
+    with pytest.raises(ValidationError, match=words):
+        MapSettings(**settings)
+
+
+def test_directivity_step_divides_a_right_angle():
+    assert DirectivitySettings(step_rad=np.pi / 12.0).step_rad == pytest.approx(np.pi / 12.0)
+    with pytest.raises(ValidationError, match=r"step_deg = 7 °: must divide 90"):
+        DirectivitySettings(step_rad=np.deg2rad(7.0))
