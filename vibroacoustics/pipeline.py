@@ -288,7 +288,13 @@ def _transmissibility(body: RigidBodyOnMounts) -> NDArray[np.complex128]:
 
 def _transfer_vectors(study: Study, progress: Progress) -> tuple[xr.Dataset, bool]:
     """Pressure per velocity of the housing; from the cache if it is there."""
-    inputs = (study.machine.shell, study.receivers, study.radiation)
+    sound_field = radiation.SoundField(
+        study.sound_power,
+        study.map,
+        study.directivity,
+        tuple(map(shaft_frequency_hz, study.operation.speed_rpm)),
+    )
+    inputs = (study.machine.shell, study.receivers, study.radiation, sound_field)
     return storage.cached(
         "transfer-vectors",
         radiation.cache_key_material(*inputs),

@@ -42,6 +42,7 @@ COORDINATES: Final[dict[str, Variable]] = {
     "map_column": Variable(("map_column",), "1", "column of the map"),
     "polar_angle": Variable(("polar_angle",), "rad", "angle from the upward vertical"),
     "azimuth": Variable(("azimuth",), "rad", "angle about the vertical, from x towards y"),
+    "pattern": Variable(("pattern",), "", "surface velocity given by a file"),
     "mount_frequency": Variable(("mount_frequency",), "Hz", "frequency of the mounts' response"),
     "weighting": Variable(("weighting",), "", "frequency weighting (IEC 61672-1)"),
     "fact": Variable(("fact",), "", "reported figure of an option, unit in its name"),
@@ -105,6 +106,17 @@ VARIABLES: Final[dict[str, Variable]] = {
         ("receiver", "dof", "frequency"),
         "Pa s m-1",
         "estimated standard error of the transfer vector from the grids",
+    ),
+    "pattern_transfer_vector": Variable(
+        ("receiver", "pattern", "frequency"),
+        "Pa s m-1",
+        "pressure per unit of a surface velocity given by a file",
+        True,
+    ),
+    "pattern_transfer_vector_error": Variable(
+        ("receiver", "pattern", "frequency"),
+        "Pa s m-1",
+        "estimated standard error of the pattern's transfer vector from the grids",
     ),
     "map_transfer_vector": Variable(
         ("map_row", "map_column", "dof", "line_frequency"),
