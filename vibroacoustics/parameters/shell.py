@@ -8,21 +8,29 @@ from .base import Parameters
 
 
 class Shell(Parameters):
-    """Upright closed cylinder with flat caps, standing over the floor on its mounts."""
+    """Upright closed cylinder with flat or domed caps, over the floor on its mounts."""
 
     outer_diameter_m: float = Field(ge=0.02, le=2.0)
     height_m: float = Field(ge=0.02, le=3.0)
+    """From bottom to top, domes included."""
+    dome_height_m: float = Field(default=0.0, ge=0.0, le=1.0)
+    """Height of each cap, a half-ellipsoid; 0 is flat."""
     centre_of_mass_height_m: float = Field(gt=0.0, le=3.0)
     """Height of the machine's centre of mass above the bottom of the shell."""
     floor_clearance_m: float = Field(ge=0.0, le=0.5)
     """Height of the bottom of the shell above the floor."""
 
     @model_validator(mode="after")
-    def _centre_of_mass_inside(self) -> "Shell":
+    def _proportions(self) -> "Shell":
         if self.centre_of_mass_height_m >= self.height_m:
             raise ValueError(
                 f"centre_of_mass_height_mm = {1e3 * self.centre_of_mass_height_m:g} mm: must be "
                 f"below height_mm = {1e3 * self.height_m:g} mm"
+            )
+        if 2.0 * self.dome_height_m > self.height_m:
+            raise ValueError(
+                f"dome_height_mm = {1e3 * self.dome_height_m:g} mm: must be at most half of "
+                f"height_mm = {1e3 * self.height_m:g} mm"
             )
         return self
 

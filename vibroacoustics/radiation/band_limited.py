@@ -3,8 +3,9 @@
 from typing import Final
 
 import numpy as np
+from numpy.typing import DTypeLike
 
-from .arrays import Array, ComplexArray
+from .arrays import Array
 
 STENCIL_NODES: Final = 20
 _PASS_RAD_PER_NODE: Final = 1.8
@@ -51,19 +52,35 @@ def interpolation_matrix(first: float, spacing: float, count: int, points: Array
     return matrix
 
 
-def interpolate_field(
-    field: ComplexArray, first: Array, spacing: float, points: Array
-) -> ComplexArray:
-    """Values (frequency, point) of a field (frequency, x, y, z) at points (point, 3).
+class Interpolator:
+    """From the nodes of a block to points (point, 3), for many fields on the same block.
 
-    The field is evaluated on the tensor grid of all coordinates that occur, so the points should
-    come from a few coordinates an axis, like those of a box. `first` is the first node.
+    A field is evaluated on the tensor grid of all coordinates that occur, so the points should
+    come from a few coordinates an axis, like those of a box. `first` is the block's first node,
+    `spacing` (3,) that of its nodes; interpolation runs in the precision `dtype`.
     """
-    index = []
-    for axis in range(3):
-        coordinates, inverse = np.unique(points[:, axis], return_inverse=True)
-        matrix = interpolation_matrix(first[axis], spacing, field.shape[axis + 1], coordinates)
-        field = np.moveaxis(np.tensordot(field, matrix, axes=(axis + 1, 1)), -1, axis + 1)
-        index.append(inverse)
-    values: ComplexArray = field[:, index[0], index[1], index[2]]
-    return values
+
+    def __init__(
+        self,
+        first: Array,
+        spacing: Array,
+        shape: tuple[int, ...],
+        points: Array,
+        dtype: DTypeLike = np.float64,
+    ) -> None:
+        coordinates, indices = zip(
+            *(np.unique(points[:, axis], return_inverse=True) for axis in range(3)), strict=True
+        )
+        self._indices = indices
+        self._matrices = [
+            interpolation_matrix(*line).astype(dtype)
+            for line in zip(first, spacing, shape, coordinates, strict=True)
+        ]
+
+    def __call__(self, field: Array) -> Array:
+        """Values (point,) of a field (x, y, z)."""
+        for matrix in self._matrices:
+            # Contracts the first axis and appends the new one: after three the order is back.
+            field = np.tensordot(field, matrix, axes=(0, 1))
+        values: Array = field[self._indices]
+        return values

@@ -1,78 +1,175 @@
-"""Shapes of radiating bodies, as exact signed distances."""
+"""Radiating bodies: closed triangle meshes, generated or read."""
 
 from dataclasses import dataclass
-from typing import Protocol
+from pathlib import Path
+from typing import Final
 
 import numpy as np
 
-from .arrays import Array
+from ..errors import ParameterError
+from .arrays import Array, IndexArray
 
-
-class Body(Protocol):
-    """A closed body."""
-
-    def signed_distance(self, points: Array) -> Array:
-        """Distance of points (..., 3) to the surface, m; negative inside."""
-        ...
-
-    def bounds(self) -> tuple[Array, Array]:
-        """Lower and upper corner of the bounding box, m."""
-        ...
+_SECTIONS: Final = 256
+"""Facets around an axis: the surface lies within 1e-4 of a radius of the true one."""
+_SUBDIVISIONS: Final = 6
+"""Of an icosahedron: 81920 facets."""
+_LARGEST_FILE_BYTES: Final = 200 * 2**20
 
 
 @dataclass(frozen=True)
-class Cylinder:
-    """Upright cylinder with flat caps; its axis is the z axis."""
+class Body:
+    """A closed surface of triangles whose normals point out of the body.
 
-    radius_m: float
-    bottom_z_m: float
-    top_z_m: float
+    It may have several parts; where they overlap, the body is their union.
+    """
 
-    def signed_distance(self, points: Array) -> Array:
-        """Distance of points (..., 3) to the surface, m; negative inside."""
-        radial = np.hypot(points[..., 0], points[..., 1]) - self.radius_m
-        middle, half = (self.bottom_z_m + self.top_z_m) / 2, (self.top_z_m - self.bottom_z_m) / 2
-        axial = np.abs(points[..., 2] - middle) - half
-        outside = np.hypot(np.maximum(radial, 0.0), np.maximum(axial, 0.0))
-        distance: Array = outside + np.minimum(np.maximum(radial, axial), 0.0)
-        return distance
+    vertices: Array
+    """(vertex, 3), m."""
+    faces: IndexArray
+    """Vertices of each triangle, counter-clockwise seen from outside, (face, 3)."""
 
-    def bounds(self) -> tuple[Array, Array]:
-        """Lower and upper corner of the bounding box, m."""
-        radius = self.radius_m
-        return (
-            np.array([-radius, -radius, self.bottom_z_m]),
-            np.array([radius, radius, self.top_z_m]),
-        )
+    @property
+    def triangles(self) -> Array:
+        """Corners of the faces, (face, corner, 3), m."""
+        corners: Array = self.vertices[self.faces]
+        return corners
 
-
-@dataclass(frozen=True)
-class Sphere:
-    """Sphere about a centre (x, y, z)."""
-
-    radius_m: float
-    centre_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
-
-    def signed_distance(self, points: Array) -> Array:
-        """Distance of points (..., 3) to the surface, m; negative inside."""
-        distance: Array = np.linalg.norm(points - np.array(self.centre_m), axis=-1) - self.radius_m
-        return distance
+    def area_vectors(self) -> Array:
+        """Area of each face times its unit normal, m², (face, 3)."""
+        a, b, c = np.moveaxis(self.triangles, 1, 0)
+        area: Array = 0.5 * np.cross(b - a, c - a)
+        return area
 
     def bounds(self) -> tuple[Array, Array]:
         """Lower and upper corner of the bounding box, m."""
-        centre = np.array(self.centre_m)
-        return centre - self.radius_m, centre + self.radius_m
+        return self.vertices.min(axis=0), self.vertices.max(axis=0)
+
+    def contains(self, point: Array) -> bool:
+        """Whether a point (3,) lies inside: its solid angle seen by the surface is 4 pi.
+
+        Van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125.
+        """
+        a, b, c = np.moveaxis(self.triangles - point, 1, 0)
+        la, lb, lc = (np.linalg.norm(corner, axis=1) for corner in (a, b, c))
+        triple = np.einsum("fi,fi->f", a, np.cross(b, c))
+        dots = [np.einsum("fi,fi->f", p, q) for p, q in ((a, b), (b, c), (c, a))]
+        below = la * lb * lc + dots[0] * lc + dots[1] * la + dots[2] * lb
+        return bool(np.sum(2.0 * np.arctan2(triple, below)) > 2.0 * np.pi)
 
 
-def outward_normal(body: Body, points: Array) -> Array:
-    """Unit normals out of the body at points (..., 3): the gradient of the signed distance."""
-    step = 1e-6
-    gradient = np.stack(
-        [
-            body.signed_distance(points + step * axis) - body.signed_distance(points - step * axis)
-            for axis in np.eye(3)
-        ],
-        axis=-1,
+def join_bodies(parts: list[Body]) -> Body:
+    """Several bodies as one; the faces keep their order."""
+    starts = np.cumsum([0, *(part.vertices.shape[0] for part in parts)])
+    return Body(
+        np.concatenate([part.vertices for part in parts]),
+        np.concatenate([part.faces + start for part, start in zip(parts, starts, strict=False)]),
     )
-    normal: Array = gradient / np.linalg.norm(gradient, axis=-1, keepdims=True)
-    return normal
+
+
+def sphere(radius_m: float, centre_m: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Body:
+    """Sphere about a centre (x, y, z); its volume is exact."""
+    import trimesh
+
+    ball = trimesh.creation.icosphere(subdivisions=_SUBDIVISIONS, radius=radius_m)
+    scale = (4.0 / 3.0 * np.pi * radius_m**3 / ball.volume) ** (1.0 / 3.0)
+    return Body(scale * np.asarray(ball.vertices) + np.array(centre_m), np.asarray(ball.faces))
+
+
+def cylinder(
+    radius_m: float, bottom_z_m: float, top_z_m: float, dome_height_m: float = 0.0
+) -> Body:
+    """Upright cylinder about the z axis, with flat caps or half-ellipsoids of a height.
+
+    The height from bottom to top includes the domes. Sections across the axis have the exact area.
+    """
+    import trimesh
+
+    angle = 2.0 * np.pi / _SECTIONS
+    radius = radius_m * np.sqrt(angle / np.sin(angle))
+    if dome_height_m > 0.0:
+        latitude = np.linspace(0.0, np.pi / 2.0, _SECTIONS // 4 + 1)
+        ring, rise = radius * np.cos(latitude), dome_height_m * np.sin(latitude)
+        ring[-1] = 0.0
+        outline = np.concatenate(
+            [
+                np.stack([ring, bottom_z_m + dome_height_m - rise], axis=1)[::-1],
+                np.stack([ring, top_z_m - dome_height_m + rise], axis=1),
+            ]
+        )
+    else:
+        outline = np.array(
+            [[0.0, bottom_z_m], [radius, bottom_z_m], [radius, top_z_m], [0.0, top_z_m]]
+        )
+    return _outward(trimesh.creation.revolve(outline, sections=_SECTIONS))
+
+
+def block(lower: Array, upper: Array) -> Body:
+    """Rectangular block between two corners."""
+    import trimesh
+
+    return _outward(trimesh.creation.box(bounds=[lower, upper]))
+
+
+def _outward(mesh: "trimesh.Trimesh") -> Body:
+    if mesh.volume < 0.0:
+        mesh.invert()
+    return Body(np.asarray(mesh.vertices), np.asarray(mesh.faces))
+
+
+def read_mesh(path: Path, unit_m: float) -> Body:
+    """Body from an STL file whose lengths are in multiples of `unit_m`.
+
+    Raises
+    ------
+    ParameterError
+        The file cannot be read, or its surface is open or inverted.
+    """
+    import trimesh
+
+    try:
+        size = path.stat().st_size
+        if size > _LARGEST_FILE_BYTES:
+            raise ParameterError(f"{path}: {size / 2**20:.0f} MiB; allowed up to 200 MiB")
+        with path.open("rb") as file:
+            mesh = trimesh.load_mesh(file, file_type="stl")
+    except OSError as error:
+        raise ParameterError(f"{path}: cannot be read: {error.strerror}") from None
+    except ParameterError:
+        raise
+    except Exception as error:  # whatever a broken file raises in the reader
+        raise ParameterError(f"{path}: is no STL mesh: {error}") from None
+    body = Body(unit_m * np.asarray(mesh.vertices), np.asarray(mesh.faces))
+    return checked_mesh(body, str(path))
+
+
+def checked_mesh(body: Body, name: str) -> Body:
+    """The body, if its surface is closed and its normals point outwards.
+
+    Raises
+    ------
+    ParameterError
+        It has no faces, is open, is not oriented in one sense, or is inverted.
+    """
+    if body.faces.shape[0] == 0 or not np.all(np.isfinite(body.vertices)):
+        raise ParameterError(f"{name}: the mesh has no triangles, or corners that are not finite")
+    edges = body.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+    forward = np.unique(edges, axis=0, return_counts=True)
+    backward = np.unique(edges[:, ::-1], axis=0)
+    if forward[0].shape != backward.shape or np.any(forward[0] != backward):
+        missing = len(_rows(backward) - _rows(forward[0]))
+        raise ParameterError(
+            f"{name}: the mesh is not closed, or its triangles are not oriented in one sense: "
+            f"{missing} edges lack a partner"
+        )
+    if np.any(forward[1] > 1):
+        raise ParameterError(f"{name}: {np.sum(forward[1] > 1)} edges are shared by many triangles")
+    volume = float(np.einsum("fi,fi->", body.triangles[:, 0], body.area_vectors()) / 3.0)
+    if volume <= 0.0:
+        raise ParameterError(
+            f"{name}: the mesh is inverted: its normals point inwards (volume {volume:.3g} m³)"
+        )
+    return body
+
+
+def _rows(pairs: IndexArray) -> set[tuple[int, ...]]:
+    return {tuple(pair) for pair in pairs.tolist()}

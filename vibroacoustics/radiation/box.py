@@ -1,5 +1,6 @@
 """The closed box on which the machine side and the room side meet."""
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,9 +12,9 @@ from .arrays import Array, ComplexArray
 class Box:
     """Pairs of points, half a cell inside and half a cell outside each cell face of a box.
 
-    Values on both layers stand for value and normal gradient. Above a hard floor the box has five
-    sides and ends on the floor: pressure and Green's function both have zero normal derivative
-    there, so the missing side would contribute nothing.
+    Values on both layers stand for value and normal gradient. A side on a hard wall is left out:
+    pressure and Green's function both have zero normal derivative there, so that it would
+    contribute nothing.
     """
 
     lower: Array
@@ -35,16 +36,20 @@ class BoxField:
     """(frequency, pair)."""
 
 
-def box_sides(on_floor: bool) -> list[tuple[int, int]]:
-    """(axis, sign) of the sides of a box; without the bottom when it ends on the floor."""
+Side = tuple[int, int]
+"""Axis, and -1 for its lower or 1 for its upper side."""
+
+
+def open_sides(on_walls: Collection[Side]) -> list[Side]:
+    """Sides of a box that do not lie on a wall."""
     sides = [(axis, sign) for axis in range(3) for sign in (-1, 1)]
-    return [side for side in sides if not (on_floor and side == (2, -1))]
+    return [side for side in sides if side not in on_walls]
 
 
-def closed_box(lower: Array, upper: Array, spacing_m: float, on_floor: bool) -> Box:
+def closed_box(lower: Array, upper: Array, spacing_m: float, on_walls: Collection[Side]) -> Box:
     """All sides of a box whose edges are whole numbers of the spacing."""
     inner, outer = [], []
-    for axis, sign in box_sides(on_floor):
+    for axis, sign in open_sides(on_walls):
         middles = _side_middles(lower, upper, spacing_m, axis, sign)
         half_cell = 0.5 * sign * spacing_m * np.eye(3)[axis]
         inner.append(middles - half_cell)

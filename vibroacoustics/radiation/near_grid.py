@@ -1,5 +1,6 @@
 """The uniform staggered grid around the body: cells, absorbing layers and the recording box."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -8,7 +9,8 @@ from numpy.typing import NDArray
 
 from ..constants import SPEED_OF_SOUND_M_PER_S
 from .arrays import Array
-from .bodies import Body
+from .box import Side, open_sides
+from .mirrors import Mirror
 
 COURANT_NUMBER: Final = 0.3
 PML_CELLS: Final = 10
@@ -23,8 +25,8 @@ _GAP_CELLS: Final = 2
 class NearGrid:
     """Cubic cells; pressure at cell centres, velocity components on the faces between them.
 
-    Above a floor the lowest faces lie in the floor plane: they are closed, so the floor is an exact
-    mirror of the discrete equations and has no absorbing layer.
+    The outermost faces are closed. Where they lie in a hard wall, that is an exact mirror of the
+    discrete equations and has no absorbing layer.
     """
 
     spacing_m: float
@@ -34,7 +36,8 @@ class NearGrid:
     box_start: tuple[int, int, int]
     """First cell inside the recording box, by axis."""
     box_stop: tuple[int, int, int]
-    on_floor: bool
+    on_walls: frozenset[Side]
+    """Sides of the grid, and of the box, that lie on hard walls."""
 
     @property
     def time_step_s(self) -> float:
@@ -56,47 +59,49 @@ class NearGrid:
         (Treeby and Cox, J. Biomed. Opt. 15 (2010) 021314).
         """
         cells = np.arange(self.shape[axis], dtype=float)
-        has_lower = not (self.on_floor and axis == 2)
-        return (
-            self._damping(cells, self.shape[axis], has_lower),
-            self._damping(cells[:-1] + 0.5, self.shape[axis], has_lower),
-        )
+        return self._damping(cells, axis), self._damping(cells[:-1] + 0.5, axis)
 
-    def _damping(self, position: Array, count: int, has_lower: bool) -> Array:
-        depth = position - (count - 1 - PML_CELLS)
-        if has_lower:
+    def _damping(self, position: Array, axis: int) -> Array:
+        depth = np.zeros(position.shape)
+        if (axis, -1) not in self.on_walls:
             depth = np.maximum(depth, PML_CELLS - position)
-        relative = np.maximum(depth, 0.0) / PML_CELLS
-        damping: Array = np.exp(-0.5 * PML_ALPHA * COURANT_NUMBER * relative**4)
+        if (axis, 1) not in self.on_walls:
+            depth = np.maximum(depth, position - (self.shape[axis] - 1 - PML_CELLS))
+        damping: Array = np.exp(-0.5 * PML_ALPHA * COURANT_NUMBER * (depth / PML_CELLS) ** 4)
         return damping
 
 
 def near_grid(
-    body: Body, spacing_m: float, floor_z_m: float | None, box_margin_m: float = BOX_MARGIN_M
+    bounds: tuple[Array, Array],
+    spacing_m: float,
+    walls: Sequence[Mirror] = (),
+    box_margin_m: float = BOX_MARGIN_M,
 ) -> NearGrid:
-    """Grid whose recording box stands at least `box_margin_m` off the body.
+    """Grid whose recording box stands at least `box_margin_m` off the bounds of the body.
 
-    The box is centred on the body; above a floor it ends on the floor, where a face plane lies.
+    The box is centred on the body; it ends on every wall, where a plane of faces lies.
     """
-    lower, upper = body.bounds()
+    lower, upper = bounds
     margin = max(box_margin_m, _BOX_MARGIN_CELLS * spacing_m)
     middle = (lower + upper) / 2
-    half_cells = np.ceil(((upper - lower) / 2 + margin) / spacing_m - 1e-9).astype(int)
-    cells = 2 * half_cells
-    box_lower = middle - half_cells * spacing_m
-    outer = PML_CELLS + _GAP_CELLS
-    start = np.full(3, outer)
-    if floor_z_m is not None:
-        box_lower[2] = floor_z_m
-        cells[2] = int(np.ceil((upper[2] + margin - floor_z_m) / spacing_m - 1e-9))
-        start[2] = 0
+    cells = 2 * np.ceil(((upper - lower) / 2 + margin) / spacing_m - 1e-9).astype(int)
+    box_lower = middle - cells / 2 * spacing_m
+    beyond = {side: PML_CELLS + _GAP_CELLS for side in open_sides(())}
+    for wall in walls:
+        axis, sign, position = wall.axis, wall.sign, wall.position_m
+        reach = position - lower[axis] if sign > 0 else upper[axis] - position
+        cells[axis] = int(np.ceil((reach + margin) / spacing_m - 1e-9))
+        box_lower[axis] = position - (cells[axis] * spacing_m if sign > 0 else 0.0)
+        beyond[axis, sign] = 0
+    start = np.array([beyond[axis, -1] for axis in range(3)])
+    stop = np.array([beyond[axis, 1] for axis in range(3)])
     return NearGrid(
         spacing_m=spacing_m,
         origin=box_lower - start * spacing_m,
-        shape=_triple(start + cells + outer),
+        shape=_triple(start + cells + stop),
         box_start=_triple(start),
         box_stop=_triple(start + cells),
-        on_floor=floor_z_m is not None,
+        on_walls=frozenset((wall.axis, wall.sign) for wall in walls),
     )
 
 

@@ -8,7 +8,8 @@ import numpy as np
 from ..errors import ParameterError
 from ..schema import RIGID_BODY_DOFS
 from .arrays import Array
-from .bodies import Body, outward_normal
+from .bodies import Body
+from .surface_points import SurfacePoints
 
 
 @dataclass(frozen=True)
@@ -16,10 +17,8 @@ class Pattern:
     """One way in which the whole wall moves, per unit of its generalised velocity."""
 
     name: str
-    velocity: Callable[[Array], Array]
-    """Points (..., 3), m -> velocity vectors (..., 3)."""
-    volume_velocity_m3_per_s: float = 0.0
-    """Exact net volume velocity through the closed surface; zero for a rigid body."""
+    velocity: Callable[[SurfacePoints], Array]
+    """Velocity vectors (point, 3) at points of the surface."""
 
 
 def rigid_body_velocity(dof: str, points: Array) -> Array:
@@ -43,9 +42,43 @@ def rigid_body_velocity(dof: str, points: Array) -> Array:
 
 def rigid_body(dof: str) -> Pattern:
     """Pattern of unit velocity of one rigid-body degree of freedom."""
-    return Pattern(dof, lambda points: rigid_body_velocity(dof, points))
+    return Pattern(dof, lambda points: rigid_body_velocity(dof, points.position))
 
 
-def pulsating(body: Body, surface_area_m2: float) -> Pattern:
-    """Unit normal velocity (m/s) all over the body, whose exact surface area is given."""
-    return Pattern("pulsating", lambda points: outward_normal(body, points), surface_area_m2)
+def normal_velocity(name: str, velocity: Callable[[Array], Array]) -> Pattern:
+    """Pattern of a normal velocity (point,) given as a function of points (point, 3)."""
+    return Pattern(name, lambda at: velocity(at.position)[:, None] * at.normal)
+
+
+def sampled(name: str, body: Body, values: Array) -> Pattern:
+    """Pattern given on a body's mesh: one value for each face, or one for each vertex.
+
+    Values (face,) or (vertex,) are normal velocities, (face, 3) or (vertex, 3) vectors; those of
+    the vertices vary linearly over each face. Where faces and vertices are equally many, the values
+    belong to the faces.
+
+    Raises
+    ------
+    ParameterError
+        The values are of another number or shape, or not finite.
+    """
+    values = np.asarray(values, dtype=float)
+    numbers = {body.faces.shape[0]: "face", body.vertices.shape[0]: "vertex"}
+    vectors = values.ndim == 2 and values.shape[1] == 3
+    if not (values.ndim == 1 or vectors) or values.shape[0] not in numbers:
+        raise ParameterError(
+            f"pattern {name}: shape {values.shape}: the mesh has {body.faces.shape[0]} faces and "
+            f"{body.vertices.shape[0]} vertices; one value or vector is needed for each of either"
+        )
+    if not np.all(np.isfinite(values)):
+        raise ParameterError(f"pattern {name}: holds values that are not finite")
+    by_face = values.shape[0] == body.faces.shape[0]
+
+    def velocity(at: SurfacePoints) -> Array:
+        if by_face:
+            local = values[at.face]
+        else:
+            local = np.einsum("pk,pk...->p...", at.weights, values[body.faces[at.face]])
+        return local if vectors else local[:, None] * at.normal
+
+    return Pattern(name, velocity)

@@ -34,6 +34,15 @@ def pulse_duration_s(width_s: float) -> float:
     return 2.0 * _LEAD_WIDTHS * width_s
 
 
+def sampling_steps(width_s: float, time_step_s: float) -> int:
+    """Time steps between samples of a field that the pulse drives.
+
+    The pulse's spectrum f exp(-(2 pi f s)²/2) is below 1e-9 of its peak from 1.1/s on. Sampled
+    there at 2.2/s nothing folds back; what grid noise lies above is not driven.
+    """
+    return max(1, int(width_s / (2.2 * time_step_s)))
+
+
 def transform(frequency_hz: Array, time_s: Array, signal: Array) -> ComplexArray:
     """Sum of s(t) exp(-j 2 pi f t), shape (frequency,)."""
     spectrum: ComplexArray = np.exp(-2j * np.pi * np.outer(frequency_hz, time_s)) @ signal

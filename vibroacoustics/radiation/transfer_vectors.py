@@ -1,33 +1,40 @@
-"""Sound pressure at the microphones per unit rigid-body velocity of the shell, labelled."""
+"""Sound pressure per unit velocity of the shell at microphones and other points, labelled."""
 
 import hashlib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
+import psutil
 import xarray as xr
 
 from ..constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from ..parameters.body import MeshBody
 from ..parameters.radiation import RadiationSettings
 from ..parameters.receivers import Receiver
 from ..parameters.shell import Shell
 from ..schema import RIGID_BODY_DOFS, check, stamp
 from . import room_grid
+from .arrangements import check_outside
 from .arrays import Array, ComplexArray, Progress, no_progress
-from .bodies import Cylinder
-from .exact import box_green
+from .box import Box, BoxField
 from .interpolation import interpolate
-from .join import join
-from .kwave import check_receiver, green_difference_db, kwave_green, kwave_version
+from .kwave import check_receiver, green_difference_db, kwave_green, kwave_version, memory_bytes
+from .machine_side import COARSENING, MachineSide, in_threads, processors
 from .near_field import NearField
 from .patterns import rigid_body
+from .scene import Scene, file_patterns, position_m, scene
+from .sound_field import NO_SOUND_FIELD, SoundField, elsewhere
+
+_SHARE_OF_MEMORY: Final = 0.7
 
 
 def transfer_vectors(
     shell: Shell,
     receivers: Mapping[str, Receiver],
     settings: RadiationSettings,
+    sound_field: SoundField = NO_SOUND_FIELD,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
     """Complex pressure at each receiver per unit complex-peak velocity of each degree of freedom.
@@ -35,55 +42,132 @@ def transfer_vectors(
     Returns
     -------
     Dataset
-        `transfer_vector` (receiver, dof, frequency) from the near field and k-Wave;
-        `transfer_vector_closed_form`, the same near field with the closed-form Green's function;
-        `green_difference` (receiver, frequency), the level difference of the two Green's functions
-        where it is largest on the box, dB; coordinate `distance` (receiver) from the origin, m.
+        `transfer_vector` (receiver, dof, frequency) from the near field and the room's solver, its
+        standard error `transfer_vector_error`; `transfer_vector_closed_form`, the same near field
+        with the closed-form Green's function; `green_difference` (receiver, frequency), the level
+        difference of the two Green's functions where it is largest on the box, dB; coordinate
+        `distance` (receiver) from the origin, m. What the sound field asks for besides, with the
+        closed-form Green's function.
 
     Raises
     ------
     ParameterError
-        A receiver lies in or too close to the shell, or a grid needs more memory than is available.
+        A receiver lies in or too close to the shell, a mesh is not closed, things overlap, or a
+        grid needs more memory than is available.
     SolverError
         A field is not finite, not plausible or has not died down.
     """
-    frequency = frequencies_hz(settings)
-    floor = floor_z_m(shell, settings)
-    near = NearField(
-        cylinder(shell), settings.near_field_spacing_m, settings.maximum_frequency_hz, floor
-    )
+    surroundings = scene(shell, settings)
+    extra = file_patterns(settings.body, surroundings.machine)
     positions = {name: position_m(shell, receiver) for name, receiver in receivers.items()}
-    for name, position in positions.items():
-        check_receiver(name, position, near.box, settings.room_spacing_m, floor, frequency.size)
-    fields = [near.radiate(rigid_body(dof), frequency, progress) for dof in RIGID_BODY_DOFS]
-
-    shape = (len(positions), len(fields), frequency.size)
-    simulated, closed_form = np.zeros(shape, dtype=complex), np.zeros(shape, dtype=complex)
-    difference = np.zeros((len(positions), frequency.size))
-    for row, (name, position) in enumerate(positions.items()):
-        expected = box_green(near.box, position, frequency, floor)
-        green = kwave_green(
-            near.box,
-            position,
-            frequency,
-            settings.maximum_frequency_hz,
-            settings.room_spacing_m,
-            floor,
-            name,
-            progress,
-        )
-        difference[row] = green_difference_db(green, expected)
-        simulated[row] = [join(near.box, field, green) for field in fields]
-        closed_form[row] = [join(near.box, field, expected) for field in fields]
-    return _labelled(positions, frequency, simulated, closed_form, difference).assign_attrs(
-        solver=f"cut cells, k-wave-python {kwave_version()}",
-        surroundings=settings.surroundings,
-        near_field_cells=" x ".join(map(str, near.grid.shape)),
-        near_field_spacing_m=near.grid.spacing_m,
-        near_field_time_step_s=near.grid.time_step_s,
-        room_time_step_courant_number=room_grid.COURANT_NUMBER,
-        neglected="echoes of the room, the floor excepted, scattered again by the shell",
+    table = frequencies_hz(settings)
+    _check_receivers(surroundings, positions, settings, table.size)
+    patterns = [*map(rigid_body, RIGID_BODY_DOFS), *extra]
+    side = MachineSide(
+        surroundings,
+        patterns,
+        settings.near_field_spacing_m,
+        settings.maximum_frequency_hz,
+        np.concatenate([table, sound_field.line_frequency_hz]),
+        progress,
     )
+    microphones = _at_receivers(side, positions, settings, table, progress)
+    dataset = _labelled(microphones, positions, table, [pattern.name for pattern in extra])
+    dataset = dataset.merge(
+        elsewhere(side, surroundings, shell.floor_z_m, sound_field, table.size, progress)
+    )
+    grid = side.near[0].grid
+    return check(dataset).assign_attrs(
+        solver=f"cut cells, k-wave-python {kwave_version()}",
+        room_solver=settings.room_solver,
+        surroundings=settings.surroundings.model_dump_json(),
+        near_field_cells=" x ".join(map(str, grid.shape)),
+        near_field_spacing_m=grid.spacing_m,
+        near_field_time_step_s=grid.time_step_s,
+        near_field_extrapolation=f"from {COARSENING:g} times the spacing, second order",
+        room_time_step_courant_number=room_grid.COURANT_NUMBER,
+        neglected="echoes of absorbing or distant walls, scattered again by the shell",
+    )
+
+
+def _check_receivers(
+    surroundings: Scene, positions: Mapping[str, Array], settings: RadiationSettings, number: int
+) -> None:
+    """Refuse what cannot be computed before anything is computed."""
+    near = NearField(
+        surroundings.body,
+        settings.near_field_spacing_m,
+        settings.maximum_frequency_hz,
+        surroundings.near_walls,
+    )
+    for name, position in positions.items():
+        check_outside(f"receivers.{name}", position, surroundings.body)
+        check_receiver(
+            name, position, near.box, settings.room_spacing_m, surroundings.walls, number
+        )
+
+
+def _at_receivers(
+    side: MachineSide,
+    positions: Mapping[str, Array],
+    settings: RadiationSettings,
+    table: Array,
+    progress: Progress,
+) -> dict[str, Array | ComplexArray]:
+    """Pressures, errors and the check of the Green's function at the receivers."""
+    chosen = slice(0, table.size)
+    greens = _room_greens(side.near[0].box, positions, side, settings, table, progress)
+    found: dict[str, list[Any]] = {"simulated": [], "closed": [], "error": [], "difference": []}
+    for position, green in zip(positions.values(), greens, strict=True):
+        simulated, error = side.pressures(position, chosen, green)
+        found["simulated"].append(simulated)
+        found["closed"].append(side.pressures(position, chosen)[0])
+        found["error"].append(error)
+        found["difference"].append(green_difference_db(green, side.green(position, chosen)))
+    return {name: np.array(values) for name, values in found.items()}
+
+
+def _room_greens(
+    box: Box,
+    positions: Mapping[str, Array],
+    side: MachineSide,
+    settings: RadiationSettings,
+    table: Array,
+    progress: Progress,
+) -> list[BoxField]:
+    """Green's functions of the receivers by the room's solver, several at a time."""
+    if settings.room_solver == "closed-form":
+        return [side.green(position, slice(0, table.size)) for position in positions.values()]
+    workers = _workers(box, positions, settings, side, table.size)
+    threads = max(1, processors() // workers)
+    arguments = (table, settings.maximum_frequency_hz, settings.room_spacing_m, side.walls)
+    return in_threads(
+        [
+            lambda n=name, at=position: kwave_green(box, at, *arguments, n, progress, threads)
+            for name, position in positions.items()
+        ],
+        workers,
+    )
+
+
+def _workers(
+    box: Box,
+    positions: Mapping[str, Array],
+    settings: RadiationSettings,
+    side: MachineSide,
+    frequencies: int,
+) -> int:
+    """How many k-Wave runs the processors and the memory carry at a time."""
+    largest = max(
+        memory_bytes(
+            room_grid.room_grid(position, box, settings.room_spacing_m, side.walls),
+            box,
+            frequencies,
+        )
+        for position in positions.values()
+    )
+    affordable = int(_SHARE_OF_MEMORY * psutil.virtual_memory().available / largest)
+    return max(1, min(processors(), len(positions), affordable))
 
 
 def interpolate_transfer_vector(
@@ -112,13 +196,18 @@ def interpolate_transfer_vector(
 
 
 def cache_key_material(
-    shell: Shell, receivers: Mapping[str, Receiver], settings: RadiationSettings
+    shell: Shell,
+    receivers: Mapping[str, Receiver],
+    settings: RadiationSettings,
+    sound_field: SoundField = NO_SOUND_FIELD,
 ) -> dict[str, Any]:
     """Everything that shapes the transfer vectors, as plain data to be hashed."""
     return {
         "shell": shell.model_dump(),
         "receivers": {name: receiver.model_dump() for name, receiver in receivers.items()},
         "settings": settings.model_dump(),
+        "files": _hashes_of_files(settings),
+        "sound_field": sound_field.key_material(),
         "speed_of_sound_m_per_s": SPEED_OF_SOUND_M_PER_S,
         "air_density_kg_per_m3": AIR_DENSITY_KG_PER_M3,
         "solver": _source_hash(),
@@ -126,10 +215,21 @@ def cache_key_material(
     }
 
 
+def _hashes_of_files(settings: RadiationSettings) -> dict[str, str]:
+    """Content of the files that the settings name; what cannot be read is refused later."""
+    if not isinstance(settings.body, MeshBody):
+        return {}
+    files = [Path(name) for name in (settings.body.file, *settings.body.patterns.values())]
+    return {str(file): _hash(file.read_bytes()) for file in files if file.is_file()}
+
+
 def _source_hash() -> str:
     """Hash of this package's source: a change of the solver never meets an old cache."""
-    source = b"".join(file.read_bytes() for file in sorted(Path(__file__).parent.glob("*.py")))
-    return hashlib.sha256(source).hexdigest()
+    return _hash(b"".join(file.read_bytes() for file in sorted(Path(__file__).parent.glob("*.py"))))
+
+
+def _hash(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()
 
 
 def frequencies_hz(settings: RadiationSettings) -> Array:
@@ -140,41 +240,29 @@ def frequencies_hz(settings: RadiationSettings) -> Array:
     return frequencies
 
 
-def cylinder(shell: Shell) -> Cylinder:
-    """The shell about its centre of mass."""
-    bottom = -shell.centre_of_mass_height_m
-    return Cylinder(shell.radius_m, bottom, bottom + shell.height_m)
-
-
-def floor_z_m(shell: Shell, settings: RadiationSettings) -> float | None:
-    """Vertical coordinate of the hard floor; none in free field."""
-    return shell.floor_z_m if settings.surroundings == "hard-floor" else None
-
-
-def position_m(shell: Shell, receiver: Receiver) -> Array:
-    """Receiver (x, y, z) about the centre of mass; its height counts from the floor's level."""
-    return np.array([receiver.x_m, receiver.y_m, shell.floor_z_m + receiver.height_m])
-
-
 def _labelled(
+    found: Mapping[str, Array | ComplexArray],
     positions: Mapping[str, Array],
     frequency: Array,
-    simulated: ComplexArray,
-    closed_form: ComplexArray,
-    difference: Array,
+    patterns: list[str],
 ) -> xr.Dataset:
     distances = [float(np.linalg.norm(position)) for position in positions.values()]
     by_receiver = {"receiver": list(positions), "frequency": frequency}
-    coords = {**by_receiver, "dof": list(RIGID_BODY_DOFS)}
-    return check(
-        xr.Dataset(
-            {
-                "transfer_vector": stamp("transfer_vector", simulated, coords),
-                "transfer_vector_closed_form": stamp(
-                    "transfer_vector_closed_form", closed_form, coords
-                ),
-                "green_difference": stamp("green_difference", difference, by_receiver),
-            },
-            coords={"distance": ("receiver", distances)},
-        )
-    )
+    number = len(RIGID_BODY_DOFS)
+    by_dof = {**by_receiver, "dof": list(RIGID_BODY_DOFS)}
+    arrays = {
+        "transfer_vector": stamp("transfer_vector", found["simulated"][:, :number], by_dof),
+        "transfer_vector_closed_form": stamp(
+            "transfer_vector_closed_form", found["closed"][:, :number], by_dof
+        ),
+        "transfer_vector_error": stamp(
+            "transfer_vector_error", found["error"][:, :number], by_dof
+        ),
+        "green_difference": stamp("green_difference", found["difference"], by_receiver),
+    }
+    if patterns:
+        by_pattern = {**by_receiver, "pattern": patterns}
+        for name, key in (("", "simulated"), ("_error", "error")):
+            full = f"pattern_transfer_vector{name}"
+            arrays[full] = stamp(full, found[key][:, number:], by_pattern)
+    return xr.Dataset(arrays, coords={"distance": ("receiver", distances)})

@@ -1,0 +1,95 @@
+"""Time that boundary elements (bempp-cl) need per frequency for the body `cylinder`.
+
+Runs in the environment of tests/oracles/boundary_elements, without the mesh's symmetry, which a
+real shell does not have: six rigid motions, ten microphones, assembly and solution. Takes the
+coarsest mesh that stays within `MEAN_DB` and `MICROPHONE_DB` of the finest results on file.
+
+    NUMBA_NUM_THREADS=2 OMP_NUM_THREADS=2 python benchmarks/boundary_elements.py
+"""
+
+import argparse
+import csv
+import statistics
+import sys
+import time
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+ORACLE: Final = Path(__file__).parents[1] / "tests" / "oracles" / "boundary_elements"
+sys.path.insert(0, str(ORACLE))
+
+import run  # noqa: E402
+
+SIZES_M: Final = (0.060, 0.050, 0.040, 0.032, 0.026, 0.020)
+SAMPLED_HZ: Final = (48.0, 500.0, 2000.0)
+FREQUENCIES_HZ: Final = np.arange(25.0, 2001.0, 25.0)
+MEAN_DB: Final = 0.1
+MICROPHONE_DB: Final = 0.3
+
+
+def results_on_file(names: list[str]) -> run.ComplexArray:
+    """Pressures of the body `cylinder`, (frequency, pattern, microphone)."""
+    pressure = np.zeros((len(run.FREQUENCIES_HZ), len(names), len(run.MICROPHONES)), dtype=complex)
+    with (ORACLE / "results.csv").open(encoding="utf-8") as file:
+        for row in csv.DictReader(line for line in file if not line.startswith("#")):
+            frequency_hz = float(row["frequency_hz"])
+            if row["body"] == run.CYLINDER.name and frequency_hz in run.FREQUENCIES_HZ:
+                place = run.FREQUENCIES_HZ.index(frequency_hz), names.index(row["pattern"])
+                value = complex(float(row["pressure_real_pa"]), float(row["pressure_imaginary_pa"]))
+                pressure[place][int(row["microphone"]) - 1] = value
+    return pressure
+
+
+def coarsest_mesh(rigid_only: bool) -> run.Mesh:
+    """Coarsest mesh that is accurate enough at all frequencies up to 2 kHz."""
+    motions = run.patterns(run.CYLINDER)
+    if rigid_only:
+        motions = {name: motions[name] for name in ("tx", "tz", "ry")}
+    names = list(run.patterns(run.CYLINDER))
+    reference = results_on_file(names)[:, [names.index(name) for name in motions]]
+    for size_m in SIZES_M:
+        shape = run.mesh(run.CYLINDER, size_m)
+        radiation = run.Radiation(shape)
+        pressure = np.array([radiation.pressures(motions.values(), f) for f in run.FREQUENCIES_HZ])
+        mean = float(np.abs(run.mean_difference_db(pressure, reference)).max())
+        largest = float(run.largest_difference_db(pressure, reference).max())
+        print(
+            f"{size_m * 1e3:g} mm, {len(shape.vertices)} vertices, {len(shape.triangles)} "
+            f"triangles: mean {mean:.3f} dB, one microphone {largest:.3f} dB",
+            flush=True,
+        )
+        if mean <= MEAN_DB and largest <= MICROPHONE_DB:
+            return shape
+    raise SystemExit("no mesh is accurate enough")
+
+
+def main() -> None:
+    """Choose the mesh, time the sampled frequencies and extrapolate to all of them."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
+    parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--all-patterns", action="store_true", help="also beam and oval accurate")
+    arguments = parser.parse_args()
+    shape = coarsest_mesh(rigid_only=not arguments.all_patterns)
+    motions = list(run.rigid_motions().values())
+    for by_sectors in (False, True):
+        radiation = run.Radiation(shape, by_sectors)
+        radiation.pressures(motions, SAMPLED_HZ[0])  # compiles
+        medians = []
+        for frequency_hz in SAMPLED_HZ:
+            seconds = []
+            for _ in range(arguments.repeats):
+                start = time.perf_counter()
+                radiation.pressures(motions, frequency_hz)
+                seconds.append(time.perf_counter() - start)
+            medians.append(statistics.median(seconds))
+        total = float(np.interp(FREQUENCIES_HZ, SAMPLED_HZ, medians).sum())
+        print("with" if by_sectors else "without", "the symmetry of the mesh:")
+        for frequency_hz, median in zip(SAMPLED_HZ, medians, strict=True):
+            print(f"  {frequency_hz:g} Hz: {median:.2f} s")
+        print(f"  {len(FREQUENCIES_HZ)} frequencies to 2 kHz, from these: {total:.0f} s")
+
+
+if __name__ == "__main__":
+    main()

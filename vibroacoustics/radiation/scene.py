@@ -1,0 +1,225 @@
+"""From parameters to geometry: the radiating body, what stands around it, and the walls."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+from ..errors import ParameterError
+from ..parameters.body import BoxBody, MeshBody, RadiatingBody, SphereBody
+from ..parameters.radiation import RadiationSettings
+from ..parameters.receivers import Receiver
+from ..parameters.shell import Shell
+from ..parameters.surroundings import Cabinet, Opening
+from .arrays import Array
+from .bodies import Body, block, cylinder, join_bodies, read_mesh, sphere
+from .mirrors import Mirror
+from .patterns import Pattern, sampled
+from .surface_points import SurfacePoints
+
+NEAR_WALL_M: Final = 0.5
+"""Hard walls up to this far from the body belong to the machine side; see `Scene.near_walls`."""
+_LEAST_GAP_M: Final = 0.01
+_LARGEST_PATTERN_FILE_BYTES: Final = 100 * 2**20
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What radiates and scatters on the machine side, about the machine's centre of mass."""
+
+    body: Body
+    """The machine's surface and, after its faces, the panels of a cabinet."""
+    moving_faces: int
+    """Number of faces that belong to the machine; the others stand still."""
+    walls: tuple[Mirror, ...]
+
+    @property
+    def machine(self) -> Body:
+        """The moving surface alone."""
+        return Body(self.body.vertices, self.body.faces[: self.moving_faces])
+
+    @property
+    def near_walls(self) -> tuple[Mirror, ...]:
+        """Walls whose echo the machine scatters again: hard ones next to it, the floor always.
+
+        Those of the others is neglected.
+        """
+        lower, upper = self.body.bounds()
+        return tuple(
+            wall
+            for wall in self.walls
+            if wall.hard
+            and min(wall.depth_m(lower), wall.depth_m(upper)) <= (NEAR_WALL_M if wall.axis < 2 else np.inf)
+        )
+
+    def moving(self, pattern: Pattern) -> Pattern:
+        """The pattern on the machine's faces, and rest on the others."""
+
+        def velocity(at: SurfacePoints) -> Array:
+            return pattern.velocity(at) * (at.face < self.moving_faces)[:, None]
+
+        return Pattern(pattern.name, velocity)
+
+
+def scene(shell: Shell, settings: RadiationSettings) -> Scene:
+    """The scene of a study's shell and radiation settings.
+
+    Raises
+    ------
+    ParameterError
+        A mesh cannot be read, is open or inverted; the machine meets a wall, the floor or a panel.
+    """
+    machine = machine_body(shell, settings.body)
+    walls = room_walls(shell, settings)
+    lower, upper = machine.bounds()
+    for wall in walls:
+        gap = min(float(wall.depth_m(lower)), float(wall.depth_m(upper)))
+        if gap < (-1e-9 if wall.axis == 2 else _LEAST_GAP_M):
+            raise ParameterError(
+                f"radiation.surroundings: the machine is {1e3 * gap:.4g} mm off the wall across "
+                f"{'xyz'[wall.axis]}; needed at least {0 if wall.axis == 2 else 1e3 * _LEAST_GAP_M:g} mm"
+            )
+    cabinet = settings.surroundings.cabinet
+    panels = [] if cabinet is None else list(cabinet_panels(cabinet, shell.floor_z_m))
+    if cabinet is not None:
+        _check_fits(machine, cabinet, shell.floor_z_m)
+    return Scene(join_bodies([machine, *panels]), machine.faces.shape[0], walls)
+
+
+def machine_body(shell: Shell, body: RadiatingBody) -> Body:
+    """The radiating surface about the centre of mass.
+
+    Raises
+    ------
+    ParameterError
+        The mesh cannot be read, is open or inverted.
+    """
+    bottom = -shell.centre_of_mass_height_m
+    if isinstance(body, BoxBody):
+        half_length, half_width = body.length_m / 2.0, body.width_m / 2.0
+        lower = np.array([-half_length, -half_width, bottom])
+        return block(lower, np.array([half_length, half_width, bottom + body.height_m]))
+    if isinstance(body, SphereBody):
+        radius = body.diameter_m / 2.0
+        return sphere(radius, (0.0, 0.0, bottom + radius))
+    if isinstance(body, MeshBody):
+        mesh = read_mesh(Path(body.file), body.file_unit_m)
+        return Body(mesh.vertices + np.array([0.0, 0.0, bottom]), mesh.faces)
+    return cylinder(shell.radius_m, bottom, bottom + shell.height_m, shell.dome_height_m)
+
+
+def file_patterns(body: RadiatingBody, machine: Body) -> list[Pattern]:
+    """Surface velocities of a mesh that files give.
+
+    Raises
+    ------
+    ParameterError
+        A file cannot be read or does not fit the mesh.
+    """
+    if not isinstance(body, MeshBody):
+        return []
+    return [
+        sampled(name, machine, _read_velocities(name, Path(file)))
+        for name, file in body.patterns.items()
+    ]
+
+
+def _read_velocities(name: str, path: Path) -> Array:
+    where = f"radiation.body.patterns.{name}: {path}"
+    try:
+        if path.stat().st_size > _LARGEST_PATTERN_FILE_BYTES:
+            raise ParameterError(f"{where}: larger than 100 MiB")
+        return np.loadtxt(path, delimiter=",", ndmin=1)
+    except OSError as error:
+        raise ParameterError(f"{where}: cannot be read: {error.strerror or error}") from None
+    except ValueError as error:
+        raise ParameterError(f"{where}: is no table of numbers: {error}") from None
+
+
+def room_walls(shell: Shell, settings: RadiationSettings) -> tuple[Mirror, ...]:
+    """Floor and walls as mirrors."""
+    surroundings = settings.surroundings
+    walls = [Mirror(axis=2, sign=-1, position_m=shell.floor_z_m)] if surroundings.floor else []
+    for side, wall in surroundings.walls.items():
+        sign = -1 if side[0] == "-" else 1
+        reflection = float(np.sqrt(1.0 - wall.absorption_ratio))
+        walls.append(Mirror("xyz".index(side[1]), sign, sign * wall.distance_m, reflection))
+    return tuple(walls)
+
+
+def position_m(shell: Shell, receiver: Receiver) -> Array:
+    """Receiver (x, y, z) about the centre of mass; its height counts from the floor's level."""
+    return np.array([receiver.x_m, receiver.y_m, shell.floor_z_m + receiver.height_m])
+
+
+def _check_fits(machine: Body, cabinet: Cabinet, floor_z_m: float) -> None:
+    lower, upper = machine.bounds()
+    room = np.array([cabinet.depth_m, cabinet.width_m, 2.0 * (floor_z_m + cabinet.height_m)]) / 2.0
+    gap = float(min(np.min(room - upper), np.min(room[:2] + lower[:2])))
+    if gap < _LEAST_GAP_M:
+        raise ParameterError(
+            f"radiation.surroundings.cabinet: the machine is {1e3 * gap:.4g} mm off the panels; "
+            f"needed at least {1e3 * _LEAST_GAP_M:g} mm"
+        )
+
+
+def cabinet_panels(cabinet: Cabinet, floor_z_m: float) -> Iterator[Body]:
+    """The panels of a cabinet as blocks that overlap at its edges.
+
+    A panel with an opening is four blocks around it.
+    """
+    half = np.array([cabinet.depth_m / 2.0, cabinet.width_m / 2.0])
+    inner_lower = np.array([*-half, floor_z_m])
+    inner_upper = np.array([*half, floor_z_m + cabinet.height_m])
+    thickness = cabinet.panel_thickness_m
+    outer_lower, outer_upper = inner_lower - thickness, inner_upper + thickness
+    outer_lower[2] = floor_z_m
+    for side, (axis, upward) in _SIDES.items():
+        if side in cabinet.open_sides:
+            continue
+        lower, upper = outer_lower.copy(), outer_upper.copy()
+        if upward:
+            lower[axis] = inner_upper[axis]
+        else:
+            upper[axis] = inner_lower[axis]
+        opening = cabinet.openings.get(side)
+        if opening is None:
+            yield block(lower, upper)
+        else:
+            yield from _around_opening(lower, upper, axis, opening, floor_z_m)
+
+
+_SIDES: Final = {
+    "-x": (0, False),
+    "+x": (0, True),
+    "-y": (1, False),
+    "+y": (1, True),
+    "top": (2, True),
+}
+
+
+def _around_opening(
+    lower: Array, upper: Array, axis: int, opening: Opening, floor_z_m: float
+) -> Iterator[Body]:
+    """What a rectangular hole leaves of a panel; a hole that reaches an edge leaves fewer blocks."""
+    along, up = [other for other in range(3) if other != axis]
+    middle_up = opening.up_m + (floor_z_m if up == 2 else 0.0)
+    hole_lower, hole_upper = lower.copy(), upper.copy()
+    for across, middle, size in (
+        (along, opening.along_m, opening.width_m),
+        (up, middle_up, opening.height_m),
+    ):
+        hole_lower[across] = np.clip(middle - size / 2.0, lower[across], upper[across])
+        hole_upper[across] = np.clip(middle + size / 2.0, lower[across], upper[across])
+    strip_lower, strip_upper = lower.copy(), upper.copy()
+    for across in (along, up):
+        before, after = strip_upper.copy(), strip_lower.copy()
+        before[across], after[across] = hole_lower[across], hole_upper[across]
+        for block_lower, block_upper in ((strip_lower, before), (after, strip_upper)):
+            if np.all(block_upper - block_lower > 1e-9):
+                yield block(block_lower, block_upper)
+        # What is left between both strips, with the hole in it.
+        strip_lower, strip_upper = strip_lower.copy(), strip_upper.copy()
+        strip_lower[across], strip_upper[across] = hole_lower[across], hole_upper[across]

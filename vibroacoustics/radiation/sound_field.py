@@ -1,0 +1,146 @@
+"""The sound field besides the microphones: measurement surface, map, sphere of directions."""
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ..errors import ParameterError
+from ..parameters.sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
+from ..schema import RIGID_BODY_DOFS, stamp
+from .arrangements import (
+    check_outside,
+    directivity_angles,
+    directivity_points,
+    map_points,
+    sound_power_points,
+)
+from .arrays import Array, ComplexArray, Progress
+from .machine_side import MachineSide, in_threads
+from .scene import Scene
+
+_POINTS_PER_TASK: Final = 16
+
+
+@dataclass(frozen=True)
+class SoundField:
+    """Where the sound field is asked for besides the microphones; nothing by default."""
+
+    sound_power: SoundPowerSettings | None = None
+    map: MapSettings | None = None
+    directivity: DirectivitySettings | None = None
+    line_frequency_hz: tuple[float, ...] = ()
+    """Frequencies of map and directivity."""
+
+    def key_material(self) -> dict[str, Any]:
+        """Plain data to be hashed."""
+        settings = {
+            name: value and value.model_dump()
+            for name, value in (
+                ("sound_power", self.sound_power),
+                ("map", self.map),
+                ("directivity", self.directivity),
+            )
+        }
+        return {**settings, "line_frequency_hz": list(self.line_frequency_hz)}
+
+
+NO_SOUND_FIELD: Final = SoundField()
+
+
+def elsewhere(
+    side: MachineSide,
+    surroundings: Scene,
+    floor_level_m: float,
+    sound_field: SoundField,
+    tabulated: int,
+    progress: Progress,
+) -> xr.Dataset:
+    """Transfer vectors wherever the sound field is asked for, by the closed-form Green's function.
+
+    The first `tabulated` of the machine side's frequencies are those of the table, the others those
+    of the lines.
+
+    Raises
+    ------
+    ParameterError
+        A position of the measurement surface lies in the machine, too close to it or behind a wall.
+    """
+    floor = next((wall.position_m for wall in side.walls if wall.axis == 2), None)
+    table, lines = slice(0, tabulated), slice(tabulated, None)
+    parts = {}
+    if sound_field.sound_power is not None:
+        points = sound_power_points(sound_field.sound_power, surroundings.machine, floor)
+        _check_surface(points, surroundings, side)
+        values = _at_points(side, points, table, "sound power", progress)
+        coords = {"position": np.arange(1, points.shape[0] + 1)}
+        parts["surface_transfer_vector"] = (values, coords, "frequency", table)
+    if sound_field.map is not None:
+        points = map_points(sound_field.map, floor_level_m)
+        values = _at_points(side, points, lines, "map", progress)
+        parts["map_transfer_vector"] = (values, _map_places(points), "line_frequency", lines)
+    if sound_field.directivity is not None:
+        points = directivity_points(sound_field.directivity, floor)
+        values = _at_points(side, points, lines, "directivity", progress)
+        angles = directivity_angles(sound_field.directivity, floor is not None)
+        coords = dict(zip(("polar_angle", "azimuth"), angles, strict=True))
+        parts["directivity_transfer_vector"] = (values, coords, "line_frequency", lines)
+    return xr.Dataset(
+        {
+            name: stamp(
+                name,
+                values,
+                {**coords, "dof": list(RIGID_BODY_DOFS), dimension: side.frequency_hz[chosen]},
+            )
+            for name, (values, coords, dimension, chosen) in parts.items()
+        }
+    )
+
+
+def _map_places(points: Array) -> dict[str, Any]:
+    shape = ("map_row", "map_column")
+    indices = {name: np.arange(size) for name, size in zip(shape, points.shape[:2], strict=True)}
+    return {**indices, **{f"map_{axis}": (shape, points[..., i]) for i, axis in enumerate("xyz")}}
+
+
+def _at_points(
+    side: MachineSide, points: Array, chosen: slice, name: str, progress: Progress
+) -> ComplexArray:
+    """Pressures (..., dof, frequency) at points (..., 3); not a number in the box, behind walls."""
+    flat = points.reshape(-1, 3)
+    dofs, frequencies = len(RIGID_BODY_DOFS), side.frequency_hz[chosen].size
+    result = np.full((flat.shape[0], dofs, frequencies), np.nan, dtype=complex)
+    outside = np.flatnonzero(_outside(side, flat))
+    parts = np.array_split(outside, -(-outside.size // _POINTS_PER_TASK)) if outside.size else []
+    done = itertools.count(1)
+
+    def fill(indices: NDArray[np.intp]) -> None:
+        for index in indices:
+            result[index] = side.pressures(flat[index], chosen)[0][:dofs]
+        progress(name, next(done), len(parts))
+
+    in_threads([lambda part=part: fill(part) for part in parts])
+    return result.reshape(*points.shape[:-1], dofs, frequencies)
+
+
+def _outside(side: MachineSide, points: Array) -> NDArray[np.bool_]:
+    """Whether points (point, 3) lie outside the boxes and in front of every wall."""
+    corners = [(near.box.outer.min(axis=0), near.box.outer.max(axis=0)) for near in side.near]
+    in_box = [np.all((points > low) & (points < high), axis=1) for low, high in corners]
+    behind = [wall.depth_m(points) < -1e-9 for wall in side.walls]
+    outside: NDArray[np.bool_] = ~np.any([*in_box, *behind], axis=0)
+    return outside
+
+
+def _check_surface(points: Array, surroundings: Scene, side: MachineSide) -> None:
+    wrong: Sequence[Array] = points[~_outside(side, points)]
+    if len(wrong):
+        check_outside("sound_power", wrong[0], surroundings.body)
+        raise ParameterError(
+            f"sound_power: the position {wrong[0].round(3).tolist()} m about the centre of mass "
+            "lies behind a wall or too close to the machine"
+        )
