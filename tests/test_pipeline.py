@@ -10,7 +10,14 @@ from vibroacoustics.orders import semi_major_axis
 from vibroacoustics.schema import RIGID_BODY_DOFS, VARIABLES, stamp
 
 ROUNDING = 1e-12
-NOT_MADE_HERE = {"green_difference"}
+NOT_MADE_HERE = {
+    "green_difference",
+    "transfer_vector_error",
+    "map_transfer_vector",
+    "directivity_transfer_vector",
+    "surface_transfer_vector",
+    "unit_sound_power_level",
+}
 
 
 def _transfer_vectors(study, gain=1.0) -> xr.Dataset:
@@ -110,3 +117,23 @@ def test_model_louder_than_the_catalogue_is_refused(thesis_study, monkeypatch):
     monkeypatch.setattr(pipeline, "_transfer_vectors", lambda *_: loud)
     with pytest.raises(ParameterError, match=r"published_noise\.level_dba = 56 dB\(A\)"):
         pipeline.run(thesis_study)
+
+
+def test_radiation_alone_tells_where_it_comes_from(thesis_study, monkeypatch):
+    made = _transfer_vectors(thesis_study)
+    monkeypatch.setattr(pipeline, "_transfer_vectors", lambda *_: (made, True))
+    radiated = pipeline.radiate(thesis_study)
+    assert set(radiated.data_vars) == set(made.data_vars)
+    assert radiated.attrs["transfer_vectors"] == "from the cache"
+    assert radiated.attrs["title"] == thesis_study.title
+    assert "made up" in radiated.attrs["radiation"]
+    assert radiated["frequency"].attrs["units"] == "Hz"
+
+
+def test_radiation_refuses_in_the_name_of_the_study(thesis_study, monkeypatch):
+    def refuse(*_):
+        raise ParameterError("receivers.a: too close")
+
+    monkeypatch.setattr(pipeline, "_transfer_vectors", refuse)
+    with pytest.raises(ParameterError, match=r"copeland_thesis\.toml: receivers\.a: too close"):
+        pipeline.radiate(thesis_study)

@@ -12,7 +12,11 @@ from support import PIPELINES
 from typer.testing import CliRunner
 
 from vibroacoustics import cli, outputs, pipeline, storage
-from vibroacoustics.parameters.sound_power import DirectivitySettings, MapSettings
+from vibroacoustics.parameters.sound_power import (
+    DirectivitySettings,
+    MapSettings,
+    SoundPowerSettings,
+)
 from vibroacoustics.radiation.arrangements import (
     directivity_angles,
     directivity_points,
@@ -21,17 +25,12 @@ from vibroacoustics.radiation.arrangements import (
 )
 from vibroacoustics.radiation.exact import green, wavenumber
 from vibroacoustics.radiation.mirrors import floor
-from vibroacoustics.report.radiation_figures import (
-    Plane,
-    colour_edges,
-    directivity_figure,
-    line_map_figure,
-    map_figure,
-    radiation_figures,
-    radiation_text,
-    transfer_vector_figure,
-    unit_level_db,
-)
+from vibroacoustics.report.figures.directivity import directivity_figure
+from vibroacoustics.report.figures.maps import Plane, line_map_figure, map_figure
+from vibroacoustics.report.figures.transfer_vectors import transfer_vector_figure
+from vibroacoustics.report.figures.unit_levels import colour_edges, unit_level_db
+from vibroacoustics.report.radiation_figures import radiation_figures
+from vibroacoustics.report.radiation_tables import radiation_text
 from vibroacoustics.schema import RIGID_BODY_DOFS, check, label_coordinates, stamp
 
 FLOOR_Z_M = -0.225
@@ -83,7 +82,9 @@ def radiated() -> xr.Dataset:
             "directivity_transfer_vector", around, {**lines, **angles}
         ),
         "surface_transfer_vector": on_surface,
-        "unit_sound_power_level": pipeline.unit_sound_power(on_surface, 2.0 * np.pi),
+        "unit_sound_power_level": pipeline.unit_sound_power(
+            on_surface, SoundPowerSettings(background_margin_db=10.0), 2.0 * np.pi
+        ),
     }
     places = {
         f"map_{name}": (("map_row", "map_column"), plane[..., axis])
@@ -155,6 +156,8 @@ def test_table_tells_levels_error_and_sound_power(radiated):
     assert [float(cell) for cell in front[2:-1]] == pytest.approx(level, abs=0.051)
     assert float(front[-1]) == pytest.approx(20.0 * np.log10(1.02), abs=0.005)
     assert next(row for row in rows if row[:2] == ["front_1m", "rz"])[-1] == "-"
+    assert "iso3744-hemisphere-10, S = 6.28 m²" in text
+    assert "K1 + K2 = 0.5 dB more" in text
     power = radiated["unit_sound_power_level"].sel(dof="tx").values
     assert next(row for row in rows if row[:1] == ["tx"])[1] == f"{power[0]:.1f}"
 

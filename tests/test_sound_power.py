@@ -3,10 +3,12 @@
 import numpy as np
 import pytest
 from pydantic import ValidationError
+from support import PIPELINES
 
 from vibroacoustics import pipeline
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.levels import a_weighting
+from vibroacoustics.loading import load_study
 from vibroacoustics.parameters.sound_power import (
     DirectivitySettings,
     MapSettings,
@@ -22,6 +24,7 @@ from vibroacoustics.sound_power import (
     hemisphere_area_m2,
     sound_power_level,
     sphere_area_m2,
+    stand_corrections_db,
     surface_area_m2,
 )
 
@@ -95,9 +98,15 @@ def test_unit_sound_power_is_that_of_a_uniform_field():
         np.full((10, 1, 2), 1.0 + 0.0j),
         {"dof": ["tx"], "frequency": [50.0, 100.0]},
     )
-    level = pipeline.unit_sound_power(field, 2.0 * np.pi)
+    level = pipeline.unit_sound_power(field, SoundPowerSettings(), 2.0 * np.pi)
     expected = 20.0 * np.log10(1e-3 / 20e-6) + 10.0 * np.log10(2.0 * np.pi)
     np.testing.assert_allclose(level.values, [[expected, expected]])
+
+
+def test_corrections_of_the_test_stand():
+    assert stand_corrections_db(SoundPowerSettings(), 6.0) == (0.0, 0.0)
+    settings = SoundPowerSettings(background_margin_db=10.0, absorption_area_m2=24.0)
+    assert stand_corrections_db(settings, 6.0) == pytest.approx((0.458, 3.010), abs=5e-4)
 
 
 # --- settings ------------------------------------------------------------------------------------
@@ -139,3 +148,70 @@ def test_directivity_step_divides_a_right_angle():
     assert DirectivitySettings(step_rad=np.pi / 12.0).step_rad == pytest.approx(np.pi / 12.0)
     with pytest.raises(ValidationError, match=r"step_deg = 7 °: must divide 90"):
         DirectivitySettings(step_rad=np.deg2rad(7.0))
+
+
+STUDY = """
+extends = "{base}"
+[sound_power]
+arrangement = "iso3744-box"
+distance_mm = 500.0
+background_margin_db = 12.0
+absorption_area_m2 = 80.0
+[map]
+normal = "z"
+coordinate_mm = 300.0
+horizontal_mm = [-2000.0, 2000.0]
+vertical_mm = [-1000.0, 1000.0]
+spacing_mm = 100.0
+[directivity]
+radius_mm = 5000.0
+step_deg = 15.0
+"""
+
+
+@pytest.fixture
+def study_file(tmp_path):
+    path = tmp_path / "study.toml"
+    path.write_text(STUDY.format(base=PIPELINES / "copeland_thesis.toml"))
+    return path
+
+
+def test_study_file_asks_for_sound_power_map_and_directivity(study_file):
+    study = load_study(study_file)
+    assert study.sound_power == SoundPowerSettings(
+        arrangement="iso3744-box",
+        distance_m=0.5,
+        background_margin_db=12.0,
+        absorption_area_m2=80.0,
+    )
+    assert study.map.sizes == (40, 20)
+    assert study.directivity.step_rad == pytest.approx(np.pi / 12.0)
+
+
+def test_study_file_without_them(thesis_study):
+    assert (thesis_study.sound_power, thesis_study.map, thesis_study.directivity) == (None,) * 3
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("distance_mm = 500.0", "distance_mm = 100.0",
+         r"sound_power\.distance_mm = 100\.0 mm: out of range; allowed from 250 to 16000 mm"),
+        ("background_margin_db = 12.0", "background_margin_db = 3.0",
+         r"sound_power\.background_margin_db = 3\.0 dB: out of range; allowed from 6 to 100 dB"),
+        ("absorption_area_m2 = 80.0", "absorption_area_m2 = 0.0",
+         r"sound_power\.absorption_area_m2 = 0\.0 m²: out of range; allowed above 0 to 1e\+06 m²"),
+        ("spacing_mm = 100.0", "spacing_mm = 9000.0",
+         r"map\.spacing_mm = 9000\.0 mm: out of range"),
+        ("spacing_mm = 100.0", "spacing_mm = 5.0", r"map: spacing_mm = 5 mm: gives 321201 points"),
+        ("vertical_mm = [-1000.0, 1000.0]", "vertical_mm = [1000.0, -1000.0]",
+         r"map: vertical_mm = \[1000, -1000\] mm: must rise"),
+        ("step_deg = 15.0", "step_deg = 13.0", r"directivity: step_deg = 13 °: must divide"),
+        ("[map]", "[map]\ncolour = 1", r"map\.colour: unknown key"),
+    ],
+)  # fmt: skip
+def test_refusals_in_a_study_file(study_file, old, new, words):
+    study_file.write_text(study_file.read_text().replace(old, new))
+    with pytest.raises(ParameterError, match=words) as caught:
+        load_study(study_file)
+    assert len(str(caught.value).splitlines()) == 1

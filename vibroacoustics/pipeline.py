@@ -17,6 +17,7 @@ from .errors import ParameterError
 from .mechanisms import MECHANISMS
 from .moving_parts import Array, Balancing, MovingPart, wrench
 from .orders import order_spectrum, semi_major_axis
+from .parameters.sound_power import SoundPowerSettings
 from .parameters.study import Study
 from .schema import (
     AXES,
@@ -89,22 +90,36 @@ def radiate(study: Study, progress: Progress = lambda *_: None) -> xr.Dataset:
     return check(label_coordinates(results))
 
 
-def unit_sound_power(surface_transfer_vector: xr.DataArray, surface_m2: float) -> xr.DataArray:
+def unit_sound_power(
+    surface_transfer_vector: xr.DataArray, settings: SoundPowerSettings, surface_m2: float
+) -> xr.DataArray:
     """Sound power level (dof, frequency) of a housing that moves at 1 mm/s or 1 mrad/s rms, dB.
 
     Parameters
     ----------
     surface_transfer_vector : (position, dof, frequency), at the positions of an arrangement
+    settings : the study's, to be told in the attributes with K1 and K2 of its test stand
     surface_m2 : area of its measurement surface, m²
+
+    Raises
+    ------
+    ParameterError
+        The room of the test stand does not qualify.
     """
+    background, environment = sound_power.stand_corrections_db(settings, surface_m2)
     ordered = surface_transfer_vector.transpose("position", "dof", "frequency")
     peak = UNIT_VELOCITY_PEAK * ordered.values
     mean = sound_power.energy_mean(levels.sound_pressure_level(peak), axis=0)
-    return stamp(
+    labelled = stamp(
         "unit_sound_power_level",
         sound_power.sound_power_level(mean, surface_m2),
         {name: ordered[name].values for name in ("dof", "frequency")},
-        surface=f"{surface_m2:.4g} m2",
+        arrangement=settings.arrangement,
+    )
+    return labelled.assign_attrs(
+        surface_m2=surface_m2,
+        test_stand_background_correction_db=background,
+        test_stand_environment_correction_db=environment,
     )
 
 

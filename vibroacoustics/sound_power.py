@@ -88,6 +88,16 @@ def sound_power_level(
     return np.asarray(corrected + 10.0 * np.log10(surface_m2 / REFERENCE_SURFACE_M2))
 
 
+def stand_corrections_db(settings: SoundPowerSettings, surface_m2: float) -> tuple[float, float]:
+    """K1 and K2 of the test stand that a study is compared with, dB; 0 where it tells nothing.
+
+    The microphones there read K1 + K2 more than the simulation's, which has neither.
+    """
+    margin, area = settings.background_margin_db, settings.absorption_area_m2
+    background = 0.0 if margin is None else float(background_correction_db(margin))
+    return background, 0.0 if area is None else environment_correction_db(surface_m2, area)
+
+
 def a_weighted_level(level_db: Real, a_weighting_db: Real, axis: int = -1) -> Real:
     """LWA = 10 lg Σ 10^(0.1 (LW + A)) over lines or bands, dB(A) (equation E.1).
 

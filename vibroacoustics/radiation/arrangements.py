@@ -212,7 +212,8 @@ def check_outside(name: str, points: Array, body: Body) -> None:
     ParameterError
         One line that names the first such point.
     """
-    _refuse(name, points, body.signed_distance(points) < 0.0, "inside the machine")
+    inside = [body.contains(point) for point in points.reshape(-1, 3)]
+    _refuse(name, points, np.reshape(inside, points.shape[:-1]), "inside the machine")
 
 
 def _refuse(name: str, points: Array, wrong: NDArray[np.bool_], where: str) -> None:

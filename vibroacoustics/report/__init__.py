@@ -13,7 +13,8 @@ from .figures import (
 )
 from .html import html
 from .markdown import comparison_markdown
-from .radiation_figures import radiation_figures, radiation_text
+from .radiation_figures import radiation_figures
+from .radiation_tables import radiation_text
 from .scores import scores_csv
 
 __all__ = ["comparison_text", "radiation_figures", "radiation_text", "render"]

@@ -1,0 +1,164 @@
+"""Levels on a plane."""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import BoundaryNorm
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from ...constants import REFERENCE_PRESSURE_PA
+from .style import Picture, plain, render
+from .unit_levels import (
+    COLOUR_MAP,
+    DEPTH_DB,
+    WIDE_INCH,
+    Complex,
+    Real,
+    colour_edges,
+    dof_title,
+    names,
+    rows_of,
+    silent_dofs,
+    unit_level_db,
+    write_silent,
+)
+
+
+class Plane(NamedTuple):
+    """Points of a map, (row, column) each, m, and what its axes are called."""
+
+    horizontal: Real
+    vertical: Real
+    horizontal_label: str
+    vertical_label: str
+
+
+def map_figure(radiated: xr.Dataset) -> Picture:
+    """Level on the map per degree of freedom at unit velocity, at the highest line frequency."""
+    field = radiated["map_transfer_vector"].isel(line_frequency=-1)
+    field = field.transpose("dof", "map_row", "map_column")
+    dofs = names(field, "dof")
+    frequency = float(field["line_frequency"])
+    plane = _plane(radiated)
+    silent = silent_dofs(field.values, dofs)
+    panels = {dof_title(dof): unit_level_db(field.values[i]) for i, dof in enumerate(dofs)}
+    quiet = [dof_title(dof) for dof in silent]
+    return Picture(
+        "map",
+        f"Sound pressure level on a plane at {frequency:.1f} Hz for motion in each degree of "
+        "freedom; the blank area is the machine and its near surroundings.",
+        f"Level on the plane at {frequency:.1f} Hz when the housing moves at 1 mm/s or turns at "
+        "1 mrad/s (root mean square) in one degree of freedom; coordinates from the centre "
+        f"of mass. Blank: the box around the machine. Darkest: {DEPTH_DB:g} dB and more below the "
+        "loudest of the row.",
+        level_maps(panels, plane, quiet),
+    )
+
+
+def line_map_figure(pressure_peak: Complex, plane: Plane, title: str) -> Picture:
+    """Level on the map of a field that has been computed, such as the 1x line of one option.
+
+    Parameters
+    ----------
+    pressure_peak : complex peak pressure (row, column), Pa; NaN inside the box
+    plane : the points
+    title : what is shown, such as `1x at 2900 rpm, none`
+    """
+    level = 20.0 * np.log10(
+        np.maximum(np.abs(pressure_peak) / np.sqrt(2.0), 1e-20) / REFERENCE_PRESSURE_PA
+    )
+    return Picture(
+        "line_map",
+        f"Sound pressure level on a plane: {title}.",
+        f"Level on the plane: {title}. Blank: the box around the machine.",
+        level_maps({title: level}, plane, []),
+    )
+
+
+def level_maps(panels: dict[str, Real], plane: Plane, silent: Sequence[str]) -> bytes:
+    """PNG of level maps, three in a row; the panels of a row share one scale of colours.
+
+    Parameters
+    ----------
+    panels : level (row, column), dB, by title; NaN is left blank
+    plane : the points
+    silent : titles of the panels that hold no sound
+    """
+    columns = min(3, len(panels))
+    titles = list(panels)
+    rows = rows_of(titles, columns)
+    wide = np.ptp(plane.horizontal) / max(float(np.ptp(plane.vertical)), 1e-9)
+    panel_width = (WIDE_INCH - 1.2) / columns
+    height = rows * (min(panel_width / wide, 6.0) + 0.55) + 0.3
+
+    def paint(figure: Figure) -> None:
+        grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
+        for row, axes_row in enumerate(grid):
+            own = titles[row * columns : (row + 1) * columns]
+            loud = [panels[title] for title in own if title not in silent]
+            if not loud:
+                edges = np.array([0.0, 1.0])
+            else:
+                edges = colour_edges(float(np.nanmax(loud)), float(np.nanmin(loud)))
+            for axes, title in zip(axes_row, own, strict=False):
+                _map_panel(axes, panels[title], plane, edges, title, title in silent)
+            for axes in axes_row[len(own) :]:
+                axes.set_axis_off()
+            if loud:
+                _colour_bar(figure, list(axes_row), edges)
+            axes_row[0].set_ylabel(plane.vertical_label)
+        for axes in grid[-1]:
+            axes.set_xlabel(plane.horizontal_label)
+
+    return render(WIDE_INCH, height, paint)
+
+
+def _map_panel(
+    axes: Axes, level: Real, plane: Plane, edges: Real, title: str, silent: bool
+) -> None:
+    axes.set_title(plain(title), loc="left")
+    axes.set_aspect("equal")
+    axes.set_facecolor("#e6e6e6")  # what is left blank
+    axes.grid(False)
+    axes.set_xlim(plane.horizontal.min(), plane.horizontal.max())
+    axes.set_ylim(plane.vertical.min(), plane.vertical.max())
+    if silent:
+        write_silent(axes)
+        return
+    shown = np.maximum(level, edges[0])  # NaN stays and is left blank
+    where = (plane.horizontal, plane.vertical)
+    axes.contourf(*where, shown, levels=edges, cmap=COLOUR_MAP, extend="neither")
+    lines = axes.contour(*where, shown, levels=_contours(edges), colors="white", linewidths=0.7)
+    axes.clabel(lines, fmt="%.0f", fontsize=7.5)
+    blank = np.isnan(level).astype(float)
+    if blank.any():
+        axes.contour(*where, blank, levels=[0.02], colors="black", linewidths=0.9)
+
+
+def _contours(edges: Real) -> Real:
+    """Round levels inside the scale: few enough to be labelled."""
+    span = edges[-1] - edges[0]
+    step = next((step for step in (10.0, 5.0, 2.0) if span >= 2.5 * step), 1.0)
+    first = step * np.floor(edges[0] / step + 1.0)
+    return np.asarray(np.arange(first, edges[-1] - 1e-9, step))
+
+
+def _colour_bar(figure: Figure, axes: list[Any], edges: Real) -> None:
+    bar = figure.colorbar(
+        ScalarMappable(BoundaryNorm(edges, 256), COLOUR_MAP), ax=axes, pad=0.02, aspect=18
+    )
+    bar.ax.yaxis.set_major_locator(MaxNLocator(5, integer=True))
+    bar.set_label("dB re 20 µPa")
+
+
+def _plane(radiated: xr.Dataset) -> Plane:
+    """The two axes along which a map extends; the third is constant."""
+    places = {name: radiated[f"map_{name}"].values for name in "xyz"}
+    normal = min(places, key=lambda name: float(np.ptp(places[name])))
+    across, up = [name for name in "xyz" if name != normal]
+    return Plane(places[across], places[up], f"{across}, m", f"{up}, m")

@@ -1,0 +1,70 @@
+"""Levels of a housing that moves at unit velocity, as plain text."""
+
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from . import rounding
+from .figures.unit_levels import Real, names, silent_dofs, unit_level_db
+from .tables import Table, to_text
+
+TABLE_FREQUENCIES_HZ: Final = (50.0, 100.0, 250.0, 500.0, 1000.0, 2000.0)
+_CORRECTIONS: Final = ("background", "environment")
+
+
+def radiation_text(radiated: xr.Dataset) -> str:
+    """Plain-text tables for the terminal: levels at unit velocity, their error, sound power."""
+    frequency = radiated["frequency"].values
+    wanted = [hertz for hertz in TABLE_FREQUENCIES_HZ if frequency[0] <= hertz <= frequency[-1]]
+    nearest = sorted({int(np.argmin(np.abs(frequency - hertz))) for hertz in wanted}) or [0]
+    head = tuple(f"{frequency[index]:g} Hz" for index in nearest)
+    tables = [_level_table(radiated, nearest, head)]
+    if "unit_sound_power_level" in radiated:
+        tables.append(_power_table(radiated["unit_sound_power_level"], nearest, head))
+    return "\n".join(to_text(table) for table in tables)
+
+
+def _level_table(radiated: xr.Dataset, nearest: list[int], head: tuple[str, ...]) -> Table:
+    field = radiated["transfer_vector"].transpose("receiver", "dof", "frequency")
+    level = unit_level_db(field.values)
+    error = radiated.get("transfer_vector_error")
+    worst = None if error is None else _error_db(field, error)
+    rows = []
+    for i, receiver in enumerate(names(field, "receiver")):
+        for j, dof in enumerate(names(field, "dof")):
+            cells = [rounding.level(float(level[i, j, k])) for k in nearest]
+            if worst is not None:
+                cells.append(rounding.fixed(float(worst[i, j]), 2))
+            rows.append((receiver, dof, *cells))
+    last = () if worst is None else ("error dB",)
+    caption = "Level at 1 mm/s (t), 1 mrad/s (r) rms, dB re 20 µPa; error: median estimate"
+    return Table(caption, ("Microphone", "dof", *head, *last), tuple(rows), frozenset({0, 1}))
+
+
+def _error_db(field: xr.DataArray, error: xr.DataArray) -> Real:
+    """Median over the frequencies of 20 lg(1 + error/|T|), (receiver, dof); NaN if silent."""
+    size = np.abs(field.values)
+    ordered = error.transpose(*field.dims).values
+    with np.errstate(divide="ignore", invalid="ignore"):
+        in_db = 20.0 * np.log10(1.0 + ordered / size)
+    median = np.median(in_db, axis=-1)
+    dofs = names(field, "dof")
+    median[:, [dof in silent_dofs(np.moveaxis(size, 1, 0), dofs) for dof in dofs]] = np.nan
+    return np.asarray(median)
+
+
+def _power_table(power: xr.DataArray, nearest: list[int], head: tuple[str, ...]) -> Table:
+    ordered = power.transpose("dof", "frequency")
+    rows = tuple(
+        (dof, *(rounding.level(float(values[k])) for k in nearest))
+        for dof, values in zip(names(ordered, "dof"), ordered.values, strict=True)
+    )
+    caption = (
+        "Sound power level at 1 mm/s (t), 1 mrad/s (r) rms, dB re 1 pW; "
+        f"{power.attrs['arrangement']}, S = {power.attrs['surface_m2']:.2f} m²"
+    )
+    stand = sum(power.attrs[f"test_stand_{name}_correction_db"] for name in _CORRECTIONS)
+    if stand:
+        caption += f"; the test stand's microphones read K1 + K2 = {stand:.1f} dB more"
+    return Table(caption, ("dof", *head), rows)
