@@ -231,7 +231,7 @@ def _run(
         if step % every:
             continue
         row = transformer.next_row((step + 1) * time_step)
-        np.take(fields.pressure.reshape(-1), layers, out=row)
+        row[...] = fields.pressure.reshape(-1)[layers]
         peak = float(np.abs(row).max())
         largest, envelope = max(largest, peak), max(peak, decay * envelope)
         if step > pulse_steps and not envelope > _QUIET * largest:
