@@ -12,8 +12,8 @@ from .arrays import Array, IndexArray
 from .bodies import Body
 from .lines import fluid_on_lines
 
-_LINES_PER_FACE: Final = 16
-_LINES_PER_CELL: Final = (8, 8)
+_LINES_PER_FACE: Final = 100
+_LINES_PER_CELL: Final = (16, 16)
 _BESIDE_FACE: Final = 1e-4
 """A face is cut by both planes at this share of a cell beside it, and the smaller opening counts.
 

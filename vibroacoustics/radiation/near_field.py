@@ -16,7 +16,6 @@ from typing import Final
 
 import numpy as np
 import psutil
-from scipy.spatial import cKDTree
 
 from ..constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from ..errors import ParameterError, SolverError
@@ -30,7 +29,8 @@ from .near_grid import BOX_MARGIN_M, COURANT_NUMBER, NearGrid, near_grid
 from .near_step import BYTES_PER_CELL, Fields
 from .patterns import Pattern
 from .pulse import RunningTransform, pulse, pulse_duration_s, pulse_width_s, sampling_steps, transform
-from .surface_points import SurfacePoints, surface_points
+from .surface_points import surface_points
+from .wall_flux import WallPoints, wall_flux, wall_points
 
 _PROGRESS_STEPS: Final = 50
 _MOST_DIAGONALS: Final = 50.0
@@ -41,9 +41,7 @@ _NOT_QUIET: Final = 1e-3
 """Share that is refused at the end of the longest recording."""
 _ENVELOPE_DECAY_PER_CELL: Final = 0.933
 """Decay of the envelope of the pressure during the passage of one cell."""
-_PIECES_PER_CELL: Final = 3.0
-_SLIDING: Final = 0.02
-"""A wall that nowhere moves more than this share across itself slides: facets are 0.7° wide."""
+_PIECES_PER_CELL: Final = 20.0
 
 
 class NearField:
@@ -79,21 +77,17 @@ class NearField:
         return cut_cells(self._body, self.grid.origin, self.grid.spacing_m, self.grid.shape)
 
     @cached_property
-    def surface(self) -> SurfacePoints:
-        """Points of the surface, without those that stand on a wall."""
+    def wall_points(self) -> WallPoints:
+        """The surface's points, without those that stand on a wall, by cell."""
         points = surface_points(self._body, self.grid.spacing_m / _PIECES_PER_CELL)
-        return points.where(
-            [wall.depth_m(points.position) > 1e-6 * self.grid.spacing_m for wall in self._walls]
-        )
-
-    @cached_property
-    def _wall_of_points(self) -> IndexArray:
-        """Wall piece to which each point of the surface belongs, (point,)."""
-        return wall_of_points(self.cells, self.surface, self.grid)
+        off_floor = [
+            wall.depth_m(points.position) > 1e-6 * self.grid.spacing_m for wall in self._walls
+        ]
+        return wall_points(self.cells, points.where(off_floor), self.grid)
 
     def prepare(self) -> None:
         """Compute the geometry now; patterns may then run side by side in threads."""
-        _ = self.cells, self._wall_of_points
+        _ = self.cells, self.wall_points
 
     @property
     def most_steps(self) -> int:
@@ -113,55 +107,12 @@ class NearField:
         SolverError
             The field is not finite or has not died down at the end of the run.
         """
-        flux = wall_flux(self.cells, self.surface, self._wall_of_points, pattern)
+        flux = wall_flux(self.cells, self.wall_points, pattern)
         if not np.any(flux):
             zeros = np.zeros((frequency_hz.size, self.box.inner.shape[0]), dtype=complex)
             return BoxField(zeros, zeros.copy())
         inner, outer = _run(self, flux, frequency_hz, pattern.name, progress)
         return BoxField(inner, outer)
-
-
-def wall_of_points(cells: CutCells, points: SurfacePoints, grid: NearGrid) -> IndexArray:
-    """Wall piece next to each point of the surface, (point,).
-
-    That of the cell on the fluid's side of the point; the nearest one where that cell has none,
-    which happens to points in cells that are all but solid.
-    """
-    off_wall = points.position + 1e-3 * grid.spacing_m * points.normal
-    index = np.floor((off_wall - grid.origin) / grid.spacing_m).astype(int)
-    cell = np.ravel_multi_index(tuple(index.T), grid.shape, mode="clip")
-    wall = np.searchsorted(cells.wall_cells, cell)
-    wall[wall == cells.wall_cells.size] = 0
-    lost = cells.wall_cells[wall] != cell
-    middles = np.stack(np.unravel_index(cells.wall_cells, grid.shape), axis=1) + 0.5
-    tree = cKDTree(grid.origin + grid.spacing_m * middles)
-    wall[lost] = tree.query(points.position[lost])[1]
-    return wall
-
-
-def wall_flux(
-    cells: CutCells, points: SurfacePoints, wall_of_point: IndexArray, pattern: Pattern
-) -> Array:
-    """Volume velocity out of each wall cell's fluid into the wall, m³/s, (wall,).
-
-    Per unit velocity of the pattern; zero everywhere when the wall only slides along itself. The
-    mean velocity of the surface in a cell acts on its wall area. The sum is made exact, which for a
-    rigid body is zero: a small net flux would drown a rocking motion, which radiates weakly.
-    """
-    velocity = pattern.velocity(points)
-    normal = np.einsum("pi,pi->p", velocity, points.normal)
-    number = cells.wall_cells.size
-    if np.abs(normal).max() <= _SLIDING * np.linalg.norm(velocity, axis=1).max():
-        return np.zeros(number)
-    area = np.bincount(wall_of_point, points.area, number)
-    mean = np.stack(
-        [np.bincount(wall_of_point, points.area * part, number) for part in velocity.T], axis=1
-    ) / np.maximum(area, np.finfo(float).tiny)[:, None]
-    flux = np.einsum("wi,wi->w", mean, cells.wall_areas)
-    moving = np.linalg.norm(mean, axis=1) * np.linalg.norm(cells.wall_areas, axis=1)
-    excess = flux.sum() + points.area @ normal
-    corrected: Array = flux - excess * moving / moving.sum()
-    return corrected
 
 
 def _grid_frequency(frequency_hz: Array, grid: NearGrid) -> tuple[Array, Array]:
