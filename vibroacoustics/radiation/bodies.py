@@ -44,6 +44,18 @@ class Body:
         """Lower and upper corner of the bounding box, m."""
         return self.vertices.min(axis=0), self.vertices.max(axis=0)
 
+    def flats(self, axis: int, least_area_m2: float) -> Array:
+        """Coordinates of the plane faces across an axis, the largest first, m, (plane,)."""
+        areas = self.area_vectors()
+        size = np.linalg.norm(areas, axis=1)
+        across = np.abs(areas[:, axis]) > (1.0 - 1e-9) * np.maximum(size, np.finfo(float).tiny)
+        place = np.round(self.triangles[across, 0, axis], 7)
+        planes, which = np.unique(place, return_inverse=True)
+        total = np.bincount(which, size[across], planes.size)
+        chosen = np.argsort(-total, kind="stable")
+        result: Array = planes[chosen[total[chosen] >= least_area_m2]]
+        return result
+
     def contains(self, point: Array) -> bool:
         """Whether a point (3,) lies inside: its solid angle seen by the surface is 4 pi.
 

@@ -1,6 +1,6 @@
 """The closed box on which the machine side and the room side meet."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,11 +19,12 @@ class Box:
 
     lower: Array
     upper: Array
-    spacing_m: float
     inner: Array
     """Points inside, (pair, 3), m."""
     outer: Array
     """Points outside, (pair, 3), m."""
+    weights: Array
+    """Area of the face over the distance of its two points, (pair,), m."""
 
 
 @dataclass(frozen=True)
@@ -46,21 +47,24 @@ def open_sides(on_walls: Collection[Side]) -> list[Side]:
     return [side for side in sides if side not in on_walls]
 
 
-def closed_box(lower: Array, upper: Array, spacing_m: float, on_walls: Collection[Side]) -> Box:
-    """All sides of a box whose edges are whole numbers of the spacing."""
-    inner, outer = [], []
+def closed_box(
+    edges: Sequence[Array], start: Sequence[int], stop: Sequence[int], on_walls: Collection[Side]
+) -> Box:
+    """The box of the cells from `start` to `stop` of a grid of plane faces, without sides on walls."""
+    middles = [(line[1:] + line[:-1]) / 2.0 for line in edges]
+    inner, outer, weights = [], [], []
     for axis, sign in open_sides(on_walls):
-        middles = _side_middles(lower, upper, spacing_m, axis, sign)
-        half_cell = 0.5 * sign * spacing_m * np.eye(3)[axis]
-        inner.append(middles - half_cell)
-        outer.append(middles + half_cell)
-    return Box(lower, upper, spacing_m, np.concatenate(inner), np.concatenate(outer))
-
-
-def _side_middles(lower: Array, upper: Array, spacing_m: float, axis: int, sign: int) -> Array:
-    counts = np.rint((upper - lower) / spacing_m).astype(int)
-    coordinates = [
-        low + spacing_m * (np.arange(count) + 0.5) for low, count in zip(lower, counts, strict=True)
-    ]
-    coordinates[axis] = np.array([upper[axis] if sign > 0 else lower[axis]])
-    return np.stack(np.meshgrid(*coordinates, indexing="ij"), axis=-1).reshape(-1, 3)
+        inside = stop[axis] - 1 if sign > 0 else start[axis]
+        layers = []
+        for cell in (inside, inside + sign):
+            lines = [middle[a:b] for middle, a, b in zip(middles, start, stop, strict=True)]
+            lines[axis] = middles[axis][[cell]]
+            layers.append(np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).reshape(-1, 3))
+        widths = [np.diff(line)[a:b] for line, a, b in zip(edges, start, stop, strict=True)]
+        widths[axis] = 1.0 / np.abs(np.diff(middles[axis][[inside, inside + sign]]))
+        inner.append(layers[0])
+        outer.append(layers[1])
+        weights.append(np.einsum("i,j,k->ijk", *widths).ravel())
+    lower = np.array([line[a] for line, a in zip(edges, start, strict=True)])
+    upper = np.array([line[b] for line, b in zip(edges, stop, strict=True)])
+    return Box(lower, upper, *map(np.concatenate, (inner, outer, weights)))

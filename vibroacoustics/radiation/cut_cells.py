@@ -1,4 +1,4 @@
-"""Cut cells: how the wall of a body divides the cells of a uniform staggered grid.
+"""Cut cells: how the wall of a body divides the cells of a staggered grid.
 
 Areas and volumes are means over parallel lines through the body, exact along each line.
 """
@@ -11,6 +11,7 @@ import numpy as np
 from .arrays import Array, IndexArray
 from .bodies import Body
 from .lines import fluid_on_lines
+from .near_grid import NearGrid
 
 _LINES_PER_FACE: Final = 100
 _LINES_PER_CELL: Final = (16, 16)
@@ -40,45 +41,61 @@ class CutCells:
     """Vector areas of the wall pieces, out of the fluid, m², (wall, 3)."""
 
 
-def cut_cells(body: Body, origin: Array, spacing_m: float, shape: tuple[int, int, int]) -> CutCells:
-    """Cut the grid of the given lower corner, spacing and number of cells by a body.
+def cut_cells(body: Body, grid: NearGrid) -> CutCells:
+    """Cut the cells of a grid by a body.
 
     Raises
     ------
     ParameterError
         The surface of the body is open.
     """
-    near, start, stop = _around(body, origin, spacing_m, shape)
-    open_areas = [np.ones([n + (other == axis) for other, n in enumerate(shape)]) for axis in range(3)]
-    for axis, area in enumerate(open_areas):
-        faces = tuple(slice(a, b + (other == axis)) for other, (a, b) in enumerate(zip(start, stop)))
-        area[faces] = _open_fractions(body, near, spacing_m, stop - start, axis)
-    volumes = np.ones(shape)
-    volumes[tuple(map(slice, start, stop))] = _volume_fractions(body, near, spacing_m, stop - start)
+    start, stop = _around(body, grid)
+    part = [edges[a : b + 1] for edges, a, b in zip(grid.edges, start, stop, strict=True)]
+    open_areas = []
+    for axis in range(3):
+        area = np.ones([count + (other == axis) for other, count in enumerate(grid.shape)])
+        area[tuple(slice(a, b + (i == axis)) for i, (a, b) in enumerate(zip(start, stop)))] = (
+            _open_fractions(body, part, axis)
+        )
+        open_areas.append(area)
+    volumes = np.ones(grid.shape)
+    volumes[tuple(map(slice, start, stop))] = _volume_fractions(body, part)
     total_area = sum(
         area[_lower(axis)] + area[_upper(axis)] for axis, area in enumerate(open_areas)
     )
-    # The divergence theorem: the faces and the wall of a cell's fluid together have no vector area.
-    wall = np.stack(
-        [area[_lower(axis)] - area[_upper(axis)] for axis, area in enumerate(open_areas)], axis=-1
-    ).reshape(-1, 3)
-    wall_cells = np.flatnonzero(np.any(np.abs(wall) > 1e-12, axis=1) & (total_area.ravel() > 0))
+    wall = _wall_areas(open_areas, grid)
+    wall_cells = np.flatnonzero(
+        np.any(np.abs(wall) > 1e-12 * grid.spacing_m**2, axis=1) & (total_area.ravel() > 0)
+    )
     return CutCells(
         open_areas=(open_areas[0], open_areas[1], open_areas[2]),
         volumes=np.maximum(volumes * (total_area > 0), total_area * _SMALLEST_VOLUME_PER_AREA),
         wall_cells=wall_cells,
-        wall_areas=wall[wall_cells] * spacing_m**2,
+        wall_areas=wall[wall_cells],
     )
 
 
-def _around(
-    body: Body, origin: Array, spacing_m: float, shape: tuple[int, int, int]
-) -> tuple[Array, IndexArray, IndexArray]:
-    """Lower corner, first and last cell of the part of the grid that holds the body."""
+def _wall_areas(open_areas: list[Array], grid: NearGrid) -> Array:
+    """Vector area of the wall in each cell, out of the fluid, m², (cell, 3).
+
+    The divergence theorem: faces and wall of a cell's fluid together have no vector area.
+    """
+    parts = []
+    for axis, area in enumerate(open_areas):
+        first, second = [other for other in range(3) if other != axis]
+        face = np.multiply.outer(grid.widths(first), grid.widths(second))
+        parts.append((area[_lower(axis)] - area[_upper(axis)]) * np.expand_dims(face, axis))
+    return np.stack(parts, axis=-1).reshape(-1, 3)
+
+
+def _around(body: Body, grid: NearGrid) -> tuple[list[int], list[int]]:
+    """First and last cell, by axis, of the part of the grid that holds the body."""
     lower, upper = body.bounds()
-    start = np.clip(np.floor((lower - origin) / spacing_m).astype(int) - 1, 0, None)
-    stop = np.minimum(np.ceil((upper - origin) / spacing_m).astype(int) + 1, shape)
-    return origin + spacing_m * start, start, stop
+    start, stop = [], []
+    for edges, low, high in zip(grid.edges, lower, upper, strict=True):
+        start.append(max(0, int(np.searchsorted(edges, low)) - 2))
+        stop.append(min(edges.size - 1, int(np.searchsorted(edges, high)) + 1))
+    return start, stop
 
 
 def _lower(axis: int) -> tuple[slice, ...]:
@@ -89,42 +106,31 @@ def _upper(axis: int) -> tuple[slice, ...]:
     return tuple(slice(1, None) if other == axis else slice(None) for other in range(3))
 
 
-def _lines(low: float, spacing_m: float, cells: int, per_cell: int) -> Array:
+def _lines(edges: Array, per_cell: int) -> Array:
     """Coordinates of the lines of consecutive cells on one axis."""
-    coordinates: Array = low + spacing_m * (np.arange(cells * per_cell) + 0.5) / per_cell
+    shares = (np.arange(per_cell) + 0.5) / per_cell
+    coordinates: Array = (edges[:-1, None] + np.diff(edges)[:, None] * shares).ravel()
     return coordinates
 
 
-def _open_fractions(
-    body: Body, origin: Array, spacing_m: float, shape: IndexArray, axis: int
-) -> Array:
+def _open_fractions(body: Body, edges: list[Array], axis: int) -> Array:
     along, across = (axis + 1) % 3, (axis + 2) % 3
-    lines = _lines(origin[across], spacing_m, shape[across], _LINES_PER_FACE)
-    planes = origin[axis] + spacing_m * np.arange(shape[axis] + 1)
+    lines = _lines(edges[across], _LINES_PER_FACE)
+    shift = _BESIDE_FACE * np.diff(edges[axis]).min()
     beside = [
         fluid_on_lines(
-            body,
-            along,
-            (lines, planes + shift * spacing_m),
-            (_LINES_PER_FACE, 1),
-            origin[along],
-            spacing_m,
-            shape[along],
+            body, along, (lines, edges[axis] + side * shift), (_LINES_PER_FACE, 1), edges[along]
         )
-        for shift in (-_BESIDE_FACE, _BESIDE_FACE)
+        for side in (-1, 1)
     ]
     return _from_axes(np.minimum(*beside), (across, axis, along))
 
 
-def _volume_fractions(body: Body, origin: Array, spacing_m: float, shape: IndexArray) -> Array:
-    across = [
-        _lines(origin[axis], spacing_m, shape[axis], per_cell)
-        for axis, per_cell in enumerate(_LINES_PER_CELL)
-    ]
-    fluid = fluid_on_lines(
-        body, 2, (across[0], across[1]), _LINES_PER_CELL, origin[2], spacing_m, shape[2]
+def _volume_fractions(body: Body, edges: list[Array]) -> Array:
+    first, second = (
+        _lines(line, per_cell) for line, per_cell in zip(edges, _LINES_PER_CELL, strict=False)
     )
-    return fluid
+    return fluid_on_lines(body, 2, (first, second), _LINES_PER_CELL, edges[2])
 
 
 def _from_axes(values: Array, axes: tuple[int, int, int]) -> Array:

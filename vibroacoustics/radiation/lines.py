@@ -18,16 +18,14 @@ def fluid_on_lines(
     axis: int,
     across: tuple[Array, Array],
     lines_per_cell: tuple[int, int],
-    first: float,
-    spacing_m: float,
-    count: int,
+    edges: Array,
 ) -> Array:
     """Mean fluid share of cells over parallel lines, (first across, second across, cell along).
 
     The lines run along `axis`, through the points of a grid whose coordinates `across` belong to
-    the two axes that follow in cyclic order; `lines_per_cell` neighbours make one cell. Cells of
-    length `spacing_m` start at `first`. The share is exact along each line: a line is inside where
-    more surfaces were entered than left.
+    the two axes that follow in cyclic order; `lines_per_cell` neighbours make one cell. Along the
+    lines cells end at `edges`. The share is exact along each line: a line is inside where more
+    surfaces were entered than left.
 
     Raises
     ------
@@ -37,14 +35,15 @@ def fluid_on_lines(
     order = [axis, (axis + 1) % 3, (axis + 2) % 3]
     triangles = np.ascontiguousarray(body.triangles[:, :, order])
     first_across, second_across = (
-        coordinate + offset * spacing_m
+        coordinate + offset * (edges[1] - edges[0])
         for coordinate, offset in zip(across, _OFF_EDGE, strict=True)
     )
-    crossings = _crossings(triangles, first_across, second_across)
+    starts, along, sense = _crossings(triangles, first_across, second_across)
+    position = np.interp(along, edges, np.arange(float(edges.size)))
     solid = np.zeros(
-        (across[0].size // lines_per_cell[0], across[1].size // lines_per_cell[1], count)
+        (across[0].size // lines_per_cell[0], across[1].size // lines_per_cell[1], edges.size - 1)
     )
-    if _fill(solid, *crossings, across[1].size, lines_per_cell, first, spacing_m):
+    if _fill(solid, starts, position, sense, across[1].size, lines_per_cell):
         raise ParameterError("the surface of the body is not closed")
     return 1.0 - solid / (lines_per_cell[0] * lines_per_cell[1])
 
@@ -105,16 +104,12 @@ def _edge(ay: float, az: float, by: float, bz: float, y: float, z: float) -> flo
 
 @numba.njit(cache=True, nogil=True)  # type: ignore[misc]
 def _fill(
-    solid: Any,
-    starts: Any,
-    along: Any,
-    sense: Any,
-    columns: int,
-    lines_per_cell: Any,
-    first: float,
-    spacing: float,
+    solid: Any, starts: Any, position: Any, sense: Any, columns: int, lines_per_cell: Any
 ) -> bool:  # pragma: no cover
-    """Add the solid share of each cell along each line; tell whether a line ends inside."""
+    """Add the solid share of each cell along each line; tell whether a line ends inside.
+
+    Positions are in cells.
+    """
     ends_inside = False
     for line in range(starts.size - 1):
         cells = solid[(line // columns) // lines_per_cell[0], (line % columns) // lines_per_cell[1]]
@@ -122,11 +117,10 @@ def _fill(
         for crossing in range(starts[line], starts[line + 1]):
             before = winding
             winding += sense[crossing]
-            position = (along[crossing] - first) / spacing
             if winding > 0.0 and before <= 0.0:
-                entry = position
+                entry = position[crossing]
             elif winding <= 0.0 and before > 0.0:
-                low, high = max(entry, 0.0), min(position, float(cells.size))
+                low, high = entry, position[crossing]
                 for cell in range(int(low), int(np.ceil(high))):
                     cells[cell] += min(high, cell + 1.0) - max(low, float(cell))
         ends_inside = ends_inside or winding != 0.0

@@ -16,7 +16,9 @@ from .near_field import NearField
 from .patterns import Pattern
 from .scene import Scene
 
-COARSENING: Final = 1.5
+_UNIT_CELLS: Final = 3
+"""Cells of the finer grid where the coarser one has one less, so that both have the same planes."""
+COARSENING: Final = _UNIT_CELLS / (_UNIT_CELLS - 1)
 """Spacing of the coarser grid over that of the finer one."""
 EXTRAPOLATION: Final = 1.0 / (COARSENING**2 - 1.0)
 """Richardson: the finer grid errs by this share of the difference at second order."""
@@ -47,8 +49,14 @@ class MachineSide:
         self.frequency_hz = frequency_hz
         self.walls = scene.walls
         self.near = [
-            NearField(scene.body, spacing, maximum_frequency_hz, scene.near_walls)
-            for spacing in (spacing_m, COARSENING * spacing_m)
+            NearField(
+                scene.body,
+                _UNIT_CELLS / cells * spacing_m,
+                maximum_frequency_hz,
+                scene.near_walls,
+                cells_per_unit=cells,
+            )
+            for cells in (_UNIT_CELLS, _UNIT_CELLS - 1)
         ]
         moving = [scene.moving(pattern) for pattern in patterns]
         for near in self.near:

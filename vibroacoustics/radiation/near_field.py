@@ -25,7 +25,7 @@ from .box import Box, BoxField, closed_box, open_sides
 from .cut_cells import CutCells, cut_cells
 from .exact import wavenumber
 from .mirrors import Mirror
-from .near_grid import BOX_MARGIN_M, COURANT_NUMBER, NearGrid, near_grid
+from .near_grid import BOX_MARGIN_M, NearGrid, near_grid
 from .near_step import BYTES_PER_CELL, Fields
 from .patterns import Pattern
 from .pulse import RunningTransform, pulse, pulse_duration_s, pulse_width_s, sampling_steps, transform
@@ -60,13 +60,14 @@ class NearField:
         maximum_frequency_hz: float,
         walls: Sequence[Mirror] = (),
         box_margin_m: float = BOX_MARGIN_M,
+        cells_per_unit: int = 3,
     ) -> None:
-        self.grid: NearGrid = near_grid(body.bounds(), spacing_m, walls, box_margin_m)
+        self.grid: NearGrid = near_grid(body, spacing_m, walls, box_margin_m, cells_per_unit)
         _check_memory(self.grid.shape)
         self._body = body
         self._walls = walls
         self.box: Box = closed_box(
-            self.grid.box_lower, self.grid.box_upper, spacing_m, self.grid.on_walls
+            self.grid.edges, self.grid.box_start, self.grid.box_stop, self.grid.on_walls
         )
         self.pulse_width_s = pulse_width_s(maximum_frequency_hz)
         self.layers = _recording_layers(self.grid)
@@ -74,7 +75,7 @@ class NearField:
     @cached_property
     def cells(self) -> CutCells:
         """Geometry of the fluid in the grid."""
-        return cut_cells(self._body, self.grid.origin, self.grid.spacing_m, self.grid.shape)
+        return cut_cells(self._body, self.grid)
 
     @cached_property
     def wall_points(self) -> WallPoints:
@@ -166,12 +167,13 @@ def _run(
     layers = near.layers.ravel()
     velocity_time = time_step * (np.arange(steps) + 0.5)
     velocity = pulse(velocity_time, near.pulse_width_s)
-    volume = cells.volumes.reshape(-1)[cells.wall_cells] * near.grid.spacing_m**3
+    full = [near.grid.widths(axis) for axis in range(3)]
+    volume = (cells.volumes * np.einsum("i,j,k->ijk", *full)).reshape(-1)[cells.wall_cells]
     stiffness = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S**2
     wall_pressure = -stiffness * time_step * flux / volume
     pulse_steps = pulse_duration_s(near.pulse_width_s) / time_step
     every = sampling_steps(near.pulse_width_s, time_step)
-    decay = _ENVELOPE_DECAY_PER_CELL ** (every * COURANT_NUMBER)
+    decay = _ENVELOPE_DECAY_PER_CELL ** (every * near.grid.courant_number)
     largest = envelope = 0.0
     for step in range(steps):
         fields.advance()

@@ -1,4 +1,4 @@
-"""The uniform staggered grid around the body: cells, absorbing layers and the recording box."""
+"""The staggered grid around the body: cells, absorbing layers and the recording box."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -9,30 +9,38 @@ from numpy.typing import NDArray
 
 from ..constants import SPEED_OF_SOUND_M_PER_S
 from .arrays import Array
-from .box import Side, open_sides
+from .bodies import Body
+from .box import Side
 from .mirrors import Mirror
 
 COURANT_NUMBER: Final = 0.3
+"""Of the smallest cell."""
 PML_CELLS: Final = 10
 PML_ALPHA: Final = 2.0
 BOX_MARGIN_M: Final = 0.04
 _BOX_MARGIN_CELLS: Final = 3
 _GAP_CELLS: Final = 2
 """Cells between box and absorbing layer: what the recording stencil reaches."""
+_STRETCH: Final = 0.25
+"""A part between two plane faces may be longer than its cells would be by this share of a unit."""
+_CLOSEST_PLANES: Final = 0.75
+"""Planes closer than this many cells to a larger one do not shape the grid."""
 
 
 @dataclass(frozen=True)
 class NearGrid:
-    """Cubic cells; pressure at cell centres, velocity components on the faces between them.
+    """Rectangular cells, all but cubic; pressure at their centres, velocities on their faces.
 
-    The outermost faces are closed. Where they lie in a hard wall, that is an exact mirror of the
-    discrete equations and has no absorbing layer.
+    Planes of faces lie in the walls and, as far as they do not crowd, in the plane faces of the
+    body, so that the error of the grid falls smoothly with the spacing. The outermost faces are
+    closed; in a hard wall that is an exact mirror of the discrete equations without an absorbing
+    layer.
     """
 
     spacing_m: float
-    origin: Array
-    """Lower corner of the grid, m."""
-    shape: tuple[int, int, int]
+    """Of cells that no plane shapes."""
+    edges: tuple[Array, Array, Array]
+    """Coordinates of the planes of faces across each axis, m."""
     box_start: tuple[int, int, int]
     """First cell inside the recording box, by axis."""
     box_stop: tuple[int, int, int]
@@ -40,16 +48,45 @@ class NearGrid:
     """Sides of the grid, and of the box, that lie on hard walls."""
 
     @property
+    def shape(self) -> tuple[int, int, int]:
+        first, second, third = (edges.size - 1 for edges in self.edges)
+        return first, second, third
+
+    def centres(self, axis: int) -> Array:
+        """Coordinates of the cells' middles, (cell,), m."""
+        middles: Array = (self.edges[axis][1:] + self.edges[axis][:-1]) / 2.0
+        return middles
+
+    def widths(self, axis: int) -> Array:
+        """(cell,), m."""
+        return np.diff(self.edges[axis])
+
+    def gaps(self, axis: int) -> Array:
+        """Distances of neighbouring cells' middles, (interior face,), m."""
+        return np.diff(self.centres(axis))
+
+    @property
     def time_step_s(self) -> float:
-        return COURANT_NUMBER * self.spacing_m / SPEED_OF_SOUND_M_PER_S
+        smallest = min(float(self.widths(axis).min()) for axis in range(3))
+        return COURANT_NUMBER * smallest / SPEED_OF_SOUND_M_PER_S
 
     @property
-    def box_lower(self) -> Array:
-        return self.origin + self.spacing_m * np.array(self.box_start)
+    def courant_number(self) -> float:
+        """Of a cell that no plane shapes."""
+        return SPEED_OF_SOUND_M_PER_S * self.time_step_s / self.spacing_m
 
-    @property
-    def box_upper(self) -> Array:
-        return self.origin + self.spacing_m * np.array(self.box_stop)
+    def middles(self, cells: NDArray[np.intp]) -> Array:
+        """Middles (cell, 3) of cells given by flat index, m."""
+        index = np.unravel_index(cells, self.shape)
+        return np.stack([self.centres(axis)[index[axis]] for axis in range(3)], axis=1)
+
+    def cells_at(self, points: Array) -> NDArray[np.intp]:
+        """Flat index of the cell that holds each point (point, 3)."""
+        index = [
+            np.searchsorted(edges, points[:, axis], side="right") - 1
+            for axis, edges in enumerate(self.edges)
+        ]
+        return np.ravel_multi_index(tuple(index), self.shape, mode="clip")
 
     def absorption(self, axis: int) -> tuple[Array, Array]:
         """Factors of one half step in the layers: (cells,), (interior faces,) along an axis.
@@ -67,44 +104,76 @@ class NearGrid:
             depth = np.maximum(depth, PML_CELLS - position)
         if (axis, 1) not in self.on_walls:
             depth = np.maximum(depth, position - (self.shape[axis] - 1 - PML_CELLS))
-        damping: Array = np.exp(-0.5 * PML_ALPHA * COURANT_NUMBER * (depth / PML_CELLS) ** 4)
+        exponent = 0.5 * PML_ALPHA * self.courant_number * (depth / PML_CELLS) ** 4
+        damping: Array = np.exp(-exponent)
         return damping
 
 
 def near_grid(
-    bounds: tuple[Array, Array],
+    body: Body,
     spacing_m: float,
     walls: Sequence[Mirror] = (),
     box_margin_m: float = BOX_MARGIN_M,
+    cells_per_unit: int = 3,
 ) -> NearGrid:
-    """Grid whose recording box stands at least `box_margin_m` off the bounds of the body.
+    """Grid whose recording box stands at least `box_margin_m` off the body and ends on the walls.
 
-    The box is centred on the body; it ends on every wall, where a plane of faces lies.
+    Every part between two planes has a whole multiple of `cells_per_unit` cells: grids whose units
+    (cells_per_unit times spacing) are the same have the same planes.
     """
-    lower, upper = bounds
-    margin = max(box_margin_m, _BOX_MARGIN_CELLS * spacing_m)
-    middle = (lower + upper) / 2
-    cells = 2 * np.ceil(((upper - lower) / 2 + margin) / spacing_m - 1e-9).astype(int)
-    box_lower = middle - cells / 2 * spacing_m
-    beyond = {side: PML_CELLS + _GAP_CELLS for side in open_sides(())}
-    for wall in walls:
-        axis, sign, position = wall.axis, wall.sign, wall.position_m
-        reach = position - lower[axis] if sign > 0 else upper[axis] - position
-        cells[axis] = int(np.ceil((reach + margin) / spacing_m - 1e-9))
-        box_lower[axis] = position - (cells[axis] * spacing_m if sign > 0 else 0.0)
-        beyond[axis, sign] = 0
-    start = np.array([beyond[axis, -1] for axis in range(3)])
-    stop = np.array([beyond[axis, 1] for axis in range(3)])
+    edges, start, stop = [], [], []
+    for axis in range(3):
+        own = {wall.sign: wall.position_m for wall in walls if wall.axis == axis}
+        line, first, last = _axis(body, axis, spacing_m, own, box_margin_m, cells_per_unit)
+        edges.append(line)
+        start.append(first)
+        stop.append(last)
     return NearGrid(
         spacing_m=spacing_m,
-        origin=box_lower - start * spacing_m,
-        shape=_triple(start + cells + stop),
-        box_start=_triple(start),
-        box_stop=_triple(start + cells),
+        edges=(edges[0], edges[1], edges[2]),
+        box_start=(start[0], start[1], start[2]),
+        box_stop=(stop[0], stop[1], stop[2]),
         on_walls=frozenset((wall.axis, wall.sign) for wall in walls),
     )
 
 
-def _triple(numbers: NDArray[np.int_]) -> tuple[int, int, int]:
-    first, second, third = (int(number) for number in numbers)
-    return first, second, third
+def _axis(
+    body: Body,
+    axis: int,
+    spacing_m: float,
+    walls: dict[int, float],
+    box_margin_m: float,
+    cells_per_unit: int,
+) -> tuple[Array, int, int]:
+    """Planes of faces across an axis, and the first and last one of the box."""
+    lower, upper = (float(corner[axis]) for corner in body.bounds())
+    planes = _planes(body, axis, spacing_m, list(walls.values()))
+    if not planes:
+        planes = [(lower + upper) / 2.0]
+    parts = [np.array(planes[:1])]
+    for low, high in zip(planes[:-1], planes[1:], strict=True):
+        units = (high - low) / (cells_per_unit * spacing_m)
+        count = cells_per_unit * max(1, int(np.ceil(units - _STRETCH)))
+        parts.append(np.linspace(low, high, count + 1)[1:])
+    line = np.concatenate(parts)
+    margin = max(box_margin_m, _BOX_MARGIN_CELLS * spacing_m)
+    beyond = PML_CELLS + _GAP_CELLS
+    before = after = 0
+    if -1 not in walls:
+        before = max(0, int(np.ceil((line[0] - lower + margin) / spacing_m - 1e-9)))
+        count = before + beyond
+        line = np.concatenate([line[0] - spacing_m * np.arange(count, 0, -1), line])
+    if 1 not in walls:
+        after = max(0, int(np.ceil((upper + margin - line[-1]) / spacing_m - 1e-9)))
+        line = np.concatenate([line, line[-1] + spacing_m * np.arange(1, after + beyond + 1)])
+    start = 0 if -1 in walls else beyond
+    return line, start, line.size - 1 - (0 if 1 in walls else beyond)
+
+
+def _planes(body: Body, axis: int, spacing_m: float, walls: list[float]) -> list[float]:
+    """Walls, and plane faces of the body from the largest down, unless they crowd; rising."""
+    chosen = list(walls)
+    for plane in body.flats(axis, spacing_m**2):
+        if all(abs(plane - other) >= _CLOSEST_PLANES * spacing_m for other in chosen):
+            chosen.append(float(plane))
+    return sorted(chosen)

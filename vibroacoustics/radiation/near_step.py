@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from .arrays import Array
 from .cut_cells import CutCells
-from .near_grid import COURANT_NUMBER, NearGrid
+from .near_grid import NearGrid
 
 PRECISION: Final = np.float32
 """Double precision changes the pressure at a microphone by less than 0.003 dB from 48 Hz up."""
@@ -19,8 +19,9 @@ BYTES_PER_CELL: Final = 11 * 4 + 60
 class Fields:
     """Pressure, scaled fluxes and split pressure of one run, updated in place.
 
-    The flux variable is A_f u_f rho dx/dt, so that a step is: subtract a pressure difference, then
-    subtract a flux difference. Faces at the ends of the grid stay closed. The split of the pressure
+    The flux variable is A_f u_f rho h/dt with the open share A_f of a face and the grid's spacing h,
+    so that a step is: subtract a pressure difference, then a flux difference, each times h over the
+    distance between its ends. Faces at the ends of the grid stay closed. The split of the pressure
     matters in the absorbing layers only.
     """
 
@@ -30,11 +31,18 @@ class Fields:
         self._split = tuple(np.zeros(grid.shape, PRECISION) for _ in range(3))
         self._areas = tuple(area.astype(PRECISION) for area in cells.open_areas)
         inverse = np.divide(1.0, cells.volumes, out=np.zeros(grid.shape), where=cells.volumes > 0)
-        self._gain = (COURANT_NUMBER**2 * inverse).astype(PRECISION)
+        self._gain = (grid.courant_number**2 * inverse).astype(PRECISION)
         self._plain = _plain_rows(cells)
         damping = [grid.absorption(axis) for axis in range(3)]
         self._cell_damping = tuple(cell.astype(PRECISION) for cell, _ in damping)
         self._face_damping = tuple(face.astype(PRECISION) for _, face in damping)
+        self._slopes = tuple(
+            (grid.spacing_m / grid.gaps(axis)).astype(PRECISION) for axis in range(3)
+        )
+        self._squeezes = tuple(
+            (grid.spacing_m / grid.widths(axis)).astype(PRECISION) for axis in range(3)
+        )
+        self._plain_gain = PRECISION(grid.courant_number**2)
         self._undamped = _undamped(self._cell_damping[2])
 
     def advance(self) -> None:
@@ -48,8 +56,10 @@ class Fields:
             self._plain,
             *self._cell_damping,
             *self._face_damping,
+            *self._slopes,
+            *self._squeezes,
             *self._undamped,
-            PRECISION(COURANT_NUMBER**2),
+            self._plain_gain,
             PRECISION(1.0),
         )
 
@@ -93,6 +103,12 @@ def _advance(
     dx: Any,
     dy: Any,
     dz: Any,
+    gx: Any,
+    gy: Any,
+    gz: Any,
+    wx: Any,
+    wy: Any,
+    wz: Any,
     start: int,
     stop: int,
     plain_gain: Any,
@@ -106,45 +122,51 @@ def _advance(
     for i in range(nx):
         for j in range(ny):
             if i + 1 < nx:
-                d = dx[i]
+                d, g = dx[i], gx[i]
                 if plain[i, j]:
                     for k in range(nz):
-                        fx[i + 1, j, k] = d * (d * fx[i + 1, j, k] + p[i, j, k] - p[i + 1, j, k])
+                        drop = g * (p[i, j, k] - p[i + 1, j, k])
+                        fx[i + 1, j, k] = d * (d * fx[i + 1, j, k] + drop)
                 else:
                     for k in range(nz):
-                        drop = ax[i + 1, j, k] * (p[i, j, k] - p[i + 1, j, k])
+                        drop = g * ax[i + 1, j, k] * (p[i, j, k] - p[i + 1, j, k])
                         fx[i + 1, j, k] = d * (d * fx[i + 1, j, k] + drop)
             if j + 1 < ny:
-                d = dy[j]
+                d, g = dy[j], gy[j]
                 if plain[i, j]:
                     for k in range(nz):
-                        fy[i, j + 1, k] = d * (d * fy[i, j + 1, k] + p[i, j, k] - p[i, j + 1, k])
+                        drop = g * (p[i, j, k] - p[i, j + 1, k])
+                        fy[i, j + 1, k] = d * (d * fy[i, j + 1, k] + drop)
                 else:
                     for k in range(nz):
-                        drop = ay[i, j + 1, k] * (p[i, j, k] - p[i, j + 1, k])
+                        drop = g * ay[i, j + 1, k] * (p[i, j, k] - p[i, j + 1, k])
                         fy[i, j + 1, k] = d * (d * fy[i, j + 1, k] + drop)
             if plain[i, j]:
                 for k in range(nz - 1):
-                    drop = p[i, j, k] - p[i, j, k + 1]
+                    drop = gz[k] * (p[i, j, k] - p[i, j, k + 1])
                     fz[i, j, k + 1] = dz[k] * (dz[k] * fz[i, j, k + 1] + drop)
             else:
                 for k in range(nz - 1):
-                    drop = az[i, j, k + 1] * (p[i, j, k] - p[i, j, k + 1])
+                    drop = gz[k] * az[i, j, k + 1] * (p[i, j, k] - p[i, j, k + 1])
                     fz[i, j, k + 1] = dz[k] * (dz[k] * fz[i, j, k + 1] + drop)
         for j in range(ny):
+            x, y = wx[i], wy[j]
             if cx[i] != one or cy[j] != one:
-                _absorb_row(p, fx, fy, fz, sx, sy, sz, cx[i], cy[j], cz, i, j, plain_gain)
+                c, d = cx[i], cy[j]
+                x, y = plain_gain * x, plain_gain * y
+                _absorb_row(p, fx, fy, fz, sx, sy, sz, c, d, cz, i, j, x, y, wz, plain_gain)
                 continue
             if plain[i, j]:
                 for k in range(nz):
-                    net = fx[i + 1, j, k] - fx[i, j, k] + fy[i, j + 1, k] - fy[i, j, k]
-                    p[i, j, k] -= plain_gain * (net + fz[i, j, k + 1] - fz[i, j, k])
+                    net = x * (fx[i + 1, j, k] - fx[i, j, k]) + y * (fy[i, j + 1, k] - fy[i, j, k])
+                    p[i, j, k] -= plain_gain * (net + wz[k] * (fz[i, j, k + 1] - fz[i, j, k]))
             else:
                 for k in range(nz):
-                    net = fx[i + 1, j, k] - fx[i, j, k] + fy[i, j + 1, k] - fy[i, j, k]
-                    p[i, j, k] -= gain[i, j, k] * (net + fz[i, j, k + 1] - fz[i, j, k])
-            _absorb_ends(p, fx, fy, fz, sx, sy, sz, cz, i, j, 0, start, plain_gain)
-            _absorb_ends(p, fx, fy, fz, sx, sy, sz, cz, i, j, stop, nz, plain_gain)
+                    net = x * (fx[i + 1, j, k] - fx[i, j, k]) + y * (fy[i, j + 1, k] - fy[i, j, k])
+                    p[i, j, k] -= gain[i, j, k] * (net + wz[k] * (fz[i, j, k + 1] - fz[i, j, k]))
+            x, y = plain_gain * x, plain_gain * y
+            _absorb_ends(p, fx, fy, fz, sx, sy, sz, cz, i, j, 0, start, x, y, wz, plain_gain)
+            _absorb_ends(p, fx, fy, fz, sx, sy, sz, cz, i, j, stop, nz, x, y, wz, plain_gain)
 
 
 @numba.njit(cache=True, nogil=True)  # type: ignore[misc]
@@ -161,15 +183,19 @@ def _absorb_row(
     cz: Any,
     i: int,
     j: int,
+    x: Any,
+    y: Any,
+    wz: Any,
     gain: Any,
 ) -> None:  # pragma: no cover
     """Split pressure of a whole row within an absorbing layer of x or y; no wall is there."""
     for k in range(p.shape[2]):
-        sx[i, j, k] = c * (c * sx[i, j, k] - gain * (fx[i + 1, j, k] - fx[i, j, k]))
+        sx[i, j, k] = c * (c * sx[i, j, k] - x * (fx[i + 1, j, k] - fx[i, j, k]))
     for k in range(p.shape[2]):
-        sy[i, j, k] = d * (d * sy[i, j, k] - gain * (fy[i, j + 1, k] - fy[i, j, k]))
+        sy[i, j, k] = d * (d * sy[i, j, k] - y * (fy[i, j + 1, k] - fy[i, j, k]))
     for k in range(p.shape[2]):
-        sz[i, j, k] = cz[k] * (cz[k] * sz[i, j, k] - gain * (fz[i, j, k + 1] - fz[i, j, k]))
+        gain_z = gain * wz[k]
+        sz[i, j, k] = cz[k] * (cz[k] * sz[i, j, k] - gain_z * (fz[i, j, k + 1] - fz[i, j, k]))
     for k in range(p.shape[2]):
         p[i, j, k] = sx[i, j, k] + sy[i, j, k] + sz[i, j, k]
 
@@ -188,11 +214,15 @@ def _absorb_ends(
     j: int,
     start: int,
     stop: int,
+    x: Any,
+    y: Any,
+    wz: Any,
     gain: Any,
 ) -> None:  # pragma: no cover
     """Split pressure of the cells of a row within an absorbing layer of z only."""
     for k in range(start, stop):
-        sx[i, j, k] -= gain * (fx[i + 1, j, k] - fx[i, j, k])
-        sy[i, j, k] -= gain * (fy[i, j + 1, k] - fy[i, j, k])
-        sz[i, j, k] = cz[k] * (cz[k] * sz[i, j, k] - gain * (fz[i, j, k + 1] - fz[i, j, k]))
+        sx[i, j, k] -= x * (fx[i + 1, j, k] - fx[i, j, k])
+        sy[i, j, k] -= y * (fy[i, j + 1, k] - fy[i, j, k])
+        gain_z = gain * wz[k]
+        sz[i, j, k] = cz[k] * (cz[k] * sz[i, j, k] - gain_z * (fz[i, j, k + 1] - fz[i, j, k]))
         p[i, j, k] = sx[i, j, k] + sy[i, j, k] + sz[i, j, k]

@@ -40,14 +40,11 @@ def wall_points(cells: CutCells, points: SurfacePoints, grid: NearGrid) -> WallP
 
     A cell that is all but solid may have no piece of wall, and a small piece no point.
     """
-    off_wall = points.position + 1e-3 * grid.spacing_m * points.normal
-    index = np.floor((off_wall - grid.origin) / grid.spacing_m).astype(int)
-    cell = np.ravel_multi_index(tuple(index.T), grid.shape, mode="clip")
+    cell = grid.cells_at(points.position + 1e-3 * grid.spacing_m * points.normal)
     wall = np.searchsorted(cells.wall_cells, cell)
     wall[wall == cells.wall_cells.size] = 0
     lost = cells.wall_cells[wall] != cell
-    corners = np.stack(np.unravel_index(cells.wall_cells, grid.shape), axis=1)
-    middles = grid.origin + grid.spacing_m * (corners + 0.5)
+    middles = grid.middles(cells.wall_cells)
     wall[lost] = cKDTree(middles).query(points.position[lost])[1]
     number = cells.wall_cells.size
     filled = np.flatnonzero(np.bincount(wall, minlength=number))
