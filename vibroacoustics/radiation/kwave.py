@@ -147,7 +147,7 @@ def array_namespace() -> Any:
 
 
 def build_engine(
-    grid: RoomGrid, volume_velocity: Array, steps: int, threads: int = 1, dtype: Any = PRECISION
+    grid: RoomGrid, volume_velocity: Array, steps: int, threads: int = 1, dtype: Any = np.float64
 ) -> Engine:
     """k-Wave's time step with a volume velocity (step,), m³/s, at the grid's source nodes.
 
@@ -355,8 +355,10 @@ def _run(
     source_time = time_step * (np.arange(pulse_steps) + 0.5)
     volume_velocity = pulse(source_time, width)
     per_sample = steps_per_sample(time_step, frequency_hz, width)
-    recorder = BoxRecorder(grid, box, frequency_hz, PRECISION)
-    with contextlib.closing(build_engine(grid, volume_velocity, steps, threads)) as engine:
+    recorder = BoxRecorder(grid, box, frequency_hz)
+    with contextlib.closing(
+        build_engine(grid, volume_velocity, steps, threads, PRECISION)
+    ) as engine:
         for step in range(1, steps + 1):
             engine.step()
             if step % per_sample == 0:
