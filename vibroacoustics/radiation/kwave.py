@@ -40,8 +40,8 @@ from .room_grid import PML_ALPHA, PML_NODES, RoomGrid, room_grid
 from .room_record import BoxRecorder, recorder_bytes, steps_per_sample
 from .spectral_step import AxisOperators, PressureSource, SpectralStep, step_bytes
 
-PRECISION: Final = np.float32
-"""Single precision is enough: the Green's function changes by less than 0.001 dB."""
+PRECISION: Final = np.float64
+"""Single precision would change the Green's function by up to 0.003 dB and save a third of the time."""
 _STOCK_VALUES_PER_NODE: Final = 60
 """Real numbers that the stock simulation with half spectra keeps at its peak."""
 _PROGRESS_STEPS: Final = 20
