@@ -4,6 +4,7 @@ import subprocess
 import sys
 import textwrap
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
 from types import SimpleNamespace
 
 import numpy as np
@@ -14,6 +15,7 @@ from vibroacoustics.radiation import kwave, room_grid
 from vibroacoustics.radiation.box import closed_box
 from vibroacoustics.radiation.exact import box_green
 from vibroacoustics.radiation.mirrors import Mirror, floor
+from vibroacoustics.radiation.pulse import pulse, pulse_duration_s
 from vibroacoustics.radiation.room_grid import RoomGrid
 
 FLOOR = floor(-0.1)
@@ -52,7 +54,10 @@ def simulated(box, microphone, mirrors=(FLOOR,), spacing_m=0.03, maximum_hz=2500
     ids=["free-field", "floor", "floor-above-the-box", "wall", "corner", "soft-corner"],
 )
 def test_green_function_is_that_of_the_image_sources(box, microphone, mirrors):
-    """Level within 0.1 dB at every point of the box and every frequency to 2.5 kHz."""
+    """Level within 0.1 dB at every point of the box and every frequency to 2.5 kHz.
+
+    Where images cancel to below -30 dB of the largest value, 2e-3 of that value.
+    """
     field, expected = simulated(box, microphone, mirrors)
     assert np.abs(kwave.green_difference_db(field, expected)).max() < 0.1
     largest = np.abs(expected.outer).max(axis=1, keepdims=True)
@@ -117,8 +122,8 @@ def room(shape, nodes, strengths):
     )  # fmt: skip
 
 
-def pulse_pressure(step, read, grid, steps):
-    """Pressure at one node over time, while a pulse of 0.3 ms leaves the sources."""
+def pulse_pressure(step, read, steps):
+    """Pressure over time, as read after each step."""
     values = []
     for _ in range(steps):
         step()
@@ -127,8 +132,8 @@ def pulse_pressure(step, read, grid, steps):
 
 
 def pulse_of(grid, width_s=0.17e-3):
-    x = grid.time_step_s * np.arange(60) / width_s - 6
-    return -x * np.exp(-(x**2) / 2)
+    time = np.arange(0.0, pulse_duration_s(width_s), grid.time_step_s)
+    return pulse(time, width_s)
 
 
 def mirrored(node, walls):
@@ -157,47 +162,51 @@ def test_source_and_microphone_change_places(walls):
         nodes = mirrored(source, walls)
         grid = room((80, 72, 75), nodes, [1.0] * len(nodes))
         node = tuple(slice(index, index + 1) for index in receiver)
-        with kwave.build_engine(grid, pulse_of(grid), 150, 2, np.float64) as engine:
+        with closing(kwave.build_engine(grid, pulse_of(grid), 150, 2, np.float64)) as engine:
             pressures.append(
-                pulse_pressure(
-                    engine.step, lambda e=engine, n=node: e.pressure(n).item(), grid, 150
-                )
+                pulse_pressure(engine.step, lambda e=engine, n=node: e.pressure(n).item(), 150)
             )
     np.testing.assert_allclose(*pressures, rtol=0, atol=1e-6 * np.abs(pressures[0]).max())
 
 
 @pytest.mark.slow
-def test_soft_wall_is_a_half_space_of_heavier_fluid():
-    """Reflection factor 0.7: density ratio 1.7/0.3 at the same speed of sound, in stock k-Wave.
+def test_soft_wall_is_a_half_space_of_heavier_fluid(monkeypatch):
+    """Reflection factor 0.7: density ratio 1.7/0.3 at the same speed of sound, in k-Wave itself.
 
-    The wall lies half way between nodes 29 and 30, the image of node 24 hence at 35.
+    k-Wave averages densities between nodes, so the wall lies half way between nodes 25 and 26 and
+    the image of node 21 at 30. Its scheme is of first order there: the echo errs by a few per cent
+    of itself at 20 nodes a wavelength. Small time steps, because the jump is unstable above 0.3.
     """
-    reflection, microphone, image, point = 0.7, (36, 36, 24), (36, 36, 35), (31, 34, 27)
-    shape, steps = (72, 72, 64), 75
+    monkeypatch.setattr(room_grid, "COURANT_NUMBER", 0.2)
+    monkeypatch.setattr(kwave, "PML_NODES", 16)
+    reflection, microphone, image, point = 0.7, (26, 26, 21), (26, 26, 30), (22, 29, 23)
+    shape, steps = (50, 50, 50), 260
     grid = room(shape, [microphone, image], [1.0, reflection])
     node = tuple(slice(index, index + 1) for index in point)
-    with kwave.build_engine(grid, pulse_of(grid, 0.34e-3), steps, 2, np.float64) as engine:
-        images = pulse_pressure(engine.step, lambda: engine.pressure(node).item(), grid, steps)
+    with closing(kwave.build_engine(grid, pulse_of(grid, 0.25e-3), steps, 2, np.float64)) as engine:
+        images = pulse_pressure(engine.step, lambda: engine.pressure(node).item(), steps)
 
     alone = room(shape, [microphone], [1.0])
-    source = kwave.pressure_source(alone, pulse_of(alone, 0.34e-3))
-    simulation = kwave.build_simulation(alone, source, steps)
-    density = simulation.rho0.copy()
-    density[:, :, 30:] *= (1 + reflection) / (1 - reflection)
-    simulation.rho0 = density
-    simulation._setup_fields()
-    heavy = pulse_pressure(simulation.step, lambda: simulation.p[point], alone, steps)
-    print(np.abs(images - heavy).max() / np.abs(images).max())
-    np.testing.assert_allclose(images, heavy, rtol=0, atol=0.02 * np.abs(images).max())
+    source = kwave.pressure_source(alone, pulse_of(alone, 0.25e-3))
+    simulation = kwave.build_simulation(alone, source, steps, np)
+    simulation.rho0[:, :, 26:] *= (1 + reflection) / (1 - reflection)
+    staggered = [simulation._stagger(simulation.rho0, axis) for axis in range(3)]
+    simulation.dt_over_rho0 = [simulation.dt / density for density in staggered]
+    heavy = pulse_pressure(simulation.step, lambda: simulation.p[point], steps)
+    with closing(
+        kwave.build_engine(alone, pulse_of(alone, 0.25e-3), steps, 2, np.float64)
+    ) as engine:
+        free = pulse_pressure(engine.step, lambda: engine.pressure(node).item(), steps)
+    np.testing.assert_allclose(images, heavy, rtol=0, atol=0.05 * np.abs(images - free).max())
 
 
 def test_floor_plane_carries_no_vertical_flow(box):
     """The discrete symmetry: pressures at mirror nodes agree."""
     grid = room_grid.room_grid(np.array([0.4, 0.1, 0.1]), box, 0.1, (FLOOR,))
-    with kwave.build_engine(grid, np.array([0.0, 1.0, -2.0, 1.0]), 20) as engine:
+    with closing(kwave.build_engine(grid, np.array([0.0, 1.0, -2.0, 1.0]), 20)) as engine:
         for _ in range(8):
             engine.step()
-        pressure = engine.pressure()
+        pressure = engine.pressure(tuple(slice(0, count) for count in grid.shape))
     plane = (grid.source_nodes[0][2] + grid.source_nodes[1][2]) // 2
     above = pressure[:, :, plane + 1 : plane + 4]
     below = pressure[:, :, plane - 1 : plane - 4 : -1]
@@ -221,6 +230,7 @@ def test_impossible_microphones_are_refused(box, microphone, mirrors, message):
 
 
 def test_memory_is_checked_before_the_run(box, monkeypatch):
+    monkeypatch.setattr(kwave, "array_namespace", lambda: np)
     monkeypatch.setattr("psutil.virtual_memory", lambda: SimpleNamespace(available=2**20))
     with pytest.raises(
         ParameterError, match=r"room_spacing_mm: the k-Wave grid of .* GiB are avail"
@@ -238,26 +248,34 @@ def in_child(script):
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(sys.platform != "linux", reason="reads the peak memory as Linux tells it")
-@pytest.mark.parametrize(("spacing_m", "frequencies"), [(0.027, 20), (0.024, 100)])
+@pytest.mark.skipif(
+    sys.platform != "linux" or kwave.array_namespace() is not np,
+    reason="reads the peak memory of the processor as Linux tells it",
+)
+@pytest.mark.parametrize(("spacing_m", "frequencies"), [(0.03, 20), (0.025, 100)])
 def test_predicted_memory_is_what_a_run_takes(spacing_m, frequencies):
     """Within 20 %, against the peak of a child process beyond what a small run left behind."""
     measured, predicted = in_child(f"""
-        import ctypes, resource
-        import numpy as np, psutil
+        import ctypes
+        import numpy as np
         from vibroacoustics.radiation import kwave, room_grid
         from vibroacoustics.radiation.box import closed_box
         from vibroacoustics.radiation.mirrors import floor
+        def peak(forget=True):
+            if forget:  # the peak so far
+                open("/proc/self/clear_refs", "w").write("5")
+            status = open("/proc/self/status").read()
+            return 1024 * int(status.split("VmHWM:")[1].split()[0])
         box = closed_box(np.full(3, -0.1), np.full(3, 0.1), 0.0125, True)
         frequency = np.linspace(25.0, 500.0, {frequencies})
         microphone, walls = np.array([1.2, 0.1, 0.5]), (floor(-0.1),)
         kwave.kwave_green(box, microphone, frequency[:2], 500.0, 0.1, walls)
         ctypes.CDLL(None).malloc_trim(0)
-        before = psutil.Process().memory_info().rss
+        before = peak()
         kwave.kwave_green(box, microphone, frequency, 500.0, {spacing_m}, walls)
-        peak = 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        after = peak(forget=False)
         grid = room_grid.room_grid(microphone, box, {spacing_m}, walls)
-        print(peak - before, kwave.memory_bytes(grid, box, {frequencies}))
+        print(after - before, kwave.memory_bytes(grid, box, {frequencies}))
     """)
     assert float(predicted) == pytest.approx(float(measured), rel=0.2)
 
@@ -309,7 +327,7 @@ def test_importing_and_running_kwave_touches_no_network():
         assert "kwave" not in sys.modules
         box = closed_box(np.full(3, -0.1), np.full(3, 0.1), 0.05, False)
         grid = room_grid.room_grid(np.array([0.5, 0.0, 0.0]), box, 0.1)
-        with kwave.build_engine(grid, np.array([1.0, -1.0]), 3) as engine:
+        with closing(kwave.build_engine(grid, np.array([1.0, -1.0]), 3)) as engine:
             engine.step()
             assert np.abs(engine.pressure(grid.block)).max() > 0
         assert not hasattr(sys.modules["kwave"], "install_binaries")

@@ -1,5 +1,7 @@
 """The fused time step against k-Wave's own."""
 
+from contextlib import closing
+
 import numpy as np
 import pytest
 
@@ -110,7 +112,7 @@ def test_threads_and_slabs_change_no_bit(monkeypatch):
 
 def test_a_block_is_a_part_of_the_whole():
     grid, source = grid_and_source(SHAPES[1], SEVERAL)
-    with fused(grid, source) as engine:
+    with closing(fused(grid, source)) as engine:
         for _ in range(12):
             engine.step()
         whole = engine.pressure()

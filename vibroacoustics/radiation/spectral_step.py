@@ -143,12 +143,6 @@ class SpectralStep:
         if self._pool is not None:
             self._pool.shutdown()
 
-    def __enter__(self) -> "SpectralStep":
-        return self
-
-    def __exit__(self, *error: object) -> None:
-        self.close()
-
     def _each_thread(self, work: Callable[..., None], *arguments: Any) -> None:
         """Call a function in each thread, with its number first; they share the arguments."""
         if self._pool is None:
