@@ -22,7 +22,7 @@ THREADS = 2
 BOX_NODES = slice(35, 75)
 VALUES_MOVED = 8 + 12 + 3 + 1.5
 """Real numbers a node and step: pressure (read thrice, written once, updated twice), velocities and
-densities of three axes (read and written), footprints, k-space corrections."""
+parts of three axes (read and written), footprints, k-space corrections."""
 
 
 def seconds(work: Callable[[], object]) -> float:
