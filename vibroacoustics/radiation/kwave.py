@@ -40,8 +40,8 @@ from .room_grid import PML_ALPHA, PML_NODES, RoomGrid, room_grid
 from .room_record import BoxRecorder, recorder_bytes, steps_per_sample
 from .spectral_step import AxisOperators, PressureSource, SpectralStep, step_bytes
 
-PRECISION: Final = np.float32
-"""Single precision is enough: the Green's function changes by less than 0.001 dB."""
+PRECISION: Final = np.float64
+"""Single precision would change the Green's function by 0.002 dB at 25 Hz, less above."""
 _STOCK_VALUES_PER_NODE: Final = 60
 """Real numbers that the stock simulation with half spectra keeps at its peak."""
 _PROGRESS_STEPS: Final = 20
@@ -50,6 +50,7 @@ _SETTLING_S: Final = 5e-4
 _CLEAR_NODES: Final = STENCIL_NODES // 2
 """Nodes between microphone and box: with the source inside a stencil, errors reach 1 dB."""
 _LARGEST_DIFFERENCE_DB: Final = 6.0
+_DEEPEST_NULL: Final = 10 ** (-30 / 20)
 _MODULES: Final = ("kwave.kgrid", "kwave.kmedium", "kwave.ksource", "kwave.ksensor")
 _SOLVER: Final = "kwave.solvers.kspace_solver"
 _IMPORT: Final = threading.Lock()
@@ -147,7 +148,7 @@ def array_namespace() -> Any:
 
 
 def build_engine(
-    grid: RoomGrid, volume_velocity: Array, steps: int, threads: int = 1, dtype: Any = PRECISION
+    grid: RoomGrid, volume_velocity: Array, steps: int, threads: int = 1, dtype: Any = np.float64
 ) -> Engine:
     """k-Wave's time step with a volume velocity (step,), m³/s, at the grid's source nodes.
 
@@ -329,10 +330,15 @@ def kwave_green(
 
 
 def green_difference_db(field: BoxField, expected: BoxField) -> Array:
-    """Largest level difference over the box, signed, dB, (frequency,)."""
-    simulated = np.concatenate([field.inner, field.outer], axis=1)
-    exact = np.concatenate([expected.inner, expected.outer], axis=1)
-    difference = 20.0 * np.log10(np.abs(simulated) / np.abs(exact))
+    """Largest level difference over the box, signed, dB, (frequency,).
+
+    Points are left out where images cancel to less than -30 dB of the largest expected value:
+    an error of a thousandth of that is no error of the level there.
+    """
+    simulated = np.abs(np.concatenate([field.inner, field.outer], axis=1))
+    exact = np.abs(np.concatenate([expected.inner, expected.outer], axis=1))
+    counted = exact >= _DEEPEST_NULL * exact.max(axis=1, keepdims=True)
+    difference = np.where(counted, 20.0 * np.log10(simulated / exact), 0.0)
     worst = np.argmax(np.abs(difference), axis=1)
     result: Array = difference[np.arange(difference.shape[0]), worst]
     return result
@@ -355,8 +361,10 @@ def _run(
     source_time = time_step * (np.arange(pulse_steps) + 0.5)
     volume_velocity = pulse(source_time, width)
     per_sample = steps_per_sample(time_step, frequency_hz, width)
-    recorder = BoxRecorder(grid, box, frequency_hz, PRECISION)
-    with contextlib.closing(build_engine(grid, volume_velocity, steps, threads)) as engine:
+    recorder = BoxRecorder(grid, box, frequency_hz)
+    with contextlib.closing(
+        build_engine(grid, volume_velocity, steps, threads, PRECISION)
+    ) as engine:
         for step in range(1, steps + 1):
             engine.step()
             if step % per_sample == 0:

@@ -3,7 +3,6 @@
 from typing import Final
 
 import numpy as np
-from numpy.typing import DTypeLike
 
 from .arrays import Array, ComplexArray
 from .band_limited import Interpolator
@@ -45,13 +44,11 @@ def steps_per_sample(time_step_s: float, frequency_hz: Array, pulse_width_s: flo
 class BoxRecorder:
     """Spectra at the points of a box from samples of the grid's block around it."""
 
-    def __init__(
-        self, grid: RoomGrid, box: Box, frequency_hz: Array, dtype: DTypeLike = np.float64
-    ) -> None:
+    def __init__(self, grid: RoomGrid, box: Box, frequency_hz: Array) -> None:
         points = np.concatenate([box.inner, box.outer])
         self._pairs = len(box.inner)
         self._interpolator = Interpolator(
-            grid.block_origin, grid.spacing_m, grid.block_shape, points, dtype
+            grid.block_origin, grid.spacing_m, grid.block_shape, points
         )
         self._transform = RunningTransform(frequency_hz, len(points))
 

@@ -38,7 +38,7 @@ from .fft import LINE_AXIS, Slab, slab_type
 _SLAB_BYTES: Final = 2**18
 """Size of a slab's work array: two of them and what they are combined with fit the cache."""
 _VALUES_PER_NODE: Final = 12.5
-"""Two pressures; three velocities, densities and footprints; k-space correction in each layout."""
+"""Two pressures; three velocities, parts and footprints; k-space correction in each layout."""
 
 Block = tuple[slice, slice, slice]
 
@@ -105,9 +105,8 @@ class SpectralStep:
                 correction,
                 footprint,
                 velocity_factor=time_step_s / density_kg_per_m3,
-                density_factor=time_step_s * density_kg_per_m3,
-                source_factor=2 * time_step_s / (3 * speed_of_sound_m_per_s * axis.spacing_m),
-                pressure_factor=speed_of_sound_m_per_s**2,
+                pressure_factor=speed_of_sound_m_per_s**2 * time_step_s * density_kg_per_m3,
+                source_factor=2 * speed_of_sound_m_per_s * time_step_s / (3 * axis.spacing_m),
                 threads=threads,
             )
             for number, axis in enumerate(axes)
@@ -143,12 +142,6 @@ class SpectralStep:
         if self._pool is not None:
             self._pool.shutdown()
 
-    def __enter__(self) -> "SpectralStep":
-        return self
-
-    def __exit__(self, *error: object) -> None:
-        self.close()
-
     def _each_thread(self, work: Callable[..., None], *arguments: Any) -> None:
         """Call a function in each thread, with its number first; they share the arguments."""
         if self._pool is None:
@@ -160,7 +153,10 @@ class SpectralStep:
 
 
 class _AxisField:
-    """Velocity and density of one axis, over its position and the other axes' wavenumbers."""
+    """Velocity and part of the pressure, c^2 rho_i, of one axis i.
+
+    Both over the position along the axis and the wavenumbers of the other two.
+    """
 
     def __init__(
         self,
@@ -169,9 +165,8 @@ class _AxisField:
         correction: Array,
         footprint: Array,
         velocity_factor: float,
-        density_factor: float,
-        source_factor: float,
         pressure_factor: float,
+        source_factor: float,
         threads: int,
     ) -> None:
         real = correction.dtype
@@ -180,7 +175,7 @@ class _AxisField:
         self.footprint: ComplexArray | None = _partial_transform(footprint, axis)
         self.footprint *= real.type(source_factor)
         self._velocity = np.zeros_like(self.footprint)
-        self._density = np.zeros_like(self.footprint)
+        self._part = np.zeros_like(self.footprint)
         lines = self._velocity.shape[1:]
         complex_type = self._velocity.dtype
         self._gradient = _along_lines(operators.gradient, axis, lines).astype(complex_type)
@@ -192,8 +187,7 @@ class _AxisField:
         # The transforms to positions lack their factor 1/n.
         nodes = operators.wavenumber.size
         self._velocity_factor = real.type(velocity_factor / nodes)
-        self._density_factor = real.type(density_factor / nodes)
-        self._pressure_factor = real.type(pressure_factor)
+        self._pressure_factor = real.type(pressure_factor / nodes)
         self.slabs = _slabs(self._velocity)
         sizes = {planes.stop - planes.start for planes in self.slabs}
         self._work: list[dict[int, Slab]] = [
@@ -212,7 +206,7 @@ class _AxisField:
         new: ComplexArray,
         signal: float | None,
     ) -> None:
-        """Advance slabs while there are any, and add their density to the new pressure.
+        """Advance slabs while there are any, and add their part to the new pressure.
 
         Threads share the iterator: a slower one gets fewer slabs. No two slabs write to the same
         numbers, so the result does not depend on who takes which.
@@ -220,21 +214,23 @@ class _AxisField:
         real = self._correction.dtype.type
         for planes in slabs:
             slab = self._work[thread][planes.stop - planes.start]
-            first, correction = planes.start, self._correction[planes]
+            correction = self._correction[planes]
             lines, positions = slab.wavenumber, slab.position.view(real)
-            velocity, density = self._velocity[planes], self._density[planes]
-            _GATHER[self._axis](old, first, lines)
+            velocity, part = self._velocity[planes], self._part[planes]
+            _gather(self._axis, old, planes, lines)
             _multiply(lines, correction, self._gradient)
             slab.to_position()
             _advance(velocity.view(real), positions, self._damping_staggered, self._velocity_factor)
             slab.to_wavenumber()
             _multiply(lines, correction, self._divergence)
             slab.to_position()
-            _advance(density.view(real), positions, self._damping, self._density_factor)
+            _advance(part.view(real), positions, self._damping, self._pressure_factor)
             if signal is not None and self.footprint is not None:
-                _add(density, slab.position, self.footprint[planes], real(signal))
+                np.multiply(self.footprint[planes], real(signal), out=lines)
+                part += lines
+                slab.position[...] = part
             slab.to_wavenumber()
-            _SCATTER[self._axis](lines, first, new, self._pressure_factor)
+            _scatter(self._axis, lines, planes, new)
 
     def read(
         self,
@@ -247,7 +243,7 @@ class _AxisField:
         """Fill slabs of the pressure at some positions of axis 0."""
         for planes in slabs:
             slab = self._work[thread][planes.stop - planes.start]
-            _GATHER[0](pressure, planes.start, slab.wavenumber)
+            _gather(0, pressure, planes, slab.wavenumber)
             slab.to_position()
             part[:, planes] = slab.position[:, rows].swapaxes(0, 1)
 
@@ -323,21 +319,27 @@ def _doubled(values: Array, real: np.dtype[Any]) -> Array:
     return result
 
 
+def _gather(axis: int, pressure: ComplexArray, planes: slice, lines: ComplexArray) -> None:
+    """Copy a slab of the pressure's spectrum into the layout of an axis."""
+    if axis == 0:
+        lines[...] = pressure[:, planes].swapaxes(0, 1)
+    elif axis == 1:
+        lines[...] = pressure[planes]
+    else:
+        _gather_z(pressure, planes.start, lines)
+
+
+def _scatter(axis: int, lines: ComplexArray, planes: slice, pressure: ComplexArray) -> None:
+    """Write a slab's part of the pressure's spectrum: axis 0 comes first, the others add."""
+    if axis == 0:
+        pressure[:, planes] = lines.swapaxes(0, 1)
+    elif axis == 1:
+        pressure[planes] += lines
+    else:
+        _scatter_z(lines, planes.start, pressure)
+
+
 _kernel = numba.njit(cache=True, nogil=True)
-
-
-@_kernel
-def _gather_x(pressure: ComplexArray, first: int, lines: ComplexArray) -> None:
-    for plane in range(lines.shape[0]):
-        for x in range(lines.shape[1]):
-            lines[plane, x] = pressure[x, first + plane]
-
-
-@_kernel
-def _gather_y(pressure: ComplexArray, first: int, lines: ComplexArray) -> None:
-    for plane in range(lines.shape[0]):
-        for y in range(lines.shape[1]):
-            lines[plane, y] = pressure[first + plane, y]
 
 
 @_kernel
@@ -355,32 +357,7 @@ def _gather_z(pressure: ComplexArray, first: int, lines: ComplexArray) -> None:
 
 
 @_kernel
-def _scatter_x(
-    lines: ComplexArray, first: int, pressure: ComplexArray, factor: np.floating[Any]
-) -> None:
-    """Write the pressure of a new step: x comes first, the others add to it."""
-    for plane in range(lines.shape[0]):
-        for x in range(lines.shape[1]):
-            line, row = lines[plane, x], pressure[x, first + plane]
-            for z in range(line.size):
-                row[z] = factor * line[z]
-
-
-@_kernel
-def _scatter_y(
-    lines: ComplexArray, first: int, pressure: ComplexArray, factor: np.floating[Any]
-) -> None:
-    for plane in range(lines.shape[0]):
-        for y in range(lines.shape[1]):
-            line, row = lines[plane, y], pressure[first + plane, y]
-            for z in range(line.size):
-                row[z] += factor * line[z]
-
-
-@_kernel
-def _scatter_z(
-    lines: ComplexArray, first: int, pressure: ComplexArray, factor: np.floating[Any]
-) -> None:
+def _scatter_z(lines: ComplexArray, first: int, pressure: ComplexArray) -> None:
     """Add to wavenumbers (kx, ky) and, the fields being real, to (-kx, -ky)."""
     nx, ny, half = pressure.shape
     nz = lines.shape[2]
@@ -389,16 +366,12 @@ def _scatter_z(
             line, x = lines[plane, y], first + plane
             row = pressure[x, y]
             for z in range(half):
-                row[z] += factor * line[z]
+                row[z] += line[z]
             if 0 < y < ny - y:  # elsewhere -ky is ky, whose lines are all here
                 mate = pressure[(nx - x) % nx, ny - y]
-                mate[0] += factor * np.conj(line[0])
+                mate[0] += np.conj(line[0])
                 for z in range(1, half):
-                    mate[z] += factor * np.conj(line[nz - z])
-
-
-_GATHER: Final = (_gather_x, _gather_y, _gather_z)
-_SCATTER: Final = (_scatter_x, _scatter_y, _scatter_z)
+                    mate[z] += np.conj(line[nz - z])
 
 
 @_kernel
@@ -421,15 +394,3 @@ def _advance(field: Array, change: Array, damping: Array, factor: np.floating[An
                 value = damp[column] * (damp[column] * old[column] - factor * new[column])
                 old[column] = value
                 new[column] = value
-
-
-@_kernel
-def _add(
-    field: ComplexArray, copy: ComplexArray, footprint: ComplexArray, factor: np.floating[Any]
-) -> None:
-    for plane in range(field.shape[0]):
-        for row in range(field.shape[1]):
-            for column in range(field.shape[2]):
-                value = field[plane, row, column] + factor * footprint[plane, row, column]
-                field[plane, row, column] = value
-                copy[plane, row, column] = value
