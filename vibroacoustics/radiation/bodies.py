@@ -9,10 +9,10 @@ import numpy as np
 from ..errors import ParameterError
 from .arrays import Array, IndexArray
 
-_SECTIONS: Final = 256
-"""Facets around an axis: the surface lies within 1e-4 of a radius of the true one."""
-_SUBDIVISIONS: Final = 6
-"""Of an icosahedron: 81920 facets."""
+_SECTIONS: Final = 128
+"""Facets around an axis: the surface lies within 3e-4 of a radius of the true one."""
+_SUBDIVISIONS: Final = 5
+"""Of an icosahedron: 20480 facets."""
 _LARGEST_FILE_BYTES: Final = 200 * 2**20
 
 

@@ -41,7 +41,7 @@ _NOT_QUIET: Final = 1e-3
 """Share that is refused at the end of the longest recording."""
 _ENVELOPE_DECAY_PER_CELL: Final = 0.933
 """Decay of the envelope of the pressure during the passage of one cell."""
-_PIECES_PER_CELL: Final = 20.0
+_PIECES_PER_CELL: Final = 2
 
 
 class NearField:
@@ -80,7 +80,8 @@ class NearField:
     @cached_property
     def wall_points(self) -> WallPoints:
         """The surface's points, without those that stand on a wall, by cell."""
-        points = surface_points(self._body, self.grid.spacing_m / _PIECES_PER_CELL)
+        planes = [_divided(edges, _PIECES_PER_CELL) for edges in self.grid.edges]
+        points = surface_points(self._body, (planes[0], planes[1], planes[2]))
         off_floor = [
             wall.depth_m(points.position) > 1e-6 * self.grid.spacing_m for wall in self._walls
         ]
@@ -114,6 +115,13 @@ class NearField:
             return BoxField(zeros, zeros.copy())
         inner, outer = _run(self, flux, frequency_hz, pattern.name, progress)
         return BoxField(inner, outer)
+
+
+def _divided(edges: Array, parts: int) -> Array:
+    """Planes that cut every cell of an axis in equal parts."""
+    cells = np.arange(edges.size)
+    planes: Array = np.interp(np.arange(parts * cells[-1] + 1) / parts, cells, edges)
+    return planes
 
 
 def _grid_frequency(frequency_hz: Array, grid: NearGrid) -> tuple[Array, Array]:

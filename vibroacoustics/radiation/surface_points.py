@@ -34,43 +34,60 @@ class SurfacePoints:
         )
 
 
-def surface_points(body: Body, largest_m: float) -> SurfacePoints:
-    """Pieces of at most `largest_m` a side: strips along each triangle's shortest edge, divided.
+def surface_points(body: Body, planes: tuple[Array, Array, Array]) -> SurfacePoints:
+    """Centroids of the pieces into which planes across each axis cut the surface.
 
-    Strips from apex to base and equal parts of each, seen from the apex, so that slivers are not
-    cut finer than they need be; a point is the centroid of its piece.
+    Exact pieces: no piece lies on both sides of a plane. Planes (plane,) rise, m.
     """
-    faces, weights, shares = [], [], []
-    triangles = body.triangles
-    # Edge i is opposite of corner i; the apex is opposite of the shortest.
-    edges = np.linalg.norm(np.roll(triangles, -1, axis=1) - np.roll(triangles, 1, axis=1), axis=2)
-    apex = edges.argmin(axis=1)
-    numbers = np.ceil(np.stack([edges.max(axis=1), edges.min(axis=1)]) / largest_m).astype(int)
-    for strips, parts in np.unique(numbers, axis=1).T:
-        chosen = np.flatnonzero((numbers[0] == strips) & (numbers[1] == parts))
-        weight, share = _pieces(max(strips, 1), max(parts, 1))
-        # Weights belong to apex and the two corners after it.
-        corner = (np.arange(3) - apex[chosen, None]) % 3
-        faces.append(np.repeat(chosen, share.size))
-        weights.append(weight[:, corner].swapaxes(0, 1).reshape(-1, 3))
-        shares.append(np.tile(share, chosen.size))
-    face, weight = np.concatenate(faces), np.concatenate(weights)
+    face, corners = np.arange(body.faces.shape[0]), np.tile(np.eye(3), (body.faces.shape[0], 1, 1))
+    for axis, across in enumerate(planes):
+        face, corners = _cut(body.triangles[:, :, axis], face, corners, across)
+    weights = corners.mean(axis=1)
     areas = body.area_vectors()
     size = np.linalg.norm(areas, axis=1)
     return SurfacePoints(
-        position=np.einsum("pk,pki->pi", weight, triangles[face]),
+        position=np.einsum("pk,pki->pi", weights, body.triangles[face]),
         normal=areas[face] / np.maximum(size[face], np.finfo(float).tiny)[:, None],
-        area=size[face] * np.concatenate(shares),
+        area=size[face] * np.abs(np.linalg.det(corners)),
         face=face,
-        weights=weight,
+        weights=weights,
     )
 
 
-def _pieces(strips: int, parts: int) -> tuple[Array, Array]:
-    """Centroids as shares of apex and base corners, (piece, 3), and shares of the area, (piece,)."""
-    ends = np.arange(strips + 1) / strips
-    area = ends[1:] ** 2 - ends[:-1] ** 2
-    depth = np.repeat(2.0 / 3.0 * (ends[1:] ** 3 - ends[:-1] ** 3) / area, parts)
-    along = np.tile((np.arange(parts) + 0.5) / parts, strips)
-    weights = np.stack([1.0 - depth, depth * (1.0 - along), depth * along], axis=1)
-    return weights, np.repeat(area, parts) / parts
+def _cut(
+    coordinate: Array, face: IndexArray, corners: Array, planes: Array
+) -> tuple[IndexArray, Array]:
+    """Cut pieces by all planes across one axis.
+
+    Pieces are triangles: the face of each, and its corners as shares of that face's corners, (piece,
+    corner, share). `coordinate` (face, corner) is that of the axis. A triangle with planes through
+    it is cut by the middle one in three; that goes on until none is left.
+    """
+    tolerance = 1e-9 * np.diff(planes).min()
+    faces, pieces = [], []
+    while face.size:
+        place = np.einsum("pck,pk->pc", corners, coordinate[face])
+        first = np.searchsorted(planes, place.min(axis=1) + tolerance)
+        last = np.searchsorted(planes, place.max(axis=1) - tolerance)
+        crossed = last > first
+        faces.append(face[~crossed])
+        pieces.append(corners[~crossed])
+        plane = planes[(first[crossed] + last[crossed]) // 2]
+        corners = _in_three(corners[crossed], place[crossed] - plane[:, None])
+        face = np.tile(face[crossed], 3)
+    return np.concatenate(faces), np.concatenate(pieces)
+
+
+def _in_three(corners: Array, depth: Array) -> Array:
+    """Triangles cut by a plane at depth 0: the tip on one side, and two on the other."""
+    above = depth > 0.0
+    # The tip is the corner that is alone on its side of the plane.
+    tip = np.where(above.sum(axis=1) == 1, above.argmax(axis=1), (~above).argmax(axis=1))
+    row = np.arange(tip.size)[:, None]
+    order = (tip[:, None] + np.arange(3)) % 3
+    a, b, c = np.moveaxis(corners[row, order], 1, 0)
+    depth_a, depth_b, depth_c = depth[row, order].T
+    on_b = a + (b - a) * (depth_a / (depth_a - depth_b))[:, None]
+    on_c = a + (c - a) * (depth_a / (depth_a - depth_c))[:, None]
+    parts = [(a, on_b, on_c), (on_b, b, c), (on_b, c, on_c)]
+    return np.concatenate([np.stack(part, axis=1) for part in parts])
