@@ -43,6 +43,4 @@ class MeshBody(Parameters):
     """CSV files of surface velocities by name: a number or a vector for each face or vertex."""
 
 
-RadiatingBody = Annotated[
-    ShellBody | BoxBody | SphereBody | MeshBody, Field(discriminator="kind")
-]
+RadiatingBody = Annotated[ShellBody | BoxBody | SphereBody | MeshBody, Field(discriminator="kind")]

@@ -11,7 +11,6 @@ from .arrays import Array, ComplexArray, Progress
 from .box import BoxField
 from .exact import box_green
 from .join import join
-from .mirrors import Mirror
 from .near_field import NearField
 from .patterns import Pattern
 from .scene import Scene
@@ -63,7 +62,10 @@ class MachineSide:
             near.prepare()
         tasks = [(near, pattern) for near in self.near for pattern in moving]
         fields = in_threads(
-            [lambda n=near, p=pattern: n.radiate(p, frequency_hz, progress) for near, pattern in tasks]
+            [
+                lambda n=near, p=pattern: n.radiate(p, frequency_hz, progress)
+                for near, pattern in tasks
+            ]
         )
         self.fields: list[list[BoxField]] = [fields[: len(moving)], fields[len(moving) :]]
 
@@ -80,9 +82,7 @@ class MachineSide:
         extrapolation is that of the closed form in any case. The error is the estimated one of the
         finer grid, which the extrapolation takes off: what is left was smaller in every test.
         """
-        fine, coarse = (
-            self._joined(number, point, chosen) for number in range(len(self.near))
-        )
+        fine, coarse = (self._joined(number, point, chosen) for number in range(len(self.near)))
         correction = EXTRAPOLATION * (fine - coarse)
         if green is not None:
             fine = np.stack([join(self.near[0].box, field, green) for field in self.fields[0]])

@@ -28,14 +28,21 @@ from .mirrors import Mirror
 from .near_grid import BOX_MARGIN_M, NearGrid, near_grid
 from .near_step import BYTES_PER_CELL, Fields
 from .patterns import Pattern
-from .pulse import RunningTransform, pulse, pulse_duration_s, pulse_width_s, sampling_steps, transform
+from .pulse import (
+    RunningTransform,
+    pulse,
+    pulse_duration_s,
+    pulse_width_s,
+    sampling_steps,
+    transform,
+)
 from .surface_points import surface_points
 from .wall_flux import WallPoints, wall_flux, wall_points
 
 _PROGRESS_STEPS: Final = 50
 _MOST_DIAGONALS: Final = 50.0
 """Longest recording after the pulse, in passages of sound through the box's diagonal."""
-_QUIET: Final = 1e-6
+_QUIET: Final = 3e-7
 """A run ends when the pressure on the box has fallen to this share of its largest value."""
 _NOT_QUIET: Final = 1e-3
 """Share that is refused at the end of the longest recording."""

@@ -51,7 +51,8 @@ class Scene:
             wall
             for wall in self.walls
             if wall.hard
-            and min(wall.depth_m(lower), wall.depth_m(upper)) <= (NEAR_WALL_M if wall.axis < 2 else np.inf)
+            and min(wall.depth_m(lower), wall.depth_m(upper))
+            <= (NEAR_WALL_M if wall.axis < 2 else np.inf)
         )
 
     def moving(self, pattern: Pattern) -> Pattern:

@@ -255,9 +255,7 @@ def _labelled(
         "transfer_vector_closed_form": stamp(
             "transfer_vector_closed_form", found["closed"][:, :number], by_dof
         ),
-        "transfer_vector_error": stamp(
-            "transfer_vector_error", found["error"][:, :number], by_dof
-        ),
+        "transfer_vector_error": stamp("transfer_vector_error", found["error"][:, :number], by_dof),
         "green_difference": stamp("green_difference", found["difference"], by_receiver),
     }
     if patterns:
