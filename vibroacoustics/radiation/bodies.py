@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -122,7 +122,8 @@ def block(lower: Array, upper: Array) -> Body:
     return _outward(trimesh.creation.box(bounds=[lower, upper]))
 
 
-def _outward(mesh: "trimesh.Trimesh") -> Body:
+def _outward(mesh: Any) -> Body:
+    """A mesh of trimesh with its normals out of the body."""
     if mesh.volume < 0.0:
         mesh.invert()
     return Body(np.asarray(mesh.vertices), np.asarray(mesh.faces))

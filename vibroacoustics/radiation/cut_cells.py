@@ -51,17 +51,19 @@ def cut_cells(body: Body, grid: NearGrid) -> CutCells:
     """
     start, stop = _around(body, grid)
     part = [edges[a : b + 1] for edges, a, b in zip(grid.edges, start, stop, strict=True)]
-    open_areas = []
+    open_areas: list[Array] = []
     for axis in range(3):
         area = np.ones([count + (other == axis) for other, count in enumerate(grid.shape)])
-        area[tuple(slice(a, b + (i == axis)) for i, (a, b) in enumerate(zip(start, stop)))] = (
-            _open_fractions(body, part, axis)
-        )
+        area[
+            tuple(
+                slice(a, b + (i == axis)) for i, (a, b) in enumerate(zip(start, stop, strict=False))
+            )
+        ] = _open_fractions(body, part, axis)
         open_areas.append(area)
     volumes = np.ones(grid.shape)
     volumes[tuple(map(slice, start, stop))] = _volume_fractions(body, part)
-    total_area = sum(
-        area[_lower(axis)] + area[_upper(axis)] for axis, area in enumerate(open_areas)
+    total_area: Array = np.sum(
+        [area[_lower(axis)] + area[_upper(axis)] for axis, area in enumerate(open_areas)], axis=0
     )
     wall = _wall_areas(open_areas, grid)
     wall_cells = np.flatnonzero(

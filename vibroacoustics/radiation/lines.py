@@ -6,7 +6,7 @@ import numba
 import numpy as np
 
 from ..errors import ParameterError
-from .arrays import Array
+from .arrays import Array, IndexArray
 from .bodies import Body
 
 _OFF_EDGE: Final = np.array([3.3e-7, 7.1e-7])
@@ -48,7 +48,7 @@ def fluid_on_lines(
     return 1.0 - solid / (lines_per_cell[0] * lines_per_cell[1])
 
 
-def _crossings(triangles: Array, first: Array, second: Array) -> tuple[Array, Array, Array]:
+def _crossings(triangles: Array, first: Array, second: Array) -> tuple[IndexArray, Array, Array]:
     """Crossings sorted by line, then along it: line start (line + 1,), coordinate, sense."""
     number = _find(triangles, first, second, np.empty(0, np.int64), np.empty(0), np.empty(0))
     line, along, sense = np.empty(number, np.int64), np.empty(number), np.empty(number)
@@ -58,7 +58,7 @@ def _crossings(triangles: Array, first: Array, second: Array) -> tuple[Array, Ar
     return starts, along[order], sense[order]
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[misc]
+@numba.njit(cache=True, nogil=True)
 def _find(
     triangles: Any, first: Any, second: Any, line: Any, along: Any, sense: Any
 ) -> int:  # pragma: no cover
@@ -94,7 +94,7 @@ def _find(
     return found
 
 
-@numba.njit(cache=True, nogil=True, inline="always")  # type: ignore[misc]
+@numba.njit(cache=True, nogil=True, inline="always")
 def _edge(ay: float, az: float, by: float, bz: float, y: float, z: float) -> float:
     """Twice the signed area of the triangle (a, b, point)."""  # pragma: no cover
     if (ay, az) > (by, bz):
@@ -102,7 +102,7 @@ def _edge(ay: float, az: float, by: float, bz: float, y: float, z: float) -> flo
     return (by - ay) * (z - az) - (bz - az) * (y - ay)
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[misc]
+@numba.njit(cache=True, nogil=True)
 def _fill(
     solid: Any, starts: Any, position: Any, sense: Any, columns: int, lines_per_cell: Any
 ) -> bool:  # pragma: no cover

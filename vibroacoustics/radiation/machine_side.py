@@ -3,6 +3,7 @@
 import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from typing import Final, TypeVar
 
 import numpy as np
@@ -62,10 +63,7 @@ class MachineSide:
             near.prepare()
         tasks = [(near, pattern) for near in self.near for pattern in moving]
         fields = in_threads(
-            [
-                lambda n=near, p=pattern: n.radiate(p, frequency_hz, progress)
-                for near, pattern in tasks
-            ]
+            [partial(near.radiate, pattern, frequency_hz, progress) for near, pattern in tasks]
         )
         self.fields: list[list[BoxField]] = [fields[: len(moving)], fields[len(moving) :]]
 

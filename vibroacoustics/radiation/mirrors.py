@@ -41,7 +41,8 @@ def floor(position_z_m: float) -> Mirror:
 
 def images(source: Array, mirrors: Sequence[Mirror]) -> tuple[Array, Array]:
     """A source (3,) and all of its images: positions (image, 3), m, and strengths (image,)."""
-    positions, strengths = np.asarray(source, dtype=float)[None, :], np.ones(1)
+    positions: Array = np.asarray(source, dtype=float)[None, :]
+    strengths: Array = np.ones(1)
     for mirror in mirrors:
         reflected = positions.copy()
         reflected[:, mirror.axis] = 2.0 * mirror.position_m - reflected[:, mirror.axis]

@@ -1,5 +1,6 @@
 """The staggered grid around the body: cells, absorbing layers and the recording box."""
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
@@ -151,7 +152,7 @@ def _axis(
     if not planes:
         planes = [(lower + upper) / 2.0]
     parts = [np.array(planes[:1])]
-    for low, high in zip(planes[:-1], planes[1:], strict=True):
+    for low, high in itertools.pairwise(planes):
         units = (high - low) / (cells_per_unit * spacing_m)
         count = cells_per_unit * max(1, int(np.ceil(units - _STRETCH)))
         parts.append(np.linspace(low, high, count + 1)[1:])

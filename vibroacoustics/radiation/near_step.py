@@ -10,6 +10,8 @@ from .arrays import Array
 from .cut_cells import CutCells
 from .near_grid import NearGrid
 
+_kernel = numba.njit(cache=True, nogil=True)
+
 PRECISION: Final = np.float32
 """Double precision changes the pressure at a microphone by less than 0.003 dB from 48 Hz up."""
 BYTES_PER_CELL: Final = 11 * 4 + 60
@@ -19,10 +21,10 @@ BYTES_PER_CELL: Final = 11 * 4 + 60
 class Fields:
     """Pressure, scaled fluxes and split pressure of one run, updated in place.
 
-    The flux variable is A_f u_f rho h/dt with the open share A_f of a face and the grid's spacing h,
-    so that a step is: subtract a pressure difference, then a flux difference, each times h over the
-    distance between its ends. Faces at the ends of the grid stay closed. The split of the pressure
-    matters in the absorbing layers only.
+    The flux variable is A_f u_f rho h/dt with the open share A_f of a face and the grid's spacing
+    h, so that a step is: subtract a pressure difference, then a flux difference, each times h over
+    the distance between its ends. Faces at the ends of the grid stay closed. The split of the
+    pressure matters in the absorbing layers only.
     """
 
     def __init__(self, grid: NearGrid, cells: CutCells) -> None:
@@ -47,7 +49,8 @@ class Fields:
 
     def advance(self) -> None:
         """One step of fluxes and pressure."""
-        _advance(
+        step: Any = _advance  # numba's types do not tell its arguments
+        step(
             self.pressure,
             *self._flux,
             *self._split,
@@ -60,7 +63,6 @@ class Fields:
             *self._squeezes,
             *self._undamped,
             self._plain_gain,
-            PRECISION(1.0),
         )
 
     def add(self, cells: NDArray[np.intp], pressure: Array) -> None:
@@ -74,7 +76,8 @@ def _plain_rows(cells: CutCells) -> NDArray[np.bool_]:
     plain: NDArray[np.bool_] = (
         (x[1:] & x[:-1]).all(axis=2) & (y[:, 1:] & y[:, :-1]).all(axis=2) & z.all(axis=2)
     )
-    return plain & (cells.volumes == 1.0).all(axis=2)
+    plain &= (cells.volumes == 1.0).all(axis=2)
+    return plain
 
 
 def _undamped(damping: Array) -> tuple[int, int]:
@@ -83,7 +86,7 @@ def _undamped(damping: Array) -> tuple[int, int]:
     return int(inside[0]), int(inside[-1]) + 1
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[misc]
+@_kernel
 def _advance(
     p: Any,
     fx: Any,
@@ -112,64 +115,90 @@ def _advance(
     start: int,
     stop: int,
     plain_gain: Any,
-    one: Any,
 ) -> None:  # pragma: no cover
     """Planes along x in order: fluxes that need the old pressure, then the plane's pressure.
 
     Every inner loop runs over a whole row and touches few arrays: that is what compilers vectorise.
     """
-    nx, ny, nz = p.shape
+    nx, ny, _ = p.shape
     for i in range(nx):
         for j in range(ny):
             if i + 1 < nx:
-                d, g = dx[i], gx[i]
-                if plain[i, j]:
-                    for k in range(nz):
-                        drop = g * (p[i, j, k] - p[i + 1, j, k])
-                        fx[i + 1, j, k] = d * (d * fx[i + 1, j, k] + drop)
-                else:
-                    for k in range(nz):
-                        drop = g * ax[i + 1, j, k] * (p[i, j, k] - p[i + 1, j, k])
-                        fx[i + 1, j, k] = d * (d * fx[i + 1, j, k] + drop)
+                low, high, area = p[i, j], p[i + 1, j], ax[i + 1, j]
+                _flow(fx[i + 1, j], area, plain[i, j], low, high, dx[i], gx[i])
             if j + 1 < ny:
-                d, g = dy[j], gy[j]
-                if plain[i, j]:
-                    for k in range(nz):
-                        drop = g * (p[i, j, k] - p[i, j + 1, k])
-                        fy[i, j + 1, k] = d * (d * fy[i, j + 1, k] + drop)
-                else:
-                    for k in range(nz):
-                        drop = g * ay[i, j + 1, k] * (p[i, j, k] - p[i, j + 1, k])
-                        fy[i, j + 1, k] = d * (d * fy[i, j + 1, k] + drop)
-            if plain[i, j]:
-                for k in range(nz - 1):
-                    drop = gz[k] * (p[i, j, k] - p[i, j, k + 1])
-                    fz[i, j, k + 1] = dz[k] * (dz[k] * fz[i, j, k + 1] + drop)
-            else:
-                for k in range(nz - 1):
-                    drop = gz[k] * az[i, j, k + 1] * (p[i, j, k] - p[i, j, k + 1])
-                    fz[i, j, k + 1] = dz[k] * (dz[k] * fz[i, j, k + 1] + drop)
+                low, high, area = p[i, j], p[i, j + 1], ay[i, j + 1]
+                _flow(fy[i, j + 1], area, plain[i, j], low, high, dy[j], gy[j])
+            _flow_along(fz, az, plain[i, j], p, i, j, dz, gz)
         for j in range(ny):
-            x, y = wx[i], wy[j]
-            if cx[i] != one or cy[j] != one:
-                c, d = cx[i], cy[j]
-                x, y = plain_gain * x, plain_gain * y
+            x, y, c, d = plain_gain * wx[i], plain_gain * wy[j], cx[i], cy[j]
+            if c != 1.0 or d != 1.0:
                 _absorb_row(p, fx, fy, fz, sx, sy, sz, c, d, cz, i, j, x, y, wz, plain_gain)
-                continue
-            if plain[i, j]:
-                for k in range(nz):
-                    net = x * (fx[i + 1, j, k] - fx[i, j, k]) + y * (fy[i, j + 1, k] - fy[i, j, k])
-                    p[i, j, k] -= plain_gain * (net + wz[k] * (fz[i, j, k + 1] - fz[i, j, k]))
             else:
-                for k in range(nz):
-                    net = x * (fx[i + 1, j, k] - fx[i, j, k]) + y * (fy[i, j + 1, k] - fy[i, j, k])
-                    p[i, j, k] -= gain[i, j, k] * (net + wz[k] * (fz[i, j, k + 1] - fz[i, j, k]))
-            x, y = plain_gain * x, plain_gain * y
-            _absorb_ends(p, fx, fy, fz, sx, sy, sz, cz, i, j, 0, start, x, y, wz, plain_gain)
-            _absorb_ends(p, fx, fy, fz, sx, sy, sz, cz, i, j, stop, nz, x, y, wz, plain_gain)
+                _compress(p, fx, fy, fz, gain, plain[i, j], i, j, wx[i], wy[j], wz, plain_gain)
+                _absorb_ends(p, fx, fy, fz, sx, sy, sz, cz, i, j, 0, start, x, y, wz, plain_gain)
+                _absorb_ends(
+                    p, fx, fy, fz, sx, sy, sz, cz, i, j, stop, p.shape[2], x, y, wz, plain_gain
+                )
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[misc]
+@_kernel
+def _flow(
+    flux: Any, area: Any, plain: bool, low: Any, high: Any, damping: Any, slope: Any
+) -> None:  # pragma: no cover
+    """Flux through a row of faces across x or y, driven by the pressure on both sides."""
+    if plain:
+        for k in range(flux.size):
+            drop = slope * (low[k] - high[k])
+            flux[k] = damping * (damping * flux[k] + drop)
+    else:
+        for k in range(flux.size):
+            drop = slope * area[k] * (low[k] - high[k])
+            flux[k] = damping * (damping * flux[k] + drop)
+
+
+@_kernel
+def _flow_along(
+    fz: Any, az: Any, plain: bool, p: Any, i: int, j: int, damping: Any, slope: Any
+) -> None:  # pragma: no cover
+    """Flux through the faces of a row along z."""
+    if plain:
+        for k in range(p.shape[2] - 1):
+            drop = slope[k] * (p[i, j, k] - p[i, j, k + 1])
+            fz[i, j, k + 1] = damping[k] * (damping[k] * fz[i, j, k + 1] + drop)
+    else:
+        for k in range(p.shape[2] - 1):
+            drop = slope[k] * az[i, j, k + 1] * (p[i, j, k] - p[i, j, k + 1])
+            fz[i, j, k + 1] = damping[k] * (damping[k] * fz[i, j, k + 1] + drop)
+
+
+@_kernel
+def _compress(
+    p: Any,
+    fx: Any,
+    fy: Any,
+    fz: Any,
+    gain: Any,
+    plain: bool,
+    i: int,
+    j: int,
+    x: Any,
+    y: Any,
+    wz: Any,
+    plain_gain: Any,
+) -> None:  # pragma: no cover
+    """Pressure of a row outside the absorbing layers of x and y."""
+    if plain:
+        for k in range(p.shape[2]):
+            net = x * (fx[i + 1, j, k] - fx[i, j, k]) + y * (fy[i, j + 1, k] - fy[i, j, k])
+            p[i, j, k] -= plain_gain * (net + wz[k] * (fz[i, j, k + 1] - fz[i, j, k]))
+    else:
+        for k in range(p.shape[2]):
+            net = x * (fx[i + 1, j, k] - fx[i, j, k]) + y * (fy[i, j + 1, k] - fy[i, j, k])
+            p[i, j, k] -= gain[i, j, k] * (net + wz[k] * (fz[i, j, k + 1] - fz[i, j, k]))
+
+
+@_kernel
 def _absorb_row(
     p: Any,
     fx: Any,
@@ -200,7 +229,7 @@ def _absorb_row(
         p[i, j, k] = sx[i, j, k] + sy[i, j, k] + sz[i, j, k]
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[misc]
+@_kernel
 def _absorb_ends(
     p: Any,
     fx: Any,

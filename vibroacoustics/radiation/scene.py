@@ -12,7 +12,7 @@ from ..parameters.body import BoxBody, MeshBody, RadiatingBody, SphereBody
 from ..parameters.radiation import RadiationSettings
 from ..parameters.receivers import Receiver
 from ..parameters.shell import Shell
-from ..parameters.surroundings import Cabinet, Opening
+from ..parameters.surroundings import Cabinet, Opening, PanelSide
 from .arrays import Array
 from .bodies import Body, block, cylinder, join_bodies, read_mesh, sphere
 from .mirrors import Mirror
@@ -46,13 +46,11 @@ class Scene:
 
         Those of the others is neglected.
         """
-        lower, upper = self.body.bounds()
+        corners = np.stack(self.body.bounds())
         return tuple(
             wall
             for wall in self.walls
-            if wall.hard
-            and min(wall.depth_m(lower), wall.depth_m(upper))
-            <= (NEAR_WALL_M if wall.axis < 2 else np.inf)
+            if wall.hard and (wall.axis == 2 or wall.depth_m(corners).min() <= NEAR_WALL_M)
         )
 
     def moving(self, pattern: Pattern) -> Pattern:
@@ -77,10 +75,11 @@ def scene(shell: Shell, settings: RadiationSettings) -> Scene:
     lower, upper = machine.bounds()
     for wall in walls:
         gap = min(float(wall.depth_m(lower)), float(wall.depth_m(upper)))
-        if gap < (-1e-9 if wall.axis == 2 else _LEAST_GAP_M):
+        least = 0.0 if wall.axis == 2 else _LEAST_GAP_M
+        if gap < least - 1e-9:
             raise ParameterError(
                 f"radiation.surroundings: the machine is {1e3 * gap:.4g} mm off the wall across "
-                f"{'xyz'[wall.axis]}; needed at least {0 if wall.axis == 2 else 1e3 * _LEAST_GAP_M:g} mm"
+                f"{'xyz'[wall.axis]}; needed at least {1e3 * least:g} mm"
             )
     cabinet = settings.surroundings.cabinet
     panels = [] if cabinet is None else list(cabinet_panels(cabinet, shell.floor_z_m))
@@ -192,7 +191,7 @@ def cabinet_panels(cabinet: Cabinet, floor_z_m: float) -> Iterator[Body]:
             yield from _around_opening(lower, upper, axis, opening, floor_z_m)
 
 
-_SIDES: Final = {
+_SIDES: Final[dict[PanelSide, tuple[int, bool]]] = {
     "-x": (0, False),
     "+x": (0, True),
     "-y": (1, False),
@@ -204,7 +203,7 @@ _SIDES: Final = {
 def _around_opening(
     lower: Array, upper: Array, axis: int, opening: Opening, floor_z_m: float
 ) -> Iterator[Body]:
-    """What a rectangular hole leaves of a panel; a hole that reaches an edge leaves fewer blocks."""
+    """What a rectangular hole leaves of a panel: four blocks, fewer if it reaches an edge."""
     along, up = [other for other in range(3) if other != axis]
     middle_up = opening.up_m + (floor_z_m if up == 2 else 0.0)
     hole_lower, hole_upper = lower.copy(), upper.copy()

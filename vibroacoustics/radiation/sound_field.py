@@ -1,8 +1,8 @@
 """The sound field besides the microphones: measurement surface, map, sphere of directions."""
 
 import itertools
-from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Final
 
 import numpy as np
@@ -72,13 +72,13 @@ def elsewhere(
     """
     floor = next((wall.position_m for wall in side.walls if wall.axis == 2), None)
     table, lines = slice(0, tabulated), slice(tabulated, None)
-    parts = {}
+    parts: dict[str, tuple[ComplexArray, dict[str, Any], str, slice]] = {}
     if sound_field.sound_power is not None:
         points = sound_power_points(sound_field.sound_power, surroundings.machine, floor)
         _check_surface(points, surroundings, side)
         values = _at_points(side, points, table, "sound power", progress)
-        coords = {"position": np.arange(1, points.shape[0] + 1)}
-        parts["surface_transfer_vector"] = (values, coords, "frequency", table)
+        places = {"position": np.arange(1, points.shape[0] + 1)}
+        parts["surface_transfer_vector"] = (values, places, "frequency", table)
     if sound_field.map is not None:
         points = map_points(sound_field.map, floor_level_m)
         values = _at_points(side, points, lines, "map", progress)
@@ -87,8 +87,8 @@ def elsewhere(
         points = directivity_points(sound_field.directivity, floor)
         values = _at_points(side, points, lines, "directivity", progress)
         angles = directivity_angles(sound_field.directivity, floor is not None)
-        coords = dict(zip(("polar_angle", "azimuth"), angles, strict=True))
-        parts["directivity_transfer_vector"] = (values, coords, "line_frequency", lines)
+        directions = dict(zip(("polar_angle", "azimuth"), angles, strict=True))
+        parts["directivity_transfer_vector"] = (values, directions, "line_frequency", lines)
     return xr.Dataset(
         {
             name: stamp(
@@ -123,7 +123,7 @@ def _at_points(
             result[index] = side.pressures(flat[index], chosen)[0][:dofs]
         progress(name, next(done), len(parts))
 
-    in_threads([lambda part=part: fill(part) for part in parts])
+    in_threads([partial(fill, part) for part in parts])
     return result.reshape(*points.shape[:-1], dofs, frequencies)
 
 
@@ -137,8 +137,8 @@ def _outside(side: MachineSide, points: Array) -> NDArray[np.bool_]:
 
 
 def _check_surface(points: Array, surroundings: Scene, side: MachineSide) -> None:
-    wrong: Sequence[Array] = points[~_outside(side, points)]
-    if len(wrong):
+    wrong = points[~_outside(side, points)]
+    if wrong.size:
         check_outside("sound_power", wrong[0], surroundings.body)
         raise ParameterError(
             f"sound_power: the position {wrong[0].round(3).tolist()} m about the centre of mass "

@@ -39,7 +39,8 @@ def surface_points(body: Body, planes: tuple[Array, Array, Array]) -> SurfacePoi
 
     Exact pieces: no piece lies on both sides of a plane. Planes (plane,) rise, m.
     """
-    face, corners = np.arange(body.faces.shape[0]), np.tile(np.eye(3), (body.faces.shape[0], 1, 1))
+    face: IndexArray = np.arange(body.faces.shape[0])
+    corners: Array = np.tile(np.eye(3), (face.size, 1, 1))
     for axis, across in enumerate(planes):
         face, corners = _cut(body.triangles[:, :, axis], face, corners, across)
     weights = corners.mean(axis=1)
@@ -59,9 +60,9 @@ def _cut(
 ) -> tuple[IndexArray, Array]:
     """Cut pieces by all planes across one axis.
 
-    Pieces are triangles: the face of each, and its corners as shares of that face's corners, (piece,
-    corner, share). `coordinate` (face, corner) is that of the axis. A triangle with planes through
-    it is cut by the middle one in three; that goes on until none is left.
+    Pieces are triangles: the face of each, and its corners as shares of that face's corners,
+    (piece, corner, share). `coordinate` (face, corner) is that of the axis. A triangle with planes
+    through it is cut by the middle one in three; that goes on until none is left.
     """
     tolerance = 1e-9 * np.diff(planes).min()
     faces, pieces = [], []

@@ -2,6 +2,7 @@
 
 import hashlib
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
@@ -143,7 +144,7 @@ def _room_greens(
     arguments = (table, settings.maximum_frequency_hz, settings.room_spacing_m, side.walls)
     return in_threads(
         [
-            lambda n=name, at=position: kwave_green(box, at, *arguments, n, progress, threads)
+            partial(kwave_green, box, position, *arguments, name, progress, threads)
             for name, position in positions.items()
         ],
         workers,
