@@ -1,53 +1,44 @@
-"""The machine side: cut cells, and bodies whose sound field is known."""
+"""The machine side: bodies whose sound field is known."""
 
 import numpy as np
 import pytest
 
-from vibroacoustics.errors import ParameterError
-from vibroacoustics.radiation.bodies import Cylinder, Sphere, outward_normal
+from vibroacoustics.errors import ParameterError, SolverError
+from vibroacoustics.radiation import near_field, near_step
+from vibroacoustics.radiation.arrays import no_progress
+from vibroacoustics.radiation.bodies import Body, cylinder, join_bodies, sphere
 from vibroacoustics.radiation.box import BoxField
-from vibroacoustics.radiation.cut_cells import cut_cells
 from vibroacoustics.radiation.exact import box_green, sphere_pressure
 from vibroacoustics.radiation.join import join
+from vibroacoustics.radiation.machine_side import MachineSide
+from vibroacoustics.radiation.mirrors import Mirror, floor
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.patterns import (
     Pattern,
-    pulsating,
+    normal_velocity,
     rigid_body,
     rigid_body_velocity,
 )
+from vibroacoustics.radiation.scene import Scene
 
-FREQUENCY_HZ = np.array([25.0, 48.0, 117.0, 250.0, 500.0, 1000.0])
-ANGLES = np.radians([0.0, 30.0, 60.0, 75.0, 84.0, 120.0, 180.0])
+RADIUS = 0.12
+ANGLES = np.linspace(0.0, np.pi, 11)
+FREQUENCY_HZ = np.array([48.0, 117.0, 250.0, 500.0, 1000.0, 2000.0, 3000.0, 4000.0])
+LOW_HZ = FREQUENCY_HZ[:5]
 
 
-def pressure(near, field, microphone, floor_z_m=None, frequency_hz=FREQUENCY_HZ):
-    return join(near.box, field, box_green(near.box, microphone, frequency_hz, floor_z_m))
+def pressure(near, field, microphone, walls=(), frequency_hz=LOW_HZ):
+    return join(near.box, field, box_green(near.box, np.array(microphone), frequency_hz, walls))
 
 
 def level_difference(a, b):
     return 20.0 * np.log10(np.abs(a) / np.abs(b))
 
 
-@pytest.mark.parametrize(
-    "body", [Sphere(0.1, (0.01, 0.02, -0.03)), Cylinder(0.08, -0.2, 0.21)], ids=["sphere", "can"]
-)
-class TestBodies:
-    def test_distance_is_exact(self, body):
-        """Walking the distance along the normal ends on the surface."""
-        points = np.random.default_rng(1).uniform(-0.3, 0.3, (500, 3))
-        distance = body.signed_distance(points)
-        surface = points - distance[:, None] * outward_normal(body, points)
-        np.testing.assert_allclose(body.signed_distance(surface), 0.0, atol=1e-7)
-
-    def test_bounds_touch_the_body(self, body):
-        lower, upper = body.bounds()
-        corners = np.array([lower, upper])
-        middle = corners.mean(axis=0)
-        for axis in range(3):
-            touching = np.tile(middle, (2, 1))
-            touching[:, axis] = corners[:, axis]
-            np.testing.assert_allclose(body.signed_distance(touching), 0.0, atol=1e-12)
+def legendre(order, radius=RADIUS):
+    """Normal velocity P_n(cos theta) about the z axis."""
+    series = np.polynomial.Legendre.basis(order)
+    return normal_velocity(f"P{order}", lambda points: series(points[:, 2] / radius))
 
 
 class TestPatterns:
@@ -62,208 +53,189 @@ class TestPatterns:
             rigid_body_velocity("tw", np.zeros(3))
 
 
-class TestCutCells:
-    @staticmethod
-    def cut(body, spacing):
-        return cut_cells(body, np.full(3, -0.2003), spacing, (round(0.4 / spacing),) * 3)
+@pytest.fixture(scope="module")
+def simulated():
+    """Pressure of P_0 to P_3 with the default settings, (order, angle, frequency)."""
+    body = sphere(RADIUS)
+    patterns = [legendre(order) for order in range(4)]
+    side = MachineSide(
+        Scene(body, body.faces.shape[0], ()), patterns, 0.008, 4000.0, FREQUENCY_HZ, no_progress
+    )
+    points = np.stack([np.sin(ANGLES), 0.0 * ANGLES, np.cos(ANGLES)], axis=1)
+    return np.stack([side.pressures(point)[0] for point in points], axis=1)
 
-    def test_wall_of_a_closed_body_has_no_vector_area(self):
-        cells = self.cut(Sphere(0.1, (0.003, 0.001, 0.002)), 0.02)
-        np.testing.assert_allclose(cells.wall_areas.sum(axis=0), 0.0, atol=1e-15)
 
-    def test_uniform_pressure_gives_no_moment(self):
-        cells = self.cut(Cylinder(0.083, -0.11, 0.12), 0.02)
-        moment = np.cross(cells.wall_centroids, cells.wall_areas).sum(axis=0)
-        np.testing.assert_allclose(moment, 0.0, atol=1e-4 * 0.1 * np.abs(cells.wall_areas).sum())
+class TestDefaultSettings:
+    """Sphere of 0.12 m whose normal velocity is P_n, 8 and 12 mm, 1 m off, against theory."""
 
-    def test_area_and_volume_converge_at_second_order(self):
-        body = Sphere(0.1, (0.003, 0.001, 0.002))
-        area, volume = [], []
-        for spacing in (0.04, 0.02, 0.01):
-            cells = self.cut(body, spacing)
-            total = np.linalg.norm(cells.wall_areas, axis=1).sum()
-            area.append(abs(total / (4 * np.pi * 0.01) - 1))
-            solid = (1.0 - cells.fluid_volumes).sum() * spacing**3
-            volume.append(abs(solid / (4 / 3 * np.pi * 0.001) - 1))
-        # Two halvings of the spacing: a factor of 16 at second order.
-        assert area[2] < area[0] / 10
-        assert volume[2] < 1e-3
-        assert area[2] < 5e-3
+    @pytest.mark.slow
+    @pytest.mark.parametrize("order", range(4))
+    def test_every_angle(self, simulated, order):
+        """0.1 dB to 1 kHz, 0.3 dB to 4 kHz, at angles less than 20 dB below the loudest.
 
-    def test_centroids_lie_on_the_wall(self):
-        body = Sphere(0.1, (0.003, 0.001, 0.002))
-        cells = self.cut(body, 0.01)
-        assert np.abs(body.signed_distance(cells.wall_centroids)).max() < 0.01 / 8
+        For P_3 up to 250 Hz 1.2 %, 0.1 dB, of the loudest angle's pressure is allowed at every
+        angle. An octupole at ka = 0.1 sends about (ka)^2/30 of a dipole's pressure of the same
+        velocity, 70 dB less, and the grid couples both (a cube does not keep them apart): what
+        leaks has a dipole's angles, and near the octupole's zeros it is up to 0.7 dB.
+        """
+        exact = sphere_pressure(order, RADIUS, 1.0, np.cos(ANGLES), FREQUENCY_HZ).T
+        loudest = np.abs(exact).max(axis=0)
+        difference = np.abs(level_difference(simulated[order], exact))
+        difference[np.abs(exact) < 0.1 * loudest] = 0.0
+        allowed = np.where(FREQUENCY_HZ <= 1000.0, 0.1, 0.3)
+        if order == 3:
+            weak = FREQUENCY_HZ <= 250.0
+            error = np.abs(np.abs(simulated[order]) - np.abs(exact)) / loudest
+            assert error[:, weak].max() < 0.012
+            difference[:, weak] = 0.0
+        assert np.all(difference.max(axis=0) <= allowed), difference.max(axis=0).round(3)
 
-    def test_volumes_are_bounded_below(self):
-        cells = self.cut(Sphere(0.1, (0.003, 0.001, 0.002)), 0.02)
-        area = cells.open_areas
-        total = area[0][1:] + area[0][:-1] + area[1][:, 1:] + area[1][:, :-1]
-        total = total + area[2][:, :, 1:] + area[2][:, :, :-1]
-        assert np.all(cells.volumes >= total / 18.0 - 1e-12)
+    @pytest.mark.slow
+    @pytest.mark.parametrize("order", range(3))
+    def test_phase(self, simulated, order):
+        """0.1 dB is 1.2 % of the pressure; as a phase 0.012 rad, to 1 kHz."""
+        exact = sphere_pressure(order, RADIUS, 1.0, np.cos(ANGLES), FREQUENCY_HZ).T[:, :5]
+        loud = np.abs(exact) > 0.1 * np.abs(exact).max(axis=0)
+        phase = np.angle(simulated[order, :, :5] / exact)
+        assert np.abs(phase[loud]).max() < 0.012
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("radius", [0.12, 0.0825])
-@pytest.mark.parametrize(("name", "order"), [("pulsating", 0), ("tz", 1), ("tx", 1)])
-def test_sphere_radiates_the_exact_field(radius, name, order):
-    """Within 0.1 dB at every angle less than 20 dB below the maximum, 25 Hz to 1 kHz, at 1 m."""
-    body = Sphere(radius)
-    near = NearField(body, 0.0125, 2500.0)
-    pattern = pulsating(body, 4 * np.pi * radius**2) if order == 0 else rigid_body(name)
-    field = near.radiate(pattern, FREQUENCY_HZ)
-    axis = 0 if name == "tx" else 2
-    for angle in ANGLES:
-        microphone = np.zeros(3)
-        microphone[axis], microphone[(axis + 1) % 3] = np.cos(angle), np.sin(angle)
-        expected = sphere_pressure(order, radius, 1.0, np.cos([angle]), FREQUENCY_HZ)[:, 0]
-        simulated = pressure(near, field, microphone)
-        np.testing.assert_allclose(level_difference(simulated, expected), 0.0, atol=0.1)
-        # Phase as well: 0.05 rad is 3 degrees.
-        assert np.abs(np.angle(simulated / expected)).max() < 0.05
+def test_error_falls_with_the_square_of_the_spacing():
+    """Oscillating sphere, 1 m on the axis: complex error against the exact field.
+
+    The observed order of two neighbouring spacings; the cut differs from one to the next.
+    """
+    frequency = np.array([500.0, 1000.0, 1500.0])
+    exact = sphere_pressure(1, RADIUS, 1.0, np.ones(1), frequency)[:, 0]
+    spacings = np.array([0.024, 0.016, 0.012])
+    errors = []
+    for spacing in spacings:
+        near = NearField(sphere(RADIUS), spacing, 1500.0)
+        field = near.radiate(rigid_body("tz"), frequency)
+        simulated = pressure(near, field, [0.0, 0.0, 1.0], frequency_hz=frequency)
+        errors.append(np.abs(simulated / exact - 1))
+    order = np.log(errors[0] / errors[2]) / np.log(spacings[0] / spacings[2])
+    assert np.all((order > 1.6) & (order < 2.6)), order
 
 
-def test_sphere_off_the_grid_and_the_origin_radiates_the_same():
-    centre = (0.0041, -0.0037, 0.0029)
-    near = NearField(Sphere(0.12, centre), 0.0125, 2500.0)
-    field = near.radiate(rigid_body("tz"), FREQUENCY_HZ)
-    microphone = np.array(centre) + np.array([0.6, 0.0, 0.8])
-    expected = sphere_pressure(1, 0.12, 1.0, np.array([0.8]), FREQUENCY_HZ)[:, 0]
-    simulated = pressure(near, field, microphone)
+def test_sphere_off_the_origin_radiates_the_same():
+    centre = np.array([0.0041, -0.0037, 0.0029])
+    near = NearField(sphere(RADIUS, tuple(centre)), 0.0125, 2500.0)
+    field = near.radiate(rigid_body("tz"), LOW_HZ)
+    expected = sphere_pressure(1, RADIUS, 1.0, np.array([0.8]), LOW_HZ)[:, 0]
+    simulated = pressure(near, field, centre + np.array([0.6, 0.0, 0.8]))
+    # One grid of 12.5 mm, no extrapolation.
     np.testing.assert_allclose(level_difference(simulated, expected), 0.0, atol=0.1)
 
 
 @pytest.mark.slow
 def test_pressure_does_not_depend_on_the_box():
-    body = Cylinder(0.0825, -0.2, 0.217)
-    microphone = np.array([0.16, -0.96, 0.0])
+    """Margins of three and of six cells: the absorbing layer moves along, and errs anew."""
+    body, wall = cylinder(0.0825, -0.2, 0.217), floor(-0.26)
+    rigid = Pattern("t", lambda at: np.array([1.0, 0.0, 1.0]) + 0.0 * at.position)
     results = []
-    for margin in (0.04, 0.08):
-        near = NearField(body, 0.0165, 1500.0, -0.22, box_margin_m=margin)
-        fields = [near.radiate(rigid_body(dof), FREQUENCY_HZ) for dof in ("tx", "tz")]
-        results.append([pressure(near, field, microphone, -0.22) for field in fields])
+    for margin in (0.06, 0.12):
+        near = NearField(body, 0.02, 1500.0, (wall,), box_margin_m=margin)
+        field = near.radiate(rigid, LOW_HZ)
+        results.append(
+            [pressure(near, field, at, (wall,)) for at in ([0.16, -0.96, 0.0], [0.0, 0.0, 1.0])]
+        )
     np.testing.assert_allclose(level_difference(*results), 0.0, atol=0.15)
 
 
 def test_sliding_wall_radiates_nothing_without_a_run():
-    near = NearField(Cylinder(0.0825, -0.2, 0.217), 0.0165, 1500.0)
+    near = NearField(cylinder(0.0825, -0.2, 0.217), 0.0165, 1500.0)
     calls = []
-    field = near.radiate(rigid_body("rz"), FREQUENCY_HZ, lambda *call: calls.append(call))
+    field = near.radiate(rigid_body("rz"), LOW_HZ, lambda *call: calls.append(call))
     assert not calls
     assert not field.inner.any()
     assert not field.outer.any()
 
 
-class _Both:
-    """Two bodies as one, for the mirror test."""
-
-    def __init__(self, first, second):
-        self.bodies = (first, second)
-
-    def signed_distance(self, points):
-        return np.minimum(*(body.signed_distance(points) for body in self.bodies))
-
-    def bounds(self):
-        lower, upper = zip(*(body.bounds() for body in self.bodies), strict=True)
-        return np.min(lower, axis=0), np.max(upper, axis=0)
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize("dof", ["tx", "tz", "ry"])
-def test_floor_equals_free_field_with_the_mirrored_body(dof):
-    """A body over a hard floor and its mirror image, moving as mirror images, in free field."""
-    radius, height, floor = 0.09, 0.11, -0.11
-    above, below = Sphere(radius), Sphere(radius, (0.0, 0.0, -2 * height))
-    over_floor = NearField(above, 0.015, 1500.0, floor)
-    free = NearField(_Both(above, below), 0.015, 1500.0)
+@pytest.mark.parametrize("axis", [0, 2])
+def test_wall_equals_free_field_with_the_mirrored_body(axis):
+    """A sphere before a hard wall, and two spheres in free field that move as mirror images.
 
-    def mirrored(points):
-        upper = rigid_body_velocity(dof, points)
-        reflected = points * [1, 1, -1] + [0, 0, 2 * floor]
-        lower = rigid_body_velocity(dof, reflected) * [1, 1, -1]
-        return np.where(points[..., 2:] > floor, upper, lower)
+    Both grids have the same cells before the wall, so the fields are the same to the rounding of
+    float32, 6e-8, which some hundred steps let grow; lines through the body are off their places
+    by 1e-6 of a cell, on both sides in the same sense.
+    """
+    radius, place = 0.09, -0.11
+    flip = np.where(np.arange(3) == axis, -1.0, 1.0)
+    wall = Mirror(axis, -1, place)
+    body = sphere(radius)
+    shift = np.where(np.arange(3) == axis, 2.0 * place, 0.0)
+    image = Body(body.vertices * flip + shift, body.faces[:, ::-1])
 
+    def velocity(points):
+        """Every direction and rotation, and breathing, at once."""
+        turning = np.cross([3.0, -7.0, 5.0], points)
+        return np.array([1.0, 0.5, 0.7]) + turning + 4.0 * points
+
+    def mirrored(at):
+        before = (at.position[:, axis] > place)[:, None]
+        return np.where(before, velocity(at.position), flip * velocity(flip * at.position + shift))
+
+    near = NearField(body, 0.015, 1500.0, (wall,))
+    alone = near.radiate(Pattern("all", lambda at: velocity(at.position)), LOW_HZ)
+    free = NearField(join_bodies([body, image]), 0.015, 1500.0)
+    both = free.radiate(Pattern("all", mirrored), LOW_HZ)
     microphone = np.array([0.5, 0.3, 0.7])
-    expected = pressure(free, free.radiate(Pattern(dof, mirrored), FREQUENCY_HZ), microphone)
-    if dof == "ry":  # A sphere that turns about its own centre only slides.
-        assert np.abs(expected).max() < 1e-12
-        return
-    field = over_floor.radiate(rigid_body(dof), FREQUENCY_HZ)
-    simulated = pressure(over_floor, field, microphone, floor)
-    np.testing.assert_allclose(level_difference(simulated, expected), 0.0, atol=0.05)
+    simulated = pressure(near, alone, microphone, (wall,))
+    expected = pressure(free, both, microphone)
+    assert np.all(np.abs(simulated - expected) < 1e-5 * np.abs(expected))
 
 
 @pytest.mark.slow
 def test_far_from_the_floor_the_image_alone_is_right():
     """Five radii up, a pulsating sphere and its image hardly scatter each other's sound."""
-    radius, floor = 0.06, -0.3
-    body = Sphere(radius)
-    near = NearField(body, 0.012, 1500.0, floor)
-    field = near.radiate(pulsating(body, 4 * np.pi * radius**2), FREQUENCY_HZ[:3])
-    microphone = np.array([0.9, 0.0, 0.2])
+    radius, wall = 0.06, floor(-0.3)
+    near = NearField(sphere(radius), 0.012, 1500.0, (wall,))
+    field = near.radiate(legendre(0, radius), LOW_HZ[:3])
+    simulated = pressure(near, field, [0.9, 0.0, 0.2], (wall,), LOW_HZ[:3])
     expected = sum(
-        sphere_pressure(0, radius, np.hypot(0.9, z), np.ones(1), FREQUENCY_HZ[:3])[:, 0]
+        sphere_pressure(0, radius, np.hypot(0.9, z), np.ones(1), LOW_HZ[:3])[:, 0]
         for z in (0.2, 0.8)
     )
-    simulated = pressure(near, field, microphone, floor, FREQUENCY_HZ[:3])
     # The image's velocity at the sphere is (a/2h)^2 = 1 % of the wall's and makes only a dipole.
     np.testing.assert_allclose(level_difference(simulated, expected), 0.0, atol=0.1)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("clearance", [0.0, 0.02])
-def test_cylinder_converges_with_the_spacing(clearance):
-    """Mean level over microphones, coarse grids against 10 mm, to 500 Hz."""
-    floor = -0.2 - clearance
-    microphones = np.array([(0.16, -0.96, 0.22), (-0.83, 0.32, 0.45), (0.1, -0.1, 0.99)])
-    microphones[:, 2] += floor
-    levels = []
-    for spacing in (0.02, 0.0125, 0.01):
-        near = NearField(Cylinder(0.0825, -0.2, 0.217), spacing, 2000.0, floor)
-        fields = [near.radiate(rigid_body(dof), FREQUENCY_HZ[:5]) for dof in ("tx", "tz", "rx")]
-        p = np.array(
-            [[pressure(near, f, m, floor, FREQUENCY_HZ[:5]) for m in microphones] for f in fields]
-        )
-        levels.append(10 * np.log10((np.abs(p) ** 2).mean(axis=1)))
-    coarse, middle = (np.abs(level - levels[-1]).max() for level in levels[:2])
-    # How the grid happens to cut the caps changes from spacing to spacing, so the order of
-    # convergence shows on the sphere only (below); here the differences must be small and shrink.
-    assert coarse < 0.6
-    assert middle < 0.3
-    assert middle < coarse
-
-
-def test_error_falls_with_the_square_of_the_spacing():
-    """Oscillating sphere, 1 m on the axis: complex error against the exact field, from 250 Hz."""
-    frequency = FREQUENCY_HZ[3:]
-    expected = sphere_pressure(1, 0.12, 1.0, np.ones(1), frequency)[:, 0]
-    errors = []
-    for spacing in (0.03, 0.015):
-        near = NearField(Sphere(0.12), spacing, 1000.0)
-        field = near.radiate(rigid_body("tx"), frequency)
-        simulated = pressure(near, field, np.array([1.0, 0.0, 0.0]), frequency_hz=frequency)
-        errors.append(np.abs(simulated / expected - 1).max())
-    assert errors[1] < errors[0] / 3.0
-
-
 def test_translation_of_a_body_on_the_floor_displaces_air():
     """The bottom is not in the air: the top's volume velocity remains: a monopole."""
-    near = NearField(Cylinder(0.0825, -0.2, 0.0), 0.0165, 1500.0, -0.2)
+    wall = floor(-0.2)
+    near = NearField(cylinder(0.0825, -0.2, 0.0), 0.0165, 1500.0, (wall,))
     low = np.array([20.0])
     field = near.radiate(rigid_body("tz"), low)
-    microphone = np.array([3.0, 0.0, -0.2])
-    simulated = pressure(near, field, microphone, -0.2, low)
+    simulated = pressure(near, field, [3.0, 0.0, -0.2], (wall,), low)
     # j omega rho Q G with Q = pi R² and the source's own image: low frequency, far off.
     monopole = 2 * np.pi * 20 * 1.2 * np.pi * 0.0825**2 * 2 / (4 * np.pi * 3.0)
     np.testing.assert_allclose(np.abs(simulated), monopole, rtol=0.03)
 
 
+@pytest.mark.slow
+def test_single_precision_is_enough(monkeypatch):
+    """Against double precision: 0.003 dB from 48 Hz at microphones within 20 dB of the loudest."""
+    microphones = [[0.16, -0.96, 0.0], [0.78, 0.55, 0.31], [-0.83, 0.32, 0.45]]
+    results = []
+    for precision in (np.float32, np.float64):
+        monkeypatch.setattr(near_step, "PRECISION", precision)
+        near = NearField(cylinder(0.0825, -0.2, 0.217), 0.02, 1500.0)
+        fields = [near.radiate(rigid_body(dof), LOW_HZ) for dof in ("tz", "ry")]
+        results.append([[pressure(near, field, p) for p in microphones] for field in fields])
+    single, double = np.array(results)
+    loud = np.abs(double) > 0.1 * np.abs(double).max(axis=1, keepdims=True)
+    assert not np.array_equal(single, double)
+    np.testing.assert_allclose(level_difference(single, double)[loud], 0.0, atol=0.003)
+
+
 def test_reciprocal_green_functions_leave_no_pressure_of_their_own():
     """Two outside sources satisfy the join's integral with zero: nothing radiates from inside."""
-    near = NearField(Sphere(0.1), 0.0125, 1000.0)
+    near = NearField(sphere(0.1), 0.0125, 1000.0)
     first, second = (
-        box_green(near.box, np.array(p), FREQUENCY_HZ, None)
-        for p in ([1.0, 0.2, 0.1], [-0.3, 0.9, 0.4])
+        box_green(near.box, np.array(p), LOW_HZ) for p in ([1.0, 0.2, 0.1], [-0.3, 0.9, 0.4])
     )
     residue = np.abs(join(near.box, first, second))
     scale = np.abs(join(near.box, BoxField(first.inner, 0 * first.outer), second))
@@ -273,10 +245,22 @@ def test_reciprocal_green_functions_leave_no_pressure_of_their_own():
 def test_memory_is_checked_before_the_run(monkeypatch):
     monkeypatch.setattr("psutil.virtual_memory", type("M", (), {"available": 2**20}))
     with pytest.raises(ParameterError, match=r"near_field_spacing_mm: the grid of \d+×\d+×\d+"):
-        NearField(Sphere(0.1), 0.0125, 1000.0)
+        NearField(sphere(0.1), 0.0125, 1000.0)
+
+
+def test_a_run_that_has_not_died_down_is_refused(monkeypatch):
+    monkeypatch.setattr(near_field, "_MOST_DIAGONALS", 0.0)
+    with pytest.raises(SolverError, match="near field tx: the pressure has not died down"):
+        NearField(sphere(0.1), 0.02, 1000.0).radiate(rigid_body("tx"), LOW_HZ)
+
+
+def test_a_velocity_that_is_no_number_is_refused():
+    pattern = normal_velocity("bad", lambda points: np.where(points[:, 2] > 0.09, np.nan, 1.0))
+    with pytest.raises(SolverError, match="near field bad: the pressure has not died down"):
+        NearField(sphere(0.1), 0.02, 1000.0).radiate(pattern, LOW_HZ)
 
 
 def test_all_runs_of_one_body_are_repeatable():
-    near = NearField(Sphere(0.06), 0.0165, 1000.0)
-    first, second = (near.radiate(rigid_body("tx"), FREQUENCY_HZ) for _ in range(2))
+    near = NearField(sphere(0.06), 0.0165, 1000.0)
+    first, second = (near.radiate(rigid_body("tx"), LOW_HZ) for _ in range(2))
     np.testing.assert_array_equal(first.inner, second.inner)

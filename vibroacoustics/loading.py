@@ -52,6 +52,7 @@ def load_study(path: str | Path) -> Study:
                 f"{origin_file}: scoring.published_table = {name!r}: must be a file name"
             )
         scoring["published"] = _read_published_table(_beside(origin_file, name))
+    _place_files(content, origin, path)
     for name in ("records", "source_file"):  # filled in here, not by a file
         if name in content:
             raise ParameterError(f"{path}: {name}: unknown key")
@@ -59,6 +60,24 @@ def load_study(path: str | Path) -> Study:
     content.update(machine=machine, source_file=path.name)
     content["records"] = (*machine_records, *reader.records)
     return validated(Study, content, reader)
+
+
+def _place_files(
+    content: dict[str, Any], origin: Mapping[tuple[str, ...], Path], path: Path
+) -> None:
+    """Make the names of the radiating body's files relative to the file that gives them."""
+    radiation = content.get("radiation")
+    body = radiation.get("body") if isinstance(radiation, dict) else None
+    if not isinstance(body, dict):
+        return
+    named: list[tuple[dict[str, Any], str, tuple[str, ...]]] = [(body, "file", ())]
+    patterns = body.get("patterns")
+    if isinstance(patterns, dict):
+        named += [(patterns, name, ("patterns",)) for name in patterns]
+    for table, name, prefix in named:
+        if isinstance(table.get(name), str):
+            file = origin.get(("radiation", "body", *prefix, name), path)
+            table[name] = str(_beside(file, table[name]))
 
 
 def _load_machine(

@@ -81,6 +81,10 @@ def radiate(study: Study, progress: Progress = lambda *_: None) -> xr.Dataset:
         radiated, was_cached = _transfer_vectors(study, progress)
     except ParameterError as error:
         raise ParameterError(f"{study.source_file}: {error}") from None
+    if study.sound_power is not None:
+        surface = radiated["surface_transfer_vector"]
+        area = _surface_area_m2(study.sound_power, surface)
+        radiated["unit_sound_power_level"] = unit_sound_power(surface, study.sound_power, area)
     results = radiated.assign_attrs(
         provenance.attributes(study),
         reference_pressure_pa=REFERENCE_PRESSURE_PA,
@@ -130,6 +134,7 @@ def _run(study: Study, progress: Progress) -> xr.Dataset:
     radiated, was_cached = _transfer_vectors(study, progress)
     results = results.merge(radiated)
     results = results.merge(_pressures(results))
+    results = results.merge(_sound_field(study, results))
     results = results.merge(_levels(study, results))
     results = results.merge(_scores(study, results))
     results.attrs = {
@@ -303,11 +308,12 @@ def _transmissibility(body: RigidBodyOnMounts) -> NDArray[np.complex128]:
 
 def _transfer_vectors(study: Study, progress: Progress) -> tuple[xr.Dataset, bool]:
     """Pressure per velocity of the housing; from the cache if it is there."""
+    drawn = study.map is not None or study.directivity is not None
     sound_field = radiation.SoundField(
         study.sound_power,
         study.map,
         study.directivity,
-        tuple(map(shaft_frequency_hz, study.operation.speed_rpm)),
+        tuple(map(shaft_frequency_hz, study.operation.speed_rpm)) if drawn else (),
     )
     inputs = (study.machine.shell, study.receivers, study.radiation, sound_field)
     return storage.cached(
@@ -346,6 +352,46 @@ def _pressures(results: xr.Dataset) -> xr.Dataset:
 
 
 _CHANGE: Final = ("speed", "option", "receiver")
+
+
+def _sound_field(study: Study, results: xr.Dataset) -> xr.Dataset:
+    """Level of the 1x line on the map, sound power of every order; what the study asks for."""
+    velocity = results["velocity_order"].sum("source")
+    fields: dict[str, xr.DataArray] = {}
+    if "map_transfer_vector" in results:
+        by_speed = results["map_transfer_vector"].rename(line_frequency="speed")
+        first = velocity.sel(order=1, drop=True)
+        line = xr.dot(first, by_speed.assign_coords(speed=first["speed"]), dim="dof")
+        dims = VARIABLES["map_level"].dims
+        coords = {name: results[name] for name in (*dims, "map_x", "map_y", "map_z")}
+        level = levels.sound_pressure_level(line.transpose(*dims).values)
+        fields["map_level"] = stamp("map_level", level, coords)
+    if study.sound_power is not None:
+        surface = results["surface_transfer_vector"]
+        vectors = radiation.interpolate_transfer_vector(
+            surface.rename(position="receiver", position_distance="distance"),
+            results["order_frequency"],
+        )
+        pressure = xr.dot(velocity, vectors, dim="dof")
+        dims = ("speed", "option", "order", "receiver")
+        mean = sound_power.energy_mean(
+            levels.sound_pressure_level(pressure.transpose(*dims).values), axis=3
+        )
+        power = sound_power.sound_power_level(mean, _surface_area_m2(study.sound_power, surface))
+        frequency = results["order_frequency"].values[:, None, :]
+        weighted = [power + levels.WEIGHTING[name](frequency) for name in WEIGHTINGS]
+        fields["order_sound_power_level"] = stamp(
+            "order_sound_power_level",
+            np.stack(weighted, axis=-1),
+            {**{name: results[name] for name in dims[:3]}, "weighting": list(WEIGHTINGS)},
+            arrangement=study.sound_power.arrangement,
+        )
+    return check(xr.Dataset(fields))
+
+
+def _surface_area_m2(settings: SoundPowerSettings, surface: xr.DataArray) -> float:
+    edges = (surface.attrs[f"reference_{name}_m"] for name in ("length", "width", "height"))
+    return sound_power.surface_area_m2(settings, *edges)
 
 
 def _levels(study: Study, results: xr.Dataset) -> xr.Dataset:

@@ -53,6 +53,7 @@ COORDINATES: Final[dict[str, Variable]] = {
     "order_frequency": Variable(("speed", "order"), "Hz", "frequency of a shaft order"),
     "time": Variable(("speed", "crank_angle"), "s", "time from crank angle zero"),
     "distance": Variable(("receiver",), "m", "distance of the microphone from the centre of mass"),
+    "position_distance": Variable(("position",), "m", "distance from the centre of mass"),
     "map_x": Variable(("map_row", "map_column"), "m", "x from the centre of mass"),
     "map_y": Variable(("map_row", "map_column"), "m", "y from the centre of mass"),
     "map_z": Variable(("map_row", "map_column"), "m", "z from the centre of mass"),
@@ -135,6 +136,12 @@ VARIABLES: Final[dict[str, Variable]] = {
         "Pa s m-1",
         "pressure per velocity of the housing on the measurement surface",
         True,
+    ),
+    "map_level": Variable(
+        ("speed", "option", "map_row", "map_column"), "dB", "level of the 1x line on the map"
+    ),
+    "order_sound_power_level": Variable(
+        ("speed", "option", "order", "weighting"), "dB", "sound power level of a shaft order"
     ),
     "unit_sound_power_level": Variable(
         ("dof", "frequency"), "dB", "sound power level at 1 mm/s or 1 mrad/s, root mean square"

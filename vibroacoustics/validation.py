@@ -7,6 +7,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from .errors import ParameterError
+from .parameters.radiation import RadiationSettings
 from .parameters.study import Study
 from .units import split_key
 
@@ -67,9 +68,11 @@ _LIMITS: Final = {"greater_than", "greater_than_equal", "less_than", "less_than_
 
 
 def _without_tags(location: tuple[str, ...]) -> tuple[str, ...]:
-    """Location without what pydantic adds: the kind of an option, and the mark of a key."""
-    if len(location) > 2 and location[0] == "options" and location[2] in _OPTION_KINDS:
-        location = (*location[:2], *location[3:])
+    """Location without what pydantic adds: the kind of an option or body, and a key's mark."""
+    for table in ("options", "body"):
+        place = location.index(table) + (2 if table == "options" else 1) if table in location else 0
+        if 0 < place < len(location) and location[place] in _KINDS:
+            location = (*location[:place], *location[place + 1 :])
     return tuple(part for part in location if part != "[key]")
 
 
@@ -118,8 +121,12 @@ def _models_in(annotation: Any) -> list[type[BaseModel]]:
     return [found for argument in get_args(annotation) for found in _models_in(argument)]
 
 
-_OPTION_KINDS: Final = {
+_KINDS: Final = {
     kind
-    for option in _models_in(Study.model_fields["options"].annotation)
-    for kind in get_args(option.model_fields["kind"].annotation)
+    for annotation in (
+        Study.model_fields["options"].annotation,
+        RadiationSettings.model_fields["body"].annotation,
+    )
+    for model in _models_in(annotation)
+    for kind in get_args(model.model_fields["kind"].annotation)
 }

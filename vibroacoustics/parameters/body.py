@@ -39,7 +39,7 @@ class MeshBody(Parameters):
     """STL file; in a study relative to the study's folder."""
     file_unit_m: float = Field(default=1e-3, gt=0.0, le=1.0)
     """Length of the file's unit."""
-    patterns: dict[str, str] = {}
+    patterns: dict[str, str] = Field(default_factory=dict)
     """CSV files of surface velocities by name: a number or a vector for each face or vertex."""
 
 

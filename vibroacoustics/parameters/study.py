@@ -139,6 +139,12 @@ class Study(Parameters):
                 f"radiation.maximum_frequency_hz = {self.radiation.maximum_frequency_hz:g} Hz: "
                 f"order {self.operation.maximum_order} reaches {highest:g} Hz"
             )
+        surroundings = self.radiation.surroundings
+        if self.sound_power and (surroundings.walls or surroundings.cabinet):
+            raise ValueError(
+                "sound_power: ISO 3744 measures over a hard floor alone; "
+                "radiation.surroundings has walls or a cabinet"
+            )
         if published.speed_rpm not in self.operation.speed_rpm:
             raise ValueError(
                 "operation.speed_rpm: must include the speed of the published noise, "

@@ -40,14 +40,14 @@ class Cabinet(Parameters):
     height_m: float = Field(gt=0.0, le=3.0)
     panel_thickness_m: float = Field(default=0.018, ge=0.003, le=0.1)
     open_sides: tuple[PanelSide, ...] = ()
-    openings: dict[PanelSide, Opening] = {}
+    openings: dict[PanelSide, Opening] = Field(default_factory=dict)
 
 
 class Surroundings(Parameters):
     """A hard floor or none, upright walls, and a cabinet."""
 
     floor: bool = True
-    walls: dict[WallSide, Wall] = {}
+    walls: dict[WallSide, Wall] = Field(default_factory=dict)
     cabinet: Cabinet | None = None
 
     @model_validator(mode="after")

@@ -20,7 +20,7 @@ _LARGEST_FILE_BYTES: Final = 200 * 2**20
 class Body:
     """A closed surface of triangles whose normals point out of the body.
 
-    It may have several parts; where they overlap, the body is their union.
+    It may have several parts; where parts that stand still overlap, the body is their union.
     """
 
     vertices: Array

@@ -50,7 +50,7 @@ def open_sides(on_walls: Collection[Side]) -> list[Side]:
 def closed_box(
     edges: Sequence[Array], start: Sequence[int], stop: Sequence[int], on_walls: Collection[Side]
 ) -> Box:
-    """The box of the cells from `start` to `stop` of a grid of plane faces, without sides on walls."""
+    """The box of the cells from `start` to `stop` of a grid, without its sides on walls."""
     middles = [(line[1:] + line[:-1]) / 2.0 for line in edges]
     inner, outer, weights = [], [], []
     for axis, sign in open_sides(on_walls):

@@ -80,15 +80,19 @@ class MachineSide:
         extrapolation is that of the closed form in any case. The error is the estimated one of the
         finer grid, which the extrapolation takes off: what is left was smaller in every test.
         """
-        fine, coarse = (self._joined(number, point, chosen) for number in range(len(self.near)))
+        fine, coarse = (
+            self._joined(
+                number, box_green(near.box, point, self.frequency_hz[chosen], self.walls), chosen
+            )
+            for number, near in enumerate(self.near)
+        )
         correction = EXTRAPOLATION * (fine - coarse)
         if green is not None:
-            fine = np.stack([join(self.near[0].box, field, green) for field in self.fields[0]])
+            fine = self._joined(0, green, chosen)
         return fine + correction, np.abs(correction)
 
-    def _joined(self, grid: int, point: Array, chosen: slice) -> ComplexArray:
+    def _joined(self, grid: int, green: BoxField, chosen: slice) -> ComplexArray:
         box = self.near[grid].box
-        green = box_green(box, point, self.frequency_hz[chosen], self.walls)
         return np.stack(
             [
                 join(box, BoxField(field.inner[chosen], field.outer[chosen]), green)

@@ -40,7 +40,7 @@ from .surface_points import surface_points
 from .wall_flux import WallPoints, wall_flux, wall_points
 
 _PROGRESS_STEPS: Final = 50
-_MOST_DIAGONALS: Final = 50.0
+_MOST_DIAGONALS: Final = 250.0
 """Longest recording after the pulse, in passages of sound through the box's diagonal."""
 _QUIET: Final = 4e-7
 """A run ends when the pressure on the box has fallen to this share of its largest value."""

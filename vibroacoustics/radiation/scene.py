@@ -85,7 +85,10 @@ def scene(shell: Shell, settings: RadiationSettings) -> Scene:
     panels = [] if cabinet is None else list(cabinet_panels(cabinet, shell.floor_z_m))
     if cabinet is not None:
         _check_fits(machine, cabinet, shell.floor_z_m)
-    return Scene(join_bodies([machine, *panels]), machine.faces.shape[0], walls)
+    body = join_bodies([machine, *panels])
+    if panels and any(wall.depth_m(np.stack(body.bounds())).min() < -1e-9 for wall in walls):
+        raise ParameterError("radiation.surroundings.cabinet: its panels reach through a wall")
+    return Scene(body, machine.faces.shape[0], walls)
 
 
 def machine_body(shell: Shell, body: RadiatingBody) -> Body:

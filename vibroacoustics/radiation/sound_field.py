@@ -17,6 +17,7 @@ from .arrangements import (
     directivity_angles,
     directivity_points,
     map_points,
+    reference_box,
     sound_power_points,
 )
 from .arrays import Array, ComplexArray, Progress
@@ -77,7 +78,8 @@ def elsewhere(
         points = sound_power_points(sound_field.sound_power, surroundings.machine, floor)
         _check_surface(points, surroundings, side)
         values = _at_points(side, points, table, "sound power", progress)
-        places = {"position": np.arange(1, points.shape[0] + 1)}
+        distances = ("position", np.linalg.norm(points, axis=1))
+        places = {"position": np.arange(1, points.shape[0] + 1), "position_distance": distances}
         parts["surface_transfer_vector"] = (values, places, "frequency", table)
     if sound_field.map is not None:
         points = map_points(sound_field.map, floor_level_m)
@@ -89,7 +91,7 @@ def elsewhere(
         angles = directivity_angles(sound_field.directivity, floor is not None)
         directions = dict(zip(("polar_angle", "azimuth"), angles, strict=True))
         parts["directivity_transfer_vector"] = (values, directions, "line_frequency", lines)
-    return xr.Dataset(
+    dataset = xr.Dataset(
         {
             name: stamp(
                 name,
@@ -99,6 +101,14 @@ def elsewhere(
             for name, (values, coords, dimension, chosen) in parts.items()
         }
     )
+    if "surface_transfer_vector" in dataset:
+        machine = reference_box(surroundings.machine, floor)
+        dataset["surface_transfer_vector"].attrs |= {
+            "reference_length_m": machine.length_m,
+            "reference_width_m": machine.width_m,
+            "reference_height_m": machine.height_m,
+        }
+    return dataset
 
 
 def _map_places(points: Array) -> dict[str, Any]:

@@ -6,6 +6,7 @@ from .comparison import comparison_csv, comparison_text
 from .figures import (
     force_figures,
     level_figures,
+    line_map_figures,
     mount_figures,
     order_figures,
     score_figures,
@@ -25,6 +26,7 @@ _FIGURES = (
     mount_figures,
     transfer_figures,
     level_figures,
+    line_map_figures,
     score_figures,
 )
 

@@ -51,6 +51,7 @@ def _context(results: xr.Dataset, pictures: Sequence[Picture]) -> dict[str, Any]
         "elsewhere": {name: comparison_tables(results, name) for name in other_receivers(results)},
         "pictures": {picture.name: picture for picture in pictures},
         "transfer": [p for p in pictures if p.name.startswith("transfer_")],
+        "maps": [p for p in pictures if p.name == "line_map"],
         "level_floor": fixed(LEVEL_FLOOR_DB, 0),
         "force_floor": f"{1e6 * FORCE_FLOOR:g}",
         **_housing(results),
@@ -65,6 +66,8 @@ def _housing(results: xr.Dataset) -> dict[str, Any]:
         "isolation": housing.isolation_sentence(results),
         "receivers": housing.receivers_table(results),
         "green": housing.green_sentence(results),
+        "grid_error": housing.grid_error_sentence(results),
+        "power": housing.sound_power_table(results),
     }
 
 

@@ -11,13 +11,12 @@ from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from ...constants import REFERENCE_PRESSURE_PA
+from ...schema import REFERENCE_OPTION
 from .style import Picture, plain, render
 from .unit_levels import (
     COLOUR_MAP,
     DEPTH_DB,
     WIDE_INCH,
-    Complex,
     Real,
     colour_edges,
     dof_title,
@@ -60,24 +59,21 @@ def map_figure(radiated: xr.Dataset) -> Picture:
     )
 
 
-def line_map_figure(pressure_peak: Complex, plane: Plane, title: str) -> Picture:
-    """Level on the map of a field that has been computed, such as the 1x line of one option.
-
-    Parameters
-    ----------
-    pressure_peak : complex peak pressure (row, column), Pa; NaN inside the box
-    plane : the points
-    title : what is shown, such as `1x at 2900 rpm, none`
-    """
-    level = 20.0 * np.log10(
-        np.maximum(np.abs(pressure_peak) / np.sqrt(2.0), 1e-20) / REFERENCE_PRESSURE_PA
-    )
-    return Picture(
-        "line_map",
-        f"Sound pressure level on a plane: {title}.",
-        f"Level on the plane: {title}. Blank: the box around the machine.",
-        level_maps({title: level}, plane, []),
-    )
+def line_map_figures(results: xr.Dataset) -> list[Picture]:
+    """Level of the 1x line of option `none` on the map, by speed; nothing without a map."""
+    if "map_level" not in results:
+        return []
+    level = results["map_level"].sel(option=REFERENCE_OPTION)
+    panels = {f"{speed:g} rpm": level.sel(speed=speed).values for speed in level["speed"].values}
+    return [
+        Picture(
+            "line_map",
+            "Sound pressure level of the 1x line on a plane, one panel a speed.",
+            "Level of the 1x line on the plane, option none, by speed; coordinates from the centre "
+            "of mass. Blank: the box around the machine, and what lies behind a wall.",
+            level_maps(panels, _plane(results), []),
+        )
+    ]
 
 
 def level_maps(panels: dict[str, Real], plane: Plane, silent: Sequence[str]) -> bytes:
