@@ -10,6 +10,7 @@ from vibroacoustics.mechanisms import MECHANISMS
 from vibroacoustics.moving_parts import Array, Balancing, MovingPart, wrench
 from vibroacoustics.orders import order_spectrum
 from vibroacoustics.parameters.study import Study
+from vibroacoustics.radiation.box import Box, closed_box
 
 ROOT = Path(__file__).parents[1]
 PIPELINES = ROOT / "pipelines"
@@ -61,3 +62,11 @@ def wrench_orders(study: Study, option: str, speed_rpm: float) -> tuple[Array, A
     parts = [*machine_parts(study), *balancing(study, option, speed_rpm).parts]
     force, moment = wrench(parts, speed_rpm / 60.0)
     return order_spectrum(force, 40), order_spectrum(moment, 40)
+
+
+def cube_box(half_edge_m: float, spacing_m: float, on_floor: bool) -> Box:
+    """Box of cubic cells about the origin; on a floor without its lower side."""
+    half = round(half_edge_m / spacing_m)
+    edges = spacing_m * np.arange(-half - 1.0, half + 2.0)
+    stop = 2 * half + 1
+    return closed_box([edges] * 3, [1] * 3, [stop] * 3, {(2, -1)} if on_floor else ())

@@ -130,9 +130,10 @@ def test_arrangement_of_a_study_stands_on_the_floor(arrangement, count):
 def test_reference_box_ends_on_the_floor():
     box = reference_box(BODY, FLOOR_Z_M)
     np.testing.assert_allclose(box.origin_m, [0.0, 0.0, FLOOR_Z_M])
-    assert (box.length_m, box.width_m, box.height_m) == pytest.approx(EDGES, rel=1e-4)
-    # half the diagonal of the box with its image: √(0.121² + 0.121² + 0.462²)
-    assert box.characteristic_dimension_m == pytest.approx(0.4927, abs=5e-5)
+    assert (box.length_m, box.width_m, box.height_m) == pytest.approx(EDGES, rel=5e-4)
+    # Half the diagonal of the box with its image: √(0.121² + 0.121² + 0.462²). The corners of the
+    # cylinder's 128 facets stand out by 4e-4 of the radius.
+    assert box.characteristic_dimension_m == pytest.approx(0.4927, abs=2e-4)
 
 
 def test_arrangement_refuses_free_field_and_a_large_machine():
@@ -154,7 +155,7 @@ def test_points_below_the_floor_or_inside_are_refused_in_one_line():
 
 def test_catalogue_position_is_1_m_from_the_shell():
     place = catalogue_position(BODY, 0.05)
-    np.testing.assert_allclose(place, [1.121, 0.0, 0.05], atol=2e-5)
+    np.testing.assert_allclose(place, [1.121, 0.0, 0.05], atol=1e-4)
 
 
 @pytest.mark.parametrize("normal", ["x", "y", "z"])

@@ -26,7 +26,7 @@ from vibroacoustics.radiation.arrangements import (
 from vibroacoustics.radiation.exact import green, wavenumber
 from vibroacoustics.radiation.mirrors import floor
 from vibroacoustics.report.figures.directivity import directivity_figure
-from vibroacoustics.report.figures.maps import Plane, line_map_figure, map_figure
+from vibroacoustics.report.figures.maps import line_map_figures, map_figure
 from vibroacoustics.report.figures.transfer_vectors import transfer_vector_figure
 from vibroacoustics.report.figures.unit_levels import colour_edges, unit_level_db
 from vibroacoustics.report.radiation_figures import radiation_figures
@@ -125,10 +125,16 @@ def test_directivity_names_the_silent_motions(radiated):
     assert "Silent and left out: rz." in directivity_figure(radiated).caption
 
 
-def test_line_map_of_one_field(radiated):
-    field = radiated["map_transfer_vector"].sel(dof="tx").isel(line_frequency=0).values
-    plane = Plane(radiated["map_x"].values, radiated["map_z"].values, "x, m", "z, m")
-    assert png_size(line_map_figure(1e-3 * field, plane, "1× at 2900 rpm, none").png)[0] == 1280
+def test_line_map_of_a_run(radiated):
+    field = radiated["map_transfer_vector"].sel(dof="tx").rename(line_frequency="speed")
+    level = field.copy(data=unit_level_db(field.values)).expand_dims(option=["none"])
+    level = level.rename("map_level")
+    (picture,) = line_map_figures(level.to_dataset())
+    assert png_size(picture.png)[0] == 1280
+
+
+def test_run_without_a_map_draws_none(radiated):
+    assert line_map_figures(radiated) == []
 
 
 def test_map_without_sound_is_drawn(radiated):

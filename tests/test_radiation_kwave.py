@@ -9,10 +9,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from support import cube_box
 
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.radiation import kwave, room_grid
-from vibroacoustics.radiation.box import closed_box
 from vibroacoustics.radiation.exact import box_green
 from vibroacoustics.radiation.mirrors import Mirror, floor
 from vibroacoustics.radiation.pulse import pulse, pulse_duration_s
@@ -28,7 +28,7 @@ FREQUENCY_HZ = np.arange(25.0, 2501.0, 25.0)
 @pytest.fixture(scope="module")
 def box():
     """A small box that ends on the floor."""
-    return closed_box(np.array([-0.1, -0.1, -0.1]), np.array([0.1, 0.1, 0.1]), 0.0125, True)
+    return cube_box(0.1, 0.0125, on_floor=True)
 
 
 def simulated(box, microphone, mirrors=(FLOOR,), spacing_m=0.03, maximum_hz=2500.0, threads=2):
@@ -266,7 +266,7 @@ def test_predicted_memory_is_what_a_run_takes(spacing_m, frequencies):
                 open("/proc/self/clear_refs", "w").write("5")
             status = open("/proc/self/status").read()
             return 1024 * int(status.split("VmHWM:")[1].split()[0])
-        box = closed_box(np.full(3, -0.1), np.full(3, 0.1), 0.0125, True)
+        box = closed_box([0.0125 * np.arange(-9.0, 10.0)] * 3, [1] * 3, [17] * 3, {(2, -1)})
         frequency = np.linspace(25.0, 500.0, {frequencies})
         microphone, walls = np.array([1.2, 0.1, 0.5]), (floor(-0.1),)
         kwave.kwave_green(box, microphone, frequency[:2], 500.0, 0.1, walls)
@@ -325,7 +325,7 @@ def test_importing_and_running_kwave_touches_no_network():
         from vibroacoustics.radiation import kwave, room_grid
         from vibroacoustics.radiation.box import closed_box
         assert "kwave" not in sys.modules
-        box = closed_box(np.full(3, -0.1), np.full(3, 0.1), 0.05, False)
+        box = closed_box([0.05 * np.arange(-3.0, 4.0)] * 3, [1] * 3, [5] * 3, ())
         grid = room_grid.room_grid(np.array([0.5, 0.0, 0.0]), box, 0.1)
         with contextlib.closing(kwave.build_engine(grid, np.array([1.0, -1.0]), 3)) as engine:
             engine.step()

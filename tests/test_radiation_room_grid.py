@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from support import cube_box
 
 from vibroacoustics.radiation import room_grid
 from vibroacoustics.radiation.band_limited import (
@@ -9,7 +10,6 @@ from vibroacoustics.radiation.band_limited import (
     Interpolator,
     interpolation_weights,
 )
-from vibroacoustics.radiation.box import closed_box
 from vibroacoustics.radiation.mirrors import Mirror, floor, images
 from vibroacoustics.radiation.pulse import pulse, pulse_duration_s, pulse_width_s, transform
 from vibroacoustics.radiation.room_record import steps_per_sample
@@ -22,7 +22,7 @@ MICROPHONE = np.array([0.2, -0.6, 0.217])
 
 @pytest.fixture(scope="module")
 def box():
-    return closed_box(np.full(3, -0.1), np.full(3, 0.1), 0.0125, True)
+    return cube_box(0.1, 0.0125, on_floor=True)
 
 
 def grid_of(box, microphone, *mirrors):

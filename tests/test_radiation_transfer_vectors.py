@@ -194,6 +194,16 @@ def test_receiver_too_close_is_refused_before_any_run():
         transfer_vectors(SHELL, receivers, SETTINGS, progress=_no_run)
 
 
+def test_receiver_in_the_coarser_grids_box_is_refused_before_any_run():
+    """Its box is wider where three cells are more than 40 mm; inside it the join gives nothing."""
+    settings = RadiationSettings(
+        near_field_spacing_m=0.05, room_spacing_m=0.005, maximum_frequency_hz=800.0
+    )
+    receivers = {"close": Receiver(x_m=0.0825 + 0.225, y_m=0.0, height_m=0.2)}
+    with pytest.raises(ParameterError, match=r"receivers\.close: "):
+        transfer_vectors(SHELL, receivers, settings, progress=_no_run)
+
+
 def test_receiver_behind_a_wall_is_refused_before_any_run():
     walls = {"+y": Wall(distance_m=0.6)}
     settings = SETTINGS.model_copy(update={"surroundings": Surroundings(walls=walls)})

@@ -363,7 +363,7 @@ def _sound_field(study: Study, results: xr.Dataset) -> xr.Dataset:
         first = velocity.sel(order=1, drop=True)
         line = xr.dot(first, by_speed.assign_coords(speed=first["speed"]), dim="dof")
         dims = VARIABLES["map_level"].dims
-        coords = {name: results[name] for name in (*dims, "map_x", "map_y", "map_z")}
+        coords = {name: results[name].values for name in dims}
         level = levels.sound_pressure_level(line.transpose(*dims).values)
         fields["map_level"] = stamp("map_level", level, coords)
     if study.sound_power is not None:

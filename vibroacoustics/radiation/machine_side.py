@@ -7,11 +7,13 @@ from functools import partial
 from typing import Final, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .arrays import Array, ComplexArray, Progress
 from .box import BoxField
 from .exact import box_green
 from .join import join
+from .mirrors import Mirror
 from .near_field import NearField
 from .patterns import Pattern
 from .scene import Scene
@@ -48,16 +50,7 @@ class MachineSide:
     ) -> None:
         self.frequency_hz = frequency_hz
         self.walls = scene.walls
-        self.near = [
-            NearField(
-                scene.body,
-                _UNIT_CELLS / cells * spacing_m,
-                maximum_frequency_hz,
-                scene.near_walls,
-                cells_per_unit=cells,
-            )
-            for cells in (_UNIT_CELLS, _UNIT_CELLS - 1)
-        ]
+        self.near = near_fields(scene, spacing_m, maximum_frequency_hz)
         moving = [scene.moving(pattern) for pattern in patterns]
         for near in self.near:
             near.prepare()
@@ -99,6 +92,38 @@ class MachineSide:
                 for field in self.fields[grid]
             ]
         )
+
+
+def near_fields(scene: Scene, spacing_m: float, maximum_frequency_hz: float) -> list[NearField]:
+    """The scene on the finer and on the coarser grid; nothing is computed yet.
+
+    Raises
+    ------
+    ParameterError
+        A grid needs more memory than is available.
+    """
+    return [
+        NearField(
+            scene.body,
+            _UNIT_CELLS / cells * spacing_m,
+            maximum_frequency_hz,
+            scene.near_walls,
+            cells_per_unit=cells,
+        )
+        for cells in (_UNIT_CELLS, _UNIT_CELLS - 1)
+    ]
+
+
+def outside(near: Sequence[NearField], walls: Sequence[Mirror], points: Array) -> NDArray[np.bool_]:
+    """Whether points (point, 3) lie outside the boxes of all grids and in front of every wall."""
+    corners = [(one.box.outer.min(axis=0), one.box.outer.max(axis=0)) for one in near]
+    # A point on a wall beside a box lies in it.
+    in_box = [
+        np.all((points > low - 1e-6) & (points < high + 1e-6), axis=1) for low, high in corners
+    ]
+    behind = [wall.depth_m(points) < -1e-9 for wall in walls]
+    clear: NDArray[np.bool_] = ~np.any([*in_box, *behind], axis=0)
+    return clear
 
 
 def in_threads(tasks: Sequence[Callable[[], Result]], workers: int | None = None) -> list[Result]:

@@ -42,7 +42,7 @@ from .wall_flux import WallPoints, wall_flux, wall_points
 _PROGRESS_STEPS: Final = 50
 _MOST_DIAGONALS: Final = 250.0
 """Longest recording after the pulse, in passages of sound through the box's diagonal."""
-_QUIET: Final = 4e-7
+_QUIET: Final = 3e-7
 """A run ends when the pressure on the box has fallen to this share of its largest value."""
 _NOT_QUIET: Final = 1e-3
 """Share that is refused at the end of the longest recording."""
@@ -93,6 +93,13 @@ class NearField:
             wall.depth_m(points.position) > 1e-6 * self.grid.spacing_m for wall in self._walls
         ]
         return wall_points(self.cells, points.where(off_floor), self.grid)
+
+    @property
+    def margin_m(self) -> float:
+        """Largest distance of the box's outer layer from the body, m."""
+        lower, upper = self._body.bounds()
+        outer = self.box.outer
+        return float(max((lower - outer.min(axis=0)).max(), (outer.max(axis=0) - upper).max()))
 
     def prepare(self) -> None:
         """Compute the geometry now; patterns may then run side by side in threads."""

@@ -24,8 +24,8 @@ _GAP_CELLS: Final = 2
 """Cells between box and absorbing layer: what the recording stencil reaches."""
 _STRETCH: Final = 0.25
 """A part between two plane faces may be longer than its cells would be by this share of a unit."""
-_CLOSEST_PLANES: Final = 0.75
-"""Planes closer than this many cells to a larger one do not shape the grid."""
+_CLOSEST_PLANES: Final = 0.5
+"""Planes closer than this many units to a wall or a larger one do not shape the grid."""
 
 
 @dataclass(frozen=True)
@@ -148,13 +148,13 @@ def _axis(
 ) -> tuple[Array, int, int]:
     """Planes of faces across an axis, and the first and last one of the box."""
     lower, upper = (float(corner[axis]) for corner in body.bounds())
-    planes = _planes(body, axis, spacing_m, list(walls.values()))
+    unit_m = cells_per_unit * spacing_m
+    planes = _planes(body, axis, unit_m, list(walls.values()))
     if not planes:
         planes = [(lower + upper) / 2.0]
     parts = [np.array(planes[:1])]
     for low, high in itertools.pairwise(planes):
-        units = (high - low) / (cells_per_unit * spacing_m)
-        count = cells_per_unit * max(1, int(np.ceil(units - _STRETCH)))
+        count = cells_per_unit * max(1, int(np.ceil((high - low) / unit_m - _STRETCH)))
         parts.append(np.linspace(low, high, count + 1)[1:])
     line = np.concatenate(parts)
     margin = max(box_margin_m, _BOX_MARGIN_CELLS * spacing_m)
@@ -171,10 +171,10 @@ def _axis(
     return line, start, line.size - 1 - (0 if 1 in walls else beyond)
 
 
-def _planes(body: Body, axis: int, spacing_m: float, walls: list[float]) -> list[float]:
+def _planes(body: Body, axis: int, unit_m: float, walls: list[float]) -> list[float]:
     """Walls, and plane faces of the body from the largest down, unless they crowd; rising."""
     chosen = list(walls)
-    for plane in body.flats(axis, spacing_m**2):
-        if all(abs(plane - other) >= _CLOSEST_PLANES * spacing_m for other in chosen):
+    for plane in body.flats(axis, 0.1 * unit_m**2):
+        if all(abs(plane - other) >= _CLOSEST_PLANES * unit_m for other in chosen):
             chosen.append(float(plane))
     return sorted(chosen)

@@ -1,5 +1,6 @@
 """From parameters to geometry: the radiating body, what stands around it, and the walls."""
 
+import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -134,10 +135,12 @@ def _read_velocities(name: str, path: Path) -> Array:
     try:
         if path.stat().st_size > _LARGEST_PATTERN_FILE_BYTES:
             raise ParameterError(f"{where}: larger than 100 MiB")
-        return np.loadtxt(path, delimiter=",", ndmin=1)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")  # an empty file is a warning to NumPy
+            return np.loadtxt(path, delimiter=",", ndmin=1)
     except OSError as error:
         raise ParameterError(f"{where}: cannot be read: {error.strerror or error}") from None
-    except ValueError as error:
+    except (ValueError, UserWarning) as error:
         raise ParameterError(f"{where}: is no table of numbers: {error}") from None
 
 

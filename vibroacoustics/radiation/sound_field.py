@@ -21,7 +21,7 @@ from .arrangements import (
     sound_power_points,
 )
 from .arrays import Array, ComplexArray, Progress
-from .machine_side import MachineSide, in_threads
+from .machine_side import MachineSide, in_threads, outside
 from .scene import Scene
 
 _POINTS_PER_TASK: Final = 16
@@ -124,8 +124,8 @@ def _at_points(
     flat = points.reshape(-1, 3)
     dofs, frequencies = len(RIGID_BODY_DOFS), side.frequency_hz[chosen].size
     result = np.full((flat.shape[0], dofs, frequencies), np.nan, dtype=complex)
-    outside = np.flatnonzero(_outside(side, flat))
-    parts = np.array_split(outside, -(-outside.size // _POINTS_PER_TASK)) if outside.size else []
+    clear = np.flatnonzero(outside(side.near, side.walls, flat))
+    parts = np.array_split(clear, -(-clear.size // _POINTS_PER_TASK)) if clear.size else []
     done = itertools.count(1)
 
     def fill(indices: NDArray[np.intp]) -> None:
@@ -137,17 +137,8 @@ def _at_points(
     return result.reshape(*points.shape[:-1], dofs, frequencies)
 
 
-def _outside(side: MachineSide, points: Array) -> NDArray[np.bool_]:
-    """Whether points (point, 3) lie outside the boxes and in front of every wall."""
-    corners = [(near.box.outer.min(axis=0), near.box.outer.max(axis=0)) for near in side.near]
-    in_box = [np.all((points > low) & (points < high), axis=1) for low, high in corners]
-    behind = [wall.depth_m(points) < -1e-9 for wall in side.walls]
-    outside: NDArray[np.bool_] = ~np.any([*in_box, *behind], axis=0)
-    return outside
-
-
 def _check_surface(points: Array, surroundings: Scene, side: MachineSide) -> None:
-    wrong = points[~_outside(side, points)]
+    wrong = points[~outside(side.near, side.walls, points)]
     if wrong.size:
         check_outside("sound_power", wrong[0], surroundings.body)
         raise ParameterError(

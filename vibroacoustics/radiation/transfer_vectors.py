@@ -11,6 +11,7 @@ import psutil
 import xarray as xr
 
 from ..constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from ..errors import ParameterError
 from ..parameters.body import MeshBody
 from ..parameters.radiation import RadiationSettings
 from ..parameters.receivers import Receiver
@@ -22,8 +23,14 @@ from .arrays import Array, ComplexArray, Progress, no_progress
 from .box import Box, BoxField
 from .interpolation import interpolate
 from .kwave import check_receiver, green_difference_db, kwave_green, kwave_version, memory_bytes
-from .machine_side import COARSENING, MachineSide, in_threads, processors
-from .near_field import NearField
+from .machine_side import (
+    COARSENING,
+    MachineSide,
+    in_threads,
+    near_fields,
+    outside,
+    processors,
+)
 from .patterns import rigid_body
 from .scene import Scene, file_patterns, position_m, scene
 from .sound_field import NO_SOUND_FIELD, SoundField, elsewhere
@@ -95,17 +102,17 @@ def _check_receivers(
     surroundings: Scene, positions: Mapping[str, Array], settings: RadiationSettings, number: int
 ) -> None:
     """Refuse what cannot be computed before anything is computed."""
-    near = NearField(
-        surroundings.body,
-        settings.near_field_spacing_m,
-        settings.maximum_frequency_hz,
-        surroundings.near_walls,
-    )
+    near = near_fields(surroundings, settings.near_field_spacing_m, settings.maximum_frequency_hz)
+    walls = surroundings.walls
     for name, position in positions.items():
         check_outside(f"receivers.{name}", position, surroundings.body)
-        check_receiver(
-            name, position, near.box, settings.room_spacing_m, surroundings.walls, number
-        )
+        if settings.room_solver == "k-wave":
+            check_receiver(name, position, near[0].box, settings.room_spacing_m, walls, number)
+        if not outside(near, walls, position[None, :])[0]:
+            raise ParameterError(
+                f"receivers.{name}: stands behind a wall or within "
+                f"{1e3 * near[-1].margin_m:.0f} mm of the machine or its cabinet"
+            )
 
 
 def _at_receivers(

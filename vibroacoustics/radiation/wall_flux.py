@@ -12,8 +12,8 @@ from .near_grid import NearGrid
 from .patterns import Pattern
 from .surface_points import SurfacePoints
 
-_SLIDING: Final = 0.02
-"""A wall that nowhere moves more than this share across itself slides: facets are 0.7° wide."""
+_SLIDING: Final = 0.03
+"""A wall that nowhere moves more than this share across itself slides: facets lean by 1.4°."""
 
 
 @dataclass(frozen=True)
