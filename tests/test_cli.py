@@ -62,6 +62,22 @@ def test_run_writes_everything(finished: Path) -> None:
 
 
 @pytest.mark.slow
+def test_radiation_alone(tmp_path: Path) -> None:
+    study = ROOT / "tests" / "studies" / "field.toml"
+    outcome = command("radiation", study, "--out", tmp_path / "out", cache=tmp_path / "cache")
+    assert outcome.returncode == 0, outcome.stderr
+    assert "front_1m" in outcome.stdout
+    assert "iso3744-hemisphere-10, S = 6.28 m²" in outcome.stdout
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {
+        "transfer_vectors.nc",
+        "transfer_vectors.nc.sha256",
+        "transfer_vectors.png",
+        "map.png",
+        "directivity.png",
+    }
+
+
+@pytest.mark.slow
 def test_level_of_the_line_is_that_of_fine_grids(finished: Path) -> None:
     """44.2 dB at 12.5 mm cells (reports/showcase); 35 mm cells err by about (35/12.5)² x 0.02 dB
     for motion along x, and by 0.4 dB for the rocking that adds a tenth (docs/radiation.md)."""

@@ -1,17 +1,25 @@
 """The stages together, with made-up transfer vectors in place of the radiation step."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import xarray as xr
 
 from vibroacoustics import pipeline, storage
 from vibroacoustics.errors import ParameterError
+from vibroacoustics.loading import load_study
 from vibroacoustics.orders import semi_major_axis
 from vibroacoustics.schema import RIGID_BODY_DOFS, VARIABLES, stamp
 
 ROUNDING = 1e-12
+STUDIES = Path(__file__).parent / "studies"
 NOT_MADE_HERE = {
     "green_difference",
+    "pattern_transfer_vector",
+    "pattern_transfer_vector_error",
+    "map_level",
+    "order_sound_power_level",
     "transfer_vector_error",
     "map_transfer_vector",
     "directivity_transfer_vector",
@@ -137,3 +145,46 @@ def test_radiation_refuses_in_the_name_of_the_study(thesis_study, monkeypatch):
     monkeypatch.setattr(pipeline, "_transfer_vectors", refuse)
     with pytest.raises(ParameterError, match=r"copeland_thesis\.toml: receivers\.a: too close"):
         pipeline.radiate(thesis_study)
+
+
+@pytest.fixture(scope="module")
+def field_study():
+    return load_study(STUDIES / "field.toml")
+
+
+@pytest.fixture(scope="module")
+def field(field_study):
+    return pipeline.run(field_study)
+
+
+def test_radiation_alone_is_what_the_run_uses(field, field_study):
+    alone = pipeline.radiate(field_study)
+    assert alone.attrs["transfer_vectors"] == "from the cache"
+    for name in ("transfer_vector", "map_transfer_vector", "directivity_transfer_vector"):
+        np.testing.assert_array_equal(alone[name], field[name])
+    # Free of k-Wave both ways are the same.
+    np.testing.assert_array_equal(alone["transfer_vector"], alone["transfer_vector_closed_form"])
+
+
+def test_map_is_the_contraction_of_line_and_transfer_vector(field):
+    """By hand at one point, of the 1x line of the option `none`."""
+    velocity = field["velocity_order"].sel(order=1, option="none").isel(speed=0).sum("source")
+    vectors = field["map_transfer_vector"].isel(line_frequency=0, map_row=2, map_column=0)
+    peak = abs((velocity * vectors).sum("dof")).item()
+    level = field["map_level"].sel(option="none").isel(speed=0, map_row=2, map_column=0)
+    assert level.item() == pytest.approx(20.0 * np.log10(peak / np.sqrt(2.0) / 20e-6), abs=1e-9)
+
+
+def test_map_is_blank_in_the_box_only(field):
+    x, z = field["map_x"], field["map_z"]
+    blank = np.isnan(field["map_level"].sel(option="none").isel(speed=0)).values
+    near = (abs(x) < 0.2) & (z < 0.2)
+    assert np.all(blank[near.values])
+    assert not np.any(blank[(abs(x) > 0.4).values])
+
+
+def test_sound_power_falls_with_the_force(field):
+    """Half a counterweight halves the force of the ring: the 1x line loses sound power."""
+    power = field["order_sound_power_level"].sel(order=1, weighting="Z").isel(speed=0)
+    gain = (power.sel(option="counterweight-half") - power.sel(option="none")).item()
+    assert -12.0 < gain < -2.0

@@ -115,7 +115,7 @@ class TestWalls:
 
 class TestCabinet:
     @staticmethod
-    def volume(cabinet, spacing=0.02):
+    def volume(cabinet, spacing=0.01):
         """Of the union, by a coarse cut; every face of the panels lies in a plane of the grid."""
         body = join_bodies(list(cabinet_panels(cabinet, FLOOR_Z)))
         grid = near_grid(body, spacing)

@@ -118,6 +118,9 @@ def _sound(
         name: stamp(name, transfer, field)
         for name in ("transfer_vector", "transfer_vector_closed_form")
     }
+    spectra["transfer_vector_error"] = stamp(
+        "transfer_vector_error", 0.01 * np.abs(transfer), field
+    )
     changes = {
         name: stamp(name, values - values[:, [0]], at)
         for name, values in {

@@ -116,11 +116,12 @@ def near_fields(scene: Scene, spacing_m: float, maximum_frequency_hz: float) -> 
 
 def outside(near: Sequence[NearField], walls: Sequence[Mirror], points: Array) -> NDArray[np.bool_]:
     """Whether points (point, 3) lie outside the boxes of all grids and in front of every wall."""
-    corners = [(one.box.outer.min(axis=0), one.box.outer.max(axis=0)) for one in near]
-    # A point on a wall beside a box lies in it.
-    in_box = [
-        np.all((points > low - 1e-6) & (points < high + 1e-6), axis=1) for low, high in corners
-    ]
+    in_box = []
+    for box in (one.box for one in near):
+        # A point on a wall beside a box lies in it.
+        low = np.minimum(box.lower, box.outer.min(axis=0)) - 1e-6
+        high = np.maximum(box.upper, box.outer.max(axis=0)) + 1e-6
+        in_box.append(np.all((points > low) & (points < high), axis=1))
     behind = [wall.depth_m(points) < -1e-9 for wall in walls]
     clear: NDArray[np.bool_] = ~np.any([*in_box, *behind], axis=0)
     return clear

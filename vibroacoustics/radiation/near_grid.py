@@ -24,7 +24,7 @@ _GAP_CELLS: Final = 2
 """Cells between box and absorbing layer: what the recording stencil reaches."""
 _STRETCH: Final = 0.25
 """A part between two plane faces may be longer than its cells would be by this share of a unit."""
-_CLOSEST_PLANES: Final = 0.5
+_CLOSEST_PLANES: Final = 0.3
 """Planes closer than this many units to a wall or a larger one do not shape the grid."""
 
 
