@@ -42,7 +42,7 @@ from .wall_flux import WallPoints, wall_flux, wall_points
 _PROGRESS_STEPS: Final = 50
 _MOST_DIAGONALS: Final = 250.0
 """Longest recording after the pulse, in passages of sound through the box's diagonal."""
-_QUIET: Final = 3e-7
+_QUIET: Final = 4e-7
 """A run ends when the pressure on the box has fallen to this share of its largest value."""
 _NOT_QUIET: Final = 1e-3
 """Share that is refused at the end of the longest recording."""
@@ -187,19 +187,19 @@ def _run(
     shifted_hz, gain = _grid_frequency(frequency_hz, near.grid)
     transformer = RunningTransform(shifted_hz, near.layers.size)
     layers = near.layers.ravel()
-    velocity_time = time_step * (np.arange(steps) + 0.5)
+    pulse_steps = int(np.ceil(pulse_duration_s(near.pulse_width_s) / time_step))
+    velocity_time = time_step * (np.arange(pulse_steps) + 0.5)
     velocity = pulse(velocity_time, near.pulse_width_s)
     full = [near.grid.widths(axis) for axis in range(3)]
     volume = (cells.volumes * np.einsum("i,j,k->ijk", *full)).reshape(-1)[cells.wall_cells]
     stiffness = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S**2
     wall_pressure = -stiffness * time_step * flux / volume
-    pulse_steps = pulse_duration_s(near.pulse_width_s) / time_step
     every = sampling_steps(near.pulse_width_s, time_step)
     decay = _ENVELOPE_DECAY_PER_CELL ** (every * near.grid.courant_number)
     largest = envelope = 0.0
     for step in range(steps):
         fields.advance()
-        if step <= pulse_steps:
+        if step < pulse_steps:
             fields.add(cells.wall_cells, velocity[step] * wall_pressure)
         if step % _PROGRESS_STEPS == 0:
             progress(f"near field {name}", step, steps)

@@ -124,11 +124,9 @@ def _advance(
     for i in range(nx):
         for j in range(ny):
             if i + 1 < nx:
-                low, high, area = p[i, j], p[i + 1, j], ax[i + 1, j]
-                _flow(fx[i + 1, j], area, plain[i, j], low, high, dx[i], gx[i])
+                _flow_x(fx, ax, plain[i, j], p, i, j, dx[i], gx[i])
             if j + 1 < ny:
-                low, high, area = p[i, j], p[i, j + 1], ay[i, j + 1]
-                _flow(fy[i, j + 1], area, plain[i, j], low, high, dy[j], gy[j])
+                _flow_y(fy, ay, plain[i, j], p, i, j, dy[j], gy[j])
             _flow_along(fz, az, plain[i, j], p, i, j, dz, gz)
         for j in range(ny):
             x, y, c, d = plain_gain * wx[i], plain_gain * wy[j], cx[i], cy[j]
@@ -143,18 +141,33 @@ def _advance(
 
 
 @_kernel
-def _flow(
-    flux: Any, area: Any, plain: bool, low: Any, high: Any, damping: Any, slope: Any
+def _flow_x(
+    fx: Any, ax: Any, plain: bool, p: Any, i: int, j: int, damping: Any, slope: Any
 ) -> None:  # pragma: no cover
-    """Flux through a row of faces across x or y, driven by the pressure on both sides."""
+    """Flux through a row of faces across x, driven by the pressure on both sides."""
     if plain:
-        for k in range(flux.size):
-            drop = slope * (low[k] - high[k])
-            flux[k] = damping * (damping * flux[k] + drop)
+        for k in range(p.shape[2]):
+            drop = slope * (p[i, j, k] - p[i + 1, j, k])
+            fx[i + 1, j, k] = damping * (damping * fx[i + 1, j, k] + drop)
     else:
-        for k in range(flux.size):
-            drop = slope * area[k] * (low[k] - high[k])
-            flux[k] = damping * (damping * flux[k] + drop)
+        for k in range(p.shape[2]):
+            drop = slope * ax[i + 1, j, k] * (p[i, j, k] - p[i + 1, j, k])
+            fx[i + 1, j, k] = damping * (damping * fx[i + 1, j, k] + drop)
+
+
+@_kernel
+def _flow_y(
+    fy: Any, ay: Any, plain: bool, p: Any, i: int, j: int, damping: Any, slope: Any
+) -> None:  # pragma: no cover
+    """Flux through a row of faces across y, driven by the pressure on both sides."""
+    if plain:
+        for k in range(p.shape[2]):
+            drop = slope * (p[i, j, k] - p[i, j + 1, k])
+            fy[i, j + 1, k] = damping * (damping * fy[i, j + 1, k] + drop)
+    else:
+        for k in range(p.shape[2]):
+            drop = slope * ay[i, j + 1, k] * (p[i, j, k] - p[i, j + 1, k])
+            fy[i, j + 1, k] = damping * (damping * fy[i, j + 1, k] + drop)
 
 
 @_kernel
