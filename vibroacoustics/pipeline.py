@@ -180,7 +180,7 @@ def _forces(study: Study, progress: Progress) -> xr.Dataset:
                 "option_fact": _option_facts(added, speeds, options),
             },
             coords={
-                "time": (("speed", "crank_angle"), np.outer(revolution_s, crank_angle / 2 / np.pi))
+                "crank_time": (("speed", "crank_angle"), np.outer(revolution_s, crank_angle / 2 / np.pi))
             },
         )
     )

@@ -51,12 +51,18 @@ COORDINATES: Final[dict[str, Variable]] = {
     "published_option": Variable(("published_option",), "", "option in the published table"),
     "published_criterion": Variable(("published_criterion",), "", "criterion in the table"),
     "order_frequency": Variable(("speed", "order"), "Hz", "frequency of a shaft order"),
-    "time": Variable(("speed", "crank_angle"), "s", "time from crank angle zero"),
+    "crank_time": Variable(("speed", "crank_angle"), "s", "time from crank angle zero"),
     "distance": Variable(("receiver",), "m", "distance of the microphone from the centre of mass"),
     "position_distance": Variable(("position",), "m", "distance from the centre of mass"),
     "map_x": Variable(("map_row", "map_column"), "m", "x from the centre of mass"),
     "map_y": Variable(("map_row", "map_column"), "m", "y from the centre of mass"),
     "map_z": Variable(("map_row", "map_column"), "m", "z from the centre of mass"),
+    "channel": Variable(("channel",), "", "channel of a recording"),
+    "channel_unit": Variable(("channel",), "", "unit of the channel's samples"),
+    "calibration_factor": Variable(
+        ("channel",), "", "channel's unit per unit stored in the file, already applied"
+    ),
+    "time": Variable(("time",), "s", "time from the start of the recording"),
     "foot_position": Variable(
         ("foot", "axis"), "m", "foot position from the centre of mass at rest"
     ),
@@ -175,6 +181,7 @@ VARIABLES: Final[dict[str, Variable]] = {
     "first_place_share": Variable(
         ("option",), "1", "share of random weightings in which the option ranks first"
     ),
+    "signal": Variable(("channel", "time"), "", "recorded samples, unit in channel_unit"),
     "published_score": Variable(
         ("published_option", "published_criterion"), "1", "published score, as printed"
     ),
