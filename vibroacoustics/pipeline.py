@@ -180,7 +180,10 @@ def _forces(study: Study, progress: Progress) -> xr.Dataset:
                 "option_fact": _option_facts(added, speeds, options),
             },
             coords={
-                "crank_time": (("speed", "crank_angle"), np.outer(revolution_s, crank_angle / 2 / np.pi))
+                "crank_time": (
+                    ("speed", "crank_angle"),
+                    np.outer(revolution_s, crank_angle / 2 / np.pi),
+                )
             },
         )
     )
