@@ -1,5 +1,8 @@
 """What several test modules need: paths, and the force and moment of one option."""
 
+import subprocess
+import sys
+import textwrap
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -10,11 +13,55 @@ from vibroacoustics.mechanisms import MECHANISMS
 from vibroacoustics.moving_parts import Array, Balancing, MovingPart, wrench
 from vibroacoustics.orders import order_spectrum
 from vibroacoustics.parameters.study import Study
-from vibroacoustics.radiation.box import Box, closed_box
+from vibroacoustics.radiation.arrays import Progress, no_progress
+from vibroacoustics.radiation.bodies import Body
+from vibroacoustics.radiation.box import Box, BoxField, closed_box
+from vibroacoustics.radiation.near_field import NearField
+from vibroacoustics.radiation.patterns import Pattern
+from vibroacoustics.radiation.surface_points import SurfacePoints, surface_points
 
 ROOT = Path(__file__).parents[1]
 PIPELINES = ROOT / "pipelines"
 MACHINE_FILE = ROOT / "data" / "machines" / "copeland_zp41k3e.toml"
+
+
+def radiated(
+    near: NearField,
+    pattern: Pattern,
+    frequency_hz: Array,
+    progress: Progress = no_progress,
+) -> BoxField:
+    """Field of one pattern on the box."""
+    (flux,) = near.wall_fluxes([pattern])
+    return near.radiate(flux, frequency_hz, pattern.name, progress)
+
+
+PEAK_MEMORY = """
+        import ctypes
+        def peak(forget=True):
+            if forget:  # the peak so far
+                ctypes.CDLL(None).malloc_trim(0)
+                open("/proc/self/clear_refs", "w").write("5")
+            status = open("/proc/self/status").read()
+            return 1024 * int(status.split("VmHWM:")[1].split()[0])
+""".strip()
+"""For the script of a child: `peak()` in bytes."""
+
+
+def in_child(script: str) -> list[str]:
+    """Words that a script prints in a Python process of its own."""
+    result = subprocess.run(
+        [sys.executable, "-c", textwrap.dedent(script)],
+        capture_output=True, text=True, timeout=300, check=False,
+    )  # fmt: skip
+    assert result.returncode == 0, result.stderr
+    return result.stdout.split()
+
+
+def whole_surface(body: Body, planes: tuple[Array, Array, Array]) -> SurfacePoints:
+    """Points of all faces of a body."""
+    return surface_points(body, planes, np.arange(body.faces.shape[0]))
+
 
 CRANK_ANGLE = 2.0 * np.pi * np.arange(256) / 256
 ROUNDING = 1e-12

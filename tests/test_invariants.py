@@ -4,7 +4,15 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from support import CRANK_ANGLE, ROUNDING, balancing, machine_parts, wrench_orders, wrench_rounding
+from support import (
+    CRANK_ANGLE,
+    ROUNDING,
+    balancing,
+    machine_parts,
+    radiated,
+    wrench_orders,
+    wrench_rounding,
+)
 
 from vibroacoustics.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from vibroacoustics.levels import energy_difference, energy_sum
@@ -15,7 +23,7 @@ from vibroacoustics.orders import order_spectrum, semi_major_axis
 from vibroacoustics.parameters.machine import Housing
 from vibroacoustics.parameters.mounts import Mounts
 from vibroacoustics.parameters.surroundings import Cabinet
-from vibroacoustics.radiation.bodies import join_bodies, sphere
+from vibroacoustics.radiation.bodies import sphere
 from vibroacoustics.radiation.exact import box_green, sphere_pressure
 from vibroacoustics.radiation.join import join
 from vibroacoustics.radiation.machine_side import EXTRAPOLATION
@@ -372,7 +380,7 @@ def test_power_through_the_box_is_that_of_the_pulsating_sphere():
     radius, powers = 0.12, []
     for spacing, cells in ((0.012, 3), (0.018, 2)):
         near = NearField(sphere(radius), spacing, 1500.0, cells_per_unit=cells)
-        powers.append(power_through(near.box, near.radiate(BREATHING, SOUND_HZ)))
+        powers.append(power_through(near.box, radiated(near, BREATHING, SOUND_HZ)))
     ours = powers[0] + EXTRAPOLATION * (powers[0] - powers[1])
     on_wall = sphere_pressure(0, radius, radius, np.ones(1), SOUND_HZ)[:, 0]
     np.testing.assert_allclose(ours, 2.0 * np.pi * radius**2 * on_wall.real, rtol=0.01)
@@ -393,7 +401,7 @@ def cabinet() -> tuple[NearField, Scene]:
     """A sphere over the floor between three panels, each one cell of 20 mm thick."""
     machine = sphere(0.06)
     panels = cabinet_panels(SMALL_CABINET, FLOOR.position_m)
-    surroundings = Scene(join_bodies([machine, *panels]), machine.faces.shape[0], (FLOOR,))
+    surroundings = Scene(machine, tuple(panels), (FLOOR,))
     return NearField(surroundings.body, 0.02, 1500.0, (FLOOR,), cells_per_unit=1), surroundings
 
 
@@ -405,7 +413,7 @@ def test_power_through_the_box_arrives_far_off(cabinet):
     800 Hz, so |p|² holds harmonics up to about 20: 12 x 24 directions are exact for them.
     """
     near, surroundings = cabinet
-    field = near.radiate(surroundings.moving(BREATHING), SOUND_HZ)
+    field = radiated(near, surroundings.moving(BREATHING), SOUND_HZ)
     cosines, weights = np.polynomial.legendre.leggauss(12)
     cosines, weights = (cosines + 1.0) / 2.0, weights / 2.0
     azimuths = 2.0 * np.pi * np.arange(24) / 24

@@ -19,7 +19,7 @@ from vibroacoustics.moving_parts import MovingPart, path, second_derivative, wre
 from vibroacoustics.orders import order_spectrum, spectrum
 from vibroacoustics.radiation.arrays import no_progress
 from vibroacoustics.radiation.bodies import cylinder
-from vibroacoustics.radiation.machine_side import MachineSide
+from vibroacoustics.radiation.machine_side import MachineSide, near_fields
 from vibroacoustics.radiation.patterns import Pattern, rigid_body
 from vibroacoustics.radiation.scene import Scene
 from vibroacoustics.scoring import topsis
@@ -388,10 +388,9 @@ def free_field() -> dict[str, MachineSide]:
     sides = {}
     for name, (bottom, top, dome) in OUTLINES.items():
         body = cylinder(0.0825, bottom, top, dome)
-        surroundings = Scene(body, body.faces.shape[0], ())
-        sides[name] = MachineSide(
-            surroundings, patterns, DEFAULT_SPACING_M, MAXIMUM_HZ, frequency, no_progress
-        )
+        alone = Scene(body, (), ())
+        near = near_fields(alone, DEFAULT_SPACING_M, MAXIMUM_HZ)
+        sides[name] = MachineSide(alone, near, patterns, frequency, no_progress)
     return sides
 
 

@@ -20,6 +20,8 @@ NOT_MADE_HERE = {
     "pattern_transfer_vector_error",
     "map_level",
     "order_sound_power_level",
+    "signal",
+    "sound_power_level",
     "transfer_vector_error",
     "map_transfer_vector",
     "directivity_transfer_vector",
@@ -162,8 +164,8 @@ def test_radiation_alone_is_what_the_run_uses(field, field_study):
     assert alone.attrs["transfer_vectors"] == "from the cache"
     for name in ("transfer_vector", "map_transfer_vector", "directivity_transfer_vector"):
         np.testing.assert_array_equal(alone[name], field[name])
-    # Free of k-Wave both ways are the same.
-    np.testing.assert_array_equal(alone["transfer_vector"], alone["transfer_vector_closed_form"])
+    # Free of k-Wave there is nothing to compare.
+    assert not {"transfer_vector_closed_form", "green_difference", "line_difference"} & set(field)
 
 
 def test_map_is_the_contraction_of_line_and_transfer_vector(field):

@@ -14,8 +14,6 @@ from vibroacoustics.parameters.sound_power import (
 from vibroacoustics.radiation.arrangements import (
     TABLE_B1,
     box_positions,
-    catalogue_position,
-    check_above_floor,
     check_outside,
     directivity_angles,
     directivity_points,
@@ -32,7 +30,6 @@ from vibroacoustics.sound_power import (
     energy_mean,
     hemisphere_area_m2,
     sound_power_level,
-    sphere_area_m2,
 )
 
 FLOOR_Z_M = -0.225
@@ -123,7 +120,6 @@ def test_arrangement_of_a_study_stands_on_the_floor(arrangement, count):
     points = sound_power_points(SoundPowerSettings(arrangement=arrangement), BODY, FLOOR_Z_M)
     assert points.shape == (count, 3)
     assert points[:, 2].min() > FLOOR_Z_M
-    check_above_floor("sound_power", points, FLOOR_Z_M)
     check_outside("sound_power", points, BODY)
 
 
@@ -144,18 +140,10 @@ def test_arrangement_refuses_free_field_and_a_large_machine():
         sound_power_points(SoundPowerSettings(), tall, -0.6)
 
 
-def test_points_below_the_floor_or_inside_are_refused_in_one_line():
+def test_points_inside_are_refused_in_one_line():
     points = np.array([[[1.0, 0.0, 0.0], [1.0, 0.0, -0.3]], [[0.1, 0.0, 0.0], [1.0, 0.0, 0.2]]])
-    with pytest.raises(ParameterError, match=r"map: point .* 1000, 0, -300 mm .* below the floor"):
-        check_above_floor("map", points, FLOOR_Z_M)
-    check_above_floor("map", points, None)
     with pytest.raises(ParameterError, match=r"map: point .* 100, 0, 0 mm .* inside the machine"):
         check_outside("map", points, BODY)
-
-
-def test_catalogue_position_is_1_m_from_the_shell():
-    place = catalogue_position(BODY, 0.05)
-    np.testing.assert_allclose(place, [1.121, 0.0, 0.05], atol=1e-4)
 
 
 @pytest.mark.parametrize("normal", ["x", "y", "z"])
@@ -177,7 +165,7 @@ def test_directivity_is_a_sphere_or_the_half_above_the_floor():
     assert half.shape == (7, 24, 3)
     assert whole.shape == (13, 24, 3)
     np.testing.assert_allclose(np.linalg.norm(whole, axis=-1), 3.0)
-    check_above_floor("directivity", half, FLOOR_Z_M)
+    assert half[..., 2].min() > FLOOR_Z_M - 1e-12
     np.testing.assert_allclose(half[-1, :, 2], FLOOR_Z_M, atol=1e-12)
     polar, azimuth = directivity_angles(settings, on_floor=False)
     np.testing.assert_allclose(whole[6, 6], [0.0, 3.0, 0.0], atol=1e-12)  # 90° and 90°
@@ -244,7 +232,7 @@ def test_near_field_of_a_dipole_overstates_its_power(radius):
     points = radius * np.stack([np.sqrt(1.0 - node**2), 0.0 * node, node], axis=1)
     square = np.sum(weight / 2.0 * np.abs(dipole(points, 2)) ** 2, axis=1)
     mean = sound_pressure_level(np.sqrt(square))
-    level = sound_power_level(mean, sphere_area_m2(radius)) - IMPEDANCE_DB
+    level = sound_power_level(mean, 4.0 * np.pi * radius**2) - IMPEDANCE_DB
     overstated = level - 10.0 * np.log10(dipole_power() / 1e-12)
     kr = wavenumber(FREQUENCY_HZ) * radius
     np.testing.assert_allclose(overstated, 10.0 * np.log10(1.0 + kr**-2), atol=5e-3)

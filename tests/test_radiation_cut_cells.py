@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from support import whole_surface
 
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.radiation.bodies import Body, block, cylinder, join_bodies, sphere
@@ -10,8 +11,6 @@ from vibroacoustics.radiation.mirrors import Mirror, floor
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.near_grid import BOX_MARGIN_M, near_grid
 from vibroacoustics.radiation.patterns import Pattern, normal_velocity, rigid_body
-from vibroacoustics.radiation.surface_points import surface_points
-from vibroacoustics.radiation.wall_flux import wall_flux
 
 BALL = sphere(0.1, (0.003, 0.001, 0.002))
 CAN = cylinder(0.083, -0.11, 0.12)
@@ -134,7 +133,7 @@ class TestSurfacePoints:
     @pytest.mark.parametrize("body", [BALL, CAN], ids=["ball", "can"])
     def test_pieces_make_up_the_surface(self, body):
         """Sums over about 1e5 pieces: rounding of 1e-16 of the whole times some hundred."""
-        points = surface_points(body, self.PLANES)
+        points = whole_surface(body, self.PLANES)
         np.testing.assert_allclose(points.area.sum(), area(body), rtol=1e-12)
         np.testing.assert_allclose(points.area @ points.normal, 0.0, atol=1e-13)
         volume = np.einsum("p,pi,pi->", points.area, points.normal, points.position) / 3.0
@@ -150,7 +149,7 @@ class TestSurfacePoints:
         planes is compared with that of the cylinder's side, 128 facets wide, and exact.
         """
         height = np.array([-0.1, 0.0, 0.05, 0.1])
-        points = surface_points(CAN, (np.array([-0.3, 0.3]), np.array([-0.3, 0.3]), height))
+        points = whole_surface(CAN, (np.array([-0.3, 0.3]), np.array([-0.3, 0.3]), height))
         side = np.abs(points.normal[:, 2]) < 0.5
         slab = np.searchsorted(height, points.position[side, 2])
         shares = np.bincount(slab, points.area[side])
@@ -158,7 +157,7 @@ class TestSurfacePoints:
         np.testing.assert_allclose(shares / shares.sum(), lengths / 0.23, rtol=1e-9)
 
     def test_weights_are_of_the_triangle(self):
-        points = surface_points(CAN, self.PLANES)
+        points = whole_surface(CAN, self.PLANES)
         np.testing.assert_allclose(points.weights.sum(axis=1), 1.0, rtol=1e-12)
         assert points.weights.min() >= -1e-12
         again = np.einsum("pk,pki->pi", points.weights, CAN.triangles[points.face])
@@ -167,7 +166,7 @@ class TestSurfacePoints:
     def test_a_plane_within_a_face(self):
         """Planes in the caps and through every corner leave no sliver of no area out or twice."""
         planes = (np.array([-0.083, 0.0, 0.083]),) * 2 + (np.array([-0.11, 0.0, 0.12]),)
-        points = surface_points(CAN, planes)
+        points = whole_surface(CAN, planes)
         np.testing.assert_allclose(points.area.sum(), area(CAN), rtol=1e-9)
 
 
@@ -176,7 +175,7 @@ class TestWallFlux:
 
     def flux(self, pattern, near=None):
         near = near or self.NEAR
-        return wall_flux(near.cells, near.wall_points, pattern)
+        return near.wall_fluxes([pattern])[0]
 
     @pytest.mark.parametrize("dof", ["tx", "ty", "tz"])
     def test_translation_sums_to_nothing(self, dof):
@@ -223,12 +222,14 @@ class TestWallFlux:
         that are all but solid belong to their neighbours: these are left out of the comparison.
         """
         near = NearField(body, 0.02, 1000.0)
-        points, number = near.wall_points.points, near.cells.wall_cells.size
+        points = whole_surface(body, near.grid.edges)
         cell = near.grid.cells_at(points.position + 1e-3 * near.grid.spacing_m * points.normal)
-        whole = np.isin(cell, near.cells.wall_cells)
+        wall_cells = near.cells.wall_cells
+        whole = np.isin(cell, wall_cells)
+        wall = np.searchsorted(wall_cells, cell[whole])
         assert points.area[~whole].sum() < 1e-3 * area(body)
         areas = [
-            np.bincount(near.wall_points.wall[whole], (points.area * part)[whole], number)
+            np.bincount(wall, (points.area * part)[whole], wall_cells.size)
             for part in points.normal.T
         ]
         difference = near.cells.wall_areas + np.stack(areas, axis=1)

@@ -1,15 +1,13 @@
 """The room side: k-Wave against closed forms, and what keeps it safe."""
 
-import subprocess
 import sys
-import textwrap
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from support import cube_box
+from support import PEAK_MEMORY, cube_box, in_child
 
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.radiation import kwave, room_grid
@@ -238,15 +236,6 @@ def test_memory_is_checked_before_the_run(box, monkeypatch):
         simulated(box, (0.5, 0.0, 0.0))
 
 
-def in_child(script):
-    result = subprocess.run(
-        [sys.executable, "-c", textwrap.dedent(script)],
-        capture_output=True, text=True, timeout=300, check=False,
-    )  # fmt: skip
-    assert result.returncode == 0, result.stderr
-    return result.stdout.split()
-
-
 @pytest.mark.slow
 @pytest.mark.skipif(
     sys.platform != "linux" or kwave.array_namespace() is not np,
@@ -256,21 +245,15 @@ def in_child(script):
 def test_predicted_memory_is_what_a_run_takes(spacing_m, frequencies):
     """Within 20 %, against the peak of a child process beyond what a small run left behind."""
     measured, predicted = in_child(f"""
-        import ctypes
+        {PEAK_MEMORY}
         import numpy as np
         from vibroacoustics.radiation import kwave, room_grid
         from vibroacoustics.radiation.box import closed_box
         from vibroacoustics.radiation.mirrors import floor
-        def peak(forget=True):
-            if forget:  # the peak so far
-                open("/proc/self/clear_refs", "w").write("5")
-            status = open("/proc/self/status").read()
-            return 1024 * int(status.split("VmHWM:")[1].split()[0])
         box = closed_box([0.0125 * np.arange(-9.0, 10.0)] * 3, [1] * 3, [17] * 3, {(2, -1)})
         frequency = np.linspace(25.0, 500.0, {frequencies})
         microphone, walls = np.array([1.2, 0.1, 0.5]), (floor(-0.1),)
         kwave.kwave_green(box, microphone, frequency[:2], 500.0, 0.1, walls)
-        ctypes.CDLL(None).malloc_trim(0)
         before = peak()
         kwave.kwave_green(box, microphone, frequency, 500.0, {spacing_m}, walls)
         after = peak(forget=False)

@@ -1,7 +1,10 @@
 """The machine side: bodies whose sound field is known."""
 
+import sys
+
 import numpy as np
 import pytest
+from support import PEAK_MEMORY, in_child, radiated
 
 from vibroacoustics.errors import ParameterError, SolverError
 from vibroacoustics.radiation import near_field, near_step
@@ -10,7 +13,7 @@ from vibroacoustics.radiation.bodies import Body, cylinder, join_bodies, sphere
 from vibroacoustics.radiation.box import BoxField
 from vibroacoustics.radiation.exact import box_green, sphere_pressure
 from vibroacoustics.radiation.join import join
-from vibroacoustics.radiation.machine_side import MachineSide
+from vibroacoustics.radiation.machine_side import MachineSide, check_memory, near_fields
 from vibroacoustics.radiation.mirrors import Mirror, floor
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.patterns import (
@@ -58,8 +61,9 @@ def simulated():
     """Pressure of P_0 to P_3 with the default settings, (order, angle, frequency)."""
     body = sphere(RADIUS)
     patterns = [legendre(order) for order in range(4)]
+    alone = Scene(body, (), ())
     side = MachineSide(
-        Scene(body, body.faces.shape[0], ()), patterns, 0.008, 4000.0, FREQUENCY_HZ, no_progress
+        alone, near_fields(alone, 0.008, 4000.0), patterns, FREQUENCY_HZ, no_progress
     )
     points = np.stack([np.sin(ANGLES), 0.0 * ANGLES, np.cos(ANGLES)], axis=1)
     return np.stack([side.pressures(point)[0] for point in points], axis=1)
@@ -112,7 +116,7 @@ def test_error_falls_with_the_square_of_the_spacing():
     errors = []
     for spacing in spacings:
         near = NearField(sphere(RADIUS), spacing, 1500.0)
-        field = near.radiate(rigid_body("tz"), frequency)
+        field = radiated(near, rigid_body("tz"), frequency)
         simulated = pressure(near, field, [0.0, 0.0, 1.0], frequency_hz=frequency)
         errors.append(np.abs(simulated / exact - 1))
     order = np.log(errors[0] / errors[2]) / np.log(spacings[0] / spacings[2])
@@ -122,7 +126,7 @@ def test_error_falls_with_the_square_of_the_spacing():
 def test_sphere_off_the_origin_radiates_the_same():
     centre = np.array([0.0041, -0.0037, 0.0029])
     near = NearField(sphere(RADIUS, tuple(centre)), 0.0125, 2500.0)
-    field = near.radiate(rigid_body("tz"), LOW_HZ)
+    field = radiated(near, rigid_body("tz"), LOW_HZ)
     expected = sphere_pressure(1, RADIUS, 1.0, np.array([0.8]), LOW_HZ)[:, 0]
     simulated = pressure(near, field, centre + np.array([0.6, 0.0, 0.8]))
     # One grid of 12.5 mm, no extrapolation.
@@ -137,7 +141,7 @@ def test_pressure_does_not_depend_on_the_box():
     results = []
     for margin in (0.06, 0.12):
         near = NearField(body, 0.02, 1500.0, (wall,), box_margin_m=margin)
-        field = near.radiate(rigid, LOW_HZ)
+        field = radiated(near, rigid, LOW_HZ)
         results.append(
             [pressure(near, field, at, (wall,)) for at in ([0.16, -0.96, 0.0], [0.0, 0.0, 1.0])]
         )
@@ -147,7 +151,7 @@ def test_pressure_does_not_depend_on_the_box():
 def test_sliding_wall_radiates_nothing_without_a_run():
     near = NearField(cylinder(0.0825, -0.2, 0.217), 0.0165, 1500.0)
     calls = []
-    field = near.radiate(rigid_body("rz"), LOW_HZ, lambda *call: calls.append(call))
+    field = radiated(near, rigid_body("rz"), LOW_HZ, lambda *call: calls.append(call))
     assert not calls
     assert not field.inner.any()
     assert not field.outer.any()
@@ -179,9 +183,9 @@ def test_wall_equals_free_field_with_the_mirrored_body(axis):
         return np.where(before, velocity(at.position), flip * velocity(flip * at.position + shift))
 
     near = NearField(body, 0.015, 1500.0, (wall,))
-    alone = near.radiate(Pattern("all", lambda at: velocity(at.position)), LOW_HZ)
+    alone = radiated(near, Pattern("all", lambda at: velocity(at.position)), LOW_HZ)
     free = NearField(join_bodies([body, image]), 0.015, 1500.0)
-    both = free.radiate(Pattern("all", mirrored), LOW_HZ)
+    both = radiated(free, Pattern("all", mirrored), LOW_HZ)
     microphone = np.array([0.5, 0.3, 0.7])
     simulated = pressure(near, alone, microphone, (wall,))
     expected = pressure(free, both, microphone)
@@ -193,7 +197,7 @@ def test_far_from_the_floor_the_image_alone_is_right():
     """Five radii up, a pulsating sphere and its image hardly scatter each other's sound."""
     radius, wall = 0.06, floor(-0.3)
     near = NearField(sphere(radius), 0.012, 1500.0, (wall,))
-    field = near.radiate(legendre(0, radius), LOW_HZ[:3])
+    field = radiated(near, legendre(0, radius), LOW_HZ[:3])
     simulated = pressure(near, field, [0.9, 0.0, 0.2], (wall,), LOW_HZ[:3])
     expected = sum(
         sphere_pressure(0, radius, np.hypot(0.9, z), np.ones(1), LOW_HZ[:3])[:, 0]
@@ -208,7 +212,7 @@ def test_translation_of_a_body_on_the_floor_displaces_air():
     wall = floor(-0.2)
     near = NearField(cylinder(0.0825, -0.2, 0.0), 0.0165, 1500.0, (wall,))
     low = np.array([20.0])
-    field = near.radiate(rigid_body("tz"), low)
+    field = radiated(near, rigid_body("tz"), low)
     simulated = pressure(near, field, [3.0, 0.0, -0.2], (wall,), low)
     # j omega rho Q G with Q = pi R² and the source's own image: low frequency, far off.
     monopole = 2 * np.pi * 20 * 1.2 * np.pi * 0.0825**2 * 2 / (4 * np.pi * 3.0)
@@ -223,7 +227,7 @@ def test_single_precision_is_enough(monkeypatch):
     for precision in (np.float32, np.float64):
         monkeypatch.setattr(near_step, "PRECISION", precision)
         near = NearField(cylinder(0.0825, -0.2, 0.217), 0.02, 1500.0)
-        fields = [near.radiate(rigid_body(dof), LOW_HZ) for dof in ("tz", "ry")]
+        fields = [radiated(near, rigid_body(dof), LOW_HZ) for dof in ("tz", "ry")]
         results.append([[pressure(near, field, p) for p in microphones] for field in fields])
     single, double = np.array(results)
     loud = np.abs(double) > 0.1 * np.abs(double).max(axis=1, keepdims=True)
@@ -244,23 +248,54 @@ def test_reciprocal_green_functions_leave_no_pressure_of_their_own():
 
 def test_memory_is_checked_before_the_run(monkeypatch):
     monkeypatch.setattr("psutil.virtual_memory", type("M", (), {"available": 2**20}))
+    near = near_fields(Scene(sphere(0.1), (), ()), 0.0125, 1000.0)
     with pytest.raises(ParameterError, match=r"near_field_spacing_mm: the grid of \d+×\d+×\d+"):
-        NearField(sphere(0.1), 0.0125, 1000.0)
+        check_memory(near, 6, 10)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="reads the peak memory as Linux tells it")
+@pytest.mark.parametrize(("spacing_m", "frequencies", "patterns"), [(0.008, 80, 6), (0.006, 20, 2)])
+def test_predicted_memory_is_what_it_takes(spacing_m, frequencies, patterns):
+    """Within 20 %, the default settings first, against the peak beyond a small run's."""
+    measured, predicted = in_child(f"""
+        {PEAK_MEMORY}
+        import numpy as np
+        from vibroacoustics.radiation import near_field
+        from vibroacoustics.radiation.arrays import no_progress
+        from vibroacoustics.radiation.bodies import cylinder
+        from vibroacoustics.radiation.machine_side import MachineSide, memory_bytes, near_fields
+        from vibroacoustics.radiation.mirrors import floor
+        from vibroacoustics.radiation.patterns import rigid_body
+        from vibroacoustics.radiation.scene import Scene
+        from vibroacoustics.schema import RIGID_BODY_DOFS
+        # Short runs that would not be accepted: their length takes no memory.
+        near_field._MOST_DIAGONALS, near_field._NOT_QUIET = 2.0, 1.0
+        scene = Scene(cylinder(0.0825, -0.19, 0.227), (), (floor(-0.21),))
+        motions = [rigid_body(dof) for dof in RIGID_BODY_DOFS[:{patterns}]]
+        frequency = np.linspace(25.0, 2000.0, {frequencies})
+        MachineSide(scene, near_fields(scene, 0.024, 4000.0), motions, frequency[:2], no_progress)
+        before = peak()
+        near = near_fields(scene, {spacing_m}, 4000.0)
+        MachineSide(scene, near, motions, frequency, no_progress)
+        print(peak(forget=False) - before, memory_bytes(near, {patterns}, {frequencies}))
+    """)
+    assert float(predicted) == pytest.approx(float(measured), rel=0.2)
 
 
 def test_a_run_that_has_not_died_down_is_refused(monkeypatch):
     monkeypatch.setattr(near_field, "_MOST_DIAGONALS", 0.0)
     with pytest.raises(SolverError, match="near field tx: the pressure has not died down"):
-        NearField(sphere(0.1), 0.02, 1000.0).radiate(rigid_body("tx"), LOW_HZ)
+        radiated(NearField(sphere(0.1), 0.02, 1000.0), rigid_body("tx"), LOW_HZ)
 
 
 def test_a_velocity_that_is_no_number_is_refused():
     pattern = normal_velocity("bad", lambda points: np.where(points[:, 2] > 0.09, np.nan, 1.0))
     with pytest.raises(SolverError, match="near field bad: the pressure has not died down"):
-        NearField(sphere(0.1), 0.02, 1000.0).radiate(pattern, LOW_HZ)
+        radiated(NearField(sphere(0.1), 0.02, 1000.0), pattern, LOW_HZ)
 
 
 def test_all_runs_of_one_body_are_repeatable():
     near = NearField(sphere(0.06), 0.0165, 1000.0)
-    first, second = (near.radiate(rigid_body("tx"), LOW_HZ) for _ in range(2))
+    first, second = (radiated(near, rigid_body("tx"), LOW_HZ) for _ in range(2))
     np.testing.assert_array_equal(first.inner, second.inner)

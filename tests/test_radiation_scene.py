@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import trimesh
 from pydantic import ValidationError
+from support import whole_surface
 
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.parameters.body import BoxBody, MeshBody, SphereBody
@@ -17,6 +18,7 @@ from vibroacoustics.radiation.mirrors import images
 from vibroacoustics.radiation.near_grid import near_grid
 from vibroacoustics.radiation.patterns import Pattern, rigid_body
 from vibroacoustics.radiation.scene import (
+    Scene,
     cabinet_panels,
     file_patterns,
     machine_body,
@@ -24,7 +26,6 @@ from vibroacoustics.radiation.scene import (
     room_walls,
     scene,
 )
-from vibroacoustics.radiation.surface_points import surface_points
 
 SHELL = Shell(
     outer_diameter_m=0.165, height_m=0.417, centre_of_mass_height_m=0.2, floor_clearance_m=0.02
@@ -172,13 +173,14 @@ class TestCabinet:
     def test_panels_come_after_the_machine_and_stand_still(self):
         with_cabinet = scene(SHELL, settings(cabinet=CABINET))
         alone = scene(SHELL, settings())
-        assert with_cabinet.moving_faces == alone.body.faces.shape[0]
         np.testing.assert_array_equal(with_cabinet.machine.triangles, alone.body.triangles)
+        bounds = np.stack(with_cabinet.machine.bounds())
+        np.testing.assert_array_equal(bounds, np.stack(alone.body.bounds()))
         lower, upper = with_cabinet.body.bounds()
         np.testing.assert_allclose(lower, [-0.27, -0.32, FLOOR_Z])
         np.testing.assert_allclose(upper, [0.27, 0.32, FLOOR_Z + 0.72])
         far = (np.array([-1.0, 1.0]),) * 3
-        at = surface_points(with_cabinet.body, far)
+        at = whole_surface(with_cabinet.body, far)
         velocity = with_cabinet.moving(rigid_body("tx")).velocity(at)
         on_machine = np.hypot(at.position[:, 0], at.position[:, 1]) < 0.09
         np.testing.assert_array_equal(velocity[:, 0], on_machine * 1.0)
@@ -212,7 +214,7 @@ class TestFilePatterns:
 
     def points(self):
         edges = np.linspace(-0.35, 0.35, 29)
-        return surface_points(self.MACHINE, (edges, edges, edges))
+        return whole_surface(self.MACHINE, (edges, edges, edges))
 
     def write(self, tmp_path, values):
         path = tmp_path / "bulge.csv"
@@ -227,6 +229,19 @@ class TestFilePatterns:
         pattern, at = self.pattern(self.write(tmp_path, values)), self.points()
         assert pattern.name == "bulge"
         np.testing.assert_allclose(pattern.velocity(at), values[at.face][:, None] * at.normal)
+
+    @pytest.mark.parametrize("number", [12, 8], ids=["face", "vertex"])
+    def test_in_a_cabinet_only_the_machine_moves(self, tmp_path, number):
+        """Values of the machine's mesh alone; the panels' faces and corners come after them."""
+        panels = tuple(cabinet_panels(CABINET, -0.1))
+        pattern = self.pattern(self.write(tmp_path, np.ones(number)))
+        whole = Scene(self.MACHINE, panels, ())
+        edges = np.linspace(-0.8, 0.8, 9)
+        at = whole_surface(whole.body, (edges, edges, edges))
+        on_machine = at.face < 12
+        assert not on_machine.all()
+        expected = at.normal * on_machine[:, None]
+        np.testing.assert_allclose(whole.moving(pattern).velocity(at), expected, atol=1e-12)
 
     def test_vector_for_each_face(self, tmp_path):
         values = np.random.default_rng(1).standard_normal((12, 3))

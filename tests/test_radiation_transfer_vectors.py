@@ -16,7 +16,7 @@ from vibroacoustics.parameters.surroundings import Surroundings, Wall
 from vibroacoustics.radiation.arrays import no_progress
 from vibroacoustics.radiation.exact import sphere_pressure
 from vibroacoustics.radiation.interpolation import interpolate
-from vibroacoustics.radiation.machine_side import MachineSide
+from vibroacoustics.radiation.machine_side import MachineSide, near_fields
 from vibroacoustics.radiation.patterns import rigid_body
 from vibroacoustics.radiation.scene import position_m, scene
 from vibroacoustics.radiation.sound_field import SoundField
@@ -93,8 +93,8 @@ def test_error_is_that_of_the_finer_grid(dataset):
 
 @pytest.mark.slow
 def test_closed_form_room_is_the_closed_form(closed, dataset):
-    np.testing.assert_array_equal(closed["transfer_vector"], closed["transfer_vector_closed_form"])
-    np.testing.assert_array_equal(closed["green_difference"], 0.0)
+    assert not {"transfer_vector_closed_form", "green_difference"} & set(closed)
+    assert "k-wave" not in closed.attrs["solver"]
     # The same runs of the machine side: only the order of sums may differ.
     expected = dataset["transfer_vector_closed_form"]
     ours = closed["transfer_vector"].sel(receiver=list(RECEIVERS))
@@ -131,7 +131,8 @@ def test_interpolation_is_exact_between_the_table(closed):
     wanted = np.array([10.0, 17.3, 48.3, 96.7, 262.5, 487.5, 737.5, 990.0])
     surroundings = scene(SHELL, SETTINGS)
     patterns = [rigid_body("tx"), rigid_body("tz")]
-    side = MachineSide(surroundings, patterns, 0.035, 1000.0, wanted, no_progress)
+    near = near_fields(surroundings, 0.035, 1000.0)
+    side = MachineSide(surroundings, near, patterns, wanted, no_progress)
     direct, _ = side.pressures(position_m(SHELL, RECEIVERS["side"]))
     interpolated = interpolate_transfer_vector(
         closed["transfer_vector"], xr.DataArray(wanted, dims="order")

@@ -4,7 +4,7 @@ study -> moving parts -> orders -> transfer -> radiation -> levels -> scores, on
 """
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import xarray as xr
@@ -85,13 +85,8 @@ def radiate(study: Study, progress: Progress = lambda *_: None) -> xr.Dataset:
         surface = radiated["surface_transfer_vector"]
         area = _surface_area_m2(study.sound_power, surface)
         radiated["unit_sound_power_level"] = unit_sound_power(surface, study.sound_power, area)
-    results = radiated.assign_attrs(
-        provenance.attributes(study),
-        reference_pressure_pa=REFERENCE_PRESSURE_PA,
-        transfer_vectors="from the cache" if was_cached else "computed in this run",
-        radiation=provenance.canonical_json(radiated.attrs),
-    )
-    return check(label_coordinates(results))
+    radiated.attrs = _attributes(study, radiated, was_cached)
+    return check(label_coordinates(radiated))
 
 
 def unit_sound_power(
@@ -137,13 +132,17 @@ def _run(study: Study, progress: Progress) -> xr.Dataset:
     results = results.merge(_sound_field(study, results))
     results = results.merge(_levels(study, results))
     results = results.merge(_scores(study, results))
-    results.attrs = {
+    results.attrs = _attributes(study, radiated, was_cached)
+    return check(label_coordinates(results))
+
+
+def _attributes(study: Study, radiated: xr.Dataset, was_cached: bool) -> dict[str, Any]:
+    return {
         **provenance.attributes(study),
         "reference_pressure_pa": REFERENCE_PRESSURE_PA,
         "transfer_vectors": "from the cache" if was_cached else "computed in this run",
         "radiation": provenance.canonical_json(radiated.attrs),
     }
-    return check(label_coordinates(results))
 
 
 def _forces(study: Study, progress: Progress) -> xr.Dataset:
@@ -328,30 +327,25 @@ def _transfer_vectors(study: Study, progress: Progress) -> tuple[xr.Dataset, boo
 
 def _pressures(results: xr.Dataset) -> xr.Dataset:
     """Pressure at each microphone: contraction of velocity and transfer vector over the dofs."""
-    pressure, closed_form = (
-        xr.dot(
-            results["velocity_order"],
-            radiation.interpolate_transfer_vector(results[name], results["order_frequency"]),
-            dim="dof",
-        )
-        for name in ("transfer_vector", "transfer_vector_closed_form")
-    )
+    pressure = _pressure(results, "transfer_vector")
     dims = VARIABLES["pressure_order"].dims
-    first, second = (
-        levels.sound_pressure_level(field.sel(order=1).sum("source").transpose(*_CHANGE).values)
-        for field in (pressure, closed_form)
-    )
     coords = {name: results[name] for name in dims}
-    return check(
-        xr.Dataset(
-            {
-                "pressure_order": stamp("pressure_order", pressure.transpose(*dims).values, coords),
-                "line_difference": stamp(
-                    "line_difference", first - second, {name: results[name] for name in _CHANGE}
-                ),
-            }
+    found = {"pressure_order": stamp("pressure_order", pressure.transpose(*dims).values, coords)}
+    if "transfer_vector_closed_form" in results:
+        first, second = (
+            levels.sound_pressure_level(field.sel(order=1).sum("source").transpose(*_CHANGE).values)
+            for field in (pressure, _pressure(results, "transfer_vector_closed_form"))
         )
-    )
+        at = {name: results[name] for name in _CHANGE}
+        found["line_difference"] = stamp("line_difference", first - second, at)
+    return check(xr.Dataset(found))
+
+
+def _pressure(results: xr.Dataset, name: str) -> xr.DataArray:
+    """Pressure of every source at every order by the transfer vectors of a name."""
+    vectors = radiation.interpolate_transfer_vector(results[name], results["order_frequency"])
+    pressure: xr.DataArray = xr.dot(results["velocity_order"], vectors, dim="dof")
+    return pressure
 
 
 _CHANGE: Final = ("speed", "option", "receiver")
@@ -382,13 +376,12 @@ def _sound_field(study: Study, results: xr.Dataset) -> xr.Dataset:
         )
         power = sound_power.sound_power_level(mean, _surface_area_m2(study.sound_power, surface))
         frequency = results["order_frequency"].values[:, None, :]
-        weighted = [power + levels.WEIGHTING[name](frequency) for name in WEIGHTINGS]
-        fields["order_sound_power_level"] = stamp(
-            "order_sound_power_level",
-            np.stack(weighted, axis=-1),
-            {**{name: results[name] for name in dims[:3]}, "weighting": list(WEIGHTINGS)},
-            arrangement=study.sound_power.arrangement,
-        )
+        weighted = np.stack([power + levels.WEIGHTING[a](frequency) for a in WEIGHTINGS], axis=-1)
+        total = levels.energy_sum(weighted[:, :, 1:], axis=2)  # order 0 is no sound
+        for name, level in (("order_sound_power_level", weighted), ("sound_power_level", total)):
+            by = {dim: results[dim] for dim in VARIABLES[name].dims if dim in results}
+            by["weighting"] = xr.DataArray(list(WEIGHTINGS), dims="weighting")
+            fields[name] = stamp(name, level, by, arrangement=study.sound_power.arrangement)
     return check(xr.Dataset(fields))
 
 

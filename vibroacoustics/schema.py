@@ -149,6 +149,9 @@ VARIABLES: Final[dict[str, Variable]] = {
     "order_sound_power_level": Variable(
         ("speed", "option", "order", "weighting"), "dB", "sound power level of a shaft order"
     ),
+    "sound_power_level": Variable(
+        ("speed", "option", "weighting"), "dB", "sound power level of all modelled orders"
+    ),
     "unit_sound_power_level": Variable(
         ("dof", "frequency"), "dB", "sound power level at 1 mm/s or 1 mrad/s, root mean square"
     ),

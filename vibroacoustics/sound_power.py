@@ -23,9 +23,6 @@ NEGLIGIBLE_BACKGROUND_MARGIN_DB: Final = 15.0
 LARGEST_ENVIRONMENT_CORRECTION_DB: Final = 4.0
 """A test environment with a larger K2A does not qualify (4.3.2)."""
 
-_HEMISPHERE_SHARE: Final = {1: 2.0, 2: 1.0, 3: 0.5}
-"""Area over pi r² by the number of reflecting planes."""
-
 
 def energy_mean(level_db: Real | Sequence[float], axis: int = 0) -> Real:
     """Mean level over the microphone positions, 10 lg(1/N Σ 10^(0.1 L)), dB (equation 12)."""
@@ -98,46 +95,21 @@ def stand_corrections_db(settings: SoundPowerSettings, surface_m2: float) -> tup
     return background, 0.0 if area is None else environment_correction_db(surface_m2, area)
 
 
-def a_weighted_level(level_db: Real, a_weighting_db: Real, axis: int = -1) -> Real:
-    """LWA = 10 lg Σ 10^(0.1 (LW + A)) over lines or bands, dB(A) (equation E.1).
+def hemisphere_area_m2(radius_m: float) -> float:
+    """2 pi r², over a floor (7.2.3)."""
+    return 2.0 * float(np.pi) * radius_m**2
+
+
+def box_area_m2(length_m: float, width_m: float, height_m: float, distance_m: float) -> float:
+    """Area of the parallelepiped around a reference box on a floor (7.2.4, equation 9), m².
 
     Parameters
     ----------
-    level_db : unweighted sound power levels, dB
-    a_weighting_db : A-weighting at the same frequencies, dB
-    axis : the axis of the lines or bands
-    """
-    weighted = 10.0 ** (0.1 * (np.asarray(level_db) + a_weighting_db))
-    return np.asarray(10.0 * np.log10(np.sum(weighted, axis=axis)))
-
-
-def sphere_area_m2(radius_m: float) -> float:
-    """4 pi r², of a full sphere in free field (ISO 3745)."""
-    return 4.0 * float(np.pi) * radius_m**2
-
-
-def hemisphere_area_m2(radius_m: float, reflecting_planes: int = 1) -> float:
-    """2 pi r² over a floor, pi r² at a wall besides, pi r²/2 in a corner (7.2.3)."""
-    return _HEMISPHERE_SHARE[reflecting_planes] * float(np.pi) * radius_m**2
-
-
-def box_area_m2(
-    length_m: float, width_m: float, height_m: float, distance_m: float, reflecting_planes: int = 1
-) -> float:
-    """Area of the parallelepiped around a reference box (7.2.4, equations 9 to 11), m².
-
-    Parameters
-    ----------
-    length_m, width_m, height_m : edges of the reference box; the length is perpendicular to the
-        wall, in a corner the width to the other wall
+    length_m, width_m, height_m : edges of the reference box
     distance_m : from the reference box to the measurement surface
-    reflecting_planes : 1 floor, 2 floor and a wall, 3 floor and a corner
     """
-    free_ends = 2 if reflecting_planes == 1 else 1
-    free_sides = 1 if reflecting_planes == 3 else 2
-    long, wide = length_m + free_ends * distance_m, width_m + free_sides * distance_m
-    high = height_m + distance_m
-    return long * wide + high * (free_ends * wide + free_sides * long)
+    long, wide = length_m + 2.0 * distance_m, width_m + 2.0 * distance_m
+    return long * wide + 2.0 * (height_m + distance_m) * (wide + long)
 
 
 def surface_area_m2(

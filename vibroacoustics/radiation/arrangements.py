@@ -39,7 +39,6 @@ TABLE_B1: Final = np.array(
 
 LARGEST_PART: Final = 3.0
 """Longest side of a partial area of the box, in measurement distances (C.1)."""
-CATALOGUE_DISTANCE_M: Final = 1.0
 
 
 class ReferenceBox(NamedTuple):
@@ -140,13 +139,6 @@ def _grid(lines: Sequence[Array]) -> Array:
     return np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).reshape(-1, 3)
 
 
-def catalogue_position(body: Body, height_z_m: float) -> Array:
-    """The catalogue's microphone, 1 m from the surface along +x at a height, (3,), m."""
-    lower, upper = body.bounds()
-    middle_y = (lower[1] + upper[1]) / 2.0
-    return np.array([upper[0] + CATALOGUE_DISTANCE_M, middle_y, height_z_m])
-
-
 def map_points(settings: MapSettings, floor_level_m: float) -> Array:
     """Points of a map (row, column, 3) in the machine's coordinates, m.
 
@@ -190,18 +182,6 @@ def directivity_points(settings: DirectivitySettings, floor_z_m: float | None) -
     points: Array = settings.radius_m * direction
     points[..., 2] += floor_z_m or 0.0
     return points
-
-
-def check_above_floor(name: str, points: Array, floor_z_m: float | None) -> None:
-    """Refuse points (..., 3) below the floor.
-
-    Raises
-    ------
-    ParameterError
-        One line that names the first such point.
-    """
-    if floor_z_m is not None:
-        _refuse(name, points, points[..., 2] < floor_z_m - 1e-9, "below the floor")
 
 
 def check_outside(name: str, points: Array, body: Body) -> None:

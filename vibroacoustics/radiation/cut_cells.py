@@ -13,6 +13,8 @@ from .bodies import Body
 from .lines import fluid_on_lines
 from .near_grid import NearGrid
 
+GEOMETRY_BYTES_PER_CELL: Final = 32
+"""Three open areas and a volume in double precision."""
 _LINES_PER_FACE: Final = 100
 _LINES_PER_CELL: Final = (16, 16)
 _BESIDE_FACE: Final = 1e-4

@@ -7,8 +7,10 @@ from functools import partial
 from typing import Final, TypeVar
 
 import numpy as np
+import psutil
 from numpy.typing import NDArray
 
+from ..errors import ParameterError
 from .arrays import Array, ComplexArray, Progress
 from .box import BoxField
 from .exact import box_green
@@ -33,8 +35,6 @@ class MachineSide:
 
     Raises
     ------
-    ParameterError
-        A grid needs more memory than is available.
     SolverError
         A field is not finite or has not died down.
     """
@@ -42,22 +42,21 @@ class MachineSide:
     def __init__(
         self,
         scene: Scene,
+        near: Sequence[NearField],
         patterns: Sequence[Pattern],
-        spacing_m: float,
-        maximum_frequency_hz: float,
         frequency_hz: Array,
         progress: Progress,
     ) -> None:
         self.frequency_hz = frequency_hz
         self.walls = scene.walls
-        self.near = near_fields(scene, spacing_m, maximum_frequency_hz)
+        self.near = near
         moving = [scene.moving(pattern) for pattern in patterns]
-        for near in self.near:
-            near.prepare()
-        tasks = [(near, pattern) for near in self.near for pattern in moving]
-        fields = in_threads(
-            [partial(near.radiate, pattern, frequency_hz, progress) for near, pattern in tasks]
-        )
+        tasks = [
+            partial(grid.radiate, flux, frequency_hz, pattern.name, progress)
+            for grid in near
+            for pattern, flux in zip(patterns, grid.wall_fluxes(moving), strict=True)
+        ]
+        fields = in_threads(tasks)
         self.fields: list[list[BoxField]] = [fields[: len(moving)], fields[len(moving) :]]
 
     def green(self, point: Array, chosen: slice = slice(None)) -> BoxField:
@@ -65,13 +64,12 @@ class MachineSide:
         return box_green(self.near[0].box, point, self.frequency_hz[chosen], self.walls)
 
     def pressures(
-        self, point: Array, chosen: slice = slice(None), green: BoxField | None = None
-    ) -> tuple[ComplexArray, Array]:
-        """Extrapolated pressure at a point and its error, (pattern, frequency), Pa.
+        self, point: Array, chosen: slice = slice(None)
+    ) -> tuple[ComplexArray, ComplexArray]:
+        """Extrapolated pressure at a point and its correction, (pattern, frequency), Pa.
 
-        With the closed-form Green's function on both boxes, or another one on the finer grid's; the
-        extrapolation is that of the closed form in any case. The error is the estimated one of the
-        finer grid, which the extrapolation takes off: what is left was smaller in every test.
+        With the closed-form Green's function on both boxes. The correction, which the pressure
+        holds, is the estimated error of the finer grid; no bound of what is left is known.
         """
         fine, coarse = (
             self._joined(
@@ -80,9 +78,11 @@ class MachineSide:
             for number, near in enumerate(self.near)
         )
         correction = EXTRAPOLATION * (fine - coarse)
-        if green is not None:
-            fine = self._joined(0, green, chosen)
-        return fine + correction, np.abs(correction)
+        return fine + correction, correction
+
+    def joined(self, green: BoxField, chosen: slice = slice(None)) -> ComplexArray:
+        """Pressure (pattern, frequency), Pa, where a Green's function on the finer box leads."""
+        return self._joined(0, green, chosen)
 
     def _joined(self, grid: int, green: BoxField, chosen: slice) -> ComplexArray:
         box = self.near[grid].box
@@ -95,13 +95,7 @@ class MachineSide:
 
 
 def near_fields(scene: Scene, spacing_m: float, maximum_frequency_hz: float) -> list[NearField]:
-    """The scene on the finer and on the coarser grid; nothing is computed yet.
-
-    Raises
-    ------
-    ParameterError
-        A grid needs more memory than is available.
-    """
+    """The scene on the finer and on the coarser grid; nothing is computed yet."""
     return [
         NearField(
             scene.body,
@@ -112,6 +106,31 @@ def near_fields(scene: Scene, spacing_m: float, maximum_frequency_hz: float) -> 
         )
         for cells in (_UNIT_CELLS, _UNIT_CELLS - 1)
     ]
+
+
+def check_memory(near: Sequence[NearField], patterns: int, frequencies: int) -> None:
+    """Refuse grids that do not fit.
+
+    Raises
+    ------
+    ParameterError
+        They need more memory than is available.
+    """
+    needed = memory_bytes(near, patterns, frequencies) / 2**30
+    available = psutil.virtual_memory().available / 2**30
+    if needed > available:
+        x, y, z = near[0].grid.shape
+        raise ParameterError(
+            f"radiation.near_field_spacing_mm: the grid of {x}×{y}×{z} cells for {patterns} motions"
+            f" and {frequencies} frequencies needs {needed:.3g} GiB, {available:.3g} GiB are "
+            "available"
+        )
+
+
+def memory_bytes(near: Sequence[NearField], patterns: int, frequencies: int) -> float:
+    """Memory that a `MachineSide` takes at its peak, beside what is loaded before."""
+    geometry, result, run = np.transpose([grid.memory_bytes(frequencies) for grid in near])
+    return float(geometry.sum() + patterns * result.sum() + run.max() * min(processors(), patterns))
 
 
 def outside(near: Sequence[NearField], walls: Sequence[Mirror], points: Array) -> NDArray[np.bool_]:

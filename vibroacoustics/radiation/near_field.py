@@ -15,14 +15,13 @@ from functools import cached_property
 from typing import Final
 
 import numpy as np
-import psutil
 
 from ..constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
-from ..errors import ParameterError, SolverError
+from ..errors import SolverError
 from .arrays import Array, ComplexArray, IndexArray, Progress, no_progress
 from .bodies import Body
 from .box import Box, BoxField, closed_box, open_sides
-from .cut_cells import CutCells, cut_cells
+from .cut_cells import GEOMETRY_BYTES_PER_CELL, CutCells, cut_cells
 from .exact import wavenumber
 from .mirrors import Mirror
 from .near_grid import BOX_MARGIN_M, NearGrid, near_grid
@@ -35,9 +34,10 @@ from .pulse import (
     pulse_width_s,
     sampling_steps,
     transform,
+    transform_bytes,
 )
-from .surface_points import surface_points
-from .wall_flux import WallPoints, wall_flux, wall_points
+from .surface_points import surface_in_parts
+from .wall_flux import wall_fluxes
 
 _PROGRESS_STEPS: Final = 50
 _MOST_DIAGONALS: Final = 250.0
@@ -49,16 +49,12 @@ _NOT_QUIET: Final = 1e-3
 _ENVELOPE_DECAY_PER_CELL: Final = 0.933
 """Decay of the envelope of the pressure during the passage of one cell."""
 _PIECES_PER_CELL: Final = 2
+_ON_WALL: Final = 1e-6
+"""Surface closer than this many cells to a wall stands on it."""
 
 
 class NearField:
-    """A body in its grid; the geometry is computed once and serves every pattern.
-
-    Raises
-    ------
-    ParameterError
-        The grid needs more memory than is available.
-    """
+    """A body in its grid; the geometry is computed once, when needed, and serves every pattern."""
 
     def __init__(
         self,
@@ -70,29 +66,50 @@ class NearField:
         cells_per_unit: int = 3,
     ) -> None:
         self.grid: NearGrid = near_grid(body, spacing_m, walls, box_margin_m, cells_per_unit)
-        _check_memory(self.grid.shape)
         self._body = body
         self._walls = walls
-        self.box: Box = closed_box(
-            self.grid.edges, self.grid.box_start, self.grid.box_stop, self.grid.on_walls
-        )
         self.pulse_width_s = pulse_width_s(maximum_frequency_hz)
-        self.layers = _recording_layers(self.grid)
+
+    @cached_property
+    def box(self) -> Box:
+        """The box through which the sound field leaves."""
+        grid = self.grid
+        return closed_box(grid.edges, grid.box_start, grid.box_stop, grid.on_walls)
+
+    @cached_property
+    def layers(self) -> IndexArray:
+        """Flat indices of the cells inside and outside of each face of the box, (2, pair)."""
+        return _recording_layers(self.grid)
+
+    def memory_bytes(self, frequencies: int) -> tuple[float, float, float]:
+        """Memory of the geometry, of a pattern's result, and of a run besides its result."""
+        cells = np.prod(self.grid.shape, dtype=float)
+        values = 2.0 * self.grid.box_pairs
+        result = 16.0 * frequencies * values
+        run = BYTES_PER_CELL * cells + transform_bytes(frequencies, values)
+        return GEOMETRY_BYTES_PER_CELL * cells, result, run
 
     @cached_property
     def cells(self) -> CutCells:
         """Geometry of the fluid in the grid."""
         return cut_cells(self._body, self.grid)
 
-    @cached_property
-    def wall_points(self) -> WallPoints:
-        """The surface's points, without those that stand on a wall, by cell."""
-        planes = [_divided(edges, _PIECES_PER_CELL) for edges in self.grid.edges]
-        points = surface_points(self._body, (planes[0], planes[1], planes[2]))
-        off_floor = [
-            wall.depth_m(points.position) > 1e-6 * self.grid.spacing_m for wall in self._walls
-        ]
-        return wall_points(self.cells, points.where(off_floor), self.grid)
+    def wall_fluxes(self, patterns: Sequence[Pattern]) -> Array:
+        """What each pattern pushes into the wall cells, (pattern, wall); see `wall_flux`.
+
+        The surface's points that stand on a wall of the room move nothing.
+        """
+        x, y, z = (_divided(edges, _PIECES_PER_CELL) for edges in self.grid.edges)
+        surface = (
+            points.where(
+                [
+                    wall.depth_m(points.position) > _ON_WALL * self.grid.spacing_m
+                    for wall in self._walls
+                ]
+            )
+            for points in surface_in_parts(self._body, (x, y, z))
+        )
+        return wall_fluxes(self.cells, self.grid, surface, patterns)
 
     @property
     def margin_m(self) -> float:
@@ -100,10 +117,6 @@ class NearField:
         lower, upper = self._body.bounds()
         outer = self.box.outer
         return float(max((lower - outer.min(axis=0)).max(), (outer.max(axis=0) - upper).max()))
-
-    def prepare(self) -> None:
-        """Compute the geometry now; patterns may then run side by side in threads."""
-        _ = self.cells, self.wall_points
 
     @property
     def most_steps(self) -> int:
@@ -114,20 +127,26 @@ class NearField:
         return int(np.ceil(duration / self.grid.time_step_s))
 
     def radiate(
-        self, pattern: Pattern, frequency_hz: Array, progress: Progress = no_progress
+        self, flux: Array, frequency_hz: Array, name: str, progress: Progress = no_progress
     ) -> BoxField:
-        """Pressure (Pa) on both layers of the box per unit velocity of the pattern.
+        """Pressure (Pa) on both layers of the box per unit velocity of a pattern.
+
+        Parameters
+        ----------
+        flux : what the pattern pushes into the wall cells, (wall,), m³/s
+        frequency_hz : (frequency,)
+        name : of the pattern, for progress and errors
+        progress : told of the steps
 
         Raises
         ------
         SolverError
             The field is not finite or has not died down at the end of the run.
         """
-        flux = wall_flux(self.cells, self.wall_points, pattern)
         if not np.any(flux):
             zeros = np.zeros((frequency_hz.size, self.box.inner.shape[0]), dtype=complex)
             return BoxField(zeros, zeros.copy())
-        inner, outer = _run(self, flux, frequency_hz, pattern.name, progress)
+        inner, outer = _run(self, flux, frequency_hz, name, progress)
         return BoxField(inner, outer)
 
 
@@ -152,18 +171,7 @@ def _grid_frequency(frequency_hz: Array, grid: NearGrid) -> tuple[Array, Array]:
     return shifted, 1.0 / root
 
 
-def _check_memory(shape: tuple[int, int, int]) -> None:
-    needed = BYTES_PER_CELL * np.prod(shape, dtype=float) / 2**30
-    available = psutil.virtual_memory().available / 2**30
-    if needed > available:
-        raise ParameterError(
-            f"radiation.near_field_spacing_mm: the grid of {shape[0]}×{shape[1]}×{shape[2]} cells "
-            f"needs {needed:.3g} GiB, {available:.3g} GiB are available"
-        )
-
-
 def _recording_layers(grid: NearGrid) -> IndexArray:
-    """Flat indices of the cells inside and outside of each face of the box, (2, pair)."""
     layers = []
     for axis, sign in open_sides(grid.on_walls):
         ranges: list[IndexArray] = [
@@ -218,5 +226,6 @@ def _run(
             f"({envelope:.3g} Pa against a largest of {largest:.3g} Pa)"
         )
     source = transform(shifted_hz, velocity_time, velocity) / gain
-    spectrum = every * transformer.spectrum() / source[:, None]
+    spectrum = transformer.spectrum()
+    spectrum *= (every / source)[:, None]
     return spectrum.reshape(frequency_hz.size, 2, -1).swapaxes(0, 1)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..constants import SPEED_OF_SOUND_M_PER_S
 from .arrays import Array
 from .bodies import Body
-from .box import Side
+from .box import Side, open_sides
 from .mirrors import Mirror
 
 COURANT_NUMBER: Final = 0.3
@@ -65,6 +65,12 @@ class NearGrid:
     def gaps(self, axis: int) -> Array:
         """Distances of neighbouring cells' middles, (interior face,), m."""
         return np.diff(self.centres(axis))
+
+    @property
+    def box_pairs(self) -> int:
+        """Number of pairs of cells across the faces of the box."""
+        size = np.subtract(self.box_stop, self.box_start)
+        return sum(int(np.prod(size)) // int(size[axis]) for axis, _ in open_sides(self.on_walls))
 
     @property
     def time_step_s(self) -> float:

@@ -14,8 +14,8 @@ _kernel = numba.njit(cache=True, nogil=True)
 
 PRECISION: Final = np.float32
 """Double precision changes the pressure at a microphone by less than 0.003 dB from 48 Hz up."""
-BYTES_PER_CELL: Final = 11 * 4 + 60
-"""Eleven fields of a run, and the geometry in double precision while it is made."""
+BYTES_PER_CELL: Final = 11 * 4
+"""Eleven fields in single precision."""
 
 
 class Fields:

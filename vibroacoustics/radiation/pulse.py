@@ -49,6 +49,11 @@ def transform(frequency_hz: Array, time_s: Array, signal: Array) -> ComplexArray
     return spectrum
 
 
+def transform_bytes(frequencies: int, signals: float) -> float:
+    """Memory of a running transform: its sums, what a block adds to them, and the block."""
+    return 8.0 * signals * (2 * 2 * frequencies + _BLOCK_STEPS)
+
+
 class RunningTransform:
     """Fourier transform of many signals at chosen frequencies, without storing the signals.
 
@@ -80,6 +85,6 @@ class RunningTransform:
     def spectrum(self) -> ComplexArray:
         """Sum of samples times exp(-j 2 pi f t), shape (frequency, point)."""
         self._flush()
-        real, imaginary = np.split(self._sum, 2)
-        result: ComplexArray = real + 1j * imaginary
+        result = np.empty((self._frequency.size, self._sum.shape[1]), dtype=complex)
+        result.real, result.imag = np.split(self._sum, 2)
         return result

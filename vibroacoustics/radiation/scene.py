@@ -3,6 +3,7 @@
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Final
 
@@ -30,22 +31,22 @@ _LARGEST_PATTERN_FILE_BYTES: Final = 100 * 2**20
 class Scene:
     """What radiates and scatters on the machine side, about the machine's centre of mass."""
 
-    body: Body
-    """The machine's surface and, after its faces, the panels of a cabinet."""
-    moving_faces: int
-    """Number of faces that belong to the machine; the others stand still."""
+    machine: Body
+    """The moving surface."""
+    panels: tuple[Body, ...]
+    """Those of a cabinet, which stand still."""
     walls: tuple[Mirror, ...]
 
-    @property
-    def machine(self) -> Body:
-        """The moving surface alone."""
-        return Body(self.body.vertices, self.body.faces[: self.moving_faces])
+    @cached_property
+    def body(self) -> Body:
+        """The machine's surface and, after its faces, the panels."""
+        return join_bodies([self.machine, *self.panels])
 
     @property
     def near_walls(self) -> tuple[Mirror, ...]:
         """Walls whose echo the machine scatters again: hard ones next to it, the floor always.
 
-        Those of the others is neglected.
+        The echo of the others is not scattered again.
         """
         corners = np.stack(self.body.bounds())
         return tuple(
@@ -58,7 +59,10 @@ class Scene:
         """The pattern on the machine's faces, and rest on the others."""
 
         def velocity(at: SurfacePoints) -> Array:
-            return pattern.velocity(at) * (at.face < self.moving_faces)[:, None]
+            on_machine = at.face < self.machine.faces.shape[0]
+            result = np.zeros(at.position.shape)
+            result[on_machine] = pattern.velocity(at.where([on_machine]))
+            return result
 
         return Pattern(pattern.name, velocity)
 
@@ -83,13 +87,13 @@ def scene(shell: Shell, settings: RadiationSettings) -> Scene:
                 f"{'xyz'[wall.axis]}; needed at least {1e3 * least:g} mm"
             )
     cabinet = settings.surroundings.cabinet
-    panels = [] if cabinet is None else list(cabinet_panels(cabinet, shell.floor_z_m))
-    if cabinet is not None:
-        _check_fits(machine, cabinet, shell.floor_z_m)
-    body = join_bodies([machine, *panels])
-    if panels and any(wall.depth_m(np.stack(body.bounds())).min() < -1e-9 for wall in walls):
+    if cabinet is None:
+        return Scene(machine, (), walls)
+    _check_fits(machine, cabinet, shell.floor_z_m)
+    whole = Scene(machine, tuple(cabinet_panels(cabinet, shell.floor_z_m)), walls)
+    if any(wall.depth_m(np.stack(whole.body.bounds())).min() < -1e-9 for wall in walls):
         raise ParameterError("radiation.surroundings.cabinet: its panels reach through a wall")
-    return Scene(body, machine.faces.shape[0], walls)
+    return whole
 
 
 def machine_body(shell: Shell, body: RadiatingBody) -> Body:

@@ -1,14 +1,20 @@
 """Points all over a body's surface, each with its share of the area."""
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .arrays import Array, IndexArray
 from .bodies import Body
+
+POINTS_AT_A_TIME: Final = 50_000
+"""Points of a part of the surface, about; a face is never shared by two parts."""
+_POINTS_PER_PATCH: Final = 6
+"""Pieces of a face per pair of planes through it, at most, of a cylinder's slender triangles."""
 
 
 @dataclass(frozen=True)
@@ -34,12 +40,26 @@ class SurfacePoints:
         )
 
 
-def surface_points(body: Body, planes: tuple[Array, Array, Array]) -> SurfacePoints:
-    """Centroids of the pieces into which planes across each axis cut the surface.
+def surface_in_parts(body: Body, planes: tuple[Array, Array, Array]) -> Iterator[SurfacePoints]:
+    """All points of the surface, `POINTS_AT_A_TIME` or so at a time."""
+    x, y, z = (
+        1 + np.ptp(np.searchsorted(across, body.triangles[:, :, axis]), axis=1)
+        for axis, across in enumerate(planes)
+    )
+    points = np.cumsum(_POINTS_PER_PATCH * (x * y + y * z + z * x))
+    ends = np.searchsorted(points, np.arange(POINTS_AT_A_TIME, points[-1], POINTS_AT_A_TIME))
+    for part in np.split(np.arange(points.size), ends):
+        if part.size:
+            yield surface_points(body, planes, part)
+
+
+def surface_points(
+    body: Body, planes: tuple[Array, Array, Array], face: IndexArray
+) -> SurfacePoints:
+    """Centroids of the pieces into which planes across each axis cut some faces of the surface.
 
     Exact pieces: no piece lies on both sides of a plane. Planes (plane,) rise, m.
     """
-    face: IndexArray = np.arange(body.faces.shape[0])
     corners: Array = np.tile(np.eye(3), (face.size, 1, 1))
     for axis, across in enumerate(planes):
         face, corners = _cut(body.triangles[:, :, axis], face, corners, across)

@@ -1,7 +1,7 @@
 """Sound pressure per unit velocity of the shell at microphones and other points, labelled."""
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any, Final
@@ -26,16 +26,22 @@ from .kwave import check_receiver, green_difference_db, kwave_green, kwave_versi
 from .machine_side import (
     COARSENING,
     MachineSide,
+    check_memory,
     in_threads,
     near_fields,
     outside,
     processors,
 )
+from .near_field import NearField
 from .patterns import rigid_body
 from .scene import Scene, file_patterns, position_m, scene
 from .sound_field import NO_SOUND_FIELD, SoundField, elsewhere
 
 _SHARE_OF_MEMORY: Final = 0.7
+_SOLVERS: Final = {
+    "k-wave": "cut cells, k-wave-python {}",
+    "closed-form": "cut cells, image sources",
+}
 
 
 def transfer_vectors(
@@ -51,11 +57,11 @@ def transfer_vectors(
     -------
     Dataset
         `transfer_vector` (receiver, dof, frequency) from the near field and the room's solver, its
-        standard error `transfer_vector_error`; `transfer_vector_closed_form`, the same near field
-        with the closed-form Green's function; `green_difference` (receiver, frequency), the level
-        difference of the two Green's functions where it is largest on the box, dB; coordinate
-        `distance` (receiver) from the origin, m. What the sound field asks for besides, with the
-        closed-form Green's function.
+        standard error `transfer_vector_error`; coordinate `distance` (receiver) from the origin, m.
+        Where that solver is k-Wave: `transfer_vector_closed_form`, the same near field with the
+        closed-form Green's function; `green_difference` (receiver, frequency), the level difference
+        of the two Green's functions where it is largest on the box, dB. What the sound field asks
+        for besides, with the closed-form Green's function.
 
     Raises
     ------
@@ -69,24 +75,20 @@ def transfer_vectors(
     extra = file_patterns(settings.body, surroundings.machine)
     positions = {name: position_m(shell, receiver) for name, receiver in receivers.items()}
     table = frequencies_hz(settings)
-    _check_receivers(surroundings, positions, settings, table.size)
+    near = near_fields(surroundings, settings.near_field_spacing_m, settings.maximum_frequency_hz)
     patterns = [*map(rigid_body, RIGID_BODY_DOFS), *extra]
-    side = MachineSide(
-        surroundings,
-        patterns,
-        settings.near_field_spacing_m,
-        settings.maximum_frequency_hz,
-        np.concatenate([table, sound_field.line_frequency_hz]),
-        progress,
-    )
+    frequency_hz = np.concatenate([table, sound_field.line_frequency_hz])
+    check_memory(near, len(patterns), frequency_hz.size)
+    _check_receivers(surroundings, near, positions, settings, table.size)
+    side = MachineSide(surroundings, near, patterns, frequency_hz, progress)
     microphones = _at_receivers(side, positions, settings, table, progress)
     dataset = _labelled(microphones, positions, table, [pattern.name for pattern in extra])
     dataset = dataset.merge(
         elsewhere(side, surroundings, shell.floor_z_m, sound_field, table.size, progress)
     )
-    grid = side.near[0].grid
+    grid = near[0].grid
     return check(dataset).assign_attrs(
-        solver=f"cut cells, k-wave-python {kwave_version()}",
+        solver=_SOLVERS[settings.room_solver].format(kwave_version()),
         room_solver=settings.room_solver,
         surroundings=settings.surroundings.model_dump_json(),
         near_field_cells=" x ".join(map(str, grid.shape)),
@@ -99,10 +101,13 @@ def transfer_vectors(
 
 
 def _check_receivers(
-    surroundings: Scene, positions: Mapping[str, Array], settings: RadiationSettings, number: int
+    surroundings: Scene,
+    near: Sequence[NearField],
+    positions: Mapping[str, Array],
+    settings: RadiationSettings,
+    number: int,
 ) -> None:
     """Refuse what cannot be computed before anything is computed."""
-    near = near_fields(surroundings, settings.near_field_spacing_m, settings.maximum_frequency_hz)
     walls = surroundings.walls
     for name, position in positions.items():
         check_outside(f"receivers.{name}", position, surroundings.body)
@@ -122,17 +127,28 @@ def _at_receivers(
     table: Array,
     progress: Progress,
 ) -> dict[str, Array | ComplexArray]:
-    """Pressures, errors and the check of the Green's function at the receivers."""
+    """Pressures (receiver, pattern, frequency) and errors; with k-Wave its check besides."""
     chosen = slice(0, table.size)
+    closed, corrections = (
+        np.array(part)
+        for part in zip(
+            *(side.pressures(position, chosen) for position in positions.values()), strict=True
+        )
+    )
+    error = np.abs(corrections)
+    if settings.room_solver == "closed-form":
+        return {"transfer_vector": closed, "transfer_vector_error": error}
     greens = _room_greens(side.near[0].box, positions, side, settings, table, progress)
-    found: dict[str, list[Any]] = {"simulated": [], "closed": [], "error": [], "difference": []}
-    for position, green in zip(positions.values(), greens, strict=True):
-        simulated, error = side.pressures(position, chosen, green)
-        found["simulated"].append(simulated)
-        found["closed"].append(side.pressures(position, chosen)[0])
-        found["error"].append(error)
-        found["difference"].append(green_difference_db(green, side.green(position, chosen)))
-    return {name: np.array(values) for name, values in found.items()}
+    difference = [
+        green_difference_db(green, side.green(position, chosen))
+        for position, green in zip(positions.values(), greens, strict=True)
+    ]
+    return {
+        "transfer_vector": corrections + [side.joined(green, chosen) for green in greens],
+        "transfer_vector_error": error,
+        "transfer_vector_closed_form": closed,
+        "green_difference": np.array(difference),
+    }
 
 
 def _room_greens(
@@ -143,9 +159,7 @@ def _room_greens(
     table: Array,
     progress: Progress,
 ) -> list[BoxField]:
-    """Green's functions of the receivers by the room's solver, several at a time."""
-    if settings.room_solver == "closed-form":
-        return [side.green(position, slice(0, table.size)) for position in positions.values()]
+    """Green's functions of the receivers by k-Wave, several at a time."""
     workers = _workers(box, positions, settings, side, table.size)
     threads = max(1, processors() // workers)
     arguments = (table, settings.maximum_frequency_hz, settings.room_spacing_m, side.walls)
@@ -259,16 +273,14 @@ def _labelled(
     number = len(RIGID_BODY_DOFS)
     by_dof = {**by_receiver, "dof": list(RIGID_BODY_DOFS)}
     arrays = {
-        "transfer_vector": stamp("transfer_vector", found["simulated"][:, :number], by_dof),
-        "transfer_vector_closed_form": stamp(
-            "transfer_vector_closed_form", found["closed"][:, :number], by_dof
-        ),
-        "transfer_vector_error": stamp("transfer_vector_error", found["error"][:, :number], by_dof),
-        "green_difference": stamp("green_difference", found["difference"], by_receiver),
+        name: stamp(name, values, by_receiver)
+        if name == "green_difference"
+        else stamp(name, values[:, :number], by_dof)
+        for name, values in found.items()
     }
     if patterns:
         by_pattern = {**by_receiver, "pattern": patterns}
-        for name, key in (("", "simulated"), ("_error", "error")):
-            full = f"pattern_transfer_vector{name}"
-            arrays[full] = stamp(full, found[key][:, number:], by_pattern)
+        for name in ("transfer_vector", "transfer_vector_error"):
+            full = f"pattern_{name}"
+            arrays[full] = stamp(full, found[name][:, number:], by_pattern)
     return xr.Dataset(arrays, coords={"distance": ("receiver", distances)})

@@ -1,5 +1,6 @@
 """What the moving surface pushes into each wall cell of the machine side's grid."""
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -16,64 +17,93 @@ _SLIDING: Final = 0.03
 """A wall that nowhere moves more than this share across itself slides: facets lean by 1.4°."""
 
 
-@dataclass(frozen=True)
-class WallPoints:
-    """Which points of the surface lie on which wall piece."""
+def wall_fluxes(
+    cells: CutCells, grid: NearGrid, surface: Iterable[SurfacePoints], patterns: Sequence[Pattern]
+) -> Array:
+    """Volume velocity out of each wall cell's fluid into the wall, m³/s, (pattern, wall).
 
-    points: SurfacePoints
-    wall: IndexArray
-    """Wall piece of each point, (point,)."""
-    like: IndexArray
-    """Wall piece that has points, next to each wall piece: itself where it has some, (wall,)."""
-
-    def mean(self, values: Array) -> Array:
-        """Mean of values (point, n) over each wall piece, (wall, n)."""
-        number = self.like.size
-        area = np.bincount(self.wall, self.points.area, number)
-        sums = [np.bincount(self.wall, self.points.area * part, number) for part in values.T]
-        means: Array = np.stack(sums, axis=1) / np.maximum(area, np.finfo(float).tiny)[:, None]
-        return means[self.like]
-
-
-def wall_points(cells: CutCells, points: SurfacePoints, grid: NearGrid) -> WallPoints:
-    """Wall piece of the cell on the fluid's side of each point, or the nearest one.
-
-    A cell that is all but solid may have no piece of wall, and a small piece no point.
-    """
-    cell = grid.cells_at(points.position + 1e-3 * grid.spacing_m * points.normal)
-    wall = np.searchsorted(cells.wall_cells, cell)
-    wall[wall == cells.wall_cells.size] = 0
-    lost = cells.wall_cells[wall] != cell
-    middles = grid.middles(cells.wall_cells)
-    wall[lost] = cKDTree(middles).query(points.position[lost])[1]
-    number = cells.wall_cells.size
-    filled = np.flatnonzero(np.bincount(wall, minlength=number))
-    like = np.arange(number)
-    empty = np.setdiff1d(like, filled)
-    like[empty] = filled[cKDTree(middles[filled]).query(middles[empty])[1]]
-    return WallPoints(points, wall, like)
-
-
-def wall_flux(cells: CutCells, surface: WallPoints, pattern: Pattern) -> Array:
-    """Volume velocity out of each wall cell's fluid into the wall, m³/s, (wall,).
-
-    Per unit velocity of the pattern; zero everywhere when the wall only slides along itself. Each
+    Per unit velocity of each pattern; zero everywhere when the wall only slides along itself. Each
     cell's mean velocity acts on its wall area as the open faces leave it, so that uniform motion
     makes no noise; what the velocity varies within the cell is summed over the surface itself.
     Errors of the flux matter most to patterns that have no volume velocity and no dipole moment:
     they drown their weak sound at low frequencies. The sum is made exact.
+
+    The surface's points come in parts, so that not all of them need be kept.
     """
-    points = surface.points
-    velocity = pattern.velocity(points)
-    normal = np.einsum("pi,pi->p", velocity, points.normal)
     number = cells.wall_cells.size
-    if np.abs(normal).max() <= _SLIDING * np.linalg.norm(velocity, axis=1).max():
-        return np.zeros(number)
-    mean = surface.mean(velocity)
-    varying = np.einsum("pi,pi->p", velocity - mean[surface.wall], points.normal)
-    flux = np.einsum("wi,wi->w", mean, cells.wall_areas)
-    flux -= np.bincount(surface.wall, points.area * varying, number)
-    moving = np.linalg.norm(mean, axis=1) * np.linalg.norm(cells.wall_areas, axis=1)
-    excess = flux.sum() + points.area @ normal
-    corrected: Array = flux - excess * moving / moving.sum()
-    return corrected
+    middles = cKDTree(grid.middles(cells.wall_cells))
+    area, area_vectors = np.zeros(number), np.zeros((number, 3))
+    sums = [_Sums(np.zeros((number, 3)), np.zeros(number)) for _ in patterns]
+    for points in surface:
+        wall = _wall_pieces(cells, grid, middles, points)
+        area += np.bincount(wall, points.area, number)
+        area_vectors += _by_piece(wall, points.area[:, None] * points.normal, number)
+        for pattern, own in zip(patterns, sums, strict=True):
+            own.add(pattern.velocity(points), points, wall)
+    nearest = _nearest_with_points(middles, area)
+    return np.array([own.flux(cells.wall_areas, area, area_vectors, nearest) for own in sums])
+
+
+@dataclass
+class _Sums:
+    """Sums of one pattern's velocity over the surface's points in each wall piece."""
+
+    velocity: Array
+    """Area times velocity, m³/s, (wall, 3)."""
+    across: Array
+    """Area times velocity out of the body, m³/s, (wall,)."""
+    fastest: float = 0.0
+    fastest_across: float = 0.0
+
+    def add(self, velocity: Array, points: SurfacePoints, wall: IndexArray) -> None:
+        """Add the points (point,) with their velocities (point, 3) and wall pieces."""
+        across = np.einsum("pi,pi->p", velocity, points.normal)
+        number = self.across.size
+        self.velocity += _by_piece(wall, points.area[:, None] * velocity, number)
+        self.across += np.bincount(wall, points.area * across, number)
+        self.fastest = max(self.fastest, float(np.linalg.norm(velocity, axis=1).max(initial=0.0)))
+        self.fastest_across = max(self.fastest_across, float(np.abs(across).max(initial=0.0)))
+
+    def flux(
+        self, wall_areas: Array, area: Array, area_vectors: Array, nearest: IndexArray
+    ) -> Array:
+        """Flux (wall,): the mean velocity on the wall areas of the grid, and what varies."""
+        if self.fastest_across <= _SLIDING * self.fastest:
+            return np.zeros(area.size)
+        own = self.velocity / np.maximum(area, np.finfo(float).tiny)[:, None]
+        varying = self.across - np.einsum("wi,wi->w", own, area_vectors)
+        mean = own[nearest]
+        flux = np.einsum("wi,wi->w", mean, wall_areas) - varying
+        moving = np.linalg.norm(mean, axis=1) * np.linalg.norm(wall_areas, axis=1)
+        excess = flux.sum() + self.across.sum()
+        corrected: Array = flux - excess * moving / moving.sum()
+        return corrected
+
+
+def _wall_pieces(
+    cells: CutCells, grid: NearGrid, middles: cKDTree, points: SurfacePoints
+) -> IndexArray:
+    """Wall piece of the cell on the fluid's side of each point, or the nearest one, (point,).
+
+    A cell that is all but solid may have no piece of wall.
+    """
+    cell = grid.cells_at(points.position + 1e-3 * grid.spacing_m * points.normal)
+    wall: IndexArray = np.searchsorted(cells.wall_cells, cell)
+    wall[wall == cells.wall_cells.size] = 0
+    lost = cells.wall_cells[wall] != cell
+    wall[lost] = middles.query(points.position[lost])[1]
+    return wall
+
+
+def _nearest_with_points(middles: cKDTree, area: Array) -> IndexArray:
+    """Wall piece that has points, next to each wall piece: itself where it has some, (wall,)."""
+    filled = np.flatnonzero(area)
+    empty = np.flatnonzero(area == 0.0)
+    nearest: IndexArray = np.arange(area.size)
+    nearest[empty] = filled[cKDTree(middles.data[filled]).query(middles.data[empty])[1]]
+    return nearest
+
+
+def _by_piece(wall: IndexArray, values: Array, number: int) -> Array:
+    """Sums of values (point, n) over each wall piece, (wall, n)."""
+    return np.stack([np.bincount(wall, part, number) for part in values.T], axis=1)

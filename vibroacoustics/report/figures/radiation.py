@@ -28,8 +28,9 @@ _KINDS: Final = (("translations", "t", "Pa per m/s"), ("rotations", "r", "Pa per
 
 
 def transfer_figures(results: xr.Dataset) -> list[Picture]:
-    """Transfer vectors at the catalogue's microphone, and the check of k-Wave's at all."""
-    return [_transfer(results, catalogue_receiver(results)), _difference(results)]
+    """Transfer vectors at the catalogue's microphone; where k-Wave ran, its check at all."""
+    pictures = [_transfer(results, catalogue_receiver(results))]
+    return [*pictures, _difference(results)] if "green_difference" in results else pictures
 
 
 def level_figures(results: xr.Dataset) -> list[Picture]:
@@ -73,7 +74,10 @@ def level_figures(results: xr.Dataset) -> list[Picture]:
 
 def _transfer(results: xr.Dataset, receiver: str) -> Picture:
     simulated = abs(results["transfer_vector"].sel(receiver=receiver))
-    closed = abs(results["transfer_vector_closed_form"].sel(receiver=receiver))
+    compared = "transfer_vector_closed_form" in results
+    closed = (
+        abs(results["transfer_vector_closed_form"].sel(receiver=receiver)) if compared else None
+    )
 
     def paint(panels: Sequence[Axes]) -> None:
         for axes, (title, letter, unit) in zip(panels, _KINDS, strict=True):
@@ -84,19 +88,26 @@ def _transfer(results: xr.Dataset, receiver: str) -> Picture:
                 axes.axvline(frequency, color="#888888", linewidth=0.9, linestyle=":")
         panels[-1].set_xlabel("Frequency, Hz")
 
+    greens = (
+        ": coloured lines with k-Wave's Green's function, black dots with the closed form"
+        if compared
+        else ", with the closed-form Green's function"
+    )
     return Picture(
         f"transfer_{file_name(receiver)}",
         f"Sound pressure at {receiver} per velocity of the housing against frequency, for "
-        "translations and rotations; k-Wave and closed form.",
-        f"Sound pressure at {receiver} per velocity of the housing: coloured lines with k-Wave's "
-        "Green's function, black dots with the closed form. tx, ty, tz: motion along x, y, z; "
+        f"translations and rotations{'; k-Wave and closed form' if compared else ''}.",
+        f"Sound pressure at {receiver} per velocity of the housing{greens}. "
+        "tx, ty, tz: motion along x, y, z; "
         "rx, ry, rz: rotation about them; motions that do not radiate there are left out. "
         "Upright dotted lines: 1× at the speeds of the study. Other microphones: in results.nc.",
         draw(2, 2.5, paint, 0, sharex=True),
     )
 
 
-def _transfer_panel(axes: Axes, simulated: xr.DataArray, closed: xr.DataArray, letter: str) -> None:
+def _transfer_panel(
+    axes: Axes, simulated: xr.DataArray, closed: xr.DataArray | None, letter: str
+) -> None:
     dofs = [dof for dof in map(str, simulated["dof"].values) if dof.startswith(letter)]
     largest = simulated.sel(dof=dofs).max("dof")
     radiating = [dof for dof in dofs if bool((simulated.sel(dof=dof) > NEGLIGIBLE * largest).any())]
@@ -104,7 +115,8 @@ def _transfer_panel(axes: Axes, simulated: xr.DataArray, closed: xr.DataArray, l
     for dof, dash in zip(radiating, ("-", "--", "-."), strict=False):
         curve = simulated.sel(dof=dof)
         axes.loglog(curve["frequency"], curve, dash, color=colours[dof], label=dof)
-        axes.loglog(curve["frequency"], closed.sel(dof=dof), ":", color="black", linewidth=1.1)
+        if closed is not None:
+            axes.loglog(curve["frequency"], closed.sel(dof=dof), ":", color="black", linewidth=1.1)
     if radiating:
         axes.legend(loc="lower right", frameon=False, ncols=3)
     frequency_ticks(axes, simulated["frequency"].values)
