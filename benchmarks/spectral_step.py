@@ -14,7 +14,8 @@ import numpy as np
 from vibroacoustics.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from vibroacoustics.radiation import kwave
 from vibroacoustics.radiation.room_grid import RoomGrid
-from vibroacoustics.radiation.spectral_step import SpectralStep, half_shape, step_bytes
+from vibroacoustics.radiation.spectral_layout import half_shape
+from vibroacoustics.radiation.spectral_step import SpectralStep, step_bytes
 
 ROUNDS = 5
 FUSED_STEPS_A_ROUND = 4

@@ -10,7 +10,7 @@ import pytest
 from support import PEAK_MEMORY, cube_box, in_child
 
 from vibroacoustics.errors import ParameterError
-from vibroacoustics.radiation import kwave, room_grid
+from vibroacoustics.radiation import kwave, room_green, room_grid
 from vibroacoustics.radiation.exact import box_green
 from vibroacoustics.radiation.mirrors import Mirror, floor
 from vibroacoustics.radiation.pulse import pulse, pulse_duration_s
@@ -32,7 +32,7 @@ def box():
 def simulated(box, microphone, mirrors=(FLOOR,), spacing_m=0.03, maximum_hz=2500.0, threads=2):
     frequency = FREQUENCY_HZ[maximum_hz >= FREQUENCY_HZ]
     microphone = np.array(microphone)
-    field = kwave.kwave_green(
+    field = room_green.kwave_green(
         box, microphone, frequency, maximum_hz, spacing_m, mirrors, threads=threads
     )
     return field, box_green(box, microphone, frequency, mirrors)
@@ -57,7 +57,7 @@ def test_green_function_is_that_of_the_image_sources(box, microphone, mirrors):
     Where images cancel to below -30 dB of the largest value, 2e-3 of that value.
     """
     field, expected = simulated(box, microphone, mirrors)
-    assert np.abs(kwave.green_difference_db(field, expected)).max() < 0.1
+    assert np.abs(room_green.green_difference_db(field, expected)).max() < 0.1
     largest = np.abs(expected.outer).max(axis=1, keepdims=True)
     assert (np.abs(field.outer - expected.outer) / largest).max() < 2e-3
     # The normal difference between the layers, against its largest value on the box.
@@ -73,7 +73,7 @@ def test_green_function_is_that_of_the_image_sources(box, microphone, mirrors):
 )
 def test_microphone_on_a_wall_is_one_stronger_source(box, microphone, mirrors):
     field, expected = simulated(box, microphone, mirrors, maximum_hz=1000.0)
-    assert np.abs(kwave.green_difference_db(field, expected)).max() < 0.1
+    assert np.abs(room_green.green_difference_db(field, expected)).max() < 0.1
 
 
 @pytest.mark.slow
@@ -92,10 +92,10 @@ def test_neither_decimation_nor_single_precision_matters(box, monkeypatch):
     case = (box, (0.2, -0.6, 0.2))
     expected, _ = simulated(*case)
     with monkeypatch.context() as patch:
-        patch.setattr(kwave, "steps_per_sample", lambda *arguments: 1)
-        assert np.abs(kwave.green_difference_db(simulated(*case)[0], expected)).max() < 1e-3
-    monkeypatch.setattr(kwave, "PRECISION", np.float32)
-    assert np.abs(kwave.green_difference_db(simulated(*case)[0], expected)).max() < 5e-3
+        patch.setattr(room_green, "steps_per_sample", lambda *arguments: 1)
+        assert np.abs(room_green.green_difference_db(simulated(*case)[0], expected)).max() < 1e-3
+    monkeypatch.setattr(room_green, "PRECISION", np.float32)
+    assert np.abs(room_green.green_difference_db(simulated(*case)[0], expected)).max() < 5e-3
 
 
 def test_several_microphones_at_a_time_change_nothing(box):
@@ -223,7 +223,7 @@ def test_floor_plane_carries_no_vertical_flow(box):
 )
 def test_impossible_microphones_are_refused(box, microphone, mirrors, message):
     with pytest.raises(ParameterError, match=message) as refusal:
-        kwave.check_receiver("near", np.array(microphone), box, 0.03, mirrors, 100)
+        room_green.check_receiver("near", np.array(microphone), box, 0.03, mirrors, 100)
     assert "\n" not in str(refusal.value)
 
 
@@ -247,18 +247,18 @@ def test_predicted_memory_is_what_a_run_takes(spacing_m, frequencies):
     measured, predicted = in_child(f"""
         {PEAK_MEMORY}
         import numpy as np
-        from vibroacoustics.radiation import kwave, room_grid
+        from vibroacoustics.radiation import kwave, room_green, room_grid
         from vibroacoustics.radiation.box import closed_box
         from vibroacoustics.radiation.mirrors import floor
         box = closed_box([0.0125 * np.arange(-9.0, 10.0)] * 3, [1] * 3, [17] * 3, {(2, -1)})
         frequency = np.linspace(25.0, 500.0, {frequencies})
         microphone, walls = np.array([1.2, 0.1, 0.5]), (floor(-0.1),)
-        kwave.kwave_green(box, microphone, frequency[:2], 500.0, 0.1, walls)
+        room_green.kwave_green(box, microphone, frequency[:2], 500.0, 0.1, walls)
         before = peak()
-        kwave.kwave_green(box, microphone, frequency, 500.0, {spacing_m}, walls)
+        room_green.kwave_green(box, microphone, frequency, 500.0, {spacing_m}, walls)
         after = peak(forget=False)
         grid = room_grid.room_grid(microphone, box, {spacing_m}, walls)
-        print(after - before, kwave.memory_bytes(grid, box, {frequencies}))
+        print(after - before, room_green.memory_bytes(grid, box, {frequencies}))
     """)
     assert float(predicted) == pytest.approx(float(measured), rel=0.2)
 
@@ -269,7 +269,7 @@ def test_device_memory_is_asked_for_where_there_is_a_device(box, monkeypatch):
     device = SimpleNamespace(cuda=SimpleNamespace(runtime=runtime))
     monkeypatch.setattr(kwave, "array_namespace", lambda: device)
     with pytest.raises(ParameterError, match=r"0\.000977 GiB are available"):
-        kwave.check_receiver("far", np.array([0.5, 0.0, 0.0]), box, 0.03, (FLOOR,), 100)
+        room_green.check_receiver("far", np.array([0.5, 0.0, 0.0]), box, 0.03, (FLOOR,), 100)
 
 
 @pytest.mark.parametrize("devices", [0, 1, None])
@@ -305,7 +305,7 @@ def test_importing_and_running_kwave_touches_no_network():
                 raise RuntimeError("network")
         socket.socket = Refused
         import numpy as np
-        from vibroacoustics.radiation import kwave, room_grid
+        from vibroacoustics.radiation import kwave, room_green, room_grid
         from vibroacoustics.radiation.box import closed_box
         assert "kwave" not in sys.modules
         box = closed_box([0.05 * np.arange(-3.0, 4.0)] * 3, [1] * 3, [5] * 3, ())

@@ -14,12 +14,7 @@ stays a spectrum. That is 12 passes of one-dimensional transforms a step instead
 three-dimensional ones, each line's work stays in the cache, and pressures in space cost a
 transform only when they are read. In exact arithmetic the result is k-Wave's.
 
-Real fields need half of their spectrum. The last axis is the one cut in half, except for fields
-of the last axis itself, which are cut in half along the second.
-
-Layouts, with half lengths h = n//2 + 1: pressure (x, y, hz); fields of axis 0 (y, x, hz), of axis
-1 (x, y, hz), of axis 2 (x, hy, z). The second or third axis is that of the lines; slabs are cut
-along the first.
+The layouts of the spectra are told in `spectral_layout`.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -27,13 +22,23 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any, Final
 
-import numba
 import numpy as np
 import scipy.fft
 from numpy.typing import DTypeLike
 
 from .arrays import Array, ComplexArray
 from .fft import LINE_AXIS, Slab, slab_type
+from .spectral_layout import (
+    advance_lines,
+    along_lines,
+    doubled,
+    gather,
+    half_shape,
+    in_layout,
+    multiply,
+    partial_transform,
+    scatter,
+)
 
 _SLAB_BYTES: Final = 2**18
 """Size of a slab's work array: two of them and what they are combined with fit the cache."""
@@ -171,18 +176,18 @@ class _AxisField:
     ) -> None:
         real = correction.dtype
         self._axis = axis
-        self._correction = _in_layout(correction, axis, footprint.shape)
-        self.footprint: ComplexArray | None = _partial_transform(footprint, axis)
+        self._correction = in_layout(correction, axis, footprint.shape)
+        self.footprint: ComplexArray | None = partial_transform(footprint, axis)
         self.footprint *= real.type(source_factor)
         self._velocity = np.zeros_like(self.footprint)
         self._part = np.zeros_like(self.footprint)
         lines = self._velocity.shape[1:]
         complex_type = self._velocity.dtype
-        self._gradient = _along_lines(operators.gradient, axis, lines).astype(complex_type)
-        self._divergence = _along_lines(operators.divergence, axis, lines).astype(complex_type)
-        self._damping = _doubled(_along_lines(operators.damping, axis, lines), real)
-        self._damping_staggered = _doubled(
-            _along_lines(operators.damping_staggered, axis, lines), real
+        self._gradient = along_lines(operators.gradient, axis, lines).astype(complex_type)
+        self._divergence = along_lines(operators.divergence, axis, lines).astype(complex_type)
+        self._damping = doubled(along_lines(operators.damping, axis, lines), real)
+        self._damping_staggered = doubled(
+            along_lines(operators.damping_staggered, axis, lines), real
         )
         # The transforms to positions lack their factor 1/n.
         nodes = operators.wavenumber.size
@@ -217,20 +222,22 @@ class _AxisField:
             correction = self._correction[planes]
             lines, positions = slab.wavenumber, slab.position.view(real)
             velocity, part = self._velocity[planes], self._part[planes]
-            _gather(self._axis, old, planes, lines)
-            _multiply(lines, correction, self._gradient)
+            gather(self._axis, old, planes, lines)
+            multiply(lines, correction, self._gradient)
             slab.to_position()
-            _advance(velocity.view(real), positions, self._damping_staggered, self._velocity_factor)
+            advance_lines(
+                velocity.view(real), positions, self._damping_staggered, self._velocity_factor
+            )
             slab.to_wavenumber()
-            _multiply(lines, correction, self._divergence)
+            multiply(lines, correction, self._divergence)
             slab.to_position()
-            _advance(part.view(real), positions, self._damping, self._pressure_factor)
+            advance_lines(part.view(real), positions, self._damping, self._pressure_factor)
             if signal is not None and self.footprint is not None:
                 np.multiply(self.footprint[planes], real(signal), out=lines)
                 part += lines
                 slab.position[...] = part
             slab.to_wavenumber()
-            _scatter(self._axis, lines, planes, new)
+            scatter(self._axis, lines, planes, new)
 
     def read(
         self,
@@ -243,7 +250,7 @@ class _AxisField:
         """Fill slabs of the pressure at some positions of axis 0."""
         for planes in slabs:
             slab = self._work[thread][planes.stop - planes.start]
-            _gather(0, pressure, planes, slab.wavenumber)
+            gather(0, pressure, planes, slab.wavenumber)
             slab.to_position()
             part[:, planes] = slab.position[:, rows].swapaxes(0, 1)
 
@@ -252,11 +259,6 @@ def step_bytes(shape: Sequence[int], dtype: DTypeLike) -> float:
     """Memory that an engine takes at its peak."""
     values = _VALUES_PER_NODE * np.prod([count + 1.0 for count in shape])
     return float(values * np.dtype(dtype).itemsize)
-
-
-def half_shape(shape: Sequence[int]) -> tuple[int, ...]:
-    """Shape of the half spectrum of a real field."""
-    return (*shape[:-1], shape[-1] // 2 + 1)
 
 
 def _slabs(field: ComplexArray) -> list[slice]:
@@ -288,109 +290,3 @@ def _footprint(
     spectrum *= _of_wavenumber(axes, lambda k: np.cos(courant * k), real)
     footprint: Array = scipy.fft.irfftn(spectrum, s=nodes.shape, overwrite_x=True)
     return footprint
-
-
-def _partial_transform(field: Array, axis: int) -> ComplexArray:
-    """A field in space in the layout of the fields of one axis."""
-    others = [other for other in range(3) if other != axis]
-    spectrum: ComplexArray = scipy.fft.rfftn(field, axes=others)
-    return np.ascontiguousarray(spectrum.swapaxes(0, 1)) if axis == 0 else spectrum
-
-
-def _in_layout(half: Array, axis: int, shape: Sequence[int]) -> Array:
-    """A real function of |k|, (x, y, hz), in the layout of the fields of one axis."""
-    if axis == 0:
-        return np.ascontiguousarray(half.swapaxes(0, 1))
-    if axis == 1:
-        return half
-    mirrored = half[:, : shape[1] // 2 + 1, (shape[2] - 1) // 2 : 0 : -1]
-    return np.concatenate([half[:, : shape[1] // 2 + 1], mirrored], axis=2)
-
-
-def _along_lines(values: Array | ComplexArray, axis: int, lines: tuple[int, ...]) -> Any:
-    """Values of a line repeated for a plane of lines."""
-    column = values if LINE_AXIS[axis] == 2 else values[:, None]
-    return np.ascontiguousarray(np.broadcast_to(column, lines))
-
-
-def _doubled(values: Array, real: np.dtype[Any]) -> Array:
-    """Each value of a plane twice, once for the real part and once for the imaginary one."""
-    result: Array = np.repeat(values, 2, axis=-1).astype(real)
-    return result
-
-
-def _gather(axis: int, pressure: ComplexArray, planes: slice, lines: ComplexArray) -> None:
-    """Copy a slab of the pressure's spectrum into the layout of an axis."""
-    if axis == 0:
-        lines[...] = pressure[:, planes].swapaxes(0, 1)
-    elif axis == 1:
-        lines[...] = pressure[planes]
-    else:
-        _gather_z(pressure, planes.start, lines)
-
-
-def _scatter(axis: int, lines: ComplexArray, planes: slice, pressure: ComplexArray) -> None:
-    """Write a slab's part of the pressure's spectrum: axis 0 comes first, the others add."""
-    if axis == 0:
-        pressure[:, planes] = lines.swapaxes(0, 1)
-    elif axis == 1:
-        pressure[planes] += lines
-    else:
-        _scatter_z(lines, planes.start, pressure)
-
-
-_kernel = numba.njit(cache=True, nogil=True)
-
-
-@_kernel
-def _gather_z(pressure: ComplexArray, first: int, lines: ComplexArray) -> None:
-    """Complete the half spectrum along z: values at -k are conjugates of those at k."""
-    nx, ny, half = pressure.shape
-    nz = lines.shape[2]
-    for plane in range(lines.shape[0]):
-        for y in range(lines.shape[1]):
-            line, x = lines[plane, y], first + plane
-            line[:half] = pressure[x, y]
-            mate = pressure[(nx - x) % nx, (ny - y) % ny]
-            for z in range(1, nz - half + 1):
-                line[nz - z] = np.conj(mate[z])
-
-
-@_kernel
-def _scatter_z(lines: ComplexArray, first: int, pressure: ComplexArray) -> None:
-    """Add to wavenumbers (kx, ky) and, the fields being real, to (-kx, -ky)."""
-    nx, ny, half = pressure.shape
-    nz = lines.shape[2]
-    for plane in range(lines.shape[0]):
-        for y in range(lines.shape[1]):
-            line, x = lines[plane, y], first + plane
-            row = pressure[x, y]
-            for z in range(half):
-                row[z] += line[z]
-            if 0 < y < ny - y:  # elsewhere -ky is ky, whose lines are all here
-                mate = pressure[(nx - x) % nx, ny - y]
-                mate[0] += np.conj(line[0])
-                for z in range(1, half):
-                    mate[z] += np.conj(line[nz - z])
-
-
-@_kernel
-def _multiply(lines: ComplexArray, correction: Array, derivative: ComplexArray) -> None:
-    """Differentiate along the lines: times k-space correction and derivative."""
-    for plane in range(lines.shape[0]):
-        for row in range(lines.shape[1]):
-            line, factor, symbol = lines[plane, row], correction[plane, row], derivative[row]
-            for column in range(line.size):
-                line[column] *= factor[column] * symbol[column]
-
-
-@_kernel
-def _advance(field: Array, change: Array, damping: Array, factor: np.floating[Any]) -> None:
-    """Field <- d (d field - factor change), kept and put in place of the change."""
-    for plane in range(field.shape[0]):
-        for row in range(field.shape[1]):
-            old, new, damp = field[plane, row], change[plane, row], damping[row]
-            for column in range(old.size):
-                value = damp[column] * (damp[column] * old[column] - factor * new[column])
-                old[column] = value
-                new[column] = value

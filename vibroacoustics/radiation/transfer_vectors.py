@@ -22,7 +22,7 @@ from .arrangements import check_outside
 from .arrays import Array, ComplexArray, Progress, no_progress
 from .box import Box, BoxField
 from .interpolation import interpolate
-from .kwave import check_receiver, green_difference_db, kwave_green, kwave_version, memory_bytes
+from .kwave import kwave_version
 from .machine_side import (
     COARSENING,
     MachineSide,
@@ -34,6 +34,7 @@ from .machine_side import (
 )
 from .near_field import NearField
 from .patterns import rigid_body
+from .room_green import check_receiver, green_difference_db, kwave_green, memory_bytes
 from .scene import Scene, file_patterns, position_m, scene
 from .sound_field import NO_SOUND_FIELD, SoundField, elsewhere
 
