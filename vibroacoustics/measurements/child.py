@@ -35,6 +35,8 @@ READERS: Final[dict[str, Callable[[Request], Recorded]]] = {
 }
 """Reader by the suffix of the file's name."""
 MAXIMUM_CPU_S: Final = 600
+PIECE: Final = 2**17
+"""Samples that are handed over at a time, 1 MiB."""
 
 
 def answer(request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
@@ -126,7 +128,9 @@ def _write(output: BinaryIO, request: Request) -> None:
     with output:
         output.write(json.dumps(header).encode() + b"\n")
         for samples in channels:
-            output.write(np.ascontiguousarray(samples, dtype=float).data.cast("B"))
+            for start in range(0, len(samples), PIECE):
+                piece = np.ascontiguousarray(samples[start : start + PIECE], dtype=float)
+                output.write(piece.data.cast("B"))
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
+from pathlib import Path
 from typing import BinaryIO, Final
 
 import numpy as np
@@ -27,9 +28,7 @@ class _Head:
     names: Sequence[str]
     units: Sequence[str]
     separator: str
-    decimal: str
-    offset: int
-    """Bytes above the numbers."""
+    has_decimal_comma: bool
     lines: int
 
 
@@ -45,7 +44,7 @@ def read(request: Request) -> Recorded:
     """
     with request.path.open("rb") as file:
         head = _read_head(file)
-        table = _read_numbers(file, head)
+    table = _read_numbers(request.path, head)
     check_size(len(head.names), len(table))
     rate = request.sample_rate_hz
     time_column = _time_column(head)
@@ -64,20 +63,18 @@ def read(request: Request) -> Recorded:
 
 
 def _read_head(file: BinaryIO) -> _Head:
-    raw = list(islice(_raw_lines(file), MAXIMUM_HEAD_LINES))
-    lines = [_text(line) for line in raw]
+    lines = [_text(line) for line in islice(_lines(file), MAXIMUM_HEAD_LINES)]
     for separator in SEPARATORS:
         rows = [next(csv.reader([line], delimiter=separator), []) for line in lines]
         for place, fields in enumerate(rows):
             if (len(fields) > 1 or separator == ",") and _are_numbers(fields, separator):
                 names, units = _parse_names(rows[:place], len(fields))
                 is_comma = separator != "," and any("," in line for line in lines[place:])
-                offset = sum(len(line) for line in raw[:place])
-                return _Head(names, units, separator, "," if is_comma else ".", offset, place)
+                return _Head(names, units, separator, is_comma, place)
     raise StorageError(f"has no row of numbers in its first {len(lines)} lines")
 
 
-def _raw_lines(file: BinaryIO) -> Iterator[bytes]:
+def _lines(file: BinaryIO) -> Iterator[bytes]:
     number = 0
     while line := file.readline(MAXIMUM_LINE_BYTES):
         number += 1
@@ -141,22 +138,13 @@ def _time_column(head: _Head) -> int | None:
     return found[0] if found else None
 
 
-def _read_numbers(file: BinaryIO, head: _Head) -> Samples:
-    import pandas
-
-    file.seek(head.offset)
-    try:
-        table = pandas.read_csv(
-            file,
-            sep=head.separator,
-            decimal=head.decimal,
-            header=None,
-            dtype=float,
-            encoding="latin-1",
-            skipinitialspace=True,
-        )
-    except ValueError as error:
-        raise StorageError(
-            f"below its {head.lines} header lines (line 1 is the first below): {error}"
-        ) from None
-    return np.asarray(table)
+def _read_numbers(path: Path, head: _Head) -> Samples:
+    with path.open(encoding="latin-1", newline="\n") as file:
+        lines: Iterator[str] = islice(file, head.lines, None)
+        if head.has_decimal_comma:
+            lines = (line.replace(",", ".") for line in lines)
+        try:
+            return np.loadtxt(lines, delimiter=head.separator, comments=None, ndmin=2)
+        except ValueError as error:
+            reason = str(error).split("; use `")[0]
+            raise StorageError(f"below its {head.lines} header lines: {reason}") from None

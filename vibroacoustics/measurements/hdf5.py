@@ -33,16 +33,22 @@ def _read_hdf5(request: Request) -> Recorded:
     import h5py
 
     with h5py.File(request.path, "r") as file:
-        arrays: list[NamedArray] = []
-
-        def collect(name: str, item: Any) -> None:
-            if len(arrays) == MAXIMUM_DATASETS:
-                raise StorageError(f"holds more than {MAXIMUM_DATASETS} datasets")
-            if isinstance(item, h5py.Dataset):
-                arrays.append(named_dataset(name, item))
-
-        file.visititems(collect)
+        arrays = [named_dataset(name, found) for name, found in datasets(file)]
         return recorded(arrays, _plain(file.attrs), request)
+
+
+def datasets(file: Any) -> list[tuple[str, Any]]:
+    """Path and dataset of all that an HDF5 file holds itself; links to others are not followed."""
+    found: list[tuple[str, Any]] = []
+
+    def collect(name: str, item: Any) -> None:
+        if len(found) == MAXIMUM_DATASETS:
+            raise StorageError(f"holds more than {MAXIMUM_DATASETS} datasets")
+        if hasattr(item, "shape"):
+            found.append((name, item))
+
+    file.visititems(collect)
+    return found
 
 
 def named_dataset(name: str, dataset: Any) -> NamedArray:

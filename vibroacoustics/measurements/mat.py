@@ -4,8 +4,8 @@ from functools import partial
 from typing import Any, Final
 
 from ..errors import ParameterError
-from .hdf5 import named_dataset
-from .named_arrays import NamedArray, recorded
+from .hdf5 import datasets, named_dataset
+from .named_arrays import NamedArray, as_text, recorded
 from .recorded import Recorded, Request, listed
 
 _HDF5_MARK: Final = b"\x89HDF\r\n\x1a\n"
@@ -52,14 +52,12 @@ def _read_hdf5(request: Request) -> Recorded:
     import h5py
 
     with h5py.File(request.path, "r") as file:
-        items = [(name, item) for name, item in file.items() if not name.startswith("#")]
         arrays = [
-            named_dataset(name, item)
-            for name, item in items
-            if isinstance(item, h5py.Dataset)
-            and item.attrs.get("MATLAB_class", b"").decode() in _NUMBERS
+            named_dataset(name, found)
+            for name, found in datasets(file)
+            if "/" not in name and as_text(found.attrs.get("MATLAB_class", "")) in _NUMBERS
         ]
-        _check_numbers(arrays, [name for name, _ in items])
+        _check_numbers(arrays, [name for name in file if not name.startswith("#")])
         return recorded(arrays, {}, request)
 
 

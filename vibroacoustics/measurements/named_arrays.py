@@ -6,7 +6,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from ..errors import ParameterError
+from ..errors import ParameterError, StorageError
 from .quantities import time_factor
 from .recorded import (
     MINIMUM_SAMPLES,
@@ -22,6 +22,7 @@ from .recorded import (
 RATE_NAMES: Final = ("sample_rate_hz", "sample_rate", "fs", "Fs")
 TIME_NAMES: Final = ("time", "time_s", "t")
 UNIT_NAMES: Final = ("units", "unit")
+MAXIMUM_COLUMNS: Final = 10_000
 OWN_NAMES: Final = frozenset({"signal", "channel", "channel_unit"})
 """Variables of a recording that we wrote as netCDF (schema.py)."""
 
@@ -137,7 +138,9 @@ def _columns(arrays: Sequence[NamedArray], time: NamedArray | None) -> list[_Col
     for array in arrays:
         if array is time or not array.may_be_channels:
             continue
-        width = int(np.prod(array.shape)) // array.shape[array.time_axis]
+        width = min(array.shape) if len(array.shape) == 2 else 1
+        if width > MAXIMUM_COLUMNS:
+            raise StorageError(f"variable {array.name!r} claims {array.shape} values: too wide")
         unit = next((as_text(array.attributes[n]) for n in UNIT_NAMES if n in array.attributes), "")
         names = numbered([array.name] * width)
         columns += [

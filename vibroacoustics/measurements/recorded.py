@@ -1,5 +1,6 @@
 """What a reader of one format is asked for and what it hands back, with the checks they share."""
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -38,15 +39,15 @@ class Request:
         Raises
         ------
         ParameterError
-            The file has no channel of that name.
+            The file has no channel of that name, or several.
         """
-        wanted = names if self.channels is None else self.channels
-        for name in wanted:
-            if name not in names:
-                raise ParameterError(
-                    f"channel {name!r}: not in the file, which holds {listed(names)}"
-                )
-        return [names.index(name) for name in wanted]
+        if self.channels is None:
+            return list(range(len(names)))
+        for name in self.channels:
+            if names.count(name) != 1:
+                there = "not in the file" if name not in names else "more than once in the file"
+                raise ParameterError(f"channel {name!r}: {there}, which holds {listed(names)}")
+        return [names.index(name) for name in self.channels]
 
 
 @dataclass(frozen=True)
@@ -119,12 +120,8 @@ def even_rate_hz(time_s: Samples, request: Request) -> float:
 
 def numbered(names: Sequence[str]) -> list[str]:
     """The names, with a number behind those that occur more than once."""
-    if len(set(names)) == len(names):
-        return list(names)
-    return [
-        f"{name} {number}" if names.count(name) > 1 else name
-        for number, name in enumerate(names, 1)
-    ]
+    times = Counter(names)
+    return [f"{name} {number}" if times[name] > 1 else name for number, name in enumerate(names, 1)]
 
 
 def listed(names: Sequence[str], most: int = 12) -> str:

@@ -1,5 +1,6 @@
 """The labelled form of a recording and what every recording must fulfil."""
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -97,7 +98,7 @@ def _check_form(
         )
     if not 0.0 < sample_rate_hz < np.inf:
         raise ParameterError(f"sample_rate_hz = {sample_rate_hz:g} Hz: must be above zero")
-    twice = sorted({name for name in names if names.count(name) > 1})
+    twice = sorted(name for name, times in Counter(names).items() if times > 1)
     if twice or not all(names):
         raise ParameterError(f"channel names must be unique and not empty: {twice or ['']}")
 
