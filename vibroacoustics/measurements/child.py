@@ -60,7 +60,7 @@ def answer(request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
     except ModuleNotFoundError as error:
         return _refusal(f"needs {error.name}: pip install vibroacoustics[io]"), ()
     except Exception as error:  # on a damaged file a parser may raise anything
-        return _refusal(f"is damaged or no such file: {type(error).__name__}: {error}"), ()
+        return _refusal(f"is damaged or not of this format: {type(error).__name__}: {error}"), ()
     header = {
         "names": list(found.names),
         "units": list(found.units),

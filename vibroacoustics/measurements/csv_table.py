@@ -4,6 +4,7 @@ import csv
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import islice
 from pathlib import Path
 from typing import BinaryIO, Final
@@ -65,7 +66,7 @@ def read(request: Request) -> Recorded:
 def _read_head(file: BinaryIO) -> _Head:
     lines = [_text(line) for line in islice(_lines(file), MAXIMUM_HEAD_LINES)]
     for separator in SEPARATORS:
-        rows = [next(csv.reader([line], delimiter=separator), []) for line in lines]
+        rows = [_fields(line, separator) for line in lines]
         for place, fields in enumerate(rows):
             if (len(fields) > 1 or separator == ",") and _are_numbers(fields, separator):
                 names, units = _parse_names(rows[:place], len(fields))
@@ -88,6 +89,13 @@ def _text(line: bytes) -> str:
         return line.decode("utf-8-sig")
     except UnicodeDecodeError:  # as Western European spreadsheets write m/s²
         return line.decode("latin-1")
+
+
+def _fields(line: str, separator: str) -> list[str]:
+    try:
+        return next(csv.reader([line], delimiter=separator), [])
+    except csv.Error as error:
+        raise StorageError(f"line {line[:40]!r} cannot be split: {error}") from None
 
 
 def _are_numbers(fields: Sequence[str], separator: str) -> bool:
@@ -140,7 +148,8 @@ def _time_column(head: _Head) -> int | None:
 
 def _read_numbers(path: Path, head: _Head) -> Samples:
     with path.open(encoding="latin-1", newline="\n") as file:
-        lines: Iterator[str] = islice(file, head.lines, None)
+        pieces = iter(partial(file.readline, MAXIMUM_LINE_BYTES), "")  # of a line without end
+        lines: Iterator[str] = islice(pieces, head.lines, None)
         if head.has_decimal_comma:
             lines = (line.replace(",", ".") for line in lines)
         try:

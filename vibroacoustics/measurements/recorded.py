@@ -76,8 +76,9 @@ def check_size(channels: int, samples: int) -> None:
     size = 8 * (channels + 1) * samples
     if size > MAXIMUM_RECORDING_BYTES:
         raise StorageError(
-            f"{channels} channels of {samples} samples take {size / 2**30:.3g} GiB; at most "
-            f"{MAXIMUM_RECORDING_BYTES / 2**30:g} GiB: choose fewer channels or a shorter part"
+            f"{channels} channels of {samples} samples and their times take {size / 2**30:.3g} "
+            f"GiB; at most {MAXIMUM_RECORDING_BYTES / 2**30:g} GiB: choose fewer channels or a "
+            "shorter part"
         )
 
 

@@ -22,8 +22,7 @@ def read(request: Request) -> Recorded:
     from nptdms import TdmsFile
 
     with TdmsFile.open(request.path) as file:
-        if file.file_status.incomplete_final_segment:
-            raise StorageError("is truncated: its last segment is incomplete")
+        _check_whole(file)
         found = [channel for group in file.groups() for channel in group.channels()]
         found = [channel for channel in found if channel.dtype.kind in "iuf" and len(channel)]
         has_groups = len({channel.group_name for channel in found}) > 1
@@ -41,6 +40,16 @@ def read(request: Request) -> Recorded:
             sample_rate_hz=rate,
             start_time=str(channels[0].properties.get(START, "")),
         )
+
+
+def _check_whole(file: Any) -> None:
+    """npTDMS reads what there is of the last segment; half a recording is refused here."""
+    status = file.file_status
+    lengths = (status.channel_statuses or {}).values()
+    if status.incomplete_final_segment or any(
+        length.read_length != length.expected_length for length in lengths
+    ):
+        raise StorageError("is truncated: its last segment holds less than it claims")
 
 
 def _check_alike(names: list[str], channels: list[Any], request: Request) -> float:
