@@ -128,7 +128,7 @@ def test_units(tmp_path):
     says(refused(path, calibration={"b": 2.0}), "calibration: no channel 'b'")
     says(refused(path, channels=["x"]), "channel 'x': not in the file, which holds 'a'")
     says(refused(path, channels=[]), "no channel is chosen")
-    says(refused(path, sample_rate_hz=-1.0), "sample_rate_hz = -1 Hz: must be above zero")
+    says(refused(path, sample_rate_hz=0.0), "sample_rate_hz = 0 Hz: must be above zero")
     unnamed = write(tmp_path / "b.csv", "time [s],a\n0,1\n1,2\n")
     says(refused(unnamed), "states no unit for 'a'", "units={'a': 'Pa'}")
 
@@ -165,8 +165,8 @@ def test_complex_and_empty_variables(tmp_path):
     says(refused(tmp_path / "a.mat"), "no vector of numbers", "'a (double)'")
 
 
-def test_objects_are_never_unpickled(tmp_path):
-    """A dataset in another file, or behind a link, is not read either."""
+def test_no_other_file_is_read(tmp_path):
+    """A dataset in another file, or behind a link to one."""
     with h5py.File(tmp_path / "other.h5", "w") as file:
         file["a"] = SAMPLES[0]
     with h5py.File(tmp_path / "a.h5", "w") as file:

@@ -182,7 +182,7 @@ def _stated_rate_hz(
 
 
 def _rate_hz(time: NamedArray | None, stated: float | None, request: Request) -> float:
-    if time is None or request.sample_rate_hz is not None:
+    if time is None:
         rate = request.sample_rate_hz or stated
         if rate is None:
             raise ParameterError(
@@ -194,7 +194,7 @@ def _rate_hz(time: NamedArray | None, stated: float | None, request: Request) ->
     factor = time_factor(as_text(time.attributes.get("units", "s")))
     axis = np.asarray(time.load(), dtype=float).ravel() * factor
     rate = even_rate_hz(axis, request)
-    if stated is None:
+    if stated is None or request.sample_rate_hz is not None:
         return rate
     if not abs(stated / rate - 1.0) * axis.size <= 1.0:  # they differ by more than a sample
         raise ParameterError(

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError, StorageError, VibroacousticsError
 from .child import MAXIMUM_CPU_S, READERS
-from .recorded import MAXIMUM_READING_BYTES, listed
+from .recorded import MAXIMUM_READING_BYTES, check_rate, listed
 from .recording import label_in_place
 
 Array = NDArray[np.float64]
@@ -61,6 +61,8 @@ def read_recording(
     path = Path(path)
     try:
         _check_file(path)
+        if sample_rate_hz is not None:
+            check_rate(sample_rate_hz)
         header, stored = _read_in_child(
             {
                 "path": str(path),

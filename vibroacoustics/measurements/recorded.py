@@ -82,6 +82,18 @@ def check_size(channels: int, samples: int) -> None:
         )
 
 
+def check_rate(sample_rate_hz: float) -> None:
+    """Refuse a sample rate that is none.
+
+    Raises
+    ------
+    ParameterError
+        It is not above zero or not finite.
+    """
+    if not 0.0 < sample_rate_hz < np.inf:
+        raise ParameterError(f"sample_rate_hz = {sample_rate_hz:g} Hz: must be above zero")
+
+
 def even_rate_hz(time_s: Samples, request: Request) -> float:
     """Sample rate of a time axis, from its end points: (N - 1) / (t_N - t_1).
 

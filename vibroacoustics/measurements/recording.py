@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from .. import schema
 from ..errors import ParameterError
 from .quantities import Quantity, quantity
-from .recorded import MINIMUM_SAMPLES
+from .recorded import MINIMUM_SAMPLES, check_rate
 
 Array = NDArray[np.float64]
 
@@ -96,8 +96,7 @@ def _check_form(
         raise ParameterError(
             f"has {signal.shape[1]} samples a channel; at least {MINIMUM_SAMPLES} are needed"
         )
-    if not 0.0 < sample_rate_hz < np.inf:
-        raise ParameterError(f"sample_rate_hz = {sample_rate_hz:g} Hz: must be above zero")
+    check_rate(sample_rate_hz)
     twice = sorted(name for name, times in Counter(names).items() if times > 1)
     if twice or not all(names):
         raise ParameterError(f"channel names must be unique and not empty: {twice or ['']}")
