@@ -1,0 +1,29 @@
+"""Recordings in: WAV, MAT, CSV, HDF5, netCDF, UFF 58 and TDMS as one labelled form.
+
+The functions are imported when they are first asked for: the process that reads a file (`child`)
+needs no labelled arrays.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .export import csv_bytes, wav_bytes
+    from .reading import read_recording
+    from .recording import label_recording
+
+__all__ = ["csv_bytes", "label_recording", "read_recording", "wav_bytes"]
+
+_HOME = {
+    "csv_bytes": "export",
+    "label_recording": "recording",
+    "read_recording": "reading",
+    "wav_bytes": "export",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public function when it is first asked for."""
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__} has no attribute {name}")
+    return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
