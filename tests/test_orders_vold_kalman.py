@@ -237,7 +237,7 @@ def test_shafts_that_lock_for_a_while_are_named():
         np.array([0.0, 7.0, 8.0, 12.0, 13.0, 20.0]), np.array([40, 40, 50, 50, 60, 60.0])
     )
     with pytest.raises(
-        SolverError, match=r"track 0 \(order 1, 50 Hz\) and .* around (9|1[01])\..* s"
+        SolverError, match=r"track 0 \(order 1, 50 Hz\) and .* around (9|10)(\.\d+)? s"
     ):
         vold_kalman(np.zeros(TIME.size), SAMPLE_RATE, [Track(EVEN, 1), Track(fan, 1)], 4.0)
 
