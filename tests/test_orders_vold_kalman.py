@@ -243,12 +243,14 @@ def test_shafts_that_lock_for_a_while_are_named():
 
 
 def test_noise_gain_tells_how_close_orders_are():
-    """Two even shafts d apart: 1/√(0.41 (d/B)^2p) in the middle of the record."""
+    """Two even shafts d apart: at least 1/√(0.41 (d/B)^2p), of envelopes that beat at ±d/2 and leave
+    no trace in the signal; a trace makes it a little more.
+    """
     distance, bandwidth = 0.5, 2.0
     tracks = [Track(EVEN, 1), Track(constant_speed(50.0 + distance, 0.0, DURATION), 1)]
     gain = vold_kalman(np.zeros(TIME.size), SAMPLE_RATE, tracks, bandwidth).noise_gain
     expected = 1.0 / np.sqrt(0.4142 * (distance / bandwidth) ** 4)
-    assert expected == pytest.approx(gain, rel=0.5)  # the ends make it larger
+    assert 1.0 <= gain / expected < 1.2
     assert gain < LARGEST_NOISE_GAIN
 
 

@@ -20,6 +20,9 @@ SUPPORT: Final = 4
 """Cubic B-splines that overlap at a time."""
 _CHUNK: Final = 1 << 16
 """Samples at a time: bounds the memory."""
+_UNTHREADED: Final = 1 << 18
+"""Multiplications of a matrix product that OpenBLAS leaves to one thread. With more it starts
+threads, and on busy cores they wait for each other: up to hundreds of times as long."""
 
 
 @dataclass(frozen=True)
@@ -89,11 +92,17 @@ def add_data_equations(
     band: Real, right: Real, start: int, unknowns: int, design: Real, samples: Real, scale: float
 ) -> None:
     """Add a piece to the lower band of the normal equations and to their right-hand sides."""
-    products = scale * (design @ design.transpose(0, 2, 1))
-    projections = scale * (design @ samples)
-    for i in range(products.shape[1]):
-        column = slice(start * unknowns + i, (start + len(design)) * unknowns + i, unknowns)
+    knots, rows, step = design.shape
+    products = np.zeros((knots, rows, rows))
+    projections = np.zeros((knots, rows, samples.shape[-1]))
+    length = max(1, _UNTHREADED // rows**2)
+    for part in range(0, step, length):
+        piece = design[..., part : part + length]
+        products += scale * (piece @ piece.transpose(0, 2, 1))
+        projections += scale * (piece @ samples[:, part : part + length])
+    for i in range(rows):
+        column = slice(start * unknowns + i, (start + knots) * unknowns + i, unknowns)
         right[column] += projections[:, i]
         for j in range(i + 1):
-            column = slice(start * unknowns + j, (start + len(design)) * unknowns + j, unknowns)
+            column = slice(start * unknowns + j, (start + knots) * unknowns + j, unknowns)
             band[i - j, column] += products[:, i, j]
