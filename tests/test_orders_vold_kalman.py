@@ -243,8 +243,9 @@ def test_shafts_that_lock_for_a_while_are_named():
 
 
 def test_noise_gain_tells_how_close_orders_are():
-    """Two even shafts d apart: at least 1/√(0.41 (d/B)^2p), of envelopes that beat at ±d/2 and leave
-    no trace in the signal; a trace makes it a little more.
+    """Two even shafts d apart: at least 1/√(0.41 (d/B)^2p).
+
+    That is of envelopes that beat at ±d/2 and leave no trace; a trace makes it a little more.
     """
     distance, bandwidth = 0.5, 2.0
     tracks = [Track(EVEN, 1), Track(constant_speed(50.0 + distance, 0.0, DURATION), 1)]
