@@ -1,0 +1,52 @@
+"""Levels: weightings, sums, bands, filter bank, time weighting, levels of recordings."""
+
+from .bands import Band, band_mean_square, bands_between, measurable_bands
+from .decibel import (
+    SILENCE_DB,
+    energy_difference,
+    energy_sum,
+    mean_square_level,
+    sound_pressure_level,
+)
+from .filter_bank import band_filter, band_signal, class_1_limits_db
+from .signal_levels import (
+    RecordedLevels,
+    band_levels,
+    equivalent_level,
+    level_reference,
+    recorded_levels,
+)
+from .time_weighting import (
+    FAST_TIME_CONSTANT_S,
+    SLOW_TIME_CONSTANT_S,
+    time_weighted_mean_square,
+)
+from .weighting import WEIGHTING, a_weighting, c_weighting, weighted_signal, z_weighting
+
+__all__ = [
+    "FAST_TIME_CONSTANT_S",
+    "SILENCE_DB",
+    "SLOW_TIME_CONSTANT_S",
+    "WEIGHTING",
+    "Band",
+    "RecordedLevels",
+    "a_weighting",
+    "band_filter",
+    "band_levels",
+    "band_mean_square",
+    "band_signal",
+    "bands_between",
+    "c_weighting",
+    "class_1_limits_db",
+    "energy_difference",
+    "energy_sum",
+    "equivalent_level",
+    "level_reference",
+    "mean_square_level",
+    "measurable_bands",
+    "recorded_levels",
+    "sound_pressure_level",
+    "time_weighted_mean_square",
+    "weighted_signal",
+    "z_weighting",
+]

@@ -1,0 +1,137 @@
+"""Octave and third-octave bands (IEC 61260-1:2014, base ten); energy of a signal in them."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+from ..errors import ParameterError
+
+Real = NDArray[np.float64]
+
+OCTAVE_RATIO: Final = 10.0**0.3
+"""G (equation 1)."""
+REFERENCE_FREQUENCY_HZ: Final = 1000.0
+"""f_r (3.4)."""
+
+_NOMINAL: Final = (1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0)
+"""Nominal mid-band frequencies of the third octaves of a decade (Annex E)."""
+
+
+@dataclass(frozen=True, order=True)
+class Band:
+    """An octave (1 band an octave) or third-octave band (3), counted from the one at 1 kHz."""
+
+    bands_per_octave: int
+    index: int
+
+    def __post_init__(self) -> None:
+        if self.bands_per_octave not in (1, 3):
+            raise ParameterError(
+                f"bands_per_octave = {self.bands_per_octave}: must be 1 (octaves) or 3 (thirds)"
+            )
+
+    @property
+    def middle_hz(self) -> float:
+        """Exact mid-band frequency f_m = f_r G^(x/b) (equation 2)."""
+        return float(REFERENCE_FREQUENCY_HZ * OCTAVE_RATIO ** (self.index / self.bands_per_octave))
+
+    @property
+    def lower_hz(self) -> float:
+        """Lower band-edge frequency f_1 = f_m G^(-1/2b) (equation 4)."""
+        return self.middle_hz * float(OCTAVE_RATIO ** (-0.5 / self.bands_per_octave))
+
+    @property
+    def upper_hz(self) -> float:
+        """Upper band-edge frequency f_2 = f_m G^(+1/2b) (equation 5)."""
+        return self.middle_hz * float(OCTAVE_RATIO ** (0.5 / self.bands_per_octave))
+
+    @property
+    def nominal_hz(self) -> float:
+        """Frequency by which the band is called, such as 31.5 or 1250 (Annex E)."""
+        decade, third = divmod(3 // self.bands_per_octave * self.index + 30, len(_NOMINAL))
+        return round(_NOMINAL[third] * 10.0**decade, 6)
+
+
+def bands_between(bands_per_octave: int, lowest_hz: float, highest_hz: float) -> tuple[Band, ...]:
+    """Bands from the one that holds `lowest_hz` to the one that holds `highest_hz`.
+
+    Raises
+    ------
+    ParameterError
+        The frequencies are not above zero and rising, or there are no such bands.
+    """
+    if not 0.0 < lowest_hz <= highest_hz < np.inf:
+        raise ParameterError(
+            f"bands from {lowest_hz:g} to {highest_hz:g} Hz: must rise and lie above 0 Hz"
+        )
+    number = np.log10(np.array([lowest_hz, highest_hz]) / REFERENCE_FREQUENCY_HZ) / 0.3
+    first, last = np.rint(number * Band(bands_per_octave, 0).bands_per_octave).astype(int)
+    return tuple(Band(bands_per_octave, index) for index in range(int(first), int(last) + 1))
+
+
+def measurable_bands(bands: Iterable[Band], sample_rate_hz: float) -> tuple[Band, ...]:
+    """Those of the bands that lie wholly below half the sample rate."""
+    return tuple(band for band in bands if band.upper_hz < 0.5 * sample_rate_hz)
+
+
+def check_measurable(bands: Iterable[Band], sample_rate_hz: float) -> None:
+    """Refuse bands that reach half the sample rate.
+
+    Raises
+    ------
+    ParameterError
+        A band does.
+    """
+    for band in bands:
+        if not band.upper_hz < 0.5 * sample_rate_hz:
+            raise ParameterError(
+                f"band {band.nominal_hz:g} Hz: reaches up to {band.upper_hz:.5g} Hz, must "
+                f"end below half the sample rate, {0.5 * sample_rate_hz:g} Hz"
+            )
+
+
+def band_mean_square(signal: Real, sample_rate_hz: float, bands: Sequence[Band]) -> Real:
+    """Mean square of a signal in bands, from the lines of one Fourier transform of all of it.
+
+    A line stands for the interval of its width around it; where a band edge cuts it, its energy
+    is shared in proportion. So adjacent bands add up, and all frequencies together give the
+    signal's mean square to rounding (Parseval). No window: a tone between two lines leaks; in a
+    recording of T seconds it puts about 1/(π² d² T) of its energy, at worst four times that, into
+    each hertz at a distance d.
+
+    Parameters
+    ----------
+    signal : shape (..., time), any unit
+    sample_rate_hz : of the signal
+    bands : below half the sample rate
+
+    Returns
+    -------
+    shape (..., band), unit squared
+
+    Raises
+    ------
+    ParameterError
+        A band reaches half the sample rate.
+    """
+    check_measurable(bands, sample_rate_hz)
+    samples = signal.shape[-1]
+    energy = np.abs(fft.rfft(signal)) ** 2 / samples**2
+    energy[..., 1 : (samples + 1) // 2] *= 2.0
+    line_width = sample_rate_hz / samples
+    below = np.concatenate([[0.0], (np.arange(1, energy.shape[-1]) - 0.5) * line_width])
+    width = np.diff(below, append=0.5 * sample_rate_hz)
+    cumulative = np.insert(np.cumsum(energy, axis=-1), 0, 0.0, axis=-1)
+
+    def up_to(frequency_hz: Real) -> Real:
+        line = np.searchsorted(below, frequency_hz, side="right") - 1
+        share = (frequency_hz - below[line]) / width[line]
+        return np.asarray(cumulative[..., line] + share * energy[..., line])
+
+    lower = np.array([band.lower_hz for band in bands])
+    upper = np.array([band.upper_hz for band in bands])
+    return np.maximum(up_to(upper) - up_to(lower), 0.0)
