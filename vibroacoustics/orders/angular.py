@@ -54,6 +54,12 @@ class AngularSignal:
         return np.asarray(index / self.samples_per_revolution)
 
 
+def check_finite(signal: Array) -> None:
+    """Refuse a signal with samples that are not finite: one spoils every spectrum it enters."""
+    if not np.all(np.isfinite(signal)):
+        raise ParameterError("signal: has samples that are not finite")
+
+
 def whole_revolutions(signal: Array, revolutions: int, frequency_hz: float) -> AngularSignal:
     """A simulated signal at constant speed that is sampled over the crank angle already.
 
@@ -66,8 +72,9 @@ def whole_revolutions(signal: Array, revolutions: int, frequency_hz: float) -> A
     Raises
     ------
     ParameterError
-        The revolutions do not divide the samples.
+        The revolutions do not divide the samples, or a sample is not finite.
     """
+    check_finite(signal)
     samples, rest = divmod(signal.shape[-1], revolutions)
     if rest:
         raise ParameterError(
@@ -100,8 +107,7 @@ def angular_resample(
         The sample rate is too low for the maximum order at the highest speed, the motion is
         shorter than the kernel, or a sample is not finite.
     """
-    if not np.all(np.isfinite(signal)):
-        raise ParameterError("signal: has samples that are not finite")
+    check_finite(signal)
     sample = _samples_within(motion, sample_rate_hz, signal.shape[-1])
     time_s = sample / sample_rate_hz
     frequency_hz = motion.frequency_hz(time_s)

@@ -137,5 +137,5 @@ def warn_of_neighbours(orders: Array, needed: float, why: str) -> None:
                 f"orders {lower:g} and {upper:g} leak into each other: they are "
                 f"{upper - lower:.3g} apart and need {needed:.3g} {why}",
                 OrderResolutionWarning,
-                stacklevel=4,
+                stacklevel=3,
             )

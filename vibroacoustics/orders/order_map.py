@@ -9,7 +9,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from ..errors import ParameterError
-from .angular import AngularSignal
+from .angular import AngularSignal, check_finite
 from .crank_motion import CrankMotion
 from .spectrum import real_transform
 from .windows import Window, window_by_name
@@ -91,14 +91,15 @@ def order_map(
     shape = window_by_name(window)
     _check_positive("resolution_order", resolution_order)
     # A resolution of 1.5 / 12 asks for 12 revolutions, whatever its last bit.
-    revolutions = int(np.ceil(shape.noise_bandwidth_lines / resolution_order * (1.0 - 1e-12)))
-    length = revolutions * signal.samples_per_revolution
+    needed = np.ceil(shape.noise_bandwidth_lines / resolution_order * (1.0 - 1e-12))
     spanned = signal.time_s.size / signal.samples_per_revolution
-    if spanned < revolutions:
+    if spanned < needed:
         raise ParameterError(
-            f"resolution_order = {resolution_order:g}: needs blocks of {revolutions} revolutions, "
+            f"resolution_order = {resolution_order:g}: needs blocks of {needed:.6g} revolutions, "
             f"the signal has {spanned:.3g}"
         )
+    revolutions = int(needed)
+    length = revolutions * signal.samples_per_revolution
     starts = _block_starts(signal.time_s.size, length, overlap_ratio)
     lines = int(np.floor(signal.maximum_order * revolutions * (1.0 + 1e-12))) + 1
     amplitude = _block_spectra(
@@ -137,20 +138,23 @@ def frequency_map(
     Raises
     ------
     ParameterError
-        The resolution is finer than the signal allows, or a value is outside its range.
+        The resolution is finer than the signal allows, a value is outside its range, or a sample
+        is not finite.
     """
     shape = window_by_name(window)
     _check_positive("resolution_hz", resolution_hz)
     _check_positive("sample_rate_hz", sample_rate_hz)
-    length = int(np.ceil(shape.noise_bandwidth_lines * sample_rate_hz / resolution_hz))
+    check_finite(signal)
+    needed = np.ceil(shape.noise_bandwidth_lines * sample_rate_hz / resolution_hz)
     first = max(int(np.ceil(motion.start_s * sample_rate_hz)), 0)
     last = min(int(np.floor(motion.end_s * sample_rate_hz)), signal.shape[-1] - 1)
-    if last + 1 - first < length:
+    if last + 1 - first < needed:
         raise ParameterError(
             f"resolution_hz = {resolution_hz:g} Hz: needs blocks of "
-            f"{length / sample_rate_hz:.3g} s, the signal with a known crank angle lasts "
+            f"{needed / sample_rate_hz:.3g} s, the signal with a known crank angle lasts "
             f"{max(last + 1 - first, 0) / sample_rate_hz:.3g} s"
         )
+    length = int(needed)
     starts = first + _block_starts(last + 1 - first, length, overlap_ratio)
     lines = (length + 1) // 2
     start_s, end_s = starts / sample_rate_hz, (starts + length - 1) / sample_rate_hz
@@ -210,9 +214,11 @@ def _block_spectra(
         row, begin = job
         blocks = slice(begin, begin + chunk)
         windowed = sliding_window_view(rows[row], length)[starts[blocks]] * scaled
-        # m times the grid index is a whole number: modulo N before the sine keeps all digits.
-        turns = np.outer(grid_index[blocks] % length, np.arange(lines)) % length / length
-        amplitude[row, blocks] = real_transform(windowed)[:, :lines] * np.exp(-2j * np.pi * turns)
+        # Modulo N, many blocks begin at the same sample, and the sine keeps all its digits.
+        begins, of_block = np.unique(grid_index[blocks] % length, return_inverse=True)
+        turns = np.outer(begins, np.arange(lines)) % length / length
+        turned = np.exp(-2j * np.pi * turns)[of_block]
+        np.multiply(real_transform(windowed)[:, :lines], turned, out=amplitude[row, blocks])
 
     jobs = [(row, begin) for row in range(len(rows)) for begin in range(0, starts.size, chunk)]
     with ThreadPoolExecutor(_THREADS) as pool:

@@ -115,6 +115,7 @@ def synchronous_demodulation(
     """
     wanted = np.asarray(orders, dtype=float)
     _check_orders(signal, wanted, bandwidth_order)
+    warn_of_neighbours(wanted, bandwidth_order, f"at a bandwidth of {bandwidth_order:.3g}")
     per_revolution, size = signal.samples_per_revolution, signal.time_s.size
     low_pass = kaiser_low_pass(
         ENVELOPE_PASS_RATIO * bandwidth_order / per_revolution,
@@ -158,7 +159,6 @@ def _check_orders(signal: AngularSignal, orders: Array, bandwidth: float) -> Non
                 f"order {order:g}: must be from {bandwidth / 2.0:g}, half the bandwidth, to "
                 f"{signal.maximum_order:g}, the signal's highest order"
             )
-    warn_of_neighbours(orders, bandwidth, f"at a bandwidth of {bandwidth:.3g}")
 
 
 def _fast_step(largest: float) -> int:
