@@ -108,8 +108,8 @@ def angular_resample(
         shorter than the kernel, or a sample is not finite.
     """
     check_finite(signal)
-    sample = _samples_within(motion, sample_rate_hz, signal.shape[-1])
-    time_s = sample / sample_rate_hz
+    start, stop = known_samples(motion, sample_rate_hz, signal.shape[-1])
+    time_s = np.arange(start, stop) / sample_rate_hz
     frequency_hz = motion.frequency_hz(time_s)
     highest_hz = float(np.max(frequency_hz))
     _check_maximum_order(maximum_order, sample_rate_hz, highest_hz)
@@ -121,7 +121,7 @@ def angular_resample(
     position = motion.angle_rad(time_s) * (samples_per_revolution / (2.0 * np.pi))
     width = frequency_hz * (samples_per_revolution / sample_rate_hz)
     first, last = _grid_within(position, low_pass.half_length, samples_per_revolution)
-    rows = signal.reshape(-1, signal.shape[-1])[:, sample[0] : sample[-1] + 1]
+    rows = signal.reshape(-1, signal.shape[-1])[:, start:stop]
     values = _weighted_sums(rows, position, width, low_pass, first, last)
     return AngularSignal(
         values=values.reshape(*signal.shape[:-1], -1),
@@ -132,8 +132,8 @@ def angular_resample(
     )
 
 
-def _samples_within(motion: CrankMotion, sample_rate_hz: float, samples: int) -> NDArray[np.int64]:
-    """Numbers of the samples at which the motion is known."""
+def known_samples(motion: CrankMotion, sample_rate_hz: float, samples: int) -> tuple[int, int]:
+    """First sample at which the motion is known, and the one after the last."""
     if not sample_rate_hz > 0.0:
         raise ParameterError(f"sample_rate_hz = {sample_rate_hz:g}: must be above 0 Hz")
     first = max(int(np.ceil(motion.start_s * sample_rate_hz)), 0)
@@ -143,7 +143,7 @@ def _samples_within(motion: CrankMotion, sample_rate_hz: float, samples: int) ->
             f"motion: known from {motion.start_s:.4g} s to {motion.end_s:.4g} s, the signal lasts "
             f"from 0 s to {(samples - 1) / sample_rate_hz:.4g} s; they must overlap"
         )
-    return np.arange(first, last + 1)
+    return first, last + 1
 
 
 def _check_maximum_order(order: float, sample_rate_hz: float, highest_hz: float) -> None:

@@ -9,7 +9,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from ..errors import ParameterError
-from .angular import AngularSignal, check_finite
+from .angular import AngularSignal, check_finite, known_samples
 from .crank_motion import CrankMotion
 from .spectrum import real_transform
 from .windows import Window, window_by_name
@@ -143,19 +143,17 @@ def frequency_map(
     """
     shape = window_by_name(window)
     _check_positive("resolution_hz", resolution_hz)
-    _check_positive("sample_rate_hz", sample_rate_hz)
     check_finite(signal)
     needed = np.ceil(shape.noise_bandwidth_lines * sample_rate_hz / resolution_hz)
-    first = max(int(np.ceil(motion.start_s * sample_rate_hz)), 0)
-    last = min(int(np.floor(motion.end_s * sample_rate_hz)), signal.shape[-1] - 1)
-    if last + 1 - first < needed:
+    first, end = known_samples(motion, sample_rate_hz, signal.shape[-1])
+    if end - first < needed:
         raise ParameterError(
             f"resolution_hz = {resolution_hz:g} Hz: needs blocks of "
             f"{needed / sample_rate_hz:.3g} s, the signal with a known crank angle lasts "
-            f"{max(last + 1 - first, 0) / sample_rate_hz:.3g} s"
+            f"{(end - first) / sample_rate_hz:.3g} s"
         )
     length = int(needed)
-    starts = first + _block_starts(last + 1 - first, length, overlap_ratio)
+    starts = first + _block_starts(end - first, length, overlap_ratio)
     lines = (length + 1) // 2
     start_s, end_s = starts / sample_rate_hz, (starts + length - 1) / sample_rate_hz
     turned = (motion.angle_rad(end_s) - motion.angle_rad(start_s)) / (2.0 * np.pi)
