@@ -43,13 +43,13 @@ def order_spectrum(
             f"maximum_order {maximum_order} needs more than {2 * maximum_order * revolutions} "
             f"samples, got {samples}"
         )
-    lines = _real_transform(signal)[..., ::revolutions][..., : maximum_order + 1]
+    lines = real_transform(signal)[..., ::revolutions][..., : maximum_order + 1]
     spectrum = 2.0 / samples * lines
     spectrum[..., 0] /= 2.0
     return np.asarray(spectrum)
 
 
-def _real_transform(signal: NDArray[np.float64]) -> NDArray[np.complex128]:
+def real_transform(signal: NDArray[np.float64]) -> NDArray[np.complex128]:
     """Real-to-complex transform along the last axis, by FFTW where it is installed."""
     if pyfftw is None:
         return np.asarray(scipy_fft.rfft(signal, axis=-1))

@@ -1,0 +1,242 @@
+"""COT-60: from a tacho and four channels over 60 s to an order map, beside the open peer.
+
+`python benchmarks/order_analysis.py [--rota-python PATH] [--rounds N] [--skip-rota]` prints a
+Markdown table. Run-up from 1200 to 6000 rpm, 51.2 kHz, float64, noisy tacho of one pulse a
+revolution; angular resampling; order map to order 120 in Hann blocks of 8 revolutions, half
+overlapping.
+
+Each method runs in a process of its own, so that its peak memory is its own, and they take turns.
+rota-order (GPL) is no part of this package and runs under another interpreter only: one that is
+given, or a virtual environment that is made here with pip.
+"""
+
+import argparse
+import json
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+import venv
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+SAMPLE_RATE_HZ = 51_200
+DURATION_S = 60.0
+SPEED_HZ = (20.0, 100.0)
+MAXIMUM_ORDER = 120
+REVOLUTIONS_IN_BLOCK = 8
+AMPLITUDES = {1: 1.0, 2: 0.5, 4: 0.25, MAXIMUM_ORDER: 1.0}
+TONES_HZ = (13_500.0, 20_000.0)
+"""Above order 120 at every speed; alone in their channels, as large as order 1 in channel 0."""
+TACHO_RISE_S = 80e-6
+TACHO_NOISE = 0.01
+SMOOTHED_PULSES = 31
+
+Map = tuple[np.ndarray, np.ndarray]
+"""Complex peak amplitude (channel, block, line) and order (line,)."""
+
+
+def write_signals(folder: Path) -> None:
+    """Channels: orders of known amplitude, two tones above them, noise with orders."""
+    generator = np.random.default_rng(60)
+    time_s = np.arange(int(DURATION_S * SAMPLE_RATE_HZ)) / SAMPLE_RATE_HZ
+    low, high = SPEED_HZ
+    revolution = low * time_s + (high - low) / (2.0 * DURATION_S) * time_s**2
+    orders = sum(
+        peak * np.cos(2.0 * np.pi * order * revolution + order)
+        for order, peak in AMPLITUDES.items()
+    )
+    tones = [np.cos(2.0 * np.pi * tone * time_s) for tone in TONES_HZ]
+    noise = orders + 0.1 * generator.standard_normal(time_s.size)
+    np.save(folder / "channels.npy", np.array([orders, *tones, noise]))
+    phase_s = (revolution % 1.0) / (low + (high - low) * time_s / DURATION_S)
+    pulse = np.clip(phase_s / TACHO_RISE_S, 0.0, 1.0) * (revolution % 1.0 < 0.2)
+    tacho = pulse + TACHO_NOISE * generator.standard_normal(time_s.size)
+    np.save(folder / "tacho.npy", tacho)
+
+
+def pulse_times(tacho: np.ndarray) -> np.ndarray:
+    """Stand-in for the tacho's evaluation: rising crossings of half the pulse, smoothed."""
+    from scipy.signal import savgol_filter
+
+    above = tacho > 0.5
+    rising = np.flatnonzero(above[1:] & ~above[:-1])
+    share = (0.5 - tacho[rising]) / (tacho[rising + 1] - tacho[rising])
+    return np.asarray(savgol_filter((rising + share) / SAMPLE_RATE_HZ, SMOOTHED_PULSES, 3))
+
+
+def by_vibroacoustics(channels: np.ndarray, tacho: np.ndarray) -> Map:
+    """This package."""
+    from vibroacoustics.orders import angular_resample, order_map
+    from vibroacoustics.orders.crank_motion import from_angle
+
+    times = pulse_times(tacho)
+    motion = from_angle(times, 2.0 * np.pi * np.arange(times.size))
+    angular = angular_resample(channels, SAMPLE_RATE_HZ, motion, MAXIMUM_ORDER)
+    spectra = order_map(angular, 1.5 / REVOLUTIONS_IN_BLOCK, "hann", 0.5)
+    return spectra.amplitude, spectra.order
+
+
+def by_scipy(channels: np.ndarray, tacho: np.ndarray) -> Map:
+    """What a careful user writes with scipy: upsample, spline, filter over the angle, decimate."""
+    from scipy.interpolate import CubicSpline
+    from scipy.signal import resample_poly
+    from scipy.signal.windows import hann
+
+    times = pulse_times(tacho)
+    coarse, dense = 480, 6  # 2880 a revolution hold half the sample rate at 20 rev/s
+    grid = np.arange((times.size - 1) * coarse * dense) / (coarse * dense)
+    at = CubicSpline(np.arange(times.size), times)(grid) * SAMPLE_RATE_HZ
+    length = REVOLUTIONS_IN_BLOCK * coarse
+    window = hann(length, sym=False)
+    lines = MAXIMUM_ORDER * REVOLUTIONS_IN_BLOCK + 1
+    spectra = []
+    for channel in channels:
+        upsampled = resample_poly(channel, 2, 1, window=("kaiser", 10.0))
+        fine = CubicSpline(np.arange(upsampled.size), upsampled)(2.0 * at)
+        signal = resample_poly(fine, 1, dense, window=("kaiser", 10.0))
+        blocks = np.lib.stride_tricks.sliding_window_view(signal, length)[:: length // 2]
+        spectra.append(2.0 / window.sum() * np.fft.rfft(blocks * window)[:, :lines])
+    return np.array(spectra), np.arange(lines) / REVOLUTIONS_IN_BLOCK
+
+
+def by_rota(channels: np.ndarray, tacho: np.ndarray) -> Map:
+    """rota-order; runs under the interpreter that has it."""
+    import rota
+
+    rpm = rota.speed.tacho_to_rpm(tacho, SAMPLE_RATE_HZ, smooth=SMOOTHED_PULSES)
+    spectra = rota.maps.rpm_order_map(
+        channels.T,
+        SAMPLE_RATE_HZ,
+        rpm,
+        order_resolution=1.0 / REVOLUTIONS_IN_BLOCK,
+        max_order=MAXIMUM_ORDER,
+        overlap=0.5,
+        window="hann",
+        amplitude="peak",
+    )
+    return np.moveaxis(spectra.values, (2, 1, 0), (0, 1, 2)), spectra.axis
+
+
+METHODS: dict[str, Callable[[np.ndarray, np.ndarray], Map]] = {
+    "vibroacoustics": by_vibroacoustics,
+    "scipy": by_scipy,
+    "rota-order": by_rota,
+}
+
+
+def accuracy(amplitude: np.ndarray, order: np.ndarray) -> dict[str, float]:
+    """Errors in dB; blocks at the ends, where a filter may have met no samples, are left out."""
+    power = np.abs(amplitude[:, 4:-4]) ** 2
+    result = {}
+    for wanted, peak in AMPLITUDES.items():
+        line = np.argmin(np.abs(order - wanted))
+        result[str(wanted)] = 10.0 * np.log10(np.mean(power[0, :, line]) / peak**2)
+    result["alias"] = 10.0 * np.log10(np.max(power[1 : 1 + len(TONES_HZ)]))
+    return result
+
+
+def work(method: str, folder: Path) -> None:
+    """Process of one method: a run, its seconds and those of the processors for each line read,
+    then the accuracy."""
+    channels, tacho = np.load(folder / "channels.npy"), np.load(folder / "tacho.npy")
+    spectra: Map | None = None
+    for _ in sys.stdin:
+        spectra = None
+        start, start_cpu = time.perf_counter(), time.process_time()
+        spectra = METHODS[method](channels, tacho)
+        print(time.perf_counter() - start, time.process_time() - start_cpu, flush=True)
+    peak_mb = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
+    assert spectra is not None
+    print(json.dumps(accuracy(*spectra) | {"peak_mb": peak_mb}))
+
+
+def rota_environment(folder: Path) -> str:
+    """Interpreter of a new virtual environment with rota-order."""
+    venv.create(folder, with_pip=True)
+    python = str(folder / "bin" / "python")
+    subprocess.run([python, "-m", "pip", "install", "--quiet", "rota-order"], check=True)
+    return python
+
+
+def compare(pythons: dict[str, str], folder: Path, rounds: int) -> dict[str, Any]:
+    """Seconds of each run, the first one cold, (run, clock or processors), accuracy, by method."""
+    workers = {
+        method: subprocess.Popen(
+            [python, __file__, "--work", method, "--folder", str(folder)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        for method, python in pythons.items()
+    }
+    seconds: dict[str, list[list[float]]] = {method: [] for method in workers}
+    for _ in range(rounds + 1):
+        for method, worker in workers.items():
+            worker.stdin.write("run\n")
+            worker.stdin.flush()
+            seconds[method].append([float(word) for word in worker.stdout.readline().split()])
+    return {
+        method: (np.array(seconds[method]), json.loads(worker.communicate()[0]))
+        for method, worker in workers.items()
+    }
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--rota-python", help="interpreter of an environment with rota-order")
+    parser.add_argument("--skip-rota", action="store_true")
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--work", choices=METHODS, help=argparse.SUPPRESS)
+    parser.add_argument("--folder", type=Path, help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    if options.work:
+        return work(options.work, options.folder)
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        write_signals(folder)
+        pythons = {"vibroacoustics": sys.executable, "scipy": sys.executable}
+        if not options.skip_rota:
+            pythons["rota-order"] = options.rota_python or rota_environment(folder / "venv")
+        load = os.getloadavg()[0]
+        results = compare(pythons, folder, options.rounds)
+    print(f"{os.cpu_count()} processors; load before {load:.1f}, after {os.getloadavg()[0]:.1f}\n")
+    print(table(results))
+    return None
+
+
+def table(results: dict[str, Any]) -> str:
+    """Markdown: medians without the cold run, and their ratios to this package's."""
+    rows = [
+        "| method | median s | ratio | CPU s | ratio | runs s | cold s | peak MB "
+        "| order 1, 2, 4 dB | order 120 dB | alias dB |",
+        "|---" * 11 + "|",
+    ]
+    ours = np.median(results["vibroacoustics"][0][1:], axis=0)
+    for method, (seconds, found) in results.items():
+        wall, processors = np.median(seconds[1:], axis=0)
+        cells = [
+            method,
+            f"{wall:.2f}",
+            f"{wall / ours[0]:.1f}",
+            f"{processors:.2f}",
+            f"{processors / ours[1]:.1f}",
+            ", ".join(f"{value:.2f}" for value in seconds[1:, 0]),
+            f"{seconds[0, 0]:.2f}",
+            f"{found['peak_mb']:.0f}",
+            ", ".join(f"{found[order]:+.4f}" for order in ("1", "2", "4")),
+            f"{found[str(MAXIMUM_ORDER)]:+.4f}",
+            f"{found['alias']:.1f}",
+        ]
+        rows.append(f"| {' | '.join(cells)} |")
+    return "\n".join(rows)
+
+
+if __name__ == "__main__":
+    main()

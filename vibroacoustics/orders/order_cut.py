@@ -1,0 +1,141 @@
+"""Orders over a run-up, cut out of an order map."""
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ParameterError
+from .order_map import OrderMap
+
+Array = NDArray[np.float64]
+
+_SAME_LINE = 1e-9
+"""Orders this near to a line or a band's edge, relative to the line spacing, lie on it."""
+
+
+class OrderResolutionWarning(UserWarning):
+    """Orders that were asked for cannot be told apart at the resolution obtained."""
+
+
+@dataclass(frozen=True)
+class OrderCut:
+    """RMS in a band around each of some orders, over the blocks of a run-up."""
+
+    rms: Array
+    """Shape (..., block, order), in the signal's unit."""
+    order: Array
+    """Middle of the bands, shape (order,)."""
+    bandwidth_order: Array
+    """Really summed over: number of lines over revolutions in a block, shape (order,)."""
+    resolution_order: float
+    """Noise bandwidth of a line, orders."""
+    time_s: Array
+    """Middle of the blocks, shape (block,)."""
+    shaft_frequency_hz: Array
+    """Mean over each block, shape (block,)."""
+
+
+def order_cut(
+    spectra: OrderMap, orders: Sequence[float] | Array, bandwidth_order: float | None = None
+) -> OrderCut:
+    """RMS of orders over a run-up: √(Σ |X|²/2 / NENBW), summed over the lines of a band.
+
+    Dividing by the window's normalized noise bandwidth (Heinzel, Rüdiger & Schilling 2002,
+    equations 21 and 24) makes the sum over a main lobe the mean square of a tone, and that over
+    any band the mean square of noise in it.
+
+    Parameters
+    ----------
+    spectra : of the run-up
+    orders : to cut out
+    bandwidth_order : width of each band, orders; at least, and where it is not given, the main
+        lobe's width
+
+    Raises
+    ------
+    ParameterError
+        A band is narrower than the main lobe or reaches beyond the orders of the map.
+
+    Warns
+    -----
+    OrderResolutionWarning
+        The main lobe of one of the orders reaches into the band of another.
+    """
+    wanted = np.asarray(orders, dtype=float)
+    bandwidth = spectra.main_lobe_order if bandwidth_order is None else bandwidth_order
+    _check_bands(spectra, wanted, bandwidth)
+    # A band reaches half its width to either side, a lobe half its own.
+    warn_of_neighbours(
+        wanted,
+        (bandwidth + spectra.main_lobe_order) / 2.0,
+        f"for bands of {bandwidth:.3g} with main lobes of {spectra.main_lobe_order:.3g} "
+        f"(resolution obtained {spectra.resolution_order:.3g})",
+    )
+    reach = bandwidth / 2.0 + _SAME_LINE / spectra.revolutions
+    bands = [np.flatnonzero(np.abs(spectra.order - order) <= reach) for order in wanted]
+    power = np.stack(
+        [_band_power(spectra.amplitude[..., band[0] : band[-1] + 1]) for band in bands], axis=-1
+    )
+    return OrderCut(
+        rms=np.sqrt(power / spectra.window.noise_bandwidth_lines),
+        order=wanted,
+        bandwidth_order=np.array([band.size for band in bands]) / spectra.revolutions,
+        resolution_order=spectra.resolution_order,
+        time_s=spectra.time_s,
+        shaft_frequency_hz=spectra.shaft_frequency_hz,
+    )
+
+
+def order_lines(spectra: OrderMap, orders: Sequence[float] | Array) -> NDArray[np.complex128]:
+    """Complex peak amplitude of orders that lie on a line of the map, shape (..., block, order).
+
+    Raises
+    ------
+    ParameterError
+        An order lies between two lines or beyond the map.
+    """
+    line = np.asarray(orders, dtype=float) * spectra.revolutions
+    whole = np.rint(line).astype(int)
+    for order, distance, number in zip(orders, np.abs(line - whole), whole, strict=True):
+        if distance > _SAME_LINE or not 0 <= number < spectra.order.size:
+            raise ParameterError(
+                f"order {order:g}: has no line; those of the map are 0 to {spectra.order[-1]:g} "
+                f"in steps of 1/{spectra.revolutions}"
+            )
+    return spectra.amplitude[..., whole]
+
+
+def _band_power(amplitude: NDArray[np.complex128]) -> Array:
+    return np.asarray(np.sum(np.abs(amplitude) ** 2, axis=-1) / 2.0)
+
+
+def _check_bands(spectra: OrderMap, orders: Array, bandwidth: float) -> None:
+    slack = _SAME_LINE / spectra.revolutions
+    if bandwidth < spectra.main_lobe_order - slack:
+        raise ParameterError(
+            f"bandwidth_order = {bandwidth:g}: narrower than the main lobe, "
+            f"{spectra.main_lobe_order:.4g}; a finer resolution_order of the map narrows it"
+        )
+    highest = float(spectra.order[-1])
+    for order in orders:
+        if not bandwidth / 2.0 - slack < order <= highest - bandwidth / 2.0 + slack:
+            raise ParameterError(
+                f"order {order:g}: its band of {bandwidth:.4g} must lie between order 0 and "
+                f"{highest:g}, the highest of the map"
+            )
+
+
+def warn_of_neighbours(orders: Array, needed: float, why: str) -> None:
+    """Warn of orders that are nearer to each other than is needed to tell them apart."""
+    for lower, upper in pairwise(np.unique(orders)):
+        if upper - lower < needed * (1.0 - _SAME_LINE):
+            warnings.warn(
+                f"orders {lower:g} and {upper:g} leak into each other: they are "
+                f"{upper - lower:.3g} apart and need {needed:.3g} {why}",
+                OrderResolutionWarning,
+                stacklevel=3,
+            )
