@@ -85,7 +85,7 @@ def from_angle(time_s: Array, angle_rad: Array) -> CrankMotion:
 
 
 def from_curve(curve: PPoly) -> CrankMotion:
-    """A shaft whose angle in rad over time in s is a piecewise cubic.
+    """A shaft whose angle in rad over time in s is a piecewise polynomial.
 
     Raises
     ------

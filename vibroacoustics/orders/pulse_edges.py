@@ -33,7 +33,7 @@ def pulse_times(
 
     A pulse counts when the signal has come from below the hysteresis band to above it; its time is
     the last crossing of the threshold on that way, by linear interpolation. The threshold is the
-    middle between the two states of the signal (50 % reference level, IEEE Std 181-2011, 5.3).
+    middle between the two states of the signal (50 % reference level, IEEE Std 181-2011).
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def _levels(signal: Array) -> tuple[float, float]:
     return (low, high) if high - low > _TWO_STATES * (top - bottom) else (bottom, top)
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@numba.njit(cache=True, nogil=True)
 def _crossings(signal: Array, lower: float, middle: float, upper: float) -> Array:
     """Upward crossings of the middle in samples, one for each way from lower to upper."""
     found = np.empty(signal.size // 2 + 1)

@@ -67,15 +67,16 @@ def number_pulses(time_s: Array) -> NumberedPulses:
         are faults: that is no tacho signal.
     """
     _check_times(time_s)
-    kept, number = np.arange(time_s.size), np.arange(time_s.size)
+    kept: Indices = np.arange(time_s.size)
+    number: Indices = kept
     for _ in range(2):
         kept, number = _cheapest(time_s, _pulse_rate(time_s, time_s[kept], number))
-    faults = _list_faults(time_s, kept, number)
-    if len(faults) > _MOST_FAULTS * time_s.size or kept.size < 3:
-        raise ParameterError(
-            f"tacho: {len(faults)} missing or double pulses among {time_s.size}: the pulses do not "
-            "follow each other evenly; check the threshold and the channel"
-        )
+        faults = _list_faults(time_s, kept, number)
+        if len(faults) > _MOST_FAULTS * time_s.size:
+            raise ParameterError(
+                f"tacho: {len(faults)} missing or double pulses among {time_s.size}: they do not "
+                "follow each other evenly; check the threshold and the channel"
+            )
     return NumberedPulses(time_s[kept], number, faults)
 
 
@@ -112,7 +113,7 @@ def _cheapest(time_s: Array, rate: Array) -> tuple[Indices, Indices]:
     return kept, np.concatenate([[0], np.cumsum(steps[kept[1:]])])
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@numba.njit(cache=True, nogil=True)
 def _search(time_s: Array, rate: Array) -> tuple[Indices, Indices, int]:
     """For each pulse the cheapest one before it and the periods between; the cheapest last one."""
     cost = _DISCARD_COST * np.arange(time_s.size)

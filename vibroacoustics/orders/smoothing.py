@@ -11,8 +11,11 @@ from scipy.linalg import solveh_banded
 Array = NDArray[np.float64]
 
 _INFLATION: Final = 1.4
-"""Of the degrees of freedom in the criterion, against the odd choice of far too many (Kim and Gu
-2004, section 3.3)."""
+"""Of the degrees of freedom in the criterion: without it, it chooses far too many now and then (Kim
+and Gu 2004)."""
+
+_CLEAN_TRIALS: Final = 8
+"""Pieces after the third trial: fewer trials cannot tell a clean curve from luck."""
 
 
 @dataclass(frozen=True)
@@ -27,11 +30,11 @@ class SmoothCurve:
 def smooth_curve(x: Array, y: Array) -> SmoothCurve:
     """Least-squares cubic spline whose number of knots generalised cross-validation chooses.
 
-    Least of V(p) = n RSS / (n - 1.4 p)² over p coefficients (Craven and Wahba, Numerische Mathematik
-    31, 1979, equation 1.9, with the factor of Kim and Gu, Journal of the Royal Statistical Society B
-    66, 2004). The knots lie at every n-th point, twice as many from one trial to the next. Where
-    even a knot at every other point is too few, the points are clean and the curve goes through
-    them.
+    Least of V(p) = n RSS / (n - 1.4 p)² over p coefficients (Craven and Wahba, Numerische
+    Mathematik 31, 1979; the factor from Kim and Gu, Journal of the Royal Statistical Society B 66,
+    2004). The knots lie at every n-th point, twice as many from one trial to the next. Where the
+    trial with most of them, up to one at every other point, is best of three or more, the points
+    are clean and the curve goes through them; so it does through fewer than eight.
 
     Parameters
     ----------
@@ -46,7 +49,7 @@ def smooth_curve(x: Array, y: Array) -> SmoothCurve:
         if criterion < least:
             best, least, scatter = spline, criterion, np.sqrt(squares / (x.size - size))
         pieces *= 2
-    if best is None or best.c.size == pieces // 2 + 3:
+    if best is None or (pieces >= _CLEAN_TRIALS and best.c.size == pieces // 2 + 3):
         curve = CubicSpline(x, y)
         return SmoothCurve(PPoly(curve.c, curve.x), 0.0)
     curve = PPoly.from_spline(best)

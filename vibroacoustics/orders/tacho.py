@@ -1,17 +1,22 @@
 """Crank motion from tacho pulses or from a recorded speed."""
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
 from ..errors import ParameterError
-from .crank_motion import CrankMotion, from_curve
-from .pulse_faults import NumberedPulses, PulseFault, number_pulses
+from .crank_motion import CrankMotion, from_angle, from_curve
+from .pulse_faults import PulseFault, number_pulses
 from .smoothing import smooth_curve
 
 Array = NDArray[np.float64]
+
+_POINTS_PER_S: Final = 20
+"""Of a recorded speed: it holds nothing faster than the 10 Hz that drives are controlled at."""
+_LEAST_POINTS: Final = 4
 
 
 @dataclass(frozen=True)
@@ -55,11 +60,39 @@ def tacho_motion(
         )
     pulses = number_pulses(np.asarray(pulse_times_s, dtype=float))
     pitch_rad = 2.0 * np.pi / pulses_per_revolution
-    smooth = smooth_curve(pulses.time_s, pitch_rad * pulses.number)
+    smooth = smooth_curve(pulses.time_s, pitch_rad * pulses.number.astype(float))
     motion = from_curve(smooth.curve)
     if index_times_s is not None:
         motion = _from_index(motion, index_times_s, pitch_rad)
     return TachoResult(motion, pulses.faults, smooth.scatter / pitch_rad)
+
+
+def rpm_motion(speed_rpm: Array, sample_rate_hz: float) -> CrankMotion:
+    """Crank motion from a recorded speed channel; its angle is zero at the first sample.
+
+    The speed is integrated over every sample; the angle is a cubic spline through twenty points a
+    second, so that noise of the channel averages out.
+
+    Parameters
+    ----------
+    speed_rpm : shape (time,)
+    sample_rate_hz : samples per second
+
+    Raises
+    ------
+    ParameterError
+        There are fewer than four samples, one is not finite, or the shaft stops.
+    """
+    if speed_rpm.ndim != 1 or speed_rpm.size < _LEAST_POINTS or not np.all(np.isfinite(speed_rpm)):
+        raise ParameterError(
+            f"speed: needs at least {_LEAST_POINTS} finite samples of one channel, got shape "
+            f"{speed_rpm.shape}"
+        )
+    step_rad = 2.0 * np.pi / 60.0 / sample_rate_hz * 0.5 * (speed_rpm[1:] + speed_rpm[:-1])
+    angle_rad = np.concatenate([[0.0], np.cumsum(step_rad)])
+    points = max(_LEAST_POINTS, int(_POINTS_PER_S * speed_rpm.size / sample_rate_hz))
+    at = np.linspace(0, speed_rpm.size - 1, min(points, speed_rpm.size)).round().astype(int)
+    return from_angle(at / sample_rate_hz, angle_rad[at])
 
 
 def _from_index(motion: CrankMotion, index_times_s: Array, pitch_rad: float) -> CrankMotion:
