@@ -237,6 +237,9 @@ def test_wheel_with_two_teeth_left_out():
         (np.array([0.1, 0.2]), "2 pulses; a speed needs at least 3"),
         (np.array([0.0, 2.0, 1.0]), "times of the pulses do not rise"),
         (np.array([0.0, np.nan, 1.0]), "times of the pulses do not rise"),
+        (np.array([0.0, np.inf, np.inf]), "times of the pulses do not rise"),
+        (np.array([0.0, 5e-324, 1.0]), "times of the pulses do not rise"),
+        (np.append(np.arange(50) * 1e-7, 1e3), "missing or double pulses among 51"),
         (np.cumsum(np.random.default_rng(0).exponential(size=500)), "do not follow each other"),
     ],
 )

@@ -26,6 +26,8 @@ _LOOK_BACK: Final = 64
 """Most pulses in a row that may be doubles."""
 _MOST_FAULTS: Final = 0.25
 """Share of the pulses above which they are no train of pulses."""
+_COINCIDENT: Final = 1e-12
+"""Of the whole time: pulses closer than that differ by rounding only."""
 
 
 @dataclass(frozen=True)
@@ -71,19 +73,20 @@ def number_pulses(time_s: Array) -> NumberedPulses:
     number: Indices = kept
     for _ in range(2):
         kept, number = _cheapest(time_s, _pulse_rate(time_s, time_s[kept], number))
-        faults = _list_faults(time_s, kept, number)
-        if len(faults) > _MOST_FAULTS * time_s.size:
+        faults = number[-1] + 1 - kept.size + time_s.size - kept.size
+        if faults > _MOST_FAULTS * time_s.size:
             raise ParameterError(
-                f"tacho: {len(faults)} missing or double pulses among {time_s.size}: they do not "
+                f"tacho: {faults} missing or double pulses among {time_s.size}: they do not "
                 "follow each other evenly; check the threshold and the channel"
             )
-    return NumberedPulses(time_s[kept], number, faults)
+    return NumberedPulses(time_s[kept], number, _list_faults(time_s, kept, number))
 
 
 def _check_times(time_s: Array) -> None:
     if time_s.ndim != 1 or time_s.size < 3:
         raise ParameterError(f"tacho: {time_s.size} pulses; a speed needs at least 3")
-    if not np.all(np.diff(time_s) > 0.0) or not np.all(np.isfinite(time_s)):
+    least_s = _COINCIDENT * (time_s[-1] - time_s[0])
+    if not np.all(np.isfinite(time_s)) or not np.all(np.diff(time_s) > max(least_s, 0.0)):
         raise ParameterError("tacho: the times of the pulses do not rise")
 
 
