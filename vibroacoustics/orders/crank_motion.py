@@ -81,10 +81,20 @@ def from_angle(time_s: Array, angle_rad: Array) -> CrankMotion:
     ParameterError
         The angle does not grow everywhere.
     """
-    curve = CubicSpline(time_s, angle_rad)
+    return from_curve(CubicSpline(time_s, angle_rad))
+
+
+def from_curve(curve: PPoly) -> CrankMotion:
+    """A shaft whose angle in rad over time in s is a piecewise polynomial.
+
+    Raises
+    ------
+    ParameterError
+        The angle does not grow everywhere.
+    """
     slope = PPoly(curve.c, curve.x).derivative()
     turning_points = slope.derivative().roots(extrapolate=False)
-    at = np.concatenate([time_s, turning_points[np.isfinite(turning_points)]])
+    at = np.concatenate([curve.x, turning_points[np.isfinite(turning_points)]])
     _check_turning(np.asarray(slope(at)) / (2.0 * np.pi))
     return CrankMotion(PPoly(curve.c, curve.x))
 

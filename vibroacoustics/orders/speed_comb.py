@@ -1,0 +1,128 @@
+"""How well the orders of a shaft explain short spectra, over candidates of its speed."""
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.fft import rfft
+from scipy.ndimage import map_coordinates, median_filter
+from scipy.sparse import csr_array
+
+Array = NDArray[np.float64]
+
+_NOISE_LEVEL: Final = 0.5963473623231941
+"""Mean of ln(1 + p) for the power p of white noise, exponentially distributed: e E1(1)."""
+_BETWEEN: Final = np.array([1.0, 1.5, 2.0]) / 3.0
+"""Where the comb looks between two teeth. Twice the shaft's speed leaves lines at a half, three
+times at a third and two thirds: without them these speeds would explain rich spectra as well."""
+_DYNAMIC_RANGE: Final = 1e-12
+"""Least floor over the strongest line: 120 dB, more than a 24-bit converter has."""
+_SEARCH: Final = 12
+"""Candidates to each side over which the speed is refined."""
+_CLEAR_LINE: Final = 10.0
+"""Power over the floor from which a line counts in full: noise gets there in one bin of 20000."""
+_STEEPEST: Final = 0.5
+"""Largest share by which the speed of a straightened frame may change to each side."""
+
+
+def frame_levels(
+    signal: Array, centres: Array, length: int, change_per_sample: Array, floor_bins: int
+) -> Array:
+    """Spectra of frames that are straightened to an even speed, over their noise floor.
+
+    Time is warped so that a shaft whose speed changes linearly turns evenly (fan-chirp transform:
+    Weruaga and Kepesi, Signal Processing 87, 2007). The floor is the running median over frequency,
+    of which Hann lines fill less than half.
+
+    Parameters
+    ----------
+    signal : shape (time,)
+    centres : shape (frames,), in samples
+    length : of a frame, samples; the spectrum is of twice that length
+    change_per_sample : shape (frames,), relative change of speed at the centre
+    floor_bins : width of the running median
+
+    Returns
+    -------
+    shape (frames, length + 1): ln(1 + power over floor), less its mean in noise
+    """
+    angle = np.arange(length) - 0.5 * (length - 1)
+    window = 0.5 + 0.5 * np.cos(2.0 * np.pi * angle / length)
+    bound = 2.0 * _STEEPEST / length
+    levels = np.empty((centres.size, length + 1))
+    for row, centre, change in zip(
+        levels, centres, np.clip(change_per_sample, -bound, bound), strict=True
+    ):
+        at = centre + 2.0 * angle / (1.0 + np.sqrt(1.0 + 2.0 * change * angle))
+        power = np.abs(rfft(window * _at(signal, at), 2 * length)) ** 2
+        least = _DYNAMIC_RANGE * power.max() + np.finfo(float).tiny
+        floor = median_filter(power, floor_bins, mode="nearest") / np.log(2.0)
+        row[:] = np.log1p(power / np.maximum(floor, least)) - _NOISE_LEVEL
+    return levels
+
+
+def comb_scores(levels: Array, orders: Array, candidates: Array) -> Array:
+    """Sum of the levels at the orders of each candidate, less the mean level between them.
+
+    A sum of log spectra over the orders is the logarithm of the joint probability of a speed
+    (Leclere, Andre and Antoni, Mechanical Systems and Signal Processing 81, 2016).
+
+    Parameters
+    ----------
+    levels : shape (frames, bins), from `frame_levels`
+    orders : shape (orders,), rising
+    candidates : shape (candidates,), speeds in bins
+
+    Returns
+    -------
+    shape (frames, candidates), about the logarithm of a likelihood ratio against noise
+    """
+    below = np.concatenate([[0.0], orders[:-1]])
+    between = (below[:, None] + _BETWEEN * (orders - below)[:, None]).ravel()
+    weight = np.repeat([1.0, -1.0 / _BETWEEN.size], [orders.size, between.size])
+    at = np.concatenate([orders, between])[:, None] * candidates
+    inside = at < levels.shape[1] - 1
+    lower, column = np.floor(at[inside]).astype(int), np.nonzero(inside)[1]
+    share, tooth = at[inside] - lower, np.broadcast_to(weight[:, None], at.shape)[inside]
+    comb = csr_array(
+        (
+            np.concatenate([tooth * (1.0 - share), tooth * share]),
+            (np.tile(column, 2), np.concatenate([lower, lower + 1])),
+        ),
+        shape=(candidates.size, levels.shape[1]),
+    )
+    return np.asarray((comb @ levels.T).T)
+
+
+def refine(levels: Array, orders: Array, candidates: Array, path: NDArray[np.int64]) -> Array:
+    """Speed at which the lines near each frame's candidate fit best, in bins.
+
+    Largest sum of ln(1 + (p/10)²) over the orders, p the power over the floor. The plain sum of the
+    powers is what maximum likelihood asks for in white noise (Quinn and Thomson, Biometrika 78,
+    1991), but one strange line, such as mains hum, then pulls the speed along; here each clear line
+    counts with the square of its order, and noise hardly at all.
+
+    Parameters
+    ----------
+    levels, orders, candidates : as in `comb_scores`; the candidates in even ratios
+    path : shape (frames,), position among the candidates
+    """
+    ratio = candidates[1] / candidates[0]
+    trial = candidates[path][:, None] * ratio ** np.arange(-_SEARCH, _SEARCH + 1)
+    at = orders[:, None, None] * trial
+    frame = np.broadcast_to(np.arange(path.size)[:, None], at.shape)
+    level = map_coordinates(levels, [frame, at], order=3, cval=-_NOISE_LEVEL) + _NOISE_LEVEL
+    total = np.log1p((np.expm1(level) / _CLEAR_LINE) ** 2).sum(axis=0)
+    best, row = np.clip(np.argmax(total, axis=1), 1, 2 * _SEARCH - 1), np.arange(path.size)
+    left, top, right = (total[row, best + offset] for offset in (-1, 0, 1))
+    curvature = np.minimum(left - 2.0 * top + right, -1e-9)  # flat where a frame is silent
+    shift = np.clip(0.5 * (left - right) / curvature, -1.0, 1.0)
+    return np.asarray(trial[row, best] * ratio**shift)
+
+
+def _at(signal: Array, position: Array) -> Array:
+    """Signal between its samples; its first and last value beyond them."""
+    position = np.clip(position, 0.0, signal.size - 1.000001)
+    lower = position.astype(int)
+    share = position - lower
+    return np.asarray(signal[lower] * (1.0 - share) + signal[lower + 1] * share)
