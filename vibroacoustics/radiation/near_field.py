@@ -48,7 +48,7 @@ _NOT_QUIET: Final = 1e-3
 """Share that is refused at the end of the longest recording."""
 _ENVELOPE_DECAY_PER_CELL: Final = 0.933
 """Decay of the envelope of the pressure during the passage of one cell."""
-_PIECES_PER_CELL: Final = 2
+_PIECES_PER_CELL: Final = 1
 _ON_WALL: Final = 1e-6
 """Surface closer than this many cells to a wall stands on it."""
 

@@ -1,7 +1,6 @@
 """What the moving surface pushes into each wall cell of the machine side's grid."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -26,56 +25,91 @@ def wall_fluxes(
     cell's mean velocity acts on its wall area as the open faces leave it, so that uniform motion
     makes no noise; what the velocity varies within the cell is summed over the surface itself.
     Errors of the flux matter most to patterns that have no volume velocity and no dipole moment:
-    they drown their weak sound at low frequencies. The sum is made exact.
+    they drown their weak sound at low frequencies. So the sum is made exact, and the dipole that
+    comes from the cells' middles lying beside the surface is taken off.
 
     The surface's points come in parts, so that not all of them need be kept.
     """
-    number = cells.wall_cells.size
-    middles = cKDTree(grid.middles(cells.wall_cells))
-    area, area_vectors = np.zeros(number), np.zeros((number, 3))
-    sums = [_Sums(np.zeros((number, 3)), np.zeros(number)) for _ in patterns]
+    middles = grid.middles(cells.wall_cells)
+    tree = cKDTree(middles)
+    wall = _Wall(cells)
+    sums = [_Sums(cells.wall_cells.size) for _ in patterns]
     for points in surface:
-        wall = _wall_pieces(cells, grid, middles, points)
-        area += np.bincount(wall, points.area, number)
-        area_vectors += _by_piece(wall, points.area[:, None] * points.normal, number)
-        for pattern, own in zip(patterns, sums, strict=True):
-            own.add(pattern.velocity(points), points, wall)
-    nearest = _nearest_with_points(middles, area)
-    return np.array([own.flux(cells.wall_areas, area, area_vectors, nearest) for own in sums])
+        piece = _wall_pieces(cells, grid, tree, points)
+        offset = middles[piece] - points.position
+        offset -= np.einsum("pi,pi->p", offset, points.normal)[:, None] * points.normal
+        velocities = [pattern.velocity(points) for pattern in patterns]
+        wall.add(points, piece, np.any(velocities, axis=(0, 2)))
+        for own, velocity in zip(sums, velocities, strict=True):
+            own.add(velocity, points, piece, offset)
+    nearest = _nearest_with_points(tree, wall.area)
+    return np.array([own.flux(wall, nearest) for own in sums])
 
 
-@dataclass
+class _Wall:
+    """Sums over the surface's points in each wall piece, whatever moves."""
+
+    def __init__(self, cells: CutCells) -> None:
+        number = cells.wall_cells.size
+        self.areas: Array = cells.wall_areas
+        self.area = np.zeros(number)
+        self.area_vectors = np.zeros((number, 3))
+        self.moving_area = np.zeros(number)
+        self._volumes = np.zeros(3)
+
+    def add(self, points: SurfacePoints, piece: IndexArray, moving: Array) -> None:
+        """Add points (point,) with their wall pieces; `moving` tells which of them ever move."""
+        number = self.area.size
+        self.area += np.bincount(piece, points.area, number)
+        self.area_vectors += _by_piece(piece, points.area[:, None] * points.normal, number)
+        self.moving_area += np.bincount(piece, points.area * moving, number)
+        self._volumes += (points.area * moving) @ (points.normal * points.position)
+
+    def translation_flux(self) -> Array:
+        """Flux of the moving part's unit translations along x, y, z, (wall, 3)."""
+        share = self.moving_area / np.maximum(self.area, np.finfo(float).tiny)
+        flux: Array = share[:, None] * self.areas
+        return flux
+
+    def volume(self) -> float:
+        """Of what moves: three ways to it by the divergence theorem.
+
+        A face on a wall of the room is missing in one of them, which is smaller by that.
+        """
+        return float(self._volumes.max())
+
+
 class _Sums:
     """Sums of one pattern's velocity over the surface's points in each wall piece."""
 
-    velocity: Array
-    """Area times velocity, m³/s, (wall, 3)."""
-    across: Array
-    """Area times velocity out of the body, m³/s, (wall,)."""
-    fastest: float = 0.0
-    fastest_across: float = 0.0
+    def __init__(self, number: int) -> None:
+        self._velocity = np.zeros((number, 3))
+        self._across = np.zeros(number)
+        self._moment = np.zeros(3)
+        self._fastest = self._fastest_across = 0.0
 
-    def add(self, velocity: Array, points: SurfacePoints, wall: IndexArray) -> None:
-        """Add the points (point,) with their velocities (point, 3) and wall pieces."""
+    def add(self, velocity: Array, points: SurfacePoints, piece: IndexArray, offset: Array) -> None:
+        """Add points (point,) with velocities, wall pieces and offsets of these along the wall."""
         across = np.einsum("pi,pi->p", velocity, points.normal)
-        number = self.across.size
-        self.velocity += _by_piece(wall, points.area[:, None] * velocity, number)
-        self.across += np.bincount(wall, points.area * across, number)
-        self.fastest = max(self.fastest, float(np.linalg.norm(velocity, axis=1).max(initial=0.0)))
-        self.fastest_across = max(self.fastest_across, float(np.abs(across).max(initial=0.0)))
+        number = self._across.size
+        self._velocity += _by_piece(piece, points.area[:, None] * velocity, number)
+        self._across += np.bincount(piece, points.area * across, number)
+        self._moment += (points.area * across) @ offset
+        fastest = np.linalg.norm(velocity, axis=1).max(initial=0.0)
+        self._fastest = max(self._fastest, float(fastest))
+        self._fastest_across = max(self._fastest_across, float(np.abs(across).max(initial=0.0)))
 
-    def flux(
-        self, wall_areas: Array, area: Array, area_vectors: Array, nearest: IndexArray
-    ) -> Array:
+    def flux(self, wall: _Wall, nearest: IndexArray) -> Array:
         """Flux (wall,): the mean velocity on the wall areas of the grid, and what varies."""
-        if self.fastest_across <= _SLIDING * self.fastest:
-            return np.zeros(area.size)
-        own = self.velocity / np.maximum(area, np.finfo(float).tiny)[:, None]
-        varying = self.across - np.einsum("wi,wi->w", own, area_vectors)
+        if self._fastest_across <= _SLIDING * self._fastest:
+            return np.zeros(wall.area.size)
+        own = self._velocity / np.maximum(wall.area, np.finfo(float).tiny)[:, None]
+        varying = self._across - np.einsum("wi,wi->w", own, wall.area_vectors)
         mean = own[nearest]
-        flux = np.einsum("wi,wi->w", mean, wall_areas) - varying
-        moving = np.linalg.norm(mean, axis=1) * np.linalg.norm(wall_areas, axis=1)
-        excess = flux.sum() + self.across.sum()
+        flux = np.einsum("wi,wi->w", mean, wall.areas) - varying
+        flux -= wall.translation_flux() @ self._moment / wall.volume()
+        moving = np.linalg.norm(mean, axis=1) * np.linalg.norm(wall.areas, axis=1)
+        excess = flux.sum() + self._across.sum()
         corrected: Array = flux - excess * moving / moving.sum()
         return corrected
 
