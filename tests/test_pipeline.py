@@ -54,7 +54,8 @@ def _transfer_vectors(study, gain=1.0) -> xr.Dataset:
 def results(thesis_study) -> xr.Dataset:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(
-            pipeline, "_transfer_vectors", lambda study, _: (_transfer_vectors(study), False)
+            "vibroacoustics.pipeline.study.transfer_vectors",
+            lambda study, _: (_transfer_vectors(study), False),
         )
         return pipeline.run(thesis_study)
 
@@ -124,14 +125,16 @@ def test_results_survive_the_disk(results, tmp_path):
 
 def test_model_louder_than_the_catalogue_is_refused(thesis_study, monkeypatch):
     loud = (_transfer_vectors(thesis_study, gain=1e6), False)
-    monkeypatch.setattr(pipeline, "_transfer_vectors", lambda *_: loud)
+    monkeypatch.setattr("vibroacoustics.pipeline.study.transfer_vectors", lambda *_: loud)
     with pytest.raises(ParameterError, match=r"published_noise\.level_dba = 56 dB\(A\)"):
         pipeline.run(thesis_study)
 
 
 def test_radiation_alone_tells_where_it_comes_from(thesis_study, monkeypatch):
     made = _transfer_vectors(thesis_study)
-    monkeypatch.setattr(pipeline, "_transfer_vectors", lambda *_: (made, True))
+    monkeypatch.setattr(
+        "vibroacoustics.pipeline.radiating.transfer_vectors", lambda *_: (made, True)
+    )
     radiated = pipeline.radiate(thesis_study)
     assert set(radiated.data_vars) == set(made.data_vars)
     assert radiated.attrs["transfer_vectors"] == "from the cache"
@@ -144,7 +147,7 @@ def test_radiation_refuses_in_the_name_of_the_study(thesis_study, monkeypatch):
     def refuse(*_):
         raise ParameterError("receivers.a: too close")
 
-    monkeypatch.setattr(pipeline, "_transfer_vectors", refuse)
+    monkeypatch.setattr("vibroacoustics.pipeline.radiating.transfer_vectors", refuse)
     with pytest.raises(ParameterError, match=r"copeland_thesis\.toml: receivers\.a: too close"):
         pipeline.radiate(thesis_study)
 

@@ -17,6 +17,7 @@ from vibroacoustics.parameters.sound_power import (
     MapSettings,
     SoundPowerSettings,
 )
+from vibroacoustics.pipeline.radiating import unit_sound_power
 from vibroacoustics.radiation.arrangements import (
     directivity_angles,
     directivity_points,
@@ -82,7 +83,7 @@ def radiated() -> xr.Dataset:
             "directivity_transfer_vector", around, {**lines, **angles}
         ),
         "surface_transfer_vector": on_surface,
-        "unit_sound_power_level": pipeline.unit_sound_power(
+        "unit_sound_power_level": unit_sound_power(
             on_surface, SoundPowerSettings(background_margin_db=10.0), 2.0 * np.pi
         ),
     }

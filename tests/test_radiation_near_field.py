@@ -78,7 +78,7 @@ class TestDefaultSettings:
         """0.1 dB to 1 kHz, 0.3 dB to 4 kHz, at angles less than 20 dB below the loudest.
 
         For P_3 up to 117 Hz 0.3 % of the loudest angle's pressure, 0.03 dB, is allowed at every
-        angle instead. P_3 is 41 dB below P_1 of the same velocity at 117 Hz and 45 dB at 48 Hz, and
+        angle instead. P_3 is 45 dB below P_1 of the same velocity at 48 and 117 Hz, and
         a grid of cubes does not keep both apart to better than 1e-5.
         """
         exact = sphere_pressure(order, RADIUS, 1.0, np.cos(ANGLES), FREQUENCY_HZ).T
@@ -163,7 +163,8 @@ def test_wall_equals_free_field_with_the_mirrored_body(axis):
 
     Both grids have the same cells before the wall, so the fields are the same to the rounding of
     float32, 6e-8, which some hundred steps let grow; lines through the body are off their places
-    by 1e-6 of a cell, on both sides in the same sense.
+    by 1e-6 of a cell, on both sides in the same sense. The dipole of the cells' offsets across the
+    wall is taken off on the one side and cancels on the other: a ten-thousandth of the fluxes.
     """
     radius, place = 0.09, -0.11
     flip = np.where(np.arange(3) == axis, -1.0, 1.0)
@@ -188,7 +189,7 @@ def test_wall_equals_free_field_with_the_mirrored_body(axis):
     microphone = np.array([0.5, 0.3, 0.7])
     simulated = pressure(near, alone, microphone, (wall,))
     expected = pressure(free, both, microphone)
-    assert np.all(np.abs(simulated - expected) < 1e-5 * np.abs(expected))
+    assert np.all(np.abs(simulated - expected) < 1e-4 * np.abs(expected))
 
 
 @pytest.mark.slow

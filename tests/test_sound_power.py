@@ -5,7 +5,6 @@ import pytest
 from pydantic import ValidationError
 from support import PIPELINES
 
-from vibroacoustics import pipeline
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.loading import load_study
 from vibroacoustics.parameters.sound_power import (
@@ -13,6 +12,7 @@ from vibroacoustics.parameters.sound_power import (
     MapSettings,
     SoundPowerSettings,
 )
+from vibroacoustics.pipeline.radiating import unit_sound_power
 from vibroacoustics.schema import stamp
 from vibroacoustics.sound_power import (
     background_correction_db,
@@ -76,7 +76,7 @@ def test_unit_sound_power_is_that_of_a_uniform_field():
         np.full((10, 1, 2), 1.0 + 0.0j),
         {"dof": ["tx"], "frequency": [50.0, 100.0]},
     )
-    level = pipeline.unit_sound_power(field, SoundPowerSettings(), 2.0 * np.pi)
+    level = unit_sound_power(field, SoundPowerSettings(), 2.0 * np.pi)
     expected = 20.0 * np.log10(1e-3 / 20e-6) + 10.0 * np.log10(2.0 * np.pi)
     np.testing.assert_allclose(level.values, [[expected, expected]])
 

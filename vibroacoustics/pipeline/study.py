@@ -1,25 +1,23 @@
-"""The main job: sole owner of the order of stages.
+"""The main job, from the machine to the scores.
 
 study -> moving parts -> orders -> transfer -> radiation -> levels -> scores, one dataset.
 """
 
-from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Final
+from collections.abc import Iterable, Sequence
+from typing import Final
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from . import levels, provenance, radiation, scoring, sound_power, storage
-from .balancers import BALANCERS
-from .constants import REFERENCE_PRESSURE_PA
-from .errors import ParameterError
-from .mechanisms import MECHANISMS
-from .moving_parts import Array, Balancing, MovingPart, wrench
-from .orders import order_spectrum, semi_major_axis
-from .parameters.sound_power import SoundPowerSettings
-from .parameters.study import Study
-from .schema import (
+from .. import levels, radiation, scoring
+from ..balancers import BALANCERS
+from ..errors import ParameterError
+from ..mechanisms import MECHANISMS
+from ..moving_parts import Array, Balancing, MovingPart, wrench
+from ..orders import order_spectrum, semi_major_axis
+from ..parameters.study import Study
+from ..schema import (
     AXES,
     REFERENCE_OPTION,
     RIGID_BODY_DOFS,
@@ -29,14 +27,10 @@ from .schema import (
     label_coordinates,
     stamp,
 )
-from .transfer import FOOT_NAMES, RigidBodyOnMounts
-from .units import shaft_frequency_hz
-
-Progress = Callable[[str, int, int], None]
-"""Called with what is being done, steps done and steps in all."""
-
-UNIT_VELOCITY_PEAK: Final = np.sqrt(2.0) * 1e-3
-"""1 mm/s (1 mrad/s) root mean square as a peak."""
+from ..transfer import FOOT_NAMES, RigidBodyOnMounts
+from ..units import shaft_frequency_hz
+from .progress import Progress
+from .radiating import attributes, sound_field, transfer_vectors
 
 MOUNT_FREQUENCY_HZ: Final[Array] = np.asarray(np.geomspace(1.0, 200.0, 400), dtype=np.float64)
 
@@ -64,85 +58,18 @@ def run(study: Study, progress: Progress = lambda *_: None) -> xr.Dataset:
         raise ParameterError(f"{study.source_file}: {error}") from None
 
 
-def radiate(study: Study, progress: Progress = lambda *_: None) -> xr.Dataset:
-    """Only the radiation of the housing: transfer vectors, from the cache if they are there.
-
-    Parameters
-    ----------
-    study : from `load_study`
-    progress : told of the advance of long work
-
-    Raises
-    ------
-    ParameterError, SolverError, StorageError
-        An input is out of range, a computation failed, the cache cannot be written.
-    """
-    try:
-        radiated, was_cached = _transfer_vectors(study, progress)
-    except ParameterError as error:
-        raise ParameterError(f"{study.source_file}: {error}") from None
-    if study.sound_power is not None:
-        surface = radiated["surface_transfer_vector"]
-        area = _surface_area_m2(study.sound_power, surface)
-        radiated["unit_sound_power_level"] = unit_sound_power(surface, study.sound_power, area)
-    radiated.attrs = _attributes(study, radiated, was_cached)
-    return check(label_coordinates(radiated))
-
-
-def unit_sound_power(
-    surface_transfer_vector: xr.DataArray, settings: SoundPowerSettings, surface_m2: float
-) -> xr.DataArray:
-    """Sound power level (dof, frequency) of a housing that moves at 1 mm/s or 1 mrad/s rms, dB.
-
-    Parameters
-    ----------
-    surface_transfer_vector : (position, dof, frequency), at the positions of an arrangement
-    settings : the study's, to be told in the attributes with K1 and K2 of its test stand
-    surface_m2 : area of its measurement surface, m²
-
-    Raises
-    ------
-    ParameterError
-        The room of the test stand does not qualify.
-    """
-    background, environment = sound_power.stand_corrections_db(settings, surface_m2)
-    ordered = surface_transfer_vector.transpose("position", "dof", "frequency")
-    peak = UNIT_VELOCITY_PEAK * ordered.values
-    mean = sound_power.energy_mean(levels.sound_pressure_level(peak), axis=0)
-    labelled = stamp(
-        "unit_sound_power_level",
-        sound_power.sound_power_level(mean, surface_m2),
-        {name: ordered[name].values for name in ("dof", "frequency")},
-        arrangement=settings.arrangement,
-    )
-    return labelled.assign_attrs(
-        surface_m2=surface_m2,
-        test_stand_background_correction_db=background,
-        test_stand_environment_correction_db=environment,
-    )
-
-
 def _run(study: Study, progress: Progress) -> xr.Dataset:
     results = _forces(study, progress)
     results = results.merge(_orders(study, results))
     results = results.merge(_housing(study, results))
-    radiated, was_cached = _transfer_vectors(study, progress)
+    radiated, was_cached = transfer_vectors(study, progress)
     results = results.merge(radiated)
     results = results.merge(_pressures(results))
-    results = results.merge(_sound_field(study, results))
+    results = results.merge(sound_field(study, results))
     results = results.merge(_levels(study, results))
     results = results.merge(_scores(study, results))
-    results.attrs = _attributes(study, radiated, was_cached)
+    results.attrs = attributes(study, radiated, was_cached)
     return check(label_coordinates(results))
-
-
-def _attributes(study: Study, radiated: xr.Dataset, was_cached: bool) -> dict[str, Any]:
-    return {
-        **provenance.attributes(study),
-        "reference_pressure_pa": REFERENCE_PRESSURE_PA,
-        "transfer_vectors": "from the cache" if was_cached else "computed in this run",
-        "radiation": provenance.canonical_json(radiated.attrs),
-    }
 
 
 def _forces(study: Study, progress: Progress) -> xr.Dataset:
@@ -308,23 +235,6 @@ def _transmissibility(body: RigidBodyOnMounts) -> NDArray[np.complex128]:
     return np.stack([force[axis, :, :, axis].sum(axis=-1) for axis in range(3)])
 
 
-def _transfer_vectors(study: Study, progress: Progress) -> tuple[xr.Dataset, bool]:
-    """Pressure per velocity of the housing; from the cache if it is there."""
-    drawn = study.map is not None or study.directivity is not None
-    sound_field = radiation.SoundField(
-        study.sound_power,
-        study.map,
-        study.directivity,
-        tuple(map(shaft_frequency_hz, study.operation.speed_rpm)) if drawn else (),
-    )
-    inputs = (study.machine.shell, study.receivers, study.radiation, sound_field)
-    return storage.cached(
-        "transfer-vectors",
-        radiation.cache_key_material(*inputs),
-        lambda: radiation.transfer_vectors(*inputs, progress),
-    )
-
-
 def _pressures(results: xr.Dataset) -> xr.Dataset:
     """Pressure at each microphone: contraction of velocity and transfer vector over the dofs."""
     pressure = _pressure(results, "transfer_vector")
@@ -349,45 +259,6 @@ def _pressure(results: xr.Dataset, name: str) -> xr.DataArray:
 
 
 _CHANGE: Final = ("speed", "option", "receiver")
-
-
-def _sound_field(study: Study, results: xr.Dataset) -> xr.Dataset:
-    """Level of the 1x line on the map, sound power of every order; what the study asks for."""
-    velocity = results["velocity_order"].sum("source")
-    fields: dict[str, xr.DataArray] = {}
-    if "map_transfer_vector" in results:
-        by_speed = results["map_transfer_vector"].rename(line_frequency="speed")
-        first = velocity.sel(order=1, drop=True)
-        line = xr.dot(first, by_speed.assign_coords(speed=first["speed"]), dim="dof")
-        dims = VARIABLES["map_level"].dims
-        coords = {name: results[name].values for name in dims}
-        level = levels.sound_pressure_level(line.transpose(*dims).values)
-        fields["map_level"] = stamp("map_level", level, coords)
-    if study.sound_power is not None:
-        surface = results["surface_transfer_vector"]
-        vectors = radiation.interpolate_transfer_vector(
-            surface.rename(position="receiver", position_distance="distance"),
-            results["order_frequency"],
-        )
-        pressure = xr.dot(velocity, vectors, dim="dof")
-        dims = ("speed", "option", "order", "receiver")
-        mean = sound_power.energy_mean(
-            levels.sound_pressure_level(pressure.transpose(*dims).values), axis=3
-        )
-        power = sound_power.sound_power_level(mean, _surface_area_m2(study.sound_power, surface))
-        frequency = results["order_frequency"].values[:, None, :]
-        weighted = np.stack([power + levels.WEIGHTING[a](frequency) for a in WEIGHTINGS], axis=-1)
-        total = levels.energy_sum(weighted[:, :, 1:], axis=2)  # order 0 is no sound
-        for name, level in (("order_sound_power_level", weighted), ("sound_power_level", total)):
-            by = {dim: results[dim] for dim in VARIABLES[name].dims if dim in results}
-            by["weighting"] = xr.DataArray(list(WEIGHTINGS), dims="weighting")
-            fields[name] = stamp(name, level, by, arrangement=study.sound_power.arrangement)
-    return check(xr.Dataset(fields))
-
-
-def _surface_area_m2(settings: SoundPowerSettings, surface: xr.DataArray) -> float:
-    edges = (surface.attrs[f"reference_{name}_m"] for name in ("length", "width", "height"))
-    return sound_power.surface_area_m2(settings, *edges)
 
 
 def _levels(study: Study, results: xr.Dataset) -> xr.Dataset:
