@@ -132,9 +132,8 @@ def test_model_louder_than_the_catalogue_is_refused(thesis_study, monkeypatch):
 
 def test_radiation_alone_tells_where_it_comes_from(thesis_study, monkeypatch):
     made = _transfer_vectors(thesis_study)
-    monkeypatch.setattr(
-        "vibroacoustics.pipeline.radiating.transfer_vectors", lambda *_: (made, True)
-    )
+    target = "vibroacoustics.pipeline.radiating.transfer_vectors"
+    monkeypatch.setattr(target, lambda *_: (made, True))
     radiated = pipeline.radiate(thesis_study)
     assert set(radiated.data_vars) == set(made.data_vars)
     assert radiated.attrs["transfer_vectors"] == "from the cache"

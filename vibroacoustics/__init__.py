@@ -1,24 +1,41 @@
 """From mechanism to microphone: what a compressor's moving parts do to its feet and to the ear.
 
 The public functions take or return one `xarray.Dataset`, so that a notebook needs no files:
-`load_study`, `run`, `open_results`, `score`, `write_report`.
+`load_study`, `run`, `open_results`, `score`, `write_report`; `read_recording`, `label_recording`,
+`analyse_orders`, `compare`.
 """
 
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .comparison import compare
     from .loading import load_study
+    from .measurements import label_recording, read_recording
     from .outputs import write_report
-    from .pipeline import run
+    from .pipeline import analyse_orders, run
     from .scoring import score
     from .storage import open_results
 
-__all__ = ["load_study", "open_results", "run", "score", "write_report"]
+__all__ = [
+    "analyse_orders",
+    "compare",
+    "label_recording",
+    "load_study",
+    "open_results",
+    "read_recording",
+    "run",
+    "score",
+    "write_report",
+]
 
 _HOME = {
+    "analyse_orders": "pipeline",
+    "compare": "comparison",
+    "label_recording": "measurements",
     "load_study": "loading",
     "open_results": "storage",
+    "read_recording": "measurements",
     "run": "pipeline",
     "score": "scoring",
     "write_report": "outputs",

@@ -1,4 +1,4 @@
-"""The command line: run, radiation, report, score, doctor.
+"""The command line: run, radiation, orders, compare, report, score, doctor.
 
 Heavy imports wait until a command needs them.
 """
@@ -79,6 +79,102 @@ def radiation_command(
     written = outputs.write_radiation(radiated, folder)
     typer.echo(report.radiation_text(radiated))
     typer.echo(f"transfer vectors: {written}")
+
+
+@app.command("orders")
+def orders_command(
+    recording_file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording.")],
+    speed: Annotated[
+        str | None,
+        typer.Option(help="Channel of the tacho, or of the speed in rpm; tacholess: of the sound."),
+    ] = None,
+    pulses: Annotated[int, typer.Option(help="Pulses of the tacho per revolution.")] = 1,
+    index: Annotated[
+        str | None, typer.Option(help="Channel with one pulse a revolution: crank angle zero.")
+    ] = None,
+    rpm: Annotated[float | None, typer.Option(help="Nominal speed, instead of a channel.")] = None,
+    tacholess: Annotated[
+        tuple[float, float] | None,
+        typer.Option(metavar="LOWEST HIGHEST", help="Find the speed in the signal, rpm."),
+    ] = None,
+    orders: Annotated[str, typer.Option(help="Orders wanted, with commas.")] = "1,2,3,4",
+    maximum_order: Annotated[float, typer.Option(help="Highest order of spectra and map.")] = 20.0,
+    resolution: Annotated[float, typer.Option(help="Coarsest resolution, orders.")] = 0.25,
+    speed_step: Annotated[float, typer.Option(help="Of a run-up's operating points, rpm.")] = 100.0,
+    with_map: Annotated[bool, typer.Option("--map", help="Keep and draw the order map.")] = False,
+    unit: Annotated[
+        list[str] | None, typer.Option(metavar="CHANNEL=UNIT", help="Where the file states none.")
+    ] = None,
+    calibration: Annotated[
+        list[str] | None,
+        typer.Option(metavar="CHANNEL=FACTOR", help="Unit per unit stored in the file."),
+    ] = None,
+    channels: Annotated[str | None, typer.Option(help="Channels to read, with commas.")] = None,
+    sample_rate: Annotated[
+        float | None, typer.Option(help="Actual sample rate, Hz, instead of the file's.")
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE FILE."),
+    ] = None,
+) -> None:
+    """Find the orders of a recording: netCDF, CSV, figures and a table."""
+    from . import arguments, measurements, outputs, pipeline, report
+
+    settings = arguments.order_analysis(
+        speed, pulses, index, rpm, tacholess, orders, maximum_order, resolution, speed_step,
+        with_map,
+    )  # fmt: skip
+    folder = out or Path("reports") / recording_file.stem
+    outputs.check_folder(folder)
+    recording = measurements.read_recording(
+        recording_file,
+        units=arguments.assignments("--unit", unit),
+        calibration=arguments.numbers("--calibration", calibration),
+        channels=None if channels is None else channels.split(","),
+        sample_rate_hz=sample_rate,
+    )
+    with _progress_bar() as progress, arguments.warnings_in_one_line():
+        results = pipeline.analyse_orders(recording, settings, progress)
+    written = outputs.write_orders(results, folder)
+    typer.echo(report.orders_text(results))
+    typer.echo(f"orders: {written}")
+
+
+@app.command("compare")
+def compare_command(
+    first: Annotated[Path, typer.Argument(metavar="A.nc", help="Results of `run` or `orders`.")],
+    second: Annotated[Path, typer.Argument(metavar="B.nc", help="Results to compare with.")],
+    pair: Annotated[
+        list[str] | None,
+        typer.Option(metavar="CHANNEL_OF_A=CHANNEL_OF_B", help="Default: channels of one name."),
+    ] = None,
+    option: Annotated[str, typer.Option(help="Balancing option of a study.")] = "none",
+    tacho_angle: Annotated[
+        float, typer.Option(help="Crank angle of A where B's tacho gives its pulse, degrees.")
+    ] = 0.0,
+    out: Annotated[
+        Path | None, typer.Option("--out", help="Folder of the results; default: that of B.")
+    ] = None,
+) -> None:
+    """Compare two results order by order, in level and phase."""
+    from math import radians
+
+    from . import arguments, comparison, outputs, report
+
+    folder = out or second.parent
+    outputs.check_folder(folder)
+    compared = comparison.compare(
+        outputs.open_run(first),
+        outputs.open_run(second),
+        arguments.assignments("--pair", pair),
+        option,
+        radians(tacho_angle),
+    )
+    compared.attrs |= {"first": first.stem, "second": second.stem}
+    written = outputs.write_comparison(compared, folder)
+    typer.echo(report.comparison_of_orders_text(compared))
+    typer.echo(f"compared orders: {written}")
 
 
 @app.command("report")

@@ -1,6 +1,7 @@
 """What a run leaves on disk: the dataset, the report, its tables and figures."""
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 from typing import Final
 
@@ -9,10 +10,13 @@ import xarray as xr
 from . import report, storage
 from .errors import StorageError
 from .provenance import SCHEMA_VERSION
+from .report.figures import Picture
 
 RESULTS_NAME: Final = "results.nc"
 REPORT_NAME: Final = "report.html"
 TRANSFER_VECTORS_NAME: Final = "transfer_vectors.nc"
+ORDERS_NAME: Final = "orders.nc"
+COMPARISON_NAME: Final = "compared_orders.nc"
 
 
 def open_run(path: str | Path) -> xr.Dataset:
@@ -78,7 +82,30 @@ def write_radiation(radiated: xr.Dataset, folder: str | Path) -> Path:
     -------
     path of the dataset
     """
-    pictures = report.radiation_figures(radiated)
-    for picture in pictures:
-        storage.write_bytes(Path(folder) / f"{picture.name}.png", picture.png)
-    return storage.write_results(radiated, Path(folder) / TRANSFER_VECTORS_NAME)
+    return _write_analysis(radiated, folder, TRANSFER_VECTORS_NAME, {}, report.radiation_figures)
+
+
+def write_orders(results: xr.Dataset, folder: str | Path) -> Path:
+    """Write the orders of a recording with their table and figures; see `write_radiation`."""
+    table = {"orders.csv": report.orders_csv(results)}
+    return _write_analysis(results, folder, ORDERS_NAME, table, report.recorded_order_figures)
+
+
+def write_comparison(compared: xr.Dataset, folder: str | Path) -> Path:
+    """Write compared orders with their table and figures; see `write_radiation`."""
+    table = {"compared_orders.csv": report.comparison_of_orders_csv(compared)}
+    return _write_analysis(compared, folder, COMPARISON_NAME, table, report.compared_order_figures)
+
+
+def _write_analysis(
+    results: xr.Dataset,
+    folder: str | Path,
+    name: str,
+    tables: dict[str, bytes],
+    figures: Callable[[xr.Dataset], list[Picture]],
+) -> Path:
+    """Write a dataset with what was drawn of it, each whole or not at all; the dataset last."""
+    files = tables | {f"{picture.name}.png": picture.png for picture in figures(results)}
+    for file, content in files.items():
+        storage.write_bytes(Path(folder) / file, content)
+    return storage.write_results(results, Path(folder) / name)

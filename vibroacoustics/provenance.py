@@ -19,19 +19,26 @@ def attributes(study: Study) -> dict[str, Any]:
     """Global attributes of a result: everything that is needed to make it again."""
     parameters = canonical_json(study.parameters())
     return {
-        "Conventions": "CF-1.11",
+        **software_attributes(f"run {study.source_file}"),
         "title": study.title,
-        "history": f"{_now()} vibroacoustics {software_version()}: run {study.source_file}",
-        "source": f"vibroacoustics {software_version()}",
         "references": "see the sources in the attribute parameters",
+        "parameters": parameters,
+        "parameters_sha256": sha256(parameters.encode()),
+        "random_seed": study.scoring.seed,
+    }
+
+
+def software_attributes(command: str) -> dict[str, Any]:
+    """Global attributes of any result: what made it, and when."""
+    return {
+        "Conventions": "CF-1.11",
+        "history": f"{_now()} vibroacoustics {software_version()}: {command}",
+        "source": f"vibroacoustics {software_version()}",
         "schema_version": SCHEMA_VERSION,
         "software_version": software_version(),
         "git_revision": git_revision(),
         "package_versions": canonical_json(package_versions()),
         "created_utc": _now(),
-        "parameters": parameters,
-        "parameters_sha256": sha256(parameters.encode()),
-        "random_seed": study.scoring.seed,
         "phasor_convention": "x(t) = Re{X exp(+j w t)}, X is a complex peak",
     }
 

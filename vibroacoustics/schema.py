@@ -63,6 +63,15 @@ COORDINATES: Final[dict[str, Variable]] = {
         ("channel",), "", "channel's unit per unit stored in the file, already applied"
     ),
     "time": Variable(("time",), "s", "time from the start of the recording"),
+    "block": Variable(("block",), "1", "block of revolutions of a recording"),
+    "block_time": Variable(("block",), "s", "middle of the block"),
+    "block_speed": Variable(("block",), "rpm", "mean speed over the block"),
+    "map_order": Variable(("map_order",), "1", "shaft order"),
+    "average_angle": Variable(("average_angle",), "rad", "crank angle over a revolution"),
+    "band": Variable(("band",), "Hz", "nominal midband frequency of a third of an octave"),
+    "fault": Variable(("fault",), "", "missing or double pulse of the tacho"),
+    "compared_channel": Variable(("channel",), "", "channel of the other result"),
+    "compared_speed": Variable(("speed",), "rpm", "speed in the other result"),
     "foot_position": Variable(
         ("foot", "axis"), "m", "foot position from the centre of mass at rest"
     ),
@@ -185,6 +194,58 @@ VARIABLES: Final[dict[str, Variable]] = {
         ("option",), "1", "share of random weightings in which the option ranks first"
     ),
     "signal": Variable(("channel", "time"), "", "recorded samples, unit in channel_unit"),
+    "channel_order": Variable(
+        ("channel", "speed", "order"),
+        "",
+        "shaft order, coherent mean over the blocks at the speed, unit in channel_unit",
+        True,
+    ),
+    "channel_order_rms": Variable(
+        ("channel", "speed", "order"),
+        "",
+        "root mean square in the order's band, unit in channel_unit",
+    ),
+    "channel_order_coherence": Variable(
+        ("channel", "speed", "order"), "1", "power of the coherent mean over the mean power"
+    ),
+    "block_order": Variable(
+        ("channel", "block", "order"), "", "shaft order, unit in channel_unit", True
+    ),
+    "block_order_rms": Variable(
+        ("channel", "block", "order"),
+        "",
+        "root mean square in the order's band, unit in channel_unit",
+    ),
+    "mean_order_spectrum": Variable(
+        ("channel", "map_order"),
+        "",
+        "root mean square of each line, mean power over the blocks, unit in channel_unit",
+    ),
+    "order_map": Variable(
+        ("channel", "block", "map_order"), "", "order spectra, unit in channel_unit", True
+    ),
+    "synchronous_average": Variable(
+        ("channel", "average_angle"), "", "mean over the revolutions, unit in channel_unit"
+    ),
+    "synchronous_average_error": Variable(
+        ("channel", "average_angle"), "", "standard error of the mean, unit in channel_unit"
+    ),
+    "equivalent_level": Variable(("channel", "weighting"), "dB", "equivalent level"),
+    "fast_maximum_level": Variable(("channel", "weighting"), "dB", "greatest Fast level"),
+    "slow_maximum_level": Variable(("channel", "weighting"), "dB", "greatest Slow level"),
+    "band_level": Variable(
+        ("channel", "weighting", "band"), "dB", "equivalent level in a third of an octave"
+    ),
+    "fault_time": Variable(("fault",), "s", "time of the fault"),
+    "compared_order": Variable(
+        ("channel", "speed", "order"), "", "shaft order in the other result", True
+    ),
+    "order_difference": Variable(
+        ("channel", "speed", "order"), "dB", "level of the order in the other result minus this"
+    ),
+    "order_phase_difference": Variable(
+        ("channel", "speed", "order"), "rad", "phase of the order in the other result minus this"
+    ),
     "published_score": Variable(
         ("published_option", "published_criterion"), "1", "published score, as printed"
     ),

@@ -1,35 +1,56 @@
 """Order analysis: spectra over crank angle and the ellipses of vector orders."""
 
 from .angular import AngularSignal, angular_resample, whole_revolutions
+from .crank_motion import CrankMotion, constant_speed, from_angle, from_speed
 from .ellipse import semi_major_axis
+from .fourier import FFT_ENGINE
 from .order_cut import OrderCut, OrderResolutionWarning, order_cut, order_lines
 from .order_map import FrequencyMap, OrderMap, frequency_map, mean_order_spectrum, order_map
-from .spectrum import FFT_ENGINE, order_spectrum
+from .pulse_edges import pulse_times
+from .pulse_faults import PulseFault
+from .spectrum import order_spectrum
 from .synchronous import (
     OrderEnvelope,
     SynchronousAverage,
     synchronous_demodulation,
     time_synchronous_average,
 )
+from .tacho import TachoResult, rpm_motion, tacho_motion
+from .tacholess import TacholessResult, tacholess_motion
+from .vold_kalman import Track, TrackedOrders, vold_kalman
 
 __all__ = [
     "FFT_ENGINE",
     "AngularSignal",
+    "CrankMotion",
     "FrequencyMap",
     "OrderCut",
     "OrderEnvelope",
     "OrderMap",
     "OrderResolutionWarning",
+    "PulseFault",
     "SynchronousAverage",
+    "TachoResult",
+    "TacholessResult",
+    "Track",
+    "TrackedOrders",
     "angular_resample",
+    "constant_speed",
     "frequency_map",
+    "from_angle",
+    "from_speed",
     "mean_order_spectrum",
     "order_cut",
     "order_lines",
     "order_map",
     "order_spectrum",
+    "pulse_times",
+    "rpm_motion",
     "semi_major_axis",
     "synchronous_demodulation",
+    "tacho_motion",
+    "tacholess_motion",
     "time_synchronous_average",
+    "vold_kalman",
     "whole_revolutions",
 ]

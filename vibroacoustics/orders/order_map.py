@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..errors import ParameterError
 from .angular import AngularSignal, check_finite, known_samples
 from .crank_motion import CrankMotion
-from .spectrum import real_transform
+from .fourier import real_transform
 from .windows import Window, window_by_name
 
 Array = NDArray[np.float64]

@@ -1,17 +1,11 @@
 """Order spectrum of a signal over whole revolutions of the shaft."""
 
-from typing import Final
-
 import numpy as np
 from numpy.typing import NDArray
 
-try:
-    import pyfftw
-except ImportError:  # FFTW is optional; scipy gives the same spectrum
-    pyfftw = None
-from scipy import fft as scipy_fft
-
-FFT_ENGINE: Final = "scipy.fft" if pyfftw is None else "pyFFTW"
+from .angular import whole_revolutions
+from .order_cut import order_lines
+from .order_map import order_map
 
 
 def order_spectrum(
@@ -19,8 +13,9 @@ def order_spectrum(
 ) -> NDArray[np.complex128]:
     """Complex peak amplitude of each shaft order, x(θ) = Re Σ X_k exp(jkθ).
 
-    X_0 = (1/N) Σ x and X_k = (2/N) Σ x exp(-jkθ): the one-sided Fourier series. A constant speed
-    and whole revolutions leave no leakage, so no window and no correction for one.
+    X_0 = (1/N) Σ x and X_k = (2/N) Σ x exp(-jkθ): the one-sided Fourier series. One block of the
+    order map that recordings go through; a constant speed and whole revolutions leave no leakage,
+    so no window and no correction for one.
 
     Parameters
     ----------
@@ -43,18 +38,6 @@ def order_spectrum(
             f"maximum_order {maximum_order} needs more than {2 * maximum_order * revolutions} "
             f"samples, got {samples}"
         )
-    lines = real_transform(signal)[..., ::revolutions][..., : maximum_order + 1]
-    spectrum = 2.0 / samples * lines
-    spectrum[..., 0] /= 2.0
-    return np.asarray(spectrum)
-
-
-def real_transform(signal: NDArray[np.float64]) -> NDArray[np.complex128]:
-    """Real-to-complex transform along the last axis, by FFTW where it is installed."""
-    if pyfftw is None:
-        return np.asarray(scipy_fft.rfft(signal, axis=-1))
-    # Estimated plans: measured ones differ in the last bits from run to run.
-    transform = pyfftw.builders.rfft(
-        np.array(signal, dtype=float), axis=-1, planner_effort="FFTW_ESTIMATE", threads=1
-    )
-    return np.asarray(transform())
+    angular = whole_revolutions(signal, revolutions, frequency_hz=1.0)
+    spectra = order_map(angular, 1.0 / revolutions, "rectangular", overlap_ratio=0.0)
+    return order_lines(spectra, np.arange(maximum_order + 1.0))[..., 0, :]

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError
 from .angular import AngularSignal
+from .fourier import real_transform
 from .low_pass import LowPass, kaiser_low_pass
 from .order_cut import warn_of_neighbours
-from .spectrum import real_transform
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]

@@ -133,6 +133,7 @@ def _surface_area_m2(settings: SoundPowerSettings, surface: xr.DataArray) -> flo
 
 
 def attributes(study: Study, radiated: xr.Dataset, was_cached: bool) -> dict[str, Any]:
+    """Global attributes of a result of a study."""
     return {
         **provenance.attributes(study),
         "reference_pressure_pa": REFERENCE_PRESSURE_PA,

@@ -12,13 +12,32 @@ from .figures import (
     score_figures,
     transfer_figures,
 )
+from .figures.compared_orders import compared_order_figures
+from .figures.recorded_orders import recorded_order_figures
 from .html import html
 from .markdown import comparison_markdown
+from .order_tables import (
+    comparison_of_orders_csv,
+    comparison_of_orders_text,
+    orders_csv,
+    orders_text,
+)
 from .radiation_figures import radiation_figures
 from .radiation_tables import radiation_text
 from .scores import scores_csv
 
-__all__ = ["comparison_text", "radiation_figures", "radiation_text", "render"]
+__all__ = [
+    "compared_order_figures",
+    "comparison_of_orders_csv",
+    "comparison_of_orders_text",
+    "comparison_text",
+    "orders_csv",
+    "orders_text",
+    "radiation_figures",
+    "radiation_text",
+    "recorded_order_figures",
+    "render",
+]
 
 _FIGURES = (
     order_figures,
