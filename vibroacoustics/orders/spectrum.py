@@ -40,4 +40,4 @@ def order_spectrum(
         )
     angular = whole_revolutions(signal, revolutions, frequency_hz=1.0)
     spectra = order_map(angular, 1.0 / revolutions, "rectangular", overlap_ratio=0.0)
-    return order_lines(spectra, np.arange(maximum_order + 1.0))[..., 0, :]
+    return order_lines(spectra, range(maximum_order + 1))[..., 0, :]
