@@ -16,7 +16,7 @@ from support import CRANK_ANGLE, balancing, wrench_orders
 from vibroacoustics.balancers.spring_mass import sprung_mass_response, tuned_mass
 from vibroacoustics.levels import a_weighting, sound_pressure_level
 from vibroacoustics.moving_parts import MovingPart, path, second_derivative, wrench
-from vibroacoustics.orders import order_spectrum, spectrum
+from vibroacoustics.orders import fourier, order_spectrum
 from vibroacoustics.radiation.arrays import no_progress
 from vibroacoustics.radiation.bodies import cylinder
 from vibroacoustics.radiation.machine_side import MachineSide, near_fields
