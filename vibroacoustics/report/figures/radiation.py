@@ -22,8 +22,8 @@ from .style import (
 )
 
 NEGLIGIBLE: Final = 1e-3
-"""Motions whose transfer stays below this share of the largest of its kind are not drawn: what symmetry
-forbids comes out of the grid at some 1e-4."""
+"""Motions whose transfer stays below this share of the largest of its kind are not drawn: what
+symmetry forbids comes out of the grid at some 1e-4."""
 
 _KINDS: Final = (("translations", "t", "Pa per m/s"), ("rotations", "r", "Pa per rad/s"))
 
