@@ -9,7 +9,8 @@ The tacho gives one pulse a revolution whose flank lasts 80 µs, four samples, a
 has white noise of 5 % of the pulse height. It crosses half the height with a jitter of 3.3 µs, 0.25
 rad at order 120 and 6000 rpm: a spline through the pulses as they are loses 0.09 dB there over the
 run-up. How much of that smoothing wins back depends on the shaft: from a swing like this one nearly
-all; where it swings by as much four times as fast, `tacho_motion` takes the pulses as they are.
+all; with SWING_PERIOD_S = 0.5 `tacho_motion` takes the pulses as they are. The other two methods
+smooth over a fixed number of pulses, and the swing costs them more: see SWING_HZ = 0 as well.
 
 Each method runs in a process of its own, so that its peak memory is its own, and they take turns.
 rota-order (GPL) is no part of this package and runs under another interpreter only: one that is
@@ -35,7 +36,8 @@ SAMPLE_RATE_HZ = 51_200
 DURATION_S = 60.0
 SPEED_HZ = (20.0, 100.0)
 SWING_HZ = 0.5
-"""Of the speed about the even run-up, peak; and how often a second."""
+"""Of the speed about the even run-up, peak."""
+SWING_PERIOD_S = 2.0
 MAXIMUM_ORDER = 120
 REVOLUTIONS_IN_BLOCK = 8
 AMPLITUDES = {1: 1.0, 2: 0.5, 4: 0.25, MAXIMUM_ORDER: 1.0}
@@ -58,10 +60,10 @@ def write_signals(folder: Path) -> None:
     generator = np.random.default_rng(60)
     time_s = np.arange(int(DURATION_S * SAMPLE_RATE_HZ)) / SAMPLE_RATE_HZ
     low, high = SPEED_HZ
-    swing = 2.0 * np.pi * SWING_HZ * time_s
+    swing = 2.0 * np.pi / SWING_PERIOD_S * time_s
     speed_hz = low + (high - low) * time_s / DURATION_S + SWING_HZ * np.cos(swing)
     revolution = low * time_s + (high - low) / (2.0 * DURATION_S) * time_s**2
-    revolution += np.sin(swing) / (2.0 * np.pi)
+    revolution += SWING_HZ * SWING_PERIOD_S / (2.0 * np.pi) * np.sin(swing)
     orders = sum(
         peak * np.cos(2.0 * np.pi * order * revolution + order)
         for order, peak in AMPLITUDES.items()
