@@ -22,6 +22,7 @@ def findings() -> Iterator[str]:
     yield f"cores: {psutil.cpu_count()}"
     yield f"fft: {_fft()}"
     yield f"k-wave: {_kwave()}"
+    yield f"recordings: {_recordings()}"
     yield f"cache: {_cache()}"
 
 
@@ -41,6 +42,15 @@ def _kwave() -> str:
     except VibroacousticsError as error:
         return f"not usable: {error}"
     return "solver loads, without a network"
+
+
+def _recordings() -> str:
+    """Whether the extra `io` is there."""
+    versions = provenance.package_versions()
+    missing = [name for name in provenance.READERS if versions[name] == provenance.NOT_INSTALLED]
+    if missing:
+        return f"no {' and '.join(missing)}; for UFF and TDMS pip install vibroacoustics[io]"
+    return "every format can be read"
 
 
 def _cache() -> str:

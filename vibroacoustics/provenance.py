@@ -12,7 +12,20 @@ from typing import Any, Final
 from .parameters.study import Study
 
 SCHEMA_VERSION: Final = "1"
-PACKAGES: Final = ("numpy", "scipy", "pyfftw", "xarray", "netCDF4", "k-wave-python", "pydantic")
+NOT_INSTALLED: Final = "not installed"
+READERS: Final = ("pyuff", "nptdms")
+"""The extra `io`."""
+PACKAGES: Final = (
+    "numpy",
+    "scipy",
+    "pyfftw",
+    "xarray",
+    "netCDF4",
+    "h5py",
+    "k-wave-python",
+    "pydantic",
+    *READERS,
+)
 
 
 def attributes(study: Study) -> dict[str, Any]:
@@ -84,7 +97,7 @@ def _version(name: str) -> str:
     try:
         return version(name)
     except PackageNotFoundError:
-        return "not installed"
+        return NOT_INSTALLED
 
 
 def _now() -> str:
