@@ -86,7 +86,9 @@ def orders_command(
     recording_file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording.")],
     speed: Annotated[
         str | None,
-        typer.Option(help="Channel of the tacho, or of the speed in rpm; tacholess: of the sound."),
+        typer.Option(
+            help="Channel of the tacho, or of the speed in rpm; with --tacholess, of the signal."
+        ),
     ] = None,
     pulses: Annotated[int, typer.Option(help="Pulses of the tacho per revolution.")] = 1,
     index: Annotated[
@@ -171,7 +173,6 @@ def compare_command(
         option,
         radians(tacho_angle),
     )
-    compared.attrs |= {"first": first.stem, "second": second.stem}
     written = outputs.write_comparison(compared, folder)
     typer.echo(report.comparison_of_orders_text(compared))
     typer.echo(f"compared orders: {written}")

@@ -20,7 +20,7 @@ COMPARISON_NAME: Final = "compared_orders.nc"
 
 
 def open_run(path: str | Path) -> xr.Dataset:
-    """Results of a run, checked to be what a report and a score can be made of.
+    """Results of a run or of an analysis of orders, checked to be of this version.
 
     Raises
     ------
@@ -86,9 +86,11 @@ def write_radiation(radiated: xr.Dataset, folder: str | Path) -> Path:
 
 
 def write_orders(results: xr.Dataset, folder: str | Path) -> Path:
-    """Write the orders of a recording with their table and figures; see `write_radiation`."""
-    table = {"orders.csv": report.orders_csv(results)}
-    return _write_analysis(results, folder, ORDERS_NAME, table, report.recorded_order_figures)
+    """Write the orders of a recording with their tables and figures; see `write_radiation`."""
+    tables = {"orders.csv": report.orders_csv(results)}
+    if "equivalent_level" in results:
+        tables["levels.csv"] = report.levels_csv(results)
+    return _write_analysis(results, folder, ORDERS_NAME, tables, report.recorded_order_figures)
 
 
 def write_comparison(compared: xr.Dataset, folder: str | Path) -> Path:
