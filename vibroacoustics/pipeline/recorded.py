@@ -166,7 +166,7 @@ def _faults(faults: tuple[orders.PulseFault, ...]) -> xr.Dataset:
 def _levels(signal: xr.DataArray, rate_hz: float) -> xr.Dataset:
     """Levels of the channels of sound pressure; not a number for others, which have no reference.
 
-    A recording without sound pressure has none.
+    A recording without sound pressure has none. An offset is no sound and is taken off.
     """
     pressure = signal["channel_unit"].values == "Pa"
     if not pressure.any():
@@ -176,8 +176,9 @@ def _levels(signal: xr.DataArray, rate_hz: float) -> xr.Dataset:
     names = ("equivalent", "fast_maximum", "slow_maximum")
     whole = {name: np.full(shape, np.nan) for name in names}
     in_bands = np.full((*shape, len(bands)), np.nan)
+    values = signal.values[pressure]
+    sound = (values - values.mean(axis=-1, keepdims=True), rate_hz)
     for number, weighting in enumerate(WEIGHTINGS):
-        sound = (signal.values[pressure], rate_hz)
         told = levels.recorded_levels(*sound, REFERENCE_PRESSURE_PA, weighting)
         for name in names:
             whole[name][pressure, number] = getattr(told, f"{name}_db")

@@ -15,8 +15,9 @@ _MOST_SPEEDS: Final = 6
 """Operating points in the text; all are in the CSV."""
 _MOST_FAULTS: Final = 5
 """Faults of the tacho that are listed; all are counted."""
-_LEAST_COHERENCE: Final = 0.5
-"""Of an order whose phase is told: below, more of its power comes and goes than stays."""
+_LEAST_COHERENCE: Final = 0.8
+"""Of an order whose phase is told; noise in five independent blocks reaches it once in 600 times,
+0.2^(5 - 1)."""
 _WIDEST_CHANNEL: Final = 32
 _LEVELS: Final = ("equivalent_level", "fast_maximum_level", "slow_maximum_level")
 
