@@ -6,13 +6,16 @@ import sys
 import tempfile
 import textwrap
 from collections.abc import Sequence
+from contextlib import redirect_stderr, redirect_stdout
+from io import StringIO
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 import pytest
 import xarray as xr
 
-from vibroacoustics import pipeline
+from vibroacoustics import cli, pipeline
 from vibroacoustics.balancers import BALANCERS
 from vibroacoustics.loading import load_study
 from vibroacoustics.mechanisms import MECHANISMS
@@ -67,8 +70,8 @@ def made_up_transfer_vectors(study: Study, gain: float = 1.0) -> xr.Dataset:
 def tiny_run(options: str = "") -> xr.Dataset:
     """Results of the tiny study with further options, radiation made up."""
     text = TINY.read_text().replace("../../data", str(ROOT / "data"))
-    with tempfile.TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as patch:
-        patch.setattr(
+    with tempfile.TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as context:
+        context.setattr(
             "vibroacoustics.pipeline.study.transfer_vectors",
             lambda study, _: (made_up_transfer_vectors(study), False),
         )
@@ -87,6 +90,22 @@ def command(*arguments: object, cache: Path) -> subprocess.CompletedProcess[str]
         check=False,
         timeout=300,
     )
+
+
+def command_here(*arguments: object) -> subprocess.CompletedProcess[str]:
+    """The command line in this process, which saves seconds of imports."""
+    words = ["vibroacoustics", *map(str, arguments)]
+    code: object = 0
+    with (
+        patch.object(sys, "argv", words),
+        redirect_stdout(StringIO()) as output,
+        redirect_stderr(StringIO()) as errors,
+    ):
+        try:
+            cli.main()
+        except SystemExit as ended:
+            code = ended.code or 0
+    return subprocess.CompletedProcess(words, int(str(code)), output.getvalue(), errors.getvalue())
 
 
 def assert_refused(outcome: subprocess.CompletedProcess[str], *words: str) -> None:

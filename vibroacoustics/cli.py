@@ -138,7 +138,7 @@ def orders_command(
     )
     with _progress_bar() as progress, arguments.warnings_in_one_line():
         results = pipeline.analyse_orders(recording, settings, progress)
-    written = outputs.write_orders(results, folder)
+        written = outputs.write_orders(results, folder)
     typer.echo(report.orders_text(results))
     typer.echo(f"orders: {written}")
 
@@ -167,8 +167,8 @@ def compare_command(
     folder = out or second.parent
     outputs.check_folder(folder)
     compared = comparison.compare(
-        outputs.open_run(first),
-        outputs.open_run(second),
+        outputs.open_orders(first),
+        outputs.open_orders(second),
         arguments.assignments("--pair", pair),
         option,
         radians(tacho_angle),

@@ -20,18 +20,32 @@ COMPARISON_NAME: Final = "compared_orders.nc"
 
 
 def open_run(path: str | Path) -> xr.Dataset:
-    """Results of a run or of an analysis of orders, checked to be of this version.
+    """Results of a run, checked to be what a report and a score can be made of.
 
     Raises
     ------
     StorageError
         The file cannot be read, or holds something else, or another version of the vocabulary.
     """
+    results = open_orders(path)
+    if "criterion_value" not in results:
+        raise StorageError(f"{path}: holds no run: {results.attrs.get('title', 'other results')}")
+    return results
+
+
+def open_orders(path: str | Path) -> xr.Dataset:
+    """Results of a run or of the analysis of a recording, of this version of the vocabulary.
+
+    Raises
+    ------
+    StorageError
+        The file cannot be read, or holds another version of the vocabulary.
+    """
     results = storage.open_results(path)
     version = results.attrs.get("schema_version")
     if version != SCHEMA_VERSION:
         raise StorageError(
-            f"{path}: schema_version = {version}: is no result of this version's run; "
+            f"{path}: schema_version = {version}: is no result of this version; "
             f"allowed {SCHEMA_VERSION}"
         )
     return results

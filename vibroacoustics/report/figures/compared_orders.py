@@ -13,7 +13,7 @@ from .style import (
     draw,
     legend_below,
     numbered_file_name,
-    plain,
+    shortened,
     whole_number_ticks,
 )
 
@@ -54,11 +54,11 @@ def _picture(own: xr.Dataset, name: str) -> Picture:
                 if by_speed:
                     axes.vlines(shown[within], bottom, shown, color=colour, alpha=0.4)
                 axes.semilogy(
-                    shown[within], shown, marker, color=colour, label=plain(label),
+                    shown[within], shown, marker, color=colour, label=shortened(label),
                     markersize=width, fillstyle="none",
                 )  # fmt: skip
             where = f"{place:.0f} rpm" if by_speed else f"order {place:g}"
-            axes.set_title(f"{plain(channel)}, {where}", loc="left")
+            axes.set_title(f"{shortened(channel)}, {where}", loc="left")
             axes.set_ylim(bottom, top)
             axes.set_ylabel(f"Peak, {own['channel_unit'].item()}")
         panels[-1].set_xlabel("Shaft order" if by_speed else "Speed, rpm")

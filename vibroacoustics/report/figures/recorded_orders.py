@@ -13,7 +13,7 @@ from .style import (
     legend_below,
     line_looks,
     numbered_file_name,
-    plain,
+    shortened,
     whole_number_ticks,
 )
 
@@ -64,7 +64,7 @@ def _spectrum(own: xr.Dataset, channel: str, name: str) -> Picture:
         whole_number_ticks(axes)
         axes.set_xlabel("Shaft order")
         axes.set_ylabel(f"RMS of a line, {_unit(own)}")
-        axes.set_title(plain(channel), loc="left")
+        axes.set_title(shortened(channel), loc="left")
 
     return Picture(
         f"spectrum_{name}",
@@ -85,7 +85,7 @@ def _over_speed(own: xr.Dataset, channel: str, name: str) -> Picture:
         _logarithmic(axes, cuts)
         axes.set_xlabel("Speed, rpm")
         axes.set_ylabel(f"RMS in the order's band, {_unit(own)}")
-        axes.set_title(plain(channel), loc="left")
+        axes.set_title(shortened(channel), loc="left")
         legend_below(axes, 4)
 
     return Picture(
@@ -120,7 +120,7 @@ def _map(own: xr.Dataset, channel: str, name: str, is_run_up: bool) -> Picture:
         whole_number_ticks(axes)
         axes.set_xlabel("Shaft order")
         axes.set_ylabel("Speed, rpm" if is_run_up else "Time, s")
-        axes.set_title(plain(channel), loc="left")
+        axes.set_title(shortened(channel), loc="left")
 
     return Picture(
         f"map_{name}",

@@ -139,6 +139,11 @@ def plain(text: str) -> str:
     return text.replace("$", r"\$")
 
 
+def shortened(text: str, width: int = 50) -> str:
+    """Text for a title or a legend: a name without end leaves no room for the figure."""
+    return plain(text if len(text) <= width else f"{text[: width - 1]}…")
+
+
 def file_name(name: str) -> str:
     """A name that is safe in a path."""
     return re.sub(r"[^A-Za-z0-9_-]+", "_", name)
