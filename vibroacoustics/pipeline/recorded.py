@@ -203,6 +203,7 @@ def _attributes(
 ) -> dict[str, Any]:
     source = _source(recording)
     kept = ("source_sha256", "start_time", "sample_rate_hz")
+    parameters = asdict(settings) | {"orders": [float(order) for order in settings.orders]}
     return {
         **provenance.software_attributes(f"orders of {source}"),
         "title": f"Orders of {source}",
@@ -216,5 +217,5 @@ def _attributes(
         "revolutions_per_block": spectra.revolutions,
         "resolution_order": spectra.resolution_order,
         "band_order": spectra.main_lobe_order,
-        "analysis": provenance.canonical_json(asdict(settings)),
+        "analysis": provenance.canonical_json(parameters),
     }
