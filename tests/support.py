@@ -1,14 +1,23 @@
 """What several test modules need: paths, and the force and moment of one option."""
 
+import os
 import subprocess
 import sys
+import tempfile
 import textwrap
 from collections.abc import Sequence
+from contextlib import redirect_stderr, redirect_stdout
+from io import StringIO
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
+import pytest
+import xarray as xr
 
+from vibroacoustics import cli, pipeline
 from vibroacoustics.balancers import BALANCERS
+from vibroacoustics.loading import load_study
 from vibroacoustics.mechanisms import MECHANISMS
 from vibroacoustics.moving_parts import Array, Balancing, MovingPart, wrench
 from vibroacoustics.orders import order_spectrum
@@ -19,9 +28,11 @@ from vibroacoustics.radiation.box import Box, BoxField, closed_box
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.patterns import Pattern
 from vibroacoustics.radiation.surface_points import SurfacePoints, surface_points
+from vibroacoustics.schema import RIGID_BODY_DOFS, stamp
 
 ROOT = Path(__file__).parents[1]
 PIPELINES = ROOT / "pipelines"
+TINY = ROOT / "tests" / "studies" / "tiny.toml"
 MACHINE_FILE = ROOT / "data" / "machines" / "copeland_zp41k3e.toml"
 
 
@@ -34,6 +45,76 @@ def radiated(
     """Field of one pattern on the box."""
     (flux,) = near.wall_fluxes([pattern])
     return near.radiate(flux, frequency_hz, pattern.name, progress)
+
+
+def made_up_transfer_vectors(study: Study, gain: float = 1.0) -> xr.Dataset:
+    """Pressure that grows with frequency, differently per receiver and dof."""
+    frequency = np.arange(25.0, study.radiation.maximum_frequency_hz + 1.0, 25.0)
+    generator = np.random.default_rng(3)
+    shape = (len(study.receivers), 6, 1)
+    size = generator.standard_normal(shape) + 1j * generator.standard_normal(shape)
+    coords = {
+        "receiver": list(study.receivers),
+        "dof": list(RIGID_BODY_DOFS),
+        "frequency": frequency,
+        "distance": ("receiver", np.ones(len(study.receivers))),
+    }
+    values = gain * 0.01 * size * frequency
+    names = ("transfer_vector", "transfer_vector_closed_form")
+    return xr.Dataset(
+        {name: stamp(name, values, coords) for name in names},
+        attrs={"method": "made up"},
+    )
+
+
+def tiny_run(options: str = "") -> xr.Dataset:
+    """Results of the tiny study with further options, radiation made up."""
+    text = TINY.read_text().replace("../../data", str(ROOT / "data"))
+    with tempfile.TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as context:
+        context.setattr(
+            "vibroacoustics.pipeline.study.transfer_vectors",
+            lambda study, _: (made_up_transfer_vectors(study), False),
+        )
+        file = Path(folder) / "tiny.toml"
+        file.write_text(text.replace("[receivers.", f"{options}\n[receivers.", 1))
+        return pipeline.run(load_study(file))
+
+
+def command(*arguments: object, cache: Path) -> subprocess.CompletedProcess[str]:
+    """The command line in a process of its own."""
+    return subprocess.run(
+        [sys.executable, "-m", "vibroacoustics", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        env={**os.environ, "XDG_CACHE_HOME": str(cache)},
+        check=False,
+        timeout=300,
+    )
+
+
+def command_here(*arguments: object) -> subprocess.CompletedProcess[str]:
+    """The command line in this process, which saves seconds of imports."""
+    words = ["vibroacoustics", *map(str, arguments)]
+    code: object = 0
+    with (
+        patch.object(sys, "argv", words),
+        redirect_stdout(StringIO()) as output,
+        redirect_stderr(StringIO()) as errors,
+    ):
+        try:
+            cli.main()
+        except SystemExit as ended:
+            code = ended.code or 0
+    return subprocess.CompletedProcess(words, int(str(code)), output.getvalue(), errors.getvalue())
+
+
+def assert_refused(outcome: subprocess.CompletedProcess[str], *words: str) -> None:
+    """One line on stderr that holds the words, and exit code 2."""
+    assert outcome.returncode == 2, outcome.stdout + outcome.stderr
+    assert len(outcome.stderr.splitlines()) == 1, outcome.stderr
+    assert outcome.stderr.startswith("error: ")
+    for word in words:
+        assert word in outcome.stderr, (word, outcome.stderr)
 
 
 PEAK_MEMORY = """

@@ -1,31 +1,19 @@
 """The command line as a user meets it: exit codes, one-line errors, files, speed of --help."""
 
 import csv
-import os
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from support import ROOT, assert_refused, command
 
-ROOT = Path(__file__).resolve().parent.parent
 SMALL = ROOT / "tests" / "studies" / "small.toml"
 CSV_COLUMNS = (
     "option,speed_rpm,receiver,force_1x_n,force_2x_n,moment_1x_nm,foot_force_1x_n,level_1x_db,"
     "level_2x_db,level_1x_dba,level_modelled_dba,level_total_dba,change_1x_db,"
     "change_modelled_dba,change_total_dba"
 )
-
-
-def command(*arguments: object, cache: Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "vibroacoustics", *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        env={**os.environ, "XDG_CACHE_HOME": str(cache)},
-        check=False,
-        timeout=300,
-    )
 
 
 @pytest.fixture(scope="module")
@@ -228,11 +216,3 @@ def test_help_is_fast(cache: Path) -> None:
         [sys.executable, "-c", script], capture_output=True, text=True, check=False
     )
     assert outcome.returncode == 0, outcome.stderr
-
-
-def assert_refused(outcome: subprocess.CompletedProcess[str], *words: str) -> None:
-    assert outcome.returncode == 2, outcome.stdout + outcome.stderr
-    assert len(outcome.stderr.splitlines()) == 1, outcome.stderr
-    assert outcome.stderr.startswith("error: ")
-    for word in words:
-        assert word in outcome.stderr, (word, outcome.stderr)

@@ -5,12 +5,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from support import made_up_transfer_vectors
 
 from vibroacoustics import pipeline, storage
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.loading import load_study
 from vibroacoustics.orders import semi_major_axis
-from vibroacoustics.schema import RIGID_BODY_DOFS, VARIABLES, stamp
+from vibroacoustics.schema import VARIABLES
 
 ROUNDING = 1e-12
 STUDIES = Path(__file__).parent / "studies"
@@ -29,32 +30,12 @@ NOT_MADE_HERE = {
 }
 
 
-def _transfer_vectors(study, gain=1.0) -> xr.Dataset:
-    """Pressure that grows with frequency, differently per receiver and dof."""
-    frequency = np.arange(25.0, study.radiation.maximum_frequency_hz + 1.0, 25.0)
-    generator = np.random.default_rng(3)
-    shape = (len(study.receivers), 6, 1)
-    size = generator.standard_normal(shape) + 1j * generator.standard_normal(shape)
-    coords = {
-        "receiver": list(study.receivers),
-        "dof": list(RIGID_BODY_DOFS),
-        "frequency": frequency,
-        "distance": ("receiver", np.ones(len(study.receivers))),
-    }
-    values = gain * 0.01 * size * frequency
-    names = ("transfer_vector", "transfer_vector_closed_form")
-    return xr.Dataset(
-        {name: stamp(name, values, coords) for name in names},
-        attrs={"method": "made up"},
-    )
-
-
 @pytest.fixture(scope="module")
 def results(thesis_study) -> xr.Dataset:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(
             "vibroacoustics.pipeline.study.transfer_vectors",
-            lambda study, _: (_transfer_vectors(study), False),
+            lambda study, _: (made_up_transfer_vectors(study), False),
         )
         return pipeline.run(thesis_study)
 
@@ -126,14 +107,14 @@ def test_results_survive_the_disk(results, tmp_path):
 
 
 def test_model_louder_than_the_catalogue_is_refused(thesis_study, monkeypatch):
-    loud = (_transfer_vectors(thesis_study, gain=1e6), False)
+    loud = (made_up_transfer_vectors(thesis_study, gain=1e6), False)
     monkeypatch.setattr("vibroacoustics.pipeline.study.transfer_vectors", lambda *_: loud)
     with pytest.raises(ParameterError, match=r"published_noise\.level_dba = 56 dB\(A\)"):
         pipeline.run(thesis_study)
 
 
 def test_radiation_alone_tells_where_it_comes_from(thesis_study, monkeypatch):
-    made = _transfer_vectors(thesis_study)
+    made = made_up_transfer_vectors(thesis_study)
     target = "vibroacoustics.pipeline.radiating.transfer_vectors"
     monkeypatch.setattr(target, lambda *_: (made, True))
     radiated = pipeline.radiate(thesis_study)

@@ -33,6 +33,8 @@ def order_analysis(
         raise ParameterError(
             "speed: give one of --speed CHANNEL, --rpm NUMBER and --tacholess LOWEST HIGHEST"
         )
+    if (index is not None or pulses != 1) and (rpm is not None or tacholess is not None):
+        raise ParameterError("--index, --pulses: belong to a tacho, --speed CHANNEL")
     source: SpeedChannel | NominalSpeed | TacholessSpeed
     if tacholess is not None:
         source = TacholessSpeed(speed, *tacholess)
@@ -44,10 +46,7 @@ def order_analysis(
 
 
 def _orders(text: str) -> tuple[float, ...]:
-    values = tuple(_number("--orders", part) for part in text.split(","))
-    if not all(0.0 < value < float("inf") for value in values) or len(set(values)) < len(values):
-        raise ParameterError(f"--orders = {text!r}: must be different numbers above 0")
-    return tuple(sorted(values))
+    return tuple(sorted(_number("--orders", part) for part in text.split(",")))
 
 
 def assignments(option: str, texts: Sequence[str] | None) -> dict[str, str]:
@@ -92,5 +91,4 @@ def warnings_in_one_line() -> Iterator[None]:
         warnings.simplefilter("always", UserWarning)
         yield
     for warning in caught:
-        if issubclass(warning.category, UserWarning):
-            print(f"warning: {warning.message}", file=sys.stderr)
+        print(f"warning: {' '.join(str(warning.message).split())}", file=sys.stderr)

@@ -86,7 +86,9 @@ def orders_command(
     recording_file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording.")],
     speed: Annotated[
         str | None,
-        typer.Option(help="Channel of the tacho, or of the speed in rpm; tacholess: of the sound."),
+        typer.Option(
+            help="Channel of the tacho, or of the speed in rpm; with --tacholess, of the signal."
+        ),
     ] = None,
     pulses: Annotated[int, typer.Option(help="Pulses of the tacho per revolution.")] = 1,
     index: Annotated[
@@ -136,7 +138,7 @@ def orders_command(
     )
     with _progress_bar() as progress, arguments.warnings_in_one_line():
         results = pipeline.analyse_orders(recording, settings, progress)
-    written = outputs.write_orders(results, folder)
+        written = outputs.write_orders(results, folder)
     typer.echo(report.orders_text(results))
     typer.echo(f"orders: {written}")
 
@@ -165,13 +167,12 @@ def compare_command(
     folder = out or second.parent
     outputs.check_folder(folder)
     compared = comparison.compare(
-        outputs.open_run(first),
-        outputs.open_run(second),
+        outputs.open_orders(first),
+        outputs.open_orders(second),
         arguments.assignments("--pair", pair),
         option,
         radians(tacho_angle),
     )
-    compared.attrs |= {"first": first.stem, "second": second.stem}
     written = outputs.write_comparison(compared, folder)
     typer.echo(report.comparison_of_orders_text(compared))
     typer.echo(f"compared orders: {written}")

@@ -1,6 +1,7 @@
 """Orders of one result against those of another: simulated, recorded, or one of each."""
 
 from collections.abc import Mapping
+from itertools import product
 from typing import Any, Final
 
 import numpy as np
@@ -8,12 +9,17 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from .errors import ParameterError
-from .schema import REFERENCE_OPTION, check, label_coordinates, stamp
+from .provenance import software_attributes
+from .schema import NO_ANGLE_ZERO, REFERENCE_OPTION, check, label_coordinates, stamp
 
 SPEED_TOLERANCE: Final = 0.02
 """Speeds of the two results that differ by less than this share are the same operating point."""
+NEGLIGIBLE: Final = 1e-9
+"""Of the largest order of the same unit in a result: below, a simulated order is rounding (spectra
+of accelerations are good to about 1e-11), and no recorder has a range of 180 dB."""
 _ORDER_TOLERANCE: Final = 1e-6
-_TINY: Final = np.finfo(float).tiny
+
+Real = NDArray[np.float64]
 
 
 def compare(
@@ -36,36 +42,45 @@ def compare(
     -------
     `channel_order` of the first, `compared_order` of the second turned to the first's crank angle,
     `order_difference` (dB) and `order_phase_difference` (rad, within ±π), each (channel, speed,
-    order); coordinate `compared_speed`
+    order), not a number where one of the two has no such order (`NEGLIGIBLE`); no phase difference
+    at all where one has no mark on the shaft as its angle zero. `channel_order_coherence` is the
+    lower of the two; coordinates `compared_speed` and `compared_channel`.
 
     Raises
     ------
     ParameterError
-        The results have no channel, unit, order or speed in common.
+        The results have no channel, unit, order or speed in common, or the angle is not finite.
     """
+    if not np.isfinite(tacho_angle_rad):
+        raise ParameterError(f"tacho_angle = {tacho_angle_rad:g}: must be a finite angle")
     ours, theirs = (channel_orders(result, option) for result in (first, second))
     names = _pairs(ours, theirs, pairs)
     order = _common_orders(ours, theirs)
     speeds = _common_speeds(ours, theirs)
-    reference = _selected(ours, list(names), speeds[:, 0], order)
-    other = _selected(theirs, list(names.values()), speeds[:, 1], order)
+    here = {"channel": list(names), "speed": speeds[:, 0], "order": order}
+    there = {"channel": list(names.values()), "speed": speeds[:, 1], "order": order}
+    reference, other = _at(ours, here), _at(theirs, there)
     turned = other * np.exp(-1j * order * tacho_angle_rad)
-    size, other_size = np.maximum(np.abs(reference), _TINY), np.maximum(np.abs(turned), _TINY)
-    coords = {"channel": list(names), "speed": speeds[:, 0], "order": order}
+    known = ~(_negligible(ours, here) | _negligible(theirs, there))
+    with np.errstate(divide="ignore", invalid="ignore"):  # of what is not known
+        level = 20.0 * np.log10(np.abs(turned) / np.abs(reference))
+    has_phase = known & (NO_ANGLE_ZERO not in (_angle_zero(first), _angle_zero(second)))
     values = {
         "channel_order": reference,
         "compared_order": turned,
-        "order_difference": 20.0 * np.log10(other_size / size),
-        "order_phase_difference": np.angle(turned * np.conj(reference)),
+        "order_difference": np.where(known, level, np.nan),
+        "order_phase_difference": np.where(has_phase, _phase(turned, reference), np.nan),
+        "channel_order_coherence": np.minimum(_coherence(first, here), _coherence(second, there)),
     }
     compared = xr.Dataset(
-        {name: stamp(name, value, coords) for name, value in values.items()},
+        {name: stamp(name, value, here) for name, value in values.items()},
         coords={
             "compared_speed": ("speed", speeds[:, 1]),
-            "channel_unit": ours["channel_unit"].sel(channel=list(names)),
-            "compared_channel": ("channel", list(names.values())),
+            "channel_unit": ("channel", [_units(ours)[name] for name in names]),
+            "compared_channel": ("channel", there["channel"]),
         },
     )
+    compared.attrs = _attributes(first, second, option, tacho_angle_rad)
     return check(label_coordinates(compared))
 
 
@@ -73,7 +88,7 @@ def channel_orders(result: xr.Dataset, option: str = REFERENCE_OPTION) -> xr.Dat
     """Complex peaks (channel, speed, order) of a result with `channel_unit`.
 
     A study's channels are named by what they are and where: `pressure NAME`, `force x`,
-    `moment x`, `foot force NAME x`, `velocity tx`, `acceleration tx`.
+    `moment x`, `foot force NAME x`; `velocity tx` and `acceleration tx` of the centre of mass.
 
     Raises
     ------
@@ -83,20 +98,19 @@ def channel_orders(result: xr.Dataset, option: str = REFERENCE_OPTION) -> xr.Dat
     if "channel_order" in result:
         return result["channel_order"]
     if "force_order" not in result:
-        raise ParameterError(f"{result.attrs.get('title', 'result')}: holds no orders")
+        raise ParameterError(f"{_title(result)}: holds no orders; give results of run or orders")
     options = [str(name) for name in result["option"].values]
     if option not in options:
         raise ParameterError(f"option {option!r}: is none of {', '.join(options)}")
     chosen = result.sel(option=option)
     parts = [
-        _named(chosen[variable].sum("source"), f"{word} {{}}", unit)
-        for variable, word, unit in _SIMULATED
+        _named(chosen[variable].sum("source"), word, unit) for variable, word, unit in _SIMULATED
     ]
     velocity = chosen["velocity_order"].sum("source")
-    translations = velocity.sel(dof=[name for name in velocity["dof"].values if name[0] == "t"])
-    parts.append(_named(translations, "velocity {}", "m/s"))
+    translation = velocity.sel(dof=[name for name in velocity["dof"].values if name[0] == "t"])
+    parts.append(_named(translation, "velocity", "m/s"))
     pulsation = 2j * np.pi * result["order_frequency"]
-    parts.append(_named(translations * pulsation, "acceleration {}", "m/s²"))
+    parts.append(_named(translation * pulsation, "acceleration", "m/s²"))
     return xr.concat(parts, "channel")
 
 
@@ -108,26 +122,18 @@ _SIMULATED: Final = (
 )
 
 
-def _named(values: xr.DataArray, name: str, unit: str) -> xr.DataArray:
+def _named(values: xr.DataArray, word: str, unit: str) -> xr.DataArray:
     """Values (speed, ..., order) as channels (channel, speed, order)."""
     places = [dim for dim in values.dims if dim not in ("speed", "order")]
-    flat = values.stack(place=places).transpose("place", "speed", "order")
-    labels = [
-        " ".join(map(str, np.atleast_1d(np.array(place, dtype=object))))
-        for place in flat["place"].values
-    ]
-    channels = [name.format(label) for label in labels]
-    return xr.DataArray(
-        flat.values,
-        dims=("channel", "speed", "order"),
-        coords={
-            "channel": channels,
-            "speed": values["speed"].values,
-            "order": values["order"].values,
-            "channel_unit": ("channel", [unit] * len(channels)),
-        },
-        name="channel_order",
-    )
+    names = [" ".join([word, *at]) for at in product(*(values[dim].values for dim in places))]
+    flat = values.transpose(*places, "speed", "order").values
+    coords = {
+        "channel": names,
+        "speed": values["speed"].values,
+        "order": values["order"].values,
+        "channel_unit": ("channel", [unit] * len(names)),
+    }
+    return stamp("channel_order", flat.reshape(len(names), *flat.shape[-2:]), coords)
 
 
 def _pairs(
@@ -155,24 +161,19 @@ def _pairs(
 
 
 def _units(result: xr.DataArray) -> dict[str, str]:
-    return dict(
-        zip(
-            map(str, result["channel"].values),
-            map(str, result["channel_unit"].values),
-            strict=True,
-        )
-    )
+    names, units = (map(str, result[name].values) for name in ("channel", "channel_unit"))
+    return dict(zip(names, units, strict=True))
 
 
 def _listed(units: Mapping[str, str]) -> str:
     return ", ".join(f"{name} [{unit}]" for name, unit in units.items())
 
 
-def _common_orders(ours: xr.DataArray, theirs: xr.DataArray) -> NDArray[np.float64]:
+def _common_orders(ours: xr.DataArray, theirs: xr.DataArray) -> Real:
     """Orders that both have, without order 0."""
     order, other = (np.asarray(result["order"].values, dtype=float) for result in (ours, theirs))
     there = np.abs(order[:, None] - other).min(axis=1) < _ORDER_TOLERANCE
-    common: NDArray[np.float64] = order[there & (order > 0.0)]
+    common: Real = order[there & (order > 0.0)]
     if not common.size:
         raise ParameterError(
             f"no order in common: {', '.join(map('{:g}'.format, order))} against "
@@ -181,12 +182,14 @@ def _common_orders(ours: xr.DataArray, theirs: xr.DataArray) -> NDArray[np.float
     return common
 
 
-def _common_speeds(ours: xr.DataArray, theirs: xr.DataArray) -> NDArray[np.float64]:
-    """Pairs of speeds (pair, 2) that differ by less than the tolerance, each used once."""
+def _common_speeds(ours: xr.DataArray, theirs: xr.DataArray) -> Real:
+    """Pairs of speeds (pair, 2) within the tolerance, each the nearest to the other."""
     speed, other = (np.asarray(result["speed"].values, dtype=float) for result in (ours, theirs))
-    nearest = other[np.abs(speed[:, None] - other).argmin(axis=1)]
-    near = np.abs(nearest - speed) <= SPEED_TOLERANCE * speed
-    found: NDArray[np.float64] = np.stack([speed, nearest], axis=1)[near]
+    distance = np.abs(speed[:, None] - other)
+    nearest = distance.argmin(axis=1)
+    mutual = distance.argmin(axis=0)[nearest] == np.arange(speed.size)
+    near = distance[np.arange(speed.size), nearest] <= SPEED_TOLERANCE * speed
+    found: Real = np.stack([speed, other[nearest]], axis=1)[near & mutual]
     if not found.size:
         raise ParameterError(
             f"no speed in common within {100 * SPEED_TOLERANCE:g} %: "
@@ -196,10 +199,54 @@ def _common_speeds(ours: xr.DataArray, theirs: xr.DataArray) -> NDArray[np.float
     return found
 
 
-def _selected(
-    result: xr.DataArray, names: list[str], speeds: NDArray[Any], order: NDArray[np.float64]
-) -> NDArray[np.complex128]:
-    chosen = result.sel(channel=names, speed=speeds).sel(
-        order=order, method="nearest", tolerance=_ORDER_TOLERANCE
-    )
-    return np.asarray(chosen.transpose("channel", "speed", "order").values, dtype=complex)
+def _at(result: xr.DataArray, place: Mapping[str, Any]) -> NDArray[Any]:
+    """Values (channel, speed, order) at channels, speeds and orders that the result has."""
+    chosen = result.sel(channel=place["channel"], speed=place["speed"])
+    chosen = chosen.sel(order=place["order"], method="nearest", tolerance=_ORDER_TOLERANCE)
+    return np.asarray(chosen.transpose("channel", "speed", "order").values)
+
+
+def _negligible(result: xr.DataArray, place: Mapping[str, Any]) -> NDArray[np.bool_]:
+    """Where an order is nothing beside the largest with its unit; order 0 does not count."""
+    size = abs(result.where(result["order"] > 0.0, 0.0))
+    largest = size.max(("speed", "order")).groupby("channel_unit").max()
+    own = largest.sel(channel_unit=result["channel_unit"]).drop_vars("channel_unit")
+    least = _at(NEGLIGIBLE * own.broadcast_like(size), place)
+    return np.asarray(_at(size, place) <= least)
+
+
+def _phase(values: NDArray[np.complex128], reference: NDArray[np.complex128]) -> Real:
+    """Phase of the values against the reference, within ±π; 0 exactly for equal ones."""
+    difference = np.angle(values) - np.angle(reference)
+    return np.asarray(difference - 2.0 * np.pi * np.rint(difference / (2.0 * np.pi)))
+
+
+def _coherence(result: xr.Dataset, place: Mapping[str, Any]) -> Real:
+    """Coherence of a recording's orders; 1 for simulated ones."""
+    if "channel_order_coherence" not in result:
+        return np.ones([len(labels) for labels in place.values()])
+    return _at(result["channel_order_coherence"], place)
+
+
+def _angle_zero(result: xr.Dataset) -> str:
+    return str(result.attrs.get("angle_zero", "crank angle zero of the mechanism"))
+
+
+def _title(result: xr.Dataset) -> str:
+    return str(result.attrs.get("source_file", result.attrs.get("title", "result")))
+
+
+def _attributes(
+    first: xr.Dataset, second: xr.Dataset, option: str, tacho_angle_rad: float
+) -> dict[str, Any]:
+    names = f"A: {_title(first)}", f"B: {_title(second)}"
+    return {
+        **software_attributes(f"compare {names[0]} with {names[1]}"),
+        "title": f"Orders of {names[1]} against {names[0]}",
+        "first": names[0],
+        "second": names[1],
+        "first_angle_zero": _angle_zero(first),
+        "second_angle_zero": _angle_zero(second),
+        "option": option,
+        "tacho_angle_rad": tacho_angle_rad,
+    }

@@ -27,11 +27,25 @@ def open_run(path: str | Path) -> xr.Dataset:
     StorageError
         The file cannot be read, or holds something else, or another version of the vocabulary.
     """
+    results = open_orders(path)
+    if "criterion_value" not in results:
+        raise StorageError(f"{path}: holds no run: {results.attrs.get('title', 'other results')}")
+    return results
+
+
+def open_orders(path: str | Path) -> xr.Dataset:
+    """Results of a run or of the analysis of a recording, of this version of the vocabulary.
+
+    Raises
+    ------
+    StorageError
+        The file cannot be read, or holds another version of the vocabulary.
+    """
     results = storage.open_results(path)
     version = results.attrs.get("schema_version")
     if version != SCHEMA_VERSION:
         raise StorageError(
-            f"{path}: schema_version = {version}: is no result of this version's run; "
+            f"{path}: schema_version = {version}: is no result of this version; "
             f"allowed {SCHEMA_VERSION}"
         )
     return results
@@ -86,9 +100,11 @@ def write_radiation(radiated: xr.Dataset, folder: str | Path) -> Path:
 
 
 def write_orders(results: xr.Dataset, folder: str | Path) -> Path:
-    """Write the orders of a recording with their table and figures; see `write_radiation`."""
-    table = {"orders.csv": report.orders_csv(results)}
-    return _write_analysis(results, folder, ORDERS_NAME, table, report.recorded_order_figures)
+    """Write the orders of a recording with their tables and figures; see `write_radiation`."""
+    tables = {"orders.csv": report.orders_csv(results)}
+    if "equivalent_level" in results:
+        tables["levels.csv"] = report.levels_csv(results)
+    return _write_analysis(results, folder, ORDERS_NAME, tables, report.recorded_order_figures)
 
 
 def write_comparison(compared: xr.Dataset, folder: str | Path) -> Path:

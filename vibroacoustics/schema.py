@@ -22,6 +22,8 @@ RIGID_BODY_DOFS: Final = ("tx", "ty", "tz", "rx", "ry", "rz")
 WEIGHTINGS: Final = ("Z", "A", "C")
 REFERENCE_OPTION: Final = "none"
 """The option against which every change is told."""
+NO_ANGLE_ZERO: Final = "none"
+"""Attribute `angle_zero` of orders whose phases count from no mark on the shaft."""
 DOF_UNIT_NOTE: Final = "unit of the translations; for rotations with rad in place of m"
 
 COORDINATES: Final[dict[str, Variable]] = {
@@ -66,6 +68,7 @@ COORDINATES: Final[dict[str, Variable]] = {
     "block": Variable(("block",), "1", "block of revolutions of a recording"),
     "block_time": Variable(("block",), "s", "middle of the block"),
     "block_speed": Variable(("block",), "rpm", "mean speed over the block"),
+    "block_count": Variable(("speed",), "1", "blocks at the speed"),
     "map_order": Variable(("map_order",), "1", "shaft order"),
     "average_angle": Variable(("average_angle",), "rad", "crank angle over a revolution"),
     "band": Variable(("band",), "Hz", "nominal midband frequency of a third of an octave"),

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from ..errors import ParameterError
+
 
 @dataclass(frozen=True)
 class SpeedChannel:
@@ -19,6 +21,9 @@ class NominalSpeed:
 
     speed_rpm: float
 
+    def __post_init__(self) -> None:
+        _check_positive("speed_rpm", self.speed_rpm, "rpm")
+
 
 @dataclass(frozen=True)
 class TacholessSpeed:
@@ -29,6 +34,15 @@ class TacholessSpeed:
     minimum_rpm: float
     maximum_rpm: float
 
+    def __post_init__(self) -> None:
+        _check_positive("minimum_rpm", self.minimum_rpm, "rpm")
+        _check_positive("maximum_rpm", self.maximum_rpm, "rpm")
+        if not self.minimum_rpm < self.maximum_rpm:
+            raise ParameterError(
+                f"minimum_rpm = {self.minimum_rpm:g} rpm: must be below maximum_rpm = "
+                f"{self.maximum_rpm:g} rpm"
+            )
+
 
 @dataclass(frozen=True)
 class OrderAnalysis:
@@ -36,6 +50,7 @@ class OrderAnalysis:
 
     speed: SpeedChannel | NominalSpeed | TacholessSpeed
     orders: tuple[float, ...] = (1.0, 2.0, 3.0, 4.0)
+    """Rising."""
     maximum_order: float = 20.0
     """Of spectra and map."""
     resolution_order: float = 0.25
@@ -44,3 +59,18 @@ class OrderAnalysis:
     """Of the operating points of a run-up."""
     with_map: bool = False
     """Keep the order map of every block."""
+
+    def __post_init__(self) -> None:
+        for order in self.orders:
+            _check_positive("orders", order, "")
+        if not self.orders or sorted(set(self.orders)) != list(self.orders):
+            raise ParameterError(f"orders = {self.orders}: must be at least one, and rise")
+        _check_positive("maximum_order", self.maximum_order, "")
+        _check_positive("resolution_order", self.resolution_order, "")
+        _check_positive("speed_step_rpm", self.speed_step_rpm, "rpm")
+
+
+def _check_positive(name: str, value: float, unit: str) -> None:
+    if not 0.0 < value < float("inf"):
+        shown = f"{value:g} {unit}".rstrip()
+        raise ParameterError(f"{name} = {shown}: must be a number above 0")

@@ -1,5 +1,6 @@
 """Order analysis of a recording: speed, crank angle, orders, levels."""
 
+from dataclasses import asdict
 from typing import Any, Final
 
 import numpy as np
@@ -8,11 +9,11 @@ from numpy.typing import NDArray
 
 from .. import levels, orders, provenance
 from ..constants import REFERENCE_PRESSURE_PA
-from ..errors import ParameterError, VibroacousticsError
-from ..parameters.order_analysis import NominalSpeed, OrderAnalysis, SpeedChannel, TacholessSpeed
+from ..errors import VibroacousticsError
+from ..parameters.order_analysis import OrderAnalysis
 from ..schema import WEIGHTINGS, check, label_coordinates, stamp
-from ..units import shaft_frequency_hz
 from .progress import Progress
+from .recorded_speed import RecordedSpeed, channels_without_speed, recorded_speed
 
 Array = NDArray[np.float64]
 
@@ -22,7 +23,7 @@ _LOWEST_BAND_HZ: Final = 25.0
 _WINDOW: Final = "hann"
 _HALF_LOBE: Final = 4.0 / 3.0
 """Half of the window's main lobe over its noise bandwidth: room for the highest order's band."""
-_STAGES: Final = ("speed", "crank angle", "order map", "levels")
+_STAGES: Final = 4
 
 
 def analyse_orders(
@@ -41,112 +42,36 @@ def analyse_orders(
     ParameterError, SolverError
         The speed cannot be found, or an order cannot be told at the resolution.
     """
-    source = str(recording.attrs.get("source_file", "recording"))
     try:
         return _analyse(recording, settings, progress)
     except VibroacousticsError as error:
-        raise type(error)(f"{source}: {error}") from None
+        raise type(error)(f"{_source(recording)}: {error}") from None
 
 
 def _analyse(recording: xr.Dataset, settings: OrderAnalysis, progress: Progress) -> xr.Dataset:
-    progress(_STAGES[0], 0, len(_STAGES))
-    motion, told = crank_motion(recording, settings.speed)
-    signal = _without_speed(recording["signal"], settings.speed)
+    progress("orders", 0, _STAGES)
+    speed = recorded_speed(recording, settings.speed)
+    signal = channels_without_speed(recording["signal"], settings.speed)
     rate_hz = float(recording.attrs["sample_rate_hz"])
-    progress(_STAGES[1], 1, len(_STAGES))
+    progress("orders", 1, _STAGES)
     highest = max(
         settings.maximum_order, max(settings.orders) + _HALF_LOBE * settings.resolution_order
     )
-    angular = orders.angular_resample(signal.values, rate_hz, motion, highest)
-    progress(_STAGES[2], 2, len(_STAGES))
+    angular = orders.angular_resample(signal.values, rate_hz, speed.motion, highest)
+    progress("orders", 2, _STAGES)
     spectra = orders.order_map(angular, settings.resolution_order, _WINDOW)
     results = _order_variables(signal, spectra, settings).merge(_average(signal, angular))
-    if told["faults"]:
-        results = results.merge(_faults(told["faults"]))
-    progress(_STAGES[3], 3, len(_STAGES))
+    if speed.faults:
+        results = results.merge(_faults(speed.faults))
+    progress("orders", 3, _STAGES)
     results = results.merge(_levels(signal, rate_hz))
-    progress(_STAGES[3], 4, len(_STAGES))
-    results.attrs = _attributes(recording, settings, spectra, told)
+    progress("orders", 4, _STAGES)
+    results.attrs = _attributes(recording, settings, spectra, speed)
     return check(label_coordinates(results))
 
 
-def crank_motion(
-    recording: xr.Dataset, speed: SpeedChannel | NominalSpeed | TacholessSpeed
-) -> tuple[orders.CrankMotion, dict[str, Any]]:
-    """Crank angle over time, and what there is to tell about it: source, faults, confidence.
-
-    Raises
-    ------
-    ParameterError
-        There is no such channel, no pulse, or the shaft stops.
-    """
-    signal = recording["signal"]
-    rate_hz = float(recording.attrs["sample_rate_hz"])
-    if isinstance(speed, NominalSpeed):
-        if not speed.speed_rpm > 0.0:
-            raise ParameterError(f"speed = {speed.speed_rpm:g} rpm: must be above 0 rpm")
-        end_s = (signal.sizes["time"] - 1) / rate_hz
-        motion = orders.constant_speed(shaft_frequency_hz(speed.speed_rpm), 0.0, end_s)
-        return motion, {"source": f"nominal {speed.speed_rpm:g} rpm", "faults": ()}
-    if isinstance(speed, TacholessSpeed):
-        found = orders.tacholess_motion(
-            _channel(signal, speed.channel).values,
-            rate_hz,
-            shaft_frequency_hz(speed.minimum_rpm),
-            shaft_frequency_hz(speed.maximum_rpm),
-        )
-        confidence = float(np.mean(found.confidence))
-        source = (
-            f"from the signal, within {speed.minimum_rpm:g} to {speed.maximum_rpm:g} rpm; "
-            f"mean confidence {confidence:.2f} of 1"
-        )
-        return found.motion, {"source": source, "faults": (), "confidence": confidence}
-    return _from_channel(signal, rate_hz, speed)
-
-
-def _from_channel(
-    signal: xr.DataArray, rate_hz: float, speed: SpeedChannel
-) -> tuple[orders.CrankMotion, dict[str, Any]]:
-    channel = _channel(signal, speed.channel)
-    if channel["channel_unit"].item() == "rpm":
-        motion = orders.rpm_motion(channel.values, rate_hz)
-        return motion, {"source": f"channel {speed.channel}, rpm", "faults": ()}
-    index = None
-    if speed.index_channel is not None:
-        index = orders.pulse_times(_channel(signal, speed.index_channel).values, rate_hz)
-    pulses = orders.pulse_times(channel.values, rate_hz)
-    found = orders.tacho_motion(pulses, speed.pulses_per_revolution, index)
-    source = (
-        f"tacho {speed.channel}, {speed.pulses_per_revolution} pulses a revolution, "
-        f"jitter {100.0 * found.jitter:.2g} % of a period"
-    )
-    return found.motion, {"source": source, "faults": found.faults, "jitter": found.jitter}
-
-
-def _channel(signal: xr.DataArray, name: str | None) -> xr.DataArray:
-    """One channel by name, or the only one."""
-    names = [str(channel) for channel in signal["channel"].values]
-    if name is None and len(names) == 1:
-        return signal.isel(channel=0)
-    if name not in names:
-        raise ParameterError(f"speed: no channel {name!r}; there are {', '.join(names)}")
-    return signal.sel(channel=name)
-
-
-def _without_speed(
-    signal: xr.DataArray, speed: SpeedChannel | NominalSpeed | TacholessSpeed
-) -> xr.DataArray:
-    """The channels that are analysed."""
-    if not isinstance(speed, SpeedChannel):
-        return signal
-    others = [
-        name
-        for name in signal["channel"].values
-        if name not in (speed.channel, speed.index_channel)
-    ]
-    if not others:
-        raise ParameterError("there is no channel besides that of the speed")
-    return signal.sel(channel=others)
+def _source(recording: xr.Dataset) -> str:
+    return str(recording.attrs.get("source_file", "recording"))
 
 
 def _order_variables(
@@ -183,7 +108,9 @@ def _order_variables(
         coords={
             "block_time": ("block", spectra.time_s),
             "block_speed": ("block", block_speed),
+            "block_count": ("speed", np.bincount(point, minlength=speeds.size)),
             "channel_unit": signal["channel_unit"],
+            "calibration_factor": signal["calibration_factor"],
         },
     )
 
@@ -193,15 +120,9 @@ def operating_points(
 ) -> tuple[Array, NDArray[np.intp]]:
     """Speeds (point,) that the blocks belong to, rpm, and the point of each block (block,).
 
-    A steady speed is one point, at its mean; a run-up has one at every multiple of the step.
-
-    Raises
-    ------
-    ParameterError
-        The step is not above zero.
+    A steady speed is one point, at its mean; a run-up has one at every multiple of the step to
+    which a block is nearest.
     """
-    if not speed_step_rpm > 0.0:
-        raise ParameterError(f"speed_step_rpm = {speed_step_rpm:g} rpm: must be above 0 rpm")
     mean = float(np.mean(block_speed_rpm))
     if np.ptp(block_speed_rpm) <= STEADY_RATIO * mean:
         return np.array([mean]), np.zeros(block_speed_rpm.size, dtype=np.intp)
@@ -245,7 +166,7 @@ def _faults(faults: tuple[orders.PulseFault, ...]) -> xr.Dataset:
 def _levels(signal: xr.DataArray, rate_hz: float) -> xr.Dataset:
     """Levels of the channels of sound pressure; not a number for others, which have no reference.
 
-    A recording without sound pressure has none.
+    A recording without sound pressure has none. An offset is no sound and is taken off.
     """
     pressure = signal["channel_unit"].values == "Pa"
     if not pressure.any():
@@ -255,8 +176,9 @@ def _levels(signal: xr.DataArray, rate_hz: float) -> xr.Dataset:
     names = ("equivalent", "fast_maximum", "slow_maximum")
     whole = {name: np.full(shape, np.nan) for name in names}
     in_bands = np.full((*shape, len(bands)), np.nan)
+    values = signal.values[pressure]
+    sound = (values - values.mean(axis=-1, keepdims=True), rate_hz)
     for number, weighting in enumerate(WEIGHTINGS):
-        sound = (signal.values[pressure], rate_hz)
         told = levels.recorded_levels(*sound, REFERENCE_PRESSURE_PA, weighting)
         for name in names:
             whole[name][pressure, number] = getattr(told, f"{name}_db")
@@ -277,20 +199,23 @@ def _attributes(
     recording: xr.Dataset,
     settings: OrderAnalysis,
     spectra: orders.OrderMap,
-    told: dict[str, Any],
+    speed: RecordedSpeed,
 ) -> dict[str, Any]:
-    source = recording.attrs.get("source_file", "a recording")
+    source = _source(recording)
+    kept = ("source_sha256", "start_time", "sample_rate_hz")
+    parameters = asdict(settings) | {"orders": [float(order) for order in settings.orders]}
     return {
         **provenance.software_attributes(f"orders of {source}"),
         "title": f"Orders of {source}",
         "source_file": source,
-        "source_sha256": recording.attrs.get("source_sha256", ""),
-        "sample_rate_hz": recording.attrs["sample_rate_hz"],
-        "speed_source": told["source"],
-        **{key: told[key] for key in ("confidence", "jitter") if key in told},
-        "tacho_faults": len(told["faults"]),
+        **{name: recording.attrs[name] for name in kept if name in recording.attrs},
+        "speed_source": speed.source,
+        "angle_zero": speed.angle_zero,
+        **speed.quality,
+        "tacho_faults": len(speed.faults),
         "window": _WINDOW,
         "revolutions_per_block": spectra.revolutions,
         "resolution_order": spectra.resolution_order,
-        "analysis": repr(settings),
+        "band_order": spectra.main_lobe_order,
+        "analysis": provenance.canonical_json(parameters),
     }

@@ -19,6 +19,7 @@ from .markdown import comparison_markdown
 from .order_tables import (
     comparison_of_orders_csv,
     comparison_of_orders_text,
+    levels_csv,
     orders_csv,
     orders_text,
 )
@@ -31,6 +32,7 @@ __all__ = [
     "comparison_of_orders_csv",
     "comparison_of_orders_text",
     "comparison_text",
+    "levels_csv",
     "orders_csv",
     "orders_text",
     "radiation_figures",

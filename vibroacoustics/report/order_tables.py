@@ -1,165 +1,237 @@
 """Orders of a recording, and their comparison, as plain text and CSV."""
 
 from collections.abc import Iterator
+from itertools import product
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 import xarray as xr
 
 from . import rounding
+from .rounding import NOTHING
 from .tables import Table, to_csv, to_text
 
-_MOST_SPEEDS = 6
+_MOST_SPEEDS: Final = 6
 """Operating points in the text; all are in the CSV."""
+_MOST_FAULTS: Final = 5
+"""Faults of the tacho that are listed; all are counted."""
+_LEAST_COHERENCE: Final = 0.8
+"""Of an order whose phase is told; noise in five independent blocks reaches it once in 600 times,
+0.2^(5 - 1)."""
+_WIDEST_CHANNEL: Final = 32
+_LEVELS: Final = ("equivalent_level", "fast_maximum_level", "slow_maximum_level")
+
+
+class _Order(NamedTuple):
+    """A row of orders.csv; the fields are its head."""
+
+    channel: str
+    unit: str
+    speed_rpm: float
+    blocks: int
+    order: float
+    frequency_hz: float
+    amplitude_peak: float
+    phase_deg: float
+    rms_in_band: float
+    coherence: float
+
+
+class _ComparedOrder(NamedTuple):
+    """A row of compared_orders.csv; the fields are its head."""
+
+    channel: str
+    other_channel: str
+    unit: str
+    speed_rpm: float
+    other_speed_rpm: float
+    order: float
+    amplitude_peak: float
+    other_amplitude_peak: float
+    difference_db: float
+    phase_difference_deg: float
+    coherence: float
 
 
 def orders_text(results: xr.Dataset) -> str:
     """Where the speed comes from, the orders at some operating points, levels of sound pressure."""
+    attrs = results.attrs
     facts = [
-        f"speed: {results.attrs['speed_source']}",
-        f"resolution: {results.attrs['resolution_order']:.3g} orders (noise bandwidth), blocks of "
-        f"{results.attrs['revolutions_per_block']} revolutions, {results.attrs['window']} window",
+        f"speed: {attrs['speed_source']}",
+        f"crank angle zero: {attrs['angle_zero']}",
+        f"resolution: {attrs['resolution_order']:.3g} orders (noise bandwidth), blocks of "
+        f"{attrs['revolutions_per_block']} revolutions, {attrs['window']} window",
     ]
     if "fault_time" in results:
         facts.append(_faults_line(results["fault_time"]))
     tables = [_orders_table(results)]
     if "equivalent_level" in results:
         tables.append(_levels_table(results))
-    return "\n".join([*facts, "", *(to_text(table) for table in tables)])
+    return "\n".join([*facts, "", *(to_text(table, _WIDEST_CHANNEL) for table in tables)])
 
 
 def orders_csv(results: xr.Dataset) -> bytes:
     """Every order of every channel at every operating point."""
-    head = (
-        "channel", "unit", "speed_rpm", "order", "frequency_hz", "amplitude_peak",
-        "phase_deg", "rms_in_band", "coherence",
-    )  # fmt: skip
-    return to_csv(head, _order_rows(results))
+    return to_csv(_Order._fields, _order_rows(results))
+
+
+def levels_csv(results: xr.Dataset) -> bytes:
+    """Leq, LFmax, LSmax and third-octave levels of every channel of sound pressure."""
+    names = ("leq_db", "lfmax_db", "lsmax_db")
+    bands = [f"leq_{band:g}_hz_db" for band in results["band"].values]
+    rows: list[list[str | float]] = [
+        [channel, weighting, *(float(own[name]) for name in _LEVELS), *map(float, own.band_level)]
+        for channel, weighting, own in _level_rows(results)
+    ]
+    return to_csv(("channel", "weighting", *names, *bands), rows)
 
 
 def comparison_of_orders_text(compared: xr.Dataset) -> str:
-    """Table of both results' orders and their differences."""
+    """Table of the orders that both results have, and of their differences."""
+    every = list(_compared_rows(compared))
+    shown = _shown_speeds(compared)
     rows = tuple(
         (
-            str(name),
-            str(other_name),
-            f"{speed:.0f}",
-            f"{other_speed:.0f}",
-            f"{order:g}",
-            rounding.significant(float(peak)),
-            rounding.significant(float(other_peak)),
-            rounding.signed(float(difference), 2),
-            rounding.signed(float(phase), 1),
+            row.channel,
+            row.other_channel,
+            row.unit,
+            f"{row.speed_rpm:.0f}",
+            f"{row.other_speed_rpm:.0f}",
+            f"{row.order:g}",
+            _amplitude(row.amplitude_peak),
+            _amplitude(row.other_amplitude_peak),
+            rounding.signed(row.difference_db, 2),
+            rounding.signed(row.phase_difference_deg, 1),
+            rounding.fixed(row.coherence, 3),
         )
-        for name, other_name, _, speed, other_speed, order, peak, other_peak, difference, phase in (
-            _compared_rows(compared)
-        )
+        for row in every
+        if np.isfinite(row.difference_db) and row.speed_rpm in shown
     )
     head = (
-        "Channel", "other", "rpm", "other rpm", "Order", "Peak", "other peak", "dB", "phase, °"
+        "Channel", "of B", "unit", "rpm", "of B", "Order", "Peak A", "peak B", "B - A, dB",
+        "phase, °", "coherence",
     )  # fmt: skip
-    caption = "Other result against this one: level and phase of each order"
-    return to_text(Table(caption, head, rows, frozenset({0, 1})), widest_first=32)
+    facts = [
+        f"{compared.attrs['first']}; crank angle zero: {compared.attrs['first_angle_zero']}",
+        f"{compared.attrs['second']}; crank angle zero: {compared.attrs['second_angle_zero']}",
+        "",
+    ]
+    caption = "B against A: level and phase of each order; coherence is the lower of both"
+    if len(rows) < len(every):
+        caption += f"; {len(rows)} of {len(every)} rows, all in the CSV"
+    table = Table(caption, head, rows, frozenset({0, 1, 2}))
+    return "\n".join([*facts, to_text(table, _WIDEST_CHANNEL)])
 
 
 def comparison_of_orders_csv(compared: xr.Dataset) -> bytes:
     """Every pair of orders."""
-    head = (
-        "channel", "other_channel", "unit", "speed_rpm", "other_speed_rpm", "order",
-        "amplitude_peak", "other_amplitude_peak", "difference_db", "phase_difference_deg",
-    )  # fmt: skip
-    return to_csv(head, _compared_rows(compared))
+    return to_csv(_ComparedOrder._fields, _compared_rows(compared))
+
+
+def _amplitude(value: float) -> str:
+    """Four digits of any unit: accelerations in m/s² and displacements in m alike."""
+    return f"{value:.4g}"
 
 
 def _faults_line(times: xr.DataArray) -> str:
     kinds = [str(name).split()[1] for name in times["fault"].values]
     counts = ", ".join(f"{kinds.count(kind)} {kind}" for kind in sorted(set(kinds)))
-    shown = ", ".join(
-        f"{kind} at {time:.3f} s" for kind, time in zip(kinds[:5], times.values, strict=False)
-    )
-    return f"tacho faults: {counts} ({shown}{', …' if len(kinds) > 5 else ''})"
+    shown = [f"{kind} at {time:.3f} s" for kind, time in zip(kinds, times.values, strict=True)]
+    more = ["…"] if len(shown) > _MOST_FAULTS else []
+    return f"tacho faults: {counts} ({', '.join(shown[:_MOST_FAULTS] + more)})"
 
 
-def _order_rows(results: xr.Dataset) -> Iterator[tuple[str | float, ...]]:
-    lines = results["channel_order"].transpose("channel", "speed", "order")
-    for channel in lines:
-        name, unit = str(channel["channel"].item()), str(channel["channel_unit"].item())
-        for at_speed in channel:
-            speed = float(at_speed["speed"])
-            for value in at_speed:
-                order = float(value["order"])
-                at = {"channel": name, "speed": speed, "order": order}
-                yield (
-                    name,
-                    unit,
-                    speed,
-                    order,
-                    order * speed / 60.0,
-                    float(abs(value)),
-                    float(np.degrees(np.angle(value.item()))),
-                    float(results["channel_order_rms"].sel(at)),
-                    float(results["channel_order_coherence"].sel(at)),
-                )
+def _order_rows(results: xr.Dataset) -> Iterator[_Order]:
+    for at in _places(results):
+        own = results.sel(at)
+        value = complex(own["channel_order"].item())
+        yield _Order(
+            channel=str(at["channel"]),
+            unit=str(own["channel_unit"].item()),
+            speed_rpm=float(at["speed"]),
+            blocks=int(own["block_count"]),
+            order=float(at["order"]),
+            frequency_hz=float(at["order"] * at["speed"] / 60.0),
+            amplitude_peak=abs(value),
+            phase_deg=float(np.degrees(np.angle(value))),
+            rms_in_band=float(own["channel_order_rms"]),
+            coherence=float(own["channel_order_coherence"]),
+        )
+
+
+def _places(results: xr.Dataset) -> Iterator[dict[str, Any]]:
+    """Every channel at every speed and order."""
+    dims = ("channel", "speed", "order")
+    for place in product(*(results[dim].values for dim in dims)):
+        yield dict(zip(dims, place, strict=True))
 
 
 def _orders_table(results: xr.Dataset) -> Table:
-    speeds = results["speed"].values
-    shown = set(
-        speeds[np.unique(np.linspace(0, speeds.size - 1, _MOST_SPEEDS).round().astype(int))]
-    )
+    shown = _shown_speeds(results)
     rows = tuple(
         (
-            str(name),
-            str(unit),
-            f"{speed:.0f}",
-            f"{order:g}",
-            rounding.significant(float(peak)),
-            rounding.fixed(float(phase), 1),
-            rounding.significant(float(rms)),
-            rounding.fixed(float(coherence), 3),
+            row.channel,
+            row.unit,
+            f"{row.speed_rpm:.0f}",
+            f"{row.blocks}",
+            f"{row.order:g}",
+            _amplitude(row.amplitude_peak),
+            rounding.fixed(row.phase_deg) if row.coherence >= _LEAST_COHERENCE else NOTHING,
+            _amplitude(row.rms_in_band),
+            rounding.fixed(row.coherence, 3),
         )
-        for name, unit, speed, order, _, peak, phase, rms, coherence in _order_rows(results)
-        if speed in shown
+        for row in _order_rows(results)
+        if row.speed_rpm in shown
     )
-    head = ("Channel", "unit", "rpm", "Order", "Peak", "phase, °", "RMS in band", "coherence")
-    caption = "Orders: coherent mean over the blocks at a speed, against crank angle zero"
-    if len(shown) < speeds.size:
-        caption += f"; {len(shown)} of {speeds.size} speeds, all in the CSV"
+    head = (
+        "Channel", "unit", "rpm", "blocks", "Order", "Peak", "phase, °", "RMS in band", "coherence"
+    )  # fmt: skip
+    caption = (
+        "Orders: peak and phase of the coherent mean over the blocks at a speed; RMS in a band of "
+        f"{results.attrs['band_order']:.3g} orders"
+    )
+    if len(shown) < results.sizes["speed"]:
+        caption += f"; {len(shown)} of {results.sizes['speed']} speeds, all in the CSV"
     return Table(caption, head, rows, frozenset({0, 1}))
 
 
+def _shown_speeds(results: xr.Dataset) -> set[float]:
+    """Some operating points, from the lowest to the highest."""
+    speeds = results["speed"].values
+    places = np.linspace(0, speeds.size - 1, _MOST_SPEEDS).round().astype(int)
+    return set(speeds[places].tolist())
+
+
+def _level_rows(results: xr.Dataset) -> Iterator[tuple[str, str, xr.Dataset]]:
+    """Channel, weighting and levels of sound pressure."""
+    pressure = results["channel_unit"] == "Pa"
+    for channel in results["channel"].values[pressure.values]:
+        for weighting in results["weighting"].values:
+            yield str(channel), str(weighting), results.sel(channel=channel, weighting=weighting)
+
+
 def _levels_table(results: xr.Dataset) -> Table:
-    names = ("equivalent_level", "fast_maximum_level", "slow_maximum_level")
     rows = tuple(
-        (str(channel), str(weighting), *cells)
-        for channel in results["channel"].values
-        for weighting in results["weighting"].values
-        for cells in [
-            [
-                rounding.fixed(float(results[name].sel(channel=channel, weighting=weighting)))
-                for name in names
-            ]
-        ]
-        if cells[0] != rounding.NOTHING
+        (channel, weighting, *(rounding.fixed(float(own[name])) for name in _LEVELS))
+        for channel, weighting, own in _level_rows(results)
     )
     head = ("Channel", "weighting", "Leq, dB", "LFmax, dB", "LSmax, dB")
     return Table("Sound pressure levels, dB re 20 µPa", head, rows, frozenset({0, 1}))
 
 
-def _compared_rows(compared: xr.Dataset) -> Iterator[tuple[str | float, ...]]:
-    lines = compared["channel_order"].transpose("channel", "speed", "order")
-    for channel in lines:
-        for at_speed in channel:
-            for value in at_speed:
-                at = {name: value[name].item() for name in ("channel", "speed", "order")}
-                yield (
-                    str(at["channel"]),
-                    str(value["compared_channel"].item()),
-                    str(value["channel_unit"].item()),
-                    float(at["speed"]),
-                    float(value["compared_speed"]),
-                    float(at["order"]),
-                    float(abs(value)),
-                    float(abs(compared["compared_order"].sel(at))),
-                    float(compared["order_difference"].sel(at)),
-                    float(np.degrees(compared["order_phase_difference"].sel(at))),
-                )
+def _compared_rows(compared: xr.Dataset) -> Iterator[_ComparedOrder]:
+    for at in _places(compared):
+        own = compared.sel(at)
+        yield _ComparedOrder(
+            channel=str(at["channel"]),
+            other_channel=str(own["compared_channel"].item()),
+            unit=str(own["channel_unit"].item()),
+            speed_rpm=float(at["speed"]),
+            other_speed_rpm=float(own["compared_speed"]),
+            order=float(at["order"]),
+            amplitude_peak=abs(complex(own["channel_order"].item())),
+            other_amplitude_peak=abs(complex(own["compared_order"].item())),
+            difference_db=float(own["order_difference"]),
+            phase_difference_deg=float(np.degrees(own["order_phase_difference"])),
+            coherence=float(own["channel_order_coherence"]),
+        )

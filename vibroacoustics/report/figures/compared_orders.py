@@ -6,59 +6,70 @@ from typing import Final
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
-from .style import COLOURS, Picture, draw, file_name, legend_below, plain
+from .style import (
+    COLOURS,
+    Picture,
+    draw,
+    legend_below,
+    numbered_file_name,
+    shortened,
+    whole_number_ticks,
+)
 
 _MOST_PANELS: Final = 4
-_QUIETEST: Final = 1e-6
+_QUIETEST: Final = 1e-5
 """Lowest amplitude that is drawn, as a share of the largest."""
 
 
 def compared_order_figures(compared: xr.Dataset) -> list[Picture]:
-    """For each channel: both spectra at each speed, or each order over many speeds."""
-    return [_picture(compared.sel(channel=name)) for name in compared["channel"].values]
+    """For each channel: both spectra at each speed, or each order over many speeds.
+
+    Channels without an order that both results have are left out.
+    """
+    return [
+        _picture(compared.sel(channel=name), numbered_file_name(number, str(name)))
+        for number, name in enumerate(compared["channel"].values, 1)
+        if np.isfinite(compared["order_difference"].sel(channel=name)).any()
+    ]
 
 
-def _picture(own: xr.Dataset) -> Picture:
+def _picture(own: xr.Dataset, name: str) -> Picture:
     by_speed = own.sizes["speed"] <= _MOST_PANELS
     across, within = ("speed", "order") if by_speed else ("order", "speed")
     places = own[across].values[:_MOST_PANELS]
     channel = str(own["channel"].item())
-    labels = (own.attrs.get("first", "this"), own.attrs.get("second", "other"))
-    largest = max(float(abs(own[name]).max()) for name in ("channel_order", "compared_order"))
+    labels = (own.attrs["first"], own.attrs["second"])
+    size = xr.concat([abs(own["channel_order"]), abs(own["compared_order"])], "result")
+    largest = float(size.max())
+    drawn = size.where(size > _QUIETEST * largest)
+    bottom, top = 0.5 * float(drawn.min()), 2.0 * largest
 
     def paint(panels: Sequence[Axes]) -> None:
         for axes, place in zip(panels, places, strict=True):
-            for name, label, colour, marker, size in (
-                ("channel_order", labels[0], COLOURS[3], "o", 8),
-                ("compared_order", labels[1], COLOURS[1], "x", 6),
-            ):
-                height = abs(own[name].sel({across: place}))
-                shown = height.where(height > _QUIETEST * largest)
+            for shown, label, colour, marker, width in zip(
+                drawn.sel({across: place}), labels, (COLOURS[3], COLOURS[1]), "ox", (8, 6),
+                strict=True,
+            ):  # fmt: skip
                 if by_speed:
-                    axes.vlines(height[within], _QUIETEST * largest, shown, color=colour, alpha=0.4)
+                    axes.vlines(shown[within], bottom, shown, color=colour, alpha=0.4)
                 axes.semilogy(
-                    height[within], shown, marker, color=colour, label=plain(label),
-                    markersize=size, fillstyle="none",
+                    shown[within], shown, marker, color=colour, label=shortened(label),
+                    markersize=width, fillstyle="none",
                 )  # fmt: skip
-            axes.set_title(f"{place:.0f} rpm" if by_speed else f"order {place:g}", loc="left")
-            axes.set_ylim(0.5 * float(np.nanmin(_drawn(own, largest))), 2.0 * largest)
+            where = f"{place:.0f} rpm" if by_speed else f"order {place:g}"
+            axes.set_title(f"{shortened(channel)}, {where}", loc="left")
+            axes.set_ylim(bottom, top)
             axes.set_ylabel(f"Peak, {own['channel_unit'].item()}")
         panels[-1].set_xlabel("Shaft order" if by_speed else "Speed, rpm")
-        legend_below(panels[0])
+        if by_speed:
+            panels[-1].set_xlim(0.0, float(own["order"].max()) + 0.5)
+            whole_number_ticks(panels[-1])
+        legend_below(panels[0], 1)
 
     return Picture(
-        f"compared_{file_name(channel)}",
+        f"compared_{name}",
         f"Orders of {channel} in both results.",
         f"{channel}: {labels[0]} (circles) and {labels[1]} (crosses).",
-        draw(len(places), 2.2, paint, sharex=True),
+        draw(len(places), 2.2, paint, legend_rows=2, sharex=True),
     )
-
-
-def _drawn(own: xr.Dataset, largest: float) -> NDArray[np.float64]:
-    sizes = np.concatenate(
-        [np.abs(own[name].values).ravel() for name in ("channel_order", "compared_order")]
-    )
-    drawn: NDArray[np.float64] = sizes[sizes > _QUIETEST * largest]
-    return drawn if drawn.size else np.array([1.0])

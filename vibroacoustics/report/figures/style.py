@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 WIDTH_INCH: Final = 4.6
@@ -109,6 +110,11 @@ def frequency_ticks(axes: Axes, frequency_hz: NDArray[np.float64]) -> None:
     axes.minorticks_off()
 
 
+def whole_number_ticks(axes: Axes) -> None:
+    """Ticks of the abscissa at whole numbers only, as of orders."""
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+
+
 def legend_below(axes: Axes, columns: int = 2) -> None:
     """Legend outside of the axes, below the last panel."""
     figure = axes.get_figure()
@@ -133,6 +139,16 @@ def plain(text: str) -> str:
     return text.replace("$", r"\$")
 
 
+def shortened(text: str, width: int = 50) -> str:
+    """Text for a title or a legend: a name without end leaves no room for the figure."""
+    return plain(text if len(text) <= width else f"{text[: width - 1]}…")
+
+
 def file_name(name: str) -> str:
     """A name that is safe in a path."""
     return re.sub(r"[^A-Za-z0-9_-]+", "_", name)
+
+
+def numbered_file_name(number: int, name: str) -> str:
+    """A name that is safe in a path, and another one for each number; at most about 60 letters."""
+    return f"{number}_{file_name(name)[:60]}"

@@ -1,0 +1,136 @@
+"""Crank angle of a recording: from a tacho, a speed channel, a told speed or the signal itself."""
+
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from .. import orders
+from ..errors import ParameterError
+from ..parameters.order_analysis import NominalSpeed, SpeedChannel, TacholessSpeed
+from ..schema import NO_ANGLE_ZERO
+from ..units import shaft_frequency_hz
+
+SpeedSource = SpeedChannel | NominalSpeed | TacholessSpeed
+
+_LEAST_CONFIDENCE: Final = 0.5
+"""Mean confidence of a speed without a tacho; noise gives 0.3 to 0.5 (`TacholessResult`)."""
+
+
+class UncertainSpeedWarning(UserWarning):
+    """The speed that was found in a signal need not be that of the shaft."""
+
+
+@dataclass(frozen=True)
+class RecordedSpeed:
+    """Crank motion of a recording and what there is to tell about it."""
+
+    motion: orders.CrankMotion
+    source: str
+    """Where the speed comes from, in words."""
+    angle_zero: str = NO_ANGLE_ZERO
+    """The mark on the shaft at which the crank angle is zero."""
+    faults: tuple[orders.PulseFault, ...] = ()
+    quality: Mapping[str, float] = field(default_factory=dict)
+    """`jitter` of a tacho in periods, or mean `confidence` without one."""
+
+
+def recorded_speed(recording: xr.Dataset, speed: SpeedSource) -> RecordedSpeed:
+    """Crank angle over the time of a recording.
+
+    Raises
+    ------
+    ParameterError
+        There is no such channel, no pulse, or the shaft stops.
+
+    Warns
+    -----
+    UncertainSpeedWarning
+        Other speeds explain the signal as well as the one that was found.
+    """
+    signal = recording["signal"]
+    rate_hz = float(recording.attrs["sample_rate_hz"])
+    if isinstance(speed, NominalSpeed):
+        end_s = (signal.sizes["time"] - 1) / rate_hz
+        motion = orders.constant_speed(shaft_frequency_hz(speed.speed_rpm), 0.0, end_s)
+        return RecordedSpeed(motion, f"nominal {speed.speed_rpm:g} rpm")
+    if isinstance(speed, TacholessSpeed):
+        return _from_signal(_channel(signal, speed.channel), rate_hz, speed)
+    channel = _channel(signal, speed.channel)
+    if channel["channel_unit"].item() == "rpm":
+        motion = orders.rpm_motion(channel.values, rate_hz)
+        return RecordedSpeed(motion, f"channel {speed.channel}, rpm")
+    return _from_pulses(signal, rate_hz, speed)
+
+
+def channels_without_speed(signal: xr.DataArray, speed: SpeedSource) -> xr.DataArray:
+    """The channels that are analysed.
+
+    Raises
+    ------
+    ParameterError
+        There is none besides that of the speed.
+    """
+    if not isinstance(speed, SpeedChannel):
+        return signal
+    others = [
+        name
+        for name in signal["channel"].values
+        if name not in (speed.channel, speed.index_channel)
+    ]
+    if not others:
+        raise ParameterError("there is no channel besides that of the speed")
+    return signal.sel(channel=others)
+
+
+def _from_signal(channel: xr.DataArray, rate_hz: float, speed: TacholessSpeed) -> RecordedSpeed:
+    found = orders.tacholess_motion(
+        channel.values,
+        rate_hz,
+        shaft_frequency_hz(speed.minimum_rpm),
+        shaft_frequency_hz(speed.maximum_rpm),
+    )
+    confidence = float(np.mean(found.confidence))
+    if confidence < _LEAST_CONFIDENCE:
+        warnings.warn(
+            f"the speed found is uncertain: mean confidence {confidence:.2f} of 1, as in noise; "
+            "give a tacho or narrower limits",
+            UncertainSpeedWarning,
+            stacklevel=2,
+        )
+    source = (
+        f"from the signal, within {speed.minimum_rpm:g} to {speed.maximum_rpm:g} rpm; "
+        f"mean confidence {confidence:.2f} of 1"
+    )
+    return RecordedSpeed(found.motion, source, quality={"confidence": confidence})
+
+
+def _from_pulses(signal: xr.DataArray, rate_hz: float, speed: SpeedChannel) -> RecordedSpeed:
+    index = None
+    angle_zero = f"pulse of {speed.channel}" if speed.pulses_per_revolution == 1 else NO_ANGLE_ZERO
+    if speed.index_channel is not None:
+        index = orders.pulse_times(_channel(signal, speed.index_channel).values, rate_hz)
+        angle_zero = f"pulse of {speed.index_channel}"
+    pulses = orders.pulse_times(_channel(signal, speed.channel).values, rate_hz)
+    found = orders.tacho_motion(pulses, speed.pulses_per_revolution, index)
+    number = speed.pulses_per_revolution
+    source = (
+        f"tacho {speed.channel}, {number} pulse{'s' if number > 1 else ''} a revolution, "
+        f"jitter {100.0 * found.jitter:.2g} % of a period"
+    )
+    return RecordedSpeed(found.motion, source, angle_zero, found.faults, {"jitter": found.jitter})
+
+
+def _channel(signal: xr.DataArray, name: str | None) -> xr.DataArray:
+    """One channel by name, or the only one."""
+    names = [str(channel) for channel in signal["channel"].values]
+    if name is None and len(names) == 1:
+        return signal.isel(channel=0)
+    if name is None:
+        raise ParameterError(f"speed: name the channel to find it in, one of {', '.join(names)}")
+    if name not in names:
+        raise ParameterError(f"speed: no channel {name!r}; there are {', '.join(names)}")
+    return signal.sel(channel=name)
