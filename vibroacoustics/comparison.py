@@ -229,7 +229,7 @@ def _coherence(result: xr.Dataset, place: Mapping[str, Any]) -> Real:
 
 
 def _angle_zero(result: xr.Dataset) -> str:
-    return str(result.attrs.get("angle_zero", "crank angle zero of the mechanism"))
+    return str(result.attrs.get("angle_zero", "that of the mechanism"))
 
 
 def _title(result: xr.Dataset) -> str:
