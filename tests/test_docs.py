@@ -66,7 +66,7 @@ def test_page_shows_what_comes_out(workplace):
             shown.append(block)
             check_session(block)
     assert len(shown) >= 4
-    assert (workplace / "reports/motor/map_Acceleration.png").is_file()
+    assert (workplace / "reports/motor/map_1_Acceleration.png").is_file()
 
 
 def check_session(block: str) -> None:
