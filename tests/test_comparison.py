@@ -47,6 +47,7 @@ def recorded(channels, speeds=(2900.0,), orders=(1.0, 2.0), coherence=1.0, **att
     coords = {"channel": list(channels), "speed": list(speeds), "order": list(orders)}
     names = {
         "channel_order": lines.astype(complex),
+        "channel_order_rms": np.abs(lines) / np.sqrt(2.0 * coherence),
         "channel_order_coherence": np.full(lines.shape, coherence),
     }
     units = ("channel", [unit for unit, _ in channels.values()])
@@ -187,7 +188,17 @@ def test_without_a_mark_on_the_shaft_there_is_no_phase(place):
     free = recorded({"a": ("Pa", [1.0, 2.0])}, angle_zero="none")
     compared = compare(free, marked) if place == "first" else compare(marked, free)
     assert np.all(np.isnan(compared["order_phase_difference"]))
-    assert not compared["order_difference"].values.any()
+    np.testing.assert_allclose(compared["order_difference"], 0.0, atol=1e-9)
+
+
+def test_without_a_mark_on_the_shaft_the_bands_count():
+    """The angle drifts: a tenth of the power is coherent, all of it is in the bands."""
+    marked = recorded({"a": ("Pa", [1.0, 2.0])})
+    drifting = recorded({"a": ("Pa", np.sqrt(0.1) * np.array([1.0, 2.0]))}, coherence=0.1,
+                        angle_zero="none")  # fmt: skip
+    compared = compare(marked, drifting)
+    np.testing.assert_allclose(compared["order_difference"], 0.0, atol=1e-9)
+    assert "peaks from the RMS in the bands" in comparison_of_orders_text(compared)
 
 
 def test_a_speed_is_paired_once_with_the_nearest():

@@ -43,7 +43,8 @@ def compare(
     `channel_order` of the first, `compared_order` of the second turned to the first's crank angle,
     `order_difference` (dB) and `order_phase_difference` (rad, within ±π), each (channel, speed,
     order), not a number where one of the two has no such order (`NEGLIGIBLE`); no phase difference
-    at all where one has no mark on the shaft as its angle zero. `channel_order_coherence` is the
+    at all where one has no mark on the shaft as its angle zero, whose peaks then are √2 times the
+    RMS in the orders' bands. `channel_order_coherence` is the
     lower of the two; coordinates `compared_speed` and `compared_channel`.
 
     Raises
@@ -96,7 +97,7 @@ def channel_orders(result: xr.Dataset, option: str = REFERENCE_OPTION) -> xr.Dat
         The result holds no orders, or not that option.
     """
     if "channel_order" in result:
-        return result["channel_order"]
+        return _recorded(result)
     if "force_order" not in result:
         raise ParameterError(f"{_title(result)}: holds no orders; give results of run or orders")
     options = [str(name) for name in result["option"].values]
@@ -112,6 +113,17 @@ def channel_orders(result: xr.Dataset, option: str = REFERENCE_OPTION) -> xr.Dat
     pulsation = 2j * np.pi * result["order_frequency"]
     parts.append(_named(translation * pulsation, "acceleration", "m/s²"))
     return xr.concat(parts, "channel")
+
+
+def _recorded(result: xr.Dataset) -> xr.DataArray:
+    """Coherent means of a recording; without a mark on the shaft, peaks from the RMS in the bands.
+
+    There the angle drifts against the orders, and their coherent means are too low.
+    """
+    if _angle_zero(result) != NO_ANGLE_ZERO:
+        return result["channel_order"]
+    rms = result["channel_order_rms"]
+    return rms.copy(data=np.sqrt(2.0) * rms.values.astype(complex)).rename("channel_order")
 
 
 _SIMULATED: Final = (

@@ -7,6 +7,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 import xarray as xr
 
+from ..schema import NO_ANGLE_ZERO
 from . import rounding
 from .rounding import NOTHING
 from .tables import Table, to_csv, to_text
@@ -111,11 +112,7 @@ def comparison_of_orders_text(compared: xr.Dataset) -> str:
         "Channel", "of B", "unit", "rpm", "of B", "Order", "Peak A", "peak B", "B - A, dB",
         "phase, °", "coherence",
     )  # fmt: skip
-    facts = [
-        f"{compared.attrs['first']}; crank angle zero: {compared.attrs['first_angle_zero']}",
-        f"{compared.attrs['second']}; crank angle zero: {compared.attrs['second_angle_zero']}",
-        "",
-    ]
+    facts = [*(_compared_fact(compared, name) for name in ("first", "second")), ""]
     caption = "B against A: level and phase of each order; coherence is the lower of both"
     if len(rows) < len(every):
         caption += f"; {len(rows)} of {len(every)} rows, all in the CSV"
@@ -126,6 +123,13 @@ def comparison_of_orders_text(compared: xr.Dataset) -> str:
 def comparison_of_orders_csv(compared: xr.Dataset) -> bytes:
     """Every pair of orders."""
     return to_csv(_ComparedOrder._fields, _compared_rows(compared))
+
+
+def _compared_fact(compared: xr.Dataset, name: str) -> str:
+    """What one of the results is, and where its phases count from."""
+    angle_zero = compared.attrs[f"{name}_angle_zero"]
+    told = f"{compared.attrs[name]}; crank angle zero: {angle_zero}"
+    return f"{told}, peaks from the RMS in the bands" if angle_zero == NO_ANGLE_ZERO else told
 
 
 def _amplitude(value: float) -> str:
