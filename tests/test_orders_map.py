@@ -1,6 +1,7 @@
 """Order maps, rpm-frequency maps, order cuts: amplitudes, phases, noise, resolution."""
 
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from vibroacoustics.errors import ParameterError
 from vibroacoustics.orders import (
     OrderResolutionWarning,
     angular_resample,
+    block_phasors,
     frequency_map,
     mean_order_spectrum,
     order_cut,
@@ -94,6 +96,34 @@ def test_phase_against_the_crank_angle(run_up, window):
         assert np.max(np.abs(error)) < 0.01
         # Side lobes of a rectangular window vanish on the lines, as do those of the others.
         np.testing.assert_allclose(np.abs(amplitude[:, number]), peak, rtol=RIPPLE)
+
+
+def test_phasors_of_whole_orders_are_the_lines(run_up):
+    """The same sum, with its phase factors in another order: rounding of 1e3 terms."""
+    signal = replace(run_up, values=np.stack([run_up.values, 2.0 * run_up.values]))
+    spectra = order_map(signal, 0.125)
+    expected = order_lines(spectra, list(PEAKS))
+    np.testing.assert_allclose(
+        block_phasors(signal, spectra, list(PEAKS)), expected, rtol=0.0, atol=1e-11
+    )
+
+
+def test_phasor_of_an_order_between_lines():
+    """A bearing's order 3.57: on no line, yet whole in amplitude and phase in every block.
+
+    Its mirror image at -3.57 lies 86 lines away, where the window's side lobes are below 1e-6.
+    """
+    motion = from_speed(np.linspace(0.0, 5.0, 6), np.linspace(10.0, 40.0, 6))
+    angle = motion.angle_rad(np.arange(3001) / RATE_HZ)
+    signal = angular_resample(0.8 * np.cos(3.57 * angle + 0.4), RATE_HZ, motion, 6.0)
+    phasor = block_phasors(signal, order_map(signal, 0.125), [3.57])
+    np.testing.assert_allclose(phasor, 0.8 * np.exp(0.4j), rtol=2.0 * RIPPLE)
+
+
+@pytest.mark.parametrize("order", [0.0, -1.0, 6.75, np.nan])
+def test_phasor_of_an_order_that_the_signal_does_not_hold(run_up, order):
+    with pytest.raises(ParameterError, match=r"must be above 0 and at most 6\.74"):
+        block_phasors(run_up, order_map(run_up, 0.25), [1.0, order])
 
 
 def test_blocks_are_labelled_with_time_and_mean_speed(run_up):

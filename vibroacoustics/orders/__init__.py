@@ -5,7 +5,14 @@ from .crank_motion import CrankMotion, constant_speed, from_angle, from_speed
 from .ellipse import semi_major_axis
 from .fourier import FFT_ENGINE
 from .order_cut import OrderCut, OrderResolutionWarning, order_cut, order_lines
-from .order_map import FrequencyMap, OrderMap, frequency_map, mean_order_spectrum, order_map
+from .order_map import (
+    FrequencyMap,
+    OrderMap,
+    block_phasors,
+    frequency_map,
+    mean_order_spectrum,
+    order_map,
+)
 from .pulse_edges import pulse_times
 from .pulse_faults import PulseFault
 from .spectrum import order_spectrum
@@ -35,6 +42,7 @@ __all__ = [
     "Track",
     "TrackedOrders",
     "angular_resample",
+    "block_phasors",
     "constant_speed",
     "frequency_map",
     "from_angle",

@@ -1,5 +1,6 @@
 """Spectra of overlapping blocks over a run-up: order maps and rpm-frequency maps."""
 
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Final
@@ -33,6 +34,8 @@ class OrderMap:
     revolutions: int
     """In each block."""
     window: Window
+    starts: NDArray[np.int64]
+    """First sample of the blocks in the signal, shape (block,)."""
     time_s: Array
     """Middle of the blocks, shape (block,)."""
     shaft_frequency_hz: Array
@@ -111,9 +114,49 @@ def order_map(
         order=np.arange(lines) / revolutions,
         revolutions=revolutions,
         window=shape,
+        starts=starts,
         time_s=np.asarray((start_s + end_s) / 2.0),
         shaft_frequency_hz=(length - 1) / (signal.samples_per_revolution * (end_s - start_s)),
     )
+
+
+def block_phasors(
+    signal: AngularSignal, spectra: OrderMap, orders: Sequence[float] | Array
+) -> ComplexArray:
+    """Complex peak amplitude of any orders in the blocks of their map, (..., block, order).
+
+    X_k = 2 / S1 Σ x w exp(-jkθ), at the order itself: on a line of the map it is that line.
+
+    Parameters
+    ----------
+    signal : that the map was made of
+    spectra : the map
+    orders : above 0, up to the signal's maximum order
+
+    Raises
+    ------
+    ParameterError
+        An order is outside that range.
+    """
+    wanted = np.asarray(orders, dtype=float)
+    for order in wanted:
+        if not 0.0 < order <= signal.maximum_order:
+            raise ParameterError(
+                f"order {order:g}: must be above 0 and at most {signal.maximum_order:g}"
+            )
+    length = spectra.revolutions * signal.samples_per_revolution
+    turn = 2.0 * np.pi * wanted / signal.samples_per_revolution
+    weights = np.exp(-1j * np.outer(np.arange(length), turn))
+    weights *= (spectra.window.samples(length) * (2.0 / length))[:, None]  # S1 = N
+    to_zero = np.exp(-1j * np.outer(spectra.starts + signal.first_sample, turn))
+    parts = np.concatenate([weights.real, weights.imag], axis=1)
+    rows = signal.values.reshape(-1, signal.values.shape[-1])
+    phasors = np.empty((len(rows), *to_zero.shape), dtype=complex)
+    for phasor, row in zip(phasors, rows, strict=True):
+        blocks = sliding_window_view(row, length)[spectra.starts]
+        phasor.real, phasor.imag = np.split(blocks @ parts, 2, axis=1)
+    phasors *= to_zero
+    return phasors.reshape(*signal.values.shape[:-1], *to_zero.shape)
 
 
 def frequency_map(

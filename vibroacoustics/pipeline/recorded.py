@@ -60,7 +60,9 @@ def _analyse(recording: xr.Dataset, settings: OrderAnalysis, progress: Progress)
     angular = orders.angular_resample(signal.values, rate_hz, speed.motion, highest)
     progress("orders", 2, _STAGES)
     spectra = orders.order_map(angular, settings.resolution_order, _WINDOW)
-    results = _order_variables(signal, spectra, settings).merge(_average(signal, angular))
+    phasors = orders.block_phasors(angular, spectra, settings.orders)
+    results = _order_variables(signal, spectra, phasors, settings)
+    results = results.merge(_average(signal, angular))
     if speed.faults:
         results = results.merge(_faults(speed.faults))
     progress("orders", 3, _STAGES)
@@ -75,14 +77,16 @@ def _source(recording: xr.Dataset) -> str:
 
 
 def _order_variables(
-    signal: xr.DataArray, spectra: orders.OrderMap, settings: OrderAnalysis
+    signal: xr.DataArray,
+    spectra: orders.OrderMap,
+    phasors: NDArray[np.complex128],
+    settings: OrderAnalysis,
 ) -> xr.Dataset:
     """Orders of every block and at every operating point, and the mean spectrum."""
     block_speed = 60.0 * spectra.shaft_frequency_hz
     speeds, point = operating_points(block_speed, settings.speed_step_rpm)
-    lines = orders.order_lines(spectra, settings.orders)
     rms = orders.order_cut(spectra, settings.orders).rms
-    mean, effective, coherence = _at_points(lines, rms, point, speeds.size)
+    mean, effective, coherence = _at_points(phasors, rms, point, speeds.size)
     by_block = {
         "channel": signal["channel"],
         "block": np.arange(spectra.time_s.size),
@@ -94,7 +98,7 @@ def _order_variables(
         "channel_order": stamp("channel_order", mean, by_speed),
         "channel_order_rms": stamp("channel_order_rms", effective, by_speed),
         "channel_order_coherence": stamp("channel_order_coherence", coherence, by_speed),
-        "block_order": stamp("block_order", lines, by_block),
+        "block_order": stamp("block_order", phasors, by_block),
         "block_order_rms": stamp("block_order_rms", rms, by_block),
         "mean_order_spectrum": stamp(
             "mean_order_spectrum", orders.mean_order_spectrum(spectra), by_line
