@@ -118,7 +118,7 @@ def steady_cycle(machine: ReciprocatingMachine, bore_m: float, speed_rpm: float)
         The friction does not converge.
     """
     if not 0.0 < speed_rpm < np.inf:
-        raise ParameterError(f"speed_rpm = {speed_rpm:g} rpm: must be above 0 rpm")
+        raise ParameterError(f"speed_rpm = {speed_rpm:g} rpm: must be positive and finite")
     crank = design_at_bore(machine.piston_and_rod, bore_m)
     moved = motion(crank, uniform_crank_angle(SAMPLES))
     inertia = reduced_inertia(crank, moved, machine.crankshaft.inertia_kg_m2)
