@@ -37,9 +37,11 @@ G = 9.80665
 
 def links(crank_um=0.0, scroll_um=0.0, minicrank_um=0.0, bracket_um=0.0) -> Links:
     return Links(
-        4.5e-3 + 1e-6 * crank_um, 0.115 + 1e-6 * scroll_um,
-        4.5e-3 + 1e-6 * minicrank_um, 0.115 + 1e-6 * bracket_um,
-    )  # fmt: skip
+        4.5e-3 + 1e-6 * crank_um,
+        0.115 + 1e-6 * scroll_um,
+        4.5e-3 + 1e-6 * minicrank_um,
+        0.115 + 1e-6 * bracket_um,
+    )
 
 
 def inertia_peak(form: Links, speed_rpm: float, branch: int = 1) -> tuple[float, float]:
@@ -254,9 +256,7 @@ def heavy():
 
 def at_constant_speed(machine: MiniCrankMachine, speed_rpm: float):
     """An endless flywheel, so that the crankshaft runs at constant speed."""
-    return steady_minicrank_cycle(
-        changed(machine, masses={"rotor_inertia_kg_m2": 1e9}), speed_rpm
-    )  # fmt: skip
+    return steady_minicrank_cycle(changed(machine, masses={"rotor_inertia_kg_m2": 1e9}), speed_rpm)
 
 
 @pytest.mark.parametrize("machine", [HEAVY, changed(MACHINE, four_bar={"scroll_error_m": 2e-5})])
@@ -353,10 +353,14 @@ def test_lagrange_multipliers_give_the_same_motion_and_force(heavy):
         angles = np.array([heavy.moved.crank_angle[index], heavy.moved.scroll_angle[0, index],
                            heavy.moved.minicrank_angle[0, index]])  # fmt: skip
         _, solved = multipliers(
-            heavy, HEAVY, angles, heavy.rotation.speed_rad_per_s[index],
-            heavy.rotation.motor_torque_n_m[index], heavy.load.tangential_force_n[index],
+            heavy,
+            HEAVY,
+            angles,
+            heavy.rotation.speed_rad_per_s[index],
+            heavy.rotation.motor_torque_n_m[index],
+            heavy.load.tangential_force_n[index],
             heavy.load.moment_n_m[index],
-        )  # fmt: skip
+        )
         # Rounding: the system's condition is some 1e5 where the links are in line.
         expected = heavy.rotation.acceleration_rad_per_s2
         assert solved[0] == pytest.approx(expected[index], abs=1e-8 * np.max(np.abs(expected)))
@@ -383,7 +387,7 @@ def test_integration_in_time_repeats_the_cycle(heavy):
     marks = [*heavy.rotation.time_s[[200, 3600, 7300, 12000]], 0.04]
     found = solve_ivp(
         slope, (0.0, 0.04), start, rtol=1e-9, atol=1e-10, t_eval=marks, method="DOP853"
-    )  # fmt: skip
+    )
     # The trapezoidal rule over 0.025° steps of the smooth load: (2π/14400)²/12 = 1.6e-8; the
     # marches' own tolerance, amplified some 10 times at the reversals.
     expected = speeds[[200, 3600, 7300, 12000, 0]]

@@ -1,6 +1,6 @@
 """Steady rotation of a crankshaft whose inertia and load change with crank angle."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -58,6 +58,37 @@ class HousingWrench:
 def uniform_crank_angle(samples: int) -> Array:
     """Crank angles of one revolution from zero, shape (samples,), rad."""
     return 2.0 * np.pi * np.arange(samples) / samples
+
+
+def acceleration_of(position: Array, rotation: Rotation) -> Array:
+    """Second derivative to time of a place or angle given over crank angle.
+
+    Parameters
+    ----------
+    position : value, first and second derivative over crank angle, shape (3, samples)
+    rotation : of the crankshaft
+    """
+    speed, acceleration = rotation.speed_rad_per_s, rotation.acceleration_rad_per_s2
+    return np.asarray(position[2] * speed**2 + position[1] * acceleration)
+
+
+def reduced_inertia(
+    crankshaft_inertia_kg_m2: float, moving: Sequence[tuple[float, Array]]
+) -> tuple[Array, Array]:
+    """Inertia of all moving parts reduced to the crankshaft, and its slope over crank angle.
+
+    Parameters
+    ----------
+    crankshaft_inertia_kg_m2 : of what turns with the crankshaft
+    moving : mass or inertia and its position or angle, shape (3, samples) as `acceleration_of`
+
+    Returns
+    -------
+    inertia, slope : shape (samples,), kg m² and kg m²/rad
+    """
+    inertia = crankshaft_inertia_kg_m2 + sum(mass * value[1] ** 2 for mass, value in moving)
+    slope = sum(2.0 * mass * value[1] * value[2] for mass, value in moving)
+    return np.asarray(inertia), np.asarray(slope)
 
 
 def steady_rotation(

@@ -74,9 +74,7 @@ def reachable_crank_angles(links: Links) -> tuple[float, float]:
         The links close at no crank angle.
     """
     l1, l2, l3, l4 = links.crank_m, links.scroll_m, links.minicrank_m, links.bracket_m
-    ends = [
-        (l1**2 + l4**2 - span**2) / (2.0 * l1 * l4) for span in (abs(l2 - l3), l2 + l3)
-    ]  # fmt: skip
+    ends = [(l1**2 + l4**2 - span**2) / (2.0 * l1 * l4) for span in (abs(l2 - l3), l2 + l3)]
     if ends[0] < -1.0 or ends[1] > 1.0:
         raise ParameterError(f"{_lengths(links)}: the links close at no crank angle")
     # The margins decide: at just one the quotient's rounding would cost a fraction of a degree.
@@ -147,7 +145,7 @@ def four_bar_motion(links: Links, crank_angle: Array, branch: int) -> FourBarMot
         np.stack(
             [third, third_1, (third_2 - third_1**2 * l3 * np.cos(third - second)) / (l3 * sine)]
         ),
-    )  # fmt: skip
+    )
 
 
 def _slack(links: Links) -> float:

@@ -11,7 +11,14 @@ from ..errors import ParameterError
 from ..moving_parts import Array
 from ..parameters.minicrank import Masses, MiniCrankMachine, ScrollLoads
 from ..units import shaft_frequency_hz
-from .crankshaft import HousingWrench, Rotation, steady_rotation, uniform_crank_angle
+from .crankshaft import (
+    HousingWrench,
+    Rotation,
+    acceleration_of,
+    reduced_inertia,
+    steady_rotation,
+    uniform_crank_angle,
+)
 from .four_bar import FourBarMotion, Links, four_bar_motion, links_of
 
 SAMPLES: Final = 14400
@@ -96,12 +103,10 @@ def minicrank_pin_force(
             "crank_error_um, scroll_error_um, minicrank_error_um, bracket_error_um = 0 µm: a "
             "parallelogram with one mini-crank takes no moment where its links are in line"
         )
-    speed, acceleration = rotation.speed_rad_per_s, rotation.acceleration_rad_per_s2
     second, third = moved.scroll_angle, moved.minicrank_angle
-    on_scroll = load.moment_n_m - masses.scroll_inertia_kg_m2 * _rate(
-        second, speed, acceleration
-    )  # fmt: skip
-    on_minicrank = masses.minicrank_inertia_kg_m2 * _rate(third, speed, acceleration)
+    scroll_turn, minicrank_turn = (acceleration_of(angle, rotation) for angle in (second, third))
+    on_scroll = load.moment_n_m - masses.scroll_inertia_kg_m2 * scroll_turn
+    on_minicrank = masses.minicrank_inertia_kg_m2 * minicrank_turn
     on_minicrank = on_minicrank + _weight_moment(links, moved, masses)
     along_third = on_scroll / links.scroll_m
     along_second = -on_minicrank / links.minicrank_m
@@ -109,10 +114,6 @@ def minicrank_pin_force(
     return np.asarray(
         (along_third * _direction(third[0]) + along_second * _direction(second[0])) / sine
     )
-
-
-def _rate(angle: Array, speed: Array, acceleration: Array) -> Array:
-    return np.asarray(angle[2] * speed**2 + angle[1] * acceleration)
 
 
 def _direction(angle: Array) -> Array:
@@ -156,8 +157,12 @@ def steady_minicrank_cycle(machine: MiniCrankMachine, speed_rpm: float) -> MiniC
     load = scroll_load(machine.loads, links, moved.crank_angle)
     mean_speed = 2.0 * np.pi * shaft_frequency_hz(speed_rpm)
     torque = input_torque(links, moved, masses, load, mean_speed)
+    turning = (
+        (masses.scroll_inertia_kg_m2, moved.scroll_angle),
+        (masses.minicrank_inertia_kg_m2, moved.minicrank_angle),
+    )
     rotation = steady_rotation(
-        *_reduced_inertia(moved, masses),
+        *reduced_inertia(masses.rotor_inertia_kg_m2, turning),
         torque["load"] + torque["weight"],
         mean_speed,
         masses.motor_slope_ratio,
@@ -166,36 +171,22 @@ def steady_minicrank_cycle(machine: MiniCrankMachine, speed_rpm: float) -> MiniC
     return MiniCrankCycle(links, moved, load, torque, rotation, housing)
 
 
-def _reduced_inertia(moved: FourBarMotion, masses: Masses) -> tuple[Array, Array]:
-    """Inertia at the crankshaft and its slope over crank angle, kg m² and kg m²/rad."""
-    inertia = np.full_like(moved.crank_angle, masses.rotor_inertia_kg_m2)
-    slope = np.zeros_like(inertia)
-    for own, angle in (
-        (masses.scroll_inertia_kg_m2, moved.scroll_angle),
-        (masses.minicrank_inertia_kg_m2, moved.minicrank_angle),
-    ):
-        inertia += own * angle[1] ** 2
-        slope += 2.0 * own * angle[1] * angle[2]
-    return inertia, slope
-
-
 def _housing_wrench(
     links: Links, moved: FourBarMotion, masses: Masses, rotation: Rotation
 ) -> HousingWrench:
     """By change of momentum. The counterweights balance the scroll's mass (eq. 10)."""
-    speed, acceleration = rotation.speed_rad_per_s, rotation.acceleration_rad_per_s2
     third = moved.minicrank_angle
-    turn = _rate(third, speed, acceleration)
+    turn = acceleration_of(third, rotation)
     inward, across = -_direction(third[0]), _direction(third[0] + 0.5 * np.pi)
-    pin = links.minicrank_m * (across * turn + inward * (third[1] * speed) ** 2)
+    pin = links.minicrank_m * (across * turn + inward * (third[1] * rotation.speed_rad_per_s) ** 2)
     force = -masses.minicrank_mass_kg * pin
     still = np.zeros_like(force)
     return HousingWrench(
         force_n={"rotor": still, "orbiting_scroll": still, "minicrank": force},
         roll_moment_n_m={
-            "rotor": -masses.rotor_inertia_kg_m2 * acceleration,
+            "rotor": -masses.rotor_inertia_kg_m2 * rotation.acceleration_rad_per_s2,
             "orbiting_scroll": -masses.scroll_inertia_kg_m2
-            * _rate(moved.scroll_angle, speed, acceleration),
+            * acceleration_of(moved.scroll_angle, rotation),
             "minicrank": links.bracket_m * force[1] - masses.minicrank_inertia_kg_m2 * turn,
         },
     )

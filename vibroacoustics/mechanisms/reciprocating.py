@@ -1,6 +1,6 @@
 """Reciprocating compressor with Coulomb friction (Tsuji et al. 2012): forces, losses, speed."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -11,9 +11,16 @@ from ..errors import ParameterError, SolverError
 from ..moving_parts import Array
 from ..parameters.reciprocating import ReciprocatingMachine, SlidingPairs
 from ..units import shaft_frequency_hz
-from .crankshaft import Rotation, steady_rotation, uniform_crank_angle
+from .crankshaft import Rotation, reduced_inertia, steady_rotation, uniform_crank_angle
 from .cylinder_gas import cylinder_pressure
-from .slider_crank import Motion, SliderCrank, design_at_bore, motion, rate, reduced_inertia
+from .slider_crank import (
+    Motion,
+    SliderCrank,
+    design_at_bore,
+    motion,
+    moving_masses,
+    rates_of_momentum,
+)
 
 SAMPLES: Final = 3600
 """Crank angles a revolution. The gas pressure has four kinks a revolution; the trapezoidal rule
@@ -121,7 +128,7 @@ def steady_cycle(machine: ReciprocatingMachine, bore_m: float, speed_rpm: float)
         raise ParameterError(f"speed_rpm = {speed_rpm:g} rpm: must be positive and finite")
     crank = design_at_bore(machine.piston_and_rod, bore_m)
     moved = motion(crank, uniform_crank_angle(SAMPLES))
-    inertia = reduced_inertia(crank, moved, machine.crankshaft.inertia_kg_m2)
+    inertia = reduced_inertia(machine.crankshaft.inertia_kg_m2, moving_masses(crank, moved))
     swept = crank.piston_area_m2 * (moved.piston_m[0, 0] - moved.piston_m[0])
     pressure = cylinder_pressure(moved.crank_angle, swept, machine.gas)
     gas_force = -crank.piston_area_m2 * (pressure - machine.gas.crankcase_pressure_pa)
@@ -131,9 +138,7 @@ def steady_cycle(machine: ReciprocatingMachine, bore_m: float, speed_rpm: float)
     for _ in range(ITERATIONS):
         loads = load_torques(moved, gas_force, friction)
         load = np.sum(list(loads.values()), axis=0)
-        rotation = steady_rotation(
-            *inertia, load, mean_speed, machine.crankshaft.motor_slope_ratio
-        )  # fmt: skip
+        rotation = steady_rotation(*inertia, load, mean_speed, machine.crankshaft.motor_slope_ratio)
         forces = constraint_forces(crank, moved, rotation, gas_force, friction)
         friction = coulomb_friction(moved, forces, machine.sliding_pairs)
         change = np.sum(list(load_torques(moved, gas_force, friction).values()), axis=0) - load
@@ -164,16 +169,7 @@ def constraint_forces(
 
     Piston: m_p ẍ_p = P + f - T_x. Rod: m_c a = T - S, and its moments about the centre of mass.
     """
-    speed, acceleration = rotation.speed_rad_per_s, rotation.acceleration_rad_per_s2
-    rod_x, rod_y, rod_turn, piston = (
-        mass * rate(position, speed, acceleration)
-        for mass, position in (
-            (crank.rod_mass_kg, moved.rod_x_m),
-            (crank.rod_mass_kg, moved.rod_y_m),
-            (crank.rod_inertia_kg_m2, moved.rod_angle),
-            (crank.piston_mass_kg, moved.piston_m),
-        )
-    )
+    piston, rod_x, rod_y, rod_turn = rates_of_momentum(crank, moved, rotation)
     s, c = np.sin(moved.rod_angle[0]), np.cos(moved.rod_angle[0])
     t_x = gas_force_n + friction.wall_n - piston
     moments = crank.big_end_to_centre_m * (s * rod_x + c * rod_y) - rod_turn
@@ -198,10 +194,27 @@ def coulomb_friction(moved: Motion, forces: ConstraintForces, pairs: SlidingPair
     return Friction(wall, np.sign(moved.rod_angle[1]) * pin, crank_pin, journal)
 
 
+def efficiency_map(
+    machine: ReciprocatingMachine, speed_rpm: Sequence[float], bore_m: Sequence[float]
+) -> Array:
+    """Mechanical efficiency at constant displacement (Tsuji et al. 2012, figure 5c).
+
+    Returns
+    -------
+    shape (speeds, bores)
+    """
+    return np.array(
+        [
+            [steady_cycle(machine, bore, speed).mechanical_efficiency for bore in bore_m]
+            for speed in speed_rpm
+        ]
+    )
+
+
 def optimum_bore(
     machine: ReciprocatingMachine, speed_rpm: float, lowest_m: float, highest_m: float
 ) -> tuple[float, float]:
-    """Bore of the best mechanical efficiency at constant displacement (Tsuji et al. 2012, fig. 5c).
+    """Bore of the best efficiency at constant displacement (Tsuji et al. 2012, figure 6).
 
     Returns
     -------
@@ -210,8 +223,11 @@ def optimum_bore(
     Raises
     ------
     ParameterError
-        The best bore lies on an end of the range.
+        The range is empty or the best bore lies on an end of it.
     """
+    where = f"bore_mm from {1e3 * lowest_m:g} to {1e3 * highest_m:g} mm"
+    if not 0.0 < lowest_m < highest_m < np.inf:
+        raise ParameterError(f"{where}: must be two rising, positive lengths")
     found = minimize_scalar(
         lambda bore: -steady_cycle(machine, float(bore), speed_rpm).mechanical_efficiency,
         bounds=(lowest_m, highest_m),
@@ -219,7 +235,5 @@ def optimum_bore(
         options={"xatol": 1e-5},
     )
     if min(found.x - lowest_m, highest_m - found.x) < 1e-4:
-        raise ParameterError(
-            f"bore_mm from {1e3 * lowest_m:g} to {1e3 * highest_m:g} mm: holds no optimum bore"
-        )
+        raise ParameterError(f"{where}: holds no optimum bore")
     return float(found.x), -float(found.fun)

@@ -1,4 +1,4 @@
-"""Slider-crank: dimensions of a design, motion over crank angle, inertia at the crankshaft."""
+"""Slider-crank: dimensions of a design, motion over crank angle, force on the housing."""
 
 from dataclasses import dataclass
 
@@ -7,7 +7,7 @@ import numpy as np
 from ..errors import ParameterError
 from ..moving_parts import Array, MovingPart, path
 from ..parameters.reciprocating import PistonAndRod
-from .crankshaft import HousingWrench, Rotation
+from .crankshaft import HousingWrench, Rotation, acceleration_of
 
 
 @dataclass(frozen=True)
@@ -118,40 +118,32 @@ def motion(crank: SliderCrank, crank_angle: Array) -> Motion:
         crank_angle=crank_angle,
         rod_angle=np.stack([rod, rod_1, rod_2]),
         piston_m=np.stack([x, x_1, x_2]),
-        rod_x_m=np.stack(
-            [x - a * c, x_1 + a * s * rod_1, x_2 + a * (s * rod_2 + c * rod_1**2)]
-        ),
+        rod_x_m=np.stack([x - a * c, x_1 + a * s * rod_1, x_2 + a * (s * rod_2 + c * rod_1**2)]),
         rod_y_m=np.stack([a * s, a * c * rod_1, a * (c * rod_2 - s * rod_1**2)]),
-    )  # fmt: skip
+    )
 
 
-def rate(position: Array, speed: Array, acceleration: Array) -> Array:
-    """Second derivative to time of a position (3, samples) at a given rotation of the crank."""
-    return np.asarray(position[2] * speed**2 + position[1] * acceleration)
+def moving_masses(crank: SliderCrank, moved: Motion) -> tuple[tuple[float, Array], ...]:
+    """Masses and inertia of piston and rod with what they follow, for `reduced_inertia`.
 
-
-def reduced_inertia(
-    crank: SliderCrank, moved: Motion, crankshaft_inertia_kg_m2: float
-) -> tuple[Array, Array]:
-    """Inertia of all moving parts reduced to the crankshaft, and its slope over crank angle.
-
-    The left side of equation (1) of Tsuji et al. 2012 is I θ̈ + ½ (dI/dθ) θ̇².
-
-    Returns
-    -------
-    inertia, slope : shape (samples,), kg m² and kg m²/rad
+    The left side of equation (1) of Tsuji et al. 2012 is then I θ̈ + ½ (dI/dθ) θ̇².
     """
-    inertia = np.full_like(moved.crank_angle, crankshaft_inertia_kg_m2)
-    slope = np.zeros_like(inertia)
-    for mass, position in (
+    return (
         (crank.piston_mass_kg, moved.piston_m),
         (crank.rod_mass_kg, moved.rod_x_m),
         (crank.rod_mass_kg, moved.rod_y_m),
         (crank.rod_inertia_kg_m2, moved.rod_angle),
-    ):
-        inertia += mass * position[1] ** 2
-        slope += 2.0 * mass * position[1] * position[2]
-    return inertia, slope
+    )
+
+
+def rates_of_momentum(
+    crank: SliderCrank, moved: Motion, rotation: Rotation
+) -> tuple[Array, Array, Array, Array]:
+    """m_p ẍ_p, m_c ẍ_c, m_c ÿ_c in N and I_c φ̈ in N m, each of shape (samples,)."""
+    piston, rod_x, rod_y, turn = (
+        mass * acceleration_of(position, rotation) for mass, position in moving_masses(crank, moved)
+    )
+    return piston, rod_x, rod_y, turn
 
 
 def slider_crank_parts(crank: SliderCrank, moved: Motion) -> tuple[MovingPart, ...]:
@@ -179,22 +171,17 @@ def housing_wrench(
     The crankshaft is balanced and makes a moment only. A growing φ turns the rod against the
     crankshaft.
     """
-    speed, acceleration = rotation.speed_rad_per_s, rotation.acceleration_rad_per_s2
-    piston, rod_x, rod_y, rod_turn = (
-        rate(position, speed, acceleration)
-        for position in (moved.piston_m, moved.rod_x_m, moved.rod_y_m, moved.rod_angle)
-    )
+    piston, rod_x, rod_y, turn = rates_of_momentum(crank, moved, rotation)
     zero = np.zeros_like(piston)
-    rod_spin = moved.rod_x_m[0] * rod_y - moved.rod_y_m[0] * rod_x
     return HousingWrench(
         force_n={
-            "piston": -crank.piston_mass_kg * np.stack([piston, zero]),
-            "connecting_rod": -crank.rod_mass_kg * np.stack([rod_x, rod_y]),
+            "piston": -np.stack([piston, zero]),
+            "connecting_rod": -np.stack([rod_x, rod_y]),
             "crankshaft": np.stack([zero, zero]),
         },
         roll_moment_n_m={
             "piston": zero,
-            "connecting_rod": crank.rod_inertia_kg_m2 * rod_turn - crank.rod_mass_kg * rod_spin,
-            "crankshaft": -crankshaft_inertia_kg_m2 * acceleration,
+            "connecting_rod": turn - moved.rod_x_m[0] * rod_y + moved.rod_y_m[0] * rod_x,
+            "crankshaft": -crankshaft_inertia_kg_m2 * rotation.acceleration_rad_per_s2,
         },
     )
