@@ -1,0 +1,45 @@
+"""Gas in the cylinder of a reciprocating compressor with ideal valves."""
+
+import numpy as np
+
+from ..moving_parts import Array
+from ..parameters.reciprocating import CylinderGas
+
+
+def cylinder_pressure(crank_angle: Array, swept_m3: Array, gas: CylinderGas) -> Array:
+    """Pressure over a revolution: polytropic with index n, valves that open without loss, Pa.
+
+    Tsuji et al. 2012, 3.1. Crank angle 0 is top dead centre: from 0 to 180° the gas in the
+    clearance expands down to suction pressure, from 180° to 360° the charge is compressed up to
+    discharge pressure.
+
+    Parameters
+    ----------
+    crank_angle : shape (samples,), rad
+    swept_m3 : volume that the piston has uncovered since top dead centre, shape (samples,), m³
+    gas : pressures, polytropic index, clearance
+    """
+    displaced = float(np.max(swept_m3))
+    clearance = gas.clearance_ratio * displaced
+    volume = swept_m3 + clearance
+    index = gas.polytropic_index
+    # Volume ratio at which one polytrope spans the two pressures.
+    span = (gas.discharge_pressure_pa / gas.suction_pressure_pa) ** (1.0 / index)
+    charge = displaced + clearance
+    compressed = gas.suction_pressure_pa * (charge / np.maximum(volume, charge / span)) ** index
+    # Without clearance nothing expands; the smallest number keeps 0/0 out at top dead centre.
+    left = span * clearance / np.maximum(volume, np.finfo(float).tiny)
+    expanded = gas.suction_pressure_pa * np.maximum(left, 1.0) ** index
+    return np.where(np.sin(crank_angle) > 0.0, expanded, compressed)
+
+
+def compression_work_j(displaced_m3: float, gas: CylinderGas) -> float:
+    """Indicated work of a revolution in closed form, ∮ V dp of two polytropes, J.
+
+    W = n/(n-1) p_s V_i [(p_d/p_s)^((n-1)/n) - 1] with the volume V_i drawn in, which is the
+    displaced one less the expansion of the clearance.
+    """
+    n, ratio = gas.polytropic_index, gas.discharge_pressure_pa / gas.suction_pressure_pa
+    drawn_in = displaced_m3 * (1.0 + gas.clearance_ratio * (1.0 - ratio ** (1.0 / n)))
+    rise = ratio ** ((n - 1.0) / n) - 1.0
+    return float(n / (n - 1.0) * gas.suction_pressure_pa * drawn_in * rise)

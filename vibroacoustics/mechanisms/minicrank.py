@@ -1,0 +1,192 @@
+"""Scroll with mini-crank (Zhao et al. 2013): input torque, speed fluctuation, roll moment."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ..constants import STANDARD_GRAVITY_M_PER_S2
+from ..errors import ParameterError
+from ..moving_parts import Array
+from ..parameters.minicrank import Masses, MiniCrankMachine, ScrollLoads
+from ..units import shaft_frequency_hz
+from .crankshaft import (
+    HousingWrench,
+    Rotation,
+    acceleration_of,
+    reduced_inertia,
+    steady_rotation,
+    uniform_crank_angle,
+)
+from .four_bar import FourBarMotion, Links, four_bar_motion, links_of
+
+SAMPLES: Final = 14400
+"""Crank angles a revolution. Errors of 10 µm make a torque peak some 1° wide: 40 samples."""
+
+
+@dataclass(frozen=True)
+class ScrollLoad:
+    """Load on the scroll over crank angle.
+
+    Attributes
+    ----------
+    tangential_force_n : F_t at the crank pin, against its motion, shape (samples,)
+    rotation_moment_n_m : M_z of the gas, in the direction of θ2, shape (samples,)
+    friction_moment_n_m : M_sd of the plates, in the direction of θ2, shape (samples,)
+    """
+
+    tangential_force_n: Array
+    rotation_moment_n_m: Array
+    friction_moment_n_m: Array
+
+    @property
+    def moment_n_m(self) -> Array:
+        return self.rotation_moment_n_m + self.friction_moment_n_m
+
+
+def scroll_load(loads: ScrollLoads, links: Links, crank_angle: Array) -> ScrollLoad:
+    """Load of the gas with one harmonic; M_z = F_t l1/2, M_sd = µ_d M_m sin(γ - η) (eq. 14).
+
+    The paper shows the load in figures without numbers; its shape here is an assumption.
+    """
+    force = loads.tangential_force_n * (1.0 + loads.ripple_ratio * np.cos(crank_angle))
+    overturning = loads.overturning_arm_m * loads.tangential_force_n
+    friction = loads.plate_friction * overturning * np.sin(loads.friction_angle_rad)
+    return ScrollLoad(force, 0.5 * links.crank_m * force, np.full_like(force, friction))
+
+
+def input_torque(
+    links: Links, moved: FourBarMotion, masses: Masses, load: ScrollLoad, speed_rad_per_s: float
+) -> dict[str, Array]:
+    """Torque that keeps the crankshaft at constant speed, by source, N m.
+
+    Zhao et al. 2013, eq. 15 to 17, with the inertia torque of the scroll positive: printed is
+    -J2 θ̈2 δθ2/δθ1, which contradicts the energy of the scroll. The paper prints no value of it.
+
+    Returns
+    -------
+    T_d of scroll and mini-crank, T_w of the mini-crank's weight, T_F of the load, each of shape
+    (samples,)
+    """
+    scroll, minicrank = moved.scroll_angle, moved.minicrank_angle
+    square = speed_rad_per_s**2
+    return {
+        "scroll_inertia": masses.scroll_inertia_kg_m2 * square * scroll[2] * scroll[1],
+        "minicrank_inertia": masses.minicrank_inertia_kg_m2 * square * minicrank[2] * minicrank[1],
+        "weight": _weight_moment(links, moved, masses) * minicrank[1],
+        "load": load.tangential_force_n * links.crank_m - load.moment_n_m * scroll[1],
+    }
+
+
+def _weight_moment(links: Links, moved: FourBarMotion, masses: Masses) -> Array:
+    """Moment about the mini-crank's axis that holds its weight, y upwards, N m."""
+    lever = links.minicrank_m * np.cos(moved.minicrank_angle[0])
+    return np.asarray(masses.minicrank_mass_kg * STANDARD_GRAVITY_M_PER_S2 * lever)
+
+
+def minicrank_pin_force(
+    links: Links, moved: FourBarMotion, masses: Masses, load: ScrollLoad, rotation: Rotation
+) -> Array:
+    """Force of the scroll on the mini-crank, x and y, shape (2, samples), N.
+
+    From the moments of the scroll about the crank pin and of the mini-crank about its axis.
+
+    Raises
+    ------
+    ParameterError
+        The links are a parallelogram: a single mini-crank cannot hold the scroll where all links
+        are in line.
+    """
+    if links.is_parallelogram:
+        raise ParameterError(
+            "crank_error_um, scroll_error_um, minicrank_error_um, bracket_error_um = 0 µm: a "
+            "parallelogram with one mini-crank takes no moment where its links are in line"
+        )
+    second, third = moved.scroll_angle, moved.minicrank_angle
+    scroll_turn, minicrank_turn = (acceleration_of(angle, rotation) for angle in (second, third))
+    on_scroll = load.moment_n_m - masses.scroll_inertia_kg_m2 * scroll_turn
+    on_minicrank = masses.minicrank_inertia_kg_m2 * minicrank_turn
+    on_minicrank = on_minicrank + _weight_moment(links, moved, masses)
+    along_third = on_scroll / links.scroll_m
+    along_second = -on_minicrank / links.minicrank_m
+    sine = np.sin(third[0] - second[0])
+    return np.asarray(
+        (along_third * _direction(third[0]) + along_second * _direction(second[0])) / sine
+    )
+
+
+def _direction(angle: Array) -> Array:
+    return np.stack([np.cos(angle), np.sin(angle)])
+
+
+@dataclass(frozen=True)
+class MiniCrankCycle:
+    """One steady revolution over uniform crank angles.
+
+    Attributes
+    ----------
+    links : lengths with their errors
+    moved : motion of scroll and mini-crank
+    load : on the scroll
+    input_torque_n_m : at constant speed by source, equation (17)
+    rotation : of the crankshaft with its own inertia and motor
+    housing : force and roll moment by source
+    """
+
+    links: Links
+    moved: FourBarMotion
+    load: ScrollLoad
+    input_torque_n_m: Mapping[str, Array]
+    rotation: Rotation
+    housing: HousingWrench
+
+
+def steady_minicrank_cycle(machine: MiniCrankMachine, speed_rpm: float) -> MiniCrankCycle:
+    """Torque ripple of the mechanism's errors, the rotor's speed under it, the housing's roll.
+
+    Raises
+    ------
+    ParameterError
+        The mechanism does not close, or the speed cannot be.
+    """
+    if not 0.0 < speed_rpm < np.inf:
+        raise ParameterError(f"speed_rpm = {speed_rpm:g} rpm: must be positive and finite")
+    masses, links = machine.masses, links_of(machine.four_bar)
+    moved = four_bar_motion(links, uniform_crank_angle(SAMPLES), machine.four_bar.branch)
+    load = scroll_load(machine.loads, links, moved.crank_angle)
+    mean_speed = 2.0 * np.pi * shaft_frequency_hz(speed_rpm)
+    torque = input_torque(links, moved, masses, load, mean_speed)
+    turning = (
+        (masses.scroll_inertia_kg_m2, moved.scroll_angle),
+        (masses.minicrank_inertia_kg_m2, moved.minicrank_angle),
+    )
+    rotation = steady_rotation(
+        *reduced_inertia(masses.rotor_inertia_kg_m2, turning),
+        torque["load"] + torque["weight"],
+        mean_speed,
+        masses.motor_slope_ratio,
+    )
+    housing = _housing_wrench(links, moved, masses, rotation)
+    return MiniCrankCycle(links, moved, load, torque, rotation, housing)
+
+
+def _housing_wrench(
+    links: Links, moved: FourBarMotion, masses: Masses, rotation: Rotation
+) -> HousingWrench:
+    """By change of momentum. The counterweights balance the scroll's mass (eq. 10)."""
+    third = moved.minicrank_angle
+    turn = acceleration_of(third, rotation)
+    inward, across = -_direction(third[0]), _direction(third[0] + 0.5 * np.pi)
+    pin = links.minicrank_m * (across * turn + inward * (third[1] * rotation.speed_rad_per_s) ** 2)
+    force = -masses.minicrank_mass_kg * pin
+    still = np.zeros_like(force)
+    return HousingWrench(
+        force_n={"rotor": still, "orbiting_scroll": still, "minicrank": force},
+        roll_moment_n_m={
+            "rotor": -masses.rotor_inertia_kg_m2 * rotation.acceleration_rad_per_s2,
+            "orbiting_scroll": -masses.scroll_inertia_kg_m2
+            * acceleration_of(moved.scroll_angle, rotation),
+            "minicrank": links.bracket_m * force[1] - masses.minicrank_inertia_kg_m2 * turn,
+        },
+    )
