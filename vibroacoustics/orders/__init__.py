@@ -4,15 +4,9 @@ from .angular import AngularSignal, angular_resample, whole_revolutions
 from .crank_motion import CrankMotion, constant_speed, from_angle, from_speed
 from .ellipse import semi_major_axis
 from .fourier import FFT_ENGINE
+from .frequency_map import FrequencyMap, frequency_map
 from .order_cut import OrderCut, OrderResolutionWarning, order_cut, order_lines
-from .order_map import (
-    FrequencyMap,
-    OrderMap,
-    block_phasors,
-    frequency_map,
-    mean_order_spectrum,
-    order_map,
-)
+from .order_map import OrderMap, block_phasors, mean_order_spectrum, order_map
 from .pulse_edges import pulse_times
 from .pulse_faults import PulseFault
 from .spectrum import order_spectrum
