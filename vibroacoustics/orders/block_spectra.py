@@ -19,11 +19,19 @@ _THREADS: Final = 2
 
 
 def check_positive(name: str, value: float) -> None:
+    """Refuse a setting that is not above zero."""
     if not 0.0 < value < np.inf:
         raise ParameterError(f"{name} = {value:g}: must be above 0")
 
 
 def block_starts(samples: int, length: int, overlap_ratio: float) -> NDArray[np.int64]:
+    """First samples of blocks of a length, (block,).
+
+    Raises
+    ------
+    ParameterError
+        The overlap is outside its range.
+    """
     if not 0.0 <= overlap_ratio < 1.0:
         raise ParameterError(f"overlap_ratio = {overlap_ratio:g}: must be from 0 to below 1")
     hop = max(round(length * (1.0 - overlap_ratio)), 1)
