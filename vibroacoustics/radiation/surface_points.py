@@ -15,8 +15,8 @@ POINTS_AT_A_TIME: Final = 50_000
 """Points of a part of the surface, about; a face is never shared by two parts."""
 _THREE_POINTS: Final = np.full((3, 3), 1.0 / 6.0) + np.eye(3) / 2.0
 """Shares of a triangle's corners in three points of equal weight, exact for quadratics."""
-_POINTS_PER_PATCH: Final = 6
-"""Pieces of a face per pair of planes through it, at most, of a cylinder's slender triangles."""
+_POINTS_PER_PATCH: Final = 18
+"""Points of a face per pair of planes through it, at most, of a cylinder's slender triangles."""
 
 
 @dataclass(frozen=True)
