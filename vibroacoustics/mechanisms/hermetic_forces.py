@@ -66,6 +66,7 @@ class MechanismMotion:
 
     pin: PointMotion
     mass_centre: PointMotion
+    mass_centre_acceleration: Complexes
     rod: RodMotion
     joints: JointForces
     shaft_load: Complexes
@@ -101,9 +102,10 @@ def mechanism_motion(
     )
     joints = joint_forces(machine, rod, gas_force_n)
     weight = np.array([0.0, 0.0, -crank.mass_kg * GRAVITY])
-    inertia = weight - crank.mass_kg * mass_centre.acceleration(second_rates)
+    acceleration = mass_centre.acceleration(second_rates)
+    inertia = weight - crank.mass_kg * acceleration
     load = pin.generalised(joints.rod_on_crank) + mass_centre.generalised(inertia)
-    return MechanismMotion(pin, mass_centre, rod, joints, load)
+    return MechanismMotion(pin, mass_centre, acceleration, rod, joints, load)
 
 
 def added_mass(
