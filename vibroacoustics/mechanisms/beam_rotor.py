@@ -98,9 +98,7 @@ def beam_element(section: Section, length_m: float) -> RotorMatrices:
     rotary = density * section.second_moment_m4 * rotation_matrix(length_m)
     bending = section.youngs_modulus_pa * section.second_moment_m4 * bending_matrix(length_m)
     half = X_PLANE.T @ (2.0 * rotary) @ Y_PLANE  # polar second moment: twice that about a diameter
-    return RotorMatrices(
-        _both_planes(plane_mass + rotary), half - half.T, _both_planes(bending)
-    )
+    return RotorMatrices(_both_planes(plane_mass + rotary), half - half.T, _both_planes(bending))
 
 
 def _both_planes(plane: Array) -> Array:

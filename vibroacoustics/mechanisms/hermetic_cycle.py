@@ -7,9 +7,9 @@ import numpy as np
 
 from ..moving_parts import Array
 from ..parameters.hermetic import HermeticCompressor
+from .film_force import FilmForce, positive_film_force
 from .hermetic_gas import valve_angles
 from .hermetic_shaft import Case, Crankshaft, ShaftEquations, crankshaft
-from .journal_bearing import FilmForce, positive_film_force
 from .periodic_collocation import PeriodicSolution, periodic_solution
 
 STEPS: Final = 360

@@ -7,7 +7,7 @@ import numpy as np
 from ..constants import STANDARD_GRAVITY_M_PER_S2 as GRAVITY
 from ..parameters.hermetic import HermeticCompressor
 from .hermetic_pin import COORDINATES, PointMotion, RodMotion, crank_point, rod_motion
-from .journal_bearing import Complexes
+from .journal_bearing import Values
 
 
 @dataclass(frozen=True)
@@ -21,13 +21,13 @@ class JointForces:
     wall_on_piston : N
     """
 
-    piston_on_rod: Complexes
-    rod_on_crank: Complexes
-    wall_on_piston: Complexes
+    piston_on_rod: Values
+    rod_on_crank: Values
+    wall_on_piston: Values
 
 
 def joint_forces(
-    machine: HermeticCompressor, motion: RodMotion, gas_force_n: Complexes
+    machine: HermeticCompressor, motion: RodMotion, gas_force_n: Values
 ) -> JointForces:
     """Newton-Euler equations of rod and piston (Estupiñan eqs. 18 to 20, signs of appendix A).
 
@@ -54,9 +54,7 @@ def joint_forces(
     return JointForces(
         np.stack((piston_x, piston_y, piston_share * one), axis=-1),
         np.stack((pin_x, pin_y, -crank_share * one), axis=-1),
-        np.stack(
-            (0.0 * one, piston_y, (piston_share + piston.mass_kg * GRAVITY) * one), axis=-1
-        ),
+        np.stack((0.0 * one, piston_y, (piston_share + piston.mass_kg * GRAVITY) * one), axis=-1),
     )
 
 
@@ -66,19 +64,19 @@ class MechanismMotion:
 
     pin: PointMotion
     mass_centre: PointMotion
-    mass_centre_acceleration: Complexes
+    mass_centre_acceleration: Values
     rod: RodMotion
     joints: JointForces
-    shaft_load: Complexes
+    shaft_load: Values
     """Generalised force on the five coordinates of the crank, N and N m, shape (..., 5)."""
 
 
 def mechanism_motion(
     machine: HermeticCompressor,
-    coordinates: Complexes,
-    rates: Complexes,
-    second_rates: Complexes,
-    gas_force_n: Complexes,
+    coordinates: Values,
+    rates: Values,
+    second_rates: Values,
+    gas_force_n: Values,
 ) -> MechanismMotion:
     """What rod and piston, the crank's eccentric mass and its weight do to the crank.
 
@@ -109,14 +107,14 @@ def mechanism_motion(
 
 
 def added_mass(
-    machine: HermeticCompressor, coordinates: Complexes, rates: Complexes, gas_force_n: Complexes
-) -> tuple[Complexes, Complexes]:
+    machine: HermeticCompressor, coordinates: Values, rates: Values, gas_force_n: Values
+) -> tuple[Values, Values]:
     """Mass matrix (..., 5, 5) of the mechanism and its load at zero second rates (..., 5).
 
     The load is linear in the second rates, so the columns are exact differences.
     """
 
-    def load(second_rates: Complexes) -> Complexes:
+    def load(second_rates: Values) -> Values:
         return mechanism_motion(machine, coordinates, rates, second_rates, gas_force_n).shaft_load
 
     at_rest = load(np.zeros_like(coordinates))

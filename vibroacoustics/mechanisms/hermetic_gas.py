@@ -15,9 +15,7 @@ def piston_area_m2(machine: HermeticCompressor) -> float:
 def volume_ratio(machine: HermeticCompressor, crank_angle: Array) -> Array:
     """Cylinder volume over clearance volume; top dead centre is θ = 0 by Estupiñan eq. 1."""
     radius, length = machine.crank.radius_m, machine.rod.length_m
-    place = radius * np.cos(crank_angle) + np.sqrt(
-        length**2 - (radius * np.sin(crank_angle)) ** 2
-    )
+    place = radius * np.cos(crank_angle) + np.sqrt(length**2 - (radius * np.sin(crank_angle)) ** 2)
     lift = (radius + length - place) / (2.0 * radius)
     return np.asarray(1.0 + lift / machine.gas.clearance_ratio)
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import ParameterError
 from ..parameters.hermetic import Rod
-from .journal_bearing import Complexes
+from .journal_bearing import Values
 
 COORDINATES = 5
 
@@ -26,25 +26,25 @@ class PointMotion:
     bias : acceleration for zero second derivatives of the coordinates, m/s², shape (..., 3)
     """
 
-    position_m: Complexes
-    jacobian: Complexes
-    bias: Complexes
+    position_m: Values
+    jacobian: Values
+    bias: Values
 
-    def velocity(self, rates: Complexes) -> Complexes:
+    def velocity(self, rates: Values) -> Values:
         """Velocity, m/s, shape (..., 3)."""
-        return np.einsum("...ij,...j->...i", self.jacobian, rates)
+        return np.asarray(np.einsum("...ij,...j->...i", self.jacobian, rates))
 
-    def acceleration(self, second_rates: Complexes) -> Complexes:
+    def acceleration(self, second_rates: Values) -> Values:
         """Acceleration, m/s², shape (..., 3)."""
-        return self.bias + np.einsum("...ij,...j->...i", self.jacobian, second_rates)
+        return np.asarray(self.bias + np.einsum("...ij,...j->...i", self.jacobian, second_rates))
 
-    def generalised(self, force: Complexes) -> Complexes:
+    def generalised(self, force: Values) -> Values:
         """Generalised force on the five coordinates of a force at the point."""
-        return np.einsum("...ij,...i->...j", self.jacobian, force)
+        return np.asarray(np.einsum("...ij,...i->...j", self.jacobian, force))
 
 
 def crank_point(
-    coordinates: Complexes, rates: Complexes, radius_m: float, offset_m: float
+    coordinates: Values, rates: Values, radius_m: float, offset_m: float
 ) -> PointMotion:
     """Point {r, 0, -h} of the crank's frame B3 (Estupiñan eq. 3, 12 to 15; z added).
 
@@ -68,8 +68,10 @@ def crank_point(
         [zero, zero, up, -cb * across, sb * p + cb * sg * q],
     ]
     squares = rate_beta**2, rate_gamma**2, rate_theta**2
-    products = 2.0 * rate_beta * rate_gamma, 2.0 * rate_beta * rate_theta, (
-        2.0 * rate_gamma * rate_theta
+    products = (
+        2.0 * rate_beta * rate_gamma,
+        2.0 * rate_beta * rate_theta,
+        (2.0 * rate_gamma * rate_theta),
     )
     bias = [
         -squares[1] * across - squares[2] * cg * p + products[2] * sg * q,
@@ -101,15 +103,15 @@ class RodMotion:
     angular_acceleration : α̈, rad/s²
     """
 
-    sine: Complexes
-    cosine: Complexes
-    piston_position_m: Complexes
-    piston_velocity: Complexes
-    angular_velocity: Complexes
-    piston_acceleration: Complexes
-    angular_acceleration: Complexes
+    sine: Values
+    cosine: Values
+    piston_position_m: Values
+    piston_velocity: Values
+    angular_velocity: Values
+    piston_acceleration: Values
+    angular_acceleration: Values
 
-    def centre_acceleration(self, rod: Rod) -> tuple[Complexes, Complexes]:
+    def centre_acceleration(self, rod: Rod) -> tuple[Values, Values]:
         """x and y acceleration of the rod's centre of mass (Estupiñan, below eq. 19), m/s²."""
         distance, squared = rod.centre_of_mass_m, self.angular_velocity**2
         return (
@@ -120,7 +122,7 @@ class RodMotion:
 
 
 def rod_motion(
-    length_m: float, pin: Complexes, pin_velocity: Complexes, pin_acceleration: Complexes
+    length_m: float, pin: Values, pin_velocity: Values, pin_acceleration: Values
 ) -> RodMotion:
     """Rod and piston from the motion of the crank pin in x and y (Estupiñan eqs. 6 to 11).
 

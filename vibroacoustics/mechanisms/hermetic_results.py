@@ -37,9 +37,7 @@ def bearing_cycles(equations: ShaftEquations, states: Array) -> tuple[BearingCyc
     displacement, velocity, speed = equations.split(states)
     bearing, forces = equations.machine.bearing, equations.film_forces(states)
     cycles = []
-    for at, force in zip(
-        equations.shaft.bearing_freedoms, np.moveaxis(forces, -2, 0), strict=True
-    ):
+    for at, force in zip(equations.shaft.bearing_freedoms, np.moveaxis(forces, -2, 0), strict=True):
         orbit, moving = displacement[..., at : at + 2], velocity[..., at : at + 2]
         eccentricity, _, _ = film_coordinates(bearing, orbit, moving, speed)
         cycles.append(

@@ -12,10 +12,10 @@ import numpy as np
 from ..moving_parts import Array
 from ..parameters.hermetic import HermeticCompressor
 from .beam_rotor import NODE_FREEDOMS, RotorMatrices, Section, assemble, with_disc
+from .film_force import FilmForce
 from .hermetic_forces import added_mass, mechanism_motion
 from .hermetic_gas import gas_force_n
 from .hermetic_pin import COORDINATES
-from .journal_bearing import FilmForce
 
 Case = Literal["I", "II", "III"]
 
@@ -34,7 +34,7 @@ class Crankshaft:
     ----------
     matrices : of the rotor's n freedoms; the first are those of the crank
     bearing_freedoms : index of x of each bearing; y follows it
-    held : coordinates x, y, β, Γ, θ of the crank that the case leaves free
+    free : which of the crank's x, y, β, Γ, θ move, in this order; the others are held
     """
 
     matrices: RotorMatrices
@@ -166,7 +166,7 @@ class ShaftEquations:
         """d(states)/dθ and its derivatives by the states, shapes (points, m) and (points, m, m)."""
         freedoms, speed = self.shaft.freedoms, states[..., -1]
         mass, force = self._balance(angle, states)
-        accelerations = np.linalg.solve(mass, force[..., None])[..., 0]
+        accelerations = np.asarray(np.linalg.solve(mass, force[..., None])[..., 0], dtype=float)
         residual = self._residual_tangent(angle, states, accelerations)
         rates = np.concatenate((states[..., freedoms:-1], accelerations), axis=-1)
         tangent = np.zeros((*rates.shape, rates.shape[-1]))

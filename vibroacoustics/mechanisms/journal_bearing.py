@@ -4,8 +4,7 @@ The film thickness is h = c (1 + ε cos φ), φ from the thickest film in the se
 force on the journal has the component ξ towards the thinnest film and η ahead of it by 90°.
 """
 
-from collections.abc import Callable
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,11 +13,8 @@ from ..errors import ParameterError
 from ..moving_parts import Array
 from ..parameters.hermetic import JournalBearing
 
-Complexes = NDArray[np.float64] | NDArray[np.complex128]
+Values = NDArray[Any]
 """Real values, or complex ones where a derivative is taken by a complex step."""
-
-FilmForce = Callable[[JournalBearing, Complexes, Complexes, Complexes], Complexes]
-"""Force on the journal, N, from its displacement, velocity (..., 2) and spin (...)."""
 
 PRESSURE_ANGLES: Final = 2880
 """Angles of the search for the highest pressure: at ε = 0.95 it is found to 1e-4."""
@@ -137,97 +133,11 @@ def long_bearing_pressure(
     return np.asarray(scale * (wedge + rate * (sine - leak * one)))
 
 
-def sommerfeld_angle(angle: Complexes, eccentricity: Complexes) -> Complexes:
+def sommerfeld_angle(angle: Values, eccentricity: Values) -> Values:
     """Sommerfeld's γ with 1 + ε cos φ = (1 - ε²)/(1 - ε cos γ), continuous in φ."""
     ratio = eccentricity / (1.0 + np.sqrt(1.0 - eccentricity**2))
-    return angle - 2.0 * np.arctan(ratio * np.sin(angle) / (1.0 + ratio * np.cos(angle)))
-
-
-def film_integrals(
-    eccentricity: Complexes, start: Complexes, end: Complexes
-) -> tuple[Complexes, Complexes, Complexes]:
-    """Integrals of cos², sin cos and sin² over (1 + ε cos φ)³ from `start` to `end`."""
-    gap = 1.0 - eccentricity**2
-
-    def primitives(angle: Complexes) -> tuple[Complexes, Complexes, Complexes]:
-        gamma = sommerfeld_angle(angle, eccentricity)
-        half, double = 0.5 * gamma, 0.25 * np.sin(2.0 * gamma)
-        cosines = half + double - 2.0 * eccentricity * np.sin(gamma) + eccentricity**2 * gamma
-        mixed = 0.5 * np.sin(gamma) ** 2 + eccentricity * np.cos(gamma)
-        return cosines / gap**2.5, mixed / gap**2, (half - double) / gap**1.5
-
-    upper, lower = primitives(end), primitives(start)
-    return upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]
-
-
-def positive_film_force(
-    bearing: JournalBearing, displacement_m: Complexes, velocity: Complexes, spin: Complexes
-) -> Complexes:
-    """Force of a short film over the half where its pressure is positive, whichever that is.
-
-    With V = v - Ω/2 ẑ x e the pressure of eq. 24 is 6µ (l²/4 - z²) V·n / h³, positive on the half
-    that V points to (Booker 1965), so that (26) and (27) follow for dε/dt = 0 and u > 0. The
-    printed ones keep 0 ≤ φ ≤ π and suck the journal outwards where u < 0 or dε/dt < 0.
-
-    Parameters
-    ----------
-    bearing : radius, width and clearance in m, viscosity in Pa s
-    displacement_m : journal centre from the bearing's, shape (..., 2)
-    velocity : of the journal centre, m/s, shape (..., 2)
-    spin : Ω, rad/s
-
-    Returns
-    -------
-    force on the journal, N, shape (..., 2)
-    """
-    x, y = displacement_m[..., 0], displacement_m[..., 1]
-    eccentric = np.sqrt(x**2 + y**2)
-    cosine, sine = -x / eccentric, -y / eccentric  # to the thickest film
-    slip_x, slip_y = velocity[..., 0] + 0.5 * spin * y, velocity[..., 1] - 0.5 * spin * x
-    along, across = cosine * slip_x + sine * slip_y, cosine * slip_y - sine * slip_x
-    middle = _angle(along, across)
-    cosines, mixed, sines = film_integrals(
-        eccentric / bearing.clearance_m, middle - 0.5 * np.pi, middle + 0.5 * np.pi
-    )
-    scale = -bearing.viscosity_pa_s * bearing.radius_m * (bearing.width_m / bearing.clearance_m) ** 3
-    force_along = scale * (cosines * along + mixed * across)
-    force_across = scale * (mixed * along + sines * across)
-    return np.stack(
-        (cosine * force_along - sine * force_across, sine * force_along + cosine * force_across),
-        axis=-1,
-    )
-
-
-def _angle(x: Complexes, y: Complexes) -> Complexes:
-    """Angle of (x, y), differentiable by a complex step, unlike arctan2."""
-    base = np.arctan2(y.real, x.real)
-    turned_x = x * np.cos(base) + y * np.sin(base)
-    turned_y = y * np.cos(base) - x * np.sin(base)
-    return np.asarray(base + np.arctan(turned_y / turned_x))
-
-
-def printed_film_force(
-    law: Callable[..., tuple[Array, Array]],
-) -> FilmForce:
-    """A printed law in ε, dε/dt and u as a force in x and y (Estupiñan eq. 30)."""
-
-    def force(
-        bearing: JournalBearing, displacement_m: Complexes, velocity: Complexes, spin: Complexes
-    ) -> Complexes:
-        x, y = displacement_m[..., 0], displacement_m[..., 1]
-        eccentric = np.sqrt(x**2 + y**2)
-        rate = (x * velocity[..., 0] + y * velocity[..., 1]) / eccentric
-        turning = (x * velocity[..., 1] - y * velocity[..., 0]) / eccentric**2
-        clearance = bearing.clearance_m
-        radial, transverse = law(
-            bearing, eccentric / clearance, rate / clearance, spin - 2.0 * turning
-        )
-        return np.stack(
-            ((radial * x - transverse * y) / eccentric, (radial * y + transverse * x) / eccentric),
-            axis=-1,
-        )
-
-    return force
+    turn = np.arctan(ratio * np.sin(angle) / (1.0 + ratio * np.cos(angle)))
+    return np.asarray(angle - 2.0 * turn)
 
 
 def film_coordinates(
@@ -240,15 +150,15 @@ def film_coordinates(
     ParameterError
         The journal touches the bearing.
     """
-    eccentric = np.linalg.norm(displacement_m, axis=-1)
-    eccentricity = eccentric / bearing.clearance_m
+    x, y = displacement_m[..., 0], displacement_m[..., 1]
+    eccentric = np.hypot(x, y)
+    eccentricity = np.asarray(eccentric / bearing.clearance_m, dtype=float)
     if np.max(eccentricity) >= 1.0:
         raise ParameterError(
             f"eccentricity ratio = {np.max(eccentricity):g}: must be less than 1, the journal "
             "touches the bearing"
         )
     rate = np.sum(displacement_m * velocity, axis=-1) / (eccentric * bearing.clearance_m)
-    x, y = displacement_m[..., 0], displacement_m[..., 1]
     turning = x * velocity[..., 1] - y * velocity[..., 0]
     return eccentricity, rate, spin - 2.0 * turning / eccentric**2
 
@@ -259,5 +169,5 @@ def highest_pressure_pa(
     """Highest pressure of a short film around the bearing (Estupiñan eq. 24), Pa."""
     coordinates = film_coordinates(bearing, displacement_m, velocity, spin)
     angle = np.linspace(0.0, 2.0 * np.pi, PRESSURE_ANGLES, endpoint=False)
-    spread = (value[..., np.newaxis] for value in coordinates)
-    return np.asarray(short_bearing_pressure(bearing, angle, *spread).max(axis=-1))
+    eccentricity, rate, slip = (np.asarray(value)[..., np.newaxis] for value in coordinates)
+    return np.asarray(short_bearing_pressure(bearing, angle, eccentricity, rate, slip).max(axis=-1))

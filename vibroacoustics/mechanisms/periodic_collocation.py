@@ -55,7 +55,7 @@ class PeriodicSolution:
 
     def cycle_integral(self, integrand: Array) -> Array:
         """Integral over the cycle of values at the collocation points, shape (steps, 3, ...)."""
-        return np.einsum("i,k,ik...->...", np.diff(self.mesh), WEIGHTS[-1], integrand)
+        return np.asarray(np.einsum("i,k,ik...->...", np.diff(self.mesh), WEIGHTS[-1], integrand))
 
     @property
     def largest_multiplier(self) -> float:
@@ -89,7 +89,10 @@ def periodic_solution(
     for _ in range(NEWTON_STEPS):
         particular, transfer = _condensed(slope, mesh, stages, start)
         monodromy, offset = _compose(particular[:, -1], transfer[:, -1])
-        change = np.linalg.solve(np.eye(start.size) - monodromy, offset)
+        try:
+            change = np.asarray(np.linalg.solve(np.eye(start.size) - monodromy, offset), float)
+        except np.linalg.LinAlgError:  # a deviation that neither grows nor decays
+            break
         step = _propagated(particular, transfer, change)
         if not np.isfinite(step).all():
             break

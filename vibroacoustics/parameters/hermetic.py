@@ -74,7 +74,7 @@ class Gas(Parameters):
 
 
 class InductionMotor(Parameters):
-    """Torque = slope (synchronous speed - speed), the running part of an induction motor's curve."""
+    """Torque = slope (synchronous speed - speed), the running part of the torque curve."""
 
     synchronous_speed_rad_per_s: float = Field(gt=0.0, le=1e4)
     torque_slope_n_m_s: float = Field(gt=0.0, le=1e3)
