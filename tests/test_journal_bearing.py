@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.integrate import quad, solve_bvp
+from scipy.integrate import solve_bvp
 
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.mechanisms.film_force import positive_film_force, printed_film_force
@@ -31,12 +31,12 @@ slips = st.floats(-900.0, 900.0)
 
 def _integrated(pressure, mean_over_middle, start, end):
     """Force along ξ and η of a pressure over an arc; ξ points to the thinnest film."""
-    area = BEARING.radius_m * BEARING.width_m * mean_over_middle
-    along = quad(lambda a: pressure(a) * np.cos(a), start, end, epsabs=0.0, epsrel=1e-11, limit=400)
-    across = quad(
-        lambda a: pressure(a) * np.sin(a), start, end, epsabs=0.0, epsrel=1e-11, limit=400
-    )
-    return area * along[0], area * across[0]
+    # The integrand is analytic; 200 Gauss points leave rounding at ε = 0.95.
+    nodes, weights = np.polynomial.legendre.leggauss(200)
+    angle = start + 0.5 * (end - start) * (nodes + 1.0)
+    area = BEARING.radius_m * BEARING.width_m * mean_over_middle * 0.5 * (end - start)
+    load = area * weights * pressure(angle)
+    return np.sum(load * np.cos(angle)), np.sum(load * np.sin(angle))
 
 
 @given(eccentricities, rates, slips)

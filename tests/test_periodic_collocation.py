@@ -37,14 +37,16 @@ def test_order_of_convergence():
 
     def error(steps):
         solution = _solved(_relaxing(1.0), steps)
-        return np.max(np.abs(solution.states[:, 0] - np.cos(solution.mesh - np.pi / 4) / np.sqrt(2)))
+        return np.max(
+            np.abs(solution.states[:, 0] - np.cos(solution.mesh - np.pi / 4) / np.sqrt(2))
+        )
 
     assert np.log2(error(10) / error(20)) == pytest.approx(5.0, abs=0.2)
 
 
 def test_integral_over_the_cycle():
     solution = _solved(_relaxing(1.0), 40)
-    # cos² + sin²/2 of degree-5 exactness: the error is that of (2π/40)⁶.
+    # Radau's quadrature is exact to degree 4; the error is that of (2π/40)⁶.
     angle = solution.stage_angles
     assert solution.cycle_integral(np.cos(angle) ** 2) == pytest.approx(np.pi, abs=1e-9)
 
