@@ -102,3 +102,25 @@ def test_disc_precesses_like_a_free_top():
 def test_nodes_must_ascend():
     with pytest.raises(ParameterError, match="must ascend"):
         assemble(STEEL, np.array([0.0, 0.1, 0.1]))
+
+
+ROSS_2_3_HZ = {  # ross-rotordynamics 2.3.0, Rotor.run_modal, undamped, without axial and torsional
+    (1e7, 312.0): [264.86546691, 278.57101855, 856.60863953, 897.20166043, 1155.47765525,
+                   1180.0470177, 3436.80846469, 3465.39878285, 8034.28077133, 8070.06511101],
+    (1e8, 5000.0): [225.41563726, 644.61945395, 1278.26559125, 2162.95604759, 3198.16945355,
+                    3202.65530682, 3776.97416815, 4308.99026795, 8753.09129623, 9243.69622196],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("stiffness", "spin"), list(ROSS_2_3_HZ))
+def test_whirl_frequencies_of_another_package(stiffness, spin):
+    """Four elements of 40, 40, 20, 20 mm; discs of 0.2 kg, 2e-5, 3e-5 kg m² and 0.8 kg, 0.6e-3,
+    1e-3 kg m² at the ends; equal isotropic bearings at the first and third node; no shear."""
+    rotor = assemble(STEEL, np.array([0.0, 0.04, 0.08, 0.10, 0.12]))
+    rotor = with_disc(with_disc(rotor, 0, 0.2, 2e-5, 3e-5), 4, 0.8, 0.6e-3, 1e-3)
+    supported = rotor.stiffness.copy()
+    for at in (0, 1, 8, 9):
+        supported[at, at] += stiffness
+    found = whirl_frequencies_hz(RotorMatrices(rotor.mass, rotor.gyroscopic, supported), spin)
+    # ROSS solves a non-symmetric eigenvalue problem with free axial motion: 1e-8 or so.
+    assert found[:10] == pytest.approx(ROSS_2_3_HZ[stiffness, spin], rel=1e-7)

@@ -78,7 +78,7 @@ def long_bearing_force(
 
 
 def short_bearing_pressure(
-    bearing: JournalBearing, angle: Array, eccentricity: Values, rate: Values, slip: Values
+    bearing: JournalBearing, angle: Values, eccentricity: Array, rate: Array, slip: Array
 ) -> Array:
     """Pressure in the middle of a short bearing, negative parts kept (Estupiñan eq. 24, z = 0).
 

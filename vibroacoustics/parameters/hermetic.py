@@ -1,8 +1,11 @@
 """A hermetic reciprocating compressor: slider-crank, gas, motor, journal bearings and shaft."""
 
+from typing import Literal
+
 from pydantic import Field, model_validator
 
 from .base import Parameters
+from .machine import Erratum
 
 LENGTH = Field(gt=0.0, le=2.0)
 MASS = Field(gt=0.0, le=100.0)
@@ -112,6 +115,7 @@ class Shaft(Parameters):
 
 class HermeticCompressor(Parameters):
     name: str = Field(min_length=1)
+    kind: Literal["hermetic-reciprocating"]
     piston: Piston
     rod: Rod
     crank: Crank
@@ -120,6 +124,7 @@ class HermeticCompressor(Parameters):
     bearing: JournalBearing
     rotor: Rotor
     shaft: Shaft
+    errata: tuple[Erratum, ...] = ()
 
     @model_validator(mode="after")
     def _mechanism_closes(self) -> "HermeticCompressor":
