@@ -1,6 +1,7 @@
 """Force of an oil film in x and y: the half where the pressure is positive, or as printed."""
 
 from collections.abc import Callable
+from typing import Final
 
 import numpy as np
 
@@ -10,6 +11,9 @@ from .journal_bearing import Values, sommerfeld_angle
 
 FilmForce = Callable[[JournalBearing, Values, Values, Values], Values]
 """Force on the journal, N, from its displacement, velocity (..., 2) and spin (...)."""
+
+COMPLEX_STEP: Final = 1e-30
+"""A complex step has no cancellation; it need only be small beside a displacement of 1 nm."""
 
 
 def film_integrals(

@@ -10,12 +10,11 @@ from ..errors import ParameterError
 from ..moving_parts import Array
 from ..parameters.hermetic import JournalBearing
 from .beam_rotor import RotorMatrices
-from .film_force import positive_film_force
+from .film_force import COMPLEX_STEP, positive_film_force
 from .journal_bearing import short_bearing_force
 
 DEEPEST: Final = 0.999
 """Eccentricity up to which an equilibrium is sought."""
-COMPLEX_STEP: Final = 1e-30
 
 
 @dataclass(frozen=True)

@@ -53,6 +53,22 @@ def steady_cycle(
     return equations, solution
 
 
+def uniform_samples(solution: PeriodicSolution, steps: int = STEPS) -> tuple[Array, Array]:
+    """Crank angles from zero, uniform over the revolution, and the states there.
+
+    Parameters
+    ----------
+    solution : of `steady_cycle` with the same number of steps
+    steps : samples per revolution
+
+    Returns
+    -------
+    angles, states : rad, shape (steps,), and shape (steps, 2n + 1)
+    """
+    places = np.searchsorted(solution.mesh, np.linspace(0.0, 2.0 * np.pi, steps + 1)[:-1])
+    return solution.mesh[places], solution.states[places]
+
+
 def _guess(machine: HermeticCompressor, shaft: Crankshaft) -> Array:
     """Journals a little out of the middle, at the synchronous speed."""
     state = np.zeros(2 * shaft.freedoms + 1)

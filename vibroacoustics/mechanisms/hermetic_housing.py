@@ -8,7 +8,7 @@ import numpy as np
 from ..moving_parts import Array
 from .beam_rotor import NODE_FREEDOMS
 from .hermetic_results import motion_of
-from .hermetic_shaft import ShaftEquations
+from .hermetic_shaft import ShaftEquations, node_positions_m
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ def housing_wrenches(
 ) -> Mapping[str, Wrench]:
     """Change of momentum of piston, rod, crank and rotor, with the sign of its reaction.
 
-    Left out are the moments of the shaft's bending and tilt, micrometres over its length.
+    The rod swings in the plane of the pin's middle, as in the paper.
 
     Parameters
     ----------
@@ -42,8 +42,6 @@ def housing_wrenches(
     distance, height = machine.rod.centre_of_mass_m, -machine.crank.pin_offset_m
     piston_x = rod.piston_position_m
     rod_x, rod_y = rod.centre_acceleration(machine.rod)
-    rotor_force = np.stack(_stacked(*_rotor_force(equations, accelerations)), axis=-1)
-    no_moment = np.zeros_like(rotor_force)
     return {
         "piston": _wrench(
             machine.piston.mass_kg,
@@ -63,16 +61,34 @@ def housing_wrenches(
             tuple(np.moveaxis(motion.mass_centre_acceleration, -1, 0)),
             -machine.crank.axial_inertia_kg_m2 * spin,
         ),
-        "rotor": Wrench(rotor_force, no_moment + _axial(-machine.rotor.axial_inertia_kg_m2 * spin)),
+        "rotor": _rotor_wrench(equations, states, accelerations),
     }
 
 
-def _rotor_force(equations: ShaftEquations, accelerations: Array) -> tuple[Array, Array, Array]:
-    """Change of the flexible shaft's momentum in x and y, with the sign of its reaction, N."""
-    forces = accelerations[..., :-1] @ equations.shaft.matrices.mass
-    nodes = range(0, equations.shaft.freedoms, NODE_FREEDOMS)
-    x, y = (-forces[..., [at + axis for at in nodes]].sum(axis=-1) for axis in (0, 1))
-    return x, y, np.zeros_like(x)
+def _rotor_wrench(equations: ShaftEquations, states: Array, accelerations: Array) -> Wrench:
+    """Change of the shaft's and rotor's momentum, with the sign of its reaction.
+
+    The gyroscopic part is that of an angular momentum about the shaft that tilts.
+    """
+    matrices, (_, velocity, speed) = equations.shaft.matrices, equations.split(states)
+    spin_moment = _axial(-equations.machine.rotor.axial_inertia_kg_m2 * accelerations[..., -1])
+    if equations.shaft.freedoms < NODE_FREEDOMS:  # no rotor in the lateral equations
+        return Wrench(np.zeros_like(spin_moment), spin_moment)
+    change = accelerations[..., :-1] @ matrices.mass
+    change += speed[..., np.newaxis] * (velocity @ matrices.gyroscopic.T)
+    x, y, about_x, about_y = np.moveaxis(-change @ _rigid_motions(equations), -1, 0)
+    zero = np.zeros_like(x)
+    return Wrench(
+        np.stack((x, y, zero), axis=-1), spin_moment + np.stack((about_x, about_y, zero), axis=-1)
+    )
+
+
+def _rigid_motions(equations: ShaftEquations) -> Array:
+    """Displacements of all nodes for unit x, y, θx, θy about the crank's centre."""
+    motions = [np.eye(NODE_FREEDOMS) for _ in node_positions_m(equations.machine)]
+    for motion, height in zip(motions, node_positions_m(equations.machine), strict=True):
+        motion[0, 3], motion[1, 2] = height, -height
+    return np.concatenate(motions)
 
 
 def _wrench(

@@ -12,7 +12,7 @@ import numpy as np
 from ..moving_parts import Array
 from ..parameters.hermetic import HermeticCompressor
 from .beam_rotor import NODE_FREEDOMS, RotorMatrices, Section, assemble, with_disc
-from .film_force import FilmForce
+from .film_force import COMPLEX_STEP, FilmForce
 from .hermetic_forces import added_mass, mechanism_motion
 from .hermetic_gas import gas_force_n
 from .hermetic_pin import COORDINATES
@@ -22,8 +22,6 @@ Case = Literal["I", "II", "III"]
 ELEMENTS_TO_LOWER_BEARING: Final = 2
 ELEMENTS_TO_ROTOR: Final = 2
 """The paper uses four elements in all."""
-COMPLEX_STEP: Final = 1e-30
-"""A complex step has no cancellation; it need only be small beside a displacement of 1 nm."""
 
 
 @dataclass(frozen=True)
@@ -67,16 +65,18 @@ def _flexible(machine: HermeticCompressor) -> Crankshaft:
     return Crankshaft(rotor_matrices(machine), (0, lower), (0, 1, 2, 3, 4))
 
 
+def node_positions_m(machine: HermeticCompressor) -> Array:
+    """Nodes along the shaft from the crank's centre to the middle of the motor rotor, m."""
+    lower = machine.shaft.bearing_distance_m
+    end = lower + machine.shaft.rotor_distance_m
+    upper_part = np.linspace(0.0, lower, ELEMENTS_TO_LOWER_BEARING + 1)
+    return np.concatenate((upper_part, np.linspace(lower, end, ELEMENTS_TO_ROTOR + 1)[1:]))
+
+
 def rotor_matrices(machine: HermeticCompressor) -> RotorMatrices:
     """Finite-element shaft with the motor rotor and the crank's moments of inertia."""
     shaft, rotor, crank = machine.shaft, machine.rotor, machine.crank
-    end = shaft.bearing_distance_m + shaft.rotor_distance_m
-    positions = np.concatenate(
-        (
-            np.linspace(0.0, shaft.bearing_distance_m, ELEMENTS_TO_LOWER_BEARING + 1),
-            np.linspace(shaft.bearing_distance_m, end, ELEMENTS_TO_ROTOR + 1)[1:],
-        )
-    )
+    positions = node_positions_m(machine)
     section = Section(shaft.diameter_m, shaft.youngs_modulus_pa, shaft.density_kg_per_m3)
     beam = assemble(section, positions)
     inertias = crank.transverse_inertia_kg_m2, crank.axial_inertia_kg_m2
