@@ -5,6 +5,7 @@ from typing import Final
 
 import numpy as np
 
+from ..errors import ParameterError
 from ..moving_parts import Array
 from ..parameters.hermetic import HermeticCompressor
 from .film_force import FilmForce, positive_film_force
@@ -64,8 +65,16 @@ def uniform_samples(solution: PeriodicSolution, steps: int = STEPS) -> tuple[Arr
     Returns
     -------
     angles, states : rad, shape (steps,), and shape (steps, 2n + 1)
+
+    Raises
+    ------
+    ParameterError
+        The solution has other steps.
     """
-    places = np.searchsorted(solution.mesh, np.linspace(0.0, 2.0 * np.pi, steps + 1)[:-1])
+    wanted = np.linspace(0.0, 2.0 * np.pi, steps + 1)[:-1]
+    places = np.searchsorted(solution.mesh, wanted)
+    if not np.array_equal(solution.mesh[places], wanted):
+        raise ParameterError(f"steps = {steps}: must be that of the solution's own mesh")
     return solution.mesh[places], solution.states[places]
 
 
