@@ -1,0 +1,117 @@
+"""Steady cycle of a hermetic reciprocating compressor: the periodic motion, found directly."""
+
+from collections.abc import Callable, Sequence
+from typing import Final
+
+import numpy as np
+
+from ..errors import ParameterError
+from ..moving_parts import Array
+from ..parameters.hermetic import HermeticCompressor
+from .film_force import FilmForce, positive_film_force
+from .hermetic_gas import valve_angles
+from .hermetic_shaft import Case, Crankshaft, ShaftEquations, crankshaft
+from .periodic_collocation import PeriodicSolution, periodic_solution
+
+STEPS: Final = 360
+"""Steps per revolution besides the kinks at the valves: one degree."""
+THICKENING: Final = (100.0, 30.0, 10.0, 4.0, 2.0, 1.0)
+"""Multiples of the viscosity through which the journals are let down towards the wall."""
+START_ECCENTRICITY: Final = 0.1
+
+
+def steady_cycle(
+    machine: HermeticCompressor,
+    case: Case,
+    film: FilmForce = positive_film_force,
+    steps: int = STEPS,
+) -> tuple[ShaftEquations, PeriodicSolution]:
+    """Periodic motion of case I, II or III, with the equations that it solves.
+
+    Parameters
+    ----------
+    machine : the compressor
+    case : Estupiñan's case: crank held, crank free in x and y, or flexible shaft in two bearings
+    film : force of a bearing's film on the journal
+    steps : uniform steps per revolution
+
+    Raises
+    ------
+    SolverError
+        Newton's method does not converge.
+    """
+    shaft = crankshaft(machine, case)
+    mesh = np.union1d(np.linspace(0.0, 2.0 * np.pi, steps + 1), valve_angles(machine))
+    stages = np.tile(_guess(machine, shaft), (mesh.size - 1, 3, 1))
+    size = _size(machine, shaft)
+    allowed = _clearance_kept(machine, shaft)
+    for thickening in THICKENING if shaft.bearing_freedoms else (1.0,):
+        viscosity = thickening * machine.bearing.viscosity_pa_s
+        bearing = machine.bearing.model_copy(update={"viscosity_pa_s": viscosity})
+        equations = ShaftEquations(machine.model_copy(update={"bearing": bearing}), shaft, film)
+        solution = periodic_solution(equations.slopes_and_tangents, mesh, stages, size, allowed)
+        stages = solution.stages
+    return equations, solution
+
+
+def uniform_samples(solution: PeriodicSolution, steps: int = STEPS) -> tuple[Array, Array]:
+    """Crank angles from zero, uniform over the revolution, and the states there.
+
+    Parameters
+    ----------
+    solution : of `steady_cycle` with the same number of steps
+    steps : samples per revolution
+
+    Returns
+    -------
+    angles, states : rad, shape (steps,), and shape (steps, 2n + 1)
+
+    Raises
+    ------
+    ParameterError
+        The solution has other steps.
+    """
+    wanted = np.linspace(0.0, 2.0 * np.pi, steps + 1)[:-1]
+    places = np.searchsorted(solution.mesh, wanted)
+    if not np.array_equal(solution.mesh[places], wanted):
+        raise ParameterError(f"steps = {steps}: must be that of the solution's own mesh")
+    return solution.mesh[places], solution.states[places]
+
+
+def _guess(machine: HermeticCompressor, shaft: Crankshaft) -> Array:
+    """Journals a little out of the middle, at the synchronous speed."""
+    state = np.zeros(2 * shaft.freedoms + 1)
+    for at in shaft.bearing_freedoms:
+        state[at] = -START_ECCENTRICITY * machine.bearing.clearance_m
+    state[-1] = machine.motor.synchronous_speed_rad_per_s
+    return state
+
+
+def _size(machine: HermeticCompressor, shaft: Crankshaft) -> Array:
+    """Magnitude of each state: the clearance, the clearance per radian, the speed."""
+    speed, clearance = machine.motor.synchronous_speed_rad_per_s, machine.bearing.clearance_m
+    tilt = clearance / machine.shaft.bearing_distance_m
+    displacement = np.resize([clearance, clearance, tilt, tilt], shaft.freedoms)
+    return np.concatenate((displacement, speed * displacement, [speed]))
+
+
+def _clearance_kept(
+    machine: HermeticCompressor, shaft: Crankshaft
+) -> Callable[[Array, Array], float]:
+    """Fraction of a Newton step that leaves every journal a fifth of its film or more."""
+    clearance = machine.bearing.clearance_m
+
+    def fraction(stages: Array, step: Array) -> float:
+        film, move = _films_and_moves(stages, step, shaft.bearing_freedoms, clearance)
+        return float(min(1.0, 0.8 * np.min(film / np.maximum(move, 1e-300), initial=np.inf)))
+
+    return fraction
+
+
+def _films_and_moves(
+    stages: Array, step: Array, freedoms: Sequence[int], clearance_m: float
+) -> tuple[Array, Array]:
+    """Thinnest film and length of the step of each journal at each point."""
+    places = np.array([(at, at + 1) for at in freedoms], dtype=int).reshape(-1, 2)
+    film = clearance_m - np.linalg.norm(stages[..., places], axis=-1)
+    return film, np.linalg.norm(step[..., places], axis=-1)

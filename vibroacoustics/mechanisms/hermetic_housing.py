@@ -1,0 +1,106 @@
+"""Force and moment of the hermetic compressor's moving parts on the housing, by source."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..moving_parts import Array
+from .beam_rotor import NODE_FREEDOMS
+from .hermetic_results import motion_of
+from .hermetic_shaft import ShaftEquations, node_positions_m
+
+
+@dataclass(frozen=True)
+class Wrench:
+    """Force, N, and moment about the crank's centre at rest, N m, shape (angles, 3) each."""
+
+    force_n: Array
+    moment_n_m: Array
+
+
+def housing_wrenches(
+    equations: ShaftEquations, angle: Array, states: Array
+) -> Mapping[str, Wrench]:
+    """Change of momentum of piston, rod, crank and rotor, with the sign of its reaction.
+
+    The rod swings in the plane of the pin's middle, as in the paper.
+
+    Parameters
+    ----------
+    equations : of the case
+    angle : crank angle, rad, shape (angles,)
+    states : of the periodic solution there, shape (angles, 2n + 1)
+
+    Returns
+    -------
+    wrench by source
+    """
+    machine, motion = equations.machine, motion_of(equations, angle, states)
+    accelerations, rod = equations.accelerations(angle, states), motion.rod
+    spin = accelerations[..., -1]
+    distance, height = machine.rod.centre_of_mass_m, -machine.crank.pin_offset_m
+    piston_x = rod.piston_position_m
+    rod_x, rod_y = rod.centre_acceleration(machine.rod)
+    return {
+        "piston": _wrench(
+            machine.piston.mass_kg,
+            _stacked(piston_x, 0.0, height),
+            _stacked(rod.piston_acceleration, 0.0, 0.0),
+            np.zeros_like(spin),
+        ),
+        "rod": _wrench(
+            machine.rod.mass_kg,
+            _stacked(piston_x - distance * rod.cosine, distance * rod.sine, height),
+            _stacked(rod_x, rod_y, 0.0),
+            machine.rod.inertia_kg_m2 * rod.angular_acceleration,  # α turns against θ
+        ),
+        "crank": _wrench(
+            machine.crank.mass_kg,
+            tuple(np.moveaxis(motion.mass_centre.position_m, -1, 0)),
+            tuple(np.moveaxis(motion.mass_centre_acceleration, -1, 0)),
+            -machine.crank.axial_inertia_kg_m2 * spin,
+        ),
+        "rotor": _rotor_wrench(equations, states, accelerations),
+    }
+
+
+def _rotor_wrench(equations: ShaftEquations, states: Array, accelerations: Array) -> Wrench:
+    """Change of the shaft's and rotor's momentum, with the sign of its reaction.
+
+    The gyroscopic part is that of an angular momentum about the shaft that tilts.
+    """
+    matrices, (_, velocity, speed) = equations.shaft.matrices, equations.split(states)
+    spin_moment = _axial(-equations.machine.rotor.axial_inertia_kg_m2 * accelerations[..., -1])
+    if equations.shaft.freedoms < NODE_FREEDOMS:  # no rotor in the lateral equations
+        return Wrench(np.zeros_like(spin_moment), spin_moment)
+    change = accelerations[..., :-1] @ matrices.mass
+    change += speed[..., np.newaxis] * (velocity @ matrices.gyroscopic.T)
+    x, y, about_x, about_y = np.moveaxis(-change @ _rigid_motions(equations), -1, 0)
+    zero = np.zeros_like(x)
+    return Wrench(
+        np.stack((x, y, zero), axis=-1), spin_moment + np.stack((about_x, about_y, zero), axis=-1)
+    )
+
+
+def _rigid_motions(equations: ShaftEquations) -> Array:
+    """Displacements of all nodes for unit x, y, θx, θy about the crank's centre."""
+    motions = [np.eye(NODE_FREEDOMS) for _ in node_positions_m(equations.machine)]
+    for motion, height in zip(motions, node_positions_m(equations.machine), strict=True):
+        motion[0, 3], motion[1, 2] = height, -height
+    return np.concatenate(motions)
+
+
+def _wrench(
+    mass_kg: float, place: tuple[Array, ...], acceleration: tuple[Array, ...], spin_moment: Array
+) -> Wrench:
+    force = -mass_kg * np.stack(acceleration, axis=-1)
+    return Wrench(force, np.cross(np.stack(place, axis=-1), force) + _axial(spin_moment))
+
+
+def _axial(moment: Array) -> Array:
+    return np.asarray(moment[..., np.newaxis] * np.array([0.0, 0.0, 1.0]))
+
+
+def _stacked(x: Array, y: Array | float, z: Array | float) -> tuple[Array, ...]:
+    return tuple(np.broadcast_arrays(x, y, z))

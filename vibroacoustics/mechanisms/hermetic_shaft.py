@@ -1,0 +1,219 @@
+"""Equations of motion of the crankshaft with rod and piston, over the crank angle.
+
+Cases I, II and III of Estupiñan & Santos differ in the shaft's freedoms only: none, the crank's
+x and y, or a finite-element rotor. The states are displacements, velocities and the shaft speed.
+"""
+
+from dataclasses import dataclass
+from typing import Final, Literal
+
+import numpy as np
+
+from ..moving_parts import Array
+from ..parameters.hermetic import HermeticCompressor
+from .beam_rotor import NODE_FREEDOMS, RotorMatrices, Section, assemble, with_disc
+from .film_force import COMPLEX_STEP, FilmForce
+from .hermetic_forces import added_mass, mechanism_motion
+from .hermetic_gas import gas_force_n
+from .hermetic_pin import COORDINATES
+
+Case = Literal["I", "II", "III"]
+
+ELEMENTS_TO_LOWER_BEARING: Final = 2
+ELEMENTS_TO_ROTOR: Final = 2
+"""The paper uses four elements in all."""
+
+
+@dataclass(frozen=True)
+class Crankshaft:
+    """Freedoms of the shaft of one case.
+
+    Attributes
+    ----------
+    matrices : of the rotor's n freedoms; the first are those of the crank
+    bearing_freedoms : index of x of each bearing; y follows it
+    free : which of the crank's x, y, β, Γ, θ move, in this order; the others are held
+    """
+
+    matrices: RotorMatrices
+    bearing_freedoms: tuple[int, ...]
+    free: tuple[int, ...]
+
+    @property
+    def freedoms(self) -> int:
+        """Number of the rotor's freedoms, without the crank angle."""
+        return int(self.matrices.mass.shape[0])
+
+    @property
+    def crank_places(self) -> Array:
+        """Where the free crank coordinates stand among the freedoms and, last, θ."""
+        return np.array([*range(len(self.free) - 1), self.freedoms])
+
+
+def crankshaft(machine: HermeticCompressor, case: Case) -> Crankshaft:
+    """The shaft of case I, II or III (Estupiñan, Mathematical Modelling)."""
+    if case == "III":
+        return _flexible(machine)
+    freedoms = 0 if case == "I" else 2
+    zero = np.zeros((freedoms, freedoms))
+    free = (4,) if case == "I" else (0, 1, 4)
+    return Crankshaft(RotorMatrices(zero, zero, zero), (0,) if freedoms else (), free)
+
+
+def _flexible(machine: HermeticCompressor) -> Crankshaft:
+    lower = NODE_FREEDOMS * ELEMENTS_TO_LOWER_BEARING
+    return Crankshaft(rotor_matrices(machine), (0, lower), (0, 1, 2, 3, 4))
+
+
+def node_positions_m(machine: HermeticCompressor) -> Array:
+    """Nodes along the shaft from the crank's centre to the middle of the motor rotor, m."""
+    lower = machine.shaft.bearing_distance_m
+    end = lower + machine.shaft.rotor_distance_m
+    upper_part = np.linspace(0.0, lower, ELEMENTS_TO_LOWER_BEARING + 1)
+    return np.concatenate((upper_part, np.linspace(lower, end, ELEMENTS_TO_ROTOR + 1)[1:]))
+
+
+def rotor_matrices(machine: HermeticCompressor) -> RotorMatrices:
+    """Finite-element shaft with the motor rotor and the crank's moments of inertia."""
+    shaft, rotor, crank = machine.shaft, machine.rotor, machine.crank
+    positions = node_positions_m(machine)
+    section = Section(shaft.diameter_m, shaft.youngs_modulus_pa, shaft.density_kg_per_m3)
+    beam = assemble(section, positions)
+    inertias = crank.transverse_inertia_kg_m2, crank.axial_inertia_kg_m2
+    beam = with_disc(beam, 0, 0.0, *inertias)  # its mass moves with the mechanism
+    return with_disc(
+        beam,
+        positions.size - 1,
+        rotor.mass_kg,
+        rotor.transverse_inertia_kg_m2,
+        rotor.axial_inertia_kg_m2,
+    )
+
+
+@dataclass(frozen=True)
+class ShaftEquations:
+    """Slopes over the crank angle of displacements, velocities and shaft speed."""
+
+    machine: HermeticCompressor
+    shaft: Crankshaft
+    film: FilmForce
+
+    @property
+    def axial_inertia_kg_m2(self) -> float:
+        return self.machine.rotor.axial_inertia_kg_m2 + self.machine.crank.axial_inertia_kg_m2
+
+    def split(self, states: Array) -> tuple[Array, Array, Array]:
+        """Displacements, velocities and shaft speed of states (..., 2n + 1)."""
+        freedoms = self.shaft.freedoms
+        return states[..., :freedoms], states[..., freedoms:-1], states[..., -1]
+
+    def crank_coordinates(self, angle: Array, states: Array) -> tuple[Array, Array]:
+        """x, y, β, Γ, θ of the crank and their rates, shape (..., 5)."""
+        displacement, velocity, speed = self.split(states)
+        coordinates, rates = (np.zeros((*speed.shape, COORDINATES)) for _ in range(2))
+        coordinates[..., -1], rates[..., -1] = angle, speed
+        free = list(self.shaft.free[:-1])
+        coordinates[..., free] = displacement[..., : len(free)]
+        rates[..., free] = velocity[..., : len(free)]
+        return coordinates, rates
+
+    def motor_torque(self, speed: Array) -> Array:
+        """Torque of the motor, N m."""
+        motor = self.machine.motor
+        return np.asarray(motor.torque_slope_n_m_s * (motor.synchronous_speed_rad_per_s - speed))
+
+    def film_forces(self, states: Array) -> Array:
+        """Force of each bearing's film on its journal, N, shape (..., bearings, 2)."""
+        displacement, velocity, speed = self.split(states)
+        pairs = [(displacement[..., at : at + 2], velocity[..., at : at + 2])
+                 for at in self.shaft.bearing_freedoms]  # fmt: skip
+        forces = [self.film(self.machine.bearing, *pair, speed) for pair in pairs]
+        return np.stack(forces, axis=-2) if forces else np.zeros((*speed.shape, 0, 2))
+
+    def _balance(self, angle: Array, states: Array) -> tuple[Array, Array]:
+        """Mass matrix and force of the freedoms and, last, the crank angle."""
+        shaft, (displacement, velocity, speed) = self.shaft, self.split(states)
+        size = shaft.freedoms + 1
+        mass, force = np.zeros((*speed.shape, size, size)), np.zeros((*speed.shape, size))
+        mass[..., :-1, :-1] = shaft.matrices.mass
+        mass[..., -1, -1] = self.axial_inertia_kg_m2
+        force[..., :-1] = -displacement @ shaft.matrices.stiffness
+        force[..., :-1] -= speed[..., None] * (velocity @ shaft.matrices.gyroscopic.T)
+        force[..., -1] = self.motor_torque(speed)
+        for at, film in zip(
+            shaft.bearing_freedoms, np.moveaxis(self.film_forces(states), -2, 0), strict=True
+        ):
+            force[..., at : at + 2] += film
+        coordinates, rates = self.crank_coordinates(angle, states)
+        added, load = added_mass(self.machine, coordinates, rates, gas_force_n(self.machine, angle))
+        places, free = shaft.crank_places, list(shaft.free)
+        mass[..., places[:, None], places] += added[..., free, :][..., free]
+        force[..., places] += load[..., free]
+        return mass, force
+
+    def accelerations(self, angle: Array, states: Array) -> Array:
+        """Second derivatives in time of the freedoms and the crank angle, shape (..., n + 1)."""
+        mass, force = self._balance(angle, states)
+        return np.asarray(np.linalg.solve(mass, force[..., None])[..., 0])
+
+    def slopes(self, angle: Array, states: Array) -> Array:
+        """d(states)/dθ, shape (..., 2n + 1)."""
+        _, velocity, speed = self.split(states)
+        rates = np.concatenate((velocity, self.accelerations(angle, states)), axis=-1)
+        return np.asarray(rates / speed[..., None])
+
+    def slopes_and_tangents(self, angle: Array, states: Array) -> tuple[Array, Array]:
+        """d(states)/dθ and its derivatives by the states, shapes (points, m) and (points, m, m)."""
+        freedoms, speed = self.shaft.freedoms, states[..., -1]
+        mass, force = self._balance(angle, states)
+        accelerations = np.asarray(np.linalg.solve(mass, force[..., None])[..., 0], dtype=float)
+        residual = self._residual_tangent(angle, states, accelerations)
+        rates = np.concatenate((states[..., freedoms:-1], accelerations), axis=-1)
+        tangent = np.zeros((*rates.shape, rates.shape[-1]))
+        tangent[..., :freedoms, freedoms:-1] = np.eye(freedoms)
+        tangent[..., freedoms:, :] = np.linalg.solve(mass, residual)
+        tangent[..., -1] -= rates / speed[..., None]
+        return rates / speed[..., None], tangent / speed[..., None, None]
+
+    def _residual_tangent(self, angle: Array, states: Array, accelerations: Array) -> Array:
+        """Derivative of force - mass x (given accelerations) by the states."""
+        shaft, (_, velocity, speed) = self.shaft, self.split(states)
+        freedoms, matrices = shaft.freedoms, shaft.matrices
+        tangent = np.zeros((*speed.shape, freedoms + 1, 2 * freedoms + 1))
+        tangent[..., :-1, :freedoms] = -matrices.stiffness
+        tangent[..., :-1, freedoms:-1] = -speed[..., None, None] * matrices.gyroscopic
+        tangent[..., :-1, -1] = -velocity @ matrices.gyroscopic.T
+        tangent[..., -1, -1] = -self.machine.motor.torque_slope_n_m_s
+        self._add_film_tangent(states, tangent)
+        self._add_mechanism_tangent(angle, states, accelerations, tangent)
+        return tangent
+
+    def _add_film_tangent(self, states: Array, tangent: Array) -> None:
+        freedoms, bearing = self.shaft.freedoms, self.machine.bearing
+        for at in self.shaft.bearing_freedoms:
+            columns = [at, at + 1, freedoms + at, freedoms + at + 1, -1]
+            local = states[..., columns].astype(complex)
+            for place, column in enumerate(columns):
+                moved = local.copy()
+                moved[..., place] += 1j * COMPLEX_STEP
+                force = self.film(bearing, moved[..., :2], moved[..., 2:4], moved[..., 4])
+                tangent[..., at : at + 2, column] += force.imag / COMPLEX_STEP
+
+    def _add_mechanism_tangent(
+        self, angle: Array, states: Array, accelerations: Array, tangent: Array
+    ) -> None:
+        shaft, gas = self.shaft, gas_force_n(self.machine, angle)
+        places, free = shaft.crank_places, list(shaft.free)
+        coordinates, rates = (
+            value.astype(complex) for value in self.crank_coordinates(angle, states)
+        )
+        second = np.zeros(coordinates.shape)
+        second[..., free] = accelerations[..., places]
+        moves = [(coordinates, at, at) for at in range(len(free) - 1)]  # but not θ
+        moves += [(rates, at, shaft.freedoms + at) for at in range(len(free) - 1)]
+        moves += [(rates, len(free) - 1, 2 * shaft.freedoms)]
+        for moved, at, column in moves:
+            moved[..., free[at]] += 1j * COMPLEX_STEP
+            load = mechanism_motion(self.machine, coordinates, rates, second, gas).shaft_load
+            moved[..., free[at]] -= 1j * COMPLEX_STEP
+            tangent[..., places, column] += load[..., free].imag / COMPLEX_STEP
