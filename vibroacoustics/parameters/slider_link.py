@@ -173,7 +173,7 @@ class CylinderGas(Parameters):
 
 
 class Motor(Parameters):
-    slope_n_m_s_per_rad: float = Field(ge=0.0, le=1e3)
+    slope_n_m_s_per_rad: float = Field(ge=0.0, le=10.0)
     """Fall of the torque per rise of the speed."""
 
 
