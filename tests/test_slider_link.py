@@ -29,6 +29,7 @@ from vibroacoustics.mechanisms.slider_link_crankshaft import (
     bearing_forces,
     crank_coefficients,
     crank_forces,
+    crank_pin_force,
 )
 from vibroacoustics.mechanisms.slider_link_motion import SliderLinkCycle, steady_motion
 from vibroacoustics.mechanisms.slider_link_piston import (
@@ -176,7 +177,7 @@ def test_friction_without_eccentricity(machine):
     assert rest[0] == pytest.approx(values["eccentricity_free_term"] * clearance * stretched)
 
 
-# --- the paper's expressions, verbatim -------------------------------------------------------------
+# --- the paper's expressions, verbatim -----------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
@@ -213,7 +214,6 @@ def test_determinants_of_table_1(skewed, anywhere):
         + R * (c - 1)
         + Lc
     )
-    # Table 1 has D_s/2 beside δ5 times a length; (d5 * Ds / 2)² keeps both as printed.
     first = (
         (((D / 2 + ecl * d4) * d1 * mc + Lp - Lc + R * (1 - c)) * d5 - Ds / 2) * d2 * ms
         + e + R * s - ecl
@@ -423,8 +423,6 @@ def test_the_slider_moment_that_the_paper_leaves_out(skewed, skewed_cycle):
     front, rear, link = found[np.arange(len(chosen)), chosen].T
     printed_contacts = replace(contacts, front=front, rear=rear, link=link, sides=SIDES[chosen])
     with_arm = crank_forces(skewed, state, np.zeros_like(front))
-    from vibroacoustics.mechanisms.slider_link_crankshaft import crank_pin_force
-
     pin = crank_pin_force(skewed, state, printed_contacts)
     upper, lower = bearing_forces(skewed, state, pin)
     moments = dict(with_arm.friction_moments)
@@ -448,7 +446,7 @@ def test_the_slider_moment_that_the_paper_leaves_out(skewed, skewed_cycle):
     assert np.max(np.abs(missing)) > 0.5  # N m, beside a resultant of a few
 
 
-# --- the crank's motion ----------------------------------------------------------------------------
+# --- the crank's motion --------------------------------------------------------------------------
 
 
 def test_mean_velocity_and_period(cycle):
@@ -459,21 +457,33 @@ def test_mean_velocity_and_period(cycle):
 
 
 def test_motion_converges_with_the_panels(machine, cycle):
-    """No error above 1e-7 at an eighth of the panels; the kinks where sides change limit it."""
-    coarse = steady_motion(machine, SPEED, 96)
-    np.testing.assert_allclose(coarse.state.velocity, cycle.state.velocity[::15][:48].repeat(2)
-                               if False else steady_motion(machine, SPEED, 192).state.velocity[::2],
-                               rtol=1e-7)  # fmt: skip
+    """No error above 1e-7 with 1/15 of the panels; the kinks where sides change limit it."""
+    coarse = steady_motion(machine, SPEED, 48)
+    np.testing.assert_allclose(coarse.state.velocity, cycle.state.velocity[::15], rtol=1e-7)
 
 
-@pytest.mark.parametrize("slope", [0.0, 0.5, 10.0])
-def test_steeper_motor_smooths_the_speed(machine, slope):
-    motor = machine.motor.model_copy(update={"slope_n_m_s_per_rad": slope})
-    changed = steady_motion(machine.model_copy(update={"motor": motor}), SPEED, 96)
-    base = steady_motion(machine, SPEED, 96)
-    larger = np.ptp(changed.state.velocity) > np.ptp(base.state.velocity)
-    assert larger == (slope < machine.motor.slope_n_m_s_per_rad)
-    assert changed.imbalance_ratio < 1e-6
+@pytest.mark.parametrize("slope", [0.5, 10.0])
+def test_motor_smooths_the_speed_like_a_low_pass(machine, slope):
+    """Order n of the velocity falls as 1/√(1 + (s/n)²), s = slope / (J ω)."""
+    base, steep = (
+        steady_motion(
+            machine.model_copy(
+                update={"motor": machine.motor.model_copy(update={"slope_n_m_s_per_rad": value})}
+            ),
+            SPEED,
+            96,
+        )
+        for value in (0.0, slope)
+    )
+    R = machine.mechanism.crank_radius_m
+    swinging = R**2 * machine.masses.piston_mass_kg
+    inertia = machine.masses.crankshaft_inertia_kg_m2 + 0.5 * swinging
+    orders = np.arange(1, 4)
+    expected = 1.0 / np.sqrt(1.0 + (slope / (inertia * SPEED * orders)) ** 2)
+    ratio = np.abs(np.fft.rfft(steep.state.velocity) / np.fft.rfft(base.state.velocity))[1:4]
+    # The inertia swings by this part and couples orders two apart, from either side.
+    np.testing.assert_allclose(ratio, expected, rtol=2.0 * swinging / inertia)
+    assert steep.imbalance_ratio < 1e-6
 
 
 def test_a_crank_that_would_stop_is_refused(machine):
@@ -493,7 +503,7 @@ def test_bad_number_of_samples_is_refused(machine, bad):
         steady_motion(machine, SPEED, bad)
 
 
-# --- a second method: Lagrange multipliers -----------------------------------------------------------
+# --- a second method: Lagrange multipliers -------------------------------------------------------
 
 
 def lagrange(machine, angle, velocity, torque):
@@ -533,14 +543,14 @@ def lagrange(machine, angle, velocity, torque):
     friction = dict.fromkeys(("crank_pin", "upper", "lower"), 0.0)
     multipliers, previous = np.zeros(6), np.full(7, np.inf)
     for _ in range(60):
-        front, rear, link, _, pin_x, pin_y = multipliers
+        front, rear, link = multipliers[:3]
         load = np.zeros(7)
         load[:3] += push((film - gas, 0), (0, axis), centre)
         for normal, x in ((front, head), (rear, foot)):
             rub = -np.sign(v_piston) * m.cylinder_friction_ratio * abs(normal)
             load[:3] += push((rub, 0), (x, axis - np.sign(normal) * m.bore_m / 2), centre)
         rub = np.sign(v_slider) * m.link_friction_ratio * abs(link)
-        place = pin + [np.sign(link) * m.slider_diameter_m / 2, 0]
+        place = pin + np.array([np.sign(link) * m.slider_diameter_m / 2, 0.0])
         load[:3] += push((0, rub), place, centre)
         load[3:6] -= push((0, rub), place, pin)
         load[5] += friction["crank_pin"]
@@ -551,7 +561,7 @@ def lagrange(machine, angle, velocity, torque):
         system = np.block([[mass, -G.T], [G, np.zeros((6, 6))]])
         solution = np.linalg.solve(system, np.concatenate([load, drift]))
         acceleration, multipliers = solution[:7], solution[7:]
-        if np.allclose(acceleration, previous, rtol=1e-13, atol=1e-9):
+        if np.allclose(acceleration, previous, rtol=1e-11, atol=1e-9):
             break
         previous = acceleration
         bearing = static_bearings(machine, angle, velocity, acceleration[6], multipliers[4:])
@@ -578,8 +588,8 @@ def static_bearings(machine, angle, velocity, acceleration, pin):
     inertia = masses.crankshaft_mass_kg * masses.crankshaft_mass_offset_m * turn
     couple = -masses.crankshaft_product_kg_m2 * np.cross([0, 0, 1.0], turn)
     top = np.array([0, 0, -heights.piston_axis_m])
-    upper = top + [0, 0, heights.upper_bearing_m]
-    lower = upper + [0, 0, heights.bearing_distance_m]
+    upper = top + np.array([0, 0, heights.upper_bearing_m])
+    lower = upper + np.array([0, 0, heights.bearing_distance_m])
     load = -np.array([*pin, 0.0])
     matrix, right = np.zeros((4, 4)), np.zeros(4)
     for column, (place, direction) in enumerate(
@@ -594,16 +604,16 @@ def static_bearings(machine, angle, velocity, acceleration, pin):
 
 
 def test_lagrange_multipliers_agree(case):
-    """Accelerations and all constraint forces at 30 angles off the dead centres."""
+    """Accelerations and all constraint forces at 16 angles off the dead centres."""
     machine, cycle = case
     forces, contacts = cycle.forces, cycle.forces.contacts
-    for k in range(3, len(cycle.time_s), len(cycle.time_s) // 30):
+    for k in range(3, len(cycle.time_s), len(cycle.time_s) // 16):
         acceleration, multipliers, bearing = lagrange(
             machine, cycle.state.angle[k], cycle.state.velocity[k], cycle.motor_torque_n_m[k]
         )
         ours = [contacts.front[k], contacts.rear[k], contacts.link[k], *forces.crank_pin[:, k]]
         scale = np.max(np.abs(ours))
-        # The iteration of the friction ends at 1e-13; the 13 x 13 system has condition 1e8.
+        # The iteration of the friction ends at 1e-11; the 13 x 13 system has condition 1e8.
         np.testing.assert_allclose(multipliers[[0, 1, 2, 4, 5]], ours, atol=1e-8 * scale)
         assert acceleration[6] == pytest.approx(
             cycle.state.acceleration[k], abs=1e-8 * np.max(np.abs(cycle.state.acceleration))
@@ -629,16 +639,16 @@ def test_time_integration_returns_after_one_revolution(machine, cycle):
     kept = cycle.time_s[::60]
     period = 2.0 * np.pi / SPEED
     found = solve_ivp(
-        rate, (0.0, period), start, t_eval=[*kept, period], rtol=1e-7, atol=[1e-9, 1e-6]
+        rate, (0.0, period), start, t_eval=[*kept, period], rtol=1e-8, atol=[1e-10, 1e-7]
     )
-    # 1e-7 a step, some 100 steps; a wrong torque of 1 % would change the velocity by 2e-4.
-    np.testing.assert_allclose(found.y[0], [*cycle.state.angle[::60], 2.0 * np.pi], atol=1e-5)
-    np.testing.assert_allclose(
-        found.y[1], [*cycle.state.velocity[::60], cycle.state.velocity[0]], rtol=1e-5
-    )
+    # 1e-8 a step, some 60 steps; a torque wrong by 1 % would change the velocity by 2e-4.
+    angle = [*cycle.state.angle[::60], 2.0 * np.pi]
+    np.testing.assert_allclose(found.y[0], angle, atol=60e-8 * 2.0 * np.pi)
+    velocity = [*cycle.state.velocity[::60], cycle.state.velocity[0]]
+    np.testing.assert_allclose(found.y[1], velocity, rtol=60e-8)
 
 
-# --- gas and bearings ------------------------------------------------------------------------------
+# --- gas and bearings ----------------------------------------------------------------------------
 
 
 def test_pressure_is_continuous_and_the_valves_open_in_time(machine):
@@ -712,7 +722,7 @@ def test_gauss_panels_integrate_polynomials():
     np.testing.assert_allclose(edges, panels.edges**4, atol=1e-14)
 
 
-# --- vibration -------------------------------------------------------------------------------------
+# --- vibration -----------------------------------------------------------------------------------
 
 
 def test_unbalance_at_constant_speed(machine):
@@ -729,8 +739,9 @@ def test_moment_about_the_centre_of_mass(machine, cycle):
     origin = unbalance(machine, cycle.state)
     moved = about_centre_of_mass(machine, origin)
     place = np.array([machine.centre_of_mass_offset_m, 0.0, 0.0])
-    expected = origin.moment_n_m - np.cross(place[:, None], origin.force_n, axis=1)
-    np.testing.assert_allclose(moved.moment_n_m[:, 2], expected[:, 2], atol=1e-15)
+    shift = np.cross(place, np.moveaxis(origin.force_n, 1, -1))
+    expected = origin.moment_n_m - np.moveaxis(shift, -1, 1)
+    np.testing.assert_allclose(moved.moment_n_m, expected, atol=1e-13)
     turned = z_up(moved)
     np.testing.assert_array_equal(turned.force_n[:, 0], moved.force_n[:, 0])
     np.testing.assert_array_equal(turned.moment_n_m[:, 1:], -moved.moment_n_m[:, 1:])
@@ -771,7 +782,7 @@ def test_vibration_on_springs_is_the_free_one_above_resonance(machine, cycle):
         assert difference < 1.05 * ratio / (1.0 - ratio)
 
 
-# --- bad geometry ----------------------------------------------------------------------------------
+# --- bad geometry --------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

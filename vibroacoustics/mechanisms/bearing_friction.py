@@ -56,19 +56,25 @@ def short_bearing_friction(eccentricity_ratio: Array, length_per_diameter: float
 
 
 def eccentricity_ratio(load_coefficient: Array, length_per_diameter: float) -> Array:
-    """Eccentricity ratio at which a short bearing carries a load, by bisection.
+    """Eccentricity ratio at which a short bearing carries a load.
+
+    The load times (1 - ε²)² is a bounded, rising function of ε, solved by bisection.
 
     Parameters
     ----------
     load_coefficient : Φ_p (22), at least zero
     length_per_diameter : l/d
     """
+
     low, high = np.zeros_like(load_coefficient), np.ones_like(load_coefficient)
     for _ in range(HALVINGS):
-        middle = np.minimum(0.5 * (low + high), np.nextafter(1.0, 0.0))
-        carries = short_bearing_load(middle, length_per_diameter) < load_coefficient
-        low, high = np.where(carries, middle, low), np.where(carries, high, middle)
-    return low
+        middle = 0.5 * (low + high)
+        square = middle * middle
+        root = np.sqrt(np.pi**2 + (16.0 - np.pi**2) * square)
+        carried = 0.5 * length_per_diameter**2 * middle * root
+        below = carried < load_coefficient * (1.0 - square) ** 2
+        low, high = np.where(below, middle, low), np.where(below, high, middle)
+    return np.asarray(np.minimum(low, np.nextafter(1.0, 0.0)))
 
 
 def journal_friction_moment(

@@ -134,7 +134,7 @@ def _motor_answer(panels: GaussPanels, error: Array, steepness: float) -> Array:
 
     Only a preconditioner: where e^(2π s) would grow too large a smaller s does.
     """
-    rate = np.clip(steepness, 1e-9, 20.0)
+    rate = np.clip(steepness, 1e-9, 100.0)
     growth = np.exp(rate * panels.nodes)
     gathered, edges = panels.running(rate * growth * error)
     return np.asarray((edges[-1] / np.expm1(2.0 * np.pi * rate) + gathered) / growth)
