@@ -31,18 +31,16 @@ from vibroacoustics.mechanisms.slider_link_crankshaft import (
     crank_forces,
     crank_pin_force,
 )
+from vibroacoustics.mechanisms.slider_link_gas import cylinder_pressure, gas_force, valve_angles
 from vibroacoustics.mechanisms.slider_link_motion import SliderLinkCycle, steady_motion
 from vibroacoustics.mechanisms.slider_link_piston import (
     SIDES,
     CrankState,
     check_not_jammed,
-    cylinder_pressure,
     engaged_length,
-    gas_force,
     piston_matrix,
     piston_velocity,
     slider_velocity,
-    valve_angles,
 )
 from vibroacoustics.mechanisms.slider_link_unbalance import (
     about_centre_of_mass,

@@ -10,11 +10,11 @@ from ..errors import SolverError
 from ..moving_parts import Array
 from ..parameters.slider_link import SliderLinkMachine
 from .bearing_friction import journal_friction_moment, thrust_friction_moment
+from .slider_link_gas import gas_force
 from .slider_link_piston import (
     CrankState,
     PistonContacts,
     engaged_length,
-    gas_force,
     piston_contacts,
     piston_film_force,
     piston_matrix,

@@ -10,12 +10,12 @@ from ..moving_parts import Array
 from ..parameters.slider_link import SliderLinkMachine
 from .gauss_panels import GaussPanels
 from .slider_link_crankshaft import CrankForces, settled
+from .slider_link_gas import valve_angles
 from .slider_link_piston import (
     CrankState,
     check_not_jammed,
     piston_velocity,
     slider_velocity,
-    valve_angles,
 )
 
 MAXIMUM_ITERATIONS: Final = 200
@@ -57,7 +57,7 @@ def steady_motion(
     With φ as the variable (35) is d(φ̇²/2)/dφ = φ̈. The motor's torque falls with the velocity;
     its mean is what closes the cycle. Iterated on all of the revolution at once: velocities give
     forces (vectorised), these φ̈, its integral the velocities. The motor's answer to a change is
-    solved for in each step, hence some six to ten steps do for every slope.
+    solved for in each step, hence about seven steps do, some twenty for a very steep motor.
 
     Parameters
     ----------
@@ -123,9 +123,8 @@ def _converged(
         square = 0.5 * velocity**2 + error - _motor_answer(panels, error, steepness)
         velocity = np.sqrt(2.0 * (square + _start(panels, square, mean_velocity)))
     raise SolverError(
-        f"slider-link crank: the velocity still changes by "
-        f"{change:.1e} of its mean, the mean torque by "
-        f"{missing:.1e} of the load after {MAXIMUM_ITERATIONS} iterations"
+        f"slider-link crank: the velocity still changes by {change:.1e} of its mean, the mean "
+        f"torque by {missing:.1e} of the load after {MAXIMUM_ITERATIONS} iterations"
     )
 
 
