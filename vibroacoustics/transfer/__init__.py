@@ -1,5 +1,15 @@
 """From forces on the housing to its velocity and to the forces in its feet."""
 
+from .bushings import Bushing, RigidBody
+from .isolation import Isolation
 from .mounts import FOOT_NAMES, RigidBodyOnMounts
+from .tube import tube_stiffness
 
-__all__ = ["FOOT_NAMES", "RigidBodyOnMounts"]
+__all__ = [
+    "FOOT_NAMES",
+    "Bushing",
+    "Isolation",
+    "RigidBody",
+    "RigidBodyOnMounts",
+    "tube_stiffness",
+]

@@ -1,0 +1,156 @@
+"""Friction of journal and thrust bearings (Dagilis et al., equations 19 to 24)."""
+
+from typing import Final
+
+import numpy as np
+
+from ..errors import ParameterError
+from ..moving_parts import Array
+from ..parameters.slider_link import JournalBearing, ThrustBearing
+
+HALVINGS: Final = 60
+"""Halvings of the eccentricity's interval, down to the rounding of a double."""
+
+
+def short_bearing_load(eccentricity_ratio: Array, length_per_diameter: float) -> Array:
+    """Load coefficient Φ_p (22) = ψ² F / (η ω l d) of a short bearing.
+
+    The paper leaves the function open; this is Ocvirk's (NACA TN 2808, 1952): half of
+    (l/d)² π ε √(0.6211 ε² + 1) / (1 - ε²)².
+
+    Parameters
+    ----------
+    eccentricity_ratio : from 0 to below 1
+    length_per_diameter : l/d
+
+    Raises
+    ------
+    ParameterError
+        The eccentricity is outside its range.
+    """
+    ratio = _checked(eccentricity_ratio)
+    clear = 1.0 - ratio**2
+    root = np.sqrt(np.pi**2 * clear + 16.0 * ratio**2)
+    return np.asarray(0.5 * length_per_diameter**2 * ratio * root / clear**2)
+
+
+def short_bearing_friction(eccentricity_ratio: Array, length_per_diameter: float) -> Array:
+    """Friction coefficient Φ_T of (21) on the shaft of a short bearing.
+
+    Shear of a full film, π/√(1 - ε²), and the load times the shaft's eccentricity across it,
+    (l/d)² π ε² / (4 (1 - ε²)^1.5); Petroff's π of (19) for a shaft in the middle.
+
+    Parameters
+    ----------
+    eccentricity_ratio : from 0 to below 1
+    length_per_diameter : l/d
+
+    Raises
+    ------
+    ParameterError
+        The eccentricity is outside its range.
+    """
+    ratio = _checked(eccentricity_ratio)
+    clear = np.sqrt(1.0 - ratio**2)
+    return np.asarray(np.pi / clear + 0.25 * np.pi * (length_per_diameter * ratio) ** 2 / clear**3)
+
+
+def eccentricity_ratio(load_coefficient: Array, length_per_diameter: float) -> Array:
+    """Eccentricity ratio at which a short bearing carries a load.
+
+    The load times (1 - ε²)² is a bounded, rising function of ε, solved by bisection.
+
+    Parameters
+    ----------
+    load_coefficient : Φ_p (22), at least zero
+    length_per_diameter : l/d
+    """
+
+    low, high = np.zeros_like(load_coefficient), np.ones_like(load_coefficient)
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        square = middle * middle
+        root = np.sqrt(np.pi**2 + (16.0 - np.pi**2) * square)
+        carried = 0.5 * length_per_diameter**2 * middle * root
+        below = carried < load_coefficient * (1.0 - square) ** 2
+        low, high = np.where(below, middle, low), np.where(below, high, middle)
+    return np.asarray(np.minimum(low, np.nextafter(1.0, 0.0)))
+
+
+def journal_friction_moment(
+    bearing: JournalBearing, load_n: Array, velocity: Array, viscosity_pa_s: float
+) -> Array:
+    """Friction moment (23), M = µ F r with µ = η ω Φ_T / (p ψ) (21), N m.
+
+    Parameters
+    ----------
+    bearing : lengths in m
+    load_n : load, N
+    velocity : angular velocity, rad/s, above zero
+    viscosity_pa_s : dynamic viscosity
+    """
+    diameter = 2.0 * bearing.radius_m
+    slenderness = bearing.length_m / diameter
+    clearance = bearing.clearance_m / bearing.radius_m
+    shear = viscosity_pa_s * velocity * bearing.length_m * diameter
+    ratio = eccentricity_ratio(clearance**2 * load_n / shear, slenderness)
+    friction = shear / clearance * short_bearing_friction(ratio, slenderness)
+    return np.asarray(friction * bearing.radius_m)
+
+
+def petroff_coefficient(
+    bearing: JournalBearing, load_n: Array, velocity: Array, viscosity_pa_s: float
+) -> Array:
+    """Friction coefficient of an unloaded bearing (19): π η ω / (p ψ).
+
+    Parameters
+    ----------
+    bearing : lengths in m
+    load_n : load, N
+    velocity : angular velocity, rad/s
+    viscosity_pa_s : dynamic viscosity
+    """
+    pressure = load_n / (2.0 * bearing.radius_m * bearing.length_m)
+    clearance = bearing.clearance_m / bearing.radius_m
+    return np.asarray(np.pi * viscosity_pa_s * velocity / (pressure * clearance))
+
+
+def loaded_coefficient(
+    bearing: JournalBearing, load_n: Array, velocity: Array, viscosity_pa_s: float
+) -> Array:
+    """Friction coefficient without eccentricity (20): π η ω / (p ψ) + 0.55 ψ (d/l)^m.
+
+    m is 1.5 for l < d, 1 else. The paper prints (l/d)^m, which would lower the friction of a
+    short bearing.
+
+    Parameters
+    ----------
+    bearing : lengths in m
+    load_n : load, N
+    velocity : angular velocity, rad/s
+    viscosity_pa_s : dynamic viscosity
+    """
+    slenderness = bearing.length_m / (2.0 * bearing.radius_m)
+    exponent = 1.5 if slenderness < 1.0 else 1.0
+    clearance = bearing.clearance_m / bearing.radius_m
+    unloaded = petroff_coefficient(bearing, load_n, velocity, viscosity_pa_s)
+    return np.asarray(unloaded + 0.55 * clearance * slenderness**-exponent)
+
+
+def thrust_friction_moment(bearing: ThrustBearing, load_n: float) -> float:
+    """Friction moment of the thrust bearing (24), N m.
+
+    Parameters
+    ----------
+    bearing : radii in m
+    load_n : weight of crankshaft and rotor, N
+    """
+    outer, inner = bearing.outer_radius_m, bearing.inner_radius_m
+    radius = 2.0 / 3.0 * (outer**3 - inner**3) / (outer**2 - inner**2)
+    return bearing.friction_ratio * load_n * radius
+
+
+def _checked(ratio: Array) -> Array:
+    if not np.all((ratio >= 0.0) & (ratio < 1.0)):
+        raise ParameterError("eccentricity_ratio: allowed 0 to below 1")
+    return np.asarray(ratio)

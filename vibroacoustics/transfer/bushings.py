@@ -1,0 +1,130 @@
+"""Any number of rigid bodies and the bushings between them: grommets, springs, a tube."""
+
+from dataclasses import dataclass, field
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ParameterError
+
+Real = NDArray[np.float64]
+
+SYMMETRY: Final = 1e-9
+"""Asymmetry and negative part of a matrix, relative to its largest entry, that pass as rounding."""
+
+
+def _free() -> Real:
+    return np.zeros((6, 6))
+
+
+@dataclass(frozen=True)
+class RigidBody:
+    """A rigid body at rest.
+
+    Attributes
+    ----------
+    name : unique among the bodies
+    mass_kg : mass
+    inertia_kg_m2 : inertia tensor about the centre of mass, shape (3, 3)
+    centre_of_mass_m : its place, shape (3,)
+    """
+
+    name: str
+    mass_kg: float
+    inertia_kg_m2: Real
+    centre_of_mass_m: Real
+
+    def __post_init__(self) -> None:
+        _check_shape(self.inertia_kg_m2, (3, 3), f"body {self.name}: inertia_kg_m2")
+        _check_shape(self.centre_of_mass_m, (3,), f"body {self.name}: centre_of_mass_m")
+        if not (np.isfinite(self.mass_kg) and self.mass_kg > 0.0):
+            raise ParameterError(
+                f"body {self.name}: mass_kg = {self.mass_kg:g} kg: must be above 0"
+            )
+        _check_symmetric(self.inertia_kg_m2, f"body {self.name}: inertia_kg_m2")
+        moments = np.linalg.eigvalsh(self.inertia_kg_m2)
+        if moments[0] <= 0.0 or moments[2] > (moments[0] + moments[1]) * (1.0 + SYMMETRY):
+            raise ParameterError(
+                f"body {self.name}: inertia_kg_m2: principal moments {moments[0]:g}, "
+                f"{moments[1]:g}, {moments[2]:g} kg m²: must be above 0, none above the sum of "
+                "the others"
+            )
+
+
+@dataclass(frozen=True)
+class Bushing:
+    """A massless elastic link between two bodies, or between a body and the ground.
+
+    The six relative displacements and rotations at its point, in its own axes, times the 6 x 6
+    stiffness give force and moment, N and N m; likewise the velocities times the damping.
+
+    Attributes
+    ----------
+    name : unique among the bushings
+    body : name of the first body
+    other_body : name of the second body, none for the ground
+    position_m : its point, shape (3,)
+    stiffness : symmetric, positive semidefinite, shape (6, 6), N/m, N and N m
+    damping : viscous, symmetric, positive semidefinite, shape (6, 6), N s/m, N s and N m s
+    loss_factor_ratio : structural loss factor of the stiffness
+    axes : its own axes as columns, a rotation, shape (3, 3)
+    """
+
+    name: str
+    body: str
+    other_body: str | None
+    position_m: Real
+    stiffness: Real
+    damping: Real = field(default_factory=_free)
+    loss_factor_ratio: float = 0.0
+    axes: Real = field(default_factory=lambda: np.eye(3))
+
+    def __post_init__(self) -> None:
+        where = f"bushing {self.name}"
+        _check_shape(self.position_m, (3,), f"{where}: position_m")
+        for name, matrix in (("stiffness", self.stiffness), ("damping", self.damping)):
+            _check_shape(matrix, (6, 6), f"{where}: {name}")
+            _check_symmetric(matrix, f"{where}: {name}")
+            values = np.linalg.eigvalsh(matrix)
+            if values[0] < -SYMMETRY * max(values[-1], 0.0) or values[-1] < 0.0:
+                raise ParameterError(f"{where}: {name}: must be positive semidefinite")
+        _check_shape(self.axes, (3, 3), f"{where}: axes")
+        if (
+            np.max(np.abs(self.axes.T @ self.axes - np.eye(3))) > SYMMETRY
+            or np.linalg.det(self.axes) < 0.0
+        ):
+            raise ParameterError(f"{where}: axes: must be a rotation")
+        if not 0.0 <= self.loss_factor_ratio <= 1.0:
+            raise ParameterError(
+                f"{where}: loss_factor_ratio = {self.loss_factor_ratio:g}: allowed 0 to 1"
+            )
+
+    def in_frame(self, matrix: Real) -> Real:
+        """A matrix in the bushing's own axes, in those of the frame, shape (6, 6)."""
+        turn = np.kron(np.eye(2), self.axes)
+        return np.asarray(turn @ matrix @ turn.T)
+
+
+def motion_at(point_m: Real, centre_m: Real) -> Real:
+    """Displacement and rotation at a point per unit motion of the centre, shape (6, 6).
+
+    Small motion: u = t + r x (p - c).
+
+    Parameters
+    ----------
+    point_m, centre_m : shape (3,)
+    """
+    motion = np.eye(6)
+    motion[:3, 3:] = -np.cross(np.eye(3), point_m - centre_m)
+    return motion
+
+
+def _check_shape(matrix: Real, shape: tuple[int, ...], what: str) -> None:
+    if np.shape(matrix) != shape or not np.all(np.isfinite(matrix)):
+        raise ParameterError(f"{what}: must be finite and of shape {shape}, got {np.shape(matrix)}")
+
+
+def _check_symmetric(matrix: Real, what: str) -> None:
+    if np.max(np.abs(matrix - matrix.T)) > SYMMETRY * np.max(np.abs(matrix)):
+        raise ParameterError(f"{what}: must be symmetric")

@@ -1,0 +1,197 @@
+"""Motion of rigid bodies on bushings, and the forces that the bushings pass on."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import eigh
+
+from ..errors import ParameterError, SolverError
+from .bushings import Bushing, Real, RigidBody, motion_at
+
+Complex = NDArray[np.complex128]
+
+FREE: Final = 1e-12
+"""A squared natural frequency below this part of the highest one is that of a free motion."""
+
+
+@dataclass(frozen=True)
+class Isolation:
+    """Rigid bodies on bushings, such as a block on springs in a shell on grommets.
+
+    The motion of a body is (tx, ty, tz, rx, ry, rz) of its centre of mass, m and rad; its load is
+    force and moment about it, N and N m. Small motion: rotations add linearly; the stiffness that
+    gravity adds is left out.
+
+    Attributes
+    ----------
+    bodies : in the order of the body axis of loads and motions
+    bushings : in the order of the bushing axis of the forces
+    """
+
+    bodies: tuple[RigidBody, ...]
+    bushings: tuple[Bushing, ...]
+
+    def __post_init__(self) -> None:
+        names = [body.name for body in self.bodies]
+        if not names:
+            raise ParameterError("bodies: at least one is needed")
+        _check_unique("body", names)
+        _check_unique("bushing", [bushing.name for bushing in self.bushings])
+        for bushing in self.bushings:
+            ends = (bushing.body, bushing.other_body)
+            for end in ends:
+                if end is not None and end not in names:
+                    raise ParameterError(
+                        f"bushing {bushing.name}: no body {end}; there are {', '.join(names)}"
+                    )
+            if ends[0] == ends[1]:
+                raise ParameterError(f"bushing {bushing.name}: joins {ends[0]} to itself")
+
+    @cached_property
+    def mass_matrix(self) -> Real:
+        """Shape (6 bodies, 6 bodies), kg and kg m²."""
+        matrix = np.zeros((6 * len(self.bodies), 6 * len(self.bodies)))
+        for number, body in enumerate(self.bodies):
+            first = 6 * number
+            matrix[first : first + 3, first : first + 3] = body.mass_kg * np.eye(3)
+            matrix[first + 3 : first + 6, first + 3 : first + 6] = body.inertia_kg_m2
+        return matrix
+
+    @cached_property
+    def bushing_motion(self) -> Real:
+        """Motion of body against other body at each bushing, shape (bushing, 6, 6 bodies)."""
+        places = {body.name: number for number, body in enumerate(self.bodies)}
+        motion = np.zeros((len(self.bushings), 6, 6 * len(self.bodies)))
+        for row, bushing in zip(motion, self.bushings, strict=True):
+            for sign, name in ((1.0, bushing.body), (-1.0, bushing.other_body)):
+                if name is not None:
+                    number = places[name]
+                    centre = self.bodies[number].centre_of_mass_m
+                    row[:, 6 * number : 6 * number + 6] = sign * motion_at(
+                        bushing.position_m, centre
+                    )
+        return motion
+
+    @cached_property
+    def stiffness_matrix(self) -> Real:
+        """Real part, shape (6 bodies, 6 bodies), N/m, N and N m: Σ Gᵀ k G."""
+        return self._assembled(self._bushing_stiffness)
+
+    @cached_property
+    def structural_damping_matrix(self) -> Real:
+        """Imaginary part of the stiffness above frequency zero: Σ η Gᵀ k G."""
+        return self._assembled(self._bushing_loss)
+
+    @cached_property
+    def damping_matrix(self) -> Real:
+        """Viscous, shape (6 bodies, 6 bodies), N s/m, N s and N m s: Σ Gᵀ c G."""
+        return self._assembled(self._bushing_damping)
+
+    def natural_modes(self) -> tuple[Real, Real]:
+        """Undamped natural frequencies (mode,) in Hz, mass-normalised shapes (mode, body, 6).
+
+        A body that nothing holds has frequencies zero.
+        """
+        squares, shapes = eigh(self.stiffness_matrix, self.mass_matrix)
+        squares[squares < FREE * squares[-1]] = 0.0
+        return np.sqrt(squares) / (2.0 * np.pi), shapes.T.reshape(-1, len(self.bodies), 6)
+
+    def displacement(self, load: Complex, frequency_hz: Real | float) -> Complex:
+        """Motion of each body, shape (..., body, 6), m and rad, complex peak.
+
+        Solves (K + jKη + jωC - ω²M) X = F. At frequency zero the stiffness is real.
+
+        Parameters
+        ----------
+        load : force and moment at each body's centre of mass, shape (..., body, 6), complex peak
+        frequency_hz : at least zero, broadcasts against load[..., 0, 0]
+
+        Raises
+        ------
+        SolverError
+            At frequency zero with a free body, or undamped at a natural frequency.
+        """
+        frequency = np.asarray(frequency_hz, dtype=float)
+        if np.any(frequency == 0.0) and self.natural_modes()[0][0] == 0.0:
+            raise SolverError("frequency 0 Hz: a body can move freely, there is no static response")
+        load = np.asarray(load)
+        flat = load.reshape(*load.shape[:-2], -1, 1)
+        try:
+            motion = np.linalg.solve(self._dynamic_stiffness(frequency), flat)
+        except np.linalg.LinAlgError:
+            raise SolverError(
+                "bushings: undamped motion at a natural frequency has no bound; give damping"
+            ) from None
+        return np.asarray(motion[..., 0].reshape(*motion.shape[:-2], len(self.bodies), 6))
+
+    def velocity(self, load: Complex, frequency_hz: Real | float) -> Complex:
+        """Velocity of each body, shape (..., body, 6), m/s and rad/s, complex peak.
+
+        Parameters
+        ----------
+        load : force and moment at each body's centre of mass, shape (..., body, 6), complex peak
+        frequency_hz : at least zero, broadcasts against load[..., 0, 0]
+        """
+        speed = 2j * np.pi * np.asarray(frequency_hz, dtype=float)[..., None, None]
+        return np.asarray(speed * self.displacement(load, frequency_hz))
+
+    def bushing_force(self, load: Complex, frequency_hz: Real | float) -> Complex:
+        """Force and moment of the body on the other one or the ground, shape (..., bushing, 6).
+
+        At the bushing's point, in the axes of the frame, N and N m, complex peak.
+
+        Parameters
+        ----------
+        load : force and moment at each body's centre of mass, shape (..., body, 6), complex peak
+        frequency_hz : at least zero, broadcasts against load[..., 0, 0]
+        """
+        frequency = np.asarray(frequency_hz, dtype=float)
+        motion = self.displacement(load, frequency)
+        flat = motion.reshape(*motion.shape[:-2], -1)
+        relative = np.einsum("bij,...j->...bi", self.bushing_motion, flat)
+        omega = 2.0 * np.pi * frequency[..., None, None, None]
+        stiffness, lost = self._bushing_stiffness, self._bushing_loss
+        dynamic = stiffness + np.where(omega > 0.0, 1j, 0.0) * lost
+        dynamic = dynamic + 1j * omega * self._bushing_damping
+        return np.asarray(np.einsum("...bij,...bj->...bi", dynamic, relative))
+
+    def _dynamic_stiffness(self, frequency: Real) -> Complex:
+        omega = 2.0 * np.pi * frequency[..., None, None]
+        structural = np.where(omega > 0.0, 1j, 0.0) * self.structural_damping_matrix
+        viscous = 1j * omega * self.damping_matrix
+        return np.asarray(
+            self.stiffness_matrix + structural + viscous - omega**2 * self.mass_matrix
+        )
+
+    @cached_property
+    def _bushing_stiffness(self) -> Real:
+        return self._stacked([b.in_frame(b.stiffness) for b in self.bushings])
+
+    @cached_property
+    def _bushing_loss(self) -> Real:
+        return self._stacked([b.loss_factor_ratio * b.in_frame(b.stiffness) for b in self.bushings])
+
+    @cached_property
+    def _bushing_damping(self) -> Real:
+        return self._stacked([b.in_frame(b.damping) for b in self.bushings])
+
+    @staticmethod
+    def _stacked(matrices: list[Real]) -> Real:
+        """Shape (bushing, 6, 6), also without any bushing."""
+        return np.array(matrices).reshape(-1, 6, 6)
+
+    def _assembled(self, matrices: Real) -> Real:
+        motion = self.bushing_motion
+        return np.asarray(np.einsum("bki,bkl,blj->ij", motion, matrices, motion, optimize=True))
+
+
+def _check_unique(what: str, names: Iterable[str]) -> None:
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            raise ParameterError(f"{what} {name}: named twice")
+        seen.add(name)

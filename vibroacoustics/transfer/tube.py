@@ -1,0 +1,85 @@
+"""Stiffness of a bent tube or rod between its two ends, such as a discharge tube."""
+
+from itertools import pairwise
+
+import numpy as np
+
+from ..errors import ParameterError
+from .bushings import Real, motion_at
+
+
+def tube_stiffness(
+    path_m: Real,
+    outer_diameter_m: float,
+    inner_diameter_m: float,
+    youngs_modulus_pa: float,
+    poisson_ratio: float,
+) -> Real:
+    """Stiffness of a clamped tube at the end of its path, shape (6, 6), N/m, N and N m.
+
+    Unit-load method (Castigliano): the flexibilities of straight pieces in tension, torsion and
+    bending (Euler-Bernoulli, without shear) add up, each moved to the end. The tube has no mass,
+    hence holds below its own first resonance. Axes are those of the path.
+
+    Parameters
+    ----------
+    path_m : points of the centre line, from one body to the other, shape (points, 3), points >= 2
+    outer_diameter_m, inner_diameter_m : of the tube; inner zero for a rod
+    youngs_modulus_pa : Young's modulus
+    poisson_ratio : Poisson's ratio
+
+    Raises
+    ------
+    ParameterError
+        A dimension or constant is outside its range, or two points of the path coincide.
+    """
+    _check_tube(outer_diameter_m, inner_diameter_m, youngs_modulus_pa, poisson_ratio)
+    path = np.asarray(path_m, dtype=float)
+    if path.ndim != 2 or path.shape[0] < 2 or path.shape[1] != 3 or not np.all(np.isfinite(path)):
+        raise ParameterError(f"path_m: must be of shape (2 or more, 3), got {path.shape}")
+    area = np.pi / 4.0 * (outer_diameter_m**2 - inner_diameter_m**2)
+    second_moment = np.pi / 64.0 * (outer_diameter_m**4 - inner_diameter_m**4)
+    rigidity = youngs_modulus_pa * np.array([area, second_moment])
+    flexibility = np.zeros((6, 6))
+    for start, end in pairwise(path):
+        flexibility += _piece_flexibility(start, end, path[-1], rigidity, poisson_ratio)
+    stiffness = np.linalg.inv(flexibility)
+    return np.asarray(0.5 * (stiffness + stiffness.T))
+
+
+def _check_tube(
+    outer_diameter_m: float, inner_diameter_m: float, youngs_modulus_pa: float, poisson_ratio: float
+) -> None:
+    if not 1e-5 <= outer_diameter_m <= 1.0:
+        raise ParameterError(
+            f"outer_diameter_m = {outer_diameter_m:g} m: allowed from 1e-05 to 1 m"
+        )
+    if not 0.0 <= inner_diameter_m <= 0.999 * outer_diameter_m:
+        raise ParameterError(
+            f"inner_diameter_m = {inner_diameter_m:g} m: allowed from 0 to 0.999 of "
+            f"outer_diameter_m = {outer_diameter_m:g} m"
+        )
+    if not (youngs_modulus_pa > 0.0 and -1.0 < poisson_ratio <= 0.5):
+        raise ParameterError(
+            f"youngs_modulus_pa = {youngs_modulus_pa:g} Pa, poisson_ratio = {poisson_ratio:g}: "
+            "allowed above 0 Pa, above -1 to 0.5"
+        )
+
+
+def _piece_flexibility(
+    start: Real, end: Real, reference: Real, rigidity: Real, poisson_ratio: float
+) -> Real:
+    """Flexibility of one straight piece, moved to the reference point, shape (6, 6)."""
+    length = float(np.linalg.norm(end - start))
+    if length == 0.0:
+        raise ParameterError("path_m: two points of the path coincide")
+    tangent = (end - start) / length
+    along = np.outer(tangent, tangent)
+    across = np.eye(3) - along
+    axial, bending = rigidity
+    # About its middle, force and moment do not couple; bending there leaves L³/(12 EI).
+    middle = np.zeros((6, 6))
+    middle[:3, :3] = length / axial * along + length**3 / (12.0 * bending) * across
+    middle[3:, 3:] = length / bending * ((1.0 + poisson_ratio) * along + across)
+    moved = motion_at(reference, 0.5 * (start + end))
+    return np.asarray(moved @ middle @ moved.T)
