@@ -257,9 +257,14 @@ def test_memory_is_checked_before_the_run(monkeypatch):
 @pytest.mark.skipif(sys.platform != "linux", reason="reads the peak memory as Linux tells it")
 @pytest.mark.parametrize(("spacing_m", "frequencies", "patterns"), [(0.008, 80, 6), (0.006, 20, 2)])
 def test_predicted_memory_is_what_it_takes(spacing_m, frequencies, patterns):
-    """Within 20 %, the default settings first, against the peak beyond a small run's."""
+    """Within 20 %, the default settings first, against the peak beyond a small run's.
+
+    On one processor: with several, peaks of runs side by side meet or not, and it is a bound.
+    """
     measured, predicted = in_child(f"""
         {PEAK_MEMORY}
+        import os
+        os.sched_setaffinity(0, {{min(os.sched_getaffinity(0))}})
         import numpy as np
         from vibroacoustics.radiation import near_field
         from vibroacoustics.radiation.arrays import no_progress
