@@ -13,22 +13,22 @@ from scipy.integrate import solve_ivp
 from support import ROOT
 
 from vibroacoustics.errors import ParameterError
-from vibroacoustics.mechanisms.beam_rotor import natural_frequencies_hz, with_disc
-from vibroacoustics.mechanisms.film_force import printed_film_force
-from vibroacoustics.mechanisms.film_linearisation import damped_modes, linear_film
-from vibroacoustics.mechanisms.hermetic_cycle import steady_cycle, uniform_samples
-from vibroacoustics.mechanisms.hermetic_forces import mechanism_motion
-from vibroacoustics.mechanisms.hermetic_gas import gas_force_n, piston_area_m2, valve_angles
-from vibroacoustics.mechanisms.hermetic_housing import housing_wrenches
-from vibroacoustics.mechanisms.hermetic_pin import crank_point, rod_motion
-from vibroacoustics.mechanisms.hermetic_results import (
+from vibroacoustics.mechanisms.hermetic.beam_rotor import natural_frequencies_hz, with_disc
+from vibroacoustics.mechanisms.hermetic.cycle import steady_cycle, uniform_samples
+from vibroacoustics.mechanisms.hermetic.film_force import printed_film_force
+from vibroacoustics.mechanisms.hermetic.film_linearisation import damped_modes, linear_film
+from vibroacoustics.mechanisms.hermetic.forces import mechanism_motion
+from vibroacoustics.mechanisms.hermetic.gas import gas_force_n, piston_area_m2, valve_angles
+from vibroacoustics.mechanisms.hermetic.housing import housing_wrenches
+from vibroacoustics.mechanisms.hermetic.journal_bearing import short_bearing_force
+from vibroacoustics.mechanisms.hermetic.pin import crank_point, rod_motion
+from vibroacoustics.mechanisms.hermetic.results import (
     bearing_cycles,
     motion_of,
     support_reaction,
     works_per_cycle_j,
 )
-from vibroacoustics.mechanisms.hermetic_shaft import rotor_matrices
-from vibroacoustics.mechanisms.journal_bearing import short_bearing_force
+from vibroacoustics.mechanisms.hermetic.shaft import rotor_matrices
 from vibroacoustics.parameters.hermetic import HermeticCompressor
 from vibroacoustics.units import si_key
 

@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_bvp
 
 from vibroacoustics.errors import ParameterError
-from vibroacoustics.mechanisms.film_force import positive_film_force, printed_film_force
-from vibroacoustics.mechanisms.film_linearisation import linear_film
-from vibroacoustics.mechanisms.journal_bearing import (
+from vibroacoustics.mechanisms.hermetic.film_force import positive_film_force, printed_film_force
+from vibroacoustics.mechanisms.hermetic.film_linearisation import linear_film
+from vibroacoustics.mechanisms.hermetic.journal_bearing import (
     film_coordinates,
     highest_pressure_pa,
     long_bearing_force,

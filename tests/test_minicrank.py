@@ -12,16 +12,16 @@ from support import ROOT
 
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.mechanisms.crankshaft import uniform_crank_angle
-from vibroacoustics.mechanisms.four_bar import (
+from vibroacoustics.mechanisms.minicrank.cycle import (
+    minicrank_pin_force,
+    steady_minicrank_cycle,
+)
+from vibroacoustics.mechanisms.minicrank.four_bar import (
     Links,
     closing_margins,
     four_bar_motion,
     links_of,
     reachable_crank_angles,
-)
-from vibroacoustics.mechanisms.minicrank import (
-    minicrank_pin_force,
-    steady_minicrank_cycle,
 )
 from vibroacoustics.moving_parts import second_derivative
 from vibroacoustics.parameters.minicrank import MiniCrankMachine

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from vibroacoustics.errors import SolverError
-from vibroacoustics.mechanisms.periodic_collocation import periodic_solution
+from vibroacoustics.mechanisms.hermetic.periodic_collocation import periodic_solution
 
 
 def _relaxing(rate):

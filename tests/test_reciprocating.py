@@ -17,9 +17,12 @@ from vibroacoustics.mechanisms.crankshaft import (
     steady_rotation,
     uniform_crank_angle,
 )
-from vibroacoustics.mechanisms.cylinder_gas import compression_work_j, cylinder_pressure
-from vibroacoustics.mechanisms.reciprocating import efficiency_map, optimum_bore, steady_cycle
-from vibroacoustics.mechanisms.slider_crank import (
+from vibroacoustics.mechanisms.reciprocating.cycle import efficiency_map, optimum_bore, steady_cycle
+from vibroacoustics.mechanisms.reciprocating.cylinder_gas import (
+    compression_work_j,
+    cylinder_pressure,
+)
+from vibroacoustics.mechanisms.reciprocating.slider_crank import (
     SliderCrank,
     design_at_bore,
     housing_wrench,

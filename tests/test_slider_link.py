@@ -15,7 +15,7 @@ from support import ROOT
 from vibroacoustics.constants import STANDARD_GRAVITY_M_PER_S2
 from vibroacoustics.errors import ParameterError, SolverError
 from vibroacoustics.loading import _read_toml, _Reader
-from vibroacoustics.mechanisms.bearing_friction import (
+from vibroacoustics.mechanisms.slider_link.bearing_friction import (
     eccentricity_ratio,
     journal_friction_moment,
     loaded_coefficient,
@@ -24,16 +24,16 @@ from vibroacoustics.mechanisms.bearing_friction import (
     short_bearing_load,
     thrust_friction_moment,
 )
-from vibroacoustics.mechanisms.gauss_panels import GaussPanels
-from vibroacoustics.mechanisms.slider_link_crankshaft import (
+from vibroacoustics.mechanisms.slider_link.crankshaft import (
     bearing_forces,
     crank_coefficients,
     crank_forces,
     crank_pin_force,
 )
-from vibroacoustics.mechanisms.slider_link_gas import cylinder_pressure, gas_force, valve_angles
-from vibroacoustics.mechanisms.slider_link_motion import SliderLinkCycle, steady_motion
-from vibroacoustics.mechanisms.slider_link_piston import (
+from vibroacoustics.mechanisms.slider_link.gas import cylinder_pressure, gas_force, valve_angles
+from vibroacoustics.mechanisms.slider_link.gauss_panels import GaussPanels
+from vibroacoustics.mechanisms.slider_link.motion import SliderLinkCycle, steady_motion
+from vibroacoustics.mechanisms.slider_link.piston import (
     SIDES,
     CrankState,
     check_not_jammed,
@@ -42,7 +42,7 @@ from vibroacoustics.mechanisms.slider_link_piston import (
     piston_velocity,
     slider_velocity,
 )
-from vibroacoustics.mechanisms.slider_link_unbalance import (
+from vibroacoustics.mechanisms.slider_link.unbalance import (
     about_centre_of_mass,
     free_acceleration,
     internal_forces,

@@ -5,13 +5,13 @@ from typing import Final
 
 import numpy as np
 
-from ..errors import ParameterError, SolverError
-from ..moving_parts import Array
-from ..parameters.slider_link import SliderLinkMachine
+from ...errors import ParameterError, SolverError
+from ...moving_parts import Array
+from ...parameters.slider_link import SliderLinkMachine
+from .crankshaft import CrankForces, settled
+from .gas import valve_angles
 from .gauss_panels import GaussPanels
-from .slider_link_crankshaft import CrankForces, settled
-from .slider_link_gas import valve_angles
-from .slider_link_piston import (
+from .piston import (
     CrankState,
     check_not_jammed,
     piston_velocity,

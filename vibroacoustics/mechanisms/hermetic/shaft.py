@@ -9,13 +9,13 @@ from typing import Final, Literal
 
 import numpy as np
 
-from ..moving_parts import Array
-from ..parameters.hermetic import HermeticCompressor
+from ...moving_parts import Array
+from ...parameters.hermetic import HermeticCompressor
 from .beam_rotor import NODE_FREEDOMS, RotorMatrices, Section, assemble, with_disc
 from .film_force import COMPLEX_STEP, FilmForce
-from .hermetic_forces import added_mass, mechanism_motion
-from .hermetic_gas import gas_force_n
-from .hermetic_pin import COORDINATES
+from .forces import added_mass, mechanism_motion
+from .gas import gas_force_n
+from .pin import COORDINATES
 
 Case = Literal["I", "II", "III"]
 

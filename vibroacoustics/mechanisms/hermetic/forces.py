@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..constants import STANDARD_GRAVITY_M_PER_S2 as GRAVITY
-from ..parameters.hermetic import HermeticCompressor
-from .hermetic_pin import COORDINATES, PointMotion, RodMotion, crank_point, rod_motion
+from ...constants import STANDARD_GRAVITY_M_PER_S2 as GRAVITY
+from ...parameters.hermetic import HermeticCompressor
 from .journal_bearing import Values
+from .pin import COORDINATES, PointMotion, RodMotion, crank_point, rod_motion
 
 
 @dataclass(frozen=True)

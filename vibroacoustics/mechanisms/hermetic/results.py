@@ -5,13 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..constants import STANDARD_GRAVITY_M_PER_S2
-from ..moving_parts import Array
-from .hermetic_forces import MechanismMotion, mechanism_motion
-from .hermetic_gas import gas_force_n
-from .hermetic_shaft import ShaftEquations
+from ...constants import STANDARD_GRAVITY_M_PER_S2
+from ...moving_parts import Array
+from .forces import MechanismMotion, mechanism_motion
+from .gas import gas_force_n
 from .journal_bearing import film_coordinates, highest_pressure_pa
 from .periodic_collocation import PeriodicSolution
+from .shaft import ShaftEquations
 
 
 @dataclass(frozen=True)

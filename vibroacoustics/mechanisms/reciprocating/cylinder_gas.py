@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ..moving_parts import Array
-from ..parameters.reciprocating import CylinderGas
+from ...moving_parts import Array
+from ...parameters.reciprocating import CylinderGas
 
 
 def cylinder_pressure(crank_angle: Array, swept_m3: Array, gas: CylinderGas) -> Array:

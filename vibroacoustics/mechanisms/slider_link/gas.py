@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ..moving_parts import Array
-from ..parameters.slider_link import CylinderGas, SliderLink
+from ...moving_parts import Array
+from ...parameters.slider_link import CylinderGas, SliderLink
 
 
 def cylinder_pressure(mechanism: SliderLink, gas: CylinderGas, angle: Array) -> Array:

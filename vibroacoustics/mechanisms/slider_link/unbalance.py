@@ -5,11 +5,11 @@ from typing import Final
 
 import numpy as np
 
-from ..moving_parts import Array
-from ..parameters.machine import Housing
-from ..parameters.slider_link import SliderLinkMachine
-from .slider_link_crankshaft import CrankForces
-from .slider_link_piston import CrankState, engaged_length
+from ...moving_parts import Array
+from ...parameters.machine import Housing
+from ...parameters.slider_link import SliderLinkMachine
+from .crankshaft import CrankForces
+from .piston import CrankState, engaged_length
 
 SOURCES: Final = ("piston", "slider", "crankshaft")
 """Who makes the force, in the order of the source axis."""

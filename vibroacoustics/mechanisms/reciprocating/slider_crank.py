@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import ParameterError
-from ..moving_parts import Array, MovingPart, path
-from ..parameters.reciprocating import PistonAndRod
-from .crankshaft import HousingWrench, Rotation, acceleration_of
+from ...errors import ParameterError
+from ...moving_parts import Array, MovingPart, path
+from ...parameters.reciprocating import PistonAndRod
+from ..crankshaft import HousingWrench, Rotation, acceleration_of
 
 
 @dataclass(frozen=True)

@@ -5,13 +5,13 @@ from typing import Final
 
 import numpy as np
 
-from ..errors import ParameterError
-from ..moving_parts import Array
-from ..parameters.hermetic import HermeticCompressor
+from ...errors import ParameterError
+from ...moving_parts import Array
+from ...parameters.hermetic import HermeticCompressor
 from .film_force import FilmForce, positive_film_force
-from .hermetic_gas import valve_angles
-from .hermetic_shaft import Case, Crankshaft, ShaftEquations, crankshaft
+from .gas import valve_angles
 from .periodic_collocation import PeriodicSolution, periodic_solution
+from .shaft import Case, Crankshaft, ShaftEquations, crankshaft
 
 STEPS: Final = 360
 """Steps per revolution besides the kinks at the valves: one degree."""

@@ -5,9 +5,9 @@ from typing import Final
 
 import numpy as np
 
-from ..errors import ParameterError
-from ..moving_parts import Array
-from ..parameters.minicrank import FourBar
+from ...errors import ParameterError
+from ...moving_parts import Array
+from ...parameters.minicrank import FourBar
 
 SMALLEST_MARGIN_M: Final = 1e-9
 """Below it a four-bar that is no parallelogram is at a change point to rounding: angular

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import ParameterError
-from ..parameters.hermetic import Rod
+from ...errors import ParameterError
+from ...parameters.hermetic import Rod
 from .journal_bearing import Values
 
 COORDINATES = 5

@@ -5,8 +5,8 @@ from typing import Final
 
 import numpy as np
 
-from ..moving_parts import Array
-from ..parameters.hermetic import JournalBearing
+from ...moving_parts import Array
+from ...parameters.hermetic import JournalBearing
 from .journal_bearing import Values, sommerfeld_angle
 
 FilmForce = Callable[[JournalBearing, Values, Values, Values], Values]

@@ -5,13 +5,13 @@ from typing import Final
 
 import numpy as np
 
-from ..constants import STANDARD_GRAVITY_M_PER_S2
-from ..errors import SolverError
-from ..moving_parts import Array
-from ..parameters.slider_link import SliderLinkMachine
+from ...constants import STANDARD_GRAVITY_M_PER_S2
+from ...errors import SolverError
+from ...moving_parts import Array
+from ...parameters.slider_link import SliderLinkMachine
 from .bearing_friction import journal_friction_moment, thrust_friction_moment
-from .slider_link_gas import gas_force
-from .slider_link_piston import (
+from .gas import gas_force
+from .piston import (
     CrankState,
     PistonContacts,
     engaged_length,

@@ -7,11 +7,11 @@ from typing import Final
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from ..errors import ParameterError, SolverError
-from ..moving_parts import Array
-from ..parameters.reciprocating import ReciprocatingMachine, SlidingPairs
-from ..units import shaft_frequency_hz
-from .crankshaft import Rotation, reduced_inertia, steady_rotation, uniform_crank_angle
+from ...errors import ParameterError, SolverError
+from ...moving_parts import Array
+from ...parameters.reciprocating import ReciprocatingMachine, SlidingPairs
+from ...units import shaft_frequency_hz
+from ..crankshaft import Rotation, reduced_inertia, steady_rotation, uniform_crank_angle
 from .cylinder_gas import cylinder_pressure
 from .slider_crank import (
     Motion,

@@ -9,9 +9,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import ParameterError
-from ..moving_parts import Array
-from ..parameters.hermetic import JournalBearing
+from ...errors import ParameterError
+from ...moving_parts import Array
+from ...parameters.hermetic import JournalBearing
 
 Values = NDArray[Any]
 """Real values, or complex ones where a derivative is taken by a complex step."""

@@ -3,8 +3,8 @@
 import numpy as np
 from scipy.optimize import brentq
 
-from ..moving_parts import Array
-from ..parameters.hermetic import HermeticCompressor
+from ...moving_parts import Array
+from ...parameters.hermetic import HermeticCompressor
 
 
 def piston_area_m2(machine: HermeticCompressor) -> float:

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..moving_parts import Array
+from ...moving_parts import Array
 from .beam_rotor import NODE_FREEDOMS
-from .hermetic_results import motion_of
-from .hermetic_shaft import ShaftEquations, node_positions_m
+from .results import motion_of
+from .shaft import ShaftEquations, node_positions_m
 
 
 @dataclass(frozen=True)

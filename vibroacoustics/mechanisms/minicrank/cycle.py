@@ -6,12 +6,12 @@ from typing import Final
 
 import numpy as np
 
-from ..constants import STANDARD_GRAVITY_M_PER_S2
-from ..errors import ParameterError
-from ..moving_parts import Array
-from ..parameters.minicrank import Masses, MiniCrankMachine, ScrollLoads
-from ..units import shaft_frequency_hz
-from .crankshaft import (
+from ...constants import STANDARD_GRAVITY_M_PER_S2
+from ...errors import ParameterError
+from ...moving_parts import Array
+from ...parameters.minicrank import Masses, MiniCrankMachine, ScrollLoads
+from ...units import shaft_frequency_hz
+from ..crankshaft import (
     HousingWrench,
     Rotation,
     acceleration_of,

@@ -1,0 +1,1 @@
+"""Hermetic reciprocating compressor (Estupiñan & Santos): oil films, beam rotor, steady cycle."""

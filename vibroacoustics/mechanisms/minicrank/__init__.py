@@ -1,0 +1,1 @@
+"""Scroll with mini-crank (Zhao et al.): four-bar linkage with link-length errors, input torque."""

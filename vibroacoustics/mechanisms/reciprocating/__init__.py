@@ -1,0 +1,1 @@
+"""Large reciprocating compressor (Tsuji et al.): slider-crank with Coulomb friction."""

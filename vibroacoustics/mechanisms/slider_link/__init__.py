@@ -1,0 +1,1 @@
+"""Slider-link compressor (Dagilis et al.): contact forces, friction, crank motion, unbalance."""
