@@ -1,7 +1,7 @@
 """Machine files of issue 5 as parameter objects."""
 
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from support import ROOT
 
@@ -14,8 +14,18 @@ Model = TypeVar("Model", bound=Parameters)
 
 def load_machine(path: Path, model: type[Model]) -> Model:
     """Read a machine file in the way of `loading`, which knows the scroll only so far."""
+    return machine_of(_read_toml(path), path, model)
+
+
+def machine_of(content: dict[str, Any], path: Path, model: type[Model]) -> Model:
+    """The machine of a file's content, every value of which needs a source."""
     reader = _Reader(path, {}, sources_required=True)
-    return validated(model, reader.to_si(_read_toml(path), ()), reader)
+    return validated(model, reader.to_si(content, ()), reader)
+
+
+def values_of(path: Path) -> dict[str, Any]:
+    """Values of a machine file in SI, unchecked."""
+    return _Reader(path, {}, sources_required=True).to_si(_read_toml(path), ())
 
 
 def machine_file(name: str) -> Path:

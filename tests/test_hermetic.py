@@ -2,12 +2,12 @@
 second methods. Figures printed are in data/validation/estupinan_hermetic.csv."""
 
 import csv
-import tomllib
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from machine_files import values_of
 from pydantic import ValidationError
 from scipy.integrate import solve_ivp
 from support import ROOT
@@ -30,7 +30,6 @@ from vibroacoustics.mechanisms.hermetic.results import (
 )
 from vibroacoustics.mechanisms.hermetic.shaft import rotor_matrices
 from vibroacoustics.parameters.hermetic import HermeticCompressor
-from vibroacoustics.units import si_key
 
 MACHINE_FILE = ROOT / "data" / "machines" / "estupinan_hermetic.toml"
 PRINTED_FILE = ROOT / "data" / "validation" / "estupinan_hermetic.csv"
@@ -39,24 +38,9 @@ CASES = ("I", "II", "III")
 STEPS = {"I": 360, "II": 360, "III": 180}
 
 
-def _si(table):
-    """Values of a machine file in SI."""
-    values = {}
-    for key, entry in table.items():
-        if isinstance(entry, dict) and "value" not in entry:
-            values[key] = _si(entry)
-        elif isinstance(entry, list):
-            values[key] = tuple(entry)
-        else:
-            name, factor = si_key(key)
-            number = entry["value"] if isinstance(entry, dict) else entry
-            values[name] = number if isinstance(number, str) else factor * number
-    return values
-
-
 @pytest.fixture(scope="module")
 def parameters():
-    return _si(tomllib.loads(MACHINE_FILE.read_text(encoding="utf-8")))
+    return values_of(MACHINE_FILE)
 
 
 @pytest.fixture(scope="module")
@@ -287,7 +271,7 @@ def test_case_1_by_the_papers_matrix_of_constraint_forces(machine, cycles, at):
 @given(five, five, five, st.floats(0.0, 300.0))
 def test_forces_by_lagrange_multipliers(place, rates, second, gas):
     """Rod and piston with coordinates x_B and α; the two closures' multipliers are f_A."""
-    parameters = _si(tomllib.loads(MACHINE_FILE.read_text(encoding="utf-8")))
+    parameters = values_of(MACHINE_FILE)
     machine = HermeticCompressor(**parameters)
     scale = np.array([1e-5, 1e-5, 0.02, 0.02, 3.0])
     place, rates, second = place * scale, 300.0 * rates * scale, 9e4 * second * scale

@@ -18,7 +18,7 @@ from vibroacoustics.mechanisms.crankshaft import (
     uniform_crank_angle,
 )
 from vibroacoustics.mechanisms.reciprocating.cycle import efficiency_map, optimum_bore, steady_cycle
-from vibroacoustics.mechanisms.reciprocating.cylinder_gas import (
+from vibroacoustics.mechanisms.reciprocating.gas import (
     compression_work_j,
     cylinder_pressure,
 )

@@ -2,19 +2,20 @@
 method with Lagrange multipliers."""
 
 import csv
+import tomllib
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from machine_files import machine_of
 from pydantic import ValidationError
 from scipy.integrate import quad, solve_ivp
 from support import ROOT
 
 from vibroacoustics.constants import STANDARD_GRAVITY_M_PER_S2
 from vibroacoustics.errors import ParameterError, SolverError
-from vibroacoustics.loading import _read_toml, _Reader
 from vibroacoustics.mechanisms.slider_link.bearing_friction import (
     eccentricity_ratio,
     journal_friction_moment,
@@ -52,7 +53,6 @@ from vibroacoustics.mechanisms.slider_link.unbalance import (
 from vibroacoustics.orders import order_spectrum
 from vibroacoustics.parameters.slider_link import JournalBearing, SliderLinkMachine
 from vibroacoustics.transfer import Bushing, Isolation, RigidBody
-from vibroacoustics.validation import validated
 
 MACHINE_FILE = ROOT / "data" / "machines" / "dagilis_slider_link.toml"
 VALIDATION_FILE = ROOT / "data" / "validation" / "dagilis_slider_link.csv"
@@ -63,7 +63,7 @@ ROUNDING = 1e-11
 
 def read(**change) -> SliderLinkMachine:
     """The machine of the file with changed values: section__key = value in the file's unit."""
-    content = _read_toml(MACHINE_FILE)
+    content = tomllib.loads(MACHINE_FILE.read_text("utf-8"))
     for key, value in change.items():
         *tables, name = key.split("__")
         table = content
@@ -73,8 +73,7 @@ def read(**change) -> SliderLinkMachine:
             table[name] = {"value": value, "source": "test"}
         else:
             table[name] = value
-    reader = _Reader(MACHINE_FILE, {}, sources_required=True)
-    return validated(SliderLinkMachine, reader.to_si(content, ()), reader)
+    return machine_of(content, MACHINE_FILE, SliderLinkMachine)
 
 
 def printed() -> dict[str, float]:
@@ -653,7 +652,7 @@ def test_pressure_is_continuous_and_the_valves_open_in_time(machine):
     suction, discharge = valve_angles(machine.gas)
     assert 0.0 < suction < np.pi < discharge < 2.0 * np.pi
     near = np.array([suction, discharge, np.pi]) + np.array([[-1e-9], [1e-9]])
-    pressure = cylinder_pressure(machine.mechanism, machine.gas, near)
+    pressure = cylinder_pressure(machine.gas, near)
     low, high = machine.gas.suction_pressure_pa, machine.gas.discharge_pressure_pa
     np.testing.assert_allclose(pressure, [[low, high, low]] * 2, rtol=1e-7)
 

@@ -5,6 +5,7 @@ from scipy.optimize import brentq
 
 from ...moving_parts import Array
 from ...parameters.hermetic import HermeticCompressor
+from ..cylinder_gas import IdealValveCycle
 
 
 def piston_area_m2(machine: HermeticCompressor) -> float:
@@ -12,12 +13,12 @@ def piston_area_m2(machine: HermeticCompressor) -> float:
     return 0.25 * np.pi * machine.piston.diameter_m**2
 
 
-def volume_ratio(machine: HermeticCompressor, crank_angle: Array) -> Array:
-    """Cylinder volume over clearance volume; top dead centre is θ = 0 by Estupiñan eq. 1."""
+def fill(machine: HermeticCompressor, crank_angle: Array) -> Array:
+    """Cylinder volume over displaced volume; top dead centre is θ = 0 by Estupiñan eq. 1."""
     radius, length = machine.crank.radius_m, machine.rod.length_m
     place = radius * np.cos(crank_angle) + np.sqrt(length**2 - (radius * np.sin(crank_angle)) ** 2)
     lift = (radius + length - place) / (2.0 * radius)
-    return np.asarray(1.0 + lift / machine.gas.clearance_ratio)
+    return np.asarray(machine.gas.clearance_ratio + lift)
 
 
 def gas_force_n(machine: HermeticCompressor, crank_angle: Array) -> Array:
@@ -30,27 +31,29 @@ def gas_force_n(machine: HermeticCompressor, crank_angle: Array) -> Array:
     machine : pressures in Pa, polytropic exponent
     crank_angle : θ, rad; the gas expands for 0 < θ < π
     """
-    gas = machine.gas
-    ratio, exponent = volume_ratio(machine, crank_angle), gas.exponent_ratio
-    fullest = 1.0 + 1.0 / gas.clearance_ratio
-    expanding = np.maximum(gas.discharge_pressure_pa * ratio**-exponent, gas.suction_pressure_pa)
-    compressed = gas.suction_pressure_pa * (fullest / ratio) ** exponent
-    compressing = np.minimum(compressed, gas.discharge_pressure_pa)
-    pressure = np.where(np.sin(crank_angle) > 0.0, expanding, compressing)
-    return np.asarray((pressure - gas.suction_pressure_pa) * piston_area_m2(machine))
+    pressure = _cycle(machine).pressure_pa(fill(machine, crank_angle), crank_angle)
+    return np.asarray((pressure - machine.gas.suction_pressure_pa) * piston_area_m2(machine))
 
 
 def valve_angles(machine: HermeticCompressor) -> tuple[float, float]:
     """Crank angles at which the suction and the discharge valve open, rad: kinks of the force."""
+    cycle = _cycle(machine)
+    suction = _angle_of(machine, cycle.fill_at_suction)
+    return suction, 2.0 * np.pi - _angle_of(machine, cycle.fill_at_discharge)
+
+
+def _cycle(machine: HermeticCompressor) -> IdealValveCycle:
     gas = machine.gas
-    expansion = (gas.discharge_pressure_pa / gas.suction_pressure_pa) ** (1.0 / gas.exponent_ratio)
-    fullest = 1.0 + 1.0 / gas.clearance_ratio
-    suction = _angle_of(machine, expansion)
-    return suction, 2.0 * np.pi - _angle_of(machine, fullest / expansion)
+    return IdealValveCycle(
+        gas.suction_pressure_pa,
+        gas.discharge_pressure_pa,
+        gas.exponent_ratio,
+        gas.clearance_ratio,
+    )
 
 
-def _angle_of(machine: HermeticCompressor, ratio: float) -> float:
-    """Crank angle of the outward stroke at a volume ratio."""
+def _angle_of(machine: HermeticCompressor, reached: float) -> float:
+    """Crank angle of the outward stroke at a volume over displaced volume."""
     return float(
-        brentq(lambda angle: volume_ratio(machine, np.array(angle)) - ratio, 0.0, np.pi, xtol=1e-14)
+        brentq(lambda angle: fill(machine, np.array(angle)) - reached, 0.0, np.pi, xtol=1e-14)
     )

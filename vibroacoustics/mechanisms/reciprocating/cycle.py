@@ -12,7 +12,7 @@ from ...moving_parts import Array
 from ...parameters.reciprocating import ReciprocatingMachine, SlidingPairs
 from ...units import shaft_frequency_hz
 from ..crankshaft import Rotation, reduced_inertia, steady_rotation, uniform_crank_angle
-from .cylinder_gas import cylinder_pressure
+from .gas import cylinder_pressure
 from .slider_crank import (
     Motion,
     SliderCrank,

@@ -4,29 +4,21 @@ import numpy as np
 
 from ...moving_parts import Array
 from ...parameters.slider_link import CylinderGas, SliderLink
+from ..cylinder_gas import IdealValveCycle
 
 
-def cylinder_pressure(mechanism: SliderLink, gas: CylinderGas, angle: Array) -> Array:
+def cylinder_pressure(gas: CylinderGas, angle: Array) -> Array:
     """Pressure in the cylinder, Pa: polytropic, ideal valves.
 
     Stands in for the valve model of the paper's reference [1], which it does not print.
 
     Parameters
     ----------
-    mechanism : lengths in m
     gas : pressures in Pa
     angle : crank angle, rad
     """
-    turn = np.mod(angle, 2.0 * np.pi)
-    fill = gas.clearance_ratio + 0.5 * (1.0 - np.cos(turn))  # volume per displacement
-    full = 1.0 + gas.clearance_ratio
-    expansion = gas.discharge_pressure_pa * (gas.clearance_ratio / fill) ** gas.exponent_ratio
-    compression = gas.suction_pressure_pa * (full / fill) ** gas.exponent_ratio
-    return np.where(
-        turn < np.pi,
-        np.maximum(expansion, gas.suction_pressure_pa),
-        np.minimum(compression, gas.discharge_pressure_pa),
-    )
+    fill = gas.clearance_ratio + 0.5 * (1.0 - np.cos(angle))
+    return _cycle(gas).pressure_pa(fill, angle)
 
 
 def valve_angles(gas: CylinderGas) -> tuple[float, float]:
@@ -36,10 +28,9 @@ def valve_angles(gas: CylinderGas) -> tuple[float, float]:
     ----------
     gas : pressures in Pa
     """
-    ratio = (gas.discharge_pressure_pa / gas.suction_pressure_pa) ** (1.0 / gas.exponent_ratio)
-    clearance = gas.clearance_ratio
-    suction = np.arccos(1.0 - 2.0 * clearance * (ratio - 1.0))
-    discharge = np.arccos(1.0 - 2.0 * ((1.0 + clearance) / ratio - clearance))
+    cycle, clearance = _cycle(gas), gas.clearance_ratio
+    suction = np.arccos(1.0 - 2.0 * (cycle.fill_at_suction - clearance))
+    discharge = np.arccos(1.0 - 2.0 * (cycle.fill_at_discharge - clearance))
     return float(suction), float(2.0 * np.pi - discharge)
 
 
@@ -53,4 +44,13 @@ def gas_force(mechanism: SliderLink, gas: CylinderGas, angle: Array) -> Array:
     angle : crank angle, rad
     """
     area = np.pi / 4.0 * mechanism.bore_m**2
-    return np.asarray((cylinder_pressure(mechanism, gas, angle) - gas.suction_pressure_pa) * area)
+    return np.asarray((cylinder_pressure(gas, angle) - gas.suction_pressure_pa) * area)
+
+
+def _cycle(gas: CylinderGas) -> IdealValveCycle:
+    return IdealValveCycle(
+        gas.suction_pressure_pa,
+        gas.discharge_pressure_pa,
+        gas.exponent_ratio,
+        gas.clearance_ratio,
+    )

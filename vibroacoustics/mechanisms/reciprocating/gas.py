@@ -4,6 +4,7 @@ import numpy as np
 
 from ...moving_parts import Array
 from ...parameters.reciprocating import CylinderGas
+from ..cylinder_gas import IdealValveCycle
 
 
 def cylinder_pressure(crank_angle: Array, swept_m3: Array, gas: CylinderGas) -> Array:
@@ -19,18 +20,14 @@ def cylinder_pressure(crank_angle: Array, swept_m3: Array, gas: CylinderGas) -> 
     swept_m3 : volume that the piston has uncovered since top dead centre, shape (samples,), m³
     gas : pressures, polytropic index, clearance
     """
-    displaced = float(np.max(swept_m3))
-    clearance = gas.clearance_ratio * displaced
-    volume = swept_m3 + clearance
-    index = gas.polytropic_index
-    # Volume ratio at which one polytrope spans the two pressures.
-    span = (gas.discharge_pressure_pa / gas.suction_pressure_pa) ** (1.0 / index)
-    charge = displaced + clearance
-    compressed = gas.suction_pressure_pa * (charge / np.maximum(volume, charge / span)) ** index
-    # Without clearance nothing expands; the smallest number keeps 0/0 out at top dead centre.
-    left = span * clearance / np.maximum(volume, np.finfo(float).tiny)
-    expanded = gas.suction_pressure_pa * np.maximum(left, 1.0) ** index
-    return np.where(np.sin(crank_angle) > 0.0, expanded, compressed)
+    cycle = IdealValveCycle(
+        gas.suction_pressure_pa,
+        gas.discharge_pressure_pa,
+        gas.polytropic_index,
+        gas.clearance_ratio,
+    )
+    fill = swept_m3 / float(np.max(swept_m3)) + gas.clearance_ratio
+    return cycle.pressure_pa(fill, crank_angle)
 
 
 def compression_work_j(displaced_m3: float, gas: CylinderGas) -> float:

@@ -1,0 +1,45 @@
+"""Gas in the cylinder of any reciprocating compressor: polytropic, with ideal valves."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..moving_parts import Array
+
+
+class IdealValveCycle(NamedTuple):
+    """Polytropes between two pressures; valves open without loss."""
+
+    suction_pressure_pa: float
+    discharge_pressure_pa: float
+    exponent: float
+    clearance_ratio: float
+    """Clearance volume over displaced volume."""
+
+    @property
+    def span(self) -> float:
+        """Volume ratio at which one polytrope spans the two pressures."""
+        ratio = self.discharge_pressure_pa / self.suction_pressure_pa
+        return float(ratio ** (1.0 / self.exponent))
+
+    @property
+    def fill_at_suction(self) -> float:
+        """Volume over displaced volume where the expanding gas has come down to suction."""
+        return self.clearance_ratio * self.span
+
+    @property
+    def fill_at_discharge(self) -> float:
+        """Volume over displaced volume where the compressed charge has reached discharge."""
+        return (1.0 + self.clearance_ratio) / self.span
+
+    def pressure_pa(self, fill: Array, crank_angle: Array) -> Array:
+        """Pressure at a volume over displaced volume, clearance included.
+
+        Crank angle 0 is top dead centre: the clearance's gas expands from 0 to 180°, the charge is
+        compressed from 180° to 360°.
+        """
+        charge = (1.0 + self.clearance_ratio) / np.maximum(fill, self.fill_at_discharge)
+        # Without clearance nothing expands; the smallest number keeps 0/0 out at top dead centre.
+        left = self.fill_at_suction / np.maximum(fill, np.finfo(float).tiny)
+        volume_ratio = np.where(np.sin(crank_angle) > 0.0, np.maximum(left, 1.0), charge)
+        return np.asarray(self.suction_pressure_pa * volume_ratio**self.exponent)
