@@ -21,9 +21,9 @@ from .style import (
     wrap,
 )
 
-NEGLIGIBLE: Final = 1e-3
-"""Motions whose transfer stays below this share of the largest of its kind are not drawn: what
-symmetry forbids comes out of the grid at some 1e-4."""
+NEGLIGIBLE: Final = 1e-4
+"""Motions are not drawn whose largest transfer is below this share of the largest of their kind:
+what symmetry forbids comes out of the grid at some 1e-5."""
 
 _KINDS: Final = (("translations", "t", "Pa per m/s"), ("rotations", "r", "Pa per rad/s"))
 
@@ -110,8 +110,8 @@ def _transfer_panel(
     axes: Axes, simulated: xr.DataArray, closed: xr.DataArray | None, letter: str
 ) -> None:
     dofs = [dof for dof in map(str, simulated["dof"].values) if dof.startswith(letter)]
-    largest = simulated.sel(dof=dofs).max("dof")
-    radiating = [dof for dof in dofs if bool((simulated.sel(dof=dof) > NEGLIGIBLE * largest).any())]
+    largest = simulated.sel(dof=dofs).max("frequency")
+    radiating = [dof for dof in dofs if largest.sel(dof=dof) > NEGLIGIBLE * largest.max()]
     colours = dict(zip(dofs, (COLOURS[3], COLOURS[1], COLOURS[5]), strict=True))
     for dof, dash in zip(radiating, ("-", "--", "-."), strict=False):
         curve = simulated.sel(dof=dof)
