@@ -95,7 +95,7 @@ class NearField:
         return cut_cells(self._body, self.grid)
 
     def wall_fluxes(self, patterns: Sequence[Pattern]) -> Array:
-        """What each pattern pushes into the wall cells, (pattern, wall); see `wall_flux.wall_fluxes`.
+        """What each pattern pushes into the wall cells, (pattern, wall); see `wall_flux.py`.
 
         The surface's points that stand on a wall of the room move nothing.
         """
