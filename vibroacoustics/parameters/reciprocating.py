@@ -5,7 +5,8 @@ from typing import Literal
 from pydantic import Field, model_validator
 
 from .base import Parameters
-from .machine import Erratum
+from .machine import CommonMachine
+from .oscillation import HEIGHT, BalancePlanes, CrankFrame, Oscillation
 
 LENGTH = Field(gt=0.0, le=10.0)
 MASS = Field(gt=0.0, le=1e4)
@@ -79,11 +80,38 @@ class CylinderGas(Parameters):
         return self
 
 
-class ReciprocatingMachine(Parameters):
-    name: str = Field(min_length=1)
+class ReciprocatingMachine(CommonMachine):
+    """The cylinder stands upright, the shaft lies along y under the centre of mass."""
+
     kind: Literal["reciprocating"]
     piston_and_rod: PistonAndRod
     crankshaft: Crankshaft
     sliding_pairs: SlidingPairs
     gas: CylinderGas
-    errata: tuple[Erratum, ...] = ()
+    crankshaft_height_m: float = HEIGHT
+    """Of the shaft's axis from the centre of mass at rest."""
+    counterweights: BalancePlanes
+    """Where weights can sit on the crank; heights along the shaft from the cylinder's axis."""
+
+    @property
+    def crank_frame(self) -> CrankFrame:
+        """Stroke along z, shaft along y."""
+        return CrankFrame(
+            stroke=(0.0, 0.0, 1.0),
+            across=(1.0, 0.0, 0.0),
+            shaft=(0.0, 1.0, 0.0),
+            origin_m=(0.0, 0.0, self.crankshaft_height_m),
+        )
+
+    @property
+    def oscillation(self) -> Oscillation:
+        """Piston and the part of the rod that goes with it, by its two eyes."""
+        rod = self.piston_and_rod
+        share = rod.rod_mass_kg * rod.big_end_to_centre_m / rod.rod_length_m
+        return Oscillation(
+            rod.piston_mass_kg + share,
+            rod.crank_to_rod_ratio * rod.rod_length_m,
+            0.0,
+            self.counterweights,
+            self.crank_frame,
+        )

@@ -88,7 +88,7 @@ def _sources(results: xr.Dataset) -> dict[str, Any]:
         "records": assumptions.records_table(results),
         "assumed_count": assumptions.assumed_count(results),
         "remainder": assumptions.remainder_sentence(results),
-        "not_modelled": assumptions.NOT_MODELLED,
+        "not_modelled": assumptions.not_modelled(results),
         "structure_borne": assumptions.structure_borne_sentence(results),
         "errata": assumptions.errata_table(results),
         "provenance": provenance.provenance_table(results),

@@ -188,4 +188,4 @@ def _write_total(value_dba: float) -> str:
 
 
 def _published(results: xr.Dataset) -> float:
-    return float(parameters(results)["machine"]["published_noise"]["level_dba"])
+    return float(parameters(results)["machine"]["overall_noise"]["level_dba"])

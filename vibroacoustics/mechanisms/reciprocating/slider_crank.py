@@ -5,9 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import ParameterError
-from ...moving_parts import Array, MovingPart, path
+from ...moving_parts import Array, MovingPart, Wrench, path
 from ...parameters.reciprocating import PistonAndRod
-from ..crankshaft import HousingWrench, Rotation, acceleration_of
+from ...rotation import Rotation
+from ..crankshaft import acceleration_of, planar
 
 
 @dataclass(frozen=True)
@@ -163,9 +164,9 @@ def slider_crank_parts(crank: SliderCrank, moved: Motion) -> tuple[MovingPart, .
     )
 
 
-def housing_wrench(
+def housing_wrenches(
     crank: SliderCrank, moved: Motion, rotation: Rotation, crankshaft_inertia_kg_m2: float
-) -> HousingWrench:
+) -> dict[str, Wrench]:
     """-Σ m a and -d/dt of the angular momentum about the crankshaft's axis, by source.
 
     The crankshaft is balanced and makes a moment only. A growing φ turns the rod against the
@@ -173,15 +174,10 @@ def housing_wrench(
     """
     piston, rod_x, rod_y, turn = rates_of_momentum(crank, moved, rotation)
     zero = np.zeros_like(piston)
-    return HousingWrench(
-        force_n={
-            "piston": -np.stack([piston, zero]),
-            "connecting_rod": -np.stack([rod_x, rod_y]),
-            "crankshaft": np.stack([zero, zero]),
-        },
-        roll_moment_n_m={
-            "piston": zero,
-            "connecting_rod": turn - moved.rod_x_m[0] * rod_y + moved.rod_y_m[0] * rod_x,
-            "crankshaft": -crankshaft_inertia_kg_m2 * rotation.acceleration_rad_per_s2,
-        },
-    )
+    rod_moment = turn - moved.rod_x_m[0] * rod_y + moved.rod_y_m[0] * rod_x
+    shaft_moment = -crankshaft_inertia_kg_m2 * rotation.acceleration_rad_per_s2
+    return {
+        "piston": planar(-np.stack([piston, zero]), zero),
+        "connecting_rod": planar(-np.stack([rod_x, rod_y]), rod_moment),
+        "crankshaft": planar(np.stack([zero, zero]), shaft_moment),
+    }
