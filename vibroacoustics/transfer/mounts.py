@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Final
+from typing import ClassVar, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,7 +36,7 @@ class RigidBodyOnMounts:
     mounts: Mounts
     foot_height_m: float
 
-    bodies: Final[tuple[str, ...]] = ("machine",)
+    bodies: ClassVar[tuple[str, ...]] = ("machine",)
 
     @cached_property
     def foot_position(self) -> Real:

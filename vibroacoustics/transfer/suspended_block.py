@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Final
+from typing import ClassVar
 
 import numpy as np
 
@@ -37,7 +37,7 @@ class SuspendedBlock:
     suspension: Suspension
     foot_height_m: float
 
-    bodies: Final[tuple[str, ...]] = (SHELL, BLOCK)
+    bodies: ClassVar[tuple[str, ...]] = (SHELL, BLOCK)
 
     @cached_property
     def foot_position(self) -> Real:
