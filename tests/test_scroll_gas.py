@@ -134,6 +134,16 @@ def test_geometry_is_the_published_one():
         assert found[name] == pytest.approx(value, rel=1.5e-4, abs=rounding), name
 
 
+@pytest.mark.parametrize("wraps", [WRAPS, OTHER_WRAPS])
+def test_displacement_and_volume_ratio_are_those_of_a_scroll_library(wraps):
+    """PDSim (I. Bell), scroll/core.py, `Vdisp` and `Vratio` of flanks that begin at -a and a."""
+    span = 2.0 * wraps.end_angle_rad - 3.0 * np.pi
+    area = 2.0 * np.pi * wraps.base_radius_m * wraps.orbit_radius_m
+    assert displacement_m3(wraps) == pytest.approx(area * wraps.height_m * span, rel=1e-14)
+    ratio = span / (2.0 * wraps.start_angle_rad + 3.0 * np.pi)
+    assert built_in_volume_ratio(wraps) == pytest.approx(ratio, rel=1e-14)
+
+
 def test_thesis_names_the_closing_and_the_opening():
     """Section 6.1: four pockets from about 90° to 210°, in steps of 8°."""
     opening = np.degrees(WRAPS.closing_crank_angle_rad + WRAPS.opening_angle_rad) % 360.0
@@ -309,7 +319,7 @@ def appendix_a():
 
 
 def test_appendix_a_as_printed(appendix_a):
-    """Against the program itself, run by GNU Octave 8 on the printed text, in bar m."""
+    """Against the program itself, run by GNU Octave 7.3 on the printed text, in bar m."""
     printed = published("appendix A")
     crank_angle, force = appendix_a
     size = np.hypot(*force)

@@ -12,10 +12,10 @@ from .pressures import pocket_pressure
 
 @dataclass(frozen=True)
 class ScrollGasCycle:
-    """Gas forces over crank angle; each acts on the orbiting scroll and, opposite, on the fixed.
+    """Gas forces over crank angle, on the orbiting scroll and, equal and opposite, on the fixed.
 
-    All three share one line of action each, through the point half way between the axes of the
-    two scrolls: the pockets come in pairs that lie opposite about it.
+    Each acts along one line through the point half way between the axes of the two scrolls, as
+    the pockets come in pairs that lie opposite about it.
 
     Attributes
     ----------

@@ -30,8 +30,8 @@ def contact_count(wraps: ScrollWraps) -> int:
 def pocket_volume(wraps: ScrollWraps, angle_since_closing: Array) -> Array:
     """Volume of one pocket, V = 2π r_b r_o h t with the mean t of its two contacts, m³.
 
-    Bell et al. 2010, "Update on scroll compressor chamber geometry", Purdue paper 2033: the
-    volume of a compression chamber is linear in the crank angle.
+    Linear in the crank angle; displacement and volume ratio are those of Bell's PDSim
+    (`Scroll.Vdisp`, `Scroll.Vratio`).
 
     Parameters
     ----------
