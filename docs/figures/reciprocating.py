@@ -41,11 +41,11 @@ def main() -> None:
     )
     words = {
         (8, 40): "θ",
-        (5, piston - 105): "φ",
-        (20, 8): "r",
+        (-24, piston - 100): "φ",
+        (34, 4): "r",
         (pin[0] * 0.5 + 12, 0.5 * (pin[1] + piston)): "l",
-        (-bore / 2 + 8, piston + 62): "gas force P",
-        (bore / 2 + 8, piston): "piston, pin T",
+        (10, piston + 62): "P",
+        (bore / 2 + 8, piston): "piston, gas force P,\npin force T",
         (pin[0] + 12, pin[1] - 6): "crank pin S",
         (-88, -22): "journal Q",
         (bore / 2 + 8, 390): "cylinder wall:\nfriction f, force T_y",

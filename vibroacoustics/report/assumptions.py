@@ -40,6 +40,11 @@ NOT_MODELLED_OF_KIND: Final = {
         "The shaft turns at constant speed; torque ripple, twice-line torque of the motor and key "
         "slap are not modelled.",
     ),
+    "reciprocating": (
+        "One cylinder stands for the machine. The crankshaft is balanced about its axis, the big "
+        "end of the rod is not; the paper gives no counterweight. Lanchester's weights are in "
+        "the plane of the cylinder's axis, without the moment of their gears.",
+    ),
 }
 """What each kind of machine leaves out besides."""
 
