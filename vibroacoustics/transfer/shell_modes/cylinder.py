@@ -16,8 +16,9 @@ def fluegge_matrix(
 ) -> Real:
     """Stiffness of Flügge's shell theory for u, v, w, dimensionless, shape (3, 3).
 
-    Leissa (1973) eqs. 2.7, 2.9d and 2.35: u = A cos λs cos nθ, v = B sin λs sin nθ,
-    w = C sin λs cos nθ, s in radii. Its eigenvalues are Ω² = ρ (1 - ν²) R² ω² / E.
+    Leissa (1973), section 2.1: the operator of Donnell and Mushtari plus k times Flügge's, for
+    u = A cos λs cos nθ, v = B sin λs sin nθ, w = C sin λs cos nθ with s in radii. The eigenvalues
+    are Ω² = ρ (1 - ν²) R² ω² / E.
 
     Parameters
     ----------
@@ -35,13 +36,13 @@ def fluegge_matrix(
         ]
     )
     upper = np.triu(change, 1)
-    return donnell_matrix(n, wave, k, poisson) + k * (change + upper.T)
+    return np.asarray(donnell_matrix(n, wave, k, poisson) + k * (change + upper.T))
 
 
 def donnell_matrix(
     circumferential_order: int, axial_wave_number: float, thickness_ratio: float, poisson: float
 ) -> Real:
-    """As `fluegge_matrix`, of Donnell's and Mushtari's theory, Leissa (1973) eq. 2.7.
+    """As `fluegge_matrix`, of Donnell's and Mushtari's theory, Leissa (1973), section 2.1.
 
     It leaves out what bends a nearly straight wall: frequencies of low n come out too high.
 

@@ -20,6 +20,18 @@ _INNER: Final = 4
 """Further amplitudes of an element: two of u, two of v."""
 
 
+Polynomials = tuple[tuple[float, ...], ...]
+_LINEAR: Final[Polynomials] = ((0.5, -0.5), (0.5, 0.5))
+_BUBBLES: Final[Polynomials] = ((1.0, 0.0, -1.0), (0.0, 1.0, 0.0, -1.0))
+_HERMITE: Final[Polynomials] = (
+    (0.5, -0.75, 0.0, 0.25),
+    (0.25, -0.25, -0.25, 0.25),
+    (0.5, 0.75, 0.0, -0.25),
+    (-0.25, -0.25, 0.25, 0.25),
+)
+"""Value and slope at -1, value and slope at 1."""
+
+
 class Shapes(NamedTuple):
     """u, v, w or one of their derivatives in s per amplitude, each (point, 12)."""
 
@@ -53,32 +65,25 @@ def shapes(meridian: Meridian, element: Index, place: Real, derivative: int = 0)
     """
     half = 0.5 * meridian.lengths[element]
     scale = half[:, None] ** -derivative
-    linear = _polynomials([[0.5, -0.5], [0.5, 0.5]], place, derivative) * scale
-    inner = _polynomials([[1.0, 0.0, -1.0], [0.0, 1.0, 0.0, -1.0]], place, derivative) * scale
-    hermite = scale * _polynomials(
-        [[0.5, -0.75, 0, 0.25], [0.25, -0.25, -0.25, 0.25],
-         [0.5, 0.75, 0, -0.25], [-0.25, -0.25, 0.25, 0.25]], place, derivative
-    )  # fmt: skip
+    linear, inner, hermite = (
+        scale * _polynomials(coefficients, place, derivative)
+        for coefficients in (_LINEAR, _BUBBLES, _HERMITE)
+    )
     hermite[:, 1::2] *= -half[:, None]  # w' = -β
     radial, axial = meridian.tangents[element].T
     along, around, normal = (np.zeros((place.size, 12)) for _ in range(3))
-    for end in (0, 1):
-        node = end * NODE_FREEDOMS
-        along[:, node + RADIAL], along[:, node + AXIAL] = (
-            linear[:, end] * radial,
-            linear[:, end] * axial,
-        )
+    for end, node in enumerate((0, NODE_FREEDOMS)):
+        along[:, node + RADIAL] = linear[:, end] * radial
+        along[:, node + AXIAL] = linear[:, end] * axial
         around[:, node + CIRCUMFERENTIAL] = linear[:, end]
-        normal[:, node + RADIAL], normal[:, node + AXIAL] = (
-            hermite[:, 2 * end] * axial,
-            -hermite[:, 2 * end] * radial,
-        )
+        normal[:, node + RADIAL] = hermite[:, 2 * end] * axial
+        normal[:, node + AXIAL] = -hermite[:, 2 * end] * radial
         normal[:, node + ROTATION] = hermite[:, 2 * end + 1]
     along[:, 8:10], around[:, 10:12] = inner, inner
     return Shapes(along, around, normal)
 
 
-def _polynomials(coefficients: list[list[float]], place: Real, derivative: int) -> Real:
+def _polynomials(coefficients: Polynomials, place: Real, derivative: int) -> Real:
     """Derivatives in the element's coordinate of polynomials, shape (point, polynomial)."""
     series = [np.polynomial.Polynomial(c).deriv(derivative) for c in coefficients]
     return np.stack([polynomial(place) for polynomial in series], axis=1)
@@ -135,9 +140,8 @@ def matrices(meridian: Meridian, structure: ShellStructure, order: int) -> tuple
     structure : thickness and material
     order : circumferential order n
     """
-    place, weight = np.polynomial.legendre.leggauss(_GAUSS)
+    place, weight = np.tile(np.polynomial.legendre.leggauss(_GAUSS), meridian.elements)
     element = np.repeat(np.arange(meridian.elements), _GAUSS)
-    place, weight = np.tile(place, meridian.elements), np.tile(weight, meridian.elements)
     around = 2.0 * np.pi if order == 0 else np.pi
     area = around * weight * 0.5 * meridian.lengths[element] * _radius(meridian, element, place)
     strain = strains(meridian, element, place, order)
@@ -157,9 +161,11 @@ def _radius(meridian: Meridian, element: Index, place: Real) -> Real:
 def _elasticity(structure: ShellStructure) -> Real:
     """Forces and moments per unit length per strain and change of curvature, shape (6, 6)."""
     thickness, poisson = structure.thickness_m, structure.poisson_ratio
-    plane = np.array([[1.0, poisson, 0.0], [poisson, 1.0, 0.0], [0.0, 0.0, (1.0 - poisson) / 2.0]])
-    plane *= structure.youngs_modulus_pa * thickness / (1.0 - poisson**2)
-    return np.kron(np.diag([1.0, thickness**2 / 12.0]), plane)
+    plane: Real = np.array(
+        [[1.0, poisson, 0.0], [poisson, 1.0, 0.0], [0.0, 0.0, (1.0 - poisson) / 2.0]]
+    )
+    stretching = structure.youngs_modulus_pa * thickness / (1.0 - poisson**2)
+    return np.asarray(stretching * np.kron(np.diag([1.0, thickness**2 / 12.0]), plane))
 
 
 def _assembled(meridian: Meridian, at_points: Real) -> Real:

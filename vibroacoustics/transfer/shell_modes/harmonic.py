@@ -2,9 +2,11 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, Final
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve, eigh
+from scipy.sparse import identity
 
 from ...parameters.shell_structure import ShellStructure
 from .elements import (
@@ -16,7 +18,7 @@ from .elements import (
     freedom_count,
     matrices,
 )
-from .meridian import Meridian, Real
+from .meridian import Index, Meridian, Real
 
 
 @dataclass(frozen=True)
@@ -28,33 +30,38 @@ class Harmonic:
     order: int
 
     @cached_property
-    def reduction(self) -> Real:
-        """All amplitudes from the free ones, shape (freedom, free).
+    def kept(self) -> Index:
+        """Amplitudes that are free to move.
 
         On the axis the displacement has one value from all sides. Where the section is kept
         round, the orders from 2 up neither move it outwards nor around.
         """
-        count, last = freedom_count(self.meridian), NODE_FREEDOMS * self.meridian.elements
-        whole = np.eye(count)
-        tips = [first for first, at in ((0, 0), (last, -1)) if self.meridian.nodes[at, 0] == 0.0]
-        held = [tip + freedom for tip in tips for freedom in _ON_AXIS.get(self.order, range(4))]
-        if self.order == 1:
-            for tip in tips:  # u_r cos θ and v sin θ with v = -u_r are a translation
-                whole[tip + CIRCUMFERENTIAL, tip + RADIAL] = -1.0
+        held = [tip + freedom for tip in self._tips for freedom in _ON_AXIS.get(self.order, _ALL)]
         if self.order >= 2:
             rings = [NODE_FREEDOMS * node for node in self.meridian.round_nodes]
             held += [ring + freedom for ring in rings for freedom in (RADIAL, CIRCUMFERENTIAL)]
-        return np.delete(whole, held, axis=1)
+        return np.setdiff1d(np.arange(freedom_count(self.meridian)), held)
 
     @cached_property
-    def full_matrices(self) -> tuple[Real, Real]:
-        """Stiffness and mass of all amplitudes."""
-        return matrices(self.meridian, self.structure, self.order)
+    def reduction(self) -> Any:
+        """All amplitudes from the free ones, sparse (freedom, free)."""
+        whole = identity(freedom_count(self.meridian), format="lil")
+        if self.order == 1:
+            for tip in self._tips:  # u_r cos θ and v sin θ with v = -u_r are a translation
+                whole[tip + CIRCUMFERENTIAL, tip + RADIAL] = -1.0
+        return whole.tocsc()[:, self.kept]
+
+    @property
+    def _tips(self) -> list[int]:
+        """First freedoms of the nodes on the axis."""
+        ends = (0, self.meridian.elements)
+        return [NODE_FREEDOMS * end for end in ends if self.meridian.nodes[end, 0] == 0.0]
 
     @cached_property
     def free_matrices(self) -> tuple[Real, Real]:
         """Stiffness and mass of the free amplitudes."""
-        stiffness, mass = (self.reduction.T @ m @ self.reduction for m in self.full_matrices)
+        whole = matrices(self.meridian, self.structure, self.order)
+        stiffness, mass = (self.reduction.T @ matrix @ self.reduction for matrix in whole)
         return stiffness, mass
 
     @cached_property
@@ -75,7 +82,7 @@ class Harmonic:
             nodes[CIRCUMFERENTIAL::NODE_FREEDOMS] = -nodes[RADIAL::NODE_FREEDOMS]
             nodes[AXIAL::NODE_FREEDOMS, 1] = -radius
             nodes[ROTATION::NODE_FREEDOMS, 1] = -1.0
-        free = np.linalg.lstsq(self.reduction, motions, rcond=None)[0]
+        free = motions[self.kept]
         gram = free.T @ self.free_matrices[1] @ free
         return np.asarray(np.linalg.solve(np.linalg.cholesky(gram), free.T).T)
 
@@ -117,7 +124,8 @@ class Harmonic:
         return np.asarray(stiffness + shift * momentum @ momentum.T)
 
 
-_ON_AXIS = {
+_ALL: Final = (RADIAL, AXIAL, CIRCUMFERENTIAL, ROTATION)
+_ON_AXIS: Final = {
     0: (RADIAL, CIRCUMFERENTIAL, ROTATION),
     1: (AXIAL, CIRCUMFERENTIAL),
 }

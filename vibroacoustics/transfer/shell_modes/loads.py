@@ -4,20 +4,19 @@ from dataclasses import dataclass
 from typing import Final, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...errors import ParameterError
 from ...parameters.shell_structure import Joint
 from .elements import displacement_shapes, element_freedoms, freedom_count
-from .meridian import Meridian, Real
+from .meridian import Index, Meridian, Real
 from .modes import Around
-
-Complex = NDArray[np.complex128]
 
 JOINT_LOADS: Final = ("fx", "fy", "fz", "mz")
 """Unit forces along x, y, z and unit moment about z of an internal part on its joint."""
 _BAND_POINTS: Final = 8
 """Heights over which the band of a joint is averaged, Gauss points."""
+_SPREAD_POINTS: Final = 32
+"""Angles over a weld, Gauss points; exact to rounding for cos nθ with n times its angle below 45."""
 
 
 class Load(Protocol):
@@ -52,7 +51,10 @@ class PointForces:
                 (y * cosine - x * sine) * around.around(angle),
             ]
         )
-        return _on_amplitudes(meridian, place, parts[:, :, None] * np.eye(angle.size))
+        freedoms, weights = _interpolation(meridian, place)
+        total = np.zeros((freedom_count(meridian), angle.size))
+        total[freedoms.T, np.arange(angle.size)] = np.einsum("pia,ip->ap", weights, parts)
+        return total
 
 
 @dataclass(frozen=True)
@@ -74,7 +76,10 @@ class JointLoads:
         place = np.stack([np.full(heights.size, meridian.wall_radius_m), heights], axis=1)
         parts = self._mean_parts(around)
         parts[:, 3] /= meridian.wall_radius_m
-        return _on_amplitudes(meridian, place, parts[:, None, :] * weights[:, None])
+        freedoms, shapes = _interpolation(meridian, place)
+        total = np.zeros((freedom_count(meridian), len(JOINT_LOADS)))
+        np.add.at(total, freedoms, np.einsum("p,pia,il->pal", weights, shapes, parts))
+        return total
 
     def _heights(self, meridian: Meridian) -> tuple[Real, Real]:
         low, high = meridian.wall_heights_m
@@ -84,10 +89,7 @@ class JointLoads:
                 f"joint: height_mm = {1e3 * middle:g} mm with band_mm = {1e3 * band:g} mm: the "
                 f"wall reaches from {1e3 * low:.4g} to {1e3 * high:.4g} mm"
             )
-        if band == 0.0:
-            return np.array([middle]), np.ones(1)
-        place, weight = np.polynomial.legendre.leggauss(_BAND_POINTS)
-        return middle + band / 2.0 * place, weight / 2.0
+        return _mean_points(middle, band, _BAND_POINTS)
 
     def _mean_parts(self, around: Around) -> Real:
         """Means over the welds of the radial, axial and circumferential part, shape (3, load).
@@ -120,11 +122,39 @@ class JointLoads:
         return complex(np.exp(1j * order * joint.first_angle_rad) * spread)
 
 
-def _on_amplitudes(meridian: Meridian, place: Real, parts: Real) -> Real:
-    """Sum over places (point, 2) of radial, axial, circumferential parts (3, point, load)."""
+def _interpolation(meridian: Meridian, place: Real) -> tuple[Index, Real]:
+    """Freedoms (point, 12) that move places (point, 2), and by how much, (point, 3, 12)."""
     element, along = meridian.locate(place)
-    weights = displacement_shapes(meridian, element, along)
-    shares = np.einsum("pia,ipl->pal", weights, parts)
-    total = np.zeros((freedom_count(meridian), parts.shape[2]))
-    np.add.at(total, element_freedoms(meridian)[element], shares)
-    return total
+    return element_freedoms(meridian)[element], displacement_shapes(meridian, element, along)
+
+
+def _mean_points(middle: float, width: float, count: int) -> tuple[Real, Real]:
+    """Places around a middle and their weights in the mean over a width."""
+    if width == 0.0:
+        return np.array([middle]), np.ones(1)
+    place, weight = np.polynomial.legendre.leggauss(count)
+    return middle + width / 2.0 * place, weight / 2.0
+
+
+def joint_forces(joint: Joint, radius_m: float) -> tuple[Real, Real]:
+    """The unit loads `JOINT_LOADS` as forces at points: for modes that are no `ShellMode`.
+
+    Parameters
+    ----------
+    joint : welds
+    radius_m : of the wall
+
+    Returns
+    -------
+    points, forces : shapes (point, 3), m, and (point, 3, load), N, and 1/m for the moment
+    """
+    spread, weight = _mean_points(0.0, joint.spread_rad, _SPREAD_POINTS)
+    welds = joint.first_angle_rad + 2.0 * np.pi * np.arange(joint.welds) / joint.welds
+    heights, share = _mean_points(joint.height_m, joint.band_m, _BAND_POINTS)
+    angle, height = (grid.ravel() for grid in np.meshgrid(np.add.outer(welds, spread), heights))
+    weights = np.multiply.outer(share, np.tile(weight / joint.welds, joint.welds)).ravel()
+    cosine, sine, zero = np.cos(angle), np.sin(angle), np.zeros_like(angle)
+    unit = np.broadcast_to(np.eye(3), (angle.size, 3, 3))
+    around = np.stack([-sine, cosine, zero], axis=1) / radius_m
+    forces = weights[:, None, None] * np.concatenate([unit, around[..., None]], axis=2)
+    return np.stack([radius_m * cosine, radius_m * sine, height], axis=1), forces

@@ -2,10 +2,12 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Final
+from itertools import pairwise
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from ...errors import ParameterError
 from ...parameters.shell import Shell
@@ -58,13 +60,24 @@ class Meridian:
         return float(wall.min()), float(wall.max())
 
     def locate(self, place: Real) -> tuple[Index, Real]:
-        """Element nearest to each place (point, 2) and the coordinate -1 to 1 along it."""
-        start, step = self.nodes[:-1], np.diff(self.nodes, axis=0)
-        share = np.einsum("pei,ei->pe", place[:, None] - start, step) / self.lengths**2
+        """Element next to each place (point, 2) near the surface, and -1 to 1 along it.
+
+        Of the two elements at the nearest node the closer one.
+        """
+        _, node = self._tree.query(place)
+        pairs = np.stack([np.maximum(node - 1, 0), np.minimum(node, self.elements - 1)])
+        ahead = place - self.nodes[pairs]
+        share = np.sum(ahead * self.tangents[pairs], axis=2) / self.lengths[pairs]
         share = np.clip(share, 0.0, 1.0)
-        distance = np.linalg.norm(place[:, None] - start - share[..., None] * step, axis=2)
-        nearest = np.argmin(distance, axis=1)
-        return nearest, 2.0 * share[np.arange(nearest.size), nearest] - 1.0
+        step = (share * self.lengths[pairs])[..., None] * self.tangents[pairs]
+        after = np.sum((ahead - step) ** 2, axis=2)
+        nearest = (after[1] < after[0]).astype(int)
+        which = np.arange(nearest.size)
+        return pairs[nearest, which], 2.0 * share[nearest, which] - 1.0
+
+    @cached_property
+    def _tree(self) -> Any:
+        return cKDTree(self.nodes)
 
 
 def bending_wavelength_m(structure: ShellStructure, frequency_hz: float) -> float:
@@ -133,7 +146,7 @@ def _divided(corners: Real, step: float) -> Real:
     """Coordinates from the first to the last corner, evenly divided between corners."""
     parts = [
         np.linspace(a, b, max(_LEAST_ELEMENTS, int(np.ceil((b - a) / step))) + 1)[1:]
-        for a, b in zip(corners[:-1], corners[1:], strict=True)
+        for a, b in pairwise(corners.tolist())
     ]
     return np.concatenate([corners[:1], *parts])
 

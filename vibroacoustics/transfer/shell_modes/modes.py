@@ -40,16 +40,16 @@ class Around(NamedTuple):
 
 @dataclass(frozen=True)
 class ShellMode:
-    """One natural mode; its amplitude is the displacement where the shell moves most.
+    """One natural mode; its amplitude is that of the node that moves most.
 
     Attributes
     ----------
     name : order around, number among the modes of that order, and orientation: `n2_1_cos`
     around : variation around the axis
     frequency_hz : natural frequency without loss
-    modal_mass_kg : kinetic energy is ½ modal mass (largest velocity)²
+    modal_mass_kg : kinetic energy is ½ modal mass (velocity amplitude)²
     meridian : nodes
-    shape : displacement of each freedom per unit of the largest one, shape (freedom,)
+    shape : displacement of each freedom per unit of the amplitude, shape (freedom,)
     """
 
     name: str
@@ -60,7 +60,7 @@ class ShellMode:
     shape: Real
 
     def velocity(self, points: Real) -> Real:
-        """Velocity vectors of surface points per unit of the largest velocity, shape (point, 3).
+        """Velocity vectors of surface points per unit of the mode's velocity, shape (point, 3).
 
         Parameters
         ----------
@@ -76,7 +76,9 @@ class ShellMode:
         radial, axial = self.around.radial(angle) * np.stack([radial, axial])
         around *= self.around.around(angle)
         cosine, sine = np.cos(angle), np.sin(angle)
-        return np.stack([radial * cosine - around * sine, radial * sine + around * cosine, axial], 1)
+        return np.stack(
+            [radial * cosine - around * sine, radial * sine + around * cosine, axial], 1
+        )
 
     def normal_velocity(self, points: Real, normals: Real) -> Real:
         """Velocity along unit normals (point, 3), shape (point,)."""
@@ -156,7 +158,9 @@ class ElasticShell:
 def _largest_displacement(meridian: Meridian, shapes: Real) -> Real:
     """Largest displacement over the nodes, with the sign of its largest part, shape (mode,)."""
     count = meridian.elements + 1
-    nodes = shapes[: NODE_FREEDOMS * count].reshape(count, NODE_FREEDOMS, shapes.shape[1])[:, :ROTATION]
+    nodes = shapes[: NODE_FREEDOMS * count].reshape(count, NODE_FREEDOMS, shapes.shape[1])[
+        :, :ROTATION
+    ]
     in_plane = np.linalg.norm(nodes[:, :2], axis=1).max(axis=0)
     size = np.maximum(in_plane, np.abs(nodes[:, 2]).max(axis=0))
     flat = nodes.reshape(3 * count, shapes.shape[1])
