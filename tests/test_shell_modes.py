@@ -204,7 +204,7 @@ def test_three_dimensional_elasticity_between_diaphragms(order):
     Kirchhoff's excess is at most that of the flat plate, since part of the energy is stretching;
     the theories themselves differ from each other by terms of (h/R) (h/R) n².
     """
-    strip = solid.open_cylinder(RADIUS, 0.38, 3.2e-3, 0.015)
+    strip = solid.open_cylinder(RADIUS, 0.38, 3.2e-3, 0.03)
     exact = solid.frequencies_hz(strip, order, 2.06e11, 0.3, 7850.0, 1, diaphragms=True)[0]
     fluegge = diaphragm_frequencies_hz(STEEL, RADIUS, 0.38, order, 1)[0]
     spread = (order * STEEL.thickness_m / RADIUS) ** 2
@@ -238,29 +238,32 @@ def test_clamped_disc(order):
 
 @pytest.mark.parametrize("order", range(7))
 def test_domed_shell_against_three_dimensional_elasticity(domed, order):
-    """Up to 4.5 kHz, caps included: what Kirchhoff leaves out, and h/R of shell theory itself."""
-    strip = solid.domed(0.0825, 0.417, 0.04, 3.2e-3, 0.012)
+    """Up to 4.5 kHz, caps included, within 1 %: what Kirchhoff's shell lacks.
+
+    The dome's straight pieces, doubled in number, change a frequency by 1.2e-3 at most, upwards.
+    """
+    strip = solid.domed(0.0825, 0.417, 0.04, 3.2e-3, 0.02)
     found = of_order(domed, order)
     exact = solid.frequencies_hz(strip, order, 2.06e11, 0.3, 7850.0, found.size + 3)
     exact = exact[exact > 50.0][: found.size]
     excess = found / exact - 1.0
-    assert np.all(excess > -2e-4)
-    assert np.all(excess < shear_and_rotation(exact) + (max(order, 1) * 3.2e-3 / RADIUS) ** 2 / 4)
-    assert np.all(excess < 0.0105)
+    assert np.all(excess > 0.0)
+    assert np.all(excess < shear_and_rotation(exact) + 1.2e-3)
+    assert np.all(excess < 0.01)
 
 
 @pytest.mark.parametrize("order", range(6))
 def test_flat_caps_against_three_dimensional_elasticity(flat, order):
     """The sharp corner: caps bend freely up to the wall's middle surface, really up to its inside.
 
-    A cap's frequency goes with 1/R²: low by h/R at most.
+    A cap's frequency goes with 1/R²: low by h/R at most. The solid's corner errs by 2e-3.
     """
-    strip = solid.flat_capped(0.0825, 0.417, 3.2e-3, 0.012)
+    strip = solid.flat_capped(0.0825, 0.417, 3.2e-3, 0.006)
     found = of_order(flat, order)
     exact = solid.frequencies_hz(strip, order, 2.06e11, 0.3, 7850.0, found.size + 3)
     exact = exact[exact > 50.0][: found.size]
     assert np.all(found / exact - 1.0 > -3.2e-3 / RADIUS)
-    assert np.all(found / exact - 1.0 < shear_and_rotation(exact) + 0.002)
+    assert np.all(found / exact - 1.0 < shear_and_rotation(exact))
     if order in (2, 3):
         assert found[0] == pytest.approx(exact[0], rel=0.0025)
 
