@@ -11,7 +11,6 @@ from .run_down import Stopping
 from .scroll_gas import ScrollGas, ScrollWraps
 from .shell_structure import ShellStructure
 
-
 DRAWN: Final = frozenset(
     {
         ("gas", "polytropic_index"),

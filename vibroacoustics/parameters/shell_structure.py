@@ -7,7 +7,6 @@ from pydantic import Field, model_validator
 
 from .base import Parameters
 
-
 JOINTS: Final = ("bearing_housing", "fixed_scroll", "stator")
 """Inner parts that are fixed to the wall."""
 

@@ -1,12 +1,13 @@
 """Loads of gas, keys and motor on the shell's joints, as lines and as random noise."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mechanisms.induction_motor.torque_lines import torque_lines
+from ..mechanisms.induction_motor.torque_lines import TorqueLine, TorqueLines, torque_lines
 from ..mechanisms.inner_loads import (
     BEARING_HOUSING,
     COMPONENTS,
@@ -22,7 +23,7 @@ from ..mechanisms.scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
 from ..orders import order_spectrum
 from ..parameters.inside import Inside
 from ..parameters.oldham_scroll import OldhamScroll
-from ..parameters.options import RingDamping, TwinOldham
+from ..parameters.options import Option, RingDamping, TwinOldham
 from ..parameters.shell_structure import JOINTS
 from ..rotation import Array, uniform_crank_angle
 from ..units import shaft_frequency_hz
@@ -32,7 +33,9 @@ Complex = NDArray[np.complex128]
 GAS_SAMPLES: Final = 8192
 """Crank angles a revolution: the step of the force where a pocket opens makes an error of the
 step over the samples, below 1 % of the order at 4 kHz."""
-PAIRS: Final = ([0, 1, 3], [0, 1, 3])
+LOWEST_LINE_HZ: Final = 10.0
+"""Sidebands below are no sound."""
+KEY_COMPONENTS: Final = (0, 1, 3)
 """Components that the keys load: along x and y, about z."""
 
 
@@ -73,7 +76,6 @@ class InnerLoads:
     Attributes
     ----------
     line_name, frequency_hz : of the lines: shaft orders from zero, then those of the motor
-    orders : how many of them are shaft orders
     lines : by source
     noise : by source
     facts : figures to report, by name
@@ -81,7 +83,6 @@ class InnerLoads:
 
     line_name: tuple[str, ...]
     frequency_hz: Array
-    orders: int
     lines: dict[str, Lines]
     noise: dict[str, list[Noise]]
     facts: dict[str, float]
@@ -112,7 +113,7 @@ class Operating:
 def inner_loads(
     inside: Inside,
     machine: OldhamScroll,
-    option: object,
+    option: Option,
     ring_force_n: Array,
     operating: Operating,
 ) -> InnerLoads:
@@ -128,84 +129,67 @@ def inner_loads(
     """
     gas = scroll_gas_cycle(inside.wraps, inside.gas, uniform_crank_angle(GAS_SAMPLES))
     highest = operating.maximum_order
-    frequency, names, electrical = _motor_lines(inside, gas, operating)
-    order_hz = shaft_frequency_hz(operating.speed_rpm) * np.arange(highest + 1)
+    torques = _motor_torques(inside, gas, operating)
+    own = [
+        line
+        for line in (*torques.line, *torques.sidebands)
+        if LOWEST_LINE_HZ <= line.frequency_hz <= operating.maximum_frequency_hz
+    ]
     keys, noise, facts = _keys(inside, machine, option, ring_force_n, gas, operating)
-    several = len(names)
+    count = highest + 1 + len(own)
     lines = {
-        "gas": _padded(order_spectrum(gas_loads(gas), highest), several),
-        "keys": _padded(keys, several),
-        **{name: _joined(*parts, highest + 1) for name, parts in electrical.items()},
+        "gas": _at_orders(order_spectrum(gas_loads(gas), highest), len(own)),
+        "keys": _at_orders(keys, len(own)),
+        "torque_ripple": _torques(torques.shaft, 1, count),
+        "motor": _torques(own, highest + 1, count),
     }
+    order_hz = shaft_frequency_hz(operating.speed_rpm) * np.arange(highest + 1)
     return InnerLoads(
-        (*(f"order {order}" for order in range(highest + 1)), *names),
-        np.concatenate([order_hz, frequency]),
-        highest + 1,
+        (*(f"order {order}" for order in range(highest + 1)), *(line.name for line in own)),
+        np.concatenate([order_hz, [line.frequency_hz for line in own]]),
         lines,
         {"keys": noise},
         facts,
     )
 
 
-def _padded(load: Complex, more: int) -> Lines:
+def _at_orders(load: Complex, more: int) -> Lines:
     """Lines at the shaft's orders only."""
-    none = np.zeros((*load.shape[:2], more), dtype=complex)
-    whole = np.concatenate([load, none], axis=-1)
+    whole = np.pad(load, ((0, 0), (0, 0), (0, more)))
     return Lines(whole, np.zeros(whole.shape[-1], dtype=complex))
 
 
-def _joined(shaft: tuple[Complex, Complex], motor: tuple[Complex, Complex], orders: int) -> Lines:
-    """Lines of the motor's torque: at shaft orders 1, 2, … and at frequencies of its own."""
-    load, moment = shaft
-    gap = orders - 1 - moment.size
-    whole = np.pad(load, ((0, 0), (0, 0), (1, gap)))
-    return Lines(
-        np.concatenate([whole, motor[0]], axis=-1),
-        np.concatenate([np.pad(moment, (1, gap)), motor[1]]),
-    )
+def _torques(lines: Sequence[TorqueLine], first: int, count: int) -> Lines:
+    """Torques of neighbouring lines among all."""
+    load, moment = stator_loads(lines)
+    after = count - first - len(lines)
+    return Lines(np.pad(load, ((0, 0), (0, 0), (first, after))), np.pad(moment, (first, after)))
 
 
-def _motor_lines(
-    inside: Inside, gas: ScrollGasCycle, operating: Operating
-) -> tuple[Array, list[str], dict[str, tuple[tuple[Complex, Complex], tuple[Complex, Complex]]]]:
-    """Frequencies and names of lines that are no shaft orders, and the loads of both sources."""
+def _motor_torques(inside: Inside, gas: ScrollGasCycle, operating: Operating) -> TorqueLines:
+    """Torque balance with the motor on the supply of this speed, at the same flux."""
     ratio = operating.line_frequency_hz / inside.motor.line_frequency_hz
+    grown = {name: ratio * getattr(inside.motor, name) for name in _GROW_WITH_FREQUENCY}
     motor = inside.motor.model_copy(
-        update={
-            "line_frequency_hz": operating.line_frequency_hz,
-            "line_voltage_v": ratio * inside.motor.line_voltage_v,
-            **{
-                name: ratio * getattr(inside.motor, name)
-                for name in (
-                    "main_leakage_ohm", "auxiliary_leakage_ohm", "magnetising_ohm",
-                    "rotor_leakage_ohm",
-                )
-            },
-        }
-    )  # fmt: skip
-    torque = order_spectrum(gas.torque_n_m, operating.maximum_order)
-    found = torque_lines(motor, inside.rotor.inertia_kg_m2, list(torque))
-    own = [
-        line
-        for line in (*found.line, *found.sidebands)
-        if 10.0 <= line.frequency_hz <= operating.maximum_frequency_hz
-    ]
-    none = stator_loads(()), stator_loads([])
-    shaft, electrical = stator_loads(found.shaft), stator_loads(own)
-    quiet_shaft = np.zeros_like(shaft[0]), np.zeros_like(shaft[1])
-    quiet_own = np.zeros_like(electrical[0]), np.zeros_like(electrical[1])
-    del none
-    return (
-        np.array([line.frequency_hz for line in own]),
-        [line.name for line in own],
-        {"torque_ripple": (shaft, quiet_own), "motor": (quiet_shaft, electrical)},
+        update={"line_frequency_hz": operating.line_frequency_hz, **grown}
     )
+    torque = order_spectrum(gas.torque_n_m, operating.maximum_order)
+    return torque_lines(motor, inside.rotor.inertia_kg_m2, list(torque))
+
+
+_GROW_WITH_FREQUENCY: Final = (
+    "line_voltage_v",
+    "main_leakage_ohm",
+    "auxiliary_leakage_ohm",
+    "magnetising_ohm",
+    "rotor_leakage_ohm",
+)
 
 
 def _keys(
     inside: Inside,
     machine: OldhamScroll,
-    option: object,
+    option: Option,
     ring_force_n: Array,
     gas: ScrollGasCycle,
     operating: Operating,
@@ -216,7 +200,7 @@ def _keys(
     run = (operating.speed_rpm, moment, ring_force_n, operating.key_revolutions)
     forces = steady_key_forces(inside.keys, ring, stroke, *run)
     order, noise = _key_spectra(forces, inside.keys.radius_m, operating, BEARING_HOUSING)
-    lost = contact_loss_speed_rpm(inside.keys, ring, stroke, float(np.mean(moment)))
+    lost = contact_loss_speed_rpm(inside.keys, ring, stroke, moment)
     facts = {
         "key_impacts_per_revolution": forces.impacts_per_revolution,
         "key_force_peak_n": float(forces.peak_n.max()),
@@ -243,14 +227,14 @@ def _key_spectra(
     load = key_loads(forces, radius_m)
     mean, rest = split_periodic(load, forces.revolutions)
     orders = np.zeros((len(JOINTS), COMPONENTS, operating.maximum_order + 1), dtype=complex)
-    orders[joint, PAIRS[0]] = order_spectrum(mean, operating.maximum_order)
+    orders[joint, KEY_COMPONENTS] = order_spectrum(mean, operating.maximum_order)
     block = 2 * mean.shape[-1] if forces.revolutions > 1 else mean.shape[-1]
     frequency, density = spectral_density(rest, forces.sample_rate_hz, block)
     kept = frequency <= operating.maximum_frequency_hz
     return orders, Noise(joint, frequency[kept], density[..., kept])
 
 
-def ring_force(option: object, hanging_n: Array, machine: OldhamScroll, speed_rpm: float) -> Array:
+def ring_force(option: Option, hanging_n: Array, machine: OldhamScroll, speed_rpm: float) -> Array:
     """Force on the ring along x of what an option hangs on it, over uniform crank angles, N.
 
     Parameters

@@ -13,6 +13,7 @@ from ..parameters.sound_power import SoundPowerSettings
 from ..parameters.study import Study
 from ..schema import VARIABLES, WEIGHTINGS, check, label_coordinates, stamp
 from ..units import shaft_frequency_hz
+from .inner_sound import shell_path
 from .progress import Progress
 
 UNIT_VELOCITY_PEAK: Final = np.sqrt(2.0) * 1e-3
@@ -33,7 +34,9 @@ def radiate(study: Study, progress: Progress = lambda *_: None) -> xr.Dataset:
         An input is out of range, a computation failed, the cache cannot be written.
     """
     try:
-        radiated, was_cached = transfer_vectors(study, progress)
+        path = shell_path(study)
+        motions = () if path is None else path.motions
+        radiated, was_cached = transfer_vectors(study, progress, motions)
     except ParameterError as error:
         raise ParameterError(f"{study.source_file}: {error}") from None
     if study.sound_power is not None:
