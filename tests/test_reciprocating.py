@@ -11,10 +11,9 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, minimize_scalar
 from support import ROOT
 
-from vibroacoustics.errors import ParameterError, SolverError
+from vibroacoustics.errors import ParameterError
 from vibroacoustics.mechanisms.crankshaft import (
     reduced_inertia,
-    steady_rotation,
     uniform_crank_angle,
 )
 from vibroacoustics.mechanisms.reciprocating.cycle import efficiency_map, optimum_bore, steady_cycle
@@ -455,12 +454,6 @@ def test_optimum_outside_the_range():
 def test_range_of_bores_that_cannot_be(ends):
     with pytest.raises(ParameterError, match="must be two rising, positive lengths"):
         optimum_bore(MACHINE, 1000.0, *ends)
-
-
-def test_rotation_that_does_not_converge():
-    angle = uniform_crank_angle(64)
-    with pytest.raises(SolverError, match="motor_slope_ratio = -50"):
-        steady_rotation(np.ones(64), np.zeros(64), 20.0 + 15.0 * np.sin(angle), 10.0, -50.0)
 
 
 @pytest.mark.parametrize(

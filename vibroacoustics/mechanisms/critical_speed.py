@@ -19,7 +19,7 @@ ROTOR_SLICES: Final = 4
 
 
 def rule_of_thumb_rpm(deflection_cm: float) -> float:
-    """n_c = 300/√y[cm], thesis eq. (6.2): √(g/y) rounded up from 299.06 rpm √cm.
+    """n_c = 300/√y[cm], thesis eq. (6.2): √(g/y) rounded up from 299.04 rpm √cm.
 
     It holds for y the sag under the shaft's own weight, which stands for its stiffness. The
     thesis puts in the deflection y = e ω²/(ω_c² - ω²) under the centrifugal force instead: that

@@ -109,7 +109,6 @@ def run_down(
         method="DOP853",
         rtol=RELATIVE_TOLERANCE,
         atol=RELATIVE_TOLERANCE,
-        max_step=stopping.shift_duration_s,  # not to step over the shift
         events=_at_rest,
         dense_output=True,
     )
