@@ -311,6 +311,20 @@ def test_infinite_inertia_keeps_the_speed():
     assert max(abs(line.motor_torque_n_m) for line in lines.sidebands) < 1e-9
 
 
+def test_shaft_orders_of_the_rotation_over_crank_angle():
+    """Eksergian's equation at constant motor torque: the motor's answer is what it leaves out."""
+    load = GAS_TORQUE + 0.725 * np.cos(uniform_crank_angle(64))
+    lines = torque_lines(MOTOR, INERTIA, [GAS_TORQUE, 0.725])
+    still = np.zeros(64)
+    rotation = steady_rotation(still + INERTIA, still, load, lines.speed_rad_per_s, 0.0)
+    roll = -INERTIA * np.fft.rfft(rotation.acceleration_rad_per_s2)[1] / 32.0
+    speed = lines.speed_rad_per_s
+    response = speed_response(two_axis_motor(MOTOR), speed, speed).direct
+    stiff = 1.0 - response / (1j * speed * INERTIA)
+    assert lines.shaft[0].roll_moment_n_m * stiff == pytest.approx(roll, rel=1e-9)
+    assert abs(stiff - 1.0) < 0.1
+
+
 # --- Kloss ---------------------------------------------------------------------------------------
 
 KLOSS = KlossMotor(

@@ -24,7 +24,9 @@ from vibroacoustics.moving_parts import MovingPart, path, second_derivative, wre
 from vibroacoustics.orders import angular_resample, block_phasors, from_angle, order_map
 from vibroacoustics.parameters.run_down import Stopping
 
-VALUES = values_of(ROOT / "data" / "parts" / "copeland_zp41k3e.toml")["stopping"]
+FILE = values_of(ROOT / "data" / "parts" / "copeland_zp41k3e.toml")["stopping"]
+VALUES = {**FILE, "friction_torque_n_m": 1.5}
+"""With more friction than the file assumes: shorter runs."""
 PARTS = machine_parts(load_study(PIPELINES / "copeland_derived.toml"))
 SHIFTED = ("orbiting_scroll", "brake", "oldham")
 SPEED = 2900.0 * np.pi / 30.0
@@ -224,10 +226,10 @@ def test_full_load_stops_within_two_revolutions():
 def test_set_does_not_overrun_under_load():
     """The gas holds the scroll against the pin: its drag is 5000 times the bound of an overrun."""
     inertia = 1.25 * 3.461e-3**2
-    bound = overrun_torque_n_m(inertia, 2.5e-3, VALUES["friction_torque_n_m"])
+    friction, shaft = FILE["friction_torque_n_m"], FILE["shaft_inertia_kg_m2"]
+    bound = overrun_torque_n_m(inertia, shaft, friction)
     assert bound == pytest.approx(1.8e-3, rel=0.01)
-    # Simulated: shaft and set coast alone under the bound's torque and slow down alike.
-    assert bound / inertia == pytest.approx(VALUES["friction_torque_n_m"] / 2.5e-3, rel=1e-12)
+    assert bound / inertia == pytest.approx(friction / shaft, rel=1e-12)  # both slow down alike
     assert GAS.min() > 5000.0 * bound
 
 
@@ -243,7 +245,7 @@ def test_peak_against_steady_running():
 
 def test_order_map_of_the_run_down():
     """An unloaded machine: its first order follows (speed)² through the analysis."""
-    result = stopped(gas=NO_GAS, shift_duration_s=0.02)
+    result = stopped(gas=NO_GAS, shift_duration_s=0.02, friction_torque_n_m=0.3)
     motion = from_angle(result.time_s, result.crank_angle_rad)
     signal = angular_resample(result.force_n.sum(axis=0)[0], RATE_HZ, motion, 10.0)
     spectra = order_map(signal, 0.2)
@@ -255,12 +257,14 @@ def test_order_map_of_the_run_down():
     # Along x: the ring at the turned angle and the residual of scroll and brake.
     phasor = ring.mass_kg * np.exp(1j * shift) + 1.25 * (np.exp(1j * shift) - 1.0)
     expected = abs(phasor) * radius * speed**2
-    # Over the crank angle the speed squared falls evenly, so its windowed mean is that at the
-    # middle angle, Ω²; the block's speed is its turns over its time, Ω (1 - (ΔΩ/Ω)²/24).
-    turn = 2.0 * np.pi * spectra.revolutions
-    slowing = VALUES["friction_torque_n_m"] / VALUES["shaft_inertia_kg_m2"]
-    spread = slowing * turn / speed**2
-    assert np.all(np.abs(first / expected - 1.0)[late] < 0.1 * spread[late] ** 2 + 1e-3)
+    # Over the crank angle the speed squared falls evenly, so that its windowed mean is that at the
+    # middle angle; the block's speed, turns over time, is lower: Ω² (1 - s²/4), s = ΔΩ/Ω.
+    inertia = VALUES["shaft_inertia_kg_m2"] + inertia_over_angle(PARTS, CRANK_ANGLE).mean()
+    spread = 0.3 / inertia * 2.0 * np.pi * spectra.revolutions / speed**2
+    found = first / expected - 1.0
+    # Next term of that, and the middle of an even number of samples: half a sample beside it.
+    allowed = spread**4 + 1.2 * spread / (spectra.revolutions * signal.samples_per_revolution)
+    assert np.all(np.abs(found - 0.25 * spread**2)[late] < allowed[late] + 2e-5)
     assert late.sum() > 10
 
 

@@ -81,7 +81,8 @@ def run_down(
     """Run-down after switch-off: the motor's torque is gone, gas and friction slow the shaft.
 
     Lagrange's equation, the set at φ = θ + δ(t): Σ [I φ̈ + ½ (dI/dφ) φ̇²] = -T_gas(φ) - T_f - c θ̇.
-    Left out: the motor's torque while its field dies out, and the pressures' change meanwhile.
+    Left out: the motor's torque while its field dies out, the pressures' change meanwhile, and what
+    follows the stop.
 
     Parameters
     ----------
