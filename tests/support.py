@@ -18,7 +18,8 @@ import xarray as xr
 from vibroacoustics import cli, pipeline
 from vibroacoustics.balancers import BALANCERS
 from vibroacoustics.loading import load_study
-from vibroacoustics.mechanisms import MECHANISMS
+from vibroacoustics.mechanisms.oldham import oldham_ring
+from vibroacoustics.mechanisms.rotating_set import rotating_set
 from vibroacoustics.moving_parts import Array, Balancing, MovingPart, wrench
 from vibroacoustics.orders import order_spectrum
 from vibroacoustics.parameters.study import Study
@@ -28,6 +29,7 @@ from vibroacoustics.radiation.box import Box, BoxField, closed_box
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.patterns import Pattern
 from vibroacoustics.radiation.surface_points import SurfacePoints, surface_points
+from vibroacoustics.rotation import Rotation, constant_rotation
 from vibroacoustics.schema import RIGID_BODY_DOFS, stamp
 
 ROOT = Path(__file__).parents[1]
@@ -145,6 +147,13 @@ def whole_surface(body: Body, planes: tuple[Array, Array, Array]) -> SurfacePoin
 
 
 CRANK_ANGLE = 2.0 * np.pi * np.arange(256) / 256
+
+
+def turning(frequency_hz: float) -> Rotation:
+    """Constant rotation at CRANK_ANGLE."""
+    return constant_rotation(60.0 * frequency_hz, CRANK_ANGLE.size)
+
+
 ROUNDING = 1e-12
 """Relative rounding error of a low order's phasor: sums of 256 terms at 2.2e-16 each are good to
 6e-14; the rest is for the few operations that follow."""
@@ -168,8 +177,7 @@ def wrench_rounding(parts: Sequence[MovingPart], frequency_hz: float) -> tuple[f
 
 def machine_parts(study: Study) -> list[MovingPart]:
     """Moving parts of the bare machine."""
-    mechanisms = MECHANISMS[study.machine.kind]
-    return [part for mechanism in mechanisms for part in mechanism(study.machine, CRANK_ANGLE)]
+    return [*oldham_ring(study.machine, CRANK_ANGLE), *rotating_set(study.machine, CRANK_ANGLE)]
 
 
 def balancing(study: Study, option: str, speed_rpm: float) -> Balancing:
@@ -188,7 +196,7 @@ _BALANCING: dict[tuple[str, str, float], Balancing] = {}
 def wrench_orders(study: Study, option: str, speed_rpm: float) -> tuple[Array, Array]:
     """Order spectra (3, 41) of the resultant force and moment of machine and option."""
     parts = [*machine_parts(study), *balancing(study, option, speed_rpm).parts]
-    force, moment = wrench(parts, speed_rpm / 60.0)
+    force, moment = wrench(parts, turning(speed_rpm / 60.0))
     return order_spectrum(force, 40), order_spectrum(moment, 40)
 
 

@@ -10,17 +10,22 @@ from support import (
     balancing,
     machine_parts,
     radiated,
+    turning,
     wrench_orders,
     wrench_rounding,
 )
 
 from vibroacoustics.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from vibroacoustics.levels import energy_difference, energy_sum
-from vibroacoustics.mechanisms import rotating_set
-from vibroacoustics.mechanisms.rotating_set import circling, counterweight, two_plane_balance
+from vibroacoustics.mechanisms.rotating_set import (
+    circling,
+    counterweight,
+    rotating_set,
+    two_plane_balance,
+)
 from vibroacoustics.moving_parts import MovingPart, path, wrench
 from vibroacoustics.orders import order_spectrum, semi_major_axis
-from vibroacoustics.parameters.machine import Housing
+from vibroacoustics.parameters.housing import Housing
 from vibroacoustics.parameters.mounts import Mounts
 from vibroacoustics.parameters.surroundings import Cabinet
 from vibroacoustics.radiation.bodies import sphere
@@ -50,11 +55,11 @@ vectors = st.lists(st.complex_numbers(max_magnitude=1e3), min_size=3, max_size=3
 
 def test_balanced_rotating_set_shakes_nothing(thesis_study):
     parts = rotating_set(thesis_study.machine, CRANK_ANGLE)
-    force, moment = wrench(parts, 58.0)
+    force, moment = wrench(parts, turning(58.0))
     force_error, moment_error = wrench_rounding(parts, 58.0)
     assert np.max(np.abs(force)) < force_error
     assert np.max(np.abs(moment)) < moment_error
-    alone = [np.max(np.abs(wrench([part], 58.0)[0])) for part in parts]
+    alone = [np.max(np.abs(wrench([part], turning(58.0))[0])) for part in parts]
     assert force_error < 1e-9 * max(alone)  # the bound itself says zero
 
 
@@ -72,7 +77,7 @@ def test_two_plane_balance_cancels_force_and_couple(rotors, lower, upper):
         counterweight("lower", planes[1], 0.025, lower, CRANK_ANGLE),
     ]
     parts = [circling("rotor", *rotor, CRANK_ANGLE) for rotor in rotors] + weights
-    force, moment = wrench(parts, 50.0)
+    force, moment = wrench(parts, turning(50.0))
     force_error, moment_error = wrench_rounding(parts, 50.0)
     assert np.max(np.abs(force)) < force_error
     assert np.max(np.abs(moment)) < moment_error
@@ -103,7 +108,7 @@ def test_couple_does_not_depend_on_the_origin(height, shift):
 
     here, there = pair((0.0, 0.0, 0.0)), pair(shift)
     error = wrench_rounding(here, 50.0)[1] + wrench_rounding(there, 50.0)[1]
-    difference = wrench(there, 50.0)[1] - wrench(here, 50.0)[1]
+    difference = wrench(there, turning(50.0))[1] - wrench(here, turning(50.0))[1]
     assert np.max(np.abs(difference)) < error
 
 
@@ -112,12 +117,14 @@ def test_couple_does_not_depend_on_the_origin(height, shift):
 def test_line_through_the_centre_of_mass_makes_no_moment(direction, mass):
     swing = 0.02 * np.cos(CRANK_ANGLE) + 0.003 * np.sin(3.0 * CRANK_ANGLE) + 0.01
     part = MovingPart("slider", mass, np.outer(direction, swing))
-    _, moment = wrench([part], 50.0)
+    _, moment = wrench([part], turning(50.0))
     assert np.max(np.abs(moment)) <= wrench_rounding([part], 50.0)[1]
 
 
 def test_part_at_rest_makes_no_force():
-    force, moment = wrench([MovingPart("still", 5.0, path(0.1 + 0 * CRANK_ANGLE, 0.2, 0.3))], 50.0)
+    force, moment = wrench(
+        [MovingPart("still", 5.0, path(0.1 + 0 * CRANK_ANGLE, 0.2, 0.3))], turning(50.0)
+    )
     assert not force.any()
     assert not moment.any()
 
@@ -125,8 +132,8 @@ def test_part_at_rest_makes_no_force():
 @pytest.mark.parametrize("ratio", [0.5, 2.0, 3.7])
 def test_forces_scale_with_the_square_of_speed(thesis_study, ratio):
     parts = machine_parts(thesis_study)
-    force, moment = wrench(parts, 50.0)
-    faster = wrench(parts, 50.0 * ratio)
+    force, moment = wrench(parts, turning(50.0))
+    faster = wrench(parts, turning(50.0 * ratio))
     # Only the factor ω² differs, before the sum over the parts: eps of the largest, 900 N.
     slack = 10.0 * EPSILON * ratio**2 * 900.0
     np.testing.assert_allclose(faster[0], ratio**2 * force, rtol=0.0, atol=slack)
@@ -137,8 +144,8 @@ def test_forces_scale_with_the_square_of_speed(thesis_study, ratio):
 @pytest.mark.parametrize("option", OPTIONS)
 def test_sum_over_parts_is_the_total(thesis_study, option, speed):
     parts = [*machine_parts(thesis_study), *balancing(thesis_study, option, speed).parts]
-    total = wrench(parts, speed / 60.0)
-    single = [wrench([part], speed / 60.0) for part in parts]
+    total = wrench(parts, turning(speed / 60.0))
+    single = [wrench([part], turning(speed / 60.0)) for part in parts]
     for whole, pieces in zip(total, zip(*single, strict=True), strict=True):
         size = np.sum(np.max(np.abs(pieces), axis=(1, 2)))
         np.testing.assert_allclose(

@@ -5,7 +5,7 @@ Tolerances are half a unit of the last printed digit unless a comment says other
 
 import numpy as np
 import pytest
-from support import CRANK_ANGLE, balancing, machine_parts, wrench_orders
+from support import CRANK_ANGLE, balancing, machine_parts, turning, wrench_orders
 
 from vibroacoustics import levels, scoring, sound_power
 from vibroacoustics.balancers.pendulum import (
@@ -15,7 +15,7 @@ from vibroacoustics.balancers.pendulum import (
     periodic_state,
 )
 from vibroacoustics.balancers.spring_mass import printed_mass, sprung_mass_response, tuned_mass
-from vibroacoustics.mechanisms import oldham_ring
+from vibroacoustics.mechanisms.oldham import oldham_ring
 from vibroacoustics.moving_parts import wrench
 from vibroacoustics.orders import order_spectrum, semi_major_axis
 from vibroacoustics.transfer import RigidBodyOnMounts
@@ -43,7 +43,7 @@ def test_oldham_force_of_the_derived_orbit_radius(derived_study, speed, newtons)
 @pytest.mark.parametrize("speed", SPEEDS)
 def test_oldham_force_is_once_per_revolution(thesis_study, speed):
     """The English abstract and 6.3 say twice; the Swedish abstract once (physics.md 0.1)."""
-    force, _ = wrench(oldham_ring(thesis_study.machine, CRANK_ANGLE), speed / 60.0)
+    force, _ = wrench(oldham_ring(thesis_study.machine, CRANK_ANGLE), turning(speed / 60.0))
     amplitude = semi_major_axis(order_spectrum(force, 40), axis=0)
     assert np.max(np.delete(amplitude, 1)) < 1e-9 * amplitude[1]  # issue 2
 
@@ -142,7 +142,7 @@ def test_pendulum_held_hanging(speed, h1, v2):
         MovingPart("oldham", RING_KG, path(stroke, 0.0, 0.0)),
         MovingPart("balancer", pendulum_mass(STROKE_M, RING_KG, 15e-3), bob),
     ]
-    net = np.abs(order_spectrum(wrench(parts, speed / 60.0)[0], 4))
+    net = np.abs(order_spectrum(wrench(parts, turning(speed / 60.0))[0], 4))
     assert [net[0, 1], net[2, 2]] == pytest.approx([h1, v2], abs=0.05)
     # The page says 0 for H 2x and V 1x. Damping and gravity leave traces below its last digit.
     assert max(net[0, 2], net[2, 1]) < 0.05

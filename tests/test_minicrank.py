@@ -11,7 +11,6 @@ from scipy.integrate import solve_ivp
 from support import ROOT
 
 from vibroacoustics.errors import ParameterError
-from vibroacoustics.mechanisms.crankshaft import uniform_crank_angle
 from vibroacoustics.mechanisms.minicrank.cycle import (
     minicrank_pin_force,
     steady_minicrank_cycle,
@@ -23,8 +22,9 @@ from vibroacoustics.mechanisms.minicrank.four_bar import (
     links_of,
     reachable_crank_angles,
 )
-from vibroacoustics.moving_parts import second_derivative
+from vibroacoustics.moving_parts import derivative
 from vibroacoustics.parameters.minicrank import MiniCrankMachine
+from vibroacoustics.rotation import uniform_crank_angle
 
 MACHINE = load_machine(machine_file("zhao_minicrank"), MiniCrankMachine)
 HEAVY = changed(  # with what the paper neglects, to see every term
@@ -178,7 +178,7 @@ def test_motion_has_its_own_derivatives(branch):
     moved = four_bar_motion(links(-100.0), uniform_crank_angle(3600), branch)
     for angle in (moved.scroll_angle, moved.minicrank_angle):
         # Rounding times orders squared, 1800² · 2.2e-16 · 3 rad, over the least sin(θ3 - θ2), 0.2.
-        np.testing.assert_allclose(second_derivative(angle[0]), angle[2], rtol=0, atol=1e-7)
+        np.testing.assert_allclose(derivative(angle[0], 2), angle[2], rtol=0, atol=1e-7)
         swept = 0.5 * (angle[1] + np.roll(angle[1], 1)) * 2.0 * np.pi / 3600
         assert abs(np.sum(swept)) < 1e-10  # comes back: a rocker
 
@@ -322,10 +322,10 @@ def test_momentum_change_is_the_resultant_on_the_housing(heavy):
     turning = form.bracket_m * on_housing[1] + reaction - heavy.rotation.motor_torque_n_m
     # The weight itself comes from outside the machine.
     turning = turning - weight[1] * (form.bracket_m + place[0])
-    total = np.sum(list(heavy.housing.roll_moment_n_m.values()), axis=0)
+    total = np.sum([own.moment_n_m[2] for own in heavy.housing.values()], axis=0)
     # Central differences over 0.025° of a motion that turns within 2.7°: (0.025/2.7)² = 9e-5.
     np.testing.assert_allclose(total, turning, atol=1e-4 * np.max(np.abs(total)))
-    inertia_force = np.sum(list(heavy.housing.force_n.values()), axis=0)
+    inertia_force = np.sum([own.force_n[:2] for own in heavy.housing.values()], axis=0)
     expected = -masses.minicrank_mass_kg * moving
     np.testing.assert_allclose(inertia_force, expected, atol=2e-3 * np.max(np.abs(expected)))
 
@@ -408,7 +408,7 @@ def test_ripple_of_the_rotor_grows_as_its_inertia_falls():
 
 def test_roll_moment_has_no_mean(heavy):
     slowness = 1.0 / heavy.rotation.speed_rad_per_s
-    for moment in heavy.housing.roll_moment_n_m.values():
+    for moment in (own.moment_n_m[2] for own in heavy.housing.values()):
         mean = np.mean(moment * slowness) / np.mean(slowness)
         assert abs(mean) < 1e-6 * np.max(np.abs(moment))
 

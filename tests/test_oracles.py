@@ -11,11 +11,11 @@ from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 from scipy.spatial.transform import Rotation
 from scipy.special import iv
-from support import CRANK_ANGLE, balancing, wrench_orders
+from support import CRANK_ANGLE, balancing, turning, wrench_orders
 
 from vibroacoustics.balancers.spring_mass import sprung_mass_response, tuned_mass
 from vibroacoustics.levels import a_weighting, sound_pressure_level
-from vibroacoustics.moving_parts import MovingPart, path, second_derivative, wrench
+from vibroacoustics.moving_parts import MovingPart, derivative, path, wrench
 from vibroacoustics.orders import fourier, order_spectrum
 from vibroacoustics.radiation.arrays import no_progress
 from vibroacoustics.radiation.bodies import cylinder
@@ -65,7 +65,7 @@ def test_wrench_is_the_rate_of_change_of_momentum(raw, mass, frequency):
         MovingPart(str(n), m, _position(c, angle))
         for n, (c, m) in enumerate(zip(series, mass, strict=False))
     ]
-    force, moment = wrench(parts, frequency)
+    force, moment = wrench(parts, turning(frequency))
 
     step = 2e-3  # rad; balances step² against rounding / step²
     omega = 2.0 * np.pi * frequency
@@ -105,7 +105,7 @@ def test_second_derivative_against_the_chain_rule():
     periodic = np.exp(np.cos(CRANK_ANGLE))
     exact = periodic * (np.sin(CRANK_ANGLE) ** 2 - np.cos(CRANK_ANGLE))
     # Rounding of each order, 1e-16 of 3, grows with the square of 128.
-    np.testing.assert_allclose(second_derivative(periodic), exact, atol=128**2 * 3 * EPSILON)
+    np.testing.assert_allclose(derivative(periodic, 2), exact, atol=128**2 * 3 * EPSILON)
 
 
 # --- pendulum against another formulation, integrator and start ----------------------------------

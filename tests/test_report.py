@@ -92,7 +92,11 @@ def _mounts() -> xr.Dataset:
     return xr.Dataset(
         {
             "natural_frequency": stamp("natural_frequency", np.linspace(4.0, 17.5, 6), modes),
-            "mode_shape": stamp("mode_shape", shapes, {**modes, "dof": list(RIGID_BODY_DOFS)}),
+            "mode_shape": stamp(
+                "mode_shape",
+                shapes[:, None, :],
+                {**modes, "body": ["machine"], "dof": list(RIGID_BODY_DOFS)},
+            ),
             "mount_transmissibility": stamp("mount_transmissibility", response, axes),
         }
     )
@@ -194,7 +198,13 @@ def _attributes(receivers: list[str], published_dba: float) -> dict[str, str]:
         "source_file": "study.toml",
         "catalogue_receiver": receivers[0],
         "receivers": {name: {"x_m": 1.0, "y_m": 0.0, "height_m": 0.2} for name in receivers},
-        "machine": {"name": "Machine", "housing": HOUSING, "published_noise": noise, "errata": []},
+        "machine": {
+            "name": "Machine",
+            "kind": "oldham-scroll",
+            "housing": HOUSING,
+            "overall_noise": noise,
+            "errata": [],
+        },
         "radiation": {"surroundings": "hard-floor"},
         "scoring": {"random_weightings": 100, "published": {"source": "T"}},
         "records": [

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vibroacoustics.parameters.machine import Housing
+from vibroacoustics.parameters.housing import Housing
 from vibroacoustics.parameters.mounts import Mounts
 from vibroacoustics.transfer import FOOT_NAMES, RigidBodyOnMounts
 

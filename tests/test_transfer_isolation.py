@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from vibroacoustics.errors import ParameterError, SolverError
-from vibroacoustics.parameters.machine import Housing
+from vibroacoustics.parameters.housing import Housing
 from vibroacoustics.parameters.mounts import Mounts
 from vibroacoustics.transfer import (
     Bushing,

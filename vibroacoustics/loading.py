@@ -6,10 +6,11 @@ import sys
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, cast
 
 from .errors import ParameterError
-from .parameters.machine import Machine
+from .parameters.inside import DRAWN, Doubt, Inside
+from .parameters.machines import MACHINES, Machine
 from .parameters.study import ParameterRecord, Study
 from .units import si_key, split_key
 from .validation import validated
@@ -42,7 +43,13 @@ def load_study(path: str | Path) -> Study:
     overrides = machine_table.pop("override", {})
     if machine_table:
         raise ParameterError(f"{path}: machine.{next(iter(machine_table))}: unknown key")
-    machine, machine_records = _load_machine(machine_file, overrides, reader)
+    changes: dict[tuple[str, ...], Any] = {("machine", "override"): overrides}
+    machine, machine_records = _load_machine(machine_file, changes, reader)
+    redesigns = {
+        name: _load_redesign(machine_file, {**changes, _change_of(name): change}, reader)
+        for name, change in _changes(content, path)
+    }
+    inside_records = _place_inside(content, origin, path)
     scoring = content.get("scoring")
     if isinstance(scoring, dict) and "published_table" in scoring:
         name = scoring.pop("published_table")
@@ -58,7 +65,10 @@ def load_study(path: str | Path) -> Study:
             raise ParameterError(f"{path}: {name}: unknown key")
     content = reader.to_si(content, ())
     content.update(machine=machine, source_file=path.name)
-    content["records"] = (*machine_records, *reader.records)
+    for name, (redesigned, change_records) in redesigns.items():
+        content["options"][name]["machine"] = redesigned
+        machine_records += change_records
+    content["records"] = (*machine_records, *inside_records, *reader.records)
     return validated(Study, content, reader)
 
 
@@ -80,34 +90,139 @@ def _place_files(
             table[name] = str(_beside(file, table[name]))
 
 
-def _load_machine(
-    path: Path, overrides: Any, study: "_Reader"
+def _place_inside(
+    content: dict[str, Any], origin: Mapping[tuple[str, ...], Path], path: Path
+) -> list[ParameterRecord]:
+    """Read the file of the inner sources into the study's table that names it."""
+    settings = content.get("inside")
+    if settings is None:
+        return []
+    if not isinstance(settings, dict) or not isinstance(settings.get("file"), str):
+        raise ParameterError(f"{path}: inside.file = missing: name the TOML file of the inside")
+    for name in ("inside", "doubts"):  # filled in here, not by a file
+        if name in settings:
+            raise ParameterError(f"{path}: inside.{name}: unknown key")
+    file = _beside(origin.get(("inside", "file"), path), settings.pop("file"))
+    reader = _Reader(file, {}, sources_required=True)
+    values = reader.to_si(_read_toml(file), ())
+    settings["inside"] = validated(Inside, values, reader)
+    settings["doubts"] = tuple(_doubt(record) for record in reader.records if _drawn(record))
+    return [
+        record.model_copy(update={"field": f"inside.{record.field}"}) for record in reader.records
+    ]
+
+
+def _drawn(record: ParameterRecord) -> bool:
+    table, _, key = record.field.partition(".")
+    return record.lowest is not None and (table, si_key(key)[0]) in DRAWN
+
+
+def _doubt(record: ParameterRecord) -> Doubt:
+    table, key = record.field.split(".")
+    name, factor = si_key(key)
+    lowest, highest = (factor * (limit or 0.0) for limit in (record.lowest, record.highest))
+    return Doubt(table=table, field=name, lowest=lowest, highest=highest)
+
+
+def load_machine(path: str | Path) -> Machine:
+    """Read a machine file alone.
+
+    Raises
+    ------
+    ParameterError
+        As `load_study`; also where a value has no source.
+    """
+    path = Path(path)
+    return _load_machine(path, {}, _Reader(path, {}))[0]
+
+
+def _change_of(option: str) -> tuple[str, ...]:
+    return ("options", option, "change")
+
+
+def _changes(content: Mapping[str, Any], path: Path) -> list[tuple[str, dict[str, Any]]]:
+    """Take the table `change` out of each option that is a redesign of the machine."""
+    options = content.get("options")
+    found = []
+    for name, option in (options if isinstance(options, dict) else {}).items():
+        if not isinstance(option, dict) or option.get("kind") != "redesign":
+            continue
+        if "machine" in option:  # filled in here, not by a file
+            raise ParameterError(f"{path}: options.{name}.machine: unknown key")
+        if "change" not in option:
+            raise ParameterError(f"{path}: options.{name}.change: is missing")
+        found.append((name, option.pop("change")))
+    return found
+
+
+def _load_redesign(
+    path: Path, changes: Mapping[tuple[str, ...], Any], study: "_Reader"
 ) -> tuple[Machine, list[ParameterRecord]]:
-    """The machine of the file with the study's overrides; every value of it needs a source."""
+    """The changed machine, and the records of the change, which is the last one."""
+    machine, records = _load_machine(path, changes, study)
+    prefix = list(changes)[-1]
+    changed = {".".join(keys) for keys in _leaves(changes[prefix])}
+    dotted = ".".join(prefix)
+    return machine, [
+        record.model_copy(update={"field": f"{dotted}.{record.field}"})
+        for record in records
+        if record.field in changed
+    ]
+
+
+def _load_machine(
+    path: Path, changes: Mapping[tuple[str, ...], Any], study: "_Reader"
+) -> tuple[Machine, list[ParameterRecord]]:
+    """The machine of the file with the study's changes; every value of it needs a source.
+
+    Parameters
+    ----------
+    path : machine file
+    changes : tables of values that replace the machine's, one after the other, by their place in
+        the study
+    study : reader of the study
+    """
     content = _read_toml(path)
     reader = _Reader(path, {}, sources_required=True)
     reader.origin = dict.fromkeys(_leaves(content), path)
-    if not isinstance(overrides, dict):
-        raise ParameterError(f"{study.path}: machine.override: must be a table")
+    for prefix, change in changes.items():
+        _apply(content, prefix, change, reader, study)
+    model = MACHINES.get(str(content.get("kind")))
+    if model is None:
+        raise ParameterError(
+            f"{path}: kind = {content.get('kind')!r}: unknown; allowed {', '.join(MACHINES)}"
+        )
+    return cast(Machine, validated(model, reader.to_si(content, ()), reader)), reader.records
+
+
+def _apply(
+    content: dict[str, Any],
+    prefix: tuple[str, ...],
+    change: Any,
+    reader: "_Reader",
+    study: "_Reader",
+) -> None:
+    """Replace values of a machine's content by those of a table of the study."""
+    where = ".".join(prefix)
+    if not isinstance(change, dict):
+        raise ParameterError(f"{study.path}: {where}: must be a table")
     replaced = set()
-    for keys in _leaves(overrides):
+    for keys in _leaves(change):
         quantity = (*keys[:-1], si_key(keys[-1])[0])
         if quantity in replaced:
             raise ParameterError(
-                f"{study.path}: machine.override.{'.'.join(keys)}: given twice, in two units"
+                f"{study.path}: {where}.{'.'.join(keys)}: given twice, in two units"
             )
         replaced.add(quantity)
-        value = overrides
+        value = change
         for key in keys:
             value = value[key]
-        _override(content, keys, value, study.path)
-        reader.origin[keys] = study.origin[("machine", "override", *keys)]
-        reader.overridden.add(keys)
-    content = reader.to_si(content, ())
-    return validated(Machine, content, reader), reader.records
+        _override(content, keys, value, f"{study.path}: {where}.{'.'.join(keys)}")
+        reader.origin[keys] = study.origin.get((*prefix, *keys), study.path)
+        reader.overridden[keys] = prefix
 
 
-def _override(content: dict[str, Any], keys: tuple[str, ...], value: Any, file: Path) -> None:
+def _override(content: dict[str, Any], keys: tuple[str, ...], value: Any, where: str) -> None:
     """Replace one existing value; a key in another unit of the same quantity replaces it too."""
     table: Any = content
     for key in keys[:-1]:
@@ -115,9 +230,7 @@ def _override(content: dict[str, Any], keys: tuple[str, ...], value: Any, file: 
     named = table if isinstance(table, dict) else {}
     same = [key for key in named if si_key(key)[0] == si_key(keys[-1])[0]]
     if not same:
-        raise ParameterError(
-            f"{file}: machine.override.{'.'.join(keys)}: the machine has no such value"
-        )
+        raise ParameterError(f"{where}: the machine has no such value")
     del named[same[0]]
     named[keys[-1]] = value
 
@@ -208,7 +321,7 @@ class _Reader:
         self.path = path
         self.origin = origin
         self.sources_required = sources_required
-        self.overridden: set[tuple[str, ...]] = set()
+        self.overridden: dict[tuple[str, ...], tuple[str, ...]] = {}
         self.records: list[ParameterRecord] = []
         self.file_keys: dict[tuple[str, ...], tuple[str, Any]] = {}
 
@@ -231,8 +344,8 @@ class _Reader:
         return self.origin.get(keys, self.path)
 
     def place(self, keys: tuple[str, ...]) -> str:
-        """File and dotted key as written; an overridden machine value stands in the study."""
-        prefix = ("machine", "override") if keys in self.overridden else ()
+        """File and dotted key as written; a changed machine value stands in the study."""
+        prefix = self.overridden.get(keys, ())
         dotted = ".".join((*prefix, *keys))
         return f"{self.file(keys)}: {dotted}" if dotted else f"{self.file(keys)}"
 

@@ -7,9 +7,13 @@ pairs and cancel in the resultant.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from .parameters.oscillation import UPRIGHT, CrankFrame
+from .rotation import Rotation
 
 Array = NDArray[np.float64]
 
@@ -31,6 +35,40 @@ class MovingPart:
     position_m: Array
 
 
+class Wrench(NamedTuple):
+    """Force and moment on the housing over one revolution.
+
+    Attributes
+    ----------
+    force_n, moment_n_m : shape (3, samples); the moment about the centre of mass at rest
+    """
+
+    force_n: Array
+    moment_n_m: Array
+
+    def placed(self, frame: CrankFrame) -> "Wrench":
+        """The wrench in a mechanism's own frame, about its origin, in that of the machine."""
+        force = axes_of(frame) @ self.force_n
+        moment = axes_of(frame) @ self.moment_n_m
+        return Wrench(force, moment + np.cross(np.array(frame.origin_m)[:, None], force, axis=0))
+
+
+@dataclass(frozen=True)
+class MachineMotion:
+    """One steady revolution of a machine.
+
+    Attributes
+    ----------
+    rotation : of its shaft
+    wrenches : what its moving parts do to the housing by change of momentum, by source
+    facts : figures to report of it, such as losses, by name; the unit is the suffix of the name
+    """
+
+    rotation: Rotation
+    wrenches: Mapping[str, Wrench]
+    facts: Mapping[str, float] = field(default_factory=dict)
+
+
 @dataclass(frozen=True)
 class Balancing:
     """What a balancing option adds: moving parts and the figures to report of it."""
@@ -45,36 +83,60 @@ def path(x: Array | float, y: Array | float, z: Array | float) -> Array:
     return np.stack(np.broadcast_arrays(*map(np.asarray, (x, y, z)))).astype(float)
 
 
-def second_derivative(periodic: Array) -> Array:
-    """Second derivative with respect to crank angle, by Fourier series along the last axis.
+def axes_of(frame: CrankFrame) -> Array:
+    """Axes of a mechanism in its machine as columns, shape (3, 3)."""
+    return np.array([frame.stroke, frame.across, frame.shaft]).T
+
+
+def circling(
+    source: str,
+    mass_kg: float,
+    radius_m: float,
+    height_m: float,
+    crank_angle: Array,
+    frame: CrankFrame = UPRIGHT,
+) -> MovingPart:
+    """A mass on a circle about the shaft; a negative radius stands opposite the crank pin."""
+    circle = path(radius_m * np.cos(crank_angle), radius_m * np.sin(crank_angle), height_m)
+    return MovingPart(source, mass_kg, axes_of(frame) @ circle + np.array(frame.origin_m)[:, None])
+
+
+def derivative(periodic: Array, times: int) -> Array:
+    """First or second derivative with respect to crank angle, by Fourier series, last axis.
 
     Exact for a signal that is band-limited below half the number of samples per revolution.
     """
     samples = periodic.shape[-1]
-    orders = np.arange(samples // 2 + 1)
+    factor = (1j * np.arange(samples // 2 + 1)) ** times
+    if times % 2 and samples % 2 == 0:
+        factor[-1] = 0.0  # a sine of the highest order is zero on these samples
     # Without its mean, which would only add rounding errors.
     spectrum = np.fft.rfft(periodic - periodic.mean(axis=-1, keepdims=True), axis=-1)
-    return np.asarray(np.fft.irfft(-(orders**2) * spectrum, n=samples, axis=-1))
+    return np.asarray(np.fft.irfft(factor * spectrum, n=samples, axis=-1))
 
 
-def wrench(parts: Sequence[MovingPart], shaft_frequency_hz: float) -> tuple[Array, Array]:
+def wrench(parts: Sequence[MovingPart], rotation: Rotation) -> Wrench:
     """Force and moment of moving parts on the housing: -Σ m a and -Σ r x m a.
 
     Parameters
     ----------
-    parts : moving parts, all sampled alike
-    shaft_frequency_hz : constant shaft frequency, Hz
-
-    Returns
-    -------
-    force, moment : shape (3, samples), N and N m about the centre of mass at rest
+    parts : moving parts, all sampled at the crank angles of the rotation
+    rotation : of the shaft
     """
-    angular_frequency = 2.0 * np.pi * shaft_frequency_hz
-    samples = parts[0].position_m.shape[-1]
+    samples = rotation.speed_rad_per_s.size
     force, moment = np.zeros((3, samples)), np.zeros((3, samples))
     for part in parts:
-        acceleration = angular_frequency**2 * second_derivative(part.position_m)
+        acceleration = rotation.speed_rad_per_s**2 * derivative(part.position_m, 2)
+        acceleration += rotation.acceleration_rad_per_s2 * derivative(part.position_m, 1)
         part_force = -part.mass_kg * acceleration
         force += part_force
         moment += np.cross(part.position_m, part_force, axis=0)
-    return force, moment
+    return Wrench(force, moment)
+
+
+def motion_of_parts(parts: Sequence[MovingPart], rotation: Rotation) -> MachineMotion:
+    """What moving parts do to the housing, by source in the order of the parts."""
+    by_source: dict[str, list[MovingPart]] = {}
+    for part in parts:
+        by_source.setdefault(part.source, []).append(part)
+    return MachineMotion(rotation, {name: wrench(own, rotation) for name, own in by_source.items()})

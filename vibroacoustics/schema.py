@@ -36,6 +36,7 @@ COORDINATES: Final[dict[str, Variable]] = {
     "dof": Variable(("dof",), "", "degree of freedom of the housing at its centre of mass"),
     "foot": Variable(("foot",), "", "mounting foot"),
     "mode": Variable(("mode",), "", "rigid-body mode on the mounts"),
+    "body": Variable(("body",), "", "rigid body of the machine"),
     "receiver": Variable(("receiver",), "", "microphone"),
     "frequency": Variable(("frequency",), "Hz", "frequency"),
     "line_frequency": Variable(("line_frequency",), "Hz", "frequency of the 1x line"),
@@ -53,7 +54,7 @@ COORDINATES: Final[dict[str, Variable]] = {
     "published_option": Variable(("published_option",), "", "option in the published table"),
     "published_criterion": Variable(("published_criterion",), "", "criterion in the table"),
     "order_frequency": Variable(("speed", "order"), "Hz", "frequency of a shaft order"),
-    "crank_time": Variable(("speed", "crank_angle"), "s", "time from crank angle zero"),
+    "crank_time": Variable(("speed", "option", "crank_angle"), "s", "time from crank angle zero"),
     "distance": Variable(("receiver",), "m", "distance of the microphone from the centre of mass"),
     "position_distance": Variable(("position",), "m", "distance from the centre of mass"),
     "map_x": Variable(("map_row", "map_column"), "m", "x from the centre of mass"),
@@ -85,6 +86,7 @@ _ORDERS = ("speed", "option", "order")
 _CHANGES = ("speed", "option", "receiver")
 
 VARIABLES: Final[dict[str, Variable]] = {
+    "shaft_speed": Variable(("speed", "option", "crank_angle"), "rad s-1", "speed of the shaft"),
     "force": Variable((*_FORCES, "crank_angle"), "N", "force of the moving parts on the housing"),
     "moment": Variable(
         (*_FORCES, "crank_angle"), "N m", "moment on the housing about its centre of mass"
@@ -101,6 +103,12 @@ VARIABLES: Final[dict[str, Variable]] = {
     "velocity_order": Variable(
         ("speed", "option", "source", "dof", "order"), "m s-1", "velocity of the housing", True
     ),
+    "block_velocity_order": Variable(
+        ("speed", "option", "source", "dof", "order"),
+        "m s-1",
+        "velocity of the block on its springs in the shell",
+        True,
+    ),
     "foot_force_order": Variable(
         ("speed", "option", "source", "foot", "axis", "order"), "N", "force into the foot", True
     ),
@@ -108,7 +116,7 @@ VARIABLES: Final[dict[str, Variable]] = {
         ("speed", "option", "foot", "order"), "N", "force into the foot, semi-major axis, peak"
     ),
     "natural_frequency": Variable(("mode",), "Hz", "natural frequency on the mounts"),
-    "mode_shape": Variable(("mode", "dof"), "kg-1/2", "mass-normalised shape of the mode"),
+    "mode_shape": Variable(("mode", "body", "dof"), "kg-1/2", "mass-normalised shape of the mode"),
     "mount_transmissibility": Variable(
         ("axis", "mount_frequency"), "1", "sum of foot forces per force at the centre of mass", True
     ),

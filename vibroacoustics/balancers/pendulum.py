@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 from ..constants import STANDARD_GRAVITY_M_PER_S2
 from ..errors import ParameterError, SolverError
 from ..moving_parts import Array, Balancing, MovingPart, path
-from ..parameters.machine import Machine
+from ..parameters.oldham_scroll import OldhamScroll
 from ..parameters.options import Pendulum
 from ..units import shaft_frequency_hz
 
@@ -23,7 +23,9 @@ State = tuple[float, float]
 """Angle from the vertical, rad, and its rate per radian of crank angle."""
 
 
-def pendulum(option: Pendulum, machine: Machine, speed_rpm: float, crank_angle: Array) -> Balancing:
+def pendulum(
+    option: Pendulum, machine: OldhamScroll, speed_rpm: float, crank_angle: Array
+) -> Balancing:
     """Two equal pendulums on the ring, in the periodic state that they settle in.
 
     Both bobs are taken on the same side, so that their vertical forces add. Their arms to either

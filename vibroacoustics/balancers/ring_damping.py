@@ -3,13 +3,13 @@
 import numpy as np
 
 from ..moving_parts import Array, Balancing
-from ..parameters.machine import Machine
+from ..parameters.oldham_scroll import OldhamScroll
 from ..parameters.options import RingDamping
 from ..units import shaft_frequency_hz
 
 
 def ring_damping(
-    option: RingDamping, machine: Machine, speed_rpm: float, crank_angle: Array
+    option: RingDamping, machine: OldhamScroll, speed_rpm: float, crank_angle: Array
 ) -> Balancing:
     """Viscous damping of the ring against the frame.
 

@@ -4,13 +4,13 @@ import numpy as np
 
 from ..errors import ParameterError
 from ..moving_parts import Array, Balancing, MovingPart, path
-from ..parameters.machine import Machine
+from ..parameters.oldham_scroll import OldhamScroll
 from ..parameters.options import SpringMass, SpringMassPrinted, SprungMass
 from ..units import shaft_frequency_hz
 
 
 def spring_mass(
-    option: SpringMass, machine: Machine, speed_rpm: float, crank_angle: Array
+    option: SpringMass, machine: OldhamScroll, speed_rpm: float, crank_angle: Array
 ) -> Balancing:
     """Sprung mass tuned so that its momentum cancels the ring's at one speed.
 
@@ -24,7 +24,7 @@ def spring_mass(
 
 
 def spring_mass_printed(
-    option: SpringMassPrinted, machine: Machine, speed_rpm: float, crank_angle: Array
+    option: SpringMassPrinted, machine: OldhamScroll, speed_rpm: float, crank_angle: Array
 ) -> Balancing:
     """The mass of equation (7.20) as printed, moved as the springs really move it."""
     mass = printed_mass(
@@ -100,7 +100,7 @@ def damping_coefficient(mass_kg: float, stiffness_n_per_m: float, damping_ratio:
 def _sprung_mass(
     option: SprungMass,
     mass_kg: float,
-    machine: Machine,
+    machine: OldhamScroll,
     speed_rpm: float,
     crank_angle: Array,
 ) -> Balancing:

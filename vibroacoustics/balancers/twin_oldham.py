@@ -3,12 +3,12 @@
 import numpy as np
 
 from ..moving_parts import Array, Balancing, MovingPart, path
-from ..parameters.machine import Machine
+from ..parameters.oldham_scroll import OldhamScroll
 from ..parameters.options import TwinOldham
 
 
 def twin_oldham(
-    option: TwinOldham, machine: Machine, speed_rpm: float, crank_angle: Array
+    option: TwinOldham, machine: OldhamScroll, speed_rpm: float, crank_angle: Array
 ) -> Balancing:
     """Second ring, 180° out of phase, at the other end of the shaft (thesis eq. 7.21).
 

@@ -1,16 +1,19 @@
-"""Published mechanism models: from a machine to its moving parts."""
+"""Published mechanism models: from a machine and its speed to force and moment by source."""
 
 from collections.abc import Callable
-from typing import Final
+from typing import Any, Final
 
-from ..moving_parts import Array, MovingPart
-from ..parameters.machine import Machine
-from .oldham import oldham_ring
-from .rotating_set import rotating_set
+from ..moving_parts import MachineMotion
+from .oldham_scroll import oldham_scroll
+from .reciprocating.revolution import reciprocating_revolution
 
-Mechanism = Callable[[Machine, Array], tuple[MovingPart, ...]]
+Mechanism = Callable[[Any, float, int], MachineMotion]
+"""(machine, speed in rpm, crank angles of a revolution) to a steady revolution."""
 
-MECHANISMS: Final[dict[str, tuple[Mechanism, ...]]] = {"oldham-scroll": (oldham_ring, rotating_set)}
-"""Mechanisms of each kind of machine."""
+MECHANISMS: Final[dict[str, Mechanism]] = {
+    "oldham-scroll": oldham_scroll,
+    "reciprocating": reciprocating_revolution,
+}
+"""Mechanism of each kind of machine."""
 
-__all__ = ["MECHANISMS", "Mechanism", "oldham_ring", "rotating_set"]
+__all__ = ["MECHANISMS", "Mechanism", "oldham_scroll", "reciprocating_revolution"]

@@ -8,7 +8,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ..errors import ParameterError, SolverError
-from ..moving_parts import Array
+from ..moving_parts import MachineMotion, Wrench
+from ..rotation import Array, Rotation
 
 ITERATIONS: Final = 200
 SPEED_TOLERANCE: Final = 1e-13
@@ -16,48 +17,44 @@ SPEED_TOLERANCE: Final = 1e-13
 
 
 @dataclass(frozen=True)
-class Rotation:
-    """Periodic rotation of a crankshaft over uniform crank angles.
+class DrivenRotation(Rotation):
+    """Periodic rotation of a crankshaft that a motor drives.
 
     Attributes
     ----------
-    speed_rad_per_s : shape (samples,)
-    acceleration_rad_per_s2 : shape (samples,)
     motor_torque_n_m : shape (samples,)
     """
 
-    speed_rad_per_s: Array
-    acceleration_rad_per_s2: Array
     motor_torque_n_m: Array
 
-    @property
-    def fluctuation_ratio(self) -> float:
-        """(largest - smallest speed)/mean speed over time."""
-        return float(np.ptp(self.speed_rad_per_s) * np.mean(1.0 / self.speed_rad_per_s))
 
-    @property
-    def time_s(self) -> Array:
-        """Time at each crank angle from crank angle zero, shape (samples,)."""
-        return _integral(1.0 / self.speed_rad_per_s)
+def planar(force_n: Array, roll_moment_n_m: Array) -> Wrench:
+    """Wrench of a mechanism that moves in the plane across its shaft.
 
-
-@dataclass(frozen=True)
-class HousingWrench:
-    """What the moving parts do to the housing by their change of momentum, at varying speed.
-
-    Attributes
+    Parameters
     ----------
-    force_n : by source, x and y, shape (2, samples)
-    roll_moment_n_m : by source, about the crankshaft's axis, shape (samples,)
+    force_n : along and across the stroke, shape (2, samples)
+    roll_moment_n_m : about the shaft, shape (samples,)
     """
+    still = np.zeros_like(roll_moment_n_m)
+    return Wrench(np.stack([*force_n, still]), np.stack([still, still, roll_moment_n_m]))
 
-    force_n: Mapping[str, Array]
-    roll_moment_n_m: Mapping[str, Array]
 
-
-def uniform_crank_angle(samples: int) -> Array:
-    """Crank angles of one revolution from zero, shape (samples,), rad."""
-    return 2.0 * np.pi * np.arange(samples) / samples
+def every(
+    stride: int,
+    rotation: Rotation,
+    wrenches: Mapping[str, Wrench],
+    facts: Mapping[str, float],
+) -> MachineMotion:
+    """A revolution at every so many of the crank angles at which it was solved."""
+    return MachineMotion(
+        Rotation(rotation.speed_rad_per_s[::stride], rotation.acceleration_rad_per_s2[::stride]),
+        {
+            name: Wrench(own.force_n[:, ::stride], own.moment_n_m[:, ::stride])
+            for name, own in wrenches.items()
+        },
+        facts,
+    )
 
 
 def acceleration_of(position: Array, rotation: Rotation) -> Array:
@@ -97,7 +94,7 @@ def steady_rotation(
     load_torque_n_m: Array,
     mean_speed_rad_per_s: float,
     motor_slope_ratio: float,
-) -> Rotation:
+) -> DrivenRotation:
     """Periodic solution of I θ̈ + ½ (dI/dθ) θ̇² = M_D - L (Eksergian's equation).
 
     The kinetic energy ½ I θ̇² is the integral of M_D - L over crank angle, by the trapezoidal
@@ -132,7 +129,7 @@ def steady_rotation(
         speed = _speed(inertia_kg_m2, energy, mean_speed_rad_per_s)
         if np.max(np.abs(speed - before)) < SPEED_TOLERANCE * mean_speed_rad_per_s:
             acceleration = (surplus - 0.5 * inertia_slope_kg_m2 * speed**2) / inertia_kg_m2
-            return Rotation(speed, acceleration, motor)
+            return DrivenRotation(speed, acceleration, motor)
     raise SolverError(f"motor_slope_ratio = {motor_slope_ratio:g}: no steady rotation found")
 
 

@@ -3,10 +3,10 @@
 import numpy as np
 
 from ..moving_parts import Array, MovingPart, path
-from ..parameters.machine import Machine
+from ..parameters.oldham_scroll import OldhamScroll
 
 
-def oldham_ring(machine: Machine, crank_angle: Array) -> tuple[MovingPart, ...]:
+def oldham_ring(machine: OldhamScroll, crank_angle: Array) -> tuple[MovingPart, ...]:
     """Oldham ring on its slots in the housing (thesis eq. 7.3): x = r cos θ.
 
     The stroke amplitude r is the orbit radius. The inertia force is m ω² r once per revolution,

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from ..moving_parts import Array, MovingPart, path
-from ..parameters.machine import Machine
+from ..moving_parts import Array, MovingPart, circling
+from ..parameters.oldham_scroll import OldhamScroll
 
 
-def rotating_set(machine: Machine, crank_angle: Array) -> tuple[MovingPart, ...]:
+def rotating_set(machine: OldhamScroll, crank_angle: Array) -> tuple[MovingPart, ...]:
     """Orbiting parts and counterweights (thesis 6.2, eq. 6.1: F = m e ω² each).
 
     The thesis gives no counterweight masses; it states that they equal the inertia of the
@@ -58,17 +58,6 @@ def two_plane_balance(
     first = sum(u * z for u, z in zip(mass_moments_kg_m, heights_m, strict=True))
     upper = -(first - total * lower_m) / (upper_m - lower_m)
     return upper, -total - upper
-
-
-def circling(
-    source: str, mass_kg: float, radius_m: float, height_m: float, crank_angle: Array
-) -> MovingPart:
-    """A mass on a circle about the shaft; a negative radius stands opposite the crank pin."""
-    return MovingPart(
-        source,
-        mass_kg,
-        path(radius_m * np.cos(crank_angle), radius_m * np.sin(crank_angle), height_m),
-    )
 
 
 def counterweight(

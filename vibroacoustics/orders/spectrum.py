@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from ..rotation import crank_time_s
 from .angular import whole_revolutions
 from .order_cut import order_lines
 from .order_map import order_map
@@ -41,3 +42,31 @@ def order_spectrum(
     angular = whole_revolutions(signal, revolutions, frequency_hz=1.0)
     spectra = order_map(angular, 1.0 / revolutions, "rectangular", overlap_ratio=0.0)
     return order_lines(spectra, range(maximum_order + 1))[..., 0, :]
+
+
+def order_spectrum_at_speed(
+    signal: NDArray[np.float64], speed_rad_per_s: NDArray[np.float64], maximum_order: int
+) -> NDArray[np.complex128]:
+    """Complex peak amplitude of each multiple of the shaft frequency, x(t) = Re Σ X_k exp(jkωt).
+
+    X_k = (2/T) ∫ x exp(-jkωt) dt over a revolution in which the speed varies, with dt = dθ/θ̇ and
+    the trapezoidal rule over crank angle. At constant speed it is `order_spectrum`.
+
+    Parameters
+    ----------
+    signal : shape (..., samples), over uniform crank angles of one revolution
+    speed_rad_per_s : of the shaft at these angles, shape (samples,)
+    maximum_order : highest order to return, below half the samples
+
+    Returns
+    -------
+    shape (..., maximum_order + 1), in the signal's unit, peak
+    """
+    if np.all(speed_rad_per_s == speed_rad_per_s[0]):
+        return order_spectrum(signal, maximum_order)
+    weight = 1.0 / speed_rad_per_s
+    phase = crank_time_s(speed_rad_per_s) / np.mean(weight)
+    waves = np.exp(-1j * np.outer(np.arange(maximum_order + 1), phase))
+    kernel = 2.0 * waves * weight / np.sum(weight)
+    kernel[0] *= 0.5
+    return np.asarray(signal @ kernel.T)

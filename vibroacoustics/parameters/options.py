@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from .base import Parameters
+from .machines import Machine
 
 ADDED_MASS = Field(gt=0.0, le=100.0)
 
@@ -70,10 +71,28 @@ class RingDamping(Parameters):
 
 
 class RotatingCounterweight(Parameters):
-    """A share of the ring's mass moment added to the shaft's two counterweights."""
+    """A share of the oscillating mass moment on the shaft, in the machine's two balance planes."""
 
     kind: Literal["rotating-counterweight"]
     share_ratio: float = Field(ge=0.0, le=2.0)
+
+
+class Lanchester(Parameters):
+    """Two weights that turn in opposite senses at the shaft's speed."""
+
+    kind: Literal["lanchester"]
+    share_ratio: float = Field(ge=0.0, le=2.0)
+    """Share of the oscillating mass moment that both balance together."""
+    radius_m: float = Field(gt=0.0, le=1.0)
+    """Of the centre of mass of each weight from its shaft."""
+
+
+class Redesign(Parameters):
+    """The machine with other values; its file's table `change` names them."""
+
+    kind: Literal["redesign"]
+    machine: Machine
+    added_mass_kg: float = Field(default=0.0, ge=-1e4, le=1e4)
 
 
 Option = Annotated[
@@ -83,6 +102,13 @@ Option = Annotated[
     | SpringMassPrinted
     | TwinOldham
     | RingDamping
-    | RotatingCounterweight,
+    | RotatingCounterweight
+    | Lanchester
+    | Redesign,
     Field(discriminator="kind"),
 ]
+
+RING_OPTIONS = (Pendulum, SpringMass, SpringMassPrinted, TwinOldham, RingDamping)
+"""Options that act on an Oldham ring."""
+SLIDER_OPTIONS = (RotatingCounterweight, Lanchester)
+"""Options that act on any mass that slides to and fro."""

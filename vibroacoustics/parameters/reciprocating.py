@@ -1,11 +1,13 @@
 """A single-acting reciprocating compressor: slider-crank, bearings, gas, drive."""
 
+from math import pi
 from typing import Literal
 
 from pydantic import Field, model_validator
 
 from .base import Parameters
-from .machine import Erratum
+from .machine import CommonMachine
+from .oscillation import HEIGHT, BalancePlanes, CrankFrame, Oscillation
 
 LENGTH = Field(gt=0.0, le=10.0)
 MASS = Field(gt=0.0, le=1e4)
@@ -19,6 +21,8 @@ class PistonAndRod(Parameters):
     bore_m: float = LENGTH
     crank_to_rod_ratio: float = Field(gt=0.0, le=0.95)
     """Crank radius over rod length; at one and above the crank cannot turn."""
+    crank_offset_m: float = Field(ge=-1.0, le=1.0)
+    """Cylinder's axis from the crankshaft's, a quarter turn ahead of top dead centre."""
     piston_mass_kg: float = MASS
     rod_mass_kg: float = MASS
     rod_length_m: float = LENGTH
@@ -79,11 +83,40 @@ class CylinderGas(Parameters):
         return self
 
 
-class ReciprocatingMachine(Parameters):
-    name: str = Field(min_length=1)
+class ReciprocatingMachine(CommonMachine):
+    """The cylinder stands upright, the shaft lies along y under the centre of mass."""
+
     kind: Literal["reciprocating"]
     piston_and_rod: PistonAndRod
     crankshaft: Crankshaft
     sliding_pairs: SlidingPairs
     gas: CylinderGas
-    errata: tuple[Erratum, ...] = ()
+    crankshaft_height_m: float = HEIGHT
+    """Of the shaft's axis from the centre of mass at rest."""
+    counterweights: BalancePlanes
+    """Where weights can sit on the crank; heights along the shaft from the cylinder's axis."""
+
+    @property
+    def crank_frame(self) -> CrankFrame:
+        """Stroke along z, shaft along y."""
+        return CrankFrame(
+            stroke=(0.0, 0.0, 1.0),
+            across=(1.0, 0.0, 0.0),
+            shaft=(0.0, 1.0, 0.0),
+            origin_m=(0.0, 0.0, self.crankshaft_height_m),
+        )
+
+    @property
+    def oscillation(self) -> Oscillation:
+        """Piston and the part of the rod that goes with it, by its two eyes."""
+        part = self.piston_and_rod
+        radius = 2.0 * part.displacement_m3 / (pi * part.bore_m**2)
+        rod_mass = part.rod_mass_kg * radius / part.crank_to_rod_ratio / part.rod_length_m
+        share = rod_mass * part.big_end_to_centre_m / part.rod_length_m
+        return Oscillation(
+            part.piston_mass_kg + share,
+            radius,
+            0.0,
+            self.counterweights,
+            self.crank_frame,
+        )

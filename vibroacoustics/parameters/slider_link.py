@@ -12,7 +12,8 @@ from pydantic import Field, model_validator
 
 from ..units import shaft_frequency_hz
 from .base import Parameters
-from .machine import Erratum, Housing
+from .housing import Housing
+from .machine import Erratum
 from .mounts import Mounts
 
 LENGTH = Field(gt=0.0, le=0.5)

@@ -7,8 +7,10 @@ from pydantic import Field, model_validator
 from ..schema import REFERENCE_OPTION
 from ..units import shaft_frequency_hz
 from .base import Parameters
-from .machine import Machine
-from .options import NoBalancer, Option
+from .inside import InsideSettings
+from .machines import Machine
+from .oldham_scroll import OldhamScroll
+from .options import RING_OPTIONS, SLIDER_OPTIONS, NoBalancer, Option
 from .radiation import RadiationSettings
 from .receivers import Receiver
 from .sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
@@ -111,6 +113,8 @@ class Study(Parameters):
     sound_power: SoundPowerSettings | None = None
     map: MapSettings | None = None
     directivity: DirectivitySettings | None = None
+    inside: InsideSettings | None = None
+    """Inner sources and the elastic shell; none for the rigid machine alone."""
     records: tuple[ParameterRecord, ...] = ()
     source_file: str = ""
 
@@ -118,6 +122,8 @@ class Study(Parameters):
     def _consistent(self) -> "Study":
         if not isinstance(self.options.get(REFERENCE_OPTION), NoBalancer):
             raise ValueError('options: an option named none with kind = "none" is required')
+        for name, option in self.options.items():
+            self._check_fits(name, option)
         if self.catalogue_receiver not in self.receivers:
             raise ValueError(
                 f"catalogue_receiver = {self.catalogue_receiver}: not among the receivers "
@@ -127,11 +133,11 @@ class Study(Parameters):
         distance = self.machine.shell.distance_m(
             microphone.x_m, microphone.y_m, microphone.height_m
         )
-        published = self.machine.published_noise
+        published = self.machine.overall_noise
         if not 0.95 <= distance / published.distance_m <= 1.05:
             raise ValueError(
                 f"catalogue_receiver = {self.catalogue_receiver}: stands {distance:.3g} m from the "
-                f"shell; the published noise holds at {published.distance_m:g} m"
+                f"shell; the overall noise holds at {published.distance_m:g} m"
             )
         highest = self.operation.maximum_order * shaft_frequency_hz(max(self.operation.speed_rpm))
         if highest > self.radiation.maximum_frequency_hz:
@@ -139,6 +145,7 @@ class Study(Parameters):
                 f"radiation.maximum_frequency_hz = {self.radiation.maximum_frequency_hz:g} Hz: "
                 f"order {self.operation.maximum_order} reaches {highest:g} Hz"
             )
+        self._check_inside()
         surroundings = self.radiation.surroundings
         if self.sound_power and (surroundings.walls or surroundings.cabinet):
             raise ValueError(
@@ -147,10 +154,40 @@ class Study(Parameters):
             )
         if published.speed_rpm not in self.operation.speed_rpm:
             raise ValueError(
-                "operation.speed_rpm: must include the speed of the published noise, "
+                "operation.speed_rpm: must include the speed of the overall noise, "
                 f"{published.speed_rpm:g} rpm, to fix the remainder"
             )
         return self
+
+    def _check_inside(self) -> None:
+        """Refuse inner sources that do not belong to the machine."""
+        if self.inside is None:
+            return
+        if not isinstance(self.machine, OldhamScroll):
+            raise ValueError(
+                f"inside: needs a scroll with an Oldham ring; the machine is {self.machine.kind}"
+            )
+        if len(self.inside.line_frequency_hz) != len(self.operation.speed_rpm):
+            raise ValueError(
+                f"inside.line_frequency_hz: {len(self.inside.line_frequency_hz)} values for "
+                f"{len(self.operation.speed_rpm)} speeds; one is needed for each"
+            )
+        orbit, own = self.machine.kinematics.orbit_radius_m, self.inside.inside.wraps.orbit_radius_m
+        if abs(orbit - own) > 0.01 * own:
+            raise ValueError(
+                f"inside: its wraps orbit at {1e3 * own:.4g} mm; the machine's "
+                f"kinematics.orbit_radius_mm = {1e3 * orbit:.4g} mm: must agree within 1 %"
+            )
+
+    def _check_fits(self, name: str, option: Option) -> None:
+        """Refuse an option that the machine has no part for."""
+        where = f"options.{name}.kind = {option.kind}"
+        if isinstance(option, RING_OPTIONS) and not isinstance(self.machine, OldhamScroll):
+            raise ValueError(f"{where}: needs an Oldham ring; the machine is {self.machine.kind}")
+        if isinstance(option, SLIDER_OPTIONS) and self.machine.oscillation is None:
+            raise ValueError(
+                f"{where}: needs a mass that slides to and fro; the machine is {self.machine.kind}"
+            )
 
     def parameters(self) -> dict[str, Any]:
         """All parameters as plain JSON values."""

@@ -4,6 +4,7 @@ study -> moving parts -> orders -> transfer -> radiation -> levels -> scores, on
 """
 
 from collections.abc import Iterable, Sequence
+from itertools import product
 from typing import Final
 
 import numpy as np
@@ -14,9 +15,12 @@ from .. import levels, radiation, scoring
 from ..balancers import BALANCERS
 from ..errors import ParameterError
 from ..mechanisms import MECHANISMS
-from ..moving_parts import Array, Balancing, MovingPart, wrench
-from ..orders import order_spectrum, semi_major_axis
+from ..moving_parts import Balancing, MachineMotion, wrench
+from ..orders import order_spectrum_at_speed, semi_major_axis
+from ..parameters.machine import CommonMachine
+from ..parameters.options import Redesign
 from ..parameters.study import Study
+from ..rotation import Array, uniform_crank_angle
 from ..schema import (
     AXES,
     REFERENCE_OPTION,
@@ -27,7 +31,7 @@ from ..schema import (
     label_coordinates,
     stamp,
 )
-from ..transfer import FOOT_NAMES, RigidBodyOnMounts
+from ..transfer import FOOT_NAMES, RigidBodyOnMounts, SuspendedBlock
 from ..units import shaft_frequency_hz
 from .progress import Progress
 from .radiating import attributes, sound_field, transfer_vectors
@@ -74,86 +78,99 @@ def _run(study: Study, progress: Progress) -> xr.Dataset:
 
 def _forces(study: Study, progress: Progress) -> xr.Dataset:
     """Force and moment of every source, and what each option reports of itself."""
-    samples = study.operation.crank_angle_samples
-    crank_angle = 2.0 * np.pi * np.arange(samples) / samples
     speeds, options = list(study.operation.speed_rpm), list(study.options)
-    machine_parts = [
-        part
-        for mechanism in MECHANISMS[study.machine.kind]
-        for part in mechanism(study.machine, crank_angle)
+    motions, added = _motions(study, progress)
+    sources = [
+        *_unique(name for motion in motions.values() for name in motion.wrenches),
+        "balancer",
     ]
-    added = _balancing(study, crank_angle, progress)
-    sources = [*_unique(part.source for part in machine_parts), "balancer"]
-    wrenches = np.array(  # speed, option, force and moment, source, axis, crank angle
-        [
-            [_by_source([*machine_parts, *added[s, o].parts], sources, s) for o in options]
-            for s in speeds
-        ]
-    )
+    samples = study.operation.crank_angle_samples
+    wrenches = np.zeros((len(speeds), len(options), 2, len(sources), 3, samples))
+    for (s, speed), (o, option) in product(enumerate(speeds), enumerate(options)):
+        motion = motions[speed, option]
+        named = {**motion.wrenches, "balancer": wrench(added[speed, option].parts, motion.rotation)}
+        for source, own in named.items():
+            wrenches[s, o, :, sources.index(source)] = own
     coords = {
         "speed": speeds,
         "option": options,
         "source": sources,
         "axis": list(AXES),
-        "crank_angle": crank_angle,
+        "crank_angle": uniform_crank_angle(samples),
     }
-    revolution_s = 1.0 / (shaft_frequency_hz(1.0) * np.array(speeds))
+    turning = {name: coords[name] for name in _TURNING}
+    rotations = [[motions[s, o].rotation for o in options] for s in speeds]
+    shaft_speed = [[turn.speed_rad_per_s for turn in row] for row in rotations]
     return check(
         xr.Dataset(
             {
                 "force": stamp("force", wrenches[:, :, 0], coords),
                 "moment": stamp("moment", wrenches[:, :, 1], coords),
-                "option_fact": _option_facts(added, speeds, options),
+                "shaft_speed": stamp("shaft_speed", shaft_speed, turning),
+                "option_fact": _option_facts(_facts(study, motions, added), speeds, options),
             },
-            coords={
-                "crank_time": (
-                    ("speed", "crank_angle"),
-                    np.outer(revolution_s, crank_angle / 2 / np.pi),
-                )
-            },
+            coords={"crank_time": (_TURNING, [[turn.time_s for turn in row] for row in rotations])},
         )
     )
 
 
-def _balancing(
-    study: Study, crank_angle: Array, progress: Progress
-) -> dict[tuple[float, str], Balancing]:
-    """What each option adds at each speed."""
+_TURNING: Final = ("speed", "option", "crank_angle")
+
+Case = tuple[float, str]
+"""Speed in rpm and option."""
+
+
+def _motions(
+    study: Study, progress: Progress
+) -> tuple[dict[Case, MachineMotion], dict[Case, Balancing]]:
+    """Steady revolution of the machine and what the option adds to it, in each case."""
+    motions: dict[Case, MachineMotion] = {}
+    added: dict[Case, Balancing] = {}
     cases = [(speed, name) for speed in study.operation.speed_rpm for name in study.options]
-    added = {}
+    samples = study.operation.crank_angle_samples
+    mechanism = MECHANISMS[study.machine.kind]
     for number, (speed, name) in enumerate(cases):
         option = study.options[name]
         try:
-            balancing = BALANCERS[option.kind](option, study.machine, speed, crank_angle)
+            machine = study.machine
+            if isinstance(option, Redesign):
+                machine = option.machine
+                motions[speed, name] = mechanism(machine, speed, samples)
+            elif (speed, REFERENCE_OPTION) in motions:
+                motions[speed, name] = motions[speed, REFERENCE_OPTION]
+            else:
+                motions[speed, name] = motions[speed, REFERENCE_OPTION] = mechanism(
+                    machine, speed, samples
+                )
+            crank_angle = motions[speed, name].rotation.crank_angle
+            added[speed, name] = BALANCERS[option.kind](option, machine, speed, crank_angle)
         except ParameterError as error:
             raise ParameterError(f"options.{name}: {error}") from None
-        added[speed, name] = balancing
         progress("forces", number + 1, len(cases))
-    return added
+    return motions, added
 
 
-def _by_source(
-    parts: Sequence[MovingPart], sources: Sequence[str], speed_rpm: float
-) -> tuple[Array, Array]:
-    """Force and moment per source, shape (source, axis, crank_angle) each."""
-    samples = parts[0].position_m.shape[-1]
-    force = np.zeros((len(sources), 3, samples))
-    moment = np.zeros_like(force)
-    for number, source in enumerate(sources):
-        own = [part for part in parts if part.source == source]
-        if own:
-            force[number], moment[number] = wrench(own, shaft_frequency_hz(speed_rpm))
-    return force, moment
+def _facts(
+    study: Study, motions: dict[Case, MachineMotion], added: dict[Case, Balancing]
+) -> dict[Case, dict[str, float]]:
+    """Figures of the machine, as it is and where it is changed, and of the options."""
+    changed = {
+        name
+        for name, option in study.options.items()
+        if name == REFERENCE_OPTION or isinstance(option, Redesign)
+    }
+    return {
+        case: {**(motions[case].facts if case[1] in changed else {}), **added[case].facts}
+        for case in motions
+    }
 
 
 def _option_facts(
-    added: dict[tuple[float, str], Balancing], speeds: Sequence[float], options: Sequence[str]
+    found: dict[Case, dict[str, float]], speeds: Sequence[float], options: Sequence[str]
 ) -> xr.DataArray:
-    """The figures that the options report; NaN where an option has none of that name."""
-    facts = _unique(fact for balancing in added.values() for fact in balancing.facts)
-    figures = [
-        [[added[s, o].facts.get(fact, np.nan) for fact in facts] for o in options] for s in speeds
-    ]
+    """The figures of all cases; NaN where one has none of that name."""
+    facts = _unique(fact for named in found.values() for fact in named)
+    figures = [[[found[s, o].get(fact, np.nan) for fact in facts] for o in options] for s in speeds]
     return stamp(
         "option_fact", figures, {"speed": list(speeds), "option": list(options), "fact": facts}
     )
@@ -167,7 +184,12 @@ def _orders(study: Study, results: xr.Dataset) -> xr.Dataset:
     coords = {name: results[name] for name in ("speed", "option", "source", "axis")}
     spectra = {}
     for name in ("force", "moment"):
-        spectrum = order_spectrum(results[name].values, highest)
+        spectrum = np.array(
+            [
+                [order_spectrum_at_speed(*pair, highest) for pair in zip(*row, strict=True)]
+                for row in zip(results[name].values, results["shaft_speed"].values, strict=True)
+            ]
+        )
         spectra[f"{name}_order"] = stamp(f"{name}_order", spectrum, {**coords, "order": order})
         resultant = semi_major_axis(spectrum.sum(axis=2), axis=2)
         spectra[f"{name}_amplitude"] = stamp(
@@ -181,10 +203,7 @@ def _orders(study: Study, results: xr.Dataset) -> xr.Dataset:
 
 def _housing(study: Study, results: xr.Dataset) -> xr.Dataset:
     """Motion of the housing on its mounts and the forces into the feet."""
-    machine = study.machine
-    body = RigidBodyOnMounts(
-        machine.housing, machine.mounts, -machine.shell.centre_of_mass_height_m
-    )
+    body = _on_mounts(study.machine)
     parts = [results[name].transpose(..., "order", "axis") for name in _WRENCH]
     load = np.concatenate([part.values for part in parts], axis=-1)
     frequency = results["order_frequency"].values[:, None, None, :]
@@ -193,14 +212,19 @@ def _housing(study: Study, results: xr.Dataset) -> xr.Dataset:
     frequencies, shapes = body.natural_modes()
     coords = {name: results[name] for name in ("speed", "option", "source", "order")}
     feet = {"foot": list(FOOT_NAMES), "axis": list(AXES)}
-    modes = [f"mode_{number}" for number in range(1, 7)]
+    modes = [f"mode_{number}" for number in range(1, len(frequencies) + 1)]
+    bodies = list(body.bodies)
     ellipse = semi_major_axis(foot_force.sum(axis=2), axis=3)
+    motion = {**coords, "dof": list(RIGID_BODY_DOFS)}
+    block = {}
+    if isinstance(body, SuspendedBlock):
+        inside = np.moveaxis(body.block_velocity(load, frequency), -1, -2)
+        block["block_velocity_order"] = stamp("block_velocity_order", inside, motion)
     return check(
         xr.Dataset(
             {
-                "velocity_order": stamp(
-                    "velocity_order", velocity, {**coords, "dof": list(RIGID_BODY_DOFS)}
-                ),
+                "velocity_order": stamp("velocity_order", velocity, motion),
+                **block,
                 "foot_force_order": stamp("foot_force_order", foot_force, {**coords, **feet}),
                 "foot_force_amplitude": stamp(
                     "foot_force_amplitude",
@@ -212,7 +236,9 @@ def _housing(study: Study, results: xr.Dataset) -> xr.Dataset:
                 ),
                 "natural_frequency": stamp("natural_frequency", frequencies, {"mode": modes}),
                 "mode_shape": stamp(
-                    "mode_shape", shapes, {"mode": modes, "dof": list(RIGID_BODY_DOFS)}
+                    "mode_shape",
+                    shapes.reshape(len(modes), len(bodies), -1),
+                    {"mode": modes, "body": bodies, "dof": list(RIGID_BODY_DOFS)},
                 ),
                 "mount_transmissibility": stamp(
                     "mount_transmissibility",
@@ -225,10 +251,18 @@ def _housing(study: Study, results: xr.Dataset) -> xr.Dataset:
     )
 
 
+def _on_mounts(machine: CommonMachine) -> RigidBodyOnMounts | SuspendedBlock:
+    """The machine on its mounts: one rigid body, or a block on springs in a shell."""
+    foot_height = -machine.shell.centre_of_mass_height_m
+    if machine.suspension is None:
+        return RigidBodyOnMounts(machine.housing, machine.mounts, foot_height)
+    return SuspendedBlock(machine.housing, machine.mounts, machine.suspension, foot_height)
+
+
 _WRENCH: Final = ("force_order", "moment_order")
 
 
-def _transmissibility(body: RigidBodyOnMounts) -> NDArray[np.complex128]:
+def _transmissibility(body: RigidBodyOnMounts | SuspendedBlock) -> NDArray[np.complex128]:
     """Sum of the foot forces along an axis per force along it, shape (axis, frequency)."""
     unit = np.eye(6)[:3].astype(complex)
     force = body.foot_force(unit[:, None, :], MOUNT_FREQUENCY_HZ[None, :])
@@ -300,7 +334,7 @@ def _levels(study: Study, results: xr.Dataset) -> xr.Dataset:
 
 def _remainder(study: Study, modelled: xr.DataArray) -> float:
     """What the model leaves of the published level at its microphone and speed, dB(A)."""
-    published = study.machine.published_noise
+    published = study.machine.overall_noise
     explained = modelled.sel(
         speed=published.speed_rpm,
         option=REFERENCE_OPTION,
@@ -311,7 +345,7 @@ def _remainder(study: Study, modelled: xr.DataArray) -> float:
         return levels.energy_difference(published.level_dba, explained)
     except ValueError:
         raise ParameterError(
-            f"machine: published_noise.level_dba = {published.level_dba:g} dB(A): "
+            f"machine: overall_noise.level_dba = {published.level_dba:g} dB(A): "
             f"the model alone gives {explained:.1f} dB(A) at {study.catalogue_receiver}"
         ) from None
 

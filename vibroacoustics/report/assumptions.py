@@ -24,18 +24,35 @@ NOT_MODELLED: Final = (
     "there before it is heard through the air.",
     "The floor is rigid for the mounts and hard for the sound; there are no other walls. The "
     "scattering of sound between shell and floor is included.",
-    "Both bobs of a pendulum option are taken on the same side, so that their vertical forces add; "
-    "on opposite sides the vertical 1× force would cancel. Stops are not modelled.",
-    "A weight on the shaft turns: it lowers the force along the stroke of the ring and makes one "
-    "across it. The machine's own counterweights may already hold part of it; they are taken to "
-    "balance scroll, pin and brake only.",
-    "A second ring has no gas force that presses its keys: they are likely to rattle, which can be "
-    "louder than the 1× line that it removes. A sprung mass is tuned to one speed.",
     "Levels hold at the study's microphones; a rocking machine sounds louder in other directions.",
     "The weight of moving parts times their sideways shift is left out of the moment: some mN m.",
-    "The shaft turns at constant speed; torque ripple, twice-line torque of the motor and key "
-    "slap are not modelled.",
 )
+
+NOT_MODELLED_OF_KIND: Final = {
+    "oldham-scroll": (
+        "Both bobs of a pendulum option are taken on the same side, so that their vertical forces "
+        "add; on opposite sides the vertical 1× force would cancel. Stops are not modelled.",
+        "A weight on the shaft turns: it lowers the force along the stroke of the ring and makes "
+        "one across it. The machine's own counterweights may already hold part of it; they are "
+        "taken to balance scroll, pin and brake only.",
+        "A second ring has no gas force that presses its keys: they are likely to rattle, which "
+        "can be louder than the 1× line that it removes. A sprung mass is tuned to one speed.",
+        "The shaft turns at constant speed; torque ripple, twice-line torque of the motor and key "
+        "slap are not modelled.",
+    ),
+    "reciprocating": (
+        "One cylinder stands for the machine. The crankshaft is balanced about its axis, the big "
+        "end of the rod is not; the paper gives no counterweight. Lanchester's weights are in "
+        "the plane of the cylinder's axis, without the moment of their gears.",
+    ),
+}
+"""What each kind of machine leaves out besides."""
+
+
+def not_modelled(results: xr.Dataset) -> tuple[str, ...]:
+    """What the results leave out, one sentence or two each."""
+    kind = parameters(results)["machine"]["kind"]
+    return (*NOT_MODELLED, *NOT_MODELLED_OF_KIND.get(kind, ()))
 
 
 def records_table(results: xr.Dataset) -> Table:
@@ -63,9 +80,14 @@ def errata_table(results: xr.Dataset) -> Table | None:
 
 def remainder_sentence(results: xr.Dataset) -> str:
     """How the part of the level that the model does not explain is fixed."""
-    noise = parameters(results)["machine"]["published_noise"]
+    noise = parameters(results)["machine"]["overall_noise"]
+    assumed = any(
+        record["field"].endswith("overall_noise.level_dba") and _is_assumed(record)
+        for record in parameters(results)["records"]
+    )
+    who = "The catalogue gives" if not assumed else "The level of the whole machine is assumed:"
     return (
-        f"The catalogue gives {noise['level_dba']:g} dB(A) at {noise['distance_m']:g} m and "
+        f"{who} {noise['level_dba']:g} dB(A) at {noise['distance_m']:g} m and "
         f"{noise['speed_rpm']:g} rpm. What the model leaves of it at {catalogue_receiver(results)} "
         f"without a balancer, {rounding.fixed(results['level_remainder'].item(), 3)} dB(A), is "
         "added as energy to the modelled level at every speed, option and microphone. That it "
@@ -75,7 +97,7 @@ def remainder_sentence(results: xr.Dataset) -> str:
 
 def structure_borne_sentence(results: xr.Dataset) -> str:
     """What removing a line would buy, were it far louder through the feet than through the air."""
-    total = float(parameters(results)["machine"]["published_noise"]["level_dba"])
+    total = float(parameters(results)["machine"]["overall_noise"]["level_dba"])
     gain = 10.0 * np.log10(1.0 - 10.0 ** (-LOUD_LINE_BELOW_TOTAL_DB / 10.0))
     return (
         f"To see what such sound could change: a 1× line of {total - LOUD_LINE_BELOW_TOTAL_DB:g} "

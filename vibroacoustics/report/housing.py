@@ -30,13 +30,25 @@ def modes_table(results: xr.Dataset) -> Table:
 
 def shape_words(results: xr.Dataset, mode: str) -> str:
     """The dominant motions of a mode, by their share of its kinetic energy."""
-    housing = parameters(results)["machine"]["housing"]
-    inertia = [housing["mass_kg"]] * 3 + [housing[f"inertia_{a}_kg_m2"] for a in ("xx", "yy", "zz")]
-    energy = np.array(inertia) * results["mode_shape"].sel(mode=mode).values ** 2
-    shares = energy / energy.sum()
-    dofs = [str(dof) for dof in results["dof"].values]
-    strongest = [index for index in np.argsort(-shares, kind="stable") if shares[index] > DOMINANT]
-    return ", ".join(f"{labels.DOF_WORDS[dofs[i]]} {100.0 * shares[i]:.0f} %" for i in strongest)
+    shape = results["mode_shape"].sel(mode=mode)
+    energy = np.array([_inertia(results, str(body)) for body in shape["body"].values])
+    shares = energy * shape.values**2 / np.sum(energy * shape.values**2)
+    several = len(shape["body"]) > 1
+    words = []
+    for place in np.argsort(-shares, axis=None, kind="stable"):
+        body, dof = np.unravel_index(place, shares.shape)
+        if shares[body, dof] > DOMINANT:
+            who = f"{shape['body'].values[body]} " if several else ""
+            motion = labels.DOF_WORDS[str(shape["dof"].values[dof])]
+            words.append(f"{who}{motion} {100.0 * shares[body, dof]:.0f} %")
+    return ", ".join(words)
+
+
+def _inertia(results: xr.Dataset, body: str) -> list[float]:
+    """Mass three times and principal moments of inertia of a body."""
+    machine = parameters(results)["machine"]
+    of = machine["suspension"]["block"] if body == "block" else machine["housing"]
+    return [of["mass_kg"]] * 3 + [of[f"inertia_{axes}_kg_m2"] for axes in ("xx", "yy", "zz")]
 
 
 def isolation_sentence(results: xr.Dataset) -> str:

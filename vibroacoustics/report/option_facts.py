@@ -3,13 +3,14 @@
 import numpy as np
 import xarray as xr
 
+from ..schema import REFERENCE_OPTION
 from . import labels, rounding
 from .study import balancers, speeds
 from .tables import Table
 
 
 def facts_table(results: xr.Dataset) -> Table | None:
-    """One row per option and figure, one column per speed; None without options."""
+    """One row per figure of the machine or an option, one column per speed; None without any."""
     facts = results["option_fact"].transpose("option", "fact", "speed")
     rows = tuple(
         (
@@ -18,9 +19,13 @@ def facts_table(results: xr.Dataset) -> Table | None:
             labels.unit(str(fact)) or "1",
             *(rounding.significant(value) for value in values),
         )
-        for option in balancers(results)
+        for option in [REFERENCE_OPTION, *balancers(results)]
         for fact, values in zip(facts["fact"].values, facts.sel(option=option).values, strict=True)
-        if np.isfinite(values).any()
+        if np.isfinite(values).any() and (option, fact) != (REFERENCE_OPTION, "added_mass_kg")
     )
     head = ("Option", "Figure", "Unit", *(f"At {speed:g} rpm" for speed in speeds(results)))
-    return Table("Figures of the options", head, rows, frozenset({0, 1, 2})) if rows else None
+    return (
+        Table("Figures of the machine (none) and of the options", head, rows, frozenset({0, 1, 2}))
+        if rows
+        else None
+    )

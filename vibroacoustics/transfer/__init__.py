@@ -3,6 +3,7 @@
 from .bushings import Bushing, RigidBody
 from .isolation import Isolation
 from .mounts import FOOT_NAMES, RigidBodyOnMounts
+from .suspended_block import SuspendedBlock
 from .tube import tube_stiffness
 
 __all__ = [
@@ -11,5 +12,6 @@ __all__ = [
     "Isolation",
     "RigidBody",
     "RigidBodyOnMounts",
+    "SuspendedBlock",
     "tube_stiffness",
 ]

@@ -2,13 +2,13 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Final
+from typing import ClassVar, Final
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from ..parameters.machine import Housing
+from ..parameters.housing import Housing
 from ..parameters.mounts import Mounts
 
 FOOT_NAMES: Final = ("front_left", "front_right", "rear_left", "rear_right")
@@ -36,12 +36,12 @@ class RigidBodyOnMounts:
     mounts: Mounts
     foot_height_m: float
 
+    bodies: ClassVar[tuple[str, ...]] = ("machine",)
+
     @cached_property
     def foot_position(self) -> Real:
         """Grommets in the order of FOOT_NAMES, shape (4, 3), m from the centre of mass."""
-        half = self.mounts.pitch_m / 2.0
-        corners = [(half, half), (half, -half), (-half, half), (-half, -half)]
-        return np.array([(x, y, self.foot_height_m) for x, y in corners])
+        return corners(self.mounts.pitch_m, self.foot_height_m)
 
     @cached_property
     def mass_matrix(self) -> Real:
@@ -114,6 +114,14 @@ class RigidBodyOnMounts:
 
     def _displacement(self, load: Complex, frequency_hz: Real) -> Complex:
         return np.asarray(np.einsum("...ij,...j->...i", self.receptance(frequency_hz), load))
+
+
+def corners(pitch_m: float, height_m: float) -> Real:
+    """Corners of a square in the order of FOOT_NAMES, shape (4, 3), m."""
+    half = pitch_m / 2.0
+    return np.array(
+        [(x, y, height_m) for x, y in ((half, half), (half, -half), (-half, half), (-half, -half))]
+    )
 
 
 def _cross(vector: Real) -> Real:

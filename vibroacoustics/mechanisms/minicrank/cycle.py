@@ -8,16 +8,16 @@ import numpy as np
 
 from ...constants import STANDARD_GRAVITY_M_PER_S2
 from ...errors import ParameterError
-from ...moving_parts import Array
+from ...moving_parts import Array, Wrench
 from ...parameters.minicrank import Masses, MiniCrankMachine, ScrollLoads
+from ...rotation import Rotation, uniform_crank_angle
 from ...units import shaft_frequency_hz
 from ..crankshaft import (
-    HousingWrench,
-    Rotation,
+    DrivenRotation,
     acceleration_of,
+    planar,
     reduced_inertia,
     steady_rotation,
-    uniform_crank_angle,
 )
 from .four_bar import FourBarMotion, Links, four_bar_motion, links_of
 
@@ -131,15 +131,15 @@ class MiniCrankCycle:
     load : on the scroll
     input_torque_n_m : at constant speed by source, equation (17)
     rotation : of the crankshaft with its own inertia and motor
-    housing : force and roll moment by source
+    housing : what moving parts do to the housing, by source
     """
 
     links: Links
     moved: FourBarMotion
     load: ScrollLoad
     input_torque_n_m: Mapping[str, Array]
-    rotation: Rotation
-    housing: HousingWrench
+    rotation: DrivenRotation
+    housing: Mapping[str, Wrench]
 
 
 def steady_minicrank_cycle(machine: MiniCrankMachine, speed_rpm: float) -> MiniCrankCycle:
@@ -167,13 +167,13 @@ def steady_minicrank_cycle(machine: MiniCrankMachine, speed_rpm: float) -> MiniC
         mean_speed,
         masses.motor_slope_ratio,
     )
-    housing = _housing_wrench(links, moved, masses, rotation)
+    housing = _housing_wrenches(links, moved, masses, rotation)
     return MiniCrankCycle(links, moved, load, torque, rotation, housing)
 
 
-def _housing_wrench(
+def _housing_wrenches(
     links: Links, moved: FourBarMotion, masses: Masses, rotation: Rotation
-) -> HousingWrench:
+) -> dict[str, Wrench]:
     """By change of momentum. The counterweights balance the scroll's mass (eq. 10)."""
     third = moved.minicrank_angle
     turn = acceleration_of(third, rotation)
@@ -181,12 +181,11 @@ def _housing_wrench(
     pin = links.minicrank_m * (across * turn + inward * (third[1] * rotation.speed_rad_per_s) ** 2)
     force = -masses.minicrank_mass_kg * pin
     still = np.zeros_like(force)
-    return HousingWrench(
-        force_n={"rotor": still, "orbiting_scroll": still, "minicrank": force},
-        roll_moment_n_m={
-            "rotor": -masses.rotor_inertia_kg_m2 * rotation.acceleration_rad_per_s2,
-            "orbiting_scroll": -masses.scroll_inertia_kg_m2
-            * acceleration_of(moved.scroll_angle, rotation),
-            "minicrank": links.bracket_m * force[1] - masses.minicrank_inertia_kg_m2 * turn,
-        },
-    )
+    rotor = -masses.rotor_inertia_kg_m2 * rotation.acceleration_rad_per_s2
+    scroll = -masses.scroll_inertia_kg_m2 * acceleration_of(moved.scroll_angle, rotation)
+    crank = links.bracket_m * force[1] - masses.minicrank_inertia_kg_m2 * turn
+    return {
+        "rotor": planar(still, rotor),
+        "orbiting_scroll": planar(still, scroll),
+        "minicrank": planar(force, crank),
+    }

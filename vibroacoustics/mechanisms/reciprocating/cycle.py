@@ -10,8 +10,9 @@ from scipy.optimize import minimize_scalar
 from ...errors import ParameterError, SolverError
 from ...moving_parts import Array
 from ...parameters.reciprocating import ReciprocatingMachine, SlidingPairs
+from ...rotation import Rotation, uniform_crank_angle
 from ...units import shaft_frequency_hz
-from ..crankshaft import Rotation, reduced_inertia, steady_rotation, uniform_crank_angle
+from ..crankshaft import DrivenRotation, reduced_inertia, steady_rotation
 from .gas import cylinder_pressure
 from .slider_crank import (
     Motion,
@@ -20,6 +21,7 @@ from .slider_crank import (
     motion,
     moving_masses,
     rates_of_momentum,
+    top_dead_centre_m,
 )
 
 SAMPLES: Final = 3600
@@ -83,7 +85,7 @@ class Cycle:
 
     crank: SliderCrank
     moved: Motion
-    rotation: Rotation
+    rotation: DrivenRotation
     pressure_pa: Array
     gas_force_n: Array
     friction: Friction
@@ -111,7 +113,9 @@ def _work_j(torque_n_m: Array) -> float:
     return float(2.0 * np.pi * np.mean(torque_n_m))
 
 
-def steady_cycle(machine: ReciprocatingMachine, bore_m: float, speed_rpm: float) -> Cycle:
+def steady_cycle(
+    machine: ReciprocatingMachine, bore_m: float, speed_rpm: float, samples: int = SAMPLES
+) -> Cycle:
     """Solve the crankshaft's equation of motion (1) with Coulomb friction (4) by iteration.
 
     As in the paper, the first solution is without friction; the friction of each solution goes
@@ -127,13 +131,14 @@ def steady_cycle(machine: ReciprocatingMachine, bore_m: float, speed_rpm: float)
     if not 0.0 < speed_rpm < np.inf:
         raise ParameterError(f"speed_rpm = {speed_rpm:g} rpm: must be positive and finite")
     crank = design_at_bore(machine.piston_and_rod, bore_m)
-    moved = motion(crank, uniform_crank_angle(SAMPLES))
+    moved = motion(crank, uniform_crank_angle(samples))
     inertia = reduced_inertia(machine.crankshaft.inertia_kg_m2, moving_masses(crank, moved))
-    swept = crank.piston_area_m2 * (moved.piston_m[0, 0] - moved.piston_m[0])
-    pressure = cylinder_pressure(moved.crank_angle, swept, machine.gas)
+    top = top_dead_centre_m(crank)
+    swept = np.maximum(crank.piston_area_m2 * (top - moved.piston_m[0]), 0.0)
+    pressure = cylinder_pressure(swept, moved.piston_m[1] < 0.0, machine.gas)
     gas_force = -crank.piston_area_m2 * (pressure - machine.gas.crankcase_pressure_pa)
     mean_speed = 2.0 * np.pi * shaft_frequency_hz(speed_rpm)
-    none = np.zeros(SAMPLES)
+    none = np.zeros(samples)
     friction = Friction(none, none, none, none)
     for _ in range(ITERATIONS):
         loads = load_torques(moved, gas_force, friction)
@@ -150,7 +155,7 @@ def steady_cycle(machine: ReciprocatingMachine, bore_m: float, speed_rpm: float)
 def load_torques(moved: Motion, gas_force_n: Array, friction: Friction) -> dict[str, Array]:
     """Torques of gas and friction against the crankshaft's rotation, right side of equation (1).
 
-    With dx_p/dθ = -x_p tan φ, dφ/dθ = α cos θ/cos φ and 1 + dφ/dθ = x_p/(l cos φ).
+    Without crank offset dx_p/dθ = -x_p tan φ, dφ/dθ = α cos θ/cos φ and 1 + dφ/dθ = x_p/(l cos φ).
     """
     piston, rod = moved.piston_m[1], moved.rod_angle[1]
     return {

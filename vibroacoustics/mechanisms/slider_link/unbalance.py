@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from ...moving_parts import Array
-from ...parameters.machine import Housing
+from ...parameters.housing import Housing
 from ...parameters.slider_link import SliderLinkMachine
 from .crankshaft import CrankForces
 from .piston import CrankState, engaged_length

@@ -1,0 +1,22 @@
+"""The scroll with an Oldham coupling: ring and rotating set at constant speed."""
+
+from ..moving_parts import MachineMotion, motion_of_parts
+from ..parameters.oldham_scroll import OldhamScroll
+from ..rotation import constant_rotation
+from .oldham import oldham_ring
+from .rotating_set import rotating_set
+
+
+def oldham_scroll(machine: OldhamScroll, speed_rpm: float, samples: int) -> MachineMotion:
+    """Force and moment of ring, orbiting scroll, pin, brake and counterweights, by source.
+
+    Parameters
+    ----------
+    machine : masses in kg, places in m
+    speed_rpm : constant
+    samples : crank angles of the revolution
+    """
+    rotation = constant_rotation(speed_rpm, samples)
+    crank_angle = rotation.crank_angle
+    parts = (*oldham_ring(machine, crank_angle), *rotating_set(machine, crank_angle))
+    return motion_of_parts(parts, rotation)

@@ -1,0 +1,36 @@
+"""The reciprocating compressor as the chain takes it: force and moment by source."""
+
+from ...moving_parts import MachineMotion
+from ...parameters.reciprocating import ReciprocatingMachine
+from ..crankshaft import every
+from .cycle import SAMPLES, steady_cycle
+from .slider_crank import housing_wrenches
+
+
+def reciprocating_revolution(
+    machine: ReciprocatingMachine, speed_rpm: float, samples: int
+) -> MachineMotion:
+    """Steady revolution of piston, connecting rod and crankshaft under gas and friction.
+
+    Parameters
+    ----------
+    machine : masses in kg, lengths in m, pressures in Pa
+    speed_rpm : mean over time
+    samples : crank angles of the revolution
+    """
+    stride = -(-SAMPLES // samples)
+    bore = machine.piston_and_rod.bore_m
+    cycle = steady_cycle(machine, bore, speed_rpm, samples * stride)
+    wrenches = housing_wrenches(
+        cycle.crank, cycle.moved, cycle.rotation, machine.crankshaft.inertia_kg_m2
+    )
+    return every(
+        stride,
+        cycle.rotation,
+        {name: own.placed(machine.crank_frame) for name, own in wrenches.items()},
+        {
+            "speed_fluctuation_percent": 100.0 * cycle.rotation.fluctuation_ratio,
+            "mechanical_efficiency_percent": 100.0 * cycle.mechanical_efficiency,
+            "shaft_power_w": cycle.supplied_work_j / cycle.rotation.duration_s,
+        },
+    )

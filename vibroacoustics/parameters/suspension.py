@@ -1,0 +1,42 @@
+"""The springs inside the shell that carry the block with mechanism and motor."""
+
+from pydantic import Field, model_validator
+
+from .base import Parameters
+from .housing import Housing
+from .mounts import Mounts
+
+
+class DischargeTube(Parameters):
+    """A bent tube from the block to the shell, without mass.
+
+    Its centre line runs through the points x, y, z from the block's centre of mass at rest.
+    """
+
+    outer_diameter_m: float = Field(gt=0.0, le=0.1)
+    inner_diameter_m: float = Field(ge=0.0, le=0.1)
+    x_m: tuple[float, ...] = Field(min_length=2, max_length=1000)
+    y_m: tuple[float, ...]
+    z_m: tuple[float, ...]
+    youngs_modulus_pa: float = Field(ge=1e6, le=1e12)
+    poisson_ratio: float = Field(gt=-1.0, le=0.5)
+    loss_factor_ratio: float = Field(ge=0.0, le=1.0)
+
+    @model_validator(mode="after")
+    def _whole_points(self) -> "DischargeTube":
+        if not len(self.x_m) == len(self.y_m) == len(self.z_m):
+            raise ValueError("x_mm, y_mm, z_mm: must be as long as each other")
+        return self
+
+
+class Suspension(Parameters):
+    """Four equal springs in a square under or over the block, and the discharge tube."""
+
+    block: Housing
+    """Mass and moments of inertia of block, motor and moving parts."""
+    height_m: float = Field(ge=-2.0, le=2.0)
+    """Of the block's centre of mass above the shell's."""
+    springs: Mounts
+    springs_height_m: float = Field(ge=-2.0, le=2.0)
+    """Of the springs from the block's centre of mass."""
+    discharge_tube: DischargeTube | None = None
