@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 from support import ROOT
 
 from vibroacoustics.errors import ParameterError, SolverError
-from vibroacoustics.mechanisms.crankshaft import steady_rotation, uniform_crank_angle
+from vibroacoustics.mechanisms.crankshaft import steady_rotation
 from vibroacoustics.mechanisms.induction_motor.kloss import slip_at_torque, slope_ratio, torque
 from vibroacoustics.mechanisms.induction_motor.revolving_fields import (
     breakdown_slip,
@@ -22,6 +22,7 @@ from vibroacoustics.mechanisms.induction_motor.revolving_fields import (
 from vibroacoustics.mechanisms.induction_motor.speed_response import speed_response, two_axis_motor
 from vibroacoustics.mechanisms.induction_motor.torque_lines import torque_lines
 from vibroacoustics.parameters.induction_motor import CapacitorMotor, KlossMotor
+from vibroacoustics.rotation import uniform_crank_angle
 
 VALUES = values_of(ROOT / "data" / "parts" / "copeland_zp41k3e.toml")["motor"]
 MOTOR = CapacitorMotor(**VALUES)

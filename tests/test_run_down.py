@@ -20,9 +20,10 @@ from vibroacoustics.mechanisms.run_down.shift import (
     overrun_torque_n_m,
     residual_force_n,
 )
-from vibroacoustics.moving_parts import MovingPart, path, second_derivative, wrench
+from vibroacoustics.moving_parts import MovingPart, derivative, path, wrench
 from vibroacoustics.orders import angular_resample, block_phasors, from_angle, order_map
 from vibroacoustics.parameters.run_down import Stopping
+from vibroacoustics.rotation import constant_rotation
 
 FILE = values_of(ROOT / "data" / "parts" / "copeland_zp41k3e.toml")["stopping"]
 VALUES = {**FILE, "friction_torque_n_m": 1.5}
@@ -88,7 +89,7 @@ def test_steady_running_is_that_of_constant_speed():
     result = stopped(steady=3)
     before = result.time_s < 0.0
     assert result.time_s[0] == pytest.approx(-3.0 / (SPEED / (2.0 * np.pi)), abs=1.0 / RATE_HZ)
-    rotating, _ = wrench(PARTS, SPEED / (2.0 * np.pi))
+    rotating, _ = wrench(PARTS, constant_rotation(2900.0, CRANK_ANGLE.size))
     angle = result.crank_angle_rad[before]
     force = result.force_n.sum(axis=0)[:, before]
     exact = path_derivatives(rotating, angle)[0]
@@ -203,7 +204,7 @@ def test_any_path_at_constant_speed(seed):
     place += generator.standard_normal((3, 8)) @ np.sin(order) + generator.standard_normal((3, 1))
     part = MovingPart("part", 1.0, place)
     force, moment = wrench_along(part, CRANK_ANGLE, np.full(256, 100.0), np.zeros(256))
-    exact = -(100.0**2) * second_derivative(place)
+    exact = -(100.0**2) * derivative(place, 2)
     # The derivative multiplies rounding by 128²: 1e4 times 20 times 16384 times 2e-16 = 1e-6.
     assert force == pytest.approx(exact, abs=1e-5)
     assert moment == pytest.approx(np.cross(place, exact, axis=0), abs=2e-4)
@@ -235,7 +236,7 @@ def test_set_does_not_overrun_under_load():
 
 def test_peak_against_steady_running():
     """After the turn: Oldham ring 23.2 N and residual 34.7 N; during it the set's acceleration."""
-    steady = peaks(*wrench(PARTS, SPEED / (2.0 * np.pi)))
+    steady = peaks(*wrench(PARTS, constant_rotation(2900.0, CRANK_ANGLE.size)))
     slow, quick = (stopped(shift_duration_s=each).peaks for each in (0.04, 0.006))
     both = steady.force_n + residual_force_n(1.25 * 3.461e-3, VALUES["shift_rad"], SPEED)
     assert steady.force_n < slow.force_n < both
