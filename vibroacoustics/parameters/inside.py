@@ -14,6 +14,7 @@ from .shell_structure import ShellStructure
 DRAWN: Final = frozenset(
     {
         ("gas", "polytropic_index"),
+        ("gas", "equalisation_angle_rad"),
         ("keys", "clearance_m"),
         ("keys", "contact_stiffness_n_per_m1p5"),
         ("keys", "restitution_ratio"),

@@ -72,6 +72,8 @@ class ScrollGas(Parameters):
     suction_pressure_pa: float = PRESSURE
     discharge_pressure_pa: float = PRESSURE
     polytropic_index: float = Field(gt=1.0, le=2.0)
+    equalisation_angle_rad: float = Field(default=0.0, ge=0.0, le=6.283185307179586)
+    """Crank angle over which an opened pocket comes to the discharge pressure; 0 is at once."""
 
     @model_validator(mode="after")
     def _compresses(self) -> "ScrollGas":

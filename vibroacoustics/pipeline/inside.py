@@ -6,10 +6,12 @@ from typing import Final
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 from scipy.stats import qmc
 
 from .. import levels
 from ..constants import REFERENCE_PRESSURE_PA
+from ..errors import SolverError
 from ..parameters.inside import Doubt, Inside, InsideSettings
 from ..parameters.oldham_scroll import OldhamScroll
 from ..parameters.options import Option, TwinOldham
@@ -33,6 +35,8 @@ MOVING_PARTS: Final = "moving_parts"
 QUANTILES: Final = (0.1, 0.5, 0.9)
 WIDE_RATIO: Final = 3.0
 """A range wider than this is drawn evenly over its logarithm."""
+LEAST_DRAWS: Final = 3
+"""Draws that must be left for a band."""
 ROLL: Final = RIGID_BODY_DOFS.index("rz")
 
 
@@ -224,7 +228,10 @@ def _labelled(
     heard: list[dict[tuple[float, str], tuple[SourceSound, dict[str, float]]]],
     listener: _Listener,
 ) -> xr.Dataset:
-    """Levels of the assumed values, and quantiles of the draws."""
+    """Levels of the assumed values, and quantiles of the draws.
+
+    A draw that alone is louder than the overall level contradicts it and is left out.
+    """
     speeds, options = list(study.operation.speed_rpm), list(study.options)
     sources = list(heard[0][speeds[0], options[0]][0].sources)
 
@@ -240,12 +247,18 @@ def _labelled(
     of_draws = {"quantile": list(QUANTILES)}
     alone, total = _level(gathered("weighted")), gathered("total")
     whole, remainder = _whole(study, results, total)
+    kept = remainder[1:] > 0.0
+    if np.count_nonzero(kept) < LEAST_DRAWS:
+        raise SolverError(
+            f"inside.random_samples: only {np.count_nonzero(kept)} of {kept.size} draws are below "
+            f"the overall level, {LEAST_DRAWS} are needed; draw more, or look at the ranges"
+        )
     reference = options.index(REFERENCE_OPTION)
     levels_of = {"level_all_sources": _level(total), "level_whole": _level(whole)}
     arrays = {
         "source_level": stamp("source_level", alone[0], by_source),
         "source_level_quantile": stamp(
-            "source_level_quantile", _quantiles(alone), {**of_draws, **by_source}
+            "source_level_quantile", _quantiles(alone, kept), {**of_draws, **by_source}
         ),
         "source_share": stamp(
             "source_share", gathered("part")[0] / total[0][:, :, None], by_source
@@ -256,7 +269,7 @@ def _labelled(
             {**by_source, "band": [band.nominal_hz for band in listener.bands]},
         ),
         "inner_remainder_level": stamp(
-            "inner_remainder_level", _quantiles(_level(remainder)), of_draws
+            "inner_remainder_level", _quantiles(_level(remainder), kept), of_draws
         ),
     }
     for name, level in levels_of.items():
@@ -264,21 +277,23 @@ def _labelled(
         for label, values in ((name, level), (name.replace("level", "change"), change)):
             arrays[label] = stamp(label, values[0], by_receiver)
             arrays[f"{label}_quantile"] = stamp(
-                f"{label}_quantile", _quantiles(values), {**of_draws, **by_receiver}
+                f"{label}_quantile", _quantiles(values, kept), {**of_draws, **by_receiver}
             )
     arrays["inner_figure"] = _figures(heard[0], speeds, options)
     labelled = check(xr.Dataset(arrays))
-    exceeding = float(np.mean(remainder[1:] <= 0.0))
-    return labelled.assign_attrs(draws=len(heard) - 1, draws_above_overall_level=exceeding)
+    labelled["source_level_quantile"].attrs.update(
+        draws=kept.size, draws_above_overall_level=int(np.count_nonzero(~kept))
+    )
+    return labelled
 
 
 def _level(mean_square: Array) -> Array:
     return levels.mean_square_level(mean_square, REFERENCE_PRESSURE_PA)
 
 
-def _quantiles(draws: Array) -> Array:
-    """Over the random draws; the first one is what is assumed."""
-    return np.asarray(np.quantile(draws[1:], QUANTILES, axis=0))
+def _quantiles(draws: Array, kept: NDArray[np.bool_]) -> Array:
+    """Over the random draws that are kept; the first one is what is assumed."""
+    return np.asarray(np.quantile(draws[1:][kept], QUANTILES, axis=0))
 
 
 def _whole(study: Study, results: xr.Dataset, total: Array) -> tuple[Array, Array]:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import ParameterError
 from ..schema import RIGID_BODY_DOFS
@@ -29,7 +30,7 @@ class SurfaceMotion(Protocol):
     def name(self) -> str:
         """Unique among the patterns."""
 
-    def velocity(self, points: Array) -> Array:
+    def velocity(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Velocity vectors (point, 3) per unit of the motion, at points (point, 3)."""
 
 
@@ -59,7 +60,7 @@ def rigid_body(dof: str) -> Pattern:
 
 def surface_motion(motion: SurfaceMotion) -> Pattern:
     """Pattern of a motion that comes from elsewhere."""
-    return Pattern(motion.name, lambda at: motion.velocity(at.position))
+    return Pattern(motion.name, lambda at: motion.velocity(np.asarray(at.position, dtype=float)))
 
 
 def normal_velocity(name: str, velocity: Callable[[Array], Array]) -> Pattern:

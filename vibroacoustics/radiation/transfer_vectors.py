@@ -260,7 +260,7 @@ def _source_hash() -> str:
 
 def _hash_of_velocity(motion: SurfaceMotion, points: Array) -> str:
     """Hash of a motion at the corners of the body's surface, to nine digits of its largest."""
-    velocity = motion.velocity(points)
+    velocity = motion.velocity(np.asarray(points, dtype=float))
     return _hash(np.round(velocity / np.abs(velocity).max(), 9).tobytes())
 
 

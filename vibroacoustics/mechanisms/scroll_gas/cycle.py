@@ -85,8 +85,9 @@ def scroll_gas_cycle(wraps: ScrollWraps, gas: ScrollGas, crank_angle: Array) -> 
     crank_angle : shape (samples,), rad
     """
     turn = 2.0 * np.pi
+    count = contact_count(wraps, gas.equalisation_angle_rad)
     since_closing = np.mod(crank_angle - wraps.closing_crank_angle_rad, turn)
-    inside = since_closing + turn * np.arange(contact_count(wraps))[:, None]
+    inside = since_closing + turn * np.arange(count)[:, None]
     step = pocket_pressure(wraps, gas, inside) - pocket_pressure(wraps, gas, inside - turn)
     contact = contact_angle(wraps, inside)
     width = 2.0 * wraps.base_radius_m * wraps.height_m

@@ -22,9 +22,13 @@ def contact_angle(wraps: ScrollWraps, angle_since_closing: Array) -> Array:
     return np.asarray(wraps.end_angle_rad - 0.5 * np.pi - angle_since_closing)
 
 
-def contact_count(wraps: ScrollWraps) -> int:
-    """Largest number of contacts of a pair of flanks at a time."""
-    return int(np.ceil(wraps.opening_angle_rad / (2.0 * np.pi))) + 1
+def contact_count(wraps: ScrollWraps, equalisation_angle_rad: float) -> int:
+    """Largest number of contacts of a pair of flanks at a time.
+
+    A contact that has just opened counts as long as its pocket comes to the discharge pressure.
+    """
+    kept = wraps.opening_angle_rad + equalisation_angle_rad
+    return int(np.ceil(kept / (2.0 * np.pi))) + 1
 
 
 def pocket_volume(wraps: ScrollWraps, angle_since_closing: Array) -> Array:

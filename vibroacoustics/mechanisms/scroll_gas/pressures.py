@@ -17,7 +17,8 @@ def pocket_pressure(wraps: ScrollWraps, gas: ScrollGas, angle_since_closing: Arr
     """Pressure in a pocket: suction, polytropic from its closing, discharge from its opening, Pa.
 
     p = p_s (V_s/V)^n (thesis 6.1, Appendix A). When the pocket opens, its pressure becomes that of
-    the discharge at once, from above (over-compression) or from below (under-compression).
+    the discharge, from above (over-compression) or from below (under-compression), along half a
+    cosine over the equalisation angle: the gap grows from nothing.
 
     Parameters
     ----------
@@ -30,7 +31,12 @@ def pocket_pressure(wraps: ScrollWraps, gas: ScrollGas, angle_since_closing: Arr
     ratio = pocket_volume(wraps, np.zeros(())) / volume
     compressed = gas.suction_pressure_pa * ratio**gas.polytropic_index
     closed = angle_since_closing < opening - OPENED_BEFORE
-    return np.where(closed, compressed, gas.discharge_pressure_pa)
+    since_opening = np.maximum(angle_since_closing - opening, 0.0)
+    width = max(gas.equalisation_angle_rad, np.finfo(float).tiny)
+    left = 0.5 + 0.5 * np.cos(np.pi * np.minimum(since_opening / width, 1.0))
+    left = np.where(since_opening < gas.equalisation_angle_rad, left, 0.0)
+    opened = gas.discharge_pressure_pa + left * (compressed - gas.discharge_pressure_pa)
+    return np.where(closed, compressed, opened)
 
 
 def built_in_pressure_pa(wraps: ScrollWraps, gas: ScrollGas) -> float:
@@ -39,7 +45,7 @@ def built_in_pressure_pa(wraps: ScrollWraps, gas: ScrollGas) -> float:
 
 
 def compression_work_j(wraps: ScrollWraps, gas: ScrollGas) -> float:
-    """Work on the gas per revolution in closed form, ∮ V dp of polytrope and step, J.
+    """Work on the gas per revolution in closed form, ∮ V dp of polytrope and step at once, J.
 
     W = n/(n-1) p_s V_s (ε^(n-1) - 1) + (p_d - p_i) V_s/ε with the built-in volume ratio ε and the
     built-in pressure p_i = p_s ε^n. The least work of n/(n-1) p_s V_s ((p_d/p_s)^((n-1)/n) - 1)
