@@ -18,4 +18,10 @@ MECHANISMS: Final[dict[str, Mechanism]] = {
 }
 """Mechanism of each kind of machine."""
 
-__all__ = ["MECHANISMS", "Mechanism", "oldham_scroll", "reciprocating_revolution", "slider_link_revolution"]
+__all__ = [
+    "MECHANISMS",
+    "Mechanism",
+    "oldham_scroll",
+    "reciprocating_revolution",
+    "slider_link_revolution",
+]

@@ -9,7 +9,9 @@ from .oldham_scroll import OldhamScroll
 from .reciprocating import ReciprocatingMachine
 from .slider_link import SliderLinkMachine
 
-Machine = Annotated[OldhamScroll | ReciprocatingMachine | SliderLinkMachine, Field(discriminator="kind")]
+Machine = Annotated[
+    OldhamScroll | ReciprocatingMachine | SliderLinkMachine, Field(discriminator="kind")
+]
 
 MACHINES: Final[dict[str, type[CommonMachine]]] = {
     "oldham-scroll": OldhamScroll,

@@ -1,8 +1,8 @@
 """A slider-link compressor: piston with cross link, slider on the crank pin, cantilever shaft.
 
-Symbols in brackets are those of Dagilis, Vaitkus and Kirejchick (seed 4). Offsets along y are in the
-paper's frame: x along the cylinder, z down along the shaft, origin on the shaft at the height of
-the block's centre of mass.
+Symbols in brackets are those of Dagilis, Vaitkus and Kirejchick (seed 4). Offsets along y are in
+the paper's frame: x along the cylinder, z down along the shaft, origin on the shaft at the height
+of the block's centre of mass.
 """
 
 from math import pi

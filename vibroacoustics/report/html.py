@@ -40,6 +40,7 @@ def _context(results: xr.Dataset, pictures: Sequence[Picture]) -> dict[str, Any]
         "style": resources.files(__package__).joinpath("templates/style.css").read_text("utf-8"),
         "title": parameters(results)["title"],
         "machine": parameters(results)["machine"]["name"],
+        "kind": parameters(results)["machine"]["kind"],
         "created": results.attrs["created_utc"],
         "receiver": receiver,
         "headline": verdict.headline(results),
@@ -63,6 +64,7 @@ def _context(results: xr.Dataset, pictures: Sequence[Picture]) -> dict[str, Any]
 def _housing(results: xr.Dataset) -> dict[str, Any]:
     return {
         "modes": housing.modes_table(results),
+        "block": housing.block_table(results),
         "isolation": housing.isolation_sentence(results),
         "receivers": housing.receivers_table(results),
         "green": housing.green_sentence(results),

@@ -33,9 +33,7 @@ def unbalance(machine: SliderLinkMachine, state: CrankState) -> dict[str, Wrench
     shaft_spin = -masses.crankshaft_inertia_kg_m2 * state.acceleration
     return {
         "piston": _wrench((piston, zero, zero), (zero, -height * piston, arm * piston)),
-        "slider": _wrench(
-            (*slider, zero), (height * slider[1], -height * slider[0], slider_spin)
-        ),
+        "slider": _wrench((*slider, zero), (height * slider[1], -height * slider[0], slider_spin)),
         "crankshaft": _wrench((*shaft, zero), (-couple[1], couple[0], shaft_spin)),
     }
 
