@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 from support import ROOT
 
 from vibroacoustics.errors import ParameterError
-from vibroacoustics.mechanisms.hermetic.beam_rotor import natural_frequencies_hz, with_disc
+from vibroacoustics.mechanisms.beam_rotor import natural_frequencies_hz, with_disc
 from vibroacoustics.mechanisms.hermetic.cycle import steady_cycle, uniform_samples
 from vibroacoustics.mechanisms.hermetic.film_force import printed_film_force
 from vibroacoustics.mechanisms.hermetic.film_linearisation import damped_modes, linear_film

@@ -26,6 +26,9 @@ UNITS: Final[dict[str, Unit]] = {
     "n_per_mm": Unit("N/mm", "n_per_m", 1e3),
     "n_per_m": Unit("N/m", "n_per_m", 1.0),
     "ns_per_m": Unit("N s/m", "ns_per_m", 1.0),
+    "n_per_m1p5": Unit("N/m^1.5", "n_per_m1p5", 1.0),  # of a Hertz contact
+    "mm_per_s": Unit("mm/s", "m_per_s", 1e-3),
+    "m_per_s": Unit("m/s", "m_per_s", 1.0),
     "bar": Unit("bar", "pa", 1e5),
     "mpa": Unit("MPa", "pa", 1e6),
     "pa": Unit("Pa", "pa", 1.0),

@@ -53,6 +53,11 @@ NOT_MODELLED_OF_KIND: Final = {
         "The motor's torque falls linearly with the speed; its pulsation at twice the line "
         "frequency is not modelled.",
     ),
+    "reciprocating": (
+        "One cylinder stands for the machine. The crankshaft is balanced about its axis, the big "
+        "end of the rod is not; the paper gives no counterweight. Lanchester's weights are in "
+        "the plane of the cylinder's axis, without the moment of their gears.",
+    ),
 }
 """What each kind of machine leaves out besides."""
 

@@ -31,7 +31,7 @@ def gas_force_n(machine: HermeticCompressor, crank_angle: Array) -> Array:
     machine : pressures in Pa, polytropic exponent
     crank_angle : θ, rad; the gas expands for 0 < θ < π
     """
-    pressure = _cycle(machine).pressure_pa(fill(machine, crank_angle), crank_angle)
+    pressure = _cycle(machine).pressure_pa(fill(machine, crank_angle), np.sin(crank_angle) > 0.0)
     return np.asarray((pressure - machine.gas.suction_pressure_pa) * piston_area_m2(machine))
 
 

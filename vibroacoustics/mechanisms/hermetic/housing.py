@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...moving_parts import Array
-from .beam_rotor import NODE_FREEDOMS
+from ..beam_rotor import NODE_FREEDOMS
 from .results import motion_of
 from .shaft import ShaftEquations, node_positions_m
 
