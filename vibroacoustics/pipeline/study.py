@@ -201,7 +201,10 @@ def _orders(study: Study, results: xr.Dataset) -> xr.Dataset:
 
 
 def _housing(study: Study, results: xr.Dataset) -> xr.Dataset:
-    """Motion of the housing on its mounts and the forces into the feet."""
+    """Motion of the housing on its mounts and the forces into the feet.
+
+    Every option moves on its own mounts; the natural modes are those of the machine as it is.
+    """
     bodies = [_on_mounts(_machine_of(study, option)) for option in study.options.values()]
     parts = [results[name].transpose("option", ..., "order", "axis") for name in _WRENCH]
     loads = np.concatenate([part.values for part in parts], axis=-1)
