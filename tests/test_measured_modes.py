@@ -40,7 +40,6 @@ def mode_set(number, **changes):
 
 def node_set(kind=15, numbers=NUMBERS, system=0):
     count = len(numbers)
-    # 2411 is written as the file's own integers
     parts = {"node_nums": numbers, "x": NODES[:count, 0], "y": NODES[:count, 1],
              "z": NODES[:count, 2], "def_cs": np.zeros(count, int), "color": np.ones(count, int),
              "disp_cs": np.full(count, 0) + system * (np.arange(count) == 1)}  # fmt: skip

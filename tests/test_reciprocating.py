@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 from machine_files import changed, machine_file
 from scipy.integrate import solve_ivp
 
-from vibroacoustics.errors import ParameterError, SolverError
+from vibroacoustics.errors import ParameterError
 from vibroacoustics.loading import load_machine
-from vibroacoustics.mechanisms.crankshaft import reduced_inertia, steady_rotation
+from vibroacoustics.mechanisms.crankshaft import reduced_inertia
 from vibroacoustics.mechanisms.reciprocating.cycle import optimum_bore, steady_cycle
 from vibroacoustics.mechanisms.reciprocating.gas import (
     compression_work_j,
@@ -331,12 +331,6 @@ def test_optimum_outside_the_range():
 def test_range_of_bores_that_cannot_be(ends):
     with pytest.raises(ParameterError, match="must be two rising, positive lengths"):
         optimum_bore(MACHINE, 1000.0, *ends)
-
-
-def test_rotation_that_does_not_converge():
-    angle = uniform_crank_angle(64)
-    with pytest.raises(SolverError, match="motor_slope_ratio = -50"):
-        steady_rotation(np.ones(64), np.zeros(64), 20.0 + 15.0 * np.sin(angle), 10.0, -50.0)
 
 
 @pytest.mark.parametrize(

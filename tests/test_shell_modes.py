@@ -10,7 +10,7 @@ from pydantic import ValidationError
 from scipy.linalg import eigh
 from scipy.optimize import brentq
 from scipy.special import ive, jv
-from support import ROOT
+from support import ROOT, whole_surface
 
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.parameters.shell import Shell
@@ -32,7 +32,6 @@ from vibroacoustics.transfer.shell_modes import (
 )
 from vibroacoustics.transfer.shell_modes.elements import (
     NODE_FREEDOMS,
-    displacement_shapes,
     matrices,
     strains,
 )
@@ -205,7 +204,7 @@ def test_three_dimensional_elasticity_between_diaphragms(order):
     Kirchhoff's excess is at most that of the flat plate, since part of the energy is stretching;
     the theories themselves differ from each other by terms of (h/R) (h/R) n².
     """
-    strip = solid.open_cylinder(RADIUS, 0.38, 3.2e-3, 0.015)
+    strip = solid.open_cylinder(RADIUS, 0.38, 3.2e-3, 0.03)
     exact = solid.frequencies_hz(strip, order, 2.06e11, 0.3, 7850.0, 1, diaphragms=True)[0]
     fluegge = diaphragm_frequencies_hz(STEEL, RADIUS, 0.38, order, 1)[0]
     spread = (order * STEEL.thickness_m / RADIUS) ** 2
@@ -239,29 +238,32 @@ def test_clamped_disc(order):
 
 @pytest.mark.parametrize("order", range(7))
 def test_domed_shell_against_three_dimensional_elasticity(domed, order):
-    """Up to 4.5 kHz, caps included: what Kirchhoff leaves out, and h/R of shell theory itself."""
-    strip = solid.domed(0.0825, 0.417, 0.04, 3.2e-3, 0.012)
+    """Up to 4.5 kHz, caps included, within 1 %: what Kirchhoff's shell lacks.
+
+    The dome's straight pieces, doubled in number, change a frequency by 1.2e-3 at most, upwards.
+    """
+    strip = solid.domed(0.0825, 0.417, 0.04, 3.2e-3, 0.02)
     found = of_order(domed, order)
     exact = solid.frequencies_hz(strip, order, 2.06e11, 0.3, 7850.0, found.size + 3)
     exact = exact[exact > 50.0][: found.size]
     excess = found / exact - 1.0
-    assert np.all(excess > -2e-4)
-    assert np.all(excess < shear_and_rotation(exact) + (max(order, 1) * 3.2e-3 / RADIUS) ** 2 / 4)
-    assert np.all(excess < 0.0105)
+    assert np.all(excess > 0.0)
+    assert np.all(excess < shear_and_rotation(exact) + 1.2e-3)
+    assert np.all(excess < 0.01)
 
 
 @pytest.mark.parametrize("order", range(6))
 def test_flat_caps_against_three_dimensional_elasticity(flat, order):
     """The sharp corner: caps bend freely up to the wall's middle surface, really up to its inside.
 
-    A cap's frequency goes with 1/R²: low by h/R at most.
+    A cap's frequency goes with 1/R²: low by h/R at most. The solid's corner errs by 2e-3.
     """
-    strip = solid.flat_capped(0.0825, 0.417, 3.2e-3, 0.012)
+    strip = solid.flat_capped(0.0825, 0.417, 3.2e-3, 0.006)
     found = of_order(flat, order)
     exact = solid.frequencies_hz(strip, order, 2.06e11, 0.3, 7850.0, found.size + 3)
     exact = exact[exact > 50.0][: found.size]
     assert np.all(found / exact - 1.0 > -3.2e-3 / RADIUS)
-    assert np.all(found / exact - 1.0 < shear_and_rotation(exact) + 0.002)
+    assert np.all(found / exact - 1.0 < shear_and_rotation(exact))
     if order in (2, 3):
         assert found[0] == pytest.approx(exact[0], rel=0.0025)
 
@@ -369,25 +371,33 @@ def test_twins_are_the_same_mode_turned(flat):
 
 
 def test_radiating_body_takes_a_mode_as_its_pattern(flat):
-    """On the polygon of 128 sides outside the middle surface; its facets tilt by up to π/128."""
+    """On the polygon of 128 sides outside the middle surface."""
     body = cylinder(FLAT.radius_m, -FLAT.centre_of_mass_height_m, 0.417 - 0.19)
-    middles = body.triangles.mean(axis=1)
-    normals = body.area_vectors()
-    normals /= np.linalg.norm(normals, axis=1)[:, None]
-    wall = np.abs(normals[:, 2]) < 0.5
-    mode = flat.modes[0]
-    assert mode.name == "n2_1_cos"
-    pattern = Pattern(mode.name, lambda at: mode.velocity(at.position))
-    assert pattern.name == mode.name
-    found = mode.normal_velocity(middles, normals)
-    angle = np.arctan2(middles[:, 1], middles[:, 0])
-    height = middles[:, 2] - 0.417 / 2.0 + 0.19
-    # The lowest mode: one half wave between caps that hold it, about; the wall's ends turn freely.
+    at = whole_surface(body, (np.linspace(-0.3, 0.3, 25),) * 3)
+    oval = next(mode for mode in flat.modes if mode.name == "n2_1_cos")
+    drum = next(mode for mode in flat.modes if mode.name == "n0_1_all")
+    patterns = [Pattern(mode.name, lambda at, m=mode: m.velocity(at.position))
+                for mode in (oval, drum)]  # fmt: skip
+    normal = [np.einsum("pi,pi->p", pattern.velocity(at), at.normal) for pattern in patterns]
+    assert normal[0] == pytest.approx(oval.normal_velocity(at.position, at.normal), abs=1e-14)
+    wall = np.abs(at.normal[:, 2]) < 0.5
+    # One half wave that the caps hold, about.
+    height = at.position[wall, 2] + 0.19 - 0.417 / 2.0
+    angle = np.arctan2(at.position[wall, 1], at.position[wall, 0])
     shape = np.cos(2.0 * angle) * np.cos(np.pi * height / 0.417)
-    scale = (found[wall] @ shape[wall]) / (shape[wall] @ shape[wall])
-    assert abs(scale) > 0.9
-    assert np.abs(found[wall] - scale * shape[wall]).max() < 0.1
-    assert np.abs(found[~wall]).max() < 0.25
+    assert np.corrcoef(normal[0][wall], shape)[0, 1] > 0.99
+    # Volume velocity: none of the oval; of the drum as from the middle surface, whose caps and wall
+    # are smaller by the thickness: by 2 h/R at most.
+    volume = [at.area @ velocity for velocity in normal]
+    # Rule of three points on pieces of 25 mm at most, k h = 0.2: (k h)⁴/1000.
+    assert abs(volume[0]) < 2e-6 * at.area.sum()
+    points, area = quadrature(flat.meridian)
+    outwards = np.stack([points[:, 0], points[:, 1], 0.0 * area], axis=1) / RADIUS
+    low, high = flat.meridian.wall_heights_m
+    for end, side in ((low, -1.0), (high, 1.0)):
+        outwards[np.abs(points[:, 2] - end) < 1e-9] = [0.0, 0.0, side]
+    middle = area @ drum.normal_velocity(points, outwards)
+    assert volume[1] == pytest.approx(middle, rel=2.0 * 3.2e-3 / RADIUS)
 
 
 def test_orders_that_are_left_out_have_no_mode(flat):
@@ -592,8 +602,6 @@ def test_strain_energy_of_a_mode_is_its_kinetic_energy(domed):
     assert energy == pytest.approx(
         mode.modal_mass_kg * (2.0 * np.pi * mode.frequency_hz) ** 2, rel=1e-7
     )
-    shapes = displacement_shapes(meridian, element, place)
-    assert shapes.shape == (element.size, 3, 12)
 
 
 def _freedoms(meridian):

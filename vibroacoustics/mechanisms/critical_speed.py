@@ -19,7 +19,7 @@ ROTOR_SLICES: Final = 4
 
 
 def rule_of_thumb_rpm(deflection_cm: float) -> float:
-    """n_c = 300/√y[cm], thesis eq. (6.2): √(g/y) rounded up from 299.06 rpm √cm.
+    """n_c = 300/√y[cm], thesis eq. (6.2): √(g/y) rounded up from 299.04 rpm √cm.
 
     It holds for y the sag under the shaft's own weight, which stands for its stiffness. The
     thesis puts in the deflection y = e ω²/(ω_c² - ω²) under the centrifugal force instead: that
@@ -28,8 +28,16 @@ def rule_of_thumb_rpm(deflection_cm: float) -> float:
     return float(300.0 / np.sqrt(deflection_cm))
 
 
-def unbalance_deflection_m(eccentricity_m: float, speed: float, critical_speed: float) -> float:
-    """Deflection of a disc on a light shaft, y = e ω²/(ω_c² - ω²) (Jeffcott 1919)."""
+def unbalance_deflection_m(
+    eccentricity_m: float, speed: Array | float, critical_speed: float
+) -> Array | float:
+    """Deflection of a disc on a light shaft, y = e ω²/(ω_c² - ω²) (Jeffcott 1919).
+
+    Parameters
+    ----------
+    eccentricity_m : e of the disc's centre of mass
+    speed, critical_speed : in the same unit
+    """
     return eccentricity_m * speed**2 / (critical_speed**2 - speed**2)
 
 

@@ -1,5 +1,7 @@
 """Induction motors: the torque curve of a balanced one, the circuit of one with a capacitor."""
 
+import math
+
 from pydantic import Field
 
 from .base import Parameters
@@ -39,7 +41,7 @@ class CapacitorMotor(Parameters):
 
     @property
     def line_rad_per_s(self) -> float:
-        return 6.283185307179586 * self.line_frequency_hz
+        return 2.0 * math.pi * self.line_frequency_hz
 
     @property
     def synchronous_speed_rad_per_s(self) -> float:

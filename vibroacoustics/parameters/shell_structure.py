@@ -1,10 +1,14 @@
 """The compressor's shell as an elastic body, and the joints through which its inside drives it."""
 
 from math import pi
+from typing import Final
 
 from pydantic import Field, model_validator
 
 from .base import Parameters
+
+JOINTS: Final = ("bearing_housing", "fixed_scroll", "stator")
+"""Inner parts that are fixed to the wall."""
 
 
 class Joint(Parameters):

@@ -111,5 +111,7 @@ def point_at_torque(motor: CapacitorMotor, torque_n_m: float) -> OperatingPoint:
             f"torque = {torque_n_m:.4g} N m: the motor gives {least:.4g} to {most:.4g} N m between "
             "synchronous speed and breakdown"
         )
-    excess = lambda slip: operating_point(motor, slip).torque_n_m - torque_n_m  # noqa: E731
-    return operating_point(motor, float(brentq(excess, 0.0, top, xtol=1e-14)))
+    slip = brentq(
+        lambda slip: operating_point(motor, slip).torque_n_m - torque_n_m, 0.0, top, xtol=1e-14
+    )
+    return operating_point(motor, float(slip))

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...moving_parts import Array
 from ...parameters.oldham_keys import OldhamKeys
-from ..crankshaft import uniform_crank_angle
+from ...rotation import uniform_crank_angle
 
 
 def contact_loss_speed_rpm(

@@ -81,7 +81,8 @@ def run_down(
     """Run-down after switch-off: the motor's torque is gone, gas and friction slow the shaft.
 
     Lagrange's equation, the set at φ = θ + δ(t): Σ [I φ̈ + ½ (dI/dφ) φ̇²] = -T_gas(φ) - T_f - c θ̇.
-    Left out: the motor's torque while its field dies out, and the pressures' change meanwhile.
+    Left out: the motor's torque while its field dies out, the pressures' change meanwhile, and what
+    follows the stop.
 
     Parameters
     ----------
@@ -109,7 +110,6 @@ def run_down(
         method="DOP853",
         rtol=RELATIVE_TOLERANCE,
         atol=RELATIVE_TOLERANCE,
-        max_step=stopping.shift_duration_s,  # not to step over the shift
         events=_at_rest,
         dense_output=True,
     )

@@ -2,7 +2,13 @@
 
 from .cylinder import diaphragm_frequencies_hz, donnell_frequencies_hz
 from .loads import JOINT_LOADS, JointLoads, PointForces, joint_forces
-from .mobility import mobility, modal_forces, modal_mobility, static_flexibility
+from .mobility import (
+    mobility,
+    modal_forces,
+    modal_mobility,
+    static_flexibility,
+    velocity_per_force,
+)
 from .modes import ElasticShell, ShellMode, elastic_shell
 from .sampled import SampledMode
 
@@ -21,4 +27,5 @@ __all__ = [
     "modal_forces",
     "modal_mobility",
     "static_flexibility",
+    "velocity_per_force",
 ]

@@ -16,7 +16,7 @@ JOINT_LOADS: Final = ("fx", "fy", "fz", "mz")
 _BAND_POINTS: Final = 8
 """Heights over which the band of a joint is averaged, Gauss points."""
 _SPREAD_POINTS: Final = 32
-"""Angles over a weld, Gauss points; exact to rounding for cos nθ with n times its angle below 45."""
+"""Angles over a weld, Gauss points; exact to rounding for cos nθ with n times its angle to 45."""
 
 
 class Load(Protocol):
@@ -40,6 +40,7 @@ class PointForces:
     directions: Real
 
     def generalised(self, meridian: Meridian, around: Around) -> Real:
+        """As of any `Load`."""
         angle = np.arctan2(self.points[:, 1], self.points[:, 0])
         place = np.stack([np.hypot(self.points[:, 0], self.points[:, 1]), self.points[:, 2]], 1)
         cosine, sine = np.cos(angle), np.sin(angle)
@@ -67,7 +68,9 @@ class JointLoads:
     joint: Joint
 
     def generalised(self, meridian: Meridian, around: Around) -> Real:
-        """Raises
+        """As of any `Load`.
+
+        Raises
         ------
         ParameterError
             The joint reaches beyond the wall.

@@ -18,6 +18,8 @@ Index = NDArray[np.intp]
 
 ELEMENTS_PER_WAVELENGTH: Final = 10.0
 """Of bending waves. Cubic shapes err by (k h)⁴ / 1440 of a frequency, 1e-4."""
+_DOME_REFINEMENT: Final = 2.0
+"""Straight pieces approach a curved meridian with the square of their length only."""
 _LEAST_ELEMENTS: Final = 3
 """Of each part of the meridian."""
 
@@ -116,7 +118,7 @@ def closed_meridian(shell: Shell, structure: ShellStructure, frequency_hz: float
     wall = np.array([lower, *_span_ends(structure, lower, upper), upper])
     step = bending_wavelength_m(structure, frequency_hz) / ELEMENTS_PER_WAVELENGTH
     heights = _divided(wall, step)
-    cap = _cap(radius, dome, step)
+    cap = _cap(radius, dome, step / _DOME_REFINEMENT if dome else step)
     nodes = np.concatenate(
         [
             np.stack([cap[:, 0], lower - cap[:, 1]], axis=1),

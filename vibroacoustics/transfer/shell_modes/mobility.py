@@ -29,21 +29,35 @@ def modal_forces(shell: ElasticShell, load: Load) -> Real:
     return np.array(rows).reshape(len(rows), -1)
 
 
-def modal_mobility(shell: ElasticShell, frequency_hz: Real) -> Complex:
+def velocity_per_force(
+    natural_hz: Real, modal_mass_kg: Real, loss_factor_ratio: float, frequency_hz: Real
+) -> Complex:
     """Velocity amplitude of each mode per generalised force, shape (mode, frequency), m/(N s).
 
     jω / (m (ω_r² (1 + jη) - ω²)).
 
     Parameters
     ----------
-    shell : modes and loss factor
+    natural_hz, modal_mass_kg : of the modes, shape (mode,)
+    loss_factor_ratio : structural
     frequency_hz : shape (frequency,)
     """
     omega = 2.0 * np.pi * np.asarray(frequency_hz, dtype=float)
-    natural = 2.0 * np.pi * np.array([[mode.frequency_hz] for mode in shell.modes])
-    mass = np.array([[mode.modal_mass_kg] for mode in shell.modes])
-    lossy = natural**2 * (1.0 + 1j * shell.structure.loss_factor_ratio)
-    return np.asarray(1j * omega / (mass * (lossy - omega**2)))
+    lossy = (2.0 * np.pi * natural_hz[:, None]) ** 2 * (1.0 + 1j * loss_factor_ratio)
+    return np.asarray(1j * omega / (modal_mass_kg[:, None] * (lossy - omega**2)))
+
+
+def modal_mobility(shell: ElasticShell, frequency_hz: Real) -> Complex:
+    """`velocity_per_force` of a shell's modes, shape (mode, frequency).
+
+    Parameters
+    ----------
+    shell : modes and loss factor
+    frequency_hz : shape (frequency,)
+    """
+    natural = np.array([mode.frequency_hz for mode in shell.modes])
+    mass = np.array([mode.modal_mass_kg for mode in shell.modes])
+    return velocity_per_force(natural, mass, shell.structure.loss_factor_ratio, frequency_hz)
 
 
 def static_flexibility(shell: ElasticShell, response: Load, load: Load) -> Real:

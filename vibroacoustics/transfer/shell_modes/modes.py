@@ -9,12 +9,20 @@ import numpy as np
 from ...errors import ParameterError
 from ...parameters.shell import Shell
 from ...parameters.shell_structure import ShellStructure
-from .elements import NODE_FREEDOMS, ROTATION, displacement_shapes, element_freedoms
+from .elements import (
+    CIRCUMFERENTIAL,
+    NODE_FREEDOMS,
+    ROTATION,
+    displacement_shapes,
+    element_freedoms,
+)
 from .harmonic import Harmonic
 from .meridian import Meridian, Real, closed_meridian
 
 MAXIMUM_ORDER: Final = 64
-"""Of the circumference; a shell that needs more is no machine of ours."""
+"""Most waves around the circumference that are looked for."""
+_FOUR_PLACES: Final = np.linspace(-1.0, 1.0, 4)
+"""Along an element; they fix a cubic."""
 
 
 class Around(NamedTuple):
@@ -70,9 +78,8 @@ class ShellMode:
         angle = np.arctan2(points[:, 1], points[:, 0])
         place = np.stack([np.hypot(points[:, 0], points[:, 1]), points[:, 2]], axis=1)
         element, along = self.meridian.locate(place)
-        amplitudes = self.shape[element_freedoms(self.meridian)[element]]
-        weights = displacement_shapes(self.meridian, element, along)
-        radial, axial, around = np.einsum("pia,pa->ip", weights, amplitudes)
+        powers = along ** np.arange(4)[:, None]
+        radial, axial, around = np.einsum("pik,kp->ip", self._cubics[element], powers)
         radial, axial = self.around.radial(angle) * np.stack([radial, axial])
         around *= self.around.around(angle)
         cosine, sine = np.cos(angle), np.sin(angle)
@@ -84,10 +91,24 @@ class ShellMode:
         """Velocity along unit normals (point, 3), shape (point,)."""
         return np.asarray(np.einsum("pi,pi->p", self.velocity(points), normals))
 
+    @cached_property
+    def _cubics(self) -> Real:
+        """Displacement along each element, radial, axial and around, (element, 3, power)."""
+        count = self.meridian.elements
+        element, place = np.repeat(np.arange(count), 4), np.tile(_FOUR_PLACES, count)
+        weights = displacement_shapes(self.meridian, element, place)
+        amplitudes = self.shape[element_freedoms(self.meridian)[element]]
+        values = np.einsum("pia,pa->pi", weights, amplitudes).reshape(count, 4, 3)
+        to_powers = np.linalg.inv(np.vander(_FOUR_PLACES, increasing=True))
+        return np.asarray(np.einsum("kj,eji->eik", to_powers, values))
+
 
 @dataclass(frozen=True)
 class ElasticShell:
-    """The closed shell without what it holds, free in space: its elastic modes up to a frequency.
+    """The closed shell in air and empty, free in space: its elastic modes up to a frequency.
+
+    Machine, oil and gas inside add mass and stiffness that are not modelled; `span_m` is the only
+    stand-in for parts that hold the wall.
 
     Attributes
     ----------
@@ -104,8 +125,8 @@ class ElasticShell:
     def harmonics(self) -> tuple[Harmonic, ...]:
         """All orders around that can have a mode.
 
-        A free ring as wide as the wall has a lower frequency than any shell with the same number
-        of waves around it.
+        A free ring as wide as the wall lies below the wall and the caps, each free, with as many
+        waves around; joined they only get stiffer.
         """
         order = 2
         while self._ring_frequency_hz(order) <= self.maximum_frequency_hz:
@@ -147,7 +168,7 @@ class ElasticShell:
         ]
 
     def _ring_frequency_hz(self, order: int) -> float:
-        """In-plane bending of a free ring: Love (1927), section 293; Rayleigh (1894), § 233."""
+        """In-plane bending of a free ring: Rayleigh, Theory of Sound (1894), § 233."""
         structure, n = self.structure, order
         speed = np.sqrt(structure.youngs_modulus_pa / structure.density_kg_per_m3)
         factor = n * (n**2 - 1.0) / np.sqrt(n**2 + 1.0)
@@ -157,14 +178,12 @@ class ElasticShell:
 
 def _largest_displacement(meridian: Meridian, shapes: Real) -> Real:
     """Largest displacement over the nodes, with the sign of its largest part, shape (mode,)."""
-    count = meridian.elements + 1
-    nodes = shapes[: NODE_FREEDOMS * count].reshape(count, NODE_FREEDOMS, shapes.shape[1])[
-        :, :ROTATION
-    ]
-    in_plane = np.linalg.norm(nodes[:, :2], axis=1).max(axis=0)
-    size = np.maximum(in_plane, np.abs(nodes[:, 2]).max(axis=0))
-    flat = nodes.reshape(3 * count, shapes.shape[1])
-    largest = flat[np.argmax(np.abs(flat), axis=0), np.arange(shapes.shape[1])]
+    count, modes = meridian.elements + 1, shapes.shape[1]
+    nodes = shapes[: NODE_FREEDOMS * count].reshape(count, NODE_FREEDOMS, modes)[:, :ROTATION]
+    in_plane = np.linalg.norm(nodes[:, :CIRCUMFERENTIAL], axis=1)
+    size = np.maximum(in_plane, np.abs(nodes[:, CIRCUMFERENTIAL])).max(axis=0)
+    parts = nodes.reshape(ROTATION * count, modes)
+    largest = parts[np.argmax(np.abs(parts), axis=0), np.arange(modes)]
     return np.asarray(np.sign(largest) * size)
 
 

@@ -12,7 +12,7 @@ from ...parameters.shell_structure import Joint
 from .loads import joint_forces
 from .meridian import Real
 
-_NEIGHBOURS: Final = 24
+_NEIGHBOURS: Final = 12
 """Nodes that a point is interpolated between."""
 
 
