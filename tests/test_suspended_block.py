@@ -167,7 +167,7 @@ def results():
     with pytest.MonkeyPatch.context() as context:
         context.setattr(
             "vibroacoustics.pipeline.study.transfer_vectors",
-            lambda study, _: (made_up_transfer_vectors(study), False),
+            lambda study, *_: (made_up_transfer_vectors(study), False),
         )
         return pipeline.run(load_study(STUDY))
 
