@@ -198,6 +198,7 @@ def _attributes(receivers: list[str], published_dba: float) -> dict[str, str]:
         "source_file": "study.toml",
         "catalogue_receiver": receivers[0],
         "receivers": {name: {"x_m": 1.0, "y_m": 0.0, "height_m": 0.2} for name in receivers},
+        "options": {},
         "machine": {
             "name": "Machine",
             "kind": "oldham-scroll",

@@ -1,25 +1,24 @@
-"""The slider-link compressor of Dagilis et al. (seed 4): printed figures, invariants, a second
-method with Lagrange multipliers."""
+"""The slider-link compressor of Dagilis et al. (seed 4): invariants, a second method with Lagrange
+multipliers, the machine in the chain."""
 
-import csv
-import tomllib
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from machine_files import machine_of
 from pydantic import ValidationError
 from scipy.integrate import quad, solve_ivp
-from support import ROOT
+from slider_link_files import MACHINE_FILE, SPEED, STUDY, changed_machine
 
+from vibroacoustics.balancers import lanchester, rotating_counterweight
 from vibroacoustics.constants import STANDARD_GRAVITY_M_PER_S2
 from vibroacoustics.errors import ParameterError, SolverError
+from vibroacoustics.loading import load_machine, load_study
+from vibroacoustics.mechanisms import MECHANISMS
 from vibroacoustics.mechanisms.slider_link.bearing_friction import (
     eccentricity_ratio,
     journal_friction_moment,
-    loaded_coefficient,
     petroff_coefficient,
     short_bearing_friction,
     short_bearing_load,
@@ -44,54 +43,45 @@ from vibroacoustics.mechanisms.slider_link.piston import (
     slider_velocity,
 )
 from vibroacoustics.mechanisms.slider_link.unbalance import (
-    about_centre_of_mass,
     free_acceleration,
     internal_forces,
     unbalance,
-    z_up,
 )
-from vibroacoustics.orders import order_spectrum
+from vibroacoustics.moving_parts import (
+    MachineMotion,
+    MovingPart,
+    Wrench,
+    motion_of_parts,
+    path,
+    wrench,
+)
+from vibroacoustics.orders import order_spectrum, order_spectrum_at_speed
+from vibroacoustics.parameters.options import Lanchester, RotatingCounterweight
 from vibroacoustics.parameters.slider_link import JournalBearing, SliderLinkMachine
-from vibroacoustics.transfer import Bushing, Isolation, RigidBody
+from vibroacoustics.rotation import constant_rotation
+from vibroacoustics.transfer import RigidBodyOnMounts
 
-MACHINE_FILE = ROOT / "data" / "machines" / "dagilis_slider_link.toml"
-VALIDATION_FILE = ROOT / "data" / "validation" / "dagilis_slider_link.csv"
-SPEED = 2.0 * np.pi * 2950.0 / 60.0
 ROUNDING = 1e-11
 """Rounding of a 3 x 3 solve and the products that follow, relative to the largest force."""
 
 
-def read(**change) -> SliderLinkMachine:
-    """The machine of the file with changed values: section__key = value in the file's unit."""
-    content = tomllib.loads(MACHINE_FILE.read_text("utf-8"))
-    for key, value in change.items():
-        *tables, name = key.split("__")
-        table = content
-        for part in tables:
-            table = table[part]
-        if isinstance(table[name], dict):  # drop its range: the bounds of the field are meant
-            table[name] = {"value": value, "source": "test"}
-        else:
-            table[name] = value
-    return machine_of(content, MACHINE_FILE, SliderLinkMachine)
+EPSILON = np.finfo(float).eps
 
 
-def printed() -> dict[str, float]:
-    rows = csv.DictReader(
-        line for line in VALIDATION_FILE.read_text("utf-8").splitlines() if line[0] != "#"
-    )
-    return {row["quantity"]: float(row["value"]) for row in rows}
+def total(wrenches) -> Wrench:
+    """Resultant of all sources."""
+    return Wrench(*(sum(parts) for parts in zip(*wrenches.values(), strict=True)))
 
 
 @pytest.fixture(scope="module")
 def machine() -> SliderLinkMachine:
-    return read()
+    return load_machine(MACHINE_FILE)
 
 
 @pytest.fixture(scope="module")
 def skewed() -> SliderLinkMachine:
     """Boundary friction as the paper names it and a mass centre beside the cylinder's axis."""
-    return read(
+    return changed_machine(
         mechanism__link_friction_ratio=0.1,
         mechanism__cylinder_friction_ratio=0.15,
         mechanism__piston_mass_offset_mm=0.8,
@@ -113,65 +103,6 @@ def skewed_cycle(skewed) -> SliderLinkCycle:
 def case(request) -> tuple[SliderLinkMachine, SliderLinkCycle]:
     names = {"machine": "cycle", "skewed": "skewed_cycle"}
     return request.getfixturevalue(request.param), request.getfixturevalue(names[request.param])
-
-
-# --- printed figures -----------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("which", ["low", "high", "tilted"])
-def test_thrust_bearing_power(machine, which):
-    """3, 3.8 and 6.8 W at µ = 0.086, 0.108 and 0.194: half of the last digit of power and µ."""
-    friction, power = printed()[f"thrust_friction_{which}"], printed()[f"thrust_power_{which}"]
-    bearing = machine.bearings.thrust.model_copy(update={"friction_ratio": friction})
-    weight = machine.masses.crankshaft_mass_kg * STANDARD_GRAVITY_M_PER_S2
-    computed = SPEED * thrust_friction_moment(bearing, weight)
-    assert computed == pytest.approx(power, abs=0.05 + power * 0.0005 / friction)
-
-
-def test_thrust_powers_belong_to_one_bearing(machine):
-    """F R_eff = P / (µ ω) = 0.1135 N m (physics.md A5), half of the last digits of P and µ."""
-    values = printed()
-    for which in ("low", "high", "tilted"):
-        friction, power = values[f"thrust_friction_{which}"], values[f"thrust_power_{which}"]
-        slack = 0.05 / power + 0.0005 / friction
-        assert power / (friction * SPEED) == pytest.approx(0.1135, rel=slack)
-    weight = machine.masses.crankshaft_mass_kg * STANDARD_GRAVITY_M_PER_S2
-    unit = machine.bearings.thrust.model_copy(update={"friction_ratio": 1.0})
-    assert thrust_friction_moment(unit, weight) == pytest.approx(0.1135, abs=5e-5)
-
-
-def test_displacement(machine):
-    area = np.pi / 4.0 * machine.mechanism.bore_m**2
-    volume_cm3 = 1e6 * area * 2.0 * machine.mechanism.crank_radius_m
-    assert volume_cm3 == pytest.approx(printed()["displacement"], abs=0.05)
-
-
-def test_oil_pump_power(cycle):
-    """At the speed of its power the moment is constant, so is its work: 2.5 W."""
-    power = cycle.work_j["oil_pump"] * SPEED / (2.0 * np.pi)
-    assert power == pytest.approx(printed()["oil_pump_power"], rel=1e-9)
-
-
-def test_link_friction_is_below_the_measured_gain(machine, cycle):
-    """Without it the paper measured less than 4 W; with its boundary friction it would be 30 W."""
-    per_second = SPEED / (2.0 * np.pi)
-    assert cycle.work_j["link"] * per_second < printed()["link_loss_gain_below"]
-    boundary = read(mechanism__link_friction_ratio=printed()["boundary_friction_lowest"])
-    lost = steady_motion(boundary, SPEED, 96).work_j["link"] * per_second
-    assert lost == pytest.approx(30.0, abs=0.5)
-
-
-def test_friction_without_eccentricity(machine):
-    """(20): 0.55 ψ (d/l)^1.5 for a short bearing; at l = d the printed (l/d)^m is the same."""
-    values = printed()
-    bearing = machine.bearings.lower  # 12 mm long, 16 mm wide
-    load, velocity = np.array([300.0]), np.array([SPEED])
-    rest = loaded_coefficient(bearing, load, velocity, 0.005) - petroff_coefficient(
-        bearing, load, velocity, 0.005
-    )
-    clearance = bearing.clearance_m / bearing.radius_m
-    stretched = (16.0 / 12.0) ** values["short_bearing_exponent"]
-    assert rest[0] == pytest.approx(values["eccentricity_free_term"] * clearance * stretched)
 
 
 # --- the paper's expressions, verbatim -----------------------------------------------------------
@@ -322,7 +253,7 @@ def test_friction_takes_power(case):
 
 def test_jamming_is_refused():
     """A long tilt: 1 mm of engaged length at the lower dead centre."""
-    jammed = read(
+    jammed = changed_machine(
         mechanism__cylinder_length_mm=19.0,
         mechanism__cylinder_friction_ratio=0.5,
         mechanism__link_friction_ratio=0.5,
@@ -378,21 +309,20 @@ def test_virtual_work_is_the_newton_euler_torque(case):
 def test_momentum_change_is_the_resultant_on_the_block(case):
     """Gas, contacts, bearings and motor on the block add up to (40), moments with R² included."""
     machine, cycle = case
-    resultant = unbalance(machine, cycle.state)
+    change = total(unbalance(machine, cycle.state))
     pairs = internal_forces(machine, cycle.state, cycle.forces, cycle.motor_torque_n_m)
-    force, moment = (sum(pair[part] for pair in pairs.values()) for part in (0, 1))
-    np.testing.assert_allclose(force, resultant.force_n.sum(0), atol=1e-9)
+    np.testing.assert_allclose(total(pairs).force_n, change.force_n, atol=1e-9)
     # The settled acceleration and friction are good to 1e-12.
-    np.testing.assert_allclose(moment, resultant.moment_n_m.sum(0), atol=1e-10)
+    np.testing.assert_allclose(total(pairs).moment_n_m, change.moment_n_m, atol=1e-10)
 
 
 def test_printed_moment_of_the_slider_misses_it(machine, cycle):
     """With R for R² in (40) the moment about the shaft is off by m_s (R - R²) φ̈."""
     pairs = internal_forces(machine, cycle.state, cycle.forces, cycle.motor_torque_n_m)
-    moment = sum(pair[1] for pair in pairs.values())[2]
+    moment = total(pairs).moment_n_m[2]
     R, mass = machine.mechanism.crank_radius_m, machine.masses.slider_mass_kg
     printed_z = (
-        unbalance(machine, cycle.state).moment_n_m.sum(0)[2]
+        total(unbalance(machine, cycle.state)).moment_n_m[2]
         - mass * (R - R**2) * cycle.state.acceleration
     )
     off = np.max(np.abs(printed_z - moment)) / np.max(np.abs(moment))
@@ -434,9 +364,7 @@ def test_the_slider_moment_that_the_paper_leaves_out(skewed, skewed_cycle):
         - R * (np.sin(state.angle) * pin[0] - np.cos(state.angle) * pin[1])
     )  # fmt: skip  # (29)
     pairs = internal_forces(skewed, state, printed_forces, torque)
-    missing = (
-        unbalance(skewed, state).moment_n_m.sum(0)[2] - sum(pair[1] for pair in pairs.values())[2]
-    )
+    missing = total(unbalance(skewed, state)).moment_n_m[2] - total(pairs).moment_n_m[2]
     arm = 0.5 * m.slider_diameter_m * m.link_friction_ratio * contacts.slider_sense
     expected = arm * link - moments["crank_pin"]
     np.testing.assert_allclose(np.abs(missing), np.abs(expected), atol=1e-9)
@@ -725,58 +653,159 @@ def test_gauss_panels_integrate_polynomials():
 def test_unbalance_at_constant_speed(machine):
     """By hand at φ = 0: F_x = ((m_p + m_s) R - m_r e_cr) ω² = (1.17 - 0.48) g m · ω²."""
     state = CrankState(np.array([0.0, 0.5 * np.pi]), np.full(2, SPEED), np.zeros(2))
-    force = unbalance(machine, state).force_n.sum(0)
+    force = total(unbalance(machine, state)).force_n
     assert force[0, 0] == pytest.approx((1.17e-3 - 0.48e-3) * SPEED**2, rel=1e-12)
     assert force[1, 1] == pytest.approx((0.27e-3 - 0.48e-3) * SPEED**2, rel=1e-12)
     assert not force[2].any()
 
 
 def test_moment_about_the_centre_of_mass(machine, cycle):
-    """(41) is the shift of the reference by x_c along x."""
-    origin = unbalance(machine, cycle.state)
-    moved = about_centre_of_mass(machine, origin)
-    place = np.array([machine.centre_of_mass_offset_m, 0.0, 0.0])
-    shift = np.cross(place, np.moveaxis(origin.force_n, 1, -1))
-    expected = origin.moment_n_m - np.moveaxis(shift, -1, 1)
-    np.testing.assert_allclose(moved.moment_n_m, expected, atol=1e-13)
-    turned = z_up(moved)
-    np.testing.assert_array_equal(turned.force_n[:, 0], moved.force_n[:, 0])
-    np.testing.assert_array_equal(turned.moment_n_m[:, 1:], -moved.moment_n_m[:, 1:])
+    """(41): M_Z = M_z - x_c F_y; z up, y and z and the moments about them change sign."""
+    paper = total(unbalance(machine, cycle.state))
+    force, moment = paper.placed(machine.crank_frame)
+    turn = np.array([1.0, -1.0, -1.0])[:, None]
+    np.testing.assert_array_equal(force, turn * paper.force_n)
+    moment_z = paper.moment_n_m[2] - machine.centre_of_mass_offset_m * paper.force_n[1]
+    expected = turn * np.stack([*paper.moment_n_m[:2], moment_z])
+    np.testing.assert_allclose(moment, expected, atol=1e-13)
 
 
 def test_vibration_on_springs_is_the_free_one_above_resonance(machine, cycle):
     """(42) on the internal springs against (43): they differ by (f0/f)² of the highest mode."""
-    block, springs = machine.block, machine.springs
-    half = springs.pitch_m / 2.0
-    lateral, vertical = springs.lateral_stiffness_n_per_m, springs.vertical_stiffness_n_per_m
-    stiffness = np.diag([lateral, lateral, vertical, 0.0, 0.0, 0.0])
-    inertia = [block.inertia_xx_kg_m2, block.inertia_yy_kg_m2, block.inertia_zz_kg_m2]
-    isolation = Isolation(
-        (RigidBody("block", block.mass_kg, np.diag(inertia), np.zeros(3)),),
-        tuple(
-            Bushing(
-                f"spring {x:+g} {y:+g}", "block", None,
-                np.array([x, y, machine.springs_height_m]), stiffness,
-                loss_factor_ratio=springs.loss_factor_ratio,
-            )
-            for x in (-half, half)
-            for y in (-half, half)
-        ),
-    )  # fmt: skip
-    highest = isolation.natural_modes()[0][-1]
-    resultant = z_up(about_centre_of_mass(machine, unbalance(machine, cycle.state)))
-    load = np.concatenate([resultant.force_n.sum(0), resultant.moment_n_m.sum(0)])
-    orders = order_spectrum(load, 4)
+    inside = machine.suspension
+    on_springs = RigidBodyOnMounts(inside.block, inside.springs, inside.springs_height_m)
+    highest = on_springs.natural_modes()[0][-1]
+    resultant = total(unbalance(machine, cycle.state)).placed(machine.crank_frame)
+    orders = order_spectrum(np.concatenate(resultant), 4)
     for order in range(1, 5):
         frequency = order * SPEED / (2.0 * np.pi)
         ratio = (highest / frequency) ** 2
         assert ratio < 0.2
-        omega = 2.0 * np.pi * frequency
-        moving = 1j * omega * isolation.velocity(orders[None, :, order], frequency)[0]
-        free = free_acceleration(block, orders[:, order])
-        scale = np.sqrt(isolation.mass_matrix.diagonal())  # energy norm
+        moving = 2j * np.pi * frequency * on_springs.velocity(orders[:, order], frequency)
+        free = free_acceleration(inside.block, orders[:, order])
+        scale = np.sqrt(on_springs.mass_matrix.diagonal())  # energy norm
         difference = np.linalg.norm(scale * (moving - free)) / np.linalg.norm(scale * free)
         assert difference < 1.05 * ratio / (1.0 - ratio)
+
+
+# --- in the chain --------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def revolution(machine) -> MachineMotion:
+    return MECHANISMS["slider-link"](machine, 2950.0, 360)
+
+
+def test_wrench_is_the_momentum_change_of_the_parts(machine, revolution):
+    """Parts along their paths in the machine's frame, z up, and the spin of the crankshaft."""
+    masses, radius = machine.masses, machine.mechanism.crank_radius_m
+    turn, height = revolution.rotation, machine.heights.piston_axis_m
+    angle, axis = turn.crank_angle, -machine.centre_of_mass_offset_m
+    arm = machine.mechanism.link_offset_m - machine.mechanism.piston_mass_offset_m
+    x, y = axis + radius * np.cos(angle), -radius * np.sin(angle)
+    pair = masses.crankshaft_product_kg_m2 / (0.1 * 0.02)  # 0.1 m apart in height, at 20 mm
+    out, across = 0.02 * np.cos(angle), -0.02 * np.sin(angle)
+    share = masses.crankshaft_mass_offset_m / 0.02
+    parts = [
+        MovingPart("piston", masses.piston_mass_kg, path(x, arm, height)),
+        MovingPart("slider", masses.slider_mass_kg, path(x, y, height)),
+        MovingPart("crankshaft", share * masses.crankshaft_mass_kg, path(axis - out, -across, 0.0)),
+        MovingPart("crankshaft", pair, path(axis + out, across, -0.05)),
+        MovingPart("crankshaft", pair, path(axis - out, -across, 0.05)),
+    ]
+    by_parts = motion_of_parts(parts, turn).wrenches
+    # Of the point masses' own spin about the shaft only the right amount may count.
+    points = (share * masses.crankshaft_mass_kg + 2.0 * pair) * 0.02**2
+    spin = masses.crankshaft_inertia_kg_m2 - points
+    for name, found in revolution.wrenches.items():
+        force, moment = by_parts[name]
+        if name == "crankshaft":
+            moment = moment + np.outer([0.0, 0.0, 1.0], spin * turn.acceleration_rad_per_s2)
+        # Fourier derivatives of 360 samples: 180² eps; forces reach 90 N, moments 6 N m.
+        np.testing.assert_allclose(found.force_n, force, atol=180.0**2 * EPSILON * 90.0)
+        np.testing.assert_allclose(found.moment_n_m, moment, atol=180.0**2 * EPSILON * 6.0)
+
+
+@pytest.mark.parametrize("inertia", [1.0, 1000.0])
+def test_first_order_of_the_chain_is_that_of_constant_speed(machine, inertia):
+    """m R ω² in x and y, in error by twice the mean swing |δ| of the crank about its mean turning.
+
+    2/T ∫ (cos(ωt + δ) - cos ωt) e^(-jωt) dt is at most 2 mean |δ|.
+    """
+    masses, radius = machine.masses, machine.mechanism.crank_radius_m
+    heavy = masses.model_copy(
+        update={"crankshaft_inertia_kg_m2": inertia * masses.crankshaft_inertia_kg_m2}
+    )
+    found = MECHANISMS["slider-link"](machine.model_copy(update={"masses": heavy}), 2950.0, 360)
+    turn = found.rotation
+    order = order_spectrum_at_speed(total(found.wrenches).force_n, turn.speed_rad_per_s, 1)[:, 1]
+    swing = turn.crank_angle - SPEED * turn.time_s
+    slack = 2.0 * np.mean(np.abs(swing - swing.mean()))
+    assert slack * inertia < 0.02
+    counter = masses.crankshaft_mass_kg * masses.crankshaft_mass_offset_m
+    along = (masses.piston_mass_kg + masses.slider_mass_kg) * radius - counter
+    across = masses.slider_mass_kg * radius - counter
+    scale = masses.piston_mass_kg * radius * SPEED**2
+    assert abs(order[0]) == pytest.approx(along * SPEED**2, abs=slack * scale)
+    assert abs(order[1]) == pytest.approx(-across * SPEED**2, abs=slack * scale)
+    assert order[2] == 0.0
+
+
+def test_losses_add_up_to_the_shaft_power(machine, revolution):
+    facts = dict(revolution.facts)
+    gas = 0.01 * facts.pop("mechanical_efficiency_percent") * facts["shaft_power_w"]
+    assert facts.pop("speed_fluctuation_percent") == pytest.approx(2.12, abs=0.005)  # golden
+    pump = machine.oil.pump_power_w
+    assert facts.pop("shaft_power_w") - gas - pump == pytest.approx(sum(facts.values()), rel=1e-9)
+
+
+def test_any_number_of_samples_is_taken_from_whole_quarters(machine):
+    coarse, fine = (MECHANISMS["slider-link"](machine, 2950.0, count) for count in (90, 360))
+    for name, own in coarse.wrenches.items():
+        np.testing.assert_array_equal(own.force_n, fine.wrenches[name].force_n[:, ::4])
+    assert coarse.facts == fine.facts
+
+
+@pytest.mark.parametrize("samples", [61, 122])
+def test_odd_samples_run(machine, samples):
+    found = MECHANISMS["slider-link"](machine, 2950.0, samples)
+    assert found.rotation.speed_rad_per_s.size == samples
+    assert found.rotation.duration_s == pytest.approx(60.0 / 2950.0, rel=1e-6)
+
+
+def test_counterweight_takes_its_share_of_the_piston(machine):
+    """It is opposite to a mass s m_p that goes round with the crank pin at the piston's height."""
+    turn = constant_rotation(2950.0, 96)
+    option = RotatingCounterweight(kind="rotating-counterweight", share_ratio=0.4)
+    added = rotating_counterweight(option, machine, 2950.0, turn.crank_angle).parts
+    mass, radius = 0.4 * machine.masses.piston_mass_kg, machine.mechanism.crank_radius_m
+    along, across = radius * np.cos(turn.crank_angle), -radius * np.sin(turn.crank_angle)
+    round_ = path(along - machine.centre_of_mass_offset_m, across, machine.heights.piston_axis_m)
+    left = wrench([*added, MovingPart("pin", mass, round_)], turn)
+    # Fourier derivatives of 96 samples: 48² eps of 35 N and 3 N m.
+    assert np.max(np.abs(left.force_n)) < 48.0**2 * EPSILON * 35.0
+    assert np.max(np.abs(left.moment_n_m)) < 48.0**2 * EPSILON * 3.0
+    low, high = machine.counterweights.lower_height_m, machine.counterweights.upper_height_m
+    assert {float(part.position_m[2, 0]) for part in added} == {low, high}
+
+
+def test_lanchester_takes_the_piston_alone(machine):
+    turn = constant_rotation(2950.0, 96)
+    option = Lanchester(kind="lanchester", share_ratio=1.0, radius_m=0.015)
+    added = wrench(lanchester(option, machine, 2950.0, turn.crank_angle).parts, turn)
+    size = machine.masses.piston_mass_kg * machine.mechanism.crank_radius_m * SPEED**2
+    expected = [-size * np.cos(turn.crank_angle), 0.0 * turn.crank_angle, 0.0 * turn.crank_angle]
+    np.testing.assert_allclose(added.force_n, expected, atol=48.0**2 * EPSILON * size)
+    # The piston's force acts at its height: M_y = z F_x.
+    height = machine.heights.piston_axis_m
+    np.testing.assert_allclose(added.moment_n_m[1], height * added.force_n[0], atol=1e-10)
+
+
+def test_study_loads():
+    study = load_study(STUDY)
+    kinds = {option.kind for option in study.options.values()}
+    assert {"none", "rotating-counterweight", "lanchester", "redesign"} <= kinds
+    assert study.options["more-link-offset"].machine.mechanism.link_offset_m == 2e-3
 
 
 # --- bad geometry --------------------------------------------------------------------------------
@@ -798,11 +827,14 @@ def test_vibration_on_springs_is_the_free_one_above_resonance(machine, cycle):
         ({"gas__discharge_pressure_bar": 90.0}, "discharge_pressure_bar = 90 bar"),
         ({"masses__piston_mass_kg": 0.0}, "masses.piston_mass_kg = 0"),
         ({"heights__bearing_distance_mm": 0.0}, "heights.bearing_distance_mm = 0"),
+        ({"counterweights__upper_height_mm": -60.0}, "upper_height_mm = -60 mm"),
+        ({"suspension__springs__pitch_mm": 0.0}, "suspension.springs.pitch_mm = 0"),
+        ({"suspension__block__inertia_zz_kg_m2": 1.0}, "largest moment of inertia"),
     ],
 )
 def test_bad_geometry_is_one_line_naming_the_parameter(change, words):
     with pytest.raises(ParameterError) as error:
-        read(**change)
+        changed_machine(**change)
     assert words in str(error.value)
     assert "\n" not in str(error.value)
 

@@ -6,6 +6,7 @@ from typing import Any, Final
 from ..moving_parts import MachineMotion
 from .oldham_scroll import oldham_scroll
 from .reciprocating.revolution import reciprocating_revolution
+from .slider_link.revolution import slider_link_revolution
 
 Mechanism = Callable[[Any, float, int], MachineMotion]
 """(machine, speed in rpm, crank angles of a revolution) to a steady revolution."""
@@ -13,7 +14,14 @@ Mechanism = Callable[[Any, float, int], MachineMotion]
 MECHANISMS: Final[dict[str, Mechanism]] = {
     "oldham-scroll": oldham_scroll,
     "reciprocating": reciprocating_revolution,
+    "slider-link": slider_link_revolution,
 }
 """Mechanism of each kind of machine."""
 
-__all__ = ["MECHANISMS", "Mechanism", "oldham_scroll", "reciprocating_revolution"]
+__all__ = [
+    "MECHANISMS",
+    "Mechanism",
+    "oldham_scroll",
+    "reciprocating_revolution",
+    "slider_link_revolution",
+]

@@ -7,11 +7,15 @@ from pydantic import Field
 from .machine import CommonMachine
 from .oldham_scroll import OldhamScroll
 from .reciprocating import ReciprocatingMachine
+from .slider_link import SliderLinkMachine
 
-Machine = Annotated[OldhamScroll | ReciprocatingMachine, Field(discriminator="kind")]
+Machine = Annotated[
+    OldhamScroll | ReciprocatingMachine | SliderLinkMachine, Field(discriminator="kind")
+]
 
 MACHINES: Final[dict[str, type[CommonMachine]]] = {
     "oldham-scroll": OldhamScroll,
     "reciprocating": ReciprocatingMachine,
+    "slider-link": SliderLinkMachine,
 }
 """Parameters of each kind of machine, by the kind that its file names."""

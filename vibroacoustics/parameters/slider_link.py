@@ -1,8 +1,8 @@
 """A slider-link compressor: piston with cross link, slider on the crank pin, cantilever shaft.
 
-Symbols in brackets are those of Dagilis, Vaitkus and Kirejchick (seed 4). Places are in the
-paper's frame: x along the cylinder, z down along the shaft, origin on the shaft at the height of
-the block's centre of mass.
+Symbols in brackets are those of Dagilis, Vaitkus and Kirejchick (seed 4). Offsets along y are in
+the paper's frame: x along the cylinder, z down along the shaft, origin on the shaft at the height
+of the block's centre of mass.
 """
 
 from math import pi
@@ -12,15 +12,14 @@ from pydantic import Field, model_validator
 
 from ..units import shaft_frequency_hz
 from .base import Parameters
-from .housing import Housing
-from .machine import Erratum
-from .mounts import Mounts
+from .machine import PART_MASS, CommonMachine
+from .oscillation import BalancePlanes, CrankFrame, Oscillation
+from .suspension import Suspension
 
 LENGTH = Field(gt=0.0, le=0.5)
 OFFSET = Field(ge=-0.05, le=0.05)
 CLEARANCE = Field(ge=1e-7, le=1e-3)
 FRICTION = Field(ge=0.0, le=0.5)
-PART_MASS = Field(gt=0.0, le=100.0)
 PRESSURE = Field(ge=1e3, le=2e7)
 
 
@@ -178,8 +177,12 @@ class Motor(Parameters):
     """Fall of the torque per rise of the speed."""
 
 
-class SliderLinkMachine(Parameters):
-    name: str = Field(min_length=1)
+class SliderLinkMachine(CommonMachine):
+    """The shaft is upright, the cylinder lies along x over the block's centre of mass.
+
+    The origin is the block's centre of mass [G_c], not the shell's.
+    """
+
     kind: Literal["slider-link"]
     mechanism: SliderLink
     masses: MovingMasses
@@ -188,15 +191,39 @@ class SliderLinkMachine(Parameters):
     oil: Oil
     gas: CylinderGas
     motor: Motor
-    block: Housing
-    """Block, stator and moving parts on the internal springs [M, J_X, J_Y, J_Z]."""
+    counterweights: BalancePlanes
+    """Where further weights can sit on the shaft."""
     centre_of_mass_offset_m: float = Field(ge=-0.2, le=0.2)
     """Block's centre of mass from the shaft's axis, along x [x_c]."""
-    springs: Mounts
-    """Internal springs."""
-    springs_height_m: float = Field(ge=-0.5, le=0.5)
-    """Of their upper ends above the block's centre of mass."""
-    errata: tuple[Erratum, ...] = ()
+    suspension: Suspension
+    """Block, stator and moving parts [M, J_X, J_Y, J_Z] on the internal springs."""
+
+    @property
+    def crank_frame(self) -> CrankFrame:
+        """The paper's frame: z down, and the crank turns from x to the paper's y."""
+        return CrankFrame(
+            stroke=(1.0, 0.0, 0.0),
+            across=(0.0, -1.0, 0.0),
+            shaft=(0.0, 0.0, -1.0),
+            origin_m=(-self.centre_of_mass_offset_m, 0.0, 0.0),
+        )
+
+    @property
+    def oscillation(self) -> Oscillation:
+        """Piston and link; the slider goes round with the crank pin."""
+        planes = self.counterweights
+        below = BalancePlanes(
+            upper_height_m=-planes.lower_height_m,
+            lower_height_m=-planes.upper_height_m,
+            radius_m=planes.radius_m,
+        )  # heights along the frame's shaft count down
+        return Oscillation(
+            self.masses.piston_mass_kg,
+            self.mechanism.crank_radius_m,
+            -self.heights.piston_axis_m,
+            below,
+            self.crank_frame,
+        )
 
     @model_validator(mode="after")
     def _pin_in_slider(self) -> "SliderLinkMachine":

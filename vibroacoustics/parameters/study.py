@@ -10,7 +10,7 @@ from .base import Parameters
 from .inside import InsideSettings
 from .machines import Machine
 from .oldham_scroll import OldhamScroll
-from .options import RING_OPTIONS, SLIDER_OPTIONS, NoBalancer, Option
+from .options import RING_OPTIONS, SLIDER_OPTIONS, NoBalancer, Option, Redesign
 from .radiation import RadiationSettings
 from .receivers import Receiver
 from .sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
@@ -188,6 +188,15 @@ class Study(Parameters):
             raise ValueError(
                 f"{where}: needs a mass that slides to and fro; the machine is {self.machine.kind}"
             )
+
+        for table in ("shell", "overall_noise"):
+            if isinstance(option, Redesign) and (
+                getattr(option.machine, table) != getattr(self.machine, table)
+            ):
+                raise ValueError(
+                    f"options.{name}.change.{table}: all options radiate from one shell and share "
+                    "one overall noise; make a study of its own"
+                )
 
     def parameters(self) -> dict[str, Any]:
         """All parameters as plain JSON values."""

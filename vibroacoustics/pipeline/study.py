@@ -19,7 +19,7 @@ from ..moving_parts import Balancing, MachineMotion, wrench
 from ..orders import order_spectrum_at_speed, semi_major_axis
 from ..parameters.machine import CommonMachine
 from ..parameters.oldham_scroll import OldhamScroll
-from ..parameters.options import Redesign
+from ..parameters.options import Option, Redesign
 from ..parameters.study import Study
 from ..rotation import Array, uniform_crank_angle
 from ..schema import (
@@ -140,9 +140,8 @@ def _motions(
     for number, (speed, name) in enumerate(cases):
         option = study.options[name]
         try:
-            machine = study.machine
+            machine = _machine_of(study, option)
             if isinstance(option, Redesign):
-                machine = option.machine
                 motions[speed, name] = mechanism(machine, speed, samples)
             elif (speed, REFERENCE_OPTION) in motions:
                 motions[speed, name] = motions[speed, REFERENCE_OPTION]
@@ -210,29 +209,43 @@ def _orders(study: Study, results: xr.Dataset) -> xr.Dataset:
 
 
 def _housing(study: Study, results: xr.Dataset) -> xr.Dataset:
-    """Motion of the housing on its mounts and the forces into the feet."""
-    body = _on_mounts(study.machine)
-    parts = [results[name].transpose(..., "order", "axis") for name in _WRENCH]
-    load = np.concatenate([part.values for part in parts], axis=-1)
-    frequency = results["order_frequency"].values[:, None, None, :]
-    velocity = np.moveaxis(body.velocity(load, frequency), -1, -2)
-    foot_force = np.moveaxis(body.foot_force(load, frequency), (-2, -1), (-3, -2))
+    """Motion of the housing on its mounts and the forces into the feet.
+
+    Every option moves on its own mounts; the natural modes are those of the machine as it is.
+    """
+    bodies = [_on_mounts(_machine_of(study, option)) for option in study.options.values()]
+    parts = [results[name].transpose("option", ..., "order", "axis") for name in _WRENCH]
+    loads = np.concatenate([part.values for part in parts], axis=-1)
+    frequency = results["order_frequency"].values[:, None, :]
+
+    def response(name: str) -> NDArray[np.complex128]:
+        """Of each option's own body, shape (speed, option, source, order, ...)."""
+        found = [
+            getattr(body, name)(load, frequency) for body, load in zip(bodies, loads, strict=True)
+        ]
+        return np.stack(found, axis=1)
+
+    body = bodies[list(study.options).index(REFERENCE_OPTION)]
+    foot_force = np.moveaxis(response("foot_force"), (-2, -1), (-3, -2))
     frequencies, shapes = body.natural_modes()
     coords = {name: results[name] for name in ("speed", "option", "source", "order")}
     feet = {"foot": list(FOOT_NAMES), "axis": list(AXES)}
     modes = [f"mode_{number}" for number in range(1, len(frequencies) + 1)]
-    bodies = list(body.bodies)
     ellipse = semi_major_axis(foot_force.sum(axis=2), axis=3)
-    motion = {**coords, "dof": list(RIGID_BODY_DOFS)}
-    block = {}
+    motions = {"velocity_order": "velocity"}
     if isinstance(body, SuspendedBlock):
-        inside = np.moveaxis(body.block_velocity(load, frequency), -1, -2)
-        block["block_velocity_order"] = stamp("block_velocity_order", inside, motion)
+        motions["block_velocity_order"] = "block_velocity"
     return check(
         xr.Dataset(
             {
-                "velocity_order": stamp("velocity_order", velocity, motion),
-                **block,
+                **{
+                    name: stamp(
+                        name,
+                        np.moveaxis(response(motion), -1, -2),
+                        {**coords, "dof": list(RIGID_BODY_DOFS)},
+                    )
+                    for name, motion in motions.items()
+                },
                 "foot_force_order": stamp("foot_force_order", foot_force, {**coords, **feet}),
                 "foot_force_amplitude": stamp(
                     "foot_force_amplitude",
@@ -245,8 +258,8 @@ def _housing(study: Study, results: xr.Dataset) -> xr.Dataset:
                 "natural_frequency": stamp("natural_frequency", frequencies, {"mode": modes}),
                 "mode_shape": stamp(
                     "mode_shape",
-                    shapes.reshape(len(modes), len(bodies), -1),
-                    {"mode": modes, "body": bodies, "dof": list(RIGID_BODY_DOFS)},
+                    shapes.reshape(len(modes), len(body.bodies), -1),
+                    {"mode": modes, "body": list(body.bodies), "dof": list(RIGID_BODY_DOFS)},
                 ),
                 "mount_transmissibility": stamp(
                     "mount_transmissibility",
@@ -257,6 +270,11 @@ def _housing(study: Study, results: xr.Dataset) -> xr.Dataset:
             coords={"foot_position": (("foot", "axis"), body.foot_position)},
         )
     )
+
+
+def _machine_of(study: Study, option: Option) -> CommonMachine:
+    """The machine that an option leaves: itself, but for a redesign."""
+    return option.machine if isinstance(option, Redesign) else study.machine
 
 
 def _on_mounts(machine: CommonMachine) -> RigidBodyOnMounts | SuspendedBlock:

@@ -40,6 +40,19 @@ NOT_MODELLED_OF_KIND: Final = {
         "The shaft turns at constant speed; torque ripple, twice-line torque of the motor and key "
         "slap are not modelled.",
     ),
+    "slider-link": (
+        "Start and stop, in which the block swings widely on its springs, and knocks of the block "
+        "against the shell are not modelled; springs and discharge tube are linear and without "
+        "mass, so that their own resonances are missing.",
+        "Sound and force that pass from the block to the shell through gas and oil are left out: "
+        "above some hundred hertz they can carry more than the springs.",
+        "A weight on the shaft turns: it lowers the force along the stroke and makes one across "
+        "it. It adds to the shaft's own counterweight, which holds the slider and a part of the "
+        "piston already. The couple of an option's weights about the block's centre of mass is "
+        "included, their share in its mass and inertia is not.",
+        "The motor's torque falls linearly with the speed; its pulsation at twice the line "
+        "frequency is not modelled.",
+    ),
     "reciprocating": (
         "One cylinder stands for the machine. The crankshaft is balanced about its axis, the big "
         "end of the rod is not; the paper gives no counterweight. Lanchester's weights are in "

@@ -4,13 +4,17 @@ from typing import Final
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from . import labels, rounding
-from .study import first_order_hz, parameters
+from .study import first_order_hz, options, parameters, speeds
 from .tables import Table
 
 DOMINANT: Final = 0.02
 """Degrees of freedom with a smaller share of the mode's kinetic energy are not named."""
+
+STEPS: Final = 360
+"""Instants of a revolution at which a displacement is looked at."""
 
 
 def modes_table(results: xr.Dataset) -> Table:
@@ -25,7 +29,9 @@ def modes_table(results: xr.Dataset) -> Table:
         for mode in frequency["mode"].values
     )
     head = ("Mode", "Natural frequency, Hz", "Motion by share of kinetic energy")
-    return Table("Rigid-body modes on the mounts", head, rows, frozenset({0, 2}))
+    redesigned = any(own["kind"] == "redesign" for own in parameters(results)["options"].values())
+    caption = "Rigid-body modes on the mounts" + (", machine as it is" if redesigned else "")
+    return Table(caption, head, rows, frozenset({0, 2}))
 
 
 def shape_words(results: xr.Dataset, mode: str) -> str:
@@ -49,6 +55,42 @@ def _inertia(results: xr.Dataset, body: str) -> list[float]:
     machine = parameters(results)["machine"]
     of = machine["suspension"]["block"] if body == "block" else machine["housing"]
     return [of["mass_kg"]] * 3 + [of[f"inertia_{axes}_kg_m2"] for axes in ("xx", "yy", "zz")]
+
+
+def block_table(results: xr.Dataset) -> Table | None:
+    """Largest displacement of a suspended block at its springs; None where it has none."""
+    if "block_velocity_order" not in results:
+        return None
+    largest = {option: _spring_displacement_mm(results, option) for option in options(results)}
+    rows = tuple(
+        (option, *(rounding.significant(value) for value in values))
+        for option, values in largest.items()
+    )
+    caption = (
+        "Displacement of the block against the shell at its springs, mm: largest of the four "
+        "springs and of a revolution, without the sag; start and stop are not modelled"
+    )
+    return Table(caption, ("Option", *(f"At {speed:g} rpm" for speed in speeds(results))), rows)
+
+
+def _spring_displacement_mm(results: xr.Dataset, option: str) -> NDArray[np.float64]:
+    """At the spring that moves most, peak over a revolution, shape (speed,)."""
+    study = parameters(results)
+    inside = study["options"][option].get("machine", study["machine"])["suspension"]
+    half, low = 0.5 * inside["springs"]["pitch_m"], inside["springs_height_m"]
+    moved = {}
+    for body, height in (("block", low), ("shell", low + inside["height_m"])):
+        name = "block_velocity_order" if body == "block" else "velocity_order"
+        velocity = results[name].sel(option=option).sum("source").isel(order=slice(1, None))
+        omega = 2.0 * np.pi * velocity["order_frequency"].transpose("speed", "order").values
+        motion = velocity.transpose("speed", "order", "dof").values / (1j * omega[..., None])
+        corners = np.array([(x, y, height) for x in (half, -half) for y in (half, -half)])
+        turned = np.cross(motion[..., None, 3:], corners)
+        moved[body] = motion[..., None, :3] + turned  # speed, order, spring, axis
+    order = results["order"].values[1:]
+    turn = np.exp(2j * np.pi * np.arange(STEPS)[:, None] * order / STEPS)
+    over_time = np.einsum("to,sofa->stfa", turn, moved["block"] - moved["shell"]).real
+    return np.asarray(1e3 * np.linalg.norm(over_time, axis=-1).max(axis=(1, 2)))
 
 
 def isolation_sentence(results: xr.Dataset) -> str:

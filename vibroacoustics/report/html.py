@@ -63,6 +63,7 @@ def _context(results: xr.Dataset, pictures: Sequence[Picture]) -> dict[str, Any]
 def _housing(results: xr.Dataset) -> dict[str, Any]:
     return {
         "modes": housing.modes_table(results),
+        "block": housing.block_table(results),
         "isolation": housing.isolation_sentence(results),
         "receivers": housing.receivers_table(results),
         "green": housing.green_sentence(results),

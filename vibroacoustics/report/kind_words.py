@@ -9,6 +9,7 @@ from .study import parameters
 _AXES: Final = {
     "oldham-scroll": "the Oldham stroke (x), across (y) and along the shaft (z)",
     "reciprocating": "across the cylinder (x), along the shaft (y) and along the cylinder (z)",
+    "slider-link": "along the cylinder (x), across (y) and along the shaft (z)",
 }
 
 _ORDERS: Final = {
@@ -17,6 +18,9 @@ _ORDERS: Final = {
     "reciprocating": "The tilt of the connecting rod makes the even orders, the swing of the "
     "shaft's speed under the gas load the others. Orders are multiples of the mean shaft "
     "frequency in time.",
+    "slider-link": "Link and slider move the piston by a pure cosine of the crank angle: only the "
+    "swing of the shaft's speed under the gas load makes orders above the first. Orders are "
+    "multiples of the mean shaft frequency in time.",
 }
 
 

@@ -94,12 +94,16 @@ def _as_it_is(results: xr.Dataset) -> str:
         )
     )
     return (
-        f"Without a balancer the moving parts shake the housing at 1× with {shaken}; at 2× with "
-        f"{_twice(float(own['force_2x_n'].max()))}. A foot passes on at most "
+        f"Without a balancer the moving parts shake the {_body(results)} at 1× with {shaken}; "
+        f"at 2× with {_twice(float(own['force_2x_n'].max()))}. A foot passes on at most "
         f"{FOOT_FORCE.write(float(own['foot_force_1x_n'].max()))}; at {own['receiver'].item()} the "
         f"1× line has {rounding.span(own['level_1x_db'].values, rounding.level)} dB or "
         f"{rounding.span(own['level_1x_dba'].values, rounding.level)} dB(A)."
     )
+
+
+def _body(results: xr.Dataset) -> str:
+    return "block on its springs" if "block_velocity_order" in results else "housing"
 
 
 def _twice(force_n: float) -> str:

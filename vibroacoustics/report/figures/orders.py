@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from .. import rounding
 from ..study import catalogue_receiver, options, speeds
-from .style import COLOURS, MARKERS, Picture, draw, legend_below, wrap
+from .style import COLOURS, MARKERS, Picture, draw, legend_below, logarithmic_ticks, wrap
 
 HIGHEST_ORDER: Final = 4
 LOWEST_FORCE_N: Final = 1e-3
@@ -63,7 +63,7 @@ def _dots(values: xr.DataArray, label: str, lowest: float, logarithmic: bool) ->
             axes.invert_yaxis()
             if logarithmic:
                 axes.set_xscale("log")
-                axes.minorticks_off()
+                logarithmic_ticks(axes)
         panels[-1].set_xlabel(label)
         legend_below(panels[0], 4)
 

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import LogLocator, MaxNLocator
 from numpy.typing import NDArray
 
 WIDTH_INCH: Final = 4.6
@@ -108,6 +108,15 @@ def frequency_ticks(axes: Axes, frequency_hz: NDArray[np.float64]) -> None:
     shown = [tick for tick in ticks if frequency_hz.min() <= tick <= frequency_hz.max()]
     axes.set_xticks(shown, [f"{tick}" for tick in shown])
     axes.minorticks_off()
+
+
+def logarithmic_ticks(axes: Axes) -> None:
+    """Ticks of the abscissa at powers of ten; also at 2 and 5 times where it spans few of them."""
+    axes.minorticks_off()
+    lowest, highest = axes.get_xlim()
+    if highest < 100.0 * lowest:
+        axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axes.xaxis.set_major_formatter("{x:g}")
 
 
 def whole_number_ticks(axes: Axes) -> None:

@@ -1,0 +1,53 @@
+"""The slider-link compressor as the chain takes it: force and moment by source."""
+
+from math import gcd, pi
+from typing import Final
+
+from ...moving_parts import MachineMotion
+from ...parameters.slider_link import SliderLinkMachine
+from ...rotation import Rotation
+from ...units import shaft_frequency_hz
+from ..crankshaft import every
+from .motion import steady_motion
+from .unbalance import unbalance
+
+SAMPLES: Final = 360
+"""Least number of crank angles at which the cycle is solved; a quarter of them is whole."""
+
+FRICTION: Final = {
+    "piston_friction_w": ("piston_film", "cylinder"),
+    "link_friction_w": ("link",),
+    "journal_friction_w": ("crank_pin", "upper", "lower"),
+    "thrust_friction_w": ("thrust",),
+}
+"""Losses to report, and the works that they are made of."""
+
+
+def slider_link_revolution(
+    machine: SliderLinkMachine, speed_rpm: float, samples: int
+) -> MachineMotion:
+    """Steady revolution of piston, slider and crankshaft under gas, friction and motor.
+
+    Parameters
+    ----------
+    machine : masses in kg, lengths in m, pressures in Pa
+    speed_rpm : mean over time
+    samples : crank angles of the revolution
+    """
+    whole = 4 // gcd(samples, 4)  # the contacts change at the quarters of a revolution
+    stride = whole * -(-SAMPLES // (whole * samples))
+    frequency = shaft_frequency_hz(speed_rpm)
+    cycle = steady_motion(machine, 2.0 * pi * frequency, samples * stride)
+    rotation = Rotation(cycle.state.velocity, cycle.state.acceleration)
+    wrenches = {
+        name: own.placed(machine.crank_frame)
+        for name, own in unbalance(machine, cycle.state).items()
+    }
+    power = {name: work * frequency for name, work in cycle.work_j.items()}
+    facts = {
+        "speed_fluctuation_percent": 100.0 * rotation.fluctuation_ratio,
+        "shaft_power_w": power["motor"],
+        "mechanical_efficiency_percent": 100.0 * power["gas"] / power["motor"],
+        **{name: sum(power[part] for part in parts) for name, parts in FRICTION.items()},
+    }
+    return every(stride, rotation, wrenches, facts)
