@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Any, Final
 
 from ..moving_parts import MachineMotion
+from .minicrank.revolution import minicrank_revolution
 from .oldham_scroll import oldham_scroll
 from .reciprocating.revolution import reciprocating_revolution
 
@@ -11,9 +12,16 @@ Mechanism = Callable[[Any, float, int], MachineMotion]
 """(machine, speed in rpm, crank angles of a revolution) to a steady revolution."""
 
 MECHANISMS: Final[dict[str, Mechanism]] = {
+    "minicrank-scroll": minicrank_revolution,
     "oldham-scroll": oldham_scroll,
     "reciprocating": reciprocating_revolution,
 }
 """Mechanism of each kind of machine."""
 
-__all__ = ["MECHANISMS", "Mechanism", "oldham_scroll", "reciprocating_revolution"]
+__all__ = [
+    "MECHANISMS",
+    "Mechanism",
+    "minicrank_revolution",
+    "oldham_scroll",
+    "reciprocating_revolution",
+]
