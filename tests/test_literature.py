@@ -19,7 +19,7 @@ from vibroacoustics.balancers.pendulum import (
 from vibroacoustics.balancers.spring_mass import printed_mass, sprung_mass_response, tuned_mass
 from vibroacoustics.mechanisms.minicrank.four_bar import four_bar_motion
 from vibroacoustics.mechanisms.oldham import oldham_ring
-from vibroacoustics.moving_parts import wrench
+from vibroacoustics.moving_parts import derivative, wrench
 from vibroacoustics.orders import order_spectrum, semi_major_axis
 from vibroacoustics.parameters.four_bar import Links
 from vibroacoustics.rotation import uniform_crank_angle
@@ -456,3 +456,26 @@ def test_hinges_b_c_d_run_clockwise_with_m_negative():
         b, c, d = 1j * form.crank_m, form.bracket_m + form.minicrank_m * np.exp(1j * third), 0.115
         clockwise = np.imag(np.conj(c - b) * (d - c)) < 0.0
         assert clockwise == (branch == -1)
+
+
+@pytest.mark.parametrize("error_um", [-10.0, -50.0, -100.0])
+def test_zhao_torque_while_the_minicrank_runs_back(error_um):
+    """Section 5: it deviates from (18), and the size of the error changes it little.
+
+    As the error goes to zero the links form the crossed parallelogram, in which the scroll turns
+    by twice the angle of the line from crank pin to mini-crank axis, close to -2 (l1/l2) sin θ1.
+    To first order an error δ adds δ/(l2 sin θ1). From 210 to 330° that changes the product of the
+    slopes by at most 14 δ/l1 of its largest, while the peaks grow without bound.
+    """
+    angle = uniform_crank_angle(14400)
+    moved = four_bar_motion(zhao_links(error_um), angle, -1)
+    crossed = 2.0 * np.arctan2(-4.5 * np.sin(angle), 115.0 - 4.5 * np.cos(angle))
+    expected = derivative(crossed, 1) * derivative(crossed, 2)
+    torque = moved.scroll_angle[1] * moved.scroll_angle[2]
+    back = np.abs(np.rad2deg(angle) - 270.0) < 60.0
+    assert np.all(moved.minicrank_angle[1][back] < 0.0)
+    largest = np.max(np.abs(expected[back]))
+    allowed = 14.0 * abs(error_um) / 4500.0 * largest
+    np.testing.assert_allclose(torque[back], expected[back], rtol=0, atol=allowed)
+    along = np.abs(np.rad2deg(angle) - 90.0) < 60.0
+    assert np.max(np.abs(torque[along])) < allowed  # second order in δ
