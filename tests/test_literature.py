@@ -465,7 +465,8 @@ def test_zhao_torque_while_the_minicrank_runs_back(error_um):
     As the error goes to zero the links form the crossed parallelogram, in which the scroll turns
     by twice the angle of the line from crank pin to mini-crank axis, close to -2 (l1/l2) sin θ1.
     To first order an error δ adds δ/(l2 sin θ1). From 210 to 330° that changes the product of the
-    slopes by at most 14 δ/l1 of its largest, while the peaks grow without bound.
+    slopes by at most 14 δ/l1 of its largest, 15 with the next terms in l1/l4 of 4 % each, while the
+    peaks grow without bound.
     """
     angle = uniform_crank_angle(14400)
     moved = four_bar_motion(zhao_links(error_um), angle, -1)
@@ -475,7 +476,7 @@ def test_zhao_torque_while_the_minicrank_runs_back(error_um):
     back = np.abs(np.rad2deg(angle) - 270.0) < 60.0
     assert np.all(moved.minicrank_angle[1][back] < 0.0)
     largest = np.max(np.abs(expected[back]))
-    allowed = 14.0 * abs(error_um) / 4500.0 * largest
+    allowed = 15.0 * abs(error_um) / 4500.0 * largest
     np.testing.assert_allclose(torque[back], expected[back], rtol=0, atol=allowed)
     along = np.abs(np.rad2deg(angle) - 90.0) < 60.0
     assert np.max(np.abs(torque[along])) < allowed  # second order in δ
