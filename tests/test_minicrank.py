@@ -25,7 +25,7 @@ from vibroacoustics.mechanisms.minicrank.pin_forces import crank_pin_force, mini
 from vibroacoustics.mechanisms.minicrank.revolution import minicrank_revolution
 from vibroacoustics.moving_parts import MovingPart, axes_of, derivative, path, wrench
 from vibroacoustics.orders import order_spectrum, order_spectrum_at_speed
-from vibroacoustics.parameters.four_bar import Links, closing_margins
+from vibroacoustics.parameters.four_bar import FourBar, Links, closing_margins
 from vibroacoustics.parameters.minicrank import MiniCrankMachine
 from vibroacoustics.rotation import uniform_crank_angle
 
@@ -594,3 +594,16 @@ def test_redesign_that_does_not_close(tmp_path):
     ) as refused:
         load_study(tmp_path / "study.toml")
     assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"minicranks": 3, "bracket_m": 0.116}, "must fit within 0.445 mm; they differ by 1.05 mm"),
+        ({"crank_m": 5e-4, "crank_error_m": -6e-4}, "must be positive with their errors"),
+        ({"crank_error_m": 0.0, "minicrank_error_m": -1e-5}, "10 µm are missing"),
+    ],
+)
+def test_links_that_cannot_be(changes, message):
+    with pytest.raises(ValueError, match=message):
+        FourBar.model_validate(MACHINE.four_bar.model_dump() | changes)

@@ -1,6 +1,6 @@
 """Links of a scroll with mini-crank: lengths, errors, whether they close."""
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from typing import Final, Literal
 
 from pydantic import Field, model_validator
@@ -13,6 +13,8 @@ ERROR = Field(default=0.0, ge=-1e-3, le=1e-3)
 SMALLEST_MARGIN_M: Final = 1e-9
 """Below it a four-bar that is no parallelogram is at a change point to rounding: angular
 accelerations grow without bound and so do their rounding errors."""
+LARGEST_MISFIT: Final = 0.1
+"""Over the crank: three mini-cranks are taken to first order in the errors."""
 
 
 @dataclass(frozen=True)
@@ -74,6 +76,17 @@ def why_open(links: Links) -> str | None:
     return f"{links}: the links do not close over a revolution of the crankshaft; {found}"
 
 
+def why_misfit(links: Links) -> str | None:
+    """Why three mini-cranks cannot hold the scroll by small strains; None where they can."""
+    misfit = abs(links.minicrank_m - links.crank_m) + abs(links.bracket_m - links.scroll_m)
+    if misfit <= LARGEST_MISFIT * links.crank_m:
+        return None
+    return (
+        f"{links}: with minicranks = 3 crank and mini-crank, scroll and bracket must fit within "
+        f"{1e3 * LARGEST_MISFIT * links.crank_m:.4g} mm; they differ by {1e3 * misfit:.4g} mm"
+    )
+
+
 class FourBar(Parameters):
     """Nominal links and their errors: crankshaft l1, scroll l2, mini-crank l3, bracket l4."""
 
@@ -93,7 +106,10 @@ class FourBar(Parameters):
 
     @model_validator(mode="after")
     def _closes(self) -> "FourBar":
-        if self.minicranks == 1 and (reason := why_open(self.links)):
+        why_not = why_open if self.minicranks == 1 else why_misfit
+        if min(astuple(self.links)) <= 0.0:
+            raise ValueError(f"{self.links}: must be positive with their errors")
+        if reason := why_not(self.links):
             raise ValueError(reason)
         return self
 

@@ -37,6 +37,7 @@ class Masses(Parameters):
             update={
                 "minicrank_inertia_kg_m2": minicranks * self.minicrank_inertia_kg_m2,
                 "minicrank_mass_kg": minicranks * left * self.minicrank_mass_kg,
+                "minicrank_balance_ratio": 0.0,
             }
         )
 
