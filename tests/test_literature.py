@@ -1,11 +1,13 @@
-"""Published numbers: the thesis (seed 0), its corrections (shared/physics.md), IEC 61672-1.
+"""Published numbers: the thesis (seed 0), its corrections (shared/physics.md), IEC 61672-1, Zhao.
 
 Tolerances are half a unit of the last printed digit unless a comment says otherwise.
 """
 
+import csv
+
 import numpy as np
 import pytest
-from support import CRANK_ANGLE, balancing, machine_parts, turning, wrench_orders
+from support import CRANK_ANGLE, ROOT, balancing, machine_parts, turning, wrench_orders
 
 from vibroacoustics import levels, scoring, sound_power
 from vibroacoustics.balancers.pendulum import (
@@ -15,9 +17,12 @@ from vibroacoustics.balancers.pendulum import (
     periodic_state,
 )
 from vibroacoustics.balancers.spring_mass import printed_mass, sprung_mass_response, tuned_mass
+from vibroacoustics.mechanisms.minicrank.four_bar import four_bar_motion
 from vibroacoustics.mechanisms.oldham import oldham_ring
-from vibroacoustics.moving_parts import wrench
+from vibroacoustics.moving_parts import derivative, wrench
 from vibroacoustics.orders import order_spectrum, semi_major_axis
+from vibroacoustics.parameters.four_bar import Links
+from vibroacoustics.rotation import uniform_crank_angle
 from vibroacoustics.transfer import RigidBodyOnMounts
 
 SPEEDS = (2900.0, 3500.0)
@@ -357,3 +362,121 @@ def test_near_field_of_a_dipole_at_1_m(frequency, overstated):
     """radiation.md: p² of a dipole at 1 m overstates the sound power by 10 lg(1 + 1/(kr)²)."""
     wavenumber = 2.0 * np.pi * frequency / 343.0
     assert 10.0 * np.log10(1.0 + wavenumber**-2) == pytest.approx(overstated, abs=0.05)
+
+
+# --- scroll with mini-crank ----------------------------------------------------------------------
+
+
+def zhao_links(crank_um=0.0, scroll_um=0.0, minicrank_um=0.0, bracket_um=0.0) -> Links:
+    errors = 1e-6 * np.array([crank_um, scroll_um, minicrank_um, bracket_um])
+    return Links(*np.array([4.5e-3, 0.115, 4.5e-3, 0.115]) + errors)  # Zhao table 1
+
+
+def inertia_peak(form: Links, speed_rpm: float, branch: int = 1) -> tuple[float, float]:
+    """Largest |J2 θ̈2 θ̇2/θ̇1| and its crank angle, N m and degrees; 0.01° apart."""
+    moved = four_bar_motion(form, uniform_crank_angle(36000), branch)
+    omega = 2.0 * np.pi * speed_rpm / 60.0
+    torque = np.abs(0.142 * omega**2 * moved.scroll_angle[2] * moved.scroll_angle[1])
+    peak = int(np.argmax(torque))
+    return float(torque[peak]), float(np.rad2deg(moved.crank_angle[peak]))
+
+
+def zhao(quantity: str):
+    with (ROOT / "data" / "validation" / "zhao.csv").open(encoding="utf-8") as file:
+        rows = csv.DictReader(line for line in file if not line.startswith("#"))
+        keys = ("crank_error_um", "scroll_error_um", "speed_rpm", "value")
+        return [[float(row[key]) for key in keys] for row in rows if row["quantity"] == quantity]
+
+
+@pytest.mark.parametrize(
+    ("crank_um", "scroll_um", "speed_rpm", "torque"), zhao("peak inertia torque")
+)
+def test_peak_inertia_torque(crank_um, scroll_um, speed_rpm, torque):
+    assert inertia_peak(zhao_links(crank_um, scroll_um), speed_rpm)[0] == pytest.approx(
+        torque, rel=0.01
+    )
+
+
+@pytest.mark.parametrize(
+    ("crank_um", "scroll_um", "speed_rpm", "degrees"), zhao("crank angle of the peak")
+)
+def test_peaks_stand_where_the_links_are_in_line(crank_um, scroll_um, speed_rpm, degrees):
+    found = inertia_peak(zhao_links(crank_um, scroll_um), speed_rpm)[1]
+    assert found == pytest.approx(degrees, abs=0.005 + 0.005)  # last digit and our own grid
+
+
+@pytest.mark.parametrize(("crank_um", "_", "__", "degrees"), zhao("swing of the mini-crank"))
+def test_shorter_crank_makes_the_minicrank_rock(crank_um, _, __, degrees):
+    moved = four_bar_motion(zhao_links(crank_um), uniform_crank_angle(36000), 1)
+    assert np.rad2deg(np.ptp(moved.minicrank_angle[0])) == pytest.approx(degrees, abs=0.5)
+    # "4.4° scroll swing", physics.md B6: 4.39° and 4.48°.
+    assert np.rad2deg(np.ptp(moved.scroll_angle[0])) == pytest.approx(4.4, abs=0.1)
+
+
+def test_zhao_torque_goes_as_speed_squared():
+    ratio = inertia_peak(zhao_links(-20.0), 3000.0)[0] / inertia_peak(zhao_links(-20.0), 1500.0)[0]
+    assert ratio == pytest.approx(4.0, rel=1e-12)
+
+
+def test_zhao_order_of_the_error_sizes():
+    """Section 5: l1 shorter or l3 longer lowers the extremes; l2 longer or l4 shorter raises."""
+    sizes = [inertia_peak(zhao_links(error), 1500.0)[0] for error in (-10.0, -20.0, -50.0, -100.0)]
+    assert sizes == sorted(sizes, reverse=True)
+    base = sizes[2]
+    assert inertia_peak(zhao_links(-50.0, minicrank_um=20.0), 1500.0)[0] < base
+    assert inertia_peak(zhao_links(-50.0, minicrank_um=-20.0), 1500.0)[0] > base
+    assert inertia_peak(zhao_links(-50.0, scroll_um=20.0), 1500.0)[0] > base
+    assert inertia_peak(zhao_links(-50.0, bracket_um=-20.0), 1500.0)[0] > base
+    # physics.md B6: as the error to the power -0.53, so without bound.
+    assert np.log(sizes[3] / sizes[0]) / np.log(10.0) == pytest.approx(-0.53, abs=0.005)
+
+
+@pytest.mark.parametrize(("branch", "larger"), [(-1, "joins"), (1, "leaves")])
+def test_larger_extreme_of_the_two_reversals(branch, larger):
+    """Section 5: the larger is where the mini-crank joins the crankshaft's direction; M = -1."""
+    moved = four_bar_motion(zhao_links(-10.0), uniform_crank_angle(36000), branch)
+    torque = np.abs(moved.scroll_angle[2] * moved.scroll_angle[1])
+    forward = moved.minicrank_angle[1] > 0.0
+    joins = int(np.flatnonzero(forward & ~np.roll(forward, 1))[0])
+    leaves = int(np.flatnonzero(~forward & np.roll(forward, 1))[0])
+    extreme = {
+        name: np.max(np.roll(torque, 600 - place)[:1200])  # 6° to either side
+        for name, place in {"joins": joins, "leaves": leaves}.items()
+    }
+    assert max(extreme, key=extreme.__getitem__) == larger
+    assert sorted(extreme.values()) == pytest.approx([0.0235, 0.0285], abs=5e-5)
+
+
+def test_hinges_b_c_d_run_clockwise_with_m_negative():
+    """Section 2.1 says M is positive then; with (5) as printed it is negative."""
+    form = zhao_links(-50.0)
+    for branch in (1, -1):
+        moved = four_bar_motion(form, np.array([0.5 * np.pi]), branch)
+        third = moved.minicrank_angle[0, 0]
+        b, c, d = 1j * form.crank_m, form.bracket_m + form.minicrank_m * np.exp(1j * third), 0.115
+        clockwise = np.imag(np.conj(c - b) * (d - c)) < 0.0
+        assert clockwise == (branch == -1)
+
+
+@pytest.mark.parametrize("error_um", [-10.0, -50.0, -100.0])
+def test_zhao_torque_while_the_minicrank_runs_back(error_um):
+    """Section 5: it deviates from (18), and the size of the error changes it little.
+
+    As the error goes to zero the links form the crossed parallelogram, in which the scroll turns
+    by twice the angle of the line from crank pin to mini-crank axis, close to -2 (l1/l2) sin θ1.
+    To first order an error δ adds δ/(l2 sin θ1). From 210 to 330° that changes the product of the
+    slopes by at most 14 δ/l1 of its largest, 15 with the next terms in l1/l4 of 4 % each, while the
+    peaks grow without bound.
+    """
+    angle = uniform_crank_angle(14400)
+    moved = four_bar_motion(zhao_links(error_um), angle, -1)
+    crossed = 2.0 * np.arctan2(-4.5 * np.sin(angle), 115.0 - 4.5 * np.cos(angle))
+    expected = derivative(crossed, 1) * derivative(crossed, 2)
+    torque = moved.scroll_angle[1] * moved.scroll_angle[2]
+    back = np.abs(np.rad2deg(angle) - 270.0) < 60.0
+    assert np.all(moved.minicrank_angle[1][back] < 0.0)
+    largest = np.max(np.abs(expected[back]))
+    allowed = 15.0 * abs(error_um) / 4500.0 * largest
+    np.testing.assert_allclose(torque[back], expected[back], rtol=0, atol=allowed)
+    along = np.abs(np.rad2deg(angle) - 90.0) < 60.0
+    assert np.max(np.abs(torque[along])) < allowed  # second order in δ

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Any, Final
 
 from ..moving_parts import MachineMotion
+from .minicrank.revolution import minicrank_revolution
 from .oldham_scroll import oldham_scroll
 from .reciprocating.revolution import reciprocating_revolution
 from .slider_link.revolution import slider_link_revolution
@@ -12,6 +13,7 @@ Mechanism = Callable[[Any, float, int], MachineMotion]
 """(machine, speed in rpm, crank angles of a revolution) to a steady revolution."""
 
 MECHANISMS: Final[dict[str, Mechanism]] = {
+    "minicrank-scroll": minicrank_revolution,
     "oldham-scroll": oldham_scroll,
     "reciprocating": reciprocating_revolution,
     "slider-link": slider_link_revolution,
@@ -24,4 +26,5 @@ __all__ = [
     "oldham_scroll",
     "reciprocating_revolution",
     "slider_link_revolution",
+    "minicrank_revolution",
 ]

@@ -5,15 +5,18 @@ from typing import Annotated, Final
 from pydantic import Field
 
 from .machine import CommonMachine
+from .minicrank import MiniCrankMachine
 from .oldham_scroll import OldhamScroll
 from .reciprocating import ReciprocatingMachine
 from .slider_link import SliderLinkMachine
 
 Machine = Annotated[
-    OldhamScroll | ReciprocatingMachine | SliderLinkMachine, Field(discriminator="kind")
+    MiniCrankMachine | OldhamScroll | ReciprocatingMachine | SliderLinkMachine,
+    Field(discriminator="kind"),
 ]
 
 MACHINES: Final[dict[str, type[CommonMachine]]] = {
+    "minicrank-scroll": MiniCrankMachine,
     "oldham-scroll": OldhamScroll,
     "reciprocating": ReciprocatingMachine,
     "slider-link": SliderLinkMachine,

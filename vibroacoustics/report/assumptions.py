@@ -29,6 +29,16 @@ NOT_MODELLED: Final = (
 )
 
 NOT_MODELLED_OF_KIND: Final = {
+    "minicrank-scroll": (
+        "Links and bearings are rigid and without clearance where there is one mini-crank. It then "
+        "rocks, and the scroll swings by some 4°, which the wraps forbid: the torque peaks and pin "
+        "forces of such an option are those of the paper's model, not of a machine.",
+        "Three mini-cranks hold the scroll on equal elastic pins, quasi-statically and to first "
+        "order in the errors; the first has the errors, the others fit the crank.",
+        "The gas load has one harmonic; twice-line torque of the motor is not modelled. The "
+        "weight of what link errors leave unbalanced on the shaft is left out of its torque: "
+        "some mN m.",
+    ),
     "oldham-scroll": (
         "Both bobs of a pendulum option are taken on the same side, so that their vertical forces "
         "add; on opposite sides the vertical 1× force would cancel. Stops are not modelled.",

@@ -27,6 +27,9 @@ _NAMES: Final = {
     "stroke_amplitude_mm": "Stroke amplitude of the sprung mass",
     "resonance_speed_rpm": "Speed at which the sprung mass resonates",
     "dissipated_power_w": "Dissipated power",
+    "minicrank_swing_deg": "Swing of the mini-crank, which does not turn",
+    "minicrank_pin_force_n": "Largest force at the rigid pin of the mini-crank",
+    "crank_pin_force_n": "Largest force at the rigid crank pin",
     "weighted_sum": "Weighted sum",
     "topsis": "TOPSIS",
 }

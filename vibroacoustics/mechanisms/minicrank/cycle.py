@@ -1,4 +1,4 @@
-"""Scroll with mini-crank (Zhao et al. 2013): input torque, speed fluctuation, roll moment."""
+"""Scroll with mini-crank (Zhao et al. 2013): loads, input torque, speed fluctuation."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -8,18 +8,13 @@ import numpy as np
 
 from ...constants import STANDARD_GRAVITY_M_PER_S2
 from ...errors import ParameterError
-from ...moving_parts import Array, Wrench
+from ...moving_parts import Array
+from ...parameters.four_bar import FourBar, Links
 from ...parameters.minicrank import Masses, MiniCrankMachine, ScrollLoads
-from ...rotation import Rotation, uniform_crank_angle
+from ...rotation import uniform_crank_angle
 from ...units import shaft_frequency_hz
-from ..crankshaft import (
-    DrivenRotation,
-    acceleration_of,
-    planar,
-    reduced_inertia,
-    steady_rotation,
-)
-from .four_bar import FourBarMotion, Links, four_bar_motion, links_of
+from ..crankshaft import DrivenRotation, reduced_inertia, steady_rotation
+from .four_bar import FourBarMotion, four_bar_motion, three_minicranks_motion
 
 SAMPLES: Final = 14400
 """Crank angles a revolution. Errors of 10 µm make a torque peak some 1° wide: 40 samples."""
@@ -32,11 +27,13 @@ class ScrollLoad:
     Attributes
     ----------
     tangential_force_n : F_t at the crank pin, against its motion, shape (samples,)
+    radial_force_n : F_r at the crank pin, towards the axis, shape (samples,)
     rotation_moment_n_m : M_z of the gas, in the direction of θ2, shape (samples,)
     friction_moment_n_m : M_sd of the plates, in the direction of θ2, shape (samples,)
     """
 
     tangential_force_n: Array
+    radial_force_n: Array
     rotation_moment_n_m: Array
     friction_moment_n_m: Array
 
@@ -53,7 +50,12 @@ def scroll_load(loads: ScrollLoads, links: Links, crank_angle: Array) -> ScrollL
     force = loads.tangential_force_n * (1.0 + loads.ripple_ratio * np.cos(crank_angle))
     overturning = loads.overturning_arm_m * loads.tangential_force_n
     friction = loads.plate_friction * overturning * np.sin(loads.friction_angle_rad)
-    return ScrollLoad(force, 0.5 * links.crank_m * force, np.full_like(force, friction))
+    return ScrollLoad(
+        force,
+        np.full_like(force, loads.radial_force_n),
+        0.5 * links.crank_m * force,
+        np.full_like(force, friction),
+    )
 
 
 def input_torque(
@@ -74,50 +76,15 @@ def input_torque(
     return {
         "scroll_inertia": masses.scroll_inertia_kg_m2 * square * scroll[2] * scroll[1],
         "minicrank_inertia": masses.minicrank_inertia_kg_m2 * square * minicrank[2] * minicrank[1],
-        "weight": _weight_moment(links, moved, masses) * minicrank[1],
+        "weight": weight_moment(links, moved, masses) * minicrank[1],
         "load": load.tangential_force_n * links.crank_m - load.moment_n_m * scroll[1],
     }
 
 
-def _weight_moment(links: Links, moved: FourBarMotion, masses: Masses) -> Array:
+def weight_moment(links: Links, moved: FourBarMotion, masses: Masses) -> Array:
     """Moment about the mini-crank's axis that holds its weight, y upwards, N m."""
     lever = links.minicrank_m * np.cos(moved.minicrank_angle[0])
     return np.asarray(masses.minicrank_mass_kg * STANDARD_GRAVITY_M_PER_S2 * lever)
-
-
-def minicrank_pin_force(
-    links: Links, moved: FourBarMotion, masses: Masses, load: ScrollLoad, rotation: Rotation
-) -> Array:
-    """Force of the scroll on the mini-crank, x and y, shape (2, samples), N.
-
-    From the moments of the scroll about the crank pin and of the mini-crank about its axis.
-
-    Raises
-    ------
-    ParameterError
-        The links are a parallelogram: a single mini-crank cannot hold the scroll where all links
-        are in line.
-    """
-    if links.is_parallelogram:
-        raise ParameterError(
-            "crank_error_um, scroll_error_um, minicrank_error_um, bracket_error_um = 0 µm: a "
-            "parallelogram with one mini-crank takes no moment where its links are in line"
-        )
-    second, third = moved.scroll_angle, moved.minicrank_angle
-    scroll_turn, minicrank_turn = (acceleration_of(angle, rotation) for angle in (second, third))
-    on_scroll = load.moment_n_m - masses.scroll_inertia_kg_m2 * scroll_turn
-    on_minicrank = masses.minicrank_inertia_kg_m2 * minicrank_turn
-    on_minicrank = on_minicrank + _weight_moment(links, moved, masses)
-    along_third = on_scroll / links.scroll_m
-    along_second = -on_minicrank / links.minicrank_m
-    sine = np.sin(third[0] - second[0])
-    return np.asarray(
-        (along_third * _direction(third[0]) + along_second * _direction(second[0])) / sine
-    )
-
-
-def _direction(angle: Array) -> Array:
-    return np.stack([np.cos(angle), np.sin(angle)])
 
 
 @dataclass(frozen=True)
@@ -128,22 +95,24 @@ class MiniCrankCycle:
     ----------
     links : lengths with their errors
     moved : motion of scroll and mini-crank
+    masses : with all mini-cranks as one
     load : on the scroll
     input_torque_n_m : at constant speed by source, equation (17)
     rotation : of the crankshaft with its own inertia and motor
-    housing : what moving parts do to the housing, by source
     """
 
     links: Links
     moved: FourBarMotion
+    masses: Masses
     load: ScrollLoad
     input_torque_n_m: Mapping[str, Array]
     rotation: DrivenRotation
-    housing: Mapping[str, Wrench]
 
 
-def steady_minicrank_cycle(machine: MiniCrankMachine, speed_rpm: float) -> MiniCrankCycle:
-    """Torque ripple of the mechanism's errors, the rotor's speed under it, the housing's roll.
+def steady_minicrank_cycle(
+    machine: MiniCrankMachine, speed_rpm: float, samples: int = SAMPLES
+) -> MiniCrankCycle:
+    """Torque ripple of the mechanism's errors and the rotor's speed under it.
 
     Raises
     ------
@@ -152,8 +121,9 @@ def steady_minicrank_cycle(machine: MiniCrankMachine, speed_rpm: float) -> MiniC
     """
     if not 0.0 < speed_rpm < np.inf:
         raise ParameterError(f"speed_rpm = {speed_rpm:g} rpm: must be positive and finite")
-    masses, links = machine.masses, links_of(machine.four_bar)
-    moved = four_bar_motion(links, uniform_crank_angle(SAMPLES), machine.four_bar.branch)
+    links = machine.four_bar.links
+    masses = machine.masses.of_all(machine.four_bar.minicranks)
+    moved = _motion(machine.four_bar, uniform_crank_angle(samples))
     load = scroll_load(machine.loads, links, moved.crank_angle)
     mean_speed = 2.0 * np.pi * shaft_frequency_hz(speed_rpm)
     torque = input_torque(links, moved, masses, load, mean_speed)
@@ -167,25 +137,10 @@ def steady_minicrank_cycle(machine: MiniCrankMachine, speed_rpm: float) -> MiniC
         mean_speed,
         masses.motor_slope_ratio,
     )
-    housing = _housing_wrenches(links, moved, masses, rotation)
-    return MiniCrankCycle(links, moved, load, torque, rotation, housing)
+    return MiniCrankCycle(links, moved, masses, load, torque, rotation)
 
 
-def _housing_wrenches(
-    links: Links, moved: FourBarMotion, masses: Masses, rotation: Rotation
-) -> dict[str, Wrench]:
-    """By change of momentum. The counterweights balance the scroll's mass (eq. 10)."""
-    third = moved.minicrank_angle
-    turn = acceleration_of(third, rotation)
-    inward, across = -_direction(third[0]), _direction(third[0] + 0.5 * np.pi)
-    pin = links.minicrank_m * (across * turn + inward * (third[1] * rotation.speed_rad_per_s) ** 2)
-    force = -masses.minicrank_mass_kg * pin
-    still = np.zeros_like(force)
-    rotor = -masses.rotor_inertia_kg_m2 * rotation.acceleration_rad_per_s2
-    scroll = -masses.scroll_inertia_kg_m2 * acceleration_of(moved.scroll_angle, rotation)
-    crank = links.bracket_m * force[1] - masses.minicrank_inertia_kg_m2 * turn
-    return {
-        "rotor": planar(still, rotor),
-        "orbiting_scroll": planar(still, scroll),
-        "minicrank": planar(force, crank),
-    }
+def _motion(four_bar: FourBar, crank_angle: Array) -> FourBarMotion:
+    if four_bar.minicranks == 1:
+        return four_bar_motion(four_bar.links, crank_angle, four_bar.branch)
+    return three_minicranks_motion(four_bar.links, crank_angle)

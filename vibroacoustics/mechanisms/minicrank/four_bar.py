@@ -1,65 +1,12 @@
 """Plane four-bar mechanism of a scroll with mini-crank (Zhao et al. 2013): closing and motion."""
 
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 
 from ...errors import ParameterError
 from ...moving_parts import Array
-from ...parameters.minicrank import FourBar
-
-SMALLEST_MARGIN_M: Final = 1e-9
-"""Below it a four-bar that is no parallelogram is at a change point to rounding: angular
-accelerations grow without bound and so do their rounding errors."""
-
-
-@dataclass(frozen=True)
-class Links:
-    """Link lengths with their errors.
-
-    Attributes
-    ----------
-    crank_m : l1, eccentricity of the crankshaft, the driver
-    scroll_m : l2, from crank pin to mini-crank pin
-    minicrank_m : l3
-    bracket_m : l4, from crankshaft to mini-crank axis
-    """
-
-    crank_m: float
-    scroll_m: float
-    minicrank_m: float
-    bracket_m: float
-
-    @property
-    def is_parallelogram(self) -> bool:
-        return self.crank_m == self.minicrank_m and self.scroll_m == self.bracket_m
-
-
-def links_of(four_bar: FourBar) -> Links:
-    """Nominal lengths and errors added up."""
-    return Links(
-        four_bar.crank_m + four_bar.crank_error_m,
-        four_bar.scroll_m + four_bar.scroll_error_m,
-        four_bar.minicrank_m + four_bar.minicrank_error_m,
-        four_bar.bracket_m + four_bar.bracket_error_m,
-    )
-
-
-def closing_margins(links: Links) -> tuple[float, float]:
-    """What the links have to spare in the two collinear positions of crank and bracket, m.
-
-    Both must hold for the crank to turn: l1 + l2 ≤ l3 + l4 and l1 + l4 ≤ l3 + l2 (Zhao et al.
-    2013, eq. 19 and 20; the paper's "or" is an error). A negative margin is the clearance that
-    the joints must have.
-
-    Returns
-    -------
-    inner, outer : l3 + l4 - l1 - l2 with the crank pin between the axes (θ1 = 0), and
-        l3 + l2 - l1 - l4 with the crank pin beyond (θ1 = 180°)
-    """
-    l1, l2, l3, l4 = links.crank_m, links.scroll_m, links.minicrank_m, links.bracket_m
-    return l3 + l4 - l1 - l2, l3 + l2 - l1 - l4
+from ...parameters.four_bar import Links, closing_margins, why_open
 
 
 def reachable_crank_angles(links: Links) -> tuple[float, float]:
@@ -76,10 +23,10 @@ def reachable_crank_angles(links: Links) -> tuple[float, float]:
     l1, l2, l3, l4 = links.crank_m, links.scroll_m, links.minicrank_m, links.bracket_m
     ends = [(l1**2 + l4**2 - span**2) / (2.0 * l1 * l4) for span in (abs(l2 - l3), l2 + l3)]
     if ends[0] < -1.0 or ends[1] > 1.0:
-        raise ParameterError(f"{_lengths(links)}: the links close at no crank angle")
+        raise ParameterError(f"{links}: the links close at no crank angle")
     # The margins decide: at just one the quotient's rounding would cost a fraction of a degree.
     inner, outer = closing_margins(links)
-    turns_inside = min(inner, _slack(links)) >= 0.0
+    turns_inside = min(inner, links.slack_m) >= 0.0
     first = 0.0 if turns_inside else float(np.arccos(min(ends[0], 1.0)))
     last = np.pi if outer >= 0.0 else float(np.arccos(max(ends[1], -1.0)))
     return first, last
@@ -124,7 +71,8 @@ def four_bar_motion(links: Links, crank_angle: Array, branch: int) -> FourBarMot
         turning, still = np.zeros((2, 3, crank_angle.size))
         turning[0], turning[1] = crank_angle, 1.0
         return FourBarMotion(crank_angle, still, turning)
-    _refuse_open(links)
+    if reason := why_open(links):
+        raise ParameterError(reason)
     l1, l2, l3, l4 = links.crank_m, links.scroll_m, links.minicrank_m, links.bracket_m
     A, B = l4 - l1 * np.cos(crank_angle), -l1 * np.sin(crank_angle)
     span = np.hypot(A, B)
@@ -148,25 +96,28 @@ def four_bar_motion(links: Links, crank_angle: Array, branch: int) -> FourBarMot
     )
 
 
-def _slack(links: Links) -> float:
-    """Third condition, l1 + l3 ≤ l2 + l4, which any scroll with small cranks meets."""
-    return links.scroll_m + links.bracket_m - links.crank_m - links.minicrank_m
+def three_minicranks_motion(links: Links, crank_angle: Array) -> FourBarMotion:
+    """Scroll on three mini-cranks at 120° with equal elastic pins, the first with the errors.
 
+    Each turns freely about its axis, so its pin holds the scroll along the crank's direction only.
+    There pin k is strained by g_k - l2 θ2 sin(θ1 - β_k) with g_1 = (l4 - l2) cos θ1 + l3 - l1
+    and no g of the others. The least Σ strain² gives θ2 = (2/(3 l2)) g_1 sin θ1 (positive with
+    the crank), as Σ sin²(θ1 - β_k) = 3/2 at every crank angle: no change point is left. With one
+    mini-crank it would be g_1/(l2 sin θ1), which the links in line do not bound. Our derivation,
+    to first order in the errors; the mini-cranks then turn with the crank.
 
-def _refuse_open(links: Links) -> None:
-    margin = min(*closing_margins(links), _slack(links))
-    if margin >= SMALLEST_MARGIN_M:
-        return
-    short = margin <= -SMALLEST_MARGIN_M
-    found = f"{-1e6 * margin:.4g} µm are missing" if short else "they only just reach"
-    raise ParameterError(
-        f"{_lengths(links)}: the links do not close over a revolution of the crankshaft; {found}"
+    Parameters
+    ----------
+    links : lengths of the crankshaft and the first mini-crank's loop, m
+    crank_angle : shape (samples,), rad
+    """
+    in_line = (links.bracket_m - links.scroll_m) / (3.0 * links.scroll_m)
+    longer = 2.0 * (links.minicrank_m - links.crank_m) / (3.0 * links.scroll_m)
+    once, twice = np.sin(crank_angle), np.sin(2.0 * crank_angle)
+    slope = longer * np.cos(crank_angle) + 2.0 * in_line * np.cos(2.0 * crank_angle)
+    turn = np.stack(
+        [longer * once + in_line * twice, slope, -longer * once - 4.0 * in_line * twice]
     )
-
-
-def _lengths(links: Links) -> str:
-    return (
-        f"crank_mm, scroll_mm, minicrank_mm, bracket_mm = {1e3 * links.crank_m:.7g}, "
-        f"{1e3 * links.scroll_m:.7g}, {1e3 * links.minicrank_m:.7g}, "
-        f"{1e3 * links.bracket_m:.7g} mm"
-    )
+    even = np.zeros((3, crank_angle.size))
+    even[0], even[1] = crank_angle, 1.0
+    return FourBarMotion(crank_angle, turn, even)

@@ -1,0 +1,65 @@
+"""What a scroll with mini-crank does to its housing, by change of momentum."""
+
+import numpy as np
+
+from ...moving_parts import Wrench
+from ...parameters.minicrank import MiniCrankMachine
+from ..crankshaft import acceleration_of, planar
+from ..rotating_set import two_plane_balance
+from .cycle import MiniCrankCycle
+from .pin_forces import direction, turning_force
+
+
+def housing_wrenches(machine: MiniCrankMachine, cycle: MiniCrankCycle) -> dict[str, Wrench]:
+    """-Σ m a and -d/dt of the angular momentum, by source, in the axes of the machine."""
+    in_plane = {**_crankshaft(machine, cycle), "minicrank": (0.0, _minicranks(machine, cycle))}
+    return {name: own.placed(machine.plane(height)) for name, (height, own) in in_plane.items()}
+
+
+def counterweight_moments(machine: MiniCrankMachine) -> tuple[float, float]:
+    """Mass moments m r of the counterweights in the upper and lower plane, kg m.
+
+    Zhao et al. 2013, eq. 10, as force, and the same as couple: together they balance crank pin
+    and scroll on the nominal crank. A negative one stands opposite the crank pin.
+    """
+    masses, planes = machine.masses, machine.counterweights
+    orbiting = (masses.crank_pin_mass_kg + masses.scroll_mass_kg) * machine.four_bar.crank_m
+    return two_plane_balance([orbiting], [0.0], planes.upper_height_m, planes.lower_height_m)
+
+
+def _crankshaft(
+    machine: MiniCrankMachine, cycle: MiniCrankCycle
+) -> dict[str, tuple[float, Wrench]]:
+    """Height and wrench of what turns with the crankshaft and of the scroll on it.
+
+    The roll of the turning masses is the rotor's, whose inertia includes them.
+    """
+    masses, planes, rotation = cycle.masses, machine.counterweights, cycle.rotation
+    radius, still = cycle.links.crank_m, np.zeros_like(rotation.speed_rad_per_s)
+    rotor = -masses.rotor_inertia_kg_m2 * rotation.acceleration_rad_per_s2
+    scroll = -masses.scroll_inertia_kg_m2 * acceleration_of(cycle.moved.scroll_angle, rotation)
+    upper, lower = counterweight_moments(machine)
+    turning = {
+        "orbiting_scroll": (0.0, masses.scroll_mass_kg * radius, scroll),
+        "crank_pin": (0.0, masses.crank_pin_mass_kg * radius, still),
+        "upper_counterweight": (planes.upper_height_m, upper, still),
+        "lower_counterweight": (planes.lower_height_m, lower, still),
+        "rotor": (0.0, 0.0, rotor),
+    }
+    return {
+        name: (height, planar(turning_force(moment, cycle.moved.crank_angle, rotation), roll))
+        for name, (height, moment, roll) in turning.items()
+    }
+
+
+def _minicranks(machine: MiniCrankMachine, cycle: MiniCrankCycle) -> Wrench:
+    """All mini-cranks; the forces of three add up about the axis of the crankshaft."""
+    third, masses = cycle.moved.minicrank_angle, cycle.masses
+    turn = acceleration_of(third, cycle.rotation)
+    inward, across = -direction(third[0]), direction(third[0] + 0.5 * np.pi)
+    rate = third[1] * cycle.rotation.speed_rad_per_s
+    force = -masses.minicrank_mass_kg * cycle.links.minicrank_m * (across * turn + inward * rate**2)
+    roll = -masses.minicrank_inertia_kg_m2 * turn
+    if machine.four_bar.minicranks == 1:
+        roll = roll + cycle.links.bracket_m * force[1]
+    return planar(force, roll)
