@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Any, Final
 
 from ..moving_parts import MachineMotion
+from .hermetic.revolution import hermetic_revolution
 from .oldham_scroll import oldham_scroll
 from .reciprocating.revolution import reciprocating_revolution
 
@@ -13,7 +14,14 @@ Mechanism = Callable[[Any, float, int], MachineMotion]
 MECHANISMS: Final[dict[str, Mechanism]] = {
     "oldham-scroll": oldham_scroll,
     "reciprocating": reciprocating_revolution,
+    "hermetic-reciprocating": hermetic_revolution,
 }
 """Mechanism of each kind of machine."""
 
-__all__ = ["MECHANISMS", "Mechanism", "oldham_scroll", "reciprocating_revolution"]
+__all__ = [
+    "MECHANISMS",
+    "Mechanism",
+    "hermetic_revolution",
+    "oldham_scroll",
+    "reciprocating_revolution",
+]
