@@ -69,14 +69,14 @@ class Gas(Parameters):
     def _compresses(self) -> "Gas":
         if self.discharge_pressure_pa <= self.suction_pressure_pa:
             raise ValueError(
-                f"discharge_pressure_pa = {self.discharge_pressure_pa:g} Pa: must exceed "
-                f"suction_pressure_pa = {self.suction_pressure_pa:g} Pa"
+                f"discharge_pressure_bar = {1e-5 * self.discharge_pressure_pa:g} bar: must exceed "
+                f"suction_pressure_bar = {1e-5 * self.suction_pressure_pa:g} bar"
             )
         reached = (1.0 + 1.0 / self.clearance_ratio) ** self.exponent_ratio
         if self.discharge_pressure_pa >= reached * self.suction_pressure_pa:
             raise ValueError(
-                f"discharge_pressure_pa = {self.discharge_pressure_pa:g} Pa: must be less than "
-                f"{reached * self.suction_pressure_pa:g} Pa, the compression at "
+                f"discharge_pressure_bar = {1e-5 * self.discharge_pressure_pa:g} bar: must be "
+                f"less than {1e-5 * reached * self.suction_pressure_pa:g} bar, the compression at "
                 f"clearance_ratio = {self.clearance_ratio:g}"
             )
         return self
