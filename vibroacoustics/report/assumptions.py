@@ -40,6 +40,16 @@ NOT_MODELLED_OF_KIND: Final = {
         "The shaft turns at constant speed; torque ripple, twice-line torque of the motor and key "
         "slap are not modelled.",
     ),
+    "hermetic-reciprocating": (
+        "Friction of the piston and drag of the oil films are left out, as in the paper: the shaft "
+        "power is that of the gas and of the films that are squeezed.",
+        "The springs of the block are linear and meet no stops; the weight of the block, start and "
+        "stop are not modelled. The tube has no mass, hence no resonance of its own.",
+        "The valves open without loss, and the gas in the shell, which carries sound from the "
+        "block to the shell, is not modelled.",
+        "An option that puts weights on the shaft leaves the films as they are; a redesign of the "
+        "crank has its own.",
+    ),
 }
 """What each kind of machine leaves out besides."""
 
