@@ -11,7 +11,7 @@ run: $(VENV)/.core
 	$(BIN)/vibroacoustics run $(STUDY)
 
 test: $(VENV)/.dev
-	$(BIN)/pytest
+	$(BIN)/pytest -n auto --dist loadfile
 
 # Format, lint, types and the import contract.
 check: $(VENV)/.dev

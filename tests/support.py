@@ -75,7 +75,7 @@ def tiny_run(options: str = "") -> xr.Dataset:
     with tempfile.TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as context:
         context.setattr(
             "vibroacoustics.pipeline.study.transfer_vectors",
-            lambda study, _: (made_up_transfer_vectors(study), False),
+            lambda study, *_: (made_up_transfer_vectors(study), False),
         )
         file = Path(folder) / "tiny.toml"
         file.write_text(text.replace("[receivers.", f"{options}\n[receivers.", 1))

@@ -36,7 +36,7 @@ def workplace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def _unit_vectors(study, _) -> tuple[xr.Dataset, bool]:
+def _unit_vectors(study, *_) -> tuple[xr.Dataset, bool]:
     frequency = np.array([25.0, study.radiation.maximum_frequency_hz])
     coords = {
         "receiver": list(study.receivers),

@@ -21,7 +21,7 @@ from vibroacoustics.balancers.pendulum import (
 from vibroacoustics.balancers.spring_mass import printed_mass, sprung_mass_response, tuned_mass
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.loading import load_machine
-from vibroacoustics.mechanisms.hermetic.beam_rotor import (
+from vibroacoustics.mechanisms.beam_rotor import (
     Section,
     assemble,
     natural_frequencies_hz,

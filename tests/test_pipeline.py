@@ -36,7 +36,7 @@ def results(thesis_study) -> xr.Dataset:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(
             "vibroacoustics.pipeline.study.transfer_vectors",
-            lambda study, _: (made_up_transfer_vectors(study), False),
+            lambda study, *_: (made_up_transfer_vectors(study), False),
         )
         return pipeline.run(thesis_study)
 

@@ -22,6 +22,8 @@ from vibroacoustics.units import UNITS, shaft_frequency_hz, si_key, split_key
         ("speed_rpm", "speed_rpm", 1.0),
         ("displacement_cm3", "displacement_m3", 1e-6),
         ("oil_g", "oil_kg", 1e-3),
+        ("capacitance_uf", "capacitance_f", 1e-6),
+        ("friction_torque_n_m", "friction_torque_n_m", 1.0),
         ("title", "title", 1.0),
         ("crank_angle_samples", "crank_angle_samples", 1.0),
         ("m", "m", 1.0),  # a unit alone is a name

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Final, cast
 
 from .errors import ParameterError
+from .parameters.inside import DRAWN, Doubt, Inside
 from .parameters.machines import MACHINES, Machine
 from .parameters.study import ParameterRecord, Study
 from .units import si_key, split_key
@@ -48,6 +49,7 @@ def load_study(path: str | Path) -> Study:
         name: _load_redesign(machine_file, {**changes, _change_of(name): change}, reader)
         for name, change in _changes(content, path)
     }
+    inside_records = _place_inside(content, origin, path)
     scoring = content.get("scoring")
     if isinstance(scoring, dict) and "published_table" in scoring:
         name = scoring.pop("published_table")
@@ -66,7 +68,7 @@ def load_study(path: str | Path) -> Study:
     for name, (redesigned, change_records) in redesigns.items():
         content["options"][name]["machine"] = redesigned
         machine_records += change_records
-    content["records"] = (*machine_records, *reader.records)
+    content["records"] = (*machine_records, *inside_records, *reader.records)
     return validated(Study, content, reader)
 
 
@@ -86,6 +88,40 @@ def _place_files(
         if isinstance(table.get(name), str):
             file = origin.get(("radiation", "body", *prefix, name), path)
             table[name] = str(_beside(file, table[name]))
+
+
+def _place_inside(
+    content: dict[str, Any], origin: Mapping[tuple[str, ...], Path], path: Path
+) -> list[ParameterRecord]:
+    """Read the file of the inner sources into the study's table that names it."""
+    settings = content.get("inside")
+    if settings is None:
+        return []
+    if not isinstance(settings, dict) or not isinstance(settings.get("file"), str):
+        raise ParameterError(f"{path}: inside.file = missing: name the TOML file of the inside")
+    for name in ("inside", "doubts"):  # filled in here, not by a file
+        if name in settings:
+            raise ParameterError(f"{path}: inside.{name}: unknown key")
+    file = _beside(origin.get(("inside", "file"), path), settings.pop("file"))
+    reader = _Reader(file, {}, sources_required=True)
+    values = reader.to_si(_read_toml(file), ())
+    settings["inside"] = validated(Inside, values, reader)
+    settings["doubts"] = tuple(_doubt(record) for record in reader.records if _drawn(record))
+    return [
+        record.model_copy(update={"field": f"inside.{record.field}"}) for record in reader.records
+    ]
+
+
+def _drawn(record: ParameterRecord) -> bool:
+    table, _, key = record.field.partition(".")
+    return record.lowest is not None and (table, si_key(key)[0]) in DRAWN
+
+
+def _doubt(record: ParameterRecord) -> Doubt:
+    table, key = record.field.split(".")
+    name, factor = si_key(key)
+    lowest, highest = (factor * (limit or 0.0) for limit in (record.lowest, record.highest))
+    return Doubt(table=table, field=name, lowest=lowest, highest=highest)
 
 
 def load_machine(path: str | Path) -> Machine:

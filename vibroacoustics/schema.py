@@ -76,6 +76,9 @@ COORDINATES: Final[dict[str, Variable]] = {
     "fault": Variable(("fault",), "", "missing or double pulse of the tacho"),
     "compared_channel": Variable(("channel",), "", "channel of the other result"),
     "compared_speed": Variable(("speed",), "rpm", "speed in the other result"),
+    "sound_source": Variable(("sound_source",), "", "what makes the sound"),
+    "quantile": Variable(("quantile",), "1", "quantile over the random draws"),
+    "inner_figure_name": Variable(("inner_figure_name",), "", "figure of the inner sources"),
     "foot_position": Variable(
         ("foot", "axis"), "m", "foot position from the centre of mass at rest"
     ),
@@ -84,6 +87,7 @@ COORDINATES: Final[dict[str, Variable]] = {
 _FORCES = ("speed", "option", "source", "axis")
 _ORDERS = ("speed", "option", "order")
 _CHANGES = ("speed", "option", "receiver")
+_SOURCES = ("speed", "option", "sound_source", "receiver")
 
 VARIABLES: Final[dict[str, Variable]] = {
     "shaft_speed": Variable(("speed", "option", "crank_angle"), "rad s-1", "speed of the shaft"),
@@ -256,6 +260,38 @@ VARIABLES: Final[dict[str, Variable]] = {
     ),
     "order_phase_difference": Variable(
         ("channel", "speed", "order"), "rad", "phase of the order in the other result minus this"
+    ),
+    "source_level": Variable(_SOURCES, "dB", "A-weighted level of a source alone"),
+    "source_level_quantile": Variable(
+        ("quantile", *_SOURCES), "dB", "A-weighted level of a source alone over the draws"
+    ),
+    "source_share": Variable(_SOURCES, "1", "share of the A-weighted energy of all sources"),
+    "source_band_level": Variable((*_SOURCES, "band"), "dB", "level of a source in a third-octave"),
+    "level_all_sources": Variable(_CHANGES, "dB", "A-weighted level of all modelled sources"),
+    "level_all_sources_quantile": Variable(
+        ("quantile", *_CHANGES), "dB", "A-weighted level of all modelled sources over the draws"
+    ),
+    "change_all_sources": Variable(_CHANGES, "dB", "its change against none"),
+    "change_all_sources_quantile": Variable(
+        ("quantile", *_CHANGES), "dB", "its change against none over the draws"
+    ),
+    "level_whole": Variable(
+        _CHANGES, "dB", "A-weighted level of all modelled sources and the remainder"
+    ),
+    "level_whole_quantile": Variable(
+        ("quantile", *_CHANGES), "dB", "the same over the draws, each with its own remainder"
+    ),
+    "change_whole": Variable(_CHANGES, "dB", "change of the whole A-weighted level against none"),
+    "change_whole_quantile": Variable(
+        ("quantile", *_CHANGES), "dB", "change of the whole A-weighted level over the draws"
+    ),
+    "inner_remainder_level": Variable(
+        ("quantile",), "dB", "what the draws leave of the overall level"
+    ),
+    "inner_figure": Variable(
+        ("speed", "option", "inner_figure_name"),
+        "",
+        "figure of the inner sources, unit in its name",
     ),
     "published_score": Variable(
         ("published_option", "published_criterion"), "1", "published score, as printed"

@@ -1,4 +1,4 @@
-"""Recordings in: WAV, MAT, CSV, HDF5, netCDF, UFF 58 and TDMS as one labelled form.
+"""Recordings in: WAV, MAT, CSV, HDF5, netCDF, UFF 58 and TDMS as one labelled form; modes in.
 
 The functions are imported when they are first asked for: the process that reads a file (`child`)
 needs no labelled arrays.
@@ -9,14 +9,24 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .export import csv_bytes, wav_bytes
+    from .modes import MeasuredModes, read_modes
     from .reading import read_recording
     from .recording import label_recording
 
-__all__ = ["csv_bytes", "label_recording", "read_recording", "wav_bytes"]
+__all__ = [
+    "MeasuredModes",
+    "csv_bytes",
+    "label_recording",
+    "read_modes",
+    "read_recording",
+    "wav_bytes",
+]
 
 _HOME = {
+    "MeasuredModes": "modes",
     "csv_bytes": "export",
     "label_recording": "recording",
+    "read_modes": "modes",
     "read_recording": "reading",
     "wav_bytes": "export",
 }

@@ -18,7 +18,7 @@ from typing import Any, BinaryIO, Final
 import numpy as np
 
 from ..errors import ParameterError, StorageError, VibroacousticsError
-from . import csv_table, hdf5, mat, tdms, uff, wav
+from . import csv_table, hdf5, mat, tdms, uff, uff_modes, wav
 from .recorded import MAXIMUM_READING_BYTES, MINIMUM_SAMPLES, Recorded, Request, check_size
 
 READERS: Final[dict[str, Callable[[Request], Recorded]]] = {
@@ -47,7 +47,7 @@ def answer(request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
     request : what to read
     """
     try:
-        found = _checked(READERS[request.path.suffix.lower()](request))
+        header, rows = (uff_modes.read if request.modes else _recording)(request)
         with request.path.open("rb") as file:
             digest = hashlib.file_digest(file, "sha256").hexdigest()
     except VibroacousticsError as error:
@@ -61,6 +61,12 @@ def answer(request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
         return _refusal(f"needs {error.name}: pip install vibroacoustics[io]"), ()
     except Exception as error:  # on a damaged file a parser may raise anything
         return _refusal(f"is damaged or not of this format: {type(error).__name__}: {error}"), ()
+    return {**header, "sha256": digest}, rows
+
+
+def _recording(request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
+    """Header and channels of a recording."""
+    found = _checked(READERS[request.path.suffix.lower()](request))
     header = {
         "names": list(found.names),
         "units": list(found.units),
@@ -68,7 +74,6 @@ def answer(request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
         "sample_rate_hz": float(found.sample_rate_hz),
         "start_time": found.start_time,
         "full_scale": found.full_scale,
-        "sha256": digest,
     }
     return header, found.samples
 
@@ -112,6 +117,7 @@ def main() -> None:
             Path(asked["path"]),
             None if channels is None else tuple(channels),
             asked["sample_rate_hz"],
+            asked.get("modes", False),
         ),
     )
 

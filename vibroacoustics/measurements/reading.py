@@ -60,10 +60,10 @@ def read_recording(
     """
     path = Path(path)
     try:
-        _check_file(path)
+        check_file(path, list(READERS))
         if sample_rate_hz is not None:
             check_rate(sample_rate_hz)
-        header, stored = _read_in_child(
+        header, stored = read_in_child(
             {
                 "path": str(path),
                 "channels": None if channels is None else list(channels),
@@ -85,9 +85,18 @@ def read_recording(
     return recording
 
 
-def _check_file(path: Path) -> None:
-    if path.suffix.lower() not in READERS:
-        raise ParameterError(f"format {path.suffix!r} is unknown; known are {', '.join(READERS)}")
+def check_file(path: Path, suffixes: Sequence[str]) -> None:
+    """Refuse a file that is missing, empty, too large, or of another kind.
+
+    Raises
+    ------
+    ParameterError
+        Its name ends otherwise.
+    StorageError
+        There is no such file, or it is empty or too large.
+    """
+    if path.suffix.lower() not in suffixes:
+        raise ParameterError(f"format {path.suffix!r} is unknown; known are {', '.join(suffixes)}")
     try:
         size = path.stat().st_size
     except FileNotFoundError:
@@ -104,8 +113,14 @@ def _check_file(path: Path) -> None:
         )
 
 
-def _read_in_child(request: Mapping[str, Any]) -> tuple[dict[str, Any], Array]:
-    """Header and samples, shape (channel, time), that the child hands over."""
+def read_in_child(request: Mapping[str, Any]) -> tuple[dict[str, Any], Array]:
+    """Header and samples, shape (channel, time), that the child hands over.
+
+    Raises
+    ------
+    ParameterError, StorageError
+        What the child found wrong, or that it crashed.
+    """
     # -P: no module beside the recording, such as a numpy.py, is ever run.
     command = [sys.executable, "-P", "-m", f"{__package__}.child", json.dumps(request)]
     with (

@@ -27,11 +27,13 @@ sample rate, if it is no rounding."""
 
 @dataclass(frozen=True)
 class Request:
-    """What to read: the file, some of its channels, a sample rate that overrides the file's."""
+    """What to read: the file, some of its channels, a sample rate that overrides the file's; or
+    the modes of a structure."""
 
     path: Path
     channels: tuple[str, ...] | None = None
     sample_rate_hz: float | None = None
+    modes: bool = False
 
     def chosen(self, names: Sequence[str]) -> list[int]:
         """Places of the wanted channels among those of the file, in the order asked for.

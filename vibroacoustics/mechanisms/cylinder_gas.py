@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..moving_parts import Array
 
@@ -32,14 +33,17 @@ class IdealValveCycle(NamedTuple):
         """Volume over displaced volume where the compressed charge has reached discharge."""
         return (1.0 + self.clearance_ratio) / self.span
 
-    def pressure_pa(self, fill: Array, crank_angle: Array) -> Array:
+    def pressure_pa(self, fill: Array, expanding: NDArray[np.bool_]) -> Array:
         """Pressure at a volume over displaced volume, clearance included.
 
-        Crank angle 0 is top dead centre: the clearance's gas expands from 0 to 180°, the charge is
-        compressed from 180° to 360°.
+        Parameters
+        ----------
+        fill : volume over displaced volume, shape (samples,)
+        expanding : whether the clearance's gas expands there, after top dead centre; else the
+            charge is compressed
         """
         charge = (1.0 + self.clearance_ratio) / np.maximum(fill, self.fill_at_discharge)
         # Without clearance nothing expands; the smallest number keeps 0/0 out at top dead centre.
         left = self.fill_at_suction / np.maximum(fill, np.finfo(float).tiny)
-        volume_ratio = np.where(np.sin(crank_angle) > 0.0, np.maximum(left, 1.0), charge)
+        volume_ratio = np.where(expanding, np.maximum(left, 1.0), charge)
         return np.asarray(self.suction_pressure_pa * volume_ratio**self.exponent)

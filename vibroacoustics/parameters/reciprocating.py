@@ -1,5 +1,6 @@
 """A single-acting reciprocating compressor: slider-crank, bearings, gas, drive."""
 
+from math import pi
 from typing import Literal
 
 from pydantic import Field, model_validator
@@ -20,6 +21,8 @@ class PistonAndRod(Parameters):
     bore_m: float = LENGTH
     crank_to_rod_ratio: float = Field(gt=0.0, le=0.95)
     """Crank radius over rod length; at one and above the crank cannot turn."""
+    crank_offset_m: float = Field(ge=-1.0, le=1.0)
+    """Cylinder's axis from the crankshaft's, a quarter turn ahead of top dead centre."""
     piston_mass_kg: float = MASS
     rod_mass_kg: float = MASS
     rod_length_m: float = LENGTH
@@ -106,11 +109,13 @@ class ReciprocatingMachine(CommonMachine):
     @property
     def oscillation(self) -> Oscillation:
         """Piston and the part of the rod that goes with it, by its two eyes."""
-        rod = self.piston_and_rod
-        share = rod.rod_mass_kg * rod.big_end_to_centre_m / rod.rod_length_m
+        part = self.piston_and_rod
+        radius = 2.0 * part.displacement_m3 / (pi * part.bore_m**2)
+        rod_mass = part.rod_mass_kg * radius / part.crank_to_rod_ratio / part.rod_length_m
+        share = rod_mass * part.big_end_to_centre_m / part.rod_length_m
         return Oscillation(
-            rod.piston_mass_kg + share,
-            rod.crank_to_rod_ratio * rod.rod_length_m,
+            part.piston_mass_kg + share,
+            radius,
             0.0,
             self.counterweights,
             self.crank_frame,

@@ -7,6 +7,7 @@ from pydantic import Field, model_validator
 from ..schema import REFERENCE_OPTION
 from ..units import shaft_frequency_hz
 from .base import Parameters
+from .inside import InsideSettings
 from .machines import Machine
 from .oldham_scroll import OldhamScroll
 from .options import RING_OPTIONS, SLIDER_OPTIONS, NoBalancer, Option
@@ -112,6 +113,8 @@ class Study(Parameters):
     sound_power: SoundPowerSettings | None = None
     map: MapSettings | None = None
     directivity: DirectivitySettings | None = None
+    inside: InsideSettings | None = None
+    """Inner sources and the elastic shell; none for the rigid machine alone."""
     records: tuple[ParameterRecord, ...] = ()
     source_file: str = ""
 
@@ -142,6 +145,7 @@ class Study(Parameters):
                 f"radiation.maximum_frequency_hz = {self.radiation.maximum_frequency_hz:g} Hz: "
                 f"order {self.operation.maximum_order} reaches {highest:g} Hz"
             )
+        self._check_inside()
         surroundings = self.radiation.surroundings
         if self.sound_power and (surroundings.walls or surroundings.cabinet):
             raise ValueError(
@@ -154,6 +158,26 @@ class Study(Parameters):
                 f"{published.speed_rpm:g} rpm, to fix the remainder"
             )
         return self
+
+    def _check_inside(self) -> None:
+        """Refuse inner sources that do not belong to the machine."""
+        if self.inside is None:
+            return
+        if not isinstance(self.machine, OldhamScroll):
+            raise ValueError(
+                f"inside: needs a scroll with an Oldham ring; the machine is {self.machine.kind}"
+            )
+        if len(self.inside.line_frequency_hz) != len(self.operation.speed_rpm):
+            raise ValueError(
+                f"inside.line_frequency_hz: {len(self.inside.line_frequency_hz)} values for "
+                f"{len(self.operation.speed_rpm)} speeds; one is needed for each"
+            )
+        orbit, own = self.machine.kinematics.orbit_radius_m, self.inside.inside.wraps.orbit_radius_m
+        if abs(orbit - own) > 0.01 * own:
+            raise ValueError(
+                f"inside: its wraps orbit at {1e3 * own:.4g} mm; the machine's "
+                f"kinematics.orbit_radius_mm = {1e3 * orbit:.4g} mm: must agree within 1 %"
+            )
 
     def _check_fits(self, name: str, option: Option) -> None:
         """Refuse an option that the machine has no part for."""

@@ -1,5 +1,6 @@
 """The housing's radiation: transfer vectors, and what map and sound power make of them."""
 
+from collections.abc import Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -12,6 +13,7 @@ from ..parameters.sound_power import SoundPowerSettings
 from ..parameters.study import Study
 from ..schema import VARIABLES, WEIGHTINGS, check, label_coordinates, stamp
 from ..units import shaft_frequency_hz
+from .inner_sound import shell_path
 from .progress import Progress
 
 UNIT_VELOCITY_PEAK: Final = np.sqrt(2.0) * 1e-3
@@ -32,7 +34,9 @@ def radiate(study: Study, progress: Progress = lambda *_: None) -> xr.Dataset:
         An input is out of range, a computation failed, the cache cannot be written.
     """
     try:
-        radiated, was_cached = transfer_vectors(study, progress)
+        path = shell_path(study)
+        motions = () if path is None else path.motions
+        radiated, was_cached = transfer_vectors(study, progress, motions)
     except ParameterError as error:
         raise ParameterError(f"{study.source_file}: {error}") from None
     if study.sound_power is not None:
@@ -43,8 +47,10 @@ def radiate(study: Study, progress: Progress = lambda *_: None) -> xr.Dataset:
     return check(label_coordinates(radiated))
 
 
-def transfer_vectors(study: Study, progress: Progress) -> tuple[xr.Dataset, bool]:
-    """Pressure per velocity of the housing; from the cache if it is there."""
+def transfer_vectors(
+    study: Study, progress: Progress, motions: Sequence[radiation.SurfaceMotion] = ()
+) -> tuple[xr.Dataset, bool]:
+    """Pressure per velocity of the housing and of the motions; from the cache if it is there."""
     drawn = study.map is not None or study.directivity is not None
     sound_field = radiation.SoundField(
         study.sound_power,
@@ -52,7 +58,7 @@ def transfer_vectors(study: Study, progress: Progress) -> tuple[xr.Dataset, bool
         study.directivity,
         tuple(map(shaft_frequency_hz, study.operation.speed_rpm)) if drawn else (),
     )
-    inputs = (study.machine.shell, study.receivers, study.radiation, sound_field)
+    inputs = (study.machine.shell, study.receivers, study.radiation, sound_field, motions)
     return storage.cached(
         "transfer-vectors",
         radiation.cache_key_material(*inputs),

@@ -18,6 +18,7 @@ from ..mechanisms import MECHANISMS
 from ..moving_parts import Balancing, MachineMotion, wrench
 from ..orders import order_spectrum_at_speed, semi_major_axis
 from ..parameters.machine import CommonMachine
+from ..parameters.oldham_scroll import OldhamScroll
 from ..parameters.options import Redesign
 from ..parameters.study import Study
 from ..rotation import Array, uniform_crank_angle
@@ -33,6 +34,8 @@ from ..schema import (
 )
 from ..transfer import FOOT_NAMES, RigidBodyOnMounts, SuspendedBlock
 from ..units import shaft_frequency_hz
+from .inner_sound import shell_path
+from .inside import inside_sound
 from .progress import Progress
 from .radiating import attributes, sound_field, transfer_vectors
 
@@ -66,11 +69,16 @@ def _run(study: Study, progress: Progress) -> xr.Dataset:
     results = _forces(study, progress)
     results = results.merge(_orders(study, results))
     results = results.merge(_housing(study, results))
-    radiated, was_cached = transfer_vectors(study, progress)
+    machine, path = study.machine, shell_path(study)
+    motions = () if path is None else path.motions
+    radiated, was_cached = transfer_vectors(study, progress, motions)
     results = results.merge(radiated)
     results = results.merge(_pressures(results))
     results = results.merge(sound_field(study, results))
     results = results.merge(_levels(study, results))
+    if study.inside is not None and path is not None and isinstance(machine, OldhamScroll):
+        sound = inside_sound(study, study.inside, machine, results, path, progress)
+        results = results.merge(sound)
     results = results.merge(_scores(study, results))
     results.attrs = attributes(study, radiated, was_cached)
     return check(label_coordinates(results))

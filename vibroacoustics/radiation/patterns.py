@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -19,6 +20,17 @@ class Pattern:
     name: str
     velocity: Callable[[SurfacePoints], Array]
     """Velocity vectors (point, 3) at points of the surface."""
+
+
+class SurfaceMotion(Protocol):
+    """A motion of the surface that comes from elsewhere, such as an elastic mode."""
+
+    @property
+    def name(self) -> str:
+        """Unique among the patterns."""
+
+    def velocity(self, points: Array) -> Array:
+        """Velocity vectors (point, 3) per unit of the motion, at points (point, 3)."""
 
 
 def rigid_body_velocity(dof: str, points: Array) -> Array:
@@ -43,6 +55,11 @@ def rigid_body_velocity(dof: str, points: Array) -> Array:
 def rigid_body(dof: str) -> Pattern:
     """Pattern of unit velocity of one rigid-body degree of freedom."""
     return Pattern(dof, lambda points: rigid_body_velocity(dof, points.position))
+
+
+def surface_motion(motion: SurfaceMotion) -> Pattern:
+    """Pattern of a motion that comes from elsewhere."""
+    return Pattern(motion.name, lambda at: motion.velocity(at.position))
 
 
 def normal_velocity(name: str, velocity: Callable[[Array], Array]) -> Pattern:

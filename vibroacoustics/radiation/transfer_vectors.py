@@ -33,9 +33,9 @@ from .machine_side import (
     processors,
 )
 from .near_field import NearField
-from .patterns import rigid_body
+from .patterns import SurfaceMotion, rigid_body, surface_motion
 from .room_green import check_receiver, green_difference_db, kwave_green, memory_bytes
-from .scene import Scene, file_patterns, position_m, scene
+from .scene import Scene, file_patterns, machine_body, position_m, scene
 from .sound_field import NO_SOUND_FIELD, SoundField, elsewhere
 
 _SHARE_OF_MEMORY: Final = 0.7
@@ -50,6 +50,7 @@ def transfer_vectors(
     receivers: Mapping[str, Receiver],
     settings: RadiationSettings,
     sound_field: SoundField = NO_SOUND_FIELD,
+    motions: Sequence[SurfaceMotion] = (),
     progress: Progress = no_progress,
 ) -> xr.Dataset:
     """Complex pressure at each receiver per unit complex-peak velocity of each degree of freedom.
@@ -73,7 +74,10 @@ def transfer_vectors(
         A field is not finite, not plausible or has not died down.
     """
     surroundings = scene(shell, settings)
-    extra = file_patterns(settings.body, surroundings.machine)
+    extra = [
+        *file_patterns(settings.body, surroundings.machine),
+        *(surface_motion(motion) for motion in motions),
+    ]
     positions = {name: position_m(shell, receiver) for name, receiver in receivers.items()}
     table = frequencies_hz(settings)
     near = near_fields(surroundings, settings.near_field_spacing_m, settings.maximum_frequency_hz)
@@ -223,9 +227,12 @@ def cache_key_material(
     receivers: Mapping[str, Receiver],
     settings: RadiationSettings,
     sound_field: SoundField = NO_SOUND_FIELD,
+    motions: Sequence[SurfaceMotion] = (),
 ) -> dict[str, Any]:
     """Everything that shapes the transfer vectors, as plain data to be hashed."""
+    points = machine_body(shell, settings.body).vertices if motions else np.zeros((0, 3))
     return {
+        "motions": {motion.name: _hash_of_velocity(motion, points) for motion in motions},
         "shell": shell.model_dump(),
         "receivers": {name: receiver.model_dump() for name, receiver in receivers.items()},
         "settings": settings.model_dump(),
@@ -249,6 +256,12 @@ def _hashes_of_files(settings: RadiationSettings) -> dict[str, str]:
 def _source_hash() -> str:
     """Hash of this package's source: a change of the solver never meets an old cache."""
     return _hash(b"".join(file.read_bytes() for file in sorted(Path(__file__).parent.glob("*.py"))))
+
+
+def _hash_of_velocity(motion: SurfaceMotion, points: Array) -> str:
+    """Hash of a motion at the corners of the body's surface, to nine digits of its largest."""
+    velocity = motion.velocity(points)
+    return _hash(np.round(velocity / np.abs(velocity).max(), 9).tobytes())
 
 
 def _hash(content: bytes) -> str:

@@ -50,6 +50,11 @@ NOT_MODELLED_OF_KIND: Final = {
         "An option that puts weights on the shaft leaves the films as they are; a redesign of the "
         "crank has its own.",
     ),
+    "reciprocating": (
+        "One cylinder stands for the machine. The crankshaft is balanced about its axis, the big "
+        "end of the rod is not; the paper gives no counterweight. Lanchester's weights are in "
+        "the plane of the cylinder's axis, without the moment of their gears.",
+    ),
 }
 """What each kind of machine leaves out besides."""
 

@@ -10,7 +10,7 @@ import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from . import assumptions, housing, provenance, scores, verdict
+from . import assumptions, housing, kind_words, provenance, scores, verdict
 from .comparison import comparison_tables
 from .figures import Picture
 from .option_facts import facts_table
@@ -88,6 +88,7 @@ def _sources(results: xr.Dataset) -> dict[str, Any]:
         "records": assumptions.records_table(results),
         "assumed_count": assumptions.assumed_count(results),
         "remainder": assumptions.remainder_sentence(results),
+        "order_words": kind_words.order_words(results),
         "not_modelled": assumptions.not_modelled(results),
         "structure_borne": assumptions.structure_borne_sentence(results),
         "errata": assumptions.errata_table(results),

@@ -39,7 +39,7 @@ def headline(results: xr.Dataset) -> str:
     change = rounding.span(line, rounding.signed)
     return (
         f"At {receiver} the balancing options change the 1× line by {change} dB, "
-        f"{_total_words(float(abs(total).max()), _published(results))}"
+        f"{_total_words(float(abs(total).max()), _whole(results))}"
     )
 
 
@@ -110,13 +110,13 @@ def _remainder(results: xr.Dataset) -> str:
     """Why the total hardly follows the line."""
     receiver = catalogue_receiver(results)
     modelled = float(column(results, "level_modelled_dba").sel(receiver=receiver).max())
-    gap = _published(results) - modelled
+    gap = _whole(results) - modelled
     carried = (
         f"all shaft orders together reach at most {rounding.level(modelled)} dB(A) at {receiver}, "
-        f"whatever the option: {rounding.fixed(gap)} dB below the published level"
+        f"whatever the option: {rounding.fixed(gap)} dB below the level of the whole machine"
         if gap > 0.0
         else f"the shaft orders reach {rounding.level(modelled)} dB(A) at {receiver} with some "
-        "option, above the published level"
+        "option, above the level of the whole machine"
     )
     return (
         f"In the model {carried}. The rest, {rounding.fixed(results['level_remainder'].item(), 2)} "
@@ -187,5 +187,5 @@ def _write_total(value_dba: float) -> str:
     return f"{rounding.fixed(value_dba, 3)} dB(A)"
 
 
-def _published(results: xr.Dataset) -> float:
+def _whole(results: xr.Dataset) -> float:
     return float(parameters(results)["machine"]["overall_noise"]["level_dba"])

@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 from ...errors import ParameterError
 from ...moving_parts import Array
 from ...parameters.hermetic import JournalBearing
-from .beam_rotor import RotorMatrices
+from ..beam_rotor import RotorMatrices
 from .film_force import COMPLEX_STEP, positive_film_force
 from .journal_bearing import short_bearing_force
 

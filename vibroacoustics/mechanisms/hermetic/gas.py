@@ -1,6 +1,7 @@
 """Gas force over the crank angle: polytropic compression and re-expansion, ideal valves."""
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from ...moving_parts import Array
@@ -49,7 +50,7 @@ def gas_force_n(machine: HermeticCompressor, crank_angle: Array) -> Array:
     crank_angle : θ, rad
     """
     pressure = _cycle(machine).pressure_pa(
-        fill(machine, crank_angle), _stroke_phase(machine, crank_angle)
+        fill(machine, crank_angle), _outwards(machine, crank_angle)
     )
     return np.asarray((pressure - machine.gas.suction_pressure_pa) * piston_area_m2(machine))
 
@@ -74,12 +75,11 @@ def _cycle(machine: HermeticCompressor) -> IdealValveCycle:
     )
 
 
-def _stroke_phase(machine: HermeticCompressor, crank_angle: Array) -> Array:
-    """Angle that runs from 0 to π over the outward stroke and on to 2π over the return, rad."""
+def _outwards(machine: HermeticCompressor, crank_angle: Array) -> NDArray[np.bool_]:
+    """Where the piston moves away from the head."""
     top, bottom = dead_centres(machine)
     since_top = np.mod(crank_angle - top, 2.0 * np.pi)
-    ends = [0.0, bottom - top, 2.0 * np.pi]
-    return np.asarray(np.interp(since_top, ends, [0.0, np.pi, 2.0 * np.pi]))
+    return np.asarray((since_top > 0.0) & (since_top < bottom - top))
 
 
 def _angle_of(machine: HermeticCompressor, reached: float, first: float, last: float) -> float:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ...moving_parts import Array, Wrench, path
-from .beam_rotor import NODE_FREEDOMS
+from ..beam_rotor import NODE_FREEDOMS
 from .results import motion_of
 from .shaft import ShaftEquations, node_positions_m
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...moving_parts import Array
 from ...parameters.hermetic import HermeticCompressor
-from .beam_rotor import NODE_FREEDOMS, RotorMatrices, Section, assemble, with_disc
+from ..beam_rotor import NODE_FREEDOMS, RotorMatrices, Section, assemble, with_disc
 from .film_force import COMPLEX_STEP, FilmForce
 from .forces import added_mass, mechanism_motion
 from .gas import gas_force_n

@@ -21,6 +21,7 @@ from .slider_crank import (
     motion,
     moving_masses,
     rates_of_momentum,
+    top_dead_centre_m,
 )
 
 SAMPLES: Final = 3600
@@ -132,8 +133,9 @@ def steady_cycle(
     crank = design_at_bore(machine.piston_and_rod, bore_m)
     moved = motion(crank, uniform_crank_angle(samples))
     inertia = reduced_inertia(machine.crankshaft.inertia_kg_m2, moving_masses(crank, moved))
-    swept = crank.piston_area_m2 * (moved.piston_m[0, 0] - moved.piston_m[0])
-    pressure = cylinder_pressure(moved.crank_angle, swept, machine.gas)
+    top = top_dead_centre_m(crank)
+    swept = np.maximum(crank.piston_area_m2 * (top - moved.piston_m[0]), 0.0)
+    pressure = cylinder_pressure(swept, moved.piston_m[1] < 0.0, machine.gas)
     gas_force = -crank.piston_area_m2 * (pressure - machine.gas.crankcase_pressure_pa)
     mean_speed = 2.0 * np.pi * shaft_frequency_hz(speed_rpm)
     none = np.zeros(samples)
@@ -153,7 +155,7 @@ def steady_cycle(
 def load_torques(moved: Motion, gas_force_n: Array, friction: Friction) -> dict[str, Array]:
     """Torques of gas and friction against the crankshaft's rotation, right side of equation (1).
 
-    With dx_p/dθ = -x_p tan φ, dφ/dθ = α cos θ/cos φ and 1 + dφ/dθ = x_p/(l cos φ).
+    Without crank offset dx_p/dθ = -x_p tan φ, dφ/dθ = α cos θ/cos φ and 1 + dφ/dθ = x_p/(l cos φ).
     """
     piston, rod = moved.piston_m[1], moved.rod_angle[1]
     return {

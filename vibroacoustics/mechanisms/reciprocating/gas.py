@@ -1,23 +1,23 @@
 """Gas in the cylinder of a reciprocating compressor with ideal valves."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...moving_parts import Array
 from ...parameters.reciprocating import CylinderGas
 from ..cylinder_gas import IdealValveCycle
 
 
-def cylinder_pressure(crank_angle: Array, swept_m3: Array, gas: CylinderGas) -> Array:
+def cylinder_pressure(swept_m3: Array, expanding: NDArray[np.bool_], gas: CylinderGas) -> Array:
     """Pressure over a revolution: polytropic with index n, valves that open without loss, Pa.
 
-    Tsuji et al. 2012, 3.1. Crank angle 0 is top dead centre: from 0 to 180° the gas in the
-    clearance expands down to suction pressure, from 180° to 360° the charge is compressed up to
-    discharge pressure.
+    Tsuji et al. 2012, 3.1. After top dead centre the gas in the clearance expands down to suction
+    pressure, after bottom dead centre the charge is compressed up to discharge pressure.
 
     Parameters
     ----------
-    crank_angle : shape (samples,), rad
     swept_m3 : volume that the piston has uncovered since top dead centre, shape (samples,), m³
+    expanding : whether the piston moves towards the crankshaft, shape (samples,)
     gas : pressures, polytropic index, clearance
     """
     cycle = IdealValveCycle(
@@ -27,7 +27,7 @@ def cylinder_pressure(crank_angle: Array, swept_m3: Array, gas: CylinderGas) -> 
         gas.clearance_ratio,
     )
     fill = swept_m3 / float(np.max(swept_m3)) + gas.clearance_ratio
-    return cycle.pressure_pa(fill, crank_angle)
+    return cycle.pressure_pa(fill, expanding)
 
 
 def compression_work_j(displaced_m3: float, gas: CylinderGas) -> float:

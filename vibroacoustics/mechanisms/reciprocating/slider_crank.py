@@ -24,6 +24,7 @@ class SliderCrank:
     rod_mass_kg : connecting rod
     small_end_to_centre_m, big_end_to_centre_m : to the rod's centre of mass
     rod_inertia_kg_m2 : about its centre of mass
+    offset_m : e, cylinder axis from the crankshaft's axis, a quarter turn ahead of top dead centre
     """
 
     bore_m: float
@@ -34,6 +35,7 @@ class SliderCrank:
     small_end_to_centre_m: float
     big_end_to_centre_m: float
     rod_inertia_kg_m2: float
+    offset_m: float
 
     @property
     def piston_area_m2(self) -> float:
@@ -41,7 +43,13 @@ class SliderCrank:
 
     @property
     def displacement_m3(self) -> float:
+        """Without crank offset, which lengthens the stroke a little."""
         return 2.0 * self.crank_radius_m * self.piston_area_m2
+
+
+def top_dead_centre_m(crank: SliderCrank) -> float:
+    """Place of the piston pin where crank and rod stand in line, from the crankshaft's axis."""
+    return float(np.sqrt((crank.rod_length_m + crank.crank_radius_m) ** 2 - crank.offset_m**2))
 
 
 def design_at_bore(reference: PistonAndRod, bore_m: float) -> SliderCrank:
@@ -70,6 +78,7 @@ def design_at_bore(reference: PistonAndRod, bore_m: float) -> SliderCrank:
         small_end_to_centre_m=small_end,
         big_end_to_centre_m=rod_length - small_end,
         rod_inertia_kg_m2=reference.rod_inertia_kg_m2 * scale**3,
+        offset_m=reference.crank_offset_m,
     )
 
 
@@ -93,34 +102,34 @@ class Motion:
 
 
 def motion(crank: SliderCrank, crank_angle: Array) -> Motion:
-    """sin φ = (r/l) sin θ, x_p = r cos θ + l cos φ (Tsuji et al. 2012, figure 2).
+    """l sin φ = r sin θ - e, x_p = r cos θ + l cos φ (Tsuji et al. 2012, figure 2, with e = 0).
 
     Raises
     ------
     ParameterError
-        The crank is not shorter than the rod: the mechanism cannot turn.
+        Crank and offset together are not shorter than the rod: the mechanism cannot turn.
     """
-    if crank.crank_radius_m >= crank.rod_length_m:
+    r, a, e = crank.crank_radius_m, crank.small_end_to_centre_m, crank.offset_m
+    if r + abs(e) >= crank.rod_length_m:
         raise ParameterError(
-            f"crank_radius_mm = {1e3 * crank.crank_radius_m:g} mm: must be below "
-            f"rod_length_mm = {1e3 * crank.rod_length_m:g} mm"
+            f"crank_radius_mm = {1e3 * r:g} mm and crank_offset_mm = {1e3 * e:g} mm: together "
+            f"must be below rod_length_mm = {1e3 * crank.rod_length_m:g} mm"
         )
-    r, a = crank.crank_radius_m, crank.small_end_to_centre_m
     ratio = r / crank.rod_length_m
     sine, cosine = np.sin(crank_angle), np.cos(crank_angle)
-    rod = np.arcsin(ratio * sine)
+    rod = np.arcsin(ratio * sine - e / crank.rod_length_m)
     s, c, t = np.sin(rod), np.cos(rod), np.tan(rod)
     rod_1 = ratio * cosine / c
     rod_2 = rod_1**2 * t - ratio * sine / c
     x = r * cosine + crank.rod_length_m * c
-    x_1 = -x * t
-    x_2 = -x_1 * t - x * rod_1 / c**2
+    x_1 = -r * (sine + cosine * t)
+    x_2 = -r * (cosine - sine * t + cosine * rod_1 / c**2)
     return Motion(
         crank_angle=crank_angle,
         rod_angle=np.stack([rod, rod_1, rod_2]),
         piston_m=np.stack([x, x_1, x_2]),
         rod_x_m=np.stack([x - a * c, x_1 + a * s * rod_1, x_2 + a * (s * rod_2 + c * rod_1**2)]),
-        rod_y_m=np.stack([a * s, a * c * rod_1, a * (c * rod_2 - s * rod_1**2)]),
+        rod_y_m=np.stack([e + a * s, a * c * rod_1, a * (c * rod_2 - s * rod_1**2)]),
     )
 
 
@@ -155,7 +164,7 @@ def slider_crank_parts(crank: SliderCrank, moved: Motion) -> tuple[MovingPart, .
     """
     zero = np.zeros_like(moved.crank_angle)
     small = crank.rod_mass_kg * crank.big_end_to_centre_m / crank.rod_length_m
-    piston = path(moved.piston_m[0], zero, zero)
+    piston = path(moved.piston_m[0], zero + crank.offset_m, zero)
     pin = path(np.cos(moved.crank_angle), np.sin(moved.crank_angle), zero) * crank.crank_radius_m
     return (
         MovingPart("piston", crank.piston_mass_kg, piston),
@@ -177,7 +186,7 @@ def housing_wrenches(
     rod_moment = turn - moved.rod_x_m[0] * rod_y + moved.rod_y_m[0] * rod_x
     shaft_moment = -crankshaft_inertia_kg_m2 * rotation.acceleration_rad_per_s2
     return {
-        "piston": planar(-np.stack([piston, zero]), zero),
+        "piston": planar(-np.stack([piston, zero]), crank.offset_m * piston),
         "connecting_rod": planar(-np.stack([rod_x, rod_y]), rod_moment),
         "crankshaft": planar(np.stack([zero, zero]), shaft_moment),
     }

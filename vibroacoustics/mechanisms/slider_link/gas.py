@@ -18,7 +18,7 @@ def cylinder_pressure(gas: CylinderGas, angle: Array) -> Array:
     angle : crank angle, rad
     """
     fill = gas.clearance_ratio + 0.5 * (1.0 - np.cos(angle))
-    return _cycle(gas).pressure_pa(fill, angle)
+    return _cycle(gas).pressure_pa(fill, np.sin(angle) > 0.0)
 
 
 def valve_angles(gas: CylinderGas) -> tuple[float, float]:

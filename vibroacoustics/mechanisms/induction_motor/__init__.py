@@ -1,0 +1,1 @@
+"""Induction motors: torque over slip, twice-line-frequency torque, answer to a load's ripple."""

@@ -1,0 +1,117 @@
+"""Capacitor motor at steady speed by its forward and its backward revolving field.
+
+Morrill 1929 ("The revolving-field theory of the capacitor motor", Trans. AIEE 48); for the
+impedances Fitzgerald, Kingsley & Umans, Electric Machinery, 6th ed., 9.3. Phasors are complex
+peaks; at time zero the line voltage has its maximum.
+"""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from scipy.optimize import brentq, minimize_scalar
+
+from ...errors import ParameterError
+from ...parameters.induction_motor import CapacitorMotor
+
+LARGEST_RUNNING_SLIP: Final = 0.5
+"""The breakdown torque of a running compressor motor lies below this slip."""
+
+
+@dataclass(frozen=True)
+class OperatingPoint:
+    """A capacitor motor at constant speed.
+
+    Attributes
+    ----------
+    slip : of the forward field
+    main_current_a, auxiliary_current_a : complex peaks
+    forward_current_a, backward_current_a : of the two fields, in turns of the main winding
+    torque_n_m : mean, in the air gap
+    pulsating_torque_n_m : complex peak at twice the line frequency
+    input_power_w : from the line
+    """
+
+    slip: float
+    main_current_a: complex
+    auxiliary_current_a: complex
+    forward_current_a: complex
+    backward_current_a: complex
+    torque_n_m: float
+    pulsating_torque_n_m: complex
+    input_power_w: float
+
+
+def field_impedance(motor: CapacitorMotor, slip: float) -> complex:
+    """Z = jX_m ‖ (R_2/s + jX_2) of a field in which the rotor slips by s (Fitzgerald, eq. 9.4).
+
+    For the backward field s is 2 - s.
+    """
+    magnetising, leakage = 1j * motor.magnetising_ohm, 1j * motor.rotor_leakage_ohm
+    rotor = motor.rotor_resistance_ohm + slip * leakage  # times slip, so that slip may be zero
+    return complex(magnetising * rotor / (rotor + slip * magnetising))
+
+
+def operating_point(motor: CapacitorMotor, slip: float) -> OperatingPoint:
+    """Currents and torque at a slip.
+
+    I_f,b = (I_m ∓ ja I_a)/2. The torque is the product of each field's flux with both currents:
+    mean (R_f |I_f|² - R_b |I_b|²)/Ω_s, and (Z_f - Z_b) I_f I_b/Ω_s at twice the line frequency,
+    which vanishes where there is no backward field.
+    """
+    forward, backward = field_impedance(motor, slip), field_impedance(motor, 2.0 - slip)
+    main = motor.main_resistance_ohm + 1j * motor.main_leakage_ohm
+    auxiliary = motor.auxiliary_resistance_ohm + 1j * motor.auxiliary_leakage_ohm
+    auxiliary += 1.0 / (1j * motor.line_rad_per_s * motor.capacitance_f)
+    ratio = motor.turns_ratio
+    own, mutual = 0.5 * (forward + backward), 0.5j * ratio * (forward - backward)
+    circuit = np.array([[main + own, -mutual], [mutual, auxiliary + ratio**2 * own]])
+    voltage = np.sqrt(2.0) * motor.line_voltage_v
+    i_main, i_auxiliary = np.linalg.solve(circuit, np.full(2, voltage, dtype=complex))
+    i_forward = 0.5 * (i_main - 1j * ratio * i_auxiliary)
+    i_backward = 0.5 * (i_main + 1j * ratio * i_auxiliary)
+    power = forward.real * abs(i_forward) ** 2 - backward.real * abs(i_backward) ** 2
+    pulsating = (forward - backward) * i_forward * i_backward
+    speed = motor.synchronous_speed_rad_per_s
+    return OperatingPoint(
+        slip=slip,
+        main_current_a=complex(i_main),
+        auxiliary_current_a=complex(i_auxiliary),
+        forward_current_a=complex(i_forward),
+        backward_current_a=complex(i_backward),
+        torque_n_m=float(power / speed),
+        pulsating_torque_n_m=complex(pulsating / speed),
+        input_power_w=float(0.5 * voltage * (i_main + i_auxiliary).real),
+    )
+
+
+def breakdown_slip(motor: CapacitorMotor) -> float:
+    """Slip of the largest mean torque on the running part of the curve."""
+    found = minimize_scalar(
+        lambda slip: -operating_point(motor, slip).torque_n_m,
+        bounds=(0.0, LARGEST_RUNNING_SLIP),
+        method="bounded",
+        options={"xatol": 1e-9},
+    )
+    return float(found.x)
+
+
+def point_at_torque(motor: CapacitorMotor, torque_n_m: float) -> OperatingPoint:
+    """Operating point at which the mean torque carries a load.
+
+    Raises
+    ------
+    ParameterError
+        The load is beyond what the motor gives between no slip and its breakdown torque.
+    """
+    top = breakdown_slip(motor)
+    least, most = (operating_point(motor, slip).torque_n_m for slip in (0.0, top))
+    if not least <= torque_n_m <= most:
+        raise ParameterError(
+            f"torque = {torque_n_m:.4g} N m: the motor gives {least:.4g} to {most:.4g} N m between "
+            "synchronous speed and breakdown"
+        )
+    slip = brentq(
+        lambda slip: operating_point(motor, slip).torque_n_m - torque_n_m, 0.0, top, xtol=1e-14
+    )
+    return operating_point(motor, float(slip))

@@ -1,0 +1,1 @@
+"""Gas forces of a scroll compressor: wraps, pockets, pressures, forces, the thesis's program."""

@@ -1,0 +1,53 @@
+"""The compressor's shell as an elastic body, and the joints through which its inside drives it."""
+
+from math import pi
+from typing import Final
+
+from pydantic import Field, model_validator
+
+from .base import Parameters
+
+JOINTS: Final = ("bearing_housing", "fixed_scroll", "stator")
+"""Inner parts that are fixed to the wall."""
+
+
+class Joint(Parameters):
+    """An internal part fixed to the wall: equal welds or pads around a band of it."""
+
+    height_m: float = Field(ge=-2.0, le=2.0)
+    """Middle of the band, from the centre of mass."""
+    band_m: float = Field(default=0.0, ge=0.0, le=1.0)
+    """Height of the band; 0 is a line."""
+    welds: int = Field(ge=1, le=64)
+    """Number of welds, evenly spaced."""
+    first_angle_rad: float = Field(default=0.0, ge=-2.0 * pi, le=2.0 * pi)
+    """Middle of one weld, from x towards y."""
+    spread_rad: float = Field(default=0.0, ge=0.0, le=2.0 * pi)
+    """Angle that one weld covers; 2π over the number of welds is a joint all around."""
+
+    @model_validator(mode="after")
+    def _fits_around(self) -> "Joint":
+        covered = self.welds * self.spread_rad
+        if covered > 2.0 * pi * (1.0 + 1e-9):
+            raise ValueError(
+                f"spread_deg = {self.spread_rad * 180.0 / pi:g} °: {self.welds} welds cover "
+                f"{covered * 180.0 / pi:g} °; at most 360 ° fit around"
+            )
+        return self
+
+
+class ShellStructure(Parameters):
+    """Wall and caps of one thickness and material."""
+
+    thickness_m: float = Field(ge=2e-4, le=0.05)
+    youngs_modulus_pa: float = Field(ge=1e8, le=1e13)
+    poisson_ratio: float = Field(ge=0.0, le=0.49)
+    density_kg_per_m3: float = Field(ge=100.0, le=1e5)
+    loss_factor_ratio: float = Field(gt=0.0, le=1.0)
+    """Structural, the same at every frequency."""
+    span_m: float | None = Field(default=None, gt=0.0, le=3.0)
+    """Free length in the middle of the wall: at both of its ends internal parts or the skirts of
+    the caps keep the section round. None: only the caps do, at the ends of the wall."""
+    bearing_housing: Joint
+    fixed_scroll: Joint
+    stator: Joint

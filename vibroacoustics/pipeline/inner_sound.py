@@ -1,0 +1,188 @@
+"""From loads on the shell's joints to sound at the receivers, by source."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from .. import levels, radiation
+from ..parameters.shell import Shell
+from ..parameters.shell_structure import JOINTS, ShellStructure
+from ..parameters.study import Study
+from ..rotation import Array
+from ..transfer.shell_modes import (
+    ElasticShell,
+    JointLoads,
+    ShellMode,
+    elastic_shell,
+    modal_forces,
+    velocity_per_force,
+)
+from .inner_sources import Complex, InnerLoads
+
+MODES_BEYOND: Final = 1.1
+"""Modes up to this many times the highest frequency take part."""
+LOWEST_BAND_HZ: Final = 20.0
+
+
+@dataclass(frozen=True)
+class ShellPath:
+    """The elastic shell of a machine and its modes' sound.
+
+    Attributes
+    ----------
+    shell : outline
+    structure : wall, material, joints
+    maximum_frequency_hz : of the study's transfer vectors
+    """
+
+    shell: Shell
+    structure: ShellStructure
+    maximum_frequency_hz: float
+
+    @cached_property
+    def elastic(self) -> ElasticShell:
+        """The modes that take part."""
+        return elastic_shell(self.shell, self.structure, MODES_BEYOND * self.maximum_frequency_hz)
+
+    @property
+    def motions(self) -> tuple[ShellMode, ...]:
+        """The modes as motions of the surface."""
+        return self.elastic.modes
+
+    @cached_property
+    def joint_forces(self) -> Array:
+        """Generalised force per unit load, shape (mode, joint, component)."""
+        loads = [JointLoads(getattr(self.structure, name)) for name in JOINTS]
+        return np.stack([modal_forces(self.elastic, load) for load in loads], axis=1)
+
+    @cached_property
+    def natural_hz(self) -> Array:
+        """Shape (mode,)."""
+        return np.array([mode.frequency_hz for mode in self.elastic.modes])
+
+    @cached_property
+    def modal_mass_kg(self) -> Array:
+        """Shape (mode,)."""
+        return np.array([mode.modal_mass_kg for mode in self.elastic.modes])
+
+
+def shell_path(study: Study) -> ShellPath | None:
+    """The elastic shell of a study with inner sources; none without."""
+    if study.inside is None:
+        return None
+    structure = study.inside.inside.shell
+    return ShellPath(study.machine.shell, structure, study.radiation.maximum_frequency_hz)
+
+
+def pressure_per_load(
+    path: ShellPath,
+    pressure_per_velocity: Complex,
+    frequency_hz: Array,
+    loss_factor_ratio: float,
+    frequency_factor_ratio: float,
+) -> Complex:
+    """Pressure per unit load on a joint, shape (receiver, joint, component, frequency).
+
+    Σ over the modes of transfer vector, velocity per force and force per load.
+
+    Parameters
+    ----------
+    path : modes and joints
+    pressure_per_velocity : of the modes, shape (receiver, mode, frequency), Pa s/m
+    frequency_hz : shape (frequency,)
+    loss_factor_ratio : of the shell
+    frequency_factor_ratio : times the natural frequencies
+    """
+    natural_hz = frequency_factor_ratio * path.natural_hz
+    moving = velocity_per_force(natural_hz, path.modal_mass_kg, loss_factor_ratio, frequency_hz)
+    heard = pressure_per_velocity * moving
+    return np.asarray(np.einsum("rmf,mjc->rjcf", heard, path.joint_forces, optimize=True))
+
+
+@dataclass(frozen=True)
+class SourceSound:
+    """Mean squares of the pressure at the receivers, by source; those of a band are unweighted.
+
+    Attributes
+    ----------
+    sources : names
+    band : of each source alone, shape (source, receiver, band), Pa²
+    weighted : A-weighted, of each source alone, shape (source, receiver), Pa²
+    part : what each source adds to the A-weighted total, shape (source, receiver), Pa²; where
+        lines of two sources cancel a part can be negative. The sum is the total
+    """
+
+    sources: tuple[str, ...]
+    band: Array
+    weighted: Array
+    part: Array
+
+    @property
+    def total(self) -> Array:
+        """A-weighted mean square of all sources together, shape (receiver,), Pa²."""
+        return np.asarray(self.part.sum(axis=0))
+
+
+def octave_thirds(maximum_frequency_hz: float) -> tuple[levels.Band, ...]:
+    """Third-octave bands of a study with inner sources."""
+    return levels.bands_between(3, LOWEST_BAND_HZ, maximum_frequency_hz)
+
+
+def source_sound(
+    loads: InnerLoads,
+    line_pressure: dict[str, Complex],
+    noise_pressure: dict[str, list[Complex]],
+    bands: tuple[levels.Band, ...],
+) -> SourceSound:
+    """Mean squares of lines, which add as phasors, and of noise, which adds as energy.
+
+    Parameters
+    ----------
+    loads : for the frequencies
+    line_pressure : complex peaks at the lines, by source, shape (receiver, line), Pa
+    noise_pressure : pressure per load of each noise of a source, shape (receiver, 3, frequency)
+    bands : of the result
+    """
+    sources = tuple(line_pressure)
+    pressure = np.stack(list(line_pressure.values()))
+    alone = 0.5 * np.abs(pressure) ** 2
+    shared = 0.5 * (pressure * pressure.sum(axis=0).conj()).real
+    audible = loads.frequency_hz > 0.0
+    weight = 10.0 ** (levels.WEIGHTING["A"](loads.frequency_hz) / 10.0) * audible
+    band = alone @ _membership(loads.frequency_hz, bands)
+    weighted, part = alone @ weight, shared @ weight
+    for source, paths in noise_pressure.items():
+        row = sources.index(source)
+        for noise, per_load in zip(loads.noise[source], paths, strict=True):
+            density = np.einsum(
+                "rif,ijf,rjf->rf", per_load.conj(), noise.density, per_load, optimize=True
+            ).real
+            power = density * (noise.frequency_hz[1] - noise.frequency_hz[0])
+            band[row] += power @ _membership(noise.frequency_hz, bands)
+            loud = power @ 10.0 ** (levels.WEIGHTING["A"](noise.frequency_hz) / 10.0)
+            weighted[row] += loud
+            part[row] += loud
+    return SourceSound(sources, band, weighted, part)
+
+
+def _membership(frequency_hz: Array, bands: tuple[levels.Band, ...]) -> Array:
+    """1 where a frequency lies in a band, shape (frequency, band)."""
+    edges = np.array([(band.lower_hz, band.upper_hz) for band in bands])
+    inside = (frequency_hz[:, None] >= edges[:, 0]) & (frequency_hz[:, None] < edges[:, 1])
+    return inside.astype(float)
+
+
+def mode_pressures(results: xr.Dataset, frequency_hz: Array) -> Complex:
+    """Transfer vectors of the shell's modes at any frequencies, (receiver, mode, frequency)."""
+    vectors = results["pattern_transfer_vector"].rename(pattern="dof")
+    at = xr.DataArray(frequency_hz, dims="line")
+    return np.asarray(radiation.interpolate_transfer_vector(vectors, at).values)
+
+
+def rigid_pressures(results: xr.Dataset, frequency_hz: Array) -> Complex:
+    """Transfer vectors of the rigid motions at any frequencies, (receiver, dof, frequency)."""
+    at = xr.DataArray(frequency_hz, dims="line")
+    return np.asarray(radiation.interpolate_transfer_vector(results["transfer_vector"], at).values)

@@ -1,0 +1,177 @@
+"""Conical thin-shell elements: stiffness and mass per circumferential order.
+
+Sanders (1959), NASA TR R-24: strains that vanish in every rigid motion. All displacements are
+cubic along the meridian, so that bending without stretching is not locked.
+"""
+
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from ...parameters.shell_structure import ShellStructure
+from .meridian import Index, Meridian, Real
+
+NODE_FREEDOMS: Final = 4
+"""Radial, axial and circumferential displacement, and rotation β = -dw/ds."""
+RADIAL, AXIAL, CIRCUMFERENTIAL, ROTATION = range(NODE_FREEDOMS)
+_GAUSS: Final = 6
+"""Points along an element; the shapes are cubic, 1/r is smooth off the axis."""
+_INNER: Final = 4
+"""Further amplitudes of an element: two of u, two of v."""
+
+
+Polynomials = tuple[tuple[float, ...], ...]
+_LINEAR: Final[Polynomials] = ((0.5, -0.5), (0.5, 0.5))
+_BUBBLES: Final[Polynomials] = ((1.0, 0.0, -1.0), (0.0, 1.0, 0.0, -1.0))
+_HERMITE: Final[Polynomials] = (
+    (0.5, -0.75, 0.0, 0.25),
+    (0.25, -0.25, -0.25, 0.25),
+    (0.5, 0.75, 0.0, -0.25),
+    (-0.25, -0.25, 0.25, 0.25),
+)
+"""Value and slope at -1, value and slope at 1."""
+
+
+class Shapes(NamedTuple):
+    """u, v, w or one of their derivatives in s per amplitude, each (point, 12)."""
+
+    along: Real
+    around: Real
+    normal: Real
+
+
+def freedom_count(meridian: Meridian) -> int:
+    """Freedoms of all nodes and, after them, inner amplitudes of all elements."""
+    return NODE_FREEDOMS * (meridian.elements + 1) + _INNER * meridian.elements
+
+
+def element_freedoms(meridian: Meridian) -> Index:
+    """Places of each element's twelve amplitudes among all, shape (element, 12)."""
+    first = np.arange(meridian.elements)[:, None]
+    nodes = NODE_FREEDOMS * first + np.arange(2 * NODE_FREEDOMS)
+    inner = NODE_FREEDOMS * (meridian.elements + 1) + _INNER * first + np.arange(_INNER)
+    return np.asarray(np.concatenate([nodes, inner], axis=1))
+
+
+def shapes(meridian: Meridian, element: Index, place: Real, derivative: int = 0) -> Shapes:
+    """Displacements u along the meridian, v around and w outwards per amplitude.
+
+    Parameters
+    ----------
+    meridian : nodes
+    element : of each point, shape (point,)
+    place : coordinate -1 to 1 along it, shape (point,)
+    derivative : order of the derivative in s, 0 to 2
+    """
+    half = 0.5 * meridian.lengths[element]
+    scale = half[:, None] ** -derivative
+    linear, inner, hermite = (
+        scale * _polynomials(coefficients, place, derivative)
+        for coefficients in (_LINEAR, _BUBBLES, _HERMITE)
+    )
+    hermite[:, 1::2] *= -half[:, None]  # w' = -β
+    radial, axial = meridian.tangents[element].T
+    along, around, normal = (np.zeros((place.size, 12)) for _ in range(3))
+    for end, node in enumerate((0, NODE_FREEDOMS)):
+        along[:, node + RADIAL] = linear[:, end] * radial
+        along[:, node + AXIAL] = linear[:, end] * axial
+        around[:, node + CIRCUMFERENTIAL] = linear[:, end]
+        normal[:, node + RADIAL] = hermite[:, 2 * end] * axial
+        normal[:, node + AXIAL] = -hermite[:, 2 * end] * radial
+        normal[:, node + ROTATION] = hermite[:, 2 * end + 1]
+    along[:, 8:10], around[:, 10:12] = inner, inner
+    return Shapes(along, around, normal)
+
+
+def _polynomials(coefficients: Polynomials, place: Real, derivative: int) -> Real:
+    """Derivatives in the element's coordinate of polynomials, shape (point, polynomial)."""
+    series = [np.polynomial.Polynomial(c).deriv(derivative) for c in coefficients]
+    return np.stack([polynomial(place) for polynomial in series], axis=1)
+
+
+def displacement_shapes(meridian: Meridian, element: Index, place: Real) -> Real:
+    """Radial, axial and circumferential displacement per amplitude, shape (point, 3, 12)."""
+    along, around, normal = shapes(meridian, element, place)
+    radial, axial = meridian.tangents[element].T[:, :, None]
+    return np.stack([radial * along + axial * normal, axial * along - radial * normal, around], 1)
+
+
+def strains(meridian: Meridian, element: Index, place: Real, order: int) -> Real:
+    """Strains and changes of curvature per amplitude, shape (point, 6, 12).
+
+    ε_s, ε_θ, γ, κ_s, κ_θ, 2 κ_sθ of Sanders (1959) on a cone, for u and w with cos nθ and v with
+    sin nθ, v outright for n = 0.
+
+    Parameters
+    ----------
+    meridian : nodes
+    element : of each point, shape (point,)
+    place : coordinate -1 to 1 along it, shape (point,), off the axis
+    order : n
+    """
+    n = order
+    (u, v, w), (du, dv, dw), (_, _, ddw) = (
+        shapes(meridian, element, place, derivative) for derivative in range(3)
+    )
+    r = _radius(meridian, element, place)[:, None]
+    slope, turn = meridian.tangents[element].T[:, :, None]  # dr/ds, and r over the second radius
+    spin = 0.5 * (dv + (slope * v + n * u) / r)  # about the normal
+    lean = (n * w + turn * v) / r  # about the meridian
+    d_lean = (n * dw + turn * dv - slope * lean) / r
+    return np.stack(
+        [
+            du,
+            (n * v + slope * u + turn * w) / r,
+            dv - (n * u + slope * v) / r,
+            -ddw,
+            (n * lean - slope * dw) / r,
+            d_lean + (n * dw - slope * lean + turn * spin) / r,
+        ],
+        axis=1,
+    )
+
+
+def matrices(meridian: Meridian, structure: ShellStructure, order: int) -> tuple[Real, Real]:
+    """Stiffness and mass of the free shell, both (freedom, freedom), N/m and kg and the like.
+
+    Parameters
+    ----------
+    meridian : nodes
+    structure : thickness and material
+    order : circumferential order n
+    """
+    place, weight = np.tile(np.polynomial.legendre.leggauss(_GAUSS), meridian.elements)
+    element = np.repeat(np.arange(meridian.elements), _GAUSS)
+    around = 2.0 * np.pi if order == 0 else np.pi
+    area = around * weight * 0.5 * meridian.lengths[element] * _radius(meridian, element, place)
+    strain = strains(meridian, element, place, order)
+    moved = displacement_shapes(meridian, element, place)
+    surface_mass = structure.density_kg_per_m3 * structure.thickness_m
+    stiffness = np.einsum("p,pai,ab,pbj->pij", area, strain, _elasticity(structure), strain,
+                          optimize=True)  # fmt: skip
+    mass = surface_mass * np.einsum("p,pai,paj->pij", area, moved, moved, optimize=True)
+    return _assembled(meridian, stiffness), _assembled(meridian, mass)
+
+
+def _radius(meridian: Meridian, element: Index, place: Real) -> Real:
+    start, end = meridian.nodes[element, 0], meridian.nodes[element + 1, 0]
+    return np.asarray(0.5 * ((1.0 - place) * start + (1.0 + place) * end))
+
+
+def _elasticity(structure: ShellStructure) -> Real:
+    """Forces and moments per unit length per strain and change of curvature, shape (6, 6)."""
+    thickness, poisson = structure.thickness_m, structure.poisson_ratio
+    plane: Real = np.array(
+        [[1.0, poisson, 0.0], [poisson, 1.0, 0.0], [0.0, 0.0, (1.0 - poisson) / 2.0]]
+    )
+    stretching = structure.youngs_modulus_pa * thickness / (1.0 - poisson**2)
+    return np.asarray(stretching * np.kron(np.diag([1.0, thickness**2 / 12.0]), plane))
+
+
+def _assembled(meridian: Meridian, at_points: Real) -> Real:
+    """Sum of the matrices (point, 12, 12) of all Gauss points."""
+    by_element = at_points.reshape(meridian.elements, _GAUSS, 12, 12).sum(axis=1)
+    at = element_freedoms(meridian)
+    total = np.zeros((freedom_count(meridian),) * 2)
+    np.add.at(total, (at[:, :, None], at[:, None, :]), by_element)
+    return total

@@ -1,0 +1,132 @@
+"""The closed shell at one circumferential order: supports, rigid motions, elastic modes."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Final
+
+import numpy as np
+from scipy.linalg import cho_factor, cho_solve, eigh
+from scipy.sparse import identity
+
+from ...parameters.shell_structure import ShellStructure
+from .elements import (
+    AXIAL,
+    CIRCUMFERENTIAL,
+    NODE_FREEDOMS,
+    RADIAL,
+    ROTATION,
+    freedom_count,
+    matrices,
+)
+from .meridian import Index, Meridian, Real
+
+
+@dataclass(frozen=True)
+class Harmonic:
+    """Motions that vary with cos nθ and sin nθ around the axis."""
+
+    meridian: Meridian
+    structure: ShellStructure
+    order: int
+
+    @cached_property
+    def kept(self) -> Index:
+        """Amplitudes that are free to move.
+
+        On the axis the displacement has one value from all sides. Where the section is kept
+        round, the orders from 2 up neither move it outwards nor around.
+        """
+        held = [tip + freedom for tip in self._tips for freedom in _ON_AXIS.get(self.order, _ALL)]
+        if self.order >= 2:
+            rings = [NODE_FREEDOMS * node for node in self.meridian.round_nodes]
+            held += [ring + freedom for ring in rings for freedom in (RADIAL, CIRCUMFERENTIAL)]
+        return np.setdiff1d(np.arange(freedom_count(self.meridian)), held)
+
+    @cached_property
+    def reduction(self) -> Any:
+        """All amplitudes from the free ones, sparse (freedom, free)."""
+        whole = identity(freedom_count(self.meridian), format="lil")
+        if self.order == 1:
+            for tip in self._tips:  # u_r cos θ and v sin θ with v = -u_r are a translation
+                whole[tip + CIRCUMFERENTIAL, tip + RADIAL] = -1.0
+        return whole.tocsc()[:, self.kept]
+
+    @property
+    def _tips(self) -> list[int]:
+        """First freedoms of the nodes on the axis."""
+        ends = (0, self.meridian.elements)
+        return [NODE_FREEDOMS * end for end in ends if self.meridian.nodes[end, 0] == 0.0]
+
+    @cached_property
+    def free_matrices(self) -> tuple[Real, Real]:
+        """Stiffness and mass of the free amplitudes."""
+        whole = matrices(self.meridian, self.structure, self.order)
+        stiffness, mass = (self.reduction.T @ matrix @ self.reduction for matrix in whole)
+        return stiffness, mass
+
+    @cached_property
+    def rigid_motions(self) -> Real:
+        """Free amplitudes of motions without strain, mass-normalised, shape (free, 0 to 2).
+
+        Order 0: along z, about z. Order 1: along x or y and about y or x. The rigid body on its
+        mounts has them; the elastic modes are orthogonal to them.
+        """
+        motions = np.zeros((freedom_count(self.meridian), 2 if self.order < 2 else 0))
+        nodes = motions[: NODE_FREEDOMS * (self.meridian.elements + 1)]
+        radius, height = self.meridian.nodes.T
+        if self.order == 0:
+            nodes[AXIAL::NODE_FREEDOMS, 0] = 1.0
+            nodes[CIRCUMFERENTIAL::NODE_FREEDOMS, 1] = radius
+        elif self.order == 1:
+            nodes[RADIAL::NODE_FREEDOMS] = np.stack([np.ones_like(height), height], axis=1)
+            nodes[CIRCUMFERENTIAL::NODE_FREEDOMS] = -nodes[RADIAL::NODE_FREEDOMS]
+            nodes[AXIAL::NODE_FREEDOMS, 1] = -radius
+            nodes[ROTATION::NODE_FREEDOMS, 1] = -1.0
+        free = motions[self.kept]
+        gram = free.T @ self.free_matrices[1] @ free
+        return np.asarray(np.linalg.solve(np.linalg.cholesky(gram), free.T).T)
+
+    def modes(self, maximum_frequency_hz: float) -> tuple[Real, Real]:
+        """Natural frequencies (mode,) in Hz and mass-normalised amplitudes (freedom, mode).
+
+        Rigid motions are moved out of the way, to four times the highest frequency.
+
+        Parameters
+        ----------
+        maximum_frequency_hz : modes up to here
+        """
+        limit = (2.0 * np.pi * maximum_frequency_hz) ** 2
+        stiffness = self._held_stiffness(16.0 * limit)
+        squares, shapes = eigh(stiffness, self.free_matrices[1], subset_by_value=(-np.inf, limit))
+        return np.sqrt(squares) / (2.0 * np.pi), np.asarray(self.reduction @ shapes)
+
+    def elastic_flexibility(self, load: Real, frequency_hz: float) -> Real:
+        """Static elastic amplitudes (freedom, load) under loads on the amplitudes (freedom, load).
+
+        The resultant of a load is met by the inertia of the accelerating rigid shell, which leaves
+        no rigid motion: (K + s M R Rᵀ M)⁻¹ - R Rᵀ / s for any s.
+
+        Parameters
+        ----------
+        load : force on each amplitude
+        frequency_hz : of the order of the elastic modes', sets s
+        """
+        shift = (2.0 * np.pi * frequency_hz) ** 2
+        reduced = self.reduction.T @ load
+        moved = cho_solve(cho_factor(self._held_stiffness(shift)), reduced)
+        moved -= self.rigid_motions @ (self.rigid_motions.T @ reduced) / shift
+        return np.asarray(self.reduction @ moved)
+
+    def _held_stiffness(self, shift: float) -> Real:
+        """K + s M R Rᵀ M: the rigid motions get the eigenvalue s, the elastic modes keep theirs."""
+        stiffness, mass = self.free_matrices
+        momentum = mass @ self.rigid_motions
+        return np.asarray(stiffness + shift * momentum @ momentum.T)
+
+
+_ALL: Final = (RADIAL, AXIAL, CIRCUMFERENTIAL, ROTATION)
+_ON_AXIS: Final = {
+    0: (RADIAL, CIRCUMFERENTIAL, ROTATION),
+    1: (AXIAL, CIRCUMFERENTIAL),
+}
+"""Freedoms without motion on the axis; all of them from order 2 up."""
