@@ -78,7 +78,7 @@ def _without_tags(location: tuple[str, ...]) -> tuple[str, ...]:
 
 def _reason(message: str) -> str:
     """Pydantic's words, with a TOML list called a list."""
-    return message.lower().replace("input should be", "must be").replace("tuple", "list")
+    return message.replace("Input should be", "must be").replace("tuple", "list")
 
 
 def _short(value: Any) -> str:

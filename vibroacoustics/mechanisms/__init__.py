@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Any, Final
 
 from ..moving_parts import MachineMotion
+from .hermetic.revolution import hermetic_revolution
 from .minicrank.revolution import minicrank_revolution
 from .oldham_scroll import oldham_scroll
 from .reciprocating.revolution import reciprocating_revolution
@@ -17,14 +18,16 @@ MECHANISMS: Final[dict[str, Mechanism]] = {
     "oldham-scroll": oldham_scroll,
     "reciprocating": reciprocating_revolution,
     "slider-link": slider_link_revolution,
+    "hermetic-reciprocating": hermetic_revolution,
 }
 """Mechanism of each kind of machine."""
 
 __all__ = [
     "MECHANISMS",
     "Mechanism",
+    "hermetic_revolution",
+    "minicrank_revolution",
     "oldham_scroll",
     "reciprocating_revolution",
     "slider_link_revolution",
-    "minicrank_revolution",
 ]

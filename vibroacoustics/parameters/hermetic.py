@@ -5,7 +5,11 @@ from typing import Literal
 from pydantic import Field, model_validator
 
 from .base import Parameters
-from .machine import Erratum
+from .machine import CommonMachine
+from .oscillation import HEIGHT, BalancePlanes, CrankFrame, Oscillation
+
+Case = Literal["I", "II", "III"]
+"""Crank held, crank free in x and y in one bearing, flexible shaft in two bearings."""
 
 LENGTH = Field(gt=0.0, le=2.0)
 MASS = Field(gt=0.0, le=100.0)
@@ -23,6 +27,8 @@ class JournalBearing(Parameters):
 class Piston(Parameters):
     diameter_m: float = LENGTH
     mass_kg: float = MASS
+    cylinder_offset_m: float = Field(ge=-0.1, le=0.1)
+    """Of the cylinder's axis from the shaft's, towards the crank pin at a quarter turn."""
 
 
 class Rod(Parameters):
@@ -63,14 +69,14 @@ class Gas(Parameters):
     def _compresses(self) -> "Gas":
         if self.discharge_pressure_pa <= self.suction_pressure_pa:
             raise ValueError(
-                f"discharge_pressure_pa = {self.discharge_pressure_pa:g} Pa: must exceed "
-                f"suction_pressure_pa = {self.suction_pressure_pa:g} Pa"
+                f"discharge_pressure_bar = {1e-5 * self.discharge_pressure_pa:g} bar: must exceed "
+                f"suction_pressure_bar = {1e-5 * self.suction_pressure_pa:g} bar"
             )
         reached = (1.0 + 1.0 / self.clearance_ratio) ** self.exponent_ratio
         if self.discharge_pressure_pa >= reached * self.suction_pressure_pa:
             raise ValueError(
-                f"discharge_pressure_pa = {self.discharge_pressure_pa:g} Pa: must be less than "
-                f"{reached * self.suction_pressure_pa:g} Pa, the compression at "
+                f"discharge_pressure_bar = {1e-5 * self.discharge_pressure_pa:g} bar: must be "
+                f"less than {1e-5 * reached * self.suction_pressure_pa:g} bar, the compression at "
                 f"clearance_ratio = {self.clearance_ratio:g}"
             )
         return self
@@ -113,9 +119,15 @@ class Shaft(Parameters):
     density_kg_per_m3: float = Field(gt=0.0, le=1e5)
 
 
-class HermeticCompressor(Parameters):
-    name: str = Field(min_length=1)
+class HermeticCompressor(CommonMachine):
+    """The cylinder lies along x, the shaft stands upright with the motor below the crank."""
+
     kind: Literal["hermetic-reciprocating"]
+    case: Case
+    crank_height_m: float = HEIGHT
+    """Of the crank's centre, where the upper bearing is, from the centre of mass at rest."""
+    counterweights: BalancePlanes
+    """Where weights can sit on the shaft; heights from the crank's centre."""
     piston: Piston
     rod: Rod
     crank: Crank
@@ -124,13 +136,42 @@ class HermeticCompressor(Parameters):
     bearing: JournalBearing
     rotor: Rotor
     shaft: Shaft
-    errata: tuple[Erratum, ...] = ()
 
     @model_validator(mode="after")
     def _mechanism_closes(self) -> "HermeticCompressor":
-        if self.rod.length_m <= self.crank.radius_m:
+        reach = self.crank.radius_m + abs(self.piston.cylinder_offset_m)
+        if self.rod.length_m <= reach:
             raise ValueError(
-                f"rod.length_m = {self.rod.length_m:g} m: must exceed crank.radius_m = "
-                f"{self.crank.radius_m:g} m, or the mechanism cannot close"
+                f"rod.length_mm = {1e3 * self.rod.length_m:g} mm: must exceed crank.radius_mm and "
+                f"the size of piston.cylinder_offset_mm, {1e3 * reach:g} mm together, or the "
+                "mechanism cannot close"
             )
         return self
+
+    @property
+    def crank_frame(self) -> CrankFrame:
+        """Stroke along x; the paper's Z runs down the shaft, from the crank to the motor."""
+        return CrankFrame(
+            across=(0.0, -1.0, 0.0),
+            shaft=(0.0, 0.0, -1.0),
+            origin_m=(0.0, 0.0, self.crank_height_m),
+        )
+
+    @property
+    def oscillation(self) -> Oscillation:
+        """Piston and the part of the rod that goes with it, by its two eyes."""
+        rod, planes = self.rod, self.counterweights
+        share = rod.mass_kg * (1.0 - rod.centre_of_mass_m / rod.length_m)
+        down = planes.model_copy(  # heights down the shaft
+            update={
+                "upper_height_m": -planes.lower_height_m,
+                "lower_height_m": -planes.upper_height_m,
+            }
+        )
+        return Oscillation(
+            self.piston.mass_kg + share,
+            self.crank.radius_m,
+            -self.crank.pin_offset_m,
+            down,
+            self.crank_frame,
+        )

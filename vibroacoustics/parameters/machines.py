@@ -4,6 +4,7 @@ from typing import Annotated, Final
 
 from pydantic import Field
 
+from .hermetic import HermeticCompressor
 from .machine import CommonMachine
 from .minicrank import MiniCrankMachine
 from .oldham_scroll import OldhamScroll
@@ -11,7 +12,7 @@ from .reciprocating import ReciprocatingMachine
 from .slider_link import SliderLinkMachine
 
 Machine = Annotated[
-    MiniCrankMachine | OldhamScroll | ReciprocatingMachine | SliderLinkMachine,
+    HermeticCompressor | MiniCrankMachine | OldhamScroll | ReciprocatingMachine | SliderLinkMachine,
     Field(discriminator="kind"),
 ]
 
@@ -20,5 +21,6 @@ MACHINES: Final[dict[str, type[CommonMachine]]] = {
     "oldham-scroll": OldhamScroll,
     "reciprocating": ReciprocatingMachine,
     "slider-link": SliderLinkMachine,
+    "hermetic-reciprocating": HermeticCompressor,
 }
 """Parameters of each kind of machine, by the kind that its file names."""

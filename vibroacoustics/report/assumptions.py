@@ -63,6 +63,16 @@ NOT_MODELLED_OF_KIND: Final = {
         "The motor's torque falls linearly with the speed; its pulsation at twice the line "
         "frequency is not modelled.",
     ),
+    "hermetic-reciprocating": (
+        "Friction of the piston and drag of the oil films are left out, as in the paper: the shaft "
+        "power is that of the gas and of the films that are squeezed.",
+        "The springs of the block are linear and meet no stops; the weight of the block, start and "
+        "stop are not modelled. The tube has no mass, hence no resonance of its own.",
+        "The valves open without loss, and the gas in the shell, which carries sound from the "
+        "block to the shell, is not modelled.",
+        "An option that puts weights on the shaft leaves the films as they are; a redesign of the "
+        "crank has its own.",
+    ),
     "reciprocating": (
         "One cylinder stands for the machine. The crankshaft is balanced about its axis, the big "
         "end of the rod is not; the paper gives no counterweight. Lanchester's weights are in "

@@ -5,33 +5,33 @@ from typing import Final
 
 import numpy as np
 
-from ...errors import ParameterError
+from ...errors import ParameterError, SolverError
 from ...moving_parts import Array
 from ...parameters.hermetic import HermeticCompressor
+from ...units import shaft_frequency_hz
 from .film_force import FilmForce, positive_film_force
 from .gas import valve_angles
 from .periodic_collocation import PeriodicSolution, periodic_solution
-from .shaft import Case, Crankshaft, ShaftEquations, crankshaft
+from .shaft import Crankshaft, ShaftEquations, crankshaft
 
 STEPS: Final = 360
 """Steps per revolution besides the kinks at the valves: one degree."""
-THICKENING: Final = (100.0, 30.0, 10.0, 4.0, 2.0, 1.0)
-"""Multiples of the viscosity through which the journals are let down towards the wall."""
 START_ECCENTRICITY: Final = 0.1
+SUPPLIES: Final = 10
+SPEED_TOLERANCE: Final = 1e-6
+"""Of the mean speed, relative."""
 
 
 def steady_cycle(
     machine: HermeticCompressor,
-    case: Case,
     film: FilmForce = positive_film_force,
     steps: int = STEPS,
 ) -> tuple[ShaftEquations, PeriodicSolution]:
-    """Periodic motion of case I, II or III, with the equations that it solves.
+    """Periodic motion of the machine's case, with the equations that it solves.
 
     Parameters
     ----------
-    machine : the compressor
-    case : Estupiñan's case: crank held, crank free in x and y, or flexible shaft in two bearings
+    machine : the compressor, its motor at a fixed synchronous speed
     film : force of a bearing's film on the journal
     steps : uniform steps per revolution
 
@@ -40,18 +40,56 @@ def steady_cycle(
     SolverError
         Newton's method does not converge.
     """
-    shaft = crankshaft(machine, case)
+    equations = ShaftEquations(machine, crankshaft(machine), film)
     mesh = np.union1d(np.linspace(0.0, 2.0 * np.pi, steps + 1), valve_angles(machine))
-    stages = np.tile(_guess(machine, shaft), (mesh.size - 1, 3, 1))
-    size = _size(machine, shaft)
-    allowed = _clearance_kept(machine, shaft)
-    for thickening in THICKENING if shaft.bearing_freedoms else (1.0,):
-        viscosity = thickening * machine.bearing.viscosity_pa_s
-        bearing = machine.bearing.model_copy(update={"viscosity_pa_s": viscosity})
-        equations = ShaftEquations(machine.model_copy(update={"bearing": bearing}), shaft, film)
-        solution = periodic_solution(equations.slopes_and_tangents, mesh, stages, size, allowed)
-        stages = solution.stages
-    return equations, solution
+    guess = np.tile(_guess(machine, equations.shaft), (mesh.size - 1, 3, 1))
+    return equations, _solved(equations, mesh, guess)
+
+
+def cycle_at_speed(
+    machine: HermeticCompressor, speed_rpm: float, steps: int = STEPS
+) -> tuple[ShaftEquations, PeriodicSolution]:
+    """Steady cycle of a mean speed: the motor's synchronous speed is what it takes.
+
+    Raises
+    ------
+    SolverError
+        No cycle, or no synchronous speed for it, is found.
+    """
+    wanted = 2.0 * np.pi * shaft_frequency_hz(speed_rpm)
+    equations, solution = steady_cycle(_supplied(machine, wanted), steps=steps)
+    for _ in range(SUPPLIES):
+        missing = wanted - mean_speed_rad_per_s(solution)
+        if abs(missing) < SPEED_TOLERANCE * wanted:
+            return equations, solution
+        # The load hardly depends on the speed, so that the slip stays as it is.
+        supply = equations.machine.motor.synchronous_speed_rad_per_s + missing
+        supplied = _supplied(machine, supply)
+        equations = ShaftEquations(supplied, equations.shaft, equations.film)
+        solution = _solved(equations, solution.mesh, solution.stages)
+    raise SolverError(f"{speed_rpm:g} rpm: no synchronous speed of the motor found for it")
+
+
+def mean_speed_rad_per_s(solution: PeriodicSolution) -> float:
+    """Mean over time of the shaft's speed."""
+    return 2.0 * np.pi / float(solution.cycle_integral(1.0 / solution.stages[..., -1]))
+
+
+def _supplied(machine: HermeticCompressor, synchronous_speed: float) -> HermeticCompressor:
+    """The machine on a supply of another frequency, its torque over slip the same."""
+    motor = machine.motor.model_copy(update={"synchronous_speed_rad_per_s": synchronous_speed})
+    return machine.model_copy(update={"motor": motor})
+
+
+def _solved(equations: ShaftEquations, mesh: Array, stages: Array) -> PeriodicSolution:
+    machine, shaft = equations.machine, equations.shaft
+    return periodic_solution(
+        equations.slopes_and_tangents,
+        mesh,
+        stages,
+        _size(machine, shaft),
+        _clearance_kept(machine, shaft),
+    )
 
 
 def uniform_samples(solution: PeriodicSolution, steps: int = STEPS) -> tuple[Array, Array]:

@@ -94,7 +94,7 @@ def mechanism_motion(
     mass_centre = crank_point(coordinates, rates, crank.mass_eccentricity_m, 0.0)
     rod = rod_motion(
         machine.rod.length_m,
-        pin.position_m,
+        pin.position_m - np.array([0.0, machine.piston.cylinder_offset_m, 0.0]),
         pin.velocity(rates),
         pin.acceleration(second_rates),
     )

@@ -1,6 +1,7 @@
 """Gas force over the crank angle: polytropic compression and re-expansion, ideal valves."""
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from ...moving_parts import Array
@@ -13,11 +14,28 @@ def piston_area_m2(machine: HermeticCompressor) -> float:
     return 0.25 * np.pi * machine.piston.diameter_m**2
 
 
+def dead_centres(machine: HermeticCompressor) -> tuple[float, float]:
+    """Crank angles of top and bottom dead centre, where crank and rod are in line, rad.
+
+    Top is θ = 0 by Estupiñan eq. 1, whose cylinder has no offset.
+    """
+    offset = machine.piston.cylinder_offset_m
+    longest = machine.rod.length_m + machine.crank.radius_m
+    shortest = machine.rod.length_m - machine.crank.radius_m
+    return float(np.arcsin(offset / longest)), float(np.pi + np.arcsin(offset / shortest))
+
+
+def piston_place_m(machine: HermeticCompressor, crank_angle: Array) -> Array:
+    """x_B of a crank that turns about a fixed axis."""
+    radius, offset = machine.crank.radius_m, machine.piston.cylinder_offset_m
+    across = radius * np.sin(crank_angle) - offset
+    return np.asarray(radius * np.cos(crank_angle) + np.sqrt(machine.rod.length_m**2 - across**2))
+
+
 def fill(machine: HermeticCompressor, crank_angle: Array) -> Array:
-    """Cylinder volume over displaced volume; top dead centre is θ = 0 by Estupiñan eq. 1."""
-    radius, length = machine.crank.radius_m, machine.rod.length_m
-    place = radius * np.cos(crank_angle) + np.sqrt(length**2 - (radius * np.sin(crank_angle)) ** 2)
-    lift = (radius + length - place) / (2.0 * radius)
+    """Cylinder volume over displaced volume."""
+    top, bottom = piston_place_m(machine, np.array(dead_centres(machine)))
+    lift = (top - piston_place_m(machine, crank_angle)) / (top - bottom)
     return np.asarray(machine.gas.clearance_ratio + lift)
 
 
@@ -29,17 +47,22 @@ def gas_force_n(machine: HermeticCompressor, crank_angle: Array) -> Array:
     Parameters
     ----------
     machine : pressures in Pa, polytropic exponent
-    crank_angle : θ, rad; the gas expands for 0 < θ < π
+    crank_angle : θ, rad
     """
-    pressure = _cycle(machine).pressure_pa(fill(machine, crank_angle), np.sin(crank_angle) > 0.0)
+    pressure = _cycle(machine).pressure_pa(
+        fill(machine, crank_angle), _outwards(machine, crank_angle)
+    )
     return np.asarray((pressure - machine.gas.suction_pressure_pa) * piston_area_m2(machine))
 
 
 def valve_angles(machine: HermeticCompressor) -> tuple[float, float]:
     """Crank angles at which the suction and the discharge valve open, rad: kinks of the force."""
     cycle = _cycle(machine)
-    suction = _angle_of(machine, cycle.fill_at_suction)
-    return suction, 2.0 * np.pi - _angle_of(machine, cycle.fill_at_discharge)
+    top, bottom = dead_centres(machine)
+    return (
+        _angle_of(machine, cycle.fill_at_suction, top, bottom),
+        _angle_of(machine, cycle.fill_at_discharge, bottom, top + 2.0 * np.pi),
+    )
 
 
 def _cycle(machine: HermeticCompressor) -> IdealValveCycle:
@@ -52,8 +75,15 @@ def _cycle(machine: HermeticCompressor) -> IdealValveCycle:
     )
 
 
-def _angle_of(machine: HermeticCompressor, reached: float) -> float:
-    """Crank angle of the outward stroke at a volume over displaced volume."""
+def _outwards(machine: HermeticCompressor, crank_angle: Array) -> NDArray[np.bool_]:
+    """Where the piston moves away from the head."""
+    top, bottom = dead_centres(machine)
+    since_top = np.mod(crank_angle - top, 2.0 * np.pi)
+    return np.asarray((since_top > 0.0) & (since_top < bottom - top))
+
+
+def _angle_of(machine: HermeticCompressor, reached: float, first: float, last: float) -> float:
+    """Crank angle of a stroke at a volume over displaced volume."""
     return float(
-        brentq(lambda angle: fill(machine, np.array(angle)) - reached, 0.0, np.pi, xtol=1e-14)
+        brentq(lambda angle: fill(machine, np.array(angle)) - reached, first, last, xtol=1e-14)
     )

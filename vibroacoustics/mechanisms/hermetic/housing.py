@@ -1,30 +1,18 @@
 """Force and moment of the hermetic compressor's moving parts on the housing, by source."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-
 import numpy as np
 
-from ...moving_parts import Array
+from ...moving_parts import Array, Wrench, path
 from ..beam_rotor import NODE_FREEDOMS
 from .results import motion_of
 from .shaft import ShaftEquations, node_positions_m
 
 
-@dataclass(frozen=True)
-class Wrench:
-    """Force, N, and moment about the crank's centre at rest, N m, shape (angles, 3) each."""
-
-    force_n: Array
-    moment_n_m: Array
-
-
-def housing_wrenches(
-    equations: ShaftEquations, angle: Array, states: Array
-) -> Mapping[str, Wrench]:
+def housing_wrenches(equations: ShaftEquations, angle: Array, states: Array) -> dict[str, Wrench]:
     """Change of momentum of piston, rod, crank and rotor, with the sign of its reaction.
 
-    The rod swings in the plane of the pin's middle, as in the paper.
+    In the paper's frame; the moment is about the crank's centre at rest. The rod swings in the
+    plane of the pin's middle, as in the paper.
 
     Parameters
     ----------
@@ -40,25 +28,26 @@ def housing_wrenches(
     accelerations, rod = equations.accelerations(angle, states), motion.rod
     spin = accelerations[..., -1]
     distance, height = machine.rod.centre_of_mass_m, -machine.crank.pin_offset_m
+    side = machine.piston.cylinder_offset_m
     piston_x = rod.piston_position_m
     rod_x, rod_y = rod.centre_acceleration(machine.rod)
     return {
         "piston": _wrench(
             machine.piston.mass_kg,
-            _stacked(piston_x, 0.0, height),
-            _stacked(rod.piston_acceleration, 0.0, 0.0),
+            path(piston_x, side, height),
+            path(rod.piston_acceleration, 0.0, 0.0),
             np.zeros_like(spin),
         ),
-        "rod": _wrench(
+        "connecting_rod": _wrench(
             machine.rod.mass_kg,
-            _stacked(piston_x - distance * rod.cosine, distance * rod.sine, height),
-            _stacked(rod_x, rod_y, 0.0),
+            path(piston_x - distance * rod.cosine, side + distance * rod.sine, height),
+            path(rod_x, rod_y, 0.0),
             machine.rod.inertia_kg_m2 * rod.angular_acceleration,  # α turns against θ
         ),
         "crank": _wrench(
             machine.crank.mass_kg,
-            tuple(np.moveaxis(motion.mass_centre.position_m, -1, 0)),
-            tuple(np.moveaxis(motion.mass_centre_acceleration, -1, 0)),
+            motion.mass_centre.position_m.T,
+            motion.mass_centre_acceleration.T,
             -machine.crank.axial_inertia_kg_m2 * spin,
         ),
         "rotor": _rotor_wrench(equations, states, accelerations),
@@ -77,10 +66,7 @@ def _rotor_wrench(equations: ShaftEquations, states: Array, accelerations: Array
     change = accelerations[..., :-1] @ matrices.mass
     change += speed[..., np.newaxis] * (velocity @ matrices.gyroscopic.T)
     x, y, about_x, about_y = np.moveaxis(-change @ _rigid_motions(equations), -1, 0)
-    zero = np.zeros_like(x)
-    return Wrench(
-        np.stack((x, y, zero), axis=-1), spin_moment + np.stack((about_x, about_y, zero), axis=-1)
-    )
+    return Wrench(path(x, y, 0.0), spin_moment + path(about_x, about_y, 0.0))
 
 
 def _rigid_motions(equations: ShaftEquations) -> Array:
@@ -91,16 +77,10 @@ def _rigid_motions(equations: ShaftEquations) -> Array:
     return np.concatenate(motions)
 
 
-def _wrench(
-    mass_kg: float, place: tuple[Array, ...], acceleration: tuple[Array, ...], spin_moment: Array
-) -> Wrench:
-    force = -mass_kg * np.stack(acceleration, axis=-1)
-    return Wrench(force, np.cross(np.stack(place, axis=-1), force) + _axial(spin_moment))
+def _wrench(mass_kg: float, place: Array, acceleration: Array, spin_moment: Array) -> Wrench:
+    force = -mass_kg * acceleration
+    return Wrench(force, np.cross(place, force, axis=0) + _axial(spin_moment))
 
 
 def _axial(moment: Array) -> Array:
-    return np.asarray(moment[..., np.newaxis] * np.array([0.0, 0.0, 1.0]))
-
-
-def _stacked(x: Array, y: Array | float, z: Array | float) -> tuple[Array, ...]:
-    return tuple(np.broadcast_arrays(x, y, z))
+    return path(0.0, 0.0, moment)

@@ -5,7 +5,7 @@ x and y, or a finite-element rotor. The states are displacements, velocities and
 """
 
 from dataclasses import dataclass
-from typing import Final, Literal
+from typing import Final
 
 import numpy as np
 
@@ -16,8 +16,6 @@ from .film_force import COMPLEX_STEP, FilmForce
 from .forces import added_mass, mechanism_motion
 from .gas import gas_force_n
 from .pin import COORDINATES
-
-Case = Literal["I", "II", "III"]
 
 ELEMENTS_TO_LOWER_BEARING: Final = 2
 ELEMENTS_TO_ROTOR: Final = 2
@@ -50,13 +48,13 @@ class Crankshaft:
         return np.array([*range(len(self.free) - 1), self.freedoms])
 
 
-def crankshaft(machine: HermeticCompressor, case: Case) -> Crankshaft:
-    """The shaft of case I, II or III (Estupiñan, Mathematical Modelling)."""
-    if case == "III":
+def crankshaft(machine: HermeticCompressor) -> Crankshaft:
+    """The shaft of the machine's case (Estupiñan, Mathematical Modelling)."""
+    if machine.case == "III":
         return _flexible(machine)
-    freedoms = 0 if case == "I" else 2
+    freedoms = 0 if machine.case == "I" else 2
     zero = np.zeros((freedoms, freedoms))
-    free = (4,) if case == "I" else (0, 1, 4)
+    free = (4,) if machine.case == "I" else (0, 1, 4)
     return Crankshaft(RotorMatrices(zero, zero, zero), (0,) if freedoms else (), free)
 
 
