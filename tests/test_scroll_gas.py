@@ -20,7 +20,6 @@ from scroll_flanks import (
 from support import ROOT
 
 from vibroacoustics.errors import ParameterError
-from vibroacoustics.mechanisms.crankshaft import uniform_crank_angle
 from vibroacoustics.mechanisms.scroll_gas import thesis_appendix_a
 from vibroacoustics.mechanisms.scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
 from vibroacoustics.mechanisms.scroll_gas.pockets import (
@@ -38,6 +37,7 @@ from vibroacoustics.mechanisms.scroll_gas.pressures import (
 from vibroacoustics.mechanisms.scroll_gas.thesis_appendix_a import appendix_a_force
 from vibroacoustics.orders import order_spectrum
 from vibroacoustics.parameters.scroll_gas import ScrollGas, ScrollWraps
+from vibroacoustics.rotation import uniform_crank_angle
 
 VALIDATION_FILE = ROOT / "data" / "validation" / "scroll_gas.csv"
 CASES = ["15 to 41.159 bar", "6.78 to 30.7 bar"]
