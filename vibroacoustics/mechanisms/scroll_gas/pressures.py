@@ -30,13 +30,10 @@ def pocket_pressure(wraps: ScrollWraps, gas: ScrollGas, angle_since_closing: Arr
     volume = pocket_volume(wraps, np.clip(angle_since_closing, 0.0, opening))
     ratio = pocket_volume(wraps, np.zeros(())) / volume
     compressed = gas.suction_pressure_pa * ratio**gas.polytropic_index
-    closed = angle_since_closing < opening - OPENED_BEFORE
-    since_opening = np.maximum(angle_since_closing - opening, 0.0)
-    width = max(gas.equalisation_angle_rad, np.finfo(float).tiny)
+    since_opening = np.maximum(angle_since_closing - opening + OPENED_BEFORE, 0.0)
+    width = max(gas.equalisation_angle_rad, OPENED_BEFORE)
     left = 0.5 + 0.5 * np.cos(np.pi * np.minimum(since_opening / width, 1.0))
-    left = np.where(since_opening < gas.equalisation_angle_rad, left, 0.0)
-    opened = gas.discharge_pressure_pa + left * (compressed - gas.discharge_pressure_pa)
-    return np.where(closed, compressed, opened)
+    return np.asarray(gas.discharge_pressure_pa + left * (compressed - gas.discharge_pressure_pa))
 
 
 def built_in_pressure_pa(wraps: ScrollWraps, gas: ScrollGas) -> float:
