@@ -12,6 +12,7 @@ from pydantic import Field, model_validator
 
 from ..units import shaft_frequency_hz
 from .base import Parameters
+from .cylinder_gas import CylinderGas
 from .machine import PART_MASS, CommonMachine
 from .oscillation import BalancePlanes, CrankFrame, Oscillation
 from .suspension import Suspension
@@ -148,30 +149,6 @@ class Oil(Parameters):
         return self.pump_power_w / (2.0 * pi * shaft_frequency_hz(self.pump_speed_rpm))
 
 
-class CylinderGas(Parameters):
-    """Polytropic cycle with ideal valves; the shell is at suction pressure."""
-
-    suction_pressure_pa: float = PRESSURE
-    """[p_0]"""
-    discharge_pressure_pa: float = PRESSURE
-    clearance_ratio: float = Field(ge=1e-4, le=0.5)
-    """Clearance volume per displacement."""
-    exponent_ratio: float = Field(ge=1.0, le=1.7)
-    """Polytropic exponent."""
-
-    @model_validator(mode="after")
-    def _pumps(self) -> "CylinderGas":
-        ratio = self.discharge_pressure_pa / self.suction_pressure_pa
-        highest = (1.0 + 1.0 / self.clearance_ratio) ** self.exponent_ratio
-        if not 1.0 < ratio < highest:
-            raise ValueError(
-                f"discharge_pressure_bar = {1e-5 * self.discharge_pressure_pa:g} bar: must be "
-                f"above suction_pressure_bar = {1e-5 * self.suction_pressure_pa:g} bar and below "
-                f"{highest:g} times it, else the clearance volume holds all of the gas"
-            )
-        return self
-
-
 class Motor(Parameters):
     slope_n_m_s_per_rad: float = Field(ge=0.0, le=10.0)
     """Fall of the torque per rise of the speed."""
@@ -190,6 +167,7 @@ class SliderLinkMachine(CommonMachine):
     bearings: Bearings
     oil: Oil
     gas: CylinderGas
+    """The shell is at suction pressure [p_0]."""
     motor: Motor
     counterweights: BalancePlanes
     """Where further weights can sit on the shaft."""

@@ -3,7 +3,8 @@
 import numpy as np
 
 from ...moving_parts import Array
-from ...parameters.slider_link import CylinderGas, SliderLink
+from ...parameters.cylinder_gas import CylinderGas
+from ...parameters.slider_link import SliderLink
 from ..cylinder_gas import IdealValveCycle
 
 
