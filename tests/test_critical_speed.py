@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from machine_files import values_of
+from machine_files import machine_file, values_of
 from support import ROOT
 
 from vibroacoustics.constants import STANDARD_GRAVITY_M_PER_S2
@@ -25,9 +25,9 @@ from vibroacoustics.mechanisms.critical_speed import (
     scroll_shaft_rotor,
     unbalance_deflection_m,
 )
-from vibroacoustics.parameters.thesis_shaft import ScrollShaft
+from vibroacoustics.parameters.scroll_shaft import ScrollShaft
 
-VALUES = values_of(ROOT / "data" / "parts" / "copeland_zp41k3e.toml")["shaft"]
+VALUES = values_of(machine_file("copeland_zp41k3e_inside"))["shaft"]
 SHAFT = ScrollShaft(**VALUES)
 RPM = 30.0 / np.pi
 LENGTH = 0.2

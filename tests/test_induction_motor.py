@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from machine_files import values_of
+from machine_files import machine_file, values_of
 from scipy.integrate import solve_ivp
 from support import ROOT
 
@@ -24,7 +24,7 @@ from vibroacoustics.mechanisms.induction_motor.torque_lines import torque_lines
 from vibroacoustics.parameters.induction_motor import CapacitorMotor, KlossMotor
 from vibroacoustics.rotation import uniform_crank_angle
 
-VALUES = values_of(ROOT / "data" / "parts" / "copeland_zp41k3e.toml")["motor"]
+VALUES = values_of(machine_file("copeland_zp41k3e_inside"))["motor"]
 MOTOR = CapacitorMotor(**VALUES)
 INERTIA = 2.5e-3
 GAS_TORQUE = 10.24

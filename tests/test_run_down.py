@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from machine_files import values_of
-from support import CRANK_ANGLE, PIPELINES, ROOT, machine_parts
+from machine_files import machine_file, values_of
+from support import CRANK_ANGLE, PIPELINES, machine_parts
 
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.loading import load_study
@@ -25,7 +25,7 @@ from vibroacoustics.orders import angular_resample, block_phasors, from_angle, o
 from vibroacoustics.parameters.run_down import Stopping
 from vibroacoustics.rotation import constant_rotation
 
-FILE = values_of(ROOT / "data" / "parts" / "copeland_zp41k3e.toml")["stopping"]
+FILE = values_of(machine_file("copeland_zp41k3e_inside"))["stopping"]
 VALUES = {**FILE, "friction_torque_n_m": 1.5}
 """With more friction than the file assumes: shorter runs."""
 PARTS = machine_parts(load_study(PIPELINES / "copeland_derived.toml"))

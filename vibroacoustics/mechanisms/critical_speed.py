@@ -9,7 +9,7 @@ from scipy.linalg import eigh
 
 from ..constants import STANDARD_GRAVITY_M_PER_S2
 from ..moving_parts import Array
-from ..parameters.thesis_shaft import ScrollShaft
+from ..parameters.scroll_shaft import ScrollShaft
 from .beam_rotor import NODE_FREEDOMS, RotorMatrices, Section, assemble, with_disc
 
 ELEMENT_LENGTH_M: Final = 0.01

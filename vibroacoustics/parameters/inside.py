@@ -9,6 +9,7 @@ from .induction_motor import CapacitorMotor
 from .oldham_keys import OldhamKeys
 from .run_down import Stopping
 from .scroll_gas import ScrollGas, ScrollWraps
+from .scroll_shaft import ScrollShaft
 from .shell_structure import ShellStructure
 
 DRAWN: Final = frozenset(
@@ -56,6 +57,7 @@ class Inside(Parameters):
     shell: ShellStructure
     doubt: ShellDoubt
     stopping: Stopping
+    shaft: ScrollShaft
 
 
 class Doubt(Parameters):

@@ -21,7 +21,6 @@ LENGTH = Field(gt=0.0, le=0.5)
 OFFSET = Field(ge=-0.05, le=0.05)
 CLEARANCE = Field(ge=1e-7, le=1e-3)
 FRICTION = Field(ge=0.0, le=0.5)
-PRESSURE = Field(ge=1e3, le=2e7)
 
 
 class SliderLink(Parameters):
