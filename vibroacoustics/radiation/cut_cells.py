@@ -12,6 +12,7 @@ from .arrays import Array, IndexArray
 from .bodies import Body
 from .lines import fluid_on_lines
 from .near_grid import NearGrid
+from .symmetry import both_halves
 
 GEOMETRY_BYTES_PER_CELL: Final = 32
 """Three open areas and a volume in double precision."""
@@ -44,26 +45,29 @@ class CutCells:
 
 
 def cut_cells(body: Body, grid: NearGrid) -> CutCells:
-    """Cut the cells of a grid by a body.
+    """Cut the cells of a grid by a body; along mirrored axes the one half is the other's image.
 
     Raises
     ------
     ParameterError
         The surface of the body is open.
     """
-    start, stop = _around(body, grid)
-    part = [edges[a : b + 1] for edges, a, b in zip(grid.edges, start, stop, strict=True)]
+    upper = grid.upper_half
+    start, stop = _around(body, upper)
+    part = [edges[a : b + 1] for edges, a, b in zip(upper.edges, start, stop, strict=True)]
     open_areas: list[Array] = []
     for axis in range(3):
-        area = np.ones([count + (other == axis) for other, count in enumerate(grid.shape)])
+        shape = [count + (other == axis) for other, count in enumerate(upper.shape)]
+        area = np.ones(shape)
         area[
             tuple(
                 slice(a, b + (i == axis)) for i, (a, b) in enumerate(zip(start, stop, strict=False))
             )
         ] = _open_fractions(body, part, axis)
-        open_areas.append(area)
-    volumes = np.ones(grid.shape)
-    volumes[tuple(map(slice, start, stop))] = _volume_fractions(body, part)
+        open_areas.append(both_halves(area, grid.mirrored, axis))
+    volume = np.ones(upper.shape)
+    volume[tuple(map(slice, start, stop))] = _volume_fractions(body, part)
+    volumes = both_halves(volume, grid.mirrored)
     total_area: Array = np.sum(
         [area[_lower(axis)] + area[_upper(axis)] for axis, area in enumerate(open_areas)], axis=0
     )

@@ -1,5 +1,6 @@
 """One time step of the machine side: compiled loops over cells, faces and absorbing layers."""
 
+from collections.abc import Sequence
 from typing import Any, Final
 
 import numba
@@ -7,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .arrays import Array
-from .cut_cells import CutCells
 from .near_grid import NearGrid
 
 _kernel = numba.njit(cache=True, nogil=True)
@@ -25,16 +25,21 @@ class Fields:
     h, so that a step is: subtract a pressure difference, then a flux difference, each times h over
     the distance between its ends. Faces at the ends of the grid stay closed. The split of the
     pressure matters in the absorbing layers only.
+
+    Across the first face along each of the axes `odd` the pressure is odd: as large on the other
+    side, of the other sign.
     """
 
-    def __init__(self, grid: NearGrid, cells: CutCells) -> None:
+    def __init__(
+        self, grid: NearGrid, open_areas: Sequence[Array], volumes: Array, odd: Sequence[int]
+    ) -> None:
         self.pressure = np.zeros(grid.shape, PRECISION)
-        self._flux = tuple(np.zeros(area.shape, PRECISION) for area in cells.open_areas)
+        self._flux = tuple(np.zeros(area.shape, PRECISION) for area in open_areas)
         self._split = tuple(np.zeros(grid.shape, PRECISION) for _ in range(3))
-        self._areas = tuple(area.astype(PRECISION) for area in cells.open_areas)
-        inverse = np.divide(1.0, cells.volumes, out=np.zeros(grid.shape), where=cells.volumes > 0)
+        self._areas = tuple(area.astype(PRECISION) for area in open_areas)
+        inverse = np.divide(1.0, volumes, out=np.zeros(grid.shape), where=volumes > 0)
         self._gain = (grid.courant_number**2 * inverse).astype(PRECISION)
-        self._plain = _plain_rows(cells)
+        self._plain = _plain_rows(open_areas, volumes)
         damping = [grid.absorption(axis) for axis in range(3)]
         self._cell_damping = tuple(cell.astype(PRECISION) for cell, _ in damping)
         self._face_damping = tuple(face.astype(PRECISION) for _, face in damping)
@@ -46,9 +51,18 @@ class Fields:
         )
         self._plain_gain = PRECISION(grid.courant_number**2)
         self._undamped = _undamped(self._cell_damping[2])
+        self._released = [self._at_first_face(axis) for axis in odd]
+
+    def _at_first_face(self, axis: int) -> tuple[Any, Any, Any]:
+        """Flux through the first faces along an axis, factor, pressure behind them."""
+        first = (slice(None),) * axis + (0,)
+        factor = PRECISION(2.0) * self._squeezes[axis][0] * self._areas[axis][first]
+        return self._flux[axis][first], factor, self.pressure[first]
 
     def advance(self) -> None:
         """One step of fluxes and pressure."""
+        for flux, factor, pressure in self._released:
+            np.subtract(flux, factor * pressure, out=flux)
         step: Any = _advance  # numba's types do not tell its arguments
         step(
             self.pressure,
@@ -70,13 +84,13 @@ class Fields:
         self.pressure.reshape(-1)[cells] += pressure
 
 
-def _plain_rows(cells: CutCells) -> NDArray[np.bool_]:
+def _plain_rows(open_areas: Sequence[Array], volumes: Array) -> NDArray[np.bool_]:
     """Rows along z, (x, y), none of whose cells and faces is cut."""
-    x, y, z = (area == 1.0 for area in cells.open_areas)
+    x, y, z = (area == 1.0 for area in open_areas)
     plain: NDArray[np.bool_] = (
         (x[1:] & x[:-1]).all(axis=2) & (y[:, 1:] & y[:, :-1]).all(axis=2) & z.all(axis=2)
     )
-    plain &= (cells.volumes == 1.0).all(axis=2)
+    plain &= (volumes == 1.0).all(axis=2)
     return plain
 
 
