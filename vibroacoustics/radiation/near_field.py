@@ -42,7 +42,7 @@ from .pulse import (
     transform_bytes,
 )
 from .surface_points import surface_in_parts
-from .symmetry import images, part_of_parity, upper_half
+from .symmetry import images, signs, upper_half
 from .wall_flux import wall_fluxes
 
 _PROGRESS_STEPS: Final = 50
@@ -164,20 +164,18 @@ class NearField:
         SolverError
             The field is not finite or has not died down at the end of the run.
         """
-        mirrored = self.grid.mirrored
-        whole = np.zeros(self.grid.shape)
-        whole.reshape(-1)[self.cells.wall_cells] = flux
+        grid, cells = self.grid, self.cells.wall_cells
+        image, beyond = images(cells, grid.shape, grid.mirrored)
         _, place, across = self.recorded
         layers = np.zeros((2, frequency_hz.size, place.shape[1]), dtype=complex)
-        for parity in product((1, -1), repeat=len(mirrored)):
-            part = part_of_parity(whole, mirrored, parity)
-            if not np.abs(part).max() > _NO_PART * np.abs(flux).max():
+        for parity in product((1, -1), repeat=len(grid.mirrored)):
+            part = np.bincount(image, signs(beyond, parity) * flux) / 2 ** len(parity)
+            if np.abs(part).max() <= _NO_PART * np.abs(flux).max():
                 continue
-            odd = [axis for axis, sign in zip(mirrored, parity, strict=True) if sign < 0]
+            odd = [axis for axis, sign in zip(grid.mirrored, parity, strict=True) if sign < 0]
             spectrum = _run(self, part, odd, frequency_hz, name, progress)
-            sign = np.where(across, np.array(parity).reshape(-1, 1, 1), 1).prod(axis=0)
-            for layer in range(2):
-                layers[layer] += sign[layer] * spectrum[:, place[layer]]
+            for layer, own, sign in zip(range(2), place, signs(across, parity), strict=True):
+                layers[layer] += sign * spectrum[:, own]
         return BoxField(*layers)
 
 
@@ -230,10 +228,10 @@ def _run(
     From the flux into the wall cells of the upper half of the grid, which is odd along some axes.
     """
     grid, time_step, steps = near.grid.upper_half, near.grid.time_step_s, near.most_steps
-    recorded, _, _ = near.recorded
     volumes = upper_half(near.cells.volumes, near.grid.mirrored)
     areas = [upper_half(area, near.grid.mirrored) for area in near.cells.open_areas]
     fields = Fields(grid, areas, volumes, odd)
+    recorded = fields.places(near.recorded[0])
     shifted_hz, gain = _grid_frequency(frequency_hz, near.grid)
     transformer = RunningTransform(shifted_hz, recorded.size)
     pulse_steps = int(np.ceil(pulse_duration_s(near.pulse_width_s) / time_step))
@@ -242,21 +240,22 @@ def _run(
     full = [grid.widths(axis) for axis in range(3)]
     wall_cells = np.flatnonzero(flux)
     volume = (volumes * np.einsum("i,j,k->ijk", *full)).reshape(-1)[wall_cells]
+    walls = fields.places(wall_cells)
     stiffness = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S**2
-    wall_pressure = -stiffness * time_step * flux.reshape(-1)[wall_cells] / volume
+    wall_pressure = -stiffness * time_step * flux[wall_cells] / volume
     every = sampling_steps(near.pulse_width_s, time_step)
     decay = _ENVELOPE_DECAY_PER_CELL ** (every * near.grid.courant_number)
     largest = envelope = 0.0
     for step in range(steps):
         fields.advance()
         if step < pulse_steps:
-            fields.add(wall_cells, velocity[step] * wall_pressure)
+            fields.add(walls, velocity[step] * wall_pressure)
         if step % _PROGRESS_STEPS == 0:
             progress(f"near field {name}", step, steps)
         if step % every:
             continue
         row = transformer.next_row((step + 1) * time_step)
-        row[...] = fields.pressure.reshape(-1)[recorded]
+        row[...] = fields.pressure(recorded)
         peak = float(np.abs(row).max())
         largest, envelope = max(largest, peak), max(peak, decay * envelope)
         if step > pulse_steps and not envelope > _QUIET * largest:

@@ -58,13 +58,6 @@ def upper_half(values: Array, axes: Sequence[int]) -> Array:
     ]
 
 
-def part_of_parity(values: Array, axes: Sequence[int], parity: Sequence[int]) -> Array:
-    """Upper half of the part of values of cells that is even (1) or odd (-1) along each axis."""
-    for axis, sign in zip(axes, parity, strict=True):
-        values = 0.5 * (values + sign * np.flip(values, axis))
-    return upper_half(values, axes)
-
-
 def images(
     cells: IndexArray, shape: Sequence[int], axes: Sequence[int]
 ) -> tuple[IndexArray, NDArray[np.bool_]]:
@@ -79,3 +72,10 @@ def images(
         across[number] = index[axis] < middle
         index[axis] = np.where(across[number], middle - 1 - index[axis], index[axis] - middle)
     return np.ravel_multi_index(tuple(index), tuple(size)), across
+
+
+def signs(across: NDArray[np.bool_], parity: Sequence[int]) -> IndexArray:
+    """Sign of a field, even (1) or odd (-1) along each axis, at cells (...) over their images."""
+    by_axis = np.reshape(np.array(parity, dtype=int), (-1, *[1] * (across.ndim - 1)))
+    sign: IndexArray = np.where(across, by_axis, 1).prod(axis=0)
+    return sign
