@@ -26,7 +26,7 @@ from vibroacoustics.schema import RIGID_BODY_DOFS
 
 FOLDER: Final = Path(__file__).parent
 RESULTS: Final = FOLDER.parent / "tests" / "oracles" / "boundary_elements" / "results.csv"
-SPACING_M: Final = (0.02, 0.016, 0.012, 0.008)
+SPACING_M: Final = (0.016, 0.014, 0.012, 0.006)
 """Around the coarsest that is accurate enough, and the default."""
 MAXIMUM_HZ: Final = 2000.0
 TABLE_HZ: Final = np.arange(25.0, MAXIMUM_HZ + 1.0, 25.0)

@@ -18,7 +18,7 @@ from .symmetry import symmetric_axes
 
 COURANT_NUMBER: Final = 0.3
 """Of the smallest cell."""
-PML_CELLS: Final = 14
+PML_CELLS: Final = 16
 """With fewer, what the layers throw back at low frequencies rings on several times as long."""
 PML_ALPHA: Final = 2.0
 _PML_POWER: Final = 3
