@@ -359,7 +359,7 @@ BOUNDARY_ELEMENTS_DBA = {
     ("counterweight-half", 3500.0): 9.7,
 }
 SHAFT_HZ = np.array([2900.0, 3500.0]) / 60.0
-DEFAULT_SPACING_M, MAXIMUM_HZ = 0.008, 4000.0
+DEFAULT_SPACING_M, MAXIMUM_HZ = 0.006, 4000.0
 TABLE_HZ = np.array([48.0, 117.0, 250.0, 500.0, 1000.0, 1500.0, 2000.0])
 OUTLINES = {"cylinder": (-0.19, 0.227, 0.0), "domed": (-0.19, 0.227, 0.04)}
 PATTERNS = ("tx", "tz", "ry", "beam", "oval")

@@ -7,7 +7,7 @@ import pytest
 from support import PEAK_MEMORY, in_child, radiated
 
 from vibroacoustics.errors import ParameterError, SolverError
-from vibroacoustics.radiation import near_field, near_step
+from vibroacoustics.radiation import near_field
 from vibroacoustics.radiation.arrays import no_progress
 from vibroacoustics.radiation.bodies import Body, cylinder, join_bodies, sphere
 from vibroacoustics.radiation.box import BoxField
@@ -63,34 +63,24 @@ def simulated():
     patterns = [legendre(order) for order in range(4)]
     alone = Scene(body, (), ())
     side = MachineSide(
-        alone, near_fields(alone, 0.008, 4000.0), patterns, FREQUENCY_HZ, no_progress
+        alone, near_fields(alone, 0.006, 4000.0), patterns, FREQUENCY_HZ, no_progress
     )
     points = np.stack([np.sin(ANGLES), 0.0 * ANGLES, np.cos(ANGLES)], axis=1)
     return np.stack([side.pressures(point)[0] for point in points], axis=1)
 
 
 class TestDefaultSettings:
-    """Sphere of 0.12 m whose normal velocity is P_n, 8 and 12 mm, 1 m off, against theory."""
+    """Sphere of 0.12 m whose normal velocity is P_n, 6 and 9 mm, 1 m off, against theory."""
 
     @pytest.mark.slow
     @pytest.mark.parametrize("order", range(4))
     def test_every_angle(self, simulated, order):
-        """0.1 dB to 1 kHz, 0.3 dB to 4 kHz, at angles less than 20 dB below the loudest.
-
-        For P_3 up to 117 Hz 0.3 % of the loudest angle's pressure, 0.03 dB, is allowed at every
-        angle instead. P_3 is 45 dB below P_1 of the same velocity at 48 and 117 Hz, and
-        a grid of cubes does not keep both apart to better than 1e-5.
-        """
+        """0.1 dB to 1 kHz, 0.3 dB to 4 kHz, at angles less than 20 dB below the loudest."""
         exact = sphere_pressure(order, RADIUS, 1.0, np.cos(ANGLES), FREQUENCY_HZ).T
         loudest = np.abs(exact).max(axis=0)
         difference = np.abs(level_difference(simulated[order], exact))
         difference[np.abs(exact) < 0.1 * loudest] = 0.0
         allowed = np.where(FREQUENCY_HZ <= 1000.0, 0.1, 0.3)
-        if order == 3:
-            weak = FREQUENCY_HZ <= 117.0
-            error = np.abs(np.abs(simulated[order]) - np.abs(exact)) / loudest
-            assert error[:, weak].max() < 0.003
-            difference[:, weak] = 0.0
         assert np.all(difference.max(axis=0) <= allowed), difference.max(axis=0).round(3)
 
     @pytest.mark.slow
@@ -161,9 +151,8 @@ def test_sliding_wall_radiates_nothing_without_a_run():
 def test_wall_equals_free_field_with_the_mirrored_body(axis):
     """A sphere before a hard wall, and two spheres in free field that move as mirror images.
 
-    Both grids have the same cells before the wall, so the fields are the same to the rounding of
-    float32, 6e-8, which some hundred steps let grow; lines through the body are off their places
-    by 1e-6 of a cell, on both sides in the same sense. The dipole of the cells' offsets across the
+    Both grids have the same cells before the wall; lines through the body are off their places by
+    1e-6 of a cell. The dipole of the cells' offsets across the
     wall is taken off on the one side and cancels on the other: a ten-thousandth of the fluxes.
     """
     radius, place = 0.09, -0.11
@@ -219,22 +208,6 @@ def test_translation_of_a_body_on_the_floor_displaces_air():
     np.testing.assert_allclose(np.abs(simulated), monopole, rtol=0.03)
 
 
-@pytest.mark.slow
-def test_single_precision_is_enough(monkeypatch):
-    """Against double precision: 0.003 dB from 48 Hz at microphones within 20 dB of the loudest."""
-    microphones = [[0.16, -0.96, 0.0], [0.78, 0.55, 0.31], [-0.83, 0.32, 0.45]]
-    results = []
-    for precision in (np.float32, np.float64):
-        monkeypatch.setattr(near_step, "PRECISION", precision)
-        near = NearField(cylinder(0.0825, -0.2, 0.217), 0.02, 1500.0)
-        fields = [radiated(near, rigid_body(dof), LOW_HZ) for dof in ("tz", "ry")]
-        results.append([[pressure(near, field, p) for p in microphones] for field in fields])
-    single, double = np.array(results)
-    loud = np.abs(double) > 0.1 * np.abs(double).max(axis=1, keepdims=True)
-    assert not np.array_equal(single, double)
-    np.testing.assert_allclose(level_difference(single, double)[loud], 0.0, atol=0.003)
-
-
 def test_reciprocal_green_functions_leave_no_pressure_of_their_own():
     """Two outside sources satisfy the join's integral with zero: nothing radiates from inside."""
     near = NearField(sphere(0.1), 0.0125, 1000.0)
@@ -255,7 +228,7 @@ def test_memory_is_checked_before_the_run(monkeypatch):
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="reads the peak memory as Linux tells it")
-@pytest.mark.parametrize(("spacing_m", "frequencies", "patterns"), [(0.008, 80, 6), (0.006, 20, 2)])
+@pytest.mark.parametrize(("spacing_m", "frequencies", "patterns"), [(0.006, 80, 6), (0.005, 20, 2)])
 def test_predicted_memory_is_what_it_takes(spacing_m, frequencies, patterns):
     """Within 20 %, the default settings first, against the peak beyond a small run's.
 

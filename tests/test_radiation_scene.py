@@ -195,10 +195,10 @@ class TestCabinet:
             Surroundings(floor=False, cabinet=CABINET)
 
     def test_thin_panels_are_refused(self):
-        thin = CABINET.model_copy(update={"panel_thickness_m": 0.0118})
-        with pytest.raises(ValidationError, match=r"panel_thickness_mm = 11\.8 mm: thinner than a"):
+        thin = CABINET.model_copy(update={"panel_thickness_m": 0.0088})
+        with pytest.raises(ValidationError, match=r"panel_thickness_mm = 8\.8 mm: thinner than a"):
             settings(cabinet=thin)
-        settings(cabinet=CABINET.model_copy(update={"panel_thickness_m": 0.012}))
+        settings(cabinet=CABINET.model_copy(update={"panel_thickness_m": 0.009}))
 
 
 class TestFilePatterns:

@@ -17,7 +17,7 @@ class RadiationSettings(Parameters):
     surroundings: Surroundings = Surroundings()
     room_solver: Literal["k-wave", "closed-form"] = "k-wave"
     """How sound travels from the box to the receivers; the closed form is for very many."""
-    near_field_spacing_m: float = Field(default=0.008, ge=0.002, le=0.05)
+    near_field_spacing_m: float = Field(default=0.006, ge=0.002, le=0.05)
     """Cell size of the finer cut-cell grid around the body; the coarser one has 1.5 times it."""
     room_spacing_m: float = Field(default=0.024, ge=0.005, le=0.1)
     """Largest node spacing of the k-Wave grid; it shrinks to fit the walls."""

@@ -12,6 +12,7 @@ from .arrays import Array, IndexArray
 from .bodies import Body
 from .lines import fluid_on_lines
 from .near_grid import NearGrid
+from .symmetry import both_halves, images
 
 GEOMETRY_BYTES_PER_CELL: Final = 32
 """Three open areas and a volume in double precision."""
@@ -44,39 +45,41 @@ class CutCells:
 
 
 def cut_cells(body: Body, grid: NearGrid) -> CutCells:
-    """Cut the cells of a grid by a body.
+    """Cut the cells of a grid by a body; along mirrored axes the one half is the other's image.
 
     Raises
     ------
     ParameterError
         The surface of the body is open.
     """
-    start, stop = _around(body, grid)
-    part = [edges[a : b + 1] for edges, a, b in zip(grid.edges, start, stop, strict=True)]
+    upper = grid.upper_half
+    start, stop = _around(body, upper)
+    part = [edges[a : b + 1] for edges, a, b in zip(upper.edges, start, stop, strict=True)]
     open_areas: list[Array] = []
     for axis in range(3):
-        area = np.ones([count + (other == axis) for other, count in enumerate(grid.shape)])
+        shape = [count + (other == axis) for other, count in enumerate(upper.shape)]
+        area = np.ones(shape)
         area[
             tuple(
                 slice(a, b + (i == axis)) for i, (a, b) in enumerate(zip(start, stop, strict=False))
             )
         ] = _open_fractions(body, part, axis)
         open_areas.append(area)
-    volumes = np.ones(grid.shape)
+    volumes = np.ones(upper.shape)
     volumes[tuple(map(slice, start, stop))] = _volume_fractions(body, part)
     total_area: Array = np.sum(
         [area[_lower(axis)] + area[_upper(axis)] for axis, area in enumerate(open_areas)], axis=0
     )
-    wall = _wall_areas(open_areas, grid)
-    wall_cells = np.flatnonzero(
-        np.any(np.abs(wall) > 1e-12 * grid.spacing_m**2, axis=1) & (total_area.ravel() > 0)
-    )
-    return CutCells(
-        open_areas=(open_areas[0], open_areas[1], open_areas[2]),
-        volumes=np.maximum(volumes * (total_area > 0), total_area * _SMALLEST_VOLUME_PER_AREA),
-        wall_cells=wall_cells,
-        wall_areas=wall[wall_cells],
-    )
+    volumes = np.maximum(volumes * (total_area > 0), total_area * _SMALLEST_VOLUME_PER_AREA)
+    wall = _wall_areas(open_areas, upper)
+    has_wall = np.any(np.abs(wall) > 1e-12 * grid.spacing_m**2, axis=1) & (total_area.ravel() > 0)
+    wall_cells = np.flatnonzero(both_halves(has_wall.reshape(upper.shape), grid.mirrored))
+    image, beyond = images(wall_cells, grid.shape, grid.mirrored)
+    wall_areas = wall[image]
+    for axis, across in zip(grid.mirrored, beyond, strict=True):
+        wall_areas[across, axis] *= -1.0
+    x, y, z = (both_halves(area, grid.mirrored, axis) for axis, area in enumerate(open_areas))
+    return CutCells((x, y, z), both_halves(volumes, grid.mirrored), wall_cells, wall_areas)
 
 
 def _wall_areas(open_areas: list[Array], grid: NearGrid) -> Array:

@@ -51,10 +51,11 @@ class MachineSide:
         self.walls = scene.walls
         self.near = near
         moving = [scene.moving(pattern) for pattern in patterns]
+        fluxes = in_threads([partial(grid.wall_fluxes, moving) for grid in near])
         tasks = [
             partial(grid.radiate, flux, frequency_hz, pattern.name, progress)
-            for grid in near
-            for pattern, flux in zip(patterns, grid.wall_fluxes(moving), strict=True)
+            for grid, by_pattern in zip(near, fluxes, strict=True)
+            for pattern, flux in zip(patterns, by_pattern, strict=True)
         ]
         fields = in_threads(tasks)
         self.fields: list[list[BoxField]] = [fields[: len(moving)], fields[len(moving) :]]

@@ -8,13 +8,18 @@ pulse; dividing by the pulse's spectrum gives every frequency from a single run.
 Hard walls next to the body, the floor first of all, are outermost planes of closed faces, so the
 scattering between body and walls is part of the solution; what the rest of the room sends back to
 the body is not.
+
+Where the body is symmetric, only one half, quarter or eighth of the grid runs, once for each part
+of the wall's flux that is even or odd along the mirrored axes: a rigid motion has one or two.
 """
 
 from collections.abc import Sequence
 from functools import cached_property
+from itertools import product
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from ..errors import SolverError
@@ -37,17 +42,21 @@ from .pulse import (
     transform_bytes,
 )
 from .surface_points import surface_in_parts
+from .symmetry import images, signs, upper_half
 from .wall_flux import wall_fluxes
 
 _PROGRESS_STEPS: Final = 50
 _MOST_DIAGONALS: Final = 250.0
 """Longest recording after the pulse, in passages of sound through the box's diagonal."""
-_QUIET: Final = 3e-7
+_QUIET: Final = 1e-7
 """A run ends when the pressure on the box has fallen to this share of its largest value."""
 _NOT_QUIET: Final = 1e-3
 """Share that is refused at the end of the longest recording."""
 _ENVELOPE_DECAY_PER_CELL: Final = 0.933
 """Decay of the envelope of the pressure during the passage of one cell."""
+_NO_PART: Final = 1e-4
+"""Parts of a flux that are at most this share of it come from the surface's division: up to 9e-5
+on a sphere of an icosahedron."""
 _PIECES_PER_CELL: Final = 1
 _ON_WALL: Final = 1e-6
 """Surface closer than this many cells to a wall stands on it."""
@@ -81,13 +90,25 @@ class NearField:
         """Flat indices of the cells inside and outside of each face of the box, (2, pair)."""
         return _recording_layers(self.grid)
 
+    @cached_property
+    def recorded(self) -> tuple[IndexArray, IndexArray, NDArray[np.bool_]]:
+        """What the upper half of the mirrored axes records of the layers.
+
+        Flat indices of its cells (cell,), the place among them of every cell of the layers'
+        image (2, pair), and whether that cell lies across the middle of each axis (axis, 2, pair).
+        """
+        image, across = images(self.layers, self.grid.shape, self.grid.mirrored)
+        cells, place = np.unique(image, return_inverse=True)
+        return cells, place.reshape(image.shape), across
+
     def memory_bytes(self, frequencies: int) -> tuple[float, float, float]:
         """Memory of the geometry, of a pattern's result, and of a run besides its result."""
-        cells = np.prod(self.grid.shape, dtype=float)
-        values = 2.0 * self.grid.box_pairs
-        result = 16.0 * frequencies * values
-        run = BYTES_PER_CELL * cells + transform_bytes(frequencies, values)
-        return GEOMETRY_BYTES_PER_CELL * cells, result, run
+        cells, upper = self.grid, self.grid.upper_half
+        result = 32.0 * frequencies * self.grid.box_pairs
+        run = BYTES_PER_CELL * float(np.prod(upper.shape)) + transform_bytes(
+            frequencies, 2.0 * upper.box_pairs
+        )
+        return GEOMETRY_BYTES_PER_CELL * float(np.prod(cells.shape)), result, run
 
     @cached_property
     def cells(self) -> CutCells:
@@ -143,11 +164,19 @@ class NearField:
         SolverError
             The field is not finite or has not died down at the end of the run.
         """
-        if not np.any(flux):
-            zeros = np.zeros((frequency_hz.size, self.box.inner.shape[0]), dtype=complex)
-            return BoxField(zeros, zeros.copy())
-        inner, outer = _run(self, flux, frequency_hz, name, progress)
-        return BoxField(inner, outer)
+        grid, cells = self.grid, self.cells.wall_cells
+        image, beyond = images(cells, grid.shape, grid.mirrored)
+        _, place, across = self.recorded
+        layers = np.zeros((2, frequency_hz.size, place.shape[1]), dtype=complex)
+        for parity in product((1, -1), repeat=len(grid.mirrored)):
+            part = np.bincount(image, signs(beyond, parity) * flux) / 2 ** len(parity)
+            if np.abs(part).max() <= _NO_PART * np.abs(flux).max():
+                continue
+            odd = [axis for axis, sign in zip(grid.mirrored, parity, strict=True) if sign < 0]
+            spectrum = _run(self, part, odd, frequency_hz, name, progress)
+            for layer, own, sign in zip(range(2), place, signs(across, parity), strict=True):
+                layers[layer] += sign * spectrum[:, own]
+        return BoxField(*layers)
 
 
 def _divided(edges: Array, parts: int) -> Array:
@@ -187,34 +216,46 @@ def _recording_layers(grid: NearGrid) -> IndexArray:
 
 
 def _run(
-    near: NearField, flux: Array, frequency_hz: Array, name: str, progress: Progress
+    near: NearField,
+    flux: Array,
+    odd: Sequence[int],
+    frequency_hz: Array,
+    name: str,
+    progress: Progress,
 ) -> ComplexArray:
-    """Pressure (layer, frequency, pair) per unit spectrum of the wall velocity."""
-    cells, time_step, steps = near.cells, near.grid.time_step_s, near.most_steps
-    fields = Fields(near.grid, cells)
+    """Pressure (frequency, recorded cell) per unit spectrum of the wall velocity.
+
+    From the flux into the wall cells of the upper half of the grid, which is odd along some axes.
+    """
+    grid, time_step, steps = near.grid.upper_half, near.grid.time_step_s, near.most_steps
+    volumes = upper_half(near.cells.volumes, near.grid.mirrored)
+    areas = [upper_half(area, near.grid.mirrored) for area in near.cells.open_areas]
+    fields = Fields(grid, areas, volumes, odd)
+    recorded = fields.places(near.recorded[0])
     shifted_hz, gain = _grid_frequency(frequency_hz, near.grid)
-    transformer = RunningTransform(shifted_hz, near.layers.size)
-    layers = near.layers.ravel()
+    transformer = RunningTransform(shifted_hz, recorded.size)
     pulse_steps = int(np.ceil(pulse_duration_s(near.pulse_width_s) / time_step))
     velocity_time = time_step * (np.arange(pulse_steps) + 0.5)
     velocity = pulse(velocity_time, near.pulse_width_s)
-    full = [near.grid.widths(axis) for axis in range(3)]
-    volume = (cells.volumes * np.einsum("i,j,k->ijk", *full)).reshape(-1)[cells.wall_cells]
+    full = [grid.widths(axis) for axis in range(3)]
+    wall_cells = np.flatnonzero(flux)
+    volume = (volumes * np.einsum("i,j,k->ijk", *full)).reshape(-1)[wall_cells]
+    walls = fields.places(wall_cells)
     stiffness = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S**2
-    wall_pressure = -stiffness * time_step * flux / volume
+    wall_pressure = -stiffness * time_step * flux[wall_cells] / volume
     every = sampling_steps(near.pulse_width_s, time_step)
     decay = _ENVELOPE_DECAY_PER_CELL ** (every * near.grid.courant_number)
     largest = envelope = 0.0
     for step in range(steps):
         fields.advance()
         if step < pulse_steps:
-            fields.add(cells.wall_cells, velocity[step] * wall_pressure)
+            fields.add(walls, velocity[step] * wall_pressure)
         if step % _PROGRESS_STEPS == 0:
             progress(f"near field {name}", step, steps)
         if step % every:
             continue
         row = transformer.next_row((step + 1) * time_step)
-        row[...] = fields.pressure.reshape(-1)[layers]
+        row[...] = fields.pressure(recorded)
         peak = float(np.abs(row).max())
         largest, envelope = max(largest, peak), max(peak, decay * envelope)
         if step > pulse_steps and not envelope > _QUIET * largest:
@@ -228,4 +269,4 @@ def _run(
     source = transform(shifted_hz, velocity_time, velocity) / gain
     spectrum = transformer.spectrum()
     spectrum *= (every / source)[:, None]
-    return spectrum.reshape(frequency_hz.size, 2, -1).swapaxes(0, 1)
+    return spectrum

@@ -3,6 +3,7 @@
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Final
 
 import numpy as np
@@ -13,11 +14,14 @@ from .arrays import Array
 from .bodies import Body
 from .box import Side, open_sides
 from .mirrors import Mirror
+from .symmetry import symmetric_axes
 
 COURANT_NUMBER: Final = 0.3
 """Of the smallest cell."""
-PML_CELLS: Final = 10
+PML_CELLS: Final = 16
+"""With fewer, what the layers throw back at low frequencies rings on several times as long."""
 PML_ALPHA: Final = 2.0
+_PML_POWER: Final = 3
 BOX_MARGIN_M: Final = 0.04
 _BOX_MARGIN_CELLS: Final = 3
 _GAP_CELLS: Final = 2
@@ -47,6 +51,24 @@ class NearGrid:
     box_stop: tuple[int, int, int]
     on_walls: frozenset[Side]
     """Sides of the grid, and of the box, that lie on hard walls."""
+    mirrored: tuple[int, ...] = ()
+    """Axes along which body and grid are symmetric about the grid's middle plane."""
+
+    @cached_property
+    def upper_half(self) -> "NearGrid":
+        """What lies above the middle planes of the mirrored axes; these count as walls."""
+        edges, start, stop = list(self.edges), list(self.box_start), list(self.box_stop)
+        for axis in self.mirrored:
+            middle = self.shape[axis] // 2
+            edges[axis] = edges[axis][middle:]
+            start[axis], stop[axis] = 0, stop[axis] - middle
+        return NearGrid(
+            spacing_m=self.spacing_m,
+            edges=(edges[0], edges[1], edges[2]),
+            box_start=(start[0], start[1], start[2]),
+            box_stop=(stop[0], stop[1], stop[2]),
+            on_walls=self.on_walls | {(axis, -1) for axis in self.mirrored},
+        )
 
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -98,8 +120,8 @@ class NearGrid:
     def absorption(self, axis: int) -> tuple[Array, Array]:
         """Factors of one half step in the layers: (cells,), (interior faces,) along an axis.
 
-        k-Wave's profile exp(-alpha (c/dx) (depth/thickness)^4 dt/2), where the depth of a cell
-        centre or face is counted so that the outermost cell has the full thickness
+        k-Wave's profile exp(-alpha (c/dx) (depth/thickness)^n dt/2), but n = 3 instead of 4; the
+        depth of a cell centre or face is counted so that the outermost cell has the full thickness
         (Treeby and Cox, J. Biomed. Opt. 15 (2010) 021314).
         """
         cells = np.arange(self.shape[axis], dtype=float)
@@ -111,7 +133,7 @@ class NearGrid:
             depth = np.maximum(depth, PML_CELLS - position)
         if (axis, 1) not in self.on_walls:
             depth = np.maximum(depth, position - (self.shape[axis] - 1 - PML_CELLS))
-        exponent = 0.5 * PML_ALPHA * self.courant_number * (depth / PML_CELLS) ** 4
+        exponent = 0.5 * PML_ALPHA * self.courant_number * (depth / PML_CELLS) ** _PML_POWER
         damping: Array = np.exp(-exponent)
         return damping
 
@@ -126,12 +148,20 @@ def near_grid(
     """Grid whose recording box stands at least `box_margin_m` off the body and ends on the walls.
 
     Every part between two planes has a whole multiple of `cells_per_unit` cells: grids whose units
-    (cells_per_unit times spacing) are the same have the same planes.
+    (cells_per_unit times spacing) are the same have the same planes. Along an axis without walls
+    along which the body is symmetric, the grid is so too.
     """
+    walled = {wall.axis for wall in walls}
+    mirrored = symmetric_axes(body, [axis for axis in range(3) if axis not in walled])
     edges, start, stop = [], [], []
     for axis in range(3):
         own = {wall.sign: wall.position_m for wall in walls if wall.axis == axis}
+        if axis in mirrored:
+            own[-1] = float(np.mean([corner[axis] for corner in body.bounds()]))
         line, first, last = _axis(body, axis, spacing_m, own, box_margin_m, cells_per_unit)
+        if axis in mirrored:
+            line = np.concatenate([2.0 * line[0] - line[:0:-1], line])
+            first, last = line.size - 1 - (line.size // 2 + last), line.size // 2 + last
         edges.append(line)
         start.append(first)
         stop.append(last)
@@ -141,6 +171,7 @@ def near_grid(
         box_start=(start[0], start[1], start[2]),
         box_stop=(stop[0], stop[1], stop[2]),
         on_walls=frozenset((wall.axis, wall.sign) for wall in walls),
+        mirrored=mirrored,
     )
 
 
@@ -155,7 +186,7 @@ def _axis(
     """Planes of faces across an axis, and the first and last one of the box."""
     lower, upper = (float(corner[axis]) for corner in body.bounds())
     unit_m = cells_per_unit * spacing_m
-    planes = _planes(body, axis, unit_m, list(walls.values()))
+    planes = _planes(body, axis, unit_m, walls)
     if not planes:
         planes = [(lower + upper) / 2.0]
     parts = [np.array(planes[:1])]
@@ -177,10 +208,12 @@ def _axis(
     return line, start, line.size - 1 - (0 if 1 in walls else beyond)
 
 
-def _planes(body: Body, axis: int, unit_m: float, walls: list[float]) -> list[float]:
+def _planes(body: Body, axis: int, unit_m: float, walls: dict[int, float]) -> list[float]:
     """Walls, and plane faces of the body from the largest down, unless they crowd; rising."""
-    chosen = list(walls)
+    chosen = list(walls.values())
     for plane in body.flats(axis, 0.1 * unit_m**2):
-        if all(abs(plane - other) >= _CLOSEST_PLANES * unit_m for other in chosen):
+        if plane > walls.get(-1, -np.inf) and all(
+            abs(plane - other) >= _CLOSEST_PLANES * unit_m for other in chosen
+        ):
             chosen.append(float(plane))
     return sorted(chosen)

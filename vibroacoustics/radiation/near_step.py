@@ -1,21 +1,18 @@
-"""One time step of the machine side: compiled loops over cells, faces and absorbing layers."""
+"""One time step of the machine side: compiled loops over whole planes of cells."""
 
+from collections.abc import Sequence
 from typing import Any, Final
 
 import numba
 import numpy as np
-from numpy.typing import NDArray
 
-from .arrays import Array
-from .cut_cells import CutCells
+from .arrays import Array, IndexArray
 from .near_grid import NearGrid
 
 _kernel = numba.njit(cache=True, nogil=True)
 
-PRECISION: Final = np.float32
-"""Double precision changes the pressure at a microphone by less than 0.003 dB from 48 Hz up."""
-BYTES_PER_CELL: Final = 11 * 4
-"""Eleven fields in single precision."""
+BYTES_PER_CELL: Final = 11 * 8
+"""Eleven fields in double precision; in single precision weak patterns drown below 50 Hz."""
 
 
 class Fields:
@@ -25,65 +22,69 @@ class Fields:
     h, so that a step is: subtract a pressure difference, then a flux difference, each times h over
     the distance between its ends. Faces at the ends of the grid stay closed. The split of the
     pressure matters in the absorbing layers only.
+
+    Before the first cells along each axis lie dead ones without pressure. So a plane of cells is a
+    long loop, which compilers vectorise; cells and their upper faces have the same index; and a
+    first face with twice the opening mirrors the pressure with the other sign, for axes `odd`.
     """
 
-    def __init__(self, grid: NearGrid, cells: CutCells) -> None:
-        self.pressure = np.zeros(grid.shape, PRECISION)
-        self._flux = tuple(np.zeros(area.shape, PRECISION) for area in cells.open_areas)
-        self._split = tuple(np.zeros(grid.shape, PRECISION) for _ in range(3))
-        self._areas = tuple(area.astype(PRECISION) for area in cells.open_areas)
-        inverse = np.divide(1.0, cells.volumes, out=np.zeros(grid.shape), where=cells.volumes > 0)
-        self._gain = (grid.courant_number**2 * inverse).astype(PRECISION)
-        self._plain = _plain_rows(cells)
-        damping = [grid.absorption(axis) for axis in range(3)]
-        self._cell_damping = tuple(cell.astype(PRECISION) for cell, _ in damping)
-        self._face_damping = tuple(face.astype(PRECISION) for _, face in damping)
-        self._slopes = tuple(
-            (grid.spacing_m / grid.gaps(axis)).astype(PRECISION) for axis in range(3)
+    def __init__(
+        self, grid: NearGrid, open_areas: Sequence[Array], volumes: Array, odd: Sequence[int]
+    ) -> None:
+        self._shape = tuple(count + 1 for count in grid.shape)
+        planes = (self._shape[0], self._shape[1] * self._shape[2])
+        self._pressure = np.zeros(planes)
+        self._flux = tuple(np.zeros(planes) for _ in range(3))
+        self._split = tuple(np.zeros(planes) for _ in range(3))
+        openings, flow, squeeze, width = [], [], [], []
+        for axis, area in enumerate(open_areas):
+            cell, face = grid.absorption(axis)
+            slope = np.concatenate([[0.0], face * grid.spacing_m / grid.gaps(axis), [0.0]])
+            narrow = grid.spacing_m / grid.widths(axis)
+            if axis in odd:
+                slope[0] = 2.0 * narrow[0]
+            before = [(int(other != axis), 0) for other in range(3)]
+            opening = np.pad(area * _along(slope, axis), before)
+            openings.append(opening.reshape(planes))
+            flow.append(self._on_planes(np.concatenate([[1.0], face**2, [1.0]]), axis))
+            squeeze.append(self._on_planes(np.concatenate([[1.0], cell**2]), axis))
+            width.append(self._on_planes(np.concatenate([[0.0], cell * narrow]), axis))
+        gain = np.divide(
+            grid.courant_number**2, volumes, out=np.zeros(grid.shape), where=volumes > 0
         )
-        self._squeezes = tuple(
-            (grid.spacing_m / grid.widths(axis)).astype(PRECISION) for axis in range(3)
-        )
-        self._plain_gain = PRECISION(grid.courant_number**2)
-        self._undamped = _undamped(self._cell_damping[2])
+        gain = np.pad(gain, ((1, 0),) * 3).reshape(planes)
+        self._coefficients = (*openings, gain, *flow, *squeeze, *width)
+
+    def _on_planes(self, values: Array, axis: int) -> Array:
+        """Values along an axis: as they are along the first, else for all cells of a plane."""
+        if axis > 0:
+            values = np.broadcast_to(_along(values, axis), (1, *self._shape[1:])).ravel()
+        return values
+
+    def places(self, cells: IndexArray) -> IndexArray:
+        """Flat indices, among cells and dead ones, of cells given by flat index."""
+        index = np.unravel_index(cells, tuple(count - 1 for count in self._shape))
+        return np.ravel_multi_index(tuple(one + 1 for one in index), self._shape)
 
     def advance(self) -> None:
         """One step of fluxes and pressure."""
         step: Any = _advance  # numba's types do not tell its arguments
-        step(
-            self.pressure,
-            *self._flux,
-            *self._split,
-            *self._areas,
-            self._gain,
-            self._plain,
-            *self._cell_damping,
-            *self._face_damping,
-            *self._slopes,
-            *self._squeezes,
-            *self._undamped,
-            self._plain_gain,
-        )
+        step(self._pressure, *self._flux, *self._split, *self._coefficients, self._shape[2])
 
-    def add(self, cells: NDArray[np.intp], pressure: Array) -> None:
-        """Add pressure to cells outside the absorbing layers."""
-        self.pressure.reshape(-1)[cells] += pressure
+    def pressure(self, places: IndexArray) -> Array:
+        """Pressure at places."""
+        values: Array = self._pressure.reshape(-1)[places]
+        return values
+
+    def add(self, places: IndexArray, pressure: Array) -> None:
+        """Add pressure at places."""
+        self._pressure.reshape(-1)[places] += pressure
+        self._split[0].reshape(-1)[places] += pressure
 
 
-def _plain_rows(cells: CutCells) -> NDArray[np.bool_]:
-    """Rows along z, (x, y), none of whose cells and faces is cut."""
-    x, y, z = (area == 1.0 for area in cells.open_areas)
-    plain: NDArray[np.bool_] = (
-        (x[1:] & x[:-1]).all(axis=2) & (y[:, 1:] & y[:, :-1]).all(axis=2) & z.all(axis=2)
-    )
-    plain &= (cells.volumes == 1.0).all(axis=2)
-    return plain
-
-
-def _undamped(damping: Array) -> tuple[int, int]:
-    """First and last cell, exclusive, of an axis outside its absorbing layers."""
-    inside = np.flatnonzero(damping == 1.0)
-    return int(inside[0]), int(inside[-1]) + 1
+def _along(values: Array, axis: int) -> Array:
+    """Values along an axis of a grid."""
+    return values.reshape([-1 if other == axis else 1 for other in range(3)])
 
 
 @_kernel
@@ -99,172 +100,69 @@ def _advance(
     ay: Any,
     az: Any,
     gain: Any,
-    plain: Any,
-    cx: Any,
-    cy: Any,
-    cz: Any,
     dx: Any,
     dy: Any,
     dz: Any,
-    gx: Any,
-    gy: Any,
-    gz: Any,
+    cx: Any,
+    cy: Any,
+    cz: Any,
     wx: Any,
     wy: Any,
     wz: Any,
-    start: int,
-    stop: int,
-    plain_gain: Any,
+    row: int,
 ) -> None:  # pragma: no cover
-    """Planes along x in order: fluxes that need the old pressure, then the plane's pressure.
+    """Planes across x in order: fluxes that need the old pressure, then the pressure before them.
 
-    Every inner loop runs over a whole row and touches few arrays: that is what compilers vectorise.
+    A row is as many cells along z.
     """
-    nx, ny, _ = p.shape
-    for i in range(nx):
-        for j in range(ny):
-            if i + 1 < nx:
-                _flow_x(fx, ax, plain[i, j], p, i, j, dx[i], gx[i])
-            if j + 1 < ny:
-                _flow_y(fy, ay, plain[i, j], p, i, j, dy[j], gy[j])
-            _flow_along(fz, az, plain[i, j], p, i, j, dz, gz)
-        for j in range(ny):
-            x, y, c, d = plain_gain * wx[i], plain_gain * wy[j], cx[i], cy[j]
-            if c != 1.0 or d != 1.0:
-                _absorb_row(p, fx, fy, fz, sx, sy, sz, c, d, cz, i, j, x, y, wz, plain_gain)
-            else:
-                _compress(p, fx, fy, fz, gain, plain[i, j], i, j, wx[i], wy[j], wz, plain_gain)
-                _absorb_ends(p, fx, fy, fz, sx, sy, sz, cz, i, j, 0, start, x, y, wz, plain_gain)
-                _absorb_ends(
-                    p, fx, fy, fz, sx, sy, sz, cz, i, j, stop, p.shape[2], x, y, wz, plain_gain
-                )
+    last = p.shape[0] - 1
+    for i in range(last + 1):
+        if i < last:
+            _flow_across(fx[i], ax[i], p[i], p[i + 1], dx[i])
+        if i > 0:
+            _flow(fy[i], ay[i], p[i], p[i][row:], dy)
+            _flow(fz[i], az[i], p[i], p[i][1:], dz)
+            _squeeze_across(sx[i], gain[i], fx[i], fx[i - 1], cx[i], wx[i])
+            _squeeze(sy[i][row:], gain[i][row:], fy[i][row:], fy[i], cy[row:], wy[row:])
+            _squeeze(sz[i][1:], gain[i][1:], fz[i][1:], fz[i], cz[1:], wz[1:])
+            _add(p[i], sx[i], sy[i], sz[i])
 
 
 @_kernel
-def _flow_x(
-    fx: Any, ax: Any, plain: bool, p: Any, i: int, j: int, damping: Any, slope: Any
+def _flow_across(
+    flux: Any, opening: Any, near: Any, far: Any, damping: Any
 ) -> None:  # pragma: no cover
-    """Flux through a row of faces across x, driven by the pressure on both sides."""
-    if plain:
-        for k in range(p.shape[2]):
-            drop = slope * (p[i, j, k] - p[i + 1, j, k])
-            fx[i + 1, j, k] = damping * (damping * fx[i + 1, j, k] + drop)
-    else:
-        for k in range(p.shape[2]):
-            drop = slope * ax[i + 1, j, k] * (p[i, j, k] - p[i + 1, j, k])
-            fx[i + 1, j, k] = damping * (damping * fx[i + 1, j, k] + drop)
+    """Flux through a plane of faces, driven by the pressure on both sides."""
+    for m in range(far.size):
+        flux[m] = damping * flux[m] + opening[m] * (near[m] - far[m])
 
 
 @_kernel
-def _flow_y(
-    fy: Any, ay: Any, plain: bool, p: Any, i: int, j: int, damping: Any, slope: Any
-) -> None:  # pragma: no cover
-    """Flux through a row of faces across y, driven by the pressure on both sides."""
-    if plain:
-        for k in range(p.shape[2]):
-            drop = slope * (p[i, j, k] - p[i, j + 1, k])
-            fy[i, j + 1, k] = damping * (damping * fy[i, j + 1, k] + drop)
-    else:
-        for k in range(p.shape[2]):
-            drop = slope * ay[i, j + 1, k] * (p[i, j, k] - p[i, j + 1, k])
-            fy[i, j + 1, k] = damping * (damping * fy[i, j + 1, k] + drop)
+def _flow(flux: Any, opening: Any, near: Any, far: Any, damping: Any) -> None:  # pragma: no cover
+    """Fluxes within a plane of cells."""
+    for m in range(far.size):
+        flux[m] = damping[m] * flux[m] + opening[m] * (near[m] - far[m])
 
 
 @_kernel
-def _flow_along(
-    fz: Any, az: Any, plain: bool, p: Any, i: int, j: int, damping: Any, slope: Any
+def _squeeze_across(
+    split: Any, gain: Any, out: Any, into: Any, damping: Any, width: Any
 ) -> None:  # pragma: no cover
-    """Flux through the faces of a row along z."""
-    if plain:
-        for k in range(p.shape[2] - 1):
-            drop = slope[k] * (p[i, j, k] - p[i, j, k + 1])
-            fz[i, j, k + 1] = damping[k] * (damping[k] * fz[i, j, k + 1] + drop)
-    else:
-        for k in range(p.shape[2] - 1):
-            drop = slope[k] * az[i, j, k + 1] * (p[i, j, k] - p[i, j, k + 1])
-            fz[i, j, k + 1] = damping[k] * (damping[k] * fz[i, j, k + 1] + drop)
+    """Split pressure by the flux across a plane of cells."""
+    for m in range(split.size):
+        split[m] = damping * split[m] - gain[m] * width * (out[m] - into[m])
 
 
 @_kernel
-def _compress(
-    p: Any,
-    fx: Any,
-    fy: Any,
-    fz: Any,
-    gain: Any,
-    plain: bool,
-    i: int,
-    j: int,
-    x: Any,
-    y: Any,
-    wz: Any,
-    plain_gain: Any,
+def _squeeze(
+    split: Any, gain: Any, out: Any, into: Any, damping: Any, width: Any
 ) -> None:  # pragma: no cover
-    """Pressure of a row outside the absorbing layers of x and y."""
-    if plain:
-        for k in range(p.shape[2]):
-            net = x * (fx[i + 1, j, k] - fx[i, j, k]) + y * (fy[i, j + 1, k] - fy[i, j, k])
-            p[i, j, k] -= plain_gain * (net + wz[k] * (fz[i, j, k + 1] - fz[i, j, k]))
-    else:
-        for k in range(p.shape[2]):
-            net = x * (fx[i + 1, j, k] - fx[i, j, k]) + y * (fy[i, j + 1, k] - fy[i, j, k])
-            p[i, j, k] -= gain[i, j, k] * (net + wz[k] * (fz[i, j, k + 1] - fz[i, j, k]))
+    """Split pressure by the fluxes within a plane of cells."""
+    for m in range(split.size):
+        split[m] = damping[m] * split[m] - gain[m] * width[m] * (out[m] - into[m])
 
 
 @_kernel
-def _absorb_row(
-    p: Any,
-    fx: Any,
-    fy: Any,
-    fz: Any,
-    sx: Any,
-    sy: Any,
-    sz: Any,
-    c: Any,
-    d: Any,
-    cz: Any,
-    i: int,
-    j: int,
-    x: Any,
-    y: Any,
-    wz: Any,
-    gain: Any,
-) -> None:  # pragma: no cover
-    """Split pressure of a whole row within an absorbing layer of x or y; no wall is there."""
-    for k in range(p.shape[2]):
-        sx[i, j, k] = c * (c * sx[i, j, k] - x * (fx[i + 1, j, k] - fx[i, j, k]))
-    for k in range(p.shape[2]):
-        sy[i, j, k] = d * (d * sy[i, j, k] - y * (fy[i, j + 1, k] - fy[i, j, k]))
-    for k in range(p.shape[2]):
-        gain_z = gain * wz[k]
-        sz[i, j, k] = cz[k] * (cz[k] * sz[i, j, k] - gain_z * (fz[i, j, k + 1] - fz[i, j, k]))
-    for k in range(p.shape[2]):
-        p[i, j, k] = sx[i, j, k] + sy[i, j, k] + sz[i, j, k]
-
-
-@_kernel
-def _absorb_ends(
-    p: Any,
-    fx: Any,
-    fy: Any,
-    fz: Any,
-    sx: Any,
-    sy: Any,
-    sz: Any,
-    cz: Any,
-    i: int,
-    j: int,
-    start: int,
-    stop: int,
-    x: Any,
-    y: Any,
-    wz: Any,
-    gain: Any,
-) -> None:  # pragma: no cover
-    """Split pressure of the cells of a row within an absorbing layer of z only."""
-    for k in range(start, stop):
-        sx[i, j, k] -= x * (fx[i + 1, j, k] - fx[i, j, k])
-        sy[i, j, k] -= y * (fy[i, j + 1, k] - fy[i, j, k])
-        gain_z = gain * wz[k]
-        sz[i, j, k] = cz[k] * (cz[k] * sz[i, j, k] - gain_z * (fz[i, j, k + 1] - fz[i, j, k]))
-        p[i, j, k] = sx[i, j, k] + sy[i, j, k] + sz[i, j, k]
+def _add(pressure: Any, x: Any, y: Any, z: Any) -> None:  # pragma: no cover
+    for m in range(pressure.size):
+        pressure[m] = x[m] + y[m] + z[m]

@@ -137,7 +137,8 @@ def _at_receivers(
     closed, corrections = (
         np.array(part)
         for part in zip(
-            *(side.pressures(position, chosen) for position in positions.values()), strict=True
+            *in_threads([partial(side.pressures, p, chosen) for p in positions.values()]),
+            strict=True,
         )
     )
     error = np.abs(corrections)

@@ -1,0 +1,94 @@
+"""Mirror symmetry on the machine side: which bodies have it, and that it changes no result."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from support import radiated
+
+from vibroacoustics.radiation.bodies import Body, block, cylinder, join_bodies, sphere
+from vibroacoustics.radiation.mirrors import Mirror, floor
+from vibroacoustics.radiation.near_field import NearField
+from vibroacoustics.radiation.near_grid import near_grid
+from vibroacoustics.radiation.patterns import Pattern, rigid_body
+from vibroacoustics.radiation.symmetry import symmetric_axes
+
+CAN = cylinder(0.083, -0.11, 0.14, 0.03)
+FOOT = block(np.array([-0.1, -0.03, -0.11]), np.array([0.0, 0.03, -0.07]))
+FREQUENCY_HZ = np.array([48.0, 117.0, 500.0, 1000.0])
+
+
+def turned(body, angle):
+    """Turned about the z axis."""
+    turn = np.array(
+        [[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]]
+    )
+    return Body(body.vertices @ turn.T, body.faces)
+
+
+class TestAxes:
+    @pytest.mark.parametrize(
+        ("body", "axes"),
+        [
+            (sphere(0.1, (0.003, 0.001, 0.002)), (0, 1, 2)),
+            (CAN, (0, 1, 2)),
+            (join_bodies([CAN, FOOT]), (1,)),
+            (turned(block(-np.array([0.1, 0.06, 0.08]), np.array([0.1, 0.06, 0.08])), 0.3), (2,)),
+        ],
+        ids=["sphere", "can", "can with a foot", "turned block"],
+    )
+    def test_found_in_the_shape(self, body, axes):
+        assert symmetric_axes(body) == axes
+
+    def test_found_in_single_precision_and_whatever_the_triangles(self):
+        """As an STL file holds them; the faces of a revolved outline are cut in one sense."""
+        single = Body(CAN.vertices.astype(np.float32).astype(float), CAN.faces)
+        assert symmetric_axes(single) == (0, 1, 2)
+
+    def test_a_side_wider_by_a_hundredth_breaks_it(self):
+        vertices = CAN.vertices.copy()
+        vertices[vertices[:, 0] > 0.0, 0] *= 1.01
+        assert symmetric_axes(Body(vertices, CAN.faces)) == (1, 2)
+
+    def test_walls_break_it_across_themselves(self):
+        assert near_grid(CAN, 0.02, [floor(-0.15)]).mirrored == (0, 1)
+        assert near_grid(CAN, 0.02, [floor(-0.15), Mirror(0, 1, 0.3)]).mirrored == (1,)
+
+
+def everything(at):
+    """Translation, rotation, breathing and bending at once: no symmetry at all."""
+    x, y, z = at.position.T
+    bending = np.stack([np.cos(20.0 * z), x * 30.0 * y, np.sin(25.0 * x)], axis=1)
+    return np.array([1.0, 0.5, 0.7]) + np.cross([3.0, -7.0, 5.0], at.position) + bending
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("walls", [(), (floor(-0.15),)], ids=["free", "floor"])
+@pytest.mark.parametrize(
+    "pattern",
+    [rigid_body("tx"), rigid_body("ry"), Pattern("everything", everything)],
+    ids=lambda pattern: pattern.name,
+)
+def test_equals_the_whole_grid(walls, pattern):
+    """The same cells, in one run of the whole grid and in runs of its half, quarter or eighth.
+
+    What is left: parts of the flux up to 1e-4 of it are left out. Runs end at other times.
+    """
+    part = NearField(CAN, 0.02, 1000.0, walls)
+    whole = NearField(CAN, 0.02, 1000.0, walls)
+    whole.cells = part.cells
+    whole.grid = dataclasses.replace(part.grid, mirrored=())
+    ours, theirs = (radiated(near, pattern, FREQUENCY_HZ) for near in (part, whole))
+    for field, expected in ((ours.inner, theirs.inner), (ours.outer, theirs.outer)):
+        largest = np.abs(expected).max(axis=1)
+        error = np.abs(field - expected).max(axis=1) / largest
+        assert np.all(error < 1e-4), error
+
+
+def test_one_run_for_a_motion_along_an_axis():
+    """And a quarter of the cells; a rocking body free of the floor needs two runs of an eighth."""
+    runs = []
+    near = NearField(CAN, 0.02, 1000.0, (floor(-0.15),))
+    radiated(near, rigid_body("tx"), FREQUENCY_HZ, lambda name, step, steps: runs.append(step))
+    assert runs.count(0) == 1
+    assert 4 * np.prod(near.grid.upper_half.shape) == np.prod(near.grid.shape)
