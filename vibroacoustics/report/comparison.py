@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..schema import REFERENCE_OPTION
 from . import rounding
-from .study import catalogue_receiver, first_order_hz, options, speeds
+from .study import catalogue_receiver, first_order_hz, has_inner_sources, options, speeds
 from .tables import Table, to_csv, to_text
 
 HEADS: Final = {
@@ -45,6 +45,14 @@ _SOURCES: Final[dict[str, Callable[[xr.Dataset], xr.DataArray]]] = {
     "change_total_dba": lambda results: results["change_total"],
 }
 
+_OF_ALL_SOURCES: Final = {
+    "level_modelled_dba": "level_all_sources",
+    "level_total_dba": "level_whole",
+    "change_modelled_dba": "change_all_sources",
+    "change_total_dba": "change_whole",
+}
+"""Variables of these columns where gas, keys and motor are modelled, at the assumed values."""
+
 _TERMINAL: Final = {
     "force_1x_n": "1x N",
     "force_2x_n": "2x N",
@@ -59,11 +67,16 @@ _TERMINAL: Final = {
 
 
 _BESIDE: Final[dict[str, str]] = {"level_modelled_db": "Z", "level_modelled_dbc": "C"}
-"""Further columns of the CSV: the modelled level in the other weightings."""
+"""Further columns of the CSV: the level of the modelled orders in the other weightings."""
+
+_BANDS: Final = ("change_all_sources", "change_whole")
+"""Further columns of the CSV with inner sources, as quantiles over the draws."""
 
 
 def column(results: xr.Dataset, name: str) -> xr.DataArray:
     """One column over option, speed and, for levels, receiver; the unit is in its name."""
+    if has_inner_sources(results) and name in _OF_ALL_SOURCES:
+        return results[_OF_ALL_SOURCES[name]].reset_coords(drop=True)
     return _SOURCES[name](results).reset_coords(drop=True)
 
 
@@ -84,14 +97,28 @@ def comparison_csv(results: xr.Dataset) -> bytes:
     compared = comparison(results)
     receivers = [str(name) for name in compared["receiver"].values]
     keys: Iterable[tuple[str | float, ...]] = product(options(results), speeds(results), receivers)
-    beside = (
-        results["level_modelled"].sel(weighting=weighting).transpose("option", "speed", "receiver")
-        for weighting in _BESIDE.values()
-    )
-    arrays = [*(compared[name] for name in COLUMNS), *beside]
+    beside = _beside(results)
+    arrays = [
+        *(compared[name] for name in COLUMNS),
+        *(values.transpose("option", "speed", "receiver") for values in beside.values()),
+    ]
     values = zip(*(array.values.ravel() for array in arrays), strict=True)
     rows = [(*key, *map(float, row)) for key, row in zip(keys, values, strict=True)]
-    return to_csv(("option", "speed_rpm", "receiver", *COLUMNS, *_BESIDE), rows)
+    return to_csv(("option", "speed_rpm", "receiver", *COLUMNS, *beside), rows)
+
+
+def _beside(results: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Further columns: other weightings of the orders, or bands of the changes."""
+    if not has_inner_sources(results):
+        modelled = results["level_modelled"]
+        return {name: modelled.sel(weighting=weighting) for name, weighting in _BESIDE.items()}
+    return {
+        f"{name}_{100.0 * quantile:.0f}_percent_db": results[f"{name}_quantile"].sel(
+            quantile=quantile
+        )
+        for name in _BANDS
+        for quantile in results["quantile"].values
+    }
 
 
 def comparison_tables(results: xr.Dataset, receiver: str) -> list[Table]:

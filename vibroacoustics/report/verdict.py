@@ -10,18 +10,31 @@ from ..schema import REFERENCE_OPTION
 from . import labels, rounding
 from .comparison import column, comparison
 from .option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, OptionVerdict, option_verdicts
-from .shifts import FOOT_FORCE, FORCE, LINE, MODELLED, MOMENT, TOTAL, Quantity, at_receiver, shift
+from .shifts import (
+    FOOT_FORCE,
+    FORCE,
+    HEARD_DB,
+    LINE,
+    MODELLED,
+    MOMENT,
+    TOTAL,
+    Quantity,
+    at_receiver,
+    shift,
+)
+from .source_changes import headline_of_changes
+from .source_words import carrier_sentence, shares_sentence
+from .scores import scope_words
 from .study import (
     balancers,
     catalogue_receiver,
     first_order_hz,
+    has_inner_sources,
+    overall_noise,
     parameters,
     speeds,
 )
 from .tables import Table
-
-HEARD_DB: Final = 1.0
-"""A change of the total below about 1 dB is not heard, even side by side."""
 
 MEASURED_DB: Final = 0.1
 """A change of the total below 0.1 dB drowns in the repeatability of a measurement."""
@@ -30,8 +43,11 @@ COMPARED: Final = (FORCE, MOMENT, FOOT_FORCE, LINE, MODELLED, TOTAL)
 
 
 def headline(results: xr.Dataset) -> str:
-    """One sentence: what balancing does to the 1x line and to the total."""
+    """What carries the level, where that is modelled; what balancing does to line and total."""
     receiver, names = catalogue_receiver(results), balancers(results)
+    if has_inner_sources(results):
+        changes = headline_of_changes(results) if names else ""
+        return f"{carrier_sentence(results)} {changes}".strip()
     if not names:
         return f"This study has no balancing option beside {REFERENCE_OPTION}."
     line = np.concatenate([shift(results, LINE, name).gain_db for name in names])
@@ -45,7 +61,8 @@ def headline(results: xr.Dataset) -> str:
 
 def reasons(results: xr.Dataset) -> list[str]:
     """Sentences that explain the headline."""
-    texts = [_as_it_is(results), _remainder(results)]
+    inside = has_inner_sources(results)
+    texts = [_as_it_is(results), shares_sentence(results) if inside else _remainder(results)]
     if not balancers(results):
         return texts
     verdicts = option_verdicts(results)
@@ -141,7 +158,7 @@ def _warnings(verdicts: Sequence[OptionVerdict]) -> list[str]:
         f"Worse than no balancer: {', '.join(worse)}." if worse else "",
         f"Better in one respect, worse in another: {'; '.join(mixed)}." if mixed else "",
         f"Without any effect on force, feet and sound: {', '.join(idle)}." if idle else "",
-        "" if worse or mixed else "No option makes the force, the feet or the 1× line worse.",
+        "" if worse or mixed else "No option makes the force, the feet or the sound worse.",
     ]
     return [text for text in texts if text]
 
@@ -169,6 +186,7 @@ def _ranking(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> str:
         f"By the study's weights {' and '.join(winners)} {verb} first "
         f"({labels.name(method).lower()}, score {score} of 1), "
         f"and in {share:.0f} % of {draws} weightings drawn at random.{behind if unlucky else ''}"
+        f"{scope_words(results)}"
     )
 
 
@@ -178,7 +196,8 @@ def _extremes(results: xr.Dataset, quantity: Quantity) -> tuple[str, ...]:
     highest = values.max("speed")
     worst = highest.sel(option=balancers(results)).clip(min=quantity.floor)
     best_name, worst_name = (str(find("option").item()) for find in (worst.idxmin, worst.idxmax))
-    write = _write_total if quantity == TOTAL else quantity.write
+    exact = quantity == TOTAL and not has_inner_sources(results)
+    write = _write_total if exact else quantity.write
     return (
         quantity.words,
         write(highest.sel(option=REFERENCE_OPTION).item()),
@@ -192,4 +211,4 @@ def _write_total(value_dba: float) -> str:
 
 
 def _whole(results: xr.Dataset) -> float:
-    return float(parameters(results)["machine"]["overall_noise"]["level_dba"])
+    return overall_noise(results)["level_dba"]

@@ -1,0 +1,170 @@
+"""Which source carries the modelled level, in sentences made from its numbers."""
+
+from collections.abc import Sequence
+from typing import Final
+
+import xarray as xr
+
+from ..schema import REFERENCE_OPTION
+from . import labels, rounding
+from .bands import Band, band, band_words, draws, energy_share, percent
+from .study import catalogue_receiver, first_order_hz, overall_noise, parameters, speeds
+
+NAMES: Final = {
+    "moving_parts": "moving parts (orders of the rigid machine)",
+    "gas": "gas forces",
+    "keys": "Oldham keys",
+    "torque_ripple": "torque ripple on the stator",
+    "motor": "motor at twice the line frequency",
+}
+
+
+def source_name(source: str) -> str:
+    """Plain words for a source of sound."""
+    return NAMES.get(source, source.replace("_", " "))
+
+
+def quoted_speed(results: xr.Dataset) -> float:
+    """The speed at which the overall level is published."""
+    return overall_noise(results)["speed_rpm"]
+
+
+def ranked(results: xr.Dataset, speed: float) -> list[tuple[str, Band]]:
+    """Sources without a balancer at the catalogue's microphone, the loudest first."""
+    found = [
+        (str(source), _source_band(results, str(source), speed))
+        for source in results["sound_source"].values
+    ]
+    return sorted(found, key=lambda entry: -entry[1].middle)
+
+
+def carrier_sentence(results: xr.Dataset) -> str:
+    """Which source carries the modelled level, and how loud it is."""
+    speed, overall = quoted_speed(results), overall_noise(results)["level_dba"]
+    source, level = ranked(results, speed)[0]
+    share = level.share_of(overall)
+    return (
+        f"Without a balancer the loudest modelled source at {catalogue_receiver(results)} and "
+        f"{speed:g} rpm is: {source_name(source)}, {rounding.level(level.middle)} dB(A), "
+        f"{level.ends(rounding.level)} dB(A) in {band_words(results)}. That is "
+        f"{percent(share.middle)} ({share.ends(percent)}) of the energy of {overall:g} dB(A)."
+    )
+
+
+def shares_sentence(results: xr.Dataset) -> str:
+    """How much of the overall level each source accounts for."""
+    speed, overall = quoted_speed(results), overall_noise(results)["level_dba"]
+    at = {
+        "speed": speed,
+        "option": REFERENCE_OPTION,
+        "receiver": catalogue_receiver(results),
+    }
+    shares = [
+        f"{source_name(source)} {level.share_of(overall).whole(percent)}"
+        for source, level in ranked(results, speed)
+    ]
+    together = band(results, "level_all_sources", **at).share_of(overall)
+    rest = Band(*map(float, results["inner_remainder_level"].values)).share_of(overall)
+    return (
+        f"Of the energy of {overall:g} dB(A) there, in the middle of the draws ({band_words(results)} "
+        f"in brackets): {'; '.join(shares)}; all modelled sources together "
+        f"{together.whole(percent)}. Not modelled is the rest, {rest.whole(percent)}."
+    )
+
+
+def certainty_sentences(results: xr.Dataset) -> list[str]:
+    """What the ranking and the bands rest on."""
+    texts = [_ranking(results), _left_out(results), _as_assumed(results), _drawn(results)]
+    return [*filter(None, texts), _not_an_order(results)]
+
+
+def _source_band(results: xr.Dataset, source: str, speed: float) -> Band:
+    return band(
+        results,
+        "source_level",
+        sound_source=source,
+        speed=speed,
+        option=REFERENCE_OPTION,
+        receiver=catalogue_receiver(results),
+    )
+
+
+def _ranking(results: xr.Dataset) -> str:
+    (first, loudest), (second, next_one) = ranked(results, quoted_speed(results))[:2]
+    names = f"{source_name(first)} and {source_name(second)}"
+    if loudest.lowest > next_one.highest:
+        gap = rounding.fixed(loudest.lowest - next_one.highest)
+        return (
+            f"The bands of {names} do not overlap ({gap} dB apart): which of the modelled sources "
+            "is the loudest does not hang on the values that are drawn."
+        )
+    return (
+        f"The bands of {names} overlap ({loudest.ends(rounding.level)} and "
+        f"{next_one.ends(rounding.level)} dB(A)): which is the louder is not sure."
+    )
+
+
+def _left_out(results: xr.Dataset) -> str:
+    kept, louder = draws(results)
+    overall = overall_noise(results)["level_dba"]
+    if not louder:
+        return f"The bands rest on {kept} draws, none of which exceeds {overall:g} dB(A) alone."
+    tends = (
+        "; the model tends to be too loud, and the bands tell" if louder > kept else ": they tell"
+    )
+    return (
+        f"{louder} of {kept + louder} draws are left out because their modelled sources alone "
+        f"exceed {overall:g} dB(A), which they cannot{tends} only what agrees with the published "
+        f"level. They rest on {kept} draws."
+    )
+
+
+def _as_assumed(results: xr.Dataset) -> str:
+    """Warn where the assumed values lie outside of the band of the loudest source."""
+    speed, overall = quoted_speed(results), overall_noise(results)["level_dba"]
+    source, level = ranked(results, speed)[0]
+    own = results["source_level"].sel(
+        sound_source=source,
+        speed=speed,
+        option=REFERENCE_OPTION,
+        receiver=catalogue_receiver(results),
+    )
+    value = float(own)
+    if level.lowest <= value <= level.highest:
+        return ""
+    side = "above" if value > level.highest else "below"
+    return (
+        f"With the values as assumed, nothing drawn, {source_name(source)} alone reach "
+        f"{rounding.level(value)} dB(A), {percent(energy_share(value, overall))} of that energy, "
+        f"{side} the band: the share is not known better than that."
+    )
+
+
+def _drawn(results: xr.Dataset) -> str:
+    doubts: Sequence[dict[str, str]] = parameters(results)["inside"]["doubts"]
+    tables: dict[str, list[str]] = {}
+    for doubt in doubts:
+        tables.setdefault(doubt["table"], []).append(labels.name(doubt["field"]).lower())
+    words = "; ".join(f"{table}: {', '.join(fields)}" for table, fields in tables.items())
+    inner = [
+        record for record in parameters(results)["records"] if record["field"].startswith("inside.")
+    ]
+    assumed = sum(str(record["source"]).startswith("assumed") for record in inner)
+    return (
+        f"Drawn from their ranges by Latin hypercube ({words}). The other values of the inside, "
+        f"such as where the parts are welded to the shell, are fixed; {assumed} of {len(inner)} "
+        "values of the inside are assumed."
+    )
+
+
+def _not_an_order(results: xr.Dataset) -> str:
+    """Keep the motor's line apart from 2x."""
+    lines = parameters(results)["inside"]["line_frequency_hz"]
+    pairs = ", ".join(
+        f"{2.0 * line:g} Hz beside 2× at {2.0 * first:.1f} Hz ({speed:g} rpm)"
+        for speed, line, first in zip(speeds(results), lines, first_order_hz(results), strict=True)
+    )
+    return (
+        f"The motor's line at twice the line frequency is no order of the shaft: {pairs}. It and "
+        "its sidebands count as motor, never as 2×."
+    )
