@@ -149,7 +149,7 @@ def remainder_sentence(results: xr.Dataset) -> str:
     who = "The catalogue gives" if not assumed else "The level of the whole machine is assumed:"
     if has_inner_sources(results):
         rest = Band(*map(float, results["inner_remainder_level"].values))
-        left = f"{rest.ends(rounding.fixed)} dB(A) in {band_words(results)}"
+        left = f"{rest.ends(rounding.fixed)} dB(A) ({band_words(results)} of the draws)"
     else:
         left = f"{rounding.fixed(results['level_remainder'].item(), 3)} dB(A)"
     return (

@@ -58,6 +58,6 @@ def draws(results: xr.Dataset) -> tuple[int, int]:
 
 
 def band_words(results: xr.Dataset) -> str:
-    """`10 to 90 % of the draws`."""
+    """`10 to 90 % quantiles`."""
     quantiles = results["quantile"].values
-    return f"{100.0 * quantiles[0]:.0f} to {100.0 * quantiles[-1]:.0f} % of the draws"
+    return f"{100.0 * quantiles[0]:.0f} to {100.0 * quantiles[-1]:.0f} % quantiles"

@@ -137,12 +137,14 @@ def _tables(results: xr.Dataset, receiver: str, heads: dict[str, str]) -> list[T
     numbers = {name: compared[name].transpose("speed", "option").values for name in COLUMNS}
     reference = options(results).index(REFERENCE_OPTION)
     pairs = zip(speeds(results), first_order_hz(results), strict=True)
+    uncertain = {"change_total_dba": _rough_change} if has_inner_sources(results) else {}
+    cells = {**_CELLS, **uncertain}
     return [
         Table(
             f"{speed:g} rpm (1× at {frequency:.1f} Hz), microphone {receiver}",
             ("Option", *heads.values()),
             tuple(
-                (option, *_cells(_at(numbers, i, j), _at(numbers, i, reference), heads))
+                (option, *_cells(_at(numbers, i, j), _at(numbers, i, reference), cells, heads))
                 for j, option in enumerate(options(results))
             ),
         )
@@ -151,14 +153,17 @@ def _tables(results: xr.Dataset, receiver: str, heads: dict[str, str]) -> list[T
 
 
 _Numbers = dict[str, float]
+_Cell = Callable[[_Numbers, _Numbers, str], str]
 
 
 def _at(numbers: dict[str, NDArray[np.float64]], speed: int, option: int) -> _Numbers:
     return {name: float(values[speed, option]) for name, values in numbers.items()}
 
 
-def _cells(own: _Numbers, reference: _Numbers, heads: dict[str, str]) -> Iterable[str]:
-    return (_CELLS[name](own, reference, name) for name in heads)
+def _cells(
+    own: _Numbers, reference: _Numbers, cells: dict[str, _Cell], names: Iterable[str]
+) -> Iterable[str]:
+    return (cells[name](own, reference, name) for name in names)
 
 
 def _amount(own: _Numbers, reference: _Numbers, name: str) -> str:
@@ -169,7 +174,7 @@ def _level(own: _Numbers, reference: _Numbers, name: str) -> str:
     return rounding.level(own[name])
 
 
-def _change_of(level_name: str) -> Callable[[_Numbers, _Numbers, str], str]:
+def _change_of(level_name: str) -> _Cell:
     def cell(own: _Numbers, reference: _Numbers, name: str) -> str:
         return rounding.level_change(own[name], own[level_name], reference[level_name])
 
@@ -180,7 +185,11 @@ def _total_change(own: _Numbers, reference: _Numbers, name: str) -> str:
     return rounding.signed(own[name], 3)
 
 
-_CELLS: Final[dict[str, Callable[[_Numbers, _Numbers, str], str]]] = {
+def _rough_change(own: _Numbers, reference: _Numbers, name: str) -> str:
+    return rounding.signed(own[name])
+
+
+_CELLS: Final[dict[str, _Cell]] = {
     "force_1x_n": _amount,
     "force_2x_n": _amount,
     "moment_1x_nm": _amount,

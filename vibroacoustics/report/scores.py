@@ -84,8 +84,8 @@ def scope_words(results: xr.Dataset) -> str:
     if not has_inner_sources(results):
         return ""
     return (
-        " The scores count the shaft orders of the rigid machine only: keys that strike and gas "
-        "are not in them."
+        " The scores count the shaft orders of the rigid machine only: the sound of gas "
+        "and keys is not in them."
     )
 
 

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from . import rounding
 from .bands import Band, band, band_words
@@ -44,13 +45,15 @@ def headline_of_changes(results: xr.Dataset) -> str:
     changes = {option: source_change(results, option) for option in balancers(results)}
     louder = {o: c for o, c in changes.items() if _surely_louder(c)}
     quieter = {o: c for o, c in changes.items() if _surely_quieter(c)}
-    rest = [c for o, c in changes.items() if o not in louder and o not in quieter]
+    rest = [option for option in changes if option not in louder and option not in quieter]
     parts = [
         f"The whole machine becomes louder with {_named(results, louder)}." if louder else "",
         f"It becomes quieter with {_named(results, quieter)}." if quieter else "",
     ]
     if rest:
-        largest = max(abs(end) for c in rest for own in c.whole for end in own)
+        ends = [end for option in rest for own in changes[option].whole for end in own]
+        assumed = results["change_whole"].sel(option=rest, receiver=catalogue_receiver(results))
+        largest = float(np.abs([*ends, *assumed.values.ravel()]).max())
         which = "No other option changes" if louder or quieter else "No option changes"
         heard = "" if largest >= HEARD_DB else ", which can hardly be heard"
         parts.append(
@@ -65,7 +68,7 @@ def change_sentences(results: xr.Dataset, option: str) -> list[str]:
     own = source_change(results, option)
     return [
         f"With gas, keys and motor the modelled level changes by {_by_speed(results, own.sources)} "
-        f"({band_words(results)}), the total by {_by_speed(results, own.whole)}.",
+        f"({band_words(results)} of the draws), the total by {_by_speed(results, own.whole)}.",
         *_impacts(results, option),
     ]
 
@@ -86,7 +89,7 @@ def _surely_quieter(change: SourceChange) -> bool:
 
 
 def _named(results: xr.Dataset, changes: dict[str, SourceChange]) -> str:
-    return "; ".join(
+    return " and ".join(
         f"{option} ({_by_speed(results, change.whole)})" for option, change in changes.items()
     )
 
@@ -115,7 +118,7 @@ def _impacts(results: xr.Dataset, option: str) -> list[str]:
     return texts
 
 
-def key_figure(results: xr.Dataset, option: str, name: str) -> np.ndarray:
+def key_figure(results: xr.Dataset, option: str, name: str) -> NDArray[np.float64]:
     """A figure of the inner sources at every speed; NaN where the option has none."""
     figures = results["inner_figure"]
     if name not in figures["inner_figure_name"].values:

@@ -28,9 +28,9 @@ def change_tables(results: xr.Dataset) -> list[Table]:
         "Option",
         "Δ 1× line, dB",
         "Δ all modelled sources as assumed, dB",
-        f"{band_words(results)}, dB",
+        f"its {band_words(results)}, dB",
         "Δ total as assumed, dB",
-        f"{band_words(results)}, dB",
+        f"its {band_words(results)}, dB",
         "Key impacts per revolution",
         "Largest key force, N",
     )
@@ -81,11 +81,8 @@ def sources_csv(results: xr.Dataset) -> bytes:
     values = zip(
         *(array.transpose(*dims).values.ravel() for array in columns.values()), strict=True
     )
-    keys = product(*(results[dim].values for dim in dims))
-    rows = (
-        (str(option), float(speed), str(receiver), str(source), *map(float, row))
-        for (option, speed, receiver, source), row in zip(keys, values, strict=True)
-    )
+    keys = product(*(results[dim].values.tolist() for dim in dims))
+    rows = ([*key, *map(float, row)] for key, row in zip(keys, values, strict=True))
     return to_csv(("option", "speed_rpm", "receiver", "source", *columns), rows)
 
 
@@ -94,13 +91,13 @@ def _source_table(results: xr.Dataset, speed: float) -> Table:
     head = [
         "Source, the loudest first",
         "Level as assumed, dB(A)",
-        f"Middle ({band_words(results)}), dB(A)",
+        f"Middle of the draws ({band_words(results)}), dB(A)",
         "Share of the modelled energy, as assumed",
     ]
     if quoted:
         head += [
-            f"Energy over that of {overall:g} dB(A), as assumed",
-            f"Middle ({band_words(results)})",
+            f"Share of the energy of {overall:g} dB(A), as assumed",
+            f"The same, middle of the draws ({band_words(results)})",
         ]
     rows = [
         _row(

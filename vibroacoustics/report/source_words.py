@@ -42,12 +42,14 @@ def carrier_sentence(results: xr.Dataset) -> str:
     """Which source carries the modelled level, and how loud it is."""
     speed, overall = quoted_speed(results), overall_noise(results)["level_dba"]
     source, level = ranked(results, speed)[0]
-    share = level.share_of(overall)
+    share, assumed = level.share_of(overall), _assumed_level(results, source)
     return (
         f"Without a balancer the loudest modelled source at {catalogue_receiver(results)} and "
-        f"{speed:g} rpm is: {source_name(source)}, {rounding.level(level.middle)} dB(A), "
-        f"{level.ends(rounding.level)} dB(A) in {band_words(results)}. That is "
-        f"{percent(share.middle)} ({share.ends(percent)}) of the energy of {overall:g} dB(A)."
+        f"{speed:g} rpm is: {source_name(source)}, {rounding.level(level.middle)} dB(A) in the "
+        f"middle of the draws ({band_words(results)} {level.ends(rounding.level)}), "
+        f"{rounding.level(assumed)} dB(A) at the assumed values. That is "
+        f"{percent(share.middle)} ({share.ends(percent)}) of the energy of {overall:g} dB(A), "
+        f"{percent(energy_share(assumed, overall))} at the assumed values."
     )
 
 
@@ -66,8 +68,8 @@ def shares_sentence(results: xr.Dataset) -> str:
     together = band(results, "level_all_sources", **at).share_of(overall)
     rest = Band(*map(float, results["inner_remainder_level"].values)).share_of(overall)
     return (
-        f"Of the energy of {overall:g} dB(A) there, in the middle of the draws ({band_words(results)} "
-        f"in brackets): {'; '.join(shares)}; all modelled sources together "
+        f"Of the energy of {overall:g} dB(A) there, in the middle of the draws with the "
+        f"{band_words(results)} in brackets: {'; '.join(shares)}; all modelled sources together "
         f"{together.whole(percent)}. Not modelled is the rest, {rest.whole(percent)}."
     )
 
@@ -86,6 +88,18 @@ def _source_band(results: xr.Dataset, source: str, speed: float) -> Band:
         speed=speed,
         option=REFERENCE_OPTION,
         receiver=catalogue_receiver(results),
+    )
+
+
+def _assumed_level(results: xr.Dataset, source: str) -> float:
+    """At the assumed values, without a balancer, where the overall level is published, dB(A)."""
+    return float(
+        results["source_level"].sel(
+            sound_source=source,
+            speed=quoted_speed(results),
+            option=REFERENCE_OPTION,
+            receiver=catalogue_receiver(results),
+        )
     )
 
 
@@ -123,20 +137,14 @@ def _as_assumed(results: xr.Dataset) -> str:
     """Warn where the assumed values lie outside of the band of the loudest source."""
     speed, overall = quoted_speed(results), overall_noise(results)["level_dba"]
     source, level = ranked(results, speed)[0]
-    own = results["source_level"].sel(
-        sound_source=source,
-        speed=speed,
-        option=REFERENCE_OPTION,
-        receiver=catalogue_receiver(results),
-    )
-    value = float(own)
+    value = _assumed_level(results, source)
     if level.lowest <= value <= level.highest:
         return ""
     side = "above" if value > level.highest else "below"
     return (
-        f"With the values as assumed, nothing drawn, {source_name(source)} alone reach "
-        f"{rounding.level(value)} dB(A), {percent(energy_share(value, overall))} of that energy, "
-        f"{side} the band: the share is not known better than that."
+        f"At the assumed values, nothing drawn, {source_name(source)} alone reach "
+        f"{rounding.level(value)} dB(A), {side} the band: its share is not known better than from "
+        f"{percent(level.share_of(overall).lowest)} to {percent(energy_share(value, overall))}."
     )
 
 

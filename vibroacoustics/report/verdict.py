@@ -10,6 +10,7 @@ from ..schema import REFERENCE_OPTION
 from . import labels, rounding
 from .comparison import column, comparison
 from .option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, OptionVerdict, option_verdicts
+from .scores import scope_words
 from .shifts import (
     FOOT_FORCE,
     FORCE,
@@ -24,7 +25,6 @@ from .shifts import (
 )
 from .source_changes import headline_of_changes
 from .source_words import carrier_sentence, shares_sentence
-from .scores import scope_words
 from .study import (
     balancers,
     catalogue_receiver,
@@ -75,8 +75,9 @@ def extremes_table(results: xr.Dataset) -> Table | None:
         return None
     rows = tuple(_extremes(results, quantity) for quantity in COMPARED)
     head = ("Quantity, largest over the speeds", "Without balancer", "Best option", "Worst option")
+    values = ", values as assumed" if has_inner_sources(results) else ""
     return Table(
-        f"Best and worst, levels at {catalogue_receiver(results)}",
+        f"Best and worst, levels at {catalogue_receiver(results)}{values}",
         head,
         rows,
         frozenset({0, 1, 2, 3}),

@@ -124,5 +124,5 @@ def _inner_level(results: xr.Dataset) -> xr.DataArray:
     levels = results["source_band_level"].sel(receiver=catalogue_receiver(results))
     inner = [name for name in levels["sound_source"].values if str(name) != MOVING_PARTS]
     power = (10.0 ** (levels.sel(sound_source=inner) / 10.0)).sum("sound_source")
-    summed: xr.DataArray = 10.0 * np.log10(power)
+    summed: xr.DataArray = 10.0 * xr.apply_ufunc(np.log10, power)
     return summed
