@@ -40,7 +40,7 @@ def source_change(results: xr.Dataset, option: str) -> SourceChange:
     )
 
 
-def headline_of_changes(results: xr.Dataset) -> str:
+def changes_sentence(results: xr.Dataset) -> str:
     """Which options are heard in the total, for sure or perhaps, and what the others do."""
     changes = {option: source_change(results, option) for option in balancers(results)}
     louder = {o: c for o, c in changes.items() if _surely_louder(c)}

@@ -19,6 +19,9 @@ NAMES: Final = {
 }
 
 
+_TABLES: Final = {"doubt": "path through the shell"}
+
+
 def source_name(source: str) -> str:
     """Plain words for a source of sound."""
     return NAMES.get(source, source.replace("_", " "))
@@ -44,12 +47,12 @@ def carrier_sentence(results: xr.Dataset) -> str:
     source, level = ranked(results, speed)[0]
     share, assumed = level.share_of(overall), _assumed_level(results, source)
     return (
-        f"Without a balancer the loudest modelled source at {catalogue_receiver(results)} and "
-        f"{speed:g} rpm is: {source_name(source)}, {rounding.level(level.middle)} dB(A) in the "
-        f"middle of the draws ({band_words(results)} {level.ends(rounding.level)}), "
-        f"{rounding.level(assumed)} dB(A) at the assumed values. That is "
-        f"{percent(share.middle)} ({share.ends(percent)}) of the energy of {overall:g} dB(A), "
-        f"{percent(energy_share(assumed, overall))} at the assumed values."
+        f"At {catalogue_receiver(results)} and {speed:g} rpm, without a balancer, the loudest "
+        f"modelled source is: {source_name(source)}, {rounding.level(level.middle)} dB(A) in the "
+        f"middle of the draws ({band_words(results)} {level.ends(rounding.level)}) or "
+        f"{rounding.level(assumed)} dB(A) at the assumed values, which is "
+        f"{percent(share.middle)} ({share.ends(percent)}) or "
+        f"{percent(energy_share(assumed, overall))} of the energy of {overall:g} dB(A)."
     )
 
 
@@ -109,8 +112,8 @@ def _ranking(results: xr.Dataset) -> str:
     if loudest.lowest > next_one.highest:
         gap = rounding.fixed(loudest.lowest - next_one.highest)
         return (
-            f"The bands of {names} do not overlap ({gap} dB apart): which of the modelled sources "
-            "is the loudest does not hang on the values that are drawn."
+            f"The bands of {names} do not overlap ({gap} dB apart): within them the loudest "
+            "modelled source stays the same."
         )
     return (
         f"The bands of {names} overlap ({loudest.ends(rounding.level)} and "
@@ -153,7 +156,9 @@ def _drawn(results: xr.Dataset) -> str:
     tables: dict[str, list[str]] = {}
     for doubt in doubts:
         tables.setdefault(doubt["table"], []).append(labels.name(doubt["field"]).lower())
-    words = "; ".join(f"{table}: {', '.join(fields)}" for table, fields in tables.items())
+    words = "; ".join(
+        f"{_TABLES.get(table, table)}: {', '.join(fields)}" for table, fields in tables.items()
+    )
     inner = [
         record for record in parameters(results)["records"] if record["field"].startswith("inside.")
     ]

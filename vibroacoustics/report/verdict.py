@@ -18,12 +18,13 @@ from .shifts import (
     LINE,
     MODELLED,
     MOMENT,
+    TOLERANCE_DB,
     TOTAL,
     Quantity,
     at_receiver,
     shift,
 )
-from .source_changes import headline_of_changes
+from .source_changes import changes_sentence
 from .source_words import carrier_sentence, shares_sentence
 from .study import (
     balancers,
@@ -43,11 +44,10 @@ COMPARED: Final = (FORCE, MOMENT, FOOT_FORCE, LINE, MODELLED, TOTAL)
 
 
 def headline(results: xr.Dataset) -> str:
-    """What carries the level, where that is modelled; what balancing does to line and total."""
+    """What carries the level where that is modelled; else what balancing does to the level."""
     receiver, names = catalogue_receiver(results), balancers(results)
     if has_inner_sources(results):
-        changes = headline_of_changes(results) if names else ""
-        return f"{carrier_sentence(results)} {changes}".strip()
+        return carrier_sentence(results)
     if not names:
         return f"This study has no balancing option beside {REFERENCE_OPTION}."
     line = np.concatenate([shift(results, LINE, name).gain_db for name in names])
@@ -66,6 +66,8 @@ def reasons(results: xr.Dataset) -> list[str]:
     if not balancers(results):
         return texts
     verdicts = option_verdicts(results)
+    if inside:
+        texts.insert(0, changes_sentence(results))
     return [*texts, *_warnings(verdicts), _ranking(results, verdicts)]
 
 
@@ -199,10 +201,16 @@ def _extremes(results: xr.Dataset, quantity: Quantity) -> tuple[str, ...]:
     best_name, worst_name = (str(find("option").item()) for find in (worst.idxmin, worst.idxmax))
     exact = quantity == TOTAL and not has_inner_sources(results)
     write = _write_total if exact else quantity.write
+    own = highest.sel(option=REFERENCE_OPTION).item()
+    best = highest.sel(option=best_name).item()
+    none_better = (
+        quantity in (MODELLED, TOTAL) and has_inner_sources(results) and own - best < TOLERANCE_DB
+    )
     return (
         quantity.words,
-        write(highest.sel(option=REFERENCE_OPTION).item()),
-        *(f"{write(highest.sel(option=name).item())}: {name}" for name in (best_name, worst_name)),
+        write(own),
+        f"none lower by {TOLERANCE_DB:g} dB" if none_better else f"{write(best)}: {best_name}",
+        f"{write(highest.sel(option=worst_name).item())}: {worst_name}",
     )
 
 
