@@ -27,8 +27,8 @@ ELASTIC_SHELL: Final = (
     "mobility. Bearing housing, fixed scroll and stator are rigid and touch the shell at welds "
     "only; feet, tubes and terminal box are left out.",
     "Contact of the wraps' flanks and tips, noise of the bearings, magnetic forces of the motor "
-    "other than its torque, the flow through the discharge port and sound inside the gas are not "
-    "modelled; they are part of the remainder.",
+    "other than its torque, the flow through the discharge port and sound in the gas of the shell "
+    "are not modelled; they are part of the remainder.",
 )
 """Instead of RIGID_SHELL where inner sources are modelled."""
 

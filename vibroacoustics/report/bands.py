@@ -47,9 +47,8 @@ def percent(share: float) -> str:
         return rounding.NOTHING
     if abs(size) < 0.01:
         return "<\u00a00.01\u00a0%"
-    return (
-        f"{rounding.fixed(size, 0) if abs(size) >= 10.0 else rounding.significant(size, 2)}\u00a0%"
-    )
+    number = rounding.fixed(size, 0) if abs(size) >= 10.0 else rounding.significant(size, 2)
+    return f"{number}\u00a0%"
 
 
 def draws(results: xr.Dataset) -> tuple[int, int]:

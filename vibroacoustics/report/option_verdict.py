@@ -91,7 +91,8 @@ def fact_sentences(known: Facts, judgement: str) -> list[str]:
 
 def _shift_sentence(shifts: Sequence[Shift], judgement: str, receiver: str) -> str:
     if judgement == NO_CHANGE:
-        return "1× force, 1× moment, 1× foot force, 1× line and modelled level stay the same."
+        *words, last = (own.quantity.words for own in shifts)
+        return f"{', '.join(words)} and {last} stay the same."
     mechanical = [own for own in shifts if not own.quantity.is_level]
     parts = [f"the {own.quantity.words} {own.sentence()}" for own in mechanical]
     return f"At 1×, {'; '.join(parts)}. ".replace("the 1× ", "the ") + (

@@ -177,7 +177,12 @@ def _not_an_order(results: xr.Dataset) -> str:
         f"{2.0 * line:g} Hz beside 2× at {2.0 * first:.1f} Hz ({speed:g} rpm)"
         for speed, line, first in zip(speeds(results), lines, first_order_hz(results), strict=True)
     )
+    figures = results["inner_figure"].sel(option=REFERENCE_OPTION)
+    motor = float(figures.sel(inner_figure_name="foot_force_2x_line_n").max())
+    foot = results["foot_force_amplitude"].sel(order=1, option=REFERENCE_OPTION)
     return (
         f"The motor's line at twice the line frequency is no order of the shaft: {pairs}. It and "
-        "its sidebands count as motor, never as 2×."
+        "its sidebands count as motor, never as 2×. Into a foot it passes at most "
+        f"{rounding.significant(motor)} N, beside {rounding.significant(float(foot.max()))} N at "
+        "1×: what it does to floor and pipes is not modelled."
     )

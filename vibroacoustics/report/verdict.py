@@ -203,9 +203,8 @@ def _extremes(results: xr.Dataset, quantity: Quantity) -> tuple[str, ...]:
     write = _write_total if exact else quantity.write
     own = highest.sel(option=REFERENCE_OPTION).item()
     best = highest.sel(option=best_name).item()
-    none_better = (
-        quantity in (MODELLED, TOTAL) and has_inner_sources(results) and own - best < TOLERANCE_DB
-    )
+    close = quantity in (MODELLED, TOTAL) and own - best < TOLERANCE_DB
+    none_better = close and has_inner_sources(results)
     return (
         quantity.words,
         write(own),
