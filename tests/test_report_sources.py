@@ -65,6 +65,7 @@ def with_sources(
         {"table": "doubt", "field": "mobility_change_db"},
     ]
     parameters["inside"] = {"doubts": doubts, "line_frequency_hz": [50.0, 60.0]}
+    parameters["radiation"]["maximum_frequency_hz"] = 4000.0
     record = {**parameters["records"][1], "field": "inside.keys.friction_ratio"}
     parameters["records"].append(record)
     results.attrs["parameters"] = json.dumps(parameters)
@@ -167,6 +168,10 @@ def test_the_report_says_how_sure_the_ranking_is(results: xr.Dataset) -> None:
     assert "8 draws, none of which exceeds 56 dB(A)" in close
 
 
+def test_the_highest_frequency_is_told(results: xr.Dataset) -> None:
+    assert "up to 4000 Hz" in " ".join(certainty_sentences(results))
+
+
 def test_assumed_values_outside_of_the_band_are_told() -> None:
     outside = " ".join(certainty_sentences(with_sources({"none": 40.0}, assumed_above_db=5.0)))
     assert "gas forces alone reach 55.0 dB(A), above the band" in outside
@@ -223,6 +228,7 @@ def test_the_reasons_name_what_becomes_louder(results: xr.Dataset) -> None:
     ]
     assert f"louder with rattles (+{whole[0]:.1f} to +{whole[1]:.1f} dB)" in first
     assert "No other option changes" in first
+    assert "16 of 24 draws are left out" in " ".join(reasons(results))
 
 
 def _remainder(spread_db: float) -> float:

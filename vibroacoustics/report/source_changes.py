@@ -54,11 +54,12 @@ def changes_sentence(results: xr.Dataset) -> str:
         ends = [end for option in rest for own in changes[option].whole for end in own]
         assumed = results["change_whole"].sel(option=rest, receiver=catalogue_receiver(results))
         largest = float(np.abs([*ends, *assumed.values.ravel()]).max())
+        bound = 0.1 * max(np.ceil(10.0 * largest), 1.0)
         which = "No other option changes" if louder or quieter else "No option changes"
         heard = "" if largest >= HEARD_DB else ", which can hardly be heard"
         parts.append(
             f"{which} the total of {overall_noise(results)['level_dba']:g} dB(A) by more than "
-            f"{rounding.fixed(max(largest, 0.05))} dB{heard}."
+            f"{rounding.fixed(bound)} dB{heard}."
         )
     return " ".join(filter(None, parts))
 

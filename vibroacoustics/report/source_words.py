@@ -79,8 +79,24 @@ def shares_sentence(results: xr.Dataset) -> str:
 
 def certainty_sentences(results: xr.Dataset) -> list[str]:
     """What the ranking and the bands rest on."""
-    texts = [_ranking(results), _left_out(results), _as_assumed(results), _drawn(results)]
-    return [*filter(None, texts), _not_an_order(results)]
+    texts = [_ranking(results), left_out_sentence(results), _as_assumed(results), _drawn(results)]
+    return [*filter(None, texts), _up_to(results), _not_an_order(results)]
+
+
+def left_out_sentence(results: xr.Dataset) -> str:
+    """How many draws the bands rest on, and why others do not count."""
+    kept, louder = draws(results)
+    overall = overall_noise(results)["level_dba"]
+    if not louder:
+        return f"The bands rest on {kept} draws, none of which exceeds {overall:g} dB(A) alone."
+    tends = (
+        "; the model tends to be too loud, and the bands tell" if louder > kept else ": they tell"
+    )
+    return (
+        f"{louder} of {kept + louder} draws are left out because their modelled sources alone "
+        f"exceed {overall:g} dB(A), which they cannot{tends} only what agrees with the published "
+        f"level. They rest on {kept} draws."
+    )
 
 
 def _source_band(results: xr.Dataset, source: str, speed: float) -> Band:
@@ -121,21 +137,6 @@ def _ranking(results: xr.Dataset) -> str:
     )
 
 
-def _left_out(results: xr.Dataset) -> str:
-    kept, louder = draws(results)
-    overall = overall_noise(results)["level_dba"]
-    if not louder:
-        return f"The bands rest on {kept} draws, none of which exceeds {overall:g} dB(A) alone."
-    tends = (
-        "; the model tends to be too loud, and the bands tell" if louder > kept else ": they tell"
-    )
-    return (
-        f"{louder} of {kept + louder} draws are left out because their modelled sources alone "
-        f"exceed {overall:g} dB(A), which they cannot{tends} only what agrees with the published "
-        f"level. They rest on {kept} draws."
-    )
-
-
 def _as_assumed(results: xr.Dataset) -> str:
     """Warn where the assumed values lie outside of the band of the loudest source."""
     speed, overall = quoted_speed(results), overall_noise(results)["level_dba"]
@@ -167,6 +168,14 @@ def _drawn(results: xr.Dataset) -> str:
         f"Drawn from their ranges by Latin hypercube ({words}). The other values of the inside, "
         f"such as where the parts are welded to the shell, are fixed; {assumed} of {len(inner)} "
         "values of the inside are assumed."
+    )
+
+
+def _up_to(results: xr.Dataset) -> str:
+    highest = parameters(results)["radiation"]["maximum_frequency_hz"]
+    return (
+        f"Sources are modelled up to {highest:g} Hz; what they make above is part of the remainder, "
+        "so that an option whose keys strike can be louder than told here."
     )
 
 

@@ -25,7 +25,7 @@ from .shifts import (
     shift,
 )
 from .source_changes import changes_sentence
-from .source_words import carrier_sentence, shares_sentence
+from .source_words import carrier_sentence, left_out_sentence, shares_sentence
 from .study import (
     balancers,
     catalogue_receiver,
@@ -62,7 +62,11 @@ def headline(results: xr.Dataset) -> str:
 def reasons(results: xr.Dataset) -> list[str]:
     """Sentences that explain the headline."""
     inside = has_inner_sources(results)
-    texts = [_as_it_is(results), shares_sentence(results) if inside else _remainder(results)]
+    texts = [_as_it_is(results)]
+    if inside:
+        texts += [shares_sentence(results), left_out_sentence(results)]
+    else:
+        texts.append(_remainder(results))
     if not balancers(results):
         return texts
     verdicts = option_verdicts(results)
