@@ -34,7 +34,7 @@ def main() -> None:
 
 def wrap_outline(wraps: ScrollWraps) -> np.ndarray:
     """Both flanks of a wrap, involutes that begin half a thickness apart, mm."""
-    roll = np.linspace(wraps.start_angle_rad, wraps.end_angle_rad, 600)
+    roll = np.linspace(wraps.start_angle_rad, wraps.end_angle_rad, 250)
     half = 0.5 * wraps.thickness_m / wraps.base_radius_m
     sides = []
     for shift in (half, -half):

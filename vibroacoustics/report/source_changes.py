@@ -46,9 +46,10 @@ def changes_sentence(results: xr.Dataset) -> str:
     louder = {o: c for o, c in changes.items() if _surely_louder(c)}
     quieter = {o: c for o, c in changes.items() if _surely_quieter(c)}
     rest = [option for option in changes if option not in louder and option not in quieter]
+    at = f"At {catalogue_receiver(results)}"
     parts = [
-        f"The whole machine becomes louder with {_named(results, louder)}." if louder else "",
-        f"It becomes quieter with {_named(results, quieter)}." if quieter else "",
+        f"{at} the whole machine becomes louder with {_named(results, louder)}." if louder else "",
+        f"{at} it becomes quieter with {_named(results, quieter)}." if quieter else "",
     ]
     if rest:
         ends = [end for option in rest for own in changes[option].whole for end in own]

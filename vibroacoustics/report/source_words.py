@@ -174,8 +174,8 @@ def _drawn(results: xr.Dataset) -> str:
 def _up_to(results: xr.Dataset) -> str:
     highest = parameters(results)["radiation"]["maximum_frequency_hz"]
     return (
-        f"Sources are modelled up to {highest:g} Hz; what they make above is part of the remainder, "
-        "so that an option whose keys strike can be louder than told here."
+        f"Sources are modelled up to {highest:g} Hz; what they make above is part of the "
+        "remainder, so that an option whose keys strike can be louder than told here."
     )
 
 
