@@ -10,6 +10,7 @@ from .figures import (
     mount_figures,
     order_figures,
     score_figures,
+    source_figures,
     transfer_figures,
 )
 from .figures.compared_orders import compared_order_figures
@@ -26,6 +27,8 @@ from .order_tables import (
 from .radiation_figures import radiation_figures
 from .radiation_tables import radiation_text
 from .scores import scores_csv
+from .source_tables import sources_csv
+from .study import has_inner_sources
 
 __all__ = [
     "compared_order_figures",
@@ -43,6 +46,7 @@ __all__ = [
 
 _FIGURES = (
     order_figures,
+    source_figures,
     force_figures,
     mount_figures,
     transfer_figures,
@@ -65,5 +69,6 @@ def render(results: xr.Dataset) -> dict[str, bytes]:
         "comparison.csv": comparison_csv(results),
         "comparison.md": comparison_markdown(results),
         "scores.csv": scores_csv(results),
+        **({"sources.csv": sources_csv(results)} if has_inner_sources(results) else {}),
         **{f"figures/{picture.name}.png": picture.png for picture in pictures},
     }

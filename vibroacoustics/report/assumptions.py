@@ -6,7 +6,8 @@ import numpy as np
 import xarray as xr
 
 from . import rounding
-from .study import catalogue_receiver, parameters
+from .bands import Band, band_words
+from .study import catalogue_receiver, has_inner_sources, overall_noise, parameters
 from .tables import Table
 
 ASSUMED: Final = "assumed"
@@ -14,10 +15,24 @@ ASSUMED: Final = "assumed"
 LOUD_LINE_BELOW_TOTAL_DB: Final = 11.0
 """A pessimistic structure-borne 1x line: 45 of 56 dB(A)."""
 
-NOT_MODELLED: Final = (
+RIGID_SHELL: Final = (
     "The shell is rigid. Its elastic modes and the gas, contact and bearing forces that drive them "
     "are not modelled; these forces are internal and do not shake the "
     "rigid machine, but they make most of its sound.",
+)
+
+ELASTIC_SHELL: Final = (
+    "Gas forces, Oldham keys and motor torque drive the modes of an elastic shell, which is empty: "
+    "machine, oil and gas inside are not in its modes, but for a range of their frequencies and "
+    "mobility. Bearing housing, fixed scroll and stator are rigid and touch the shell at welds "
+    "only; feet, tubes and terminal box are left out.",
+    "Contact of the wraps' flanks and tips, noise of the bearings, magnetic forces of the motor "
+    "other than its torque, the flow through the discharge port and sound in the gas of the shell "
+    "are not modelled; they are part of the remainder.",
+)
+"""Instead of RIGID_SHELL where inner sources are modelled."""
+
+NOT_MODELLED: Final = (
     "Gas pulsation in the suction and discharge pipes is not modelled.",
     "Structure-borne sound is not modelled: the forces into the feet are reported, the floor, "
     "panel and pipes that they would excite are not. A change of the foot force may be heard "
@@ -45,10 +60,7 @@ NOT_MODELLED_OF_KIND: Final = {
         "A weight on the shaft turns: it lowers the force along the stroke of the ring and makes "
         "one across it. The machine's own counterweights may already hold part of it; they are "
         "taken to balance scroll, pin and brake only.",
-        "A second ring has no gas force that presses its keys: they are likely to rattle, which "
-        "can be louder than the 1× line that it removes. A sprung mass is tuned to one speed.",
-        "The shaft turns at constant speed; torque ripple, twice-line torque of the motor and key "
-        "slap are not modelled.",
+        "A sprung mass is tuned to one speed.",
     ),
     "slider-link": (
         "Start and stop, in which the block swings widely on its springs, and knocks of the block "
@@ -81,11 +93,27 @@ NOT_MODELLED_OF_KIND: Final = {
 }
 """What each kind of machine leaves out besides."""
 
+_WITHOUT_INSIDE: Final = (
+    "A second ring has no gas force that presses its keys: they are likely to rattle, which can be "
+    "louder than the 1× line that it removes.",
+    "The shaft turns at constant speed; torque ripple, twice-line torque of the motor and key slap "
+    "are not modelled.",
+)
+_WITH_INSIDE: Final = (
+    "Forces of the moving parts and keys are those at constant speed; torque ripple and the "
+    "motor's torque act on stator and machine only. The ring's keys strike along a clearance and "
+    "its bodies are rigid; all four have the same clearance, friction and stiffness.",
+)
+_OF_SCROLL: Final = {False: _WITHOUT_INSIDE, True: _WITH_INSIDE}
+"""What a scroll leaves out, without and with inner sources."""
+
 
 def not_modelled(results: xr.Dataset) -> tuple[str, ...]:
     """What the results leave out, one sentence or two each."""
-    kind = parameters(results)["machine"]["kind"]
-    return (*NOT_MODELLED, *NOT_MODELLED_OF_KIND.get(kind, ()))
+    kind, inside = parameters(results)["machine"]["kind"], has_inner_sources(results)
+    of_scroll = _OF_SCROLL[inside] if kind == "oldham-scroll" else ()
+    of_shell = ELASTIC_SHELL if inside else RIGID_SHELL
+    return (*of_shell, *NOT_MODELLED, *NOT_MODELLED_OF_KIND.get(kind, ()), *of_scroll)
 
 
 def records_table(results: xr.Dataset) -> Table:
@@ -113,16 +141,21 @@ def errata_table(results: xr.Dataset) -> Table | None:
 
 def remainder_sentence(results: xr.Dataset) -> str:
     """How the part of the level that the model does not explain is fixed."""
-    noise = parameters(results)["machine"]["overall_noise"]
+    noise = overall_noise(results)
     assumed = any(
         record["field"].endswith("overall_noise.level_dba") and _is_assumed(record)
         for record in parameters(results)["records"]
     )
     who = "The catalogue gives" if not assumed else "The level of the whole machine is assumed:"
+    if has_inner_sources(results):
+        rest = Band(*map(float, results["inner_remainder_level"].values))
+        left = f"{rest.ends(rounding.fixed)} dB(A) ({band_words(results)} of the draws)"
+    else:
+        left = f"{rounding.fixed(results['level_remainder'].item(), 3)} dB(A)"
     return (
         f"{who} {noise['level_dba']:g} dB(A) at {noise['distance_m']:g} m and "
         f"{noise['speed_rpm']:g} rpm. What the model leaves of it at {catalogue_receiver(results)} "
-        f"without a balancer, {rounding.fixed(results['level_remainder'].item(), 3)} dB(A), is "
+        f"without a balancer, {left}, is "
         "added as energy to the modelled level at every speed, option and microphone. That it "
         "stays constant is an assumption, not a result."
     )
@@ -130,7 +163,7 @@ def remainder_sentence(results: xr.Dataset) -> str:
 
 def structure_borne_sentence(results: xr.Dataset) -> str:
     """What removing a line would buy, were it far louder through the feet than through the air."""
-    total = float(parameters(results)["machine"]["overall_noise"]["level_dba"])
+    total = overall_noise(results)["level_dba"]
     gain = 10.0 * np.log10(1.0 - 10.0 ** (-LOUD_LINE_BELOW_TOTAL_DB / 10.0))
     return (
         f"To see what such sound could change: a 1× line of {total - LOUD_LINE_BELOW_TOTAL_DB:g} "

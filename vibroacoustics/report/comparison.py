@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..schema import REFERENCE_OPTION
 from . import rounding
-from .study import catalogue_receiver, first_order_hz, options, speeds
+from .study import catalogue_receiver, first_order_hz, has_inner_sources, options, speeds
 from .tables import Table, to_csv, to_text
 
 HEADS: Final = {
@@ -45,6 +45,14 @@ _SOURCES: Final[dict[str, Callable[[xr.Dataset], xr.DataArray]]] = {
     "change_total_dba": lambda results: results["change_total"],
 }
 
+_OF_ALL_SOURCES: Final = {
+    "level_modelled_dba": "level_all_sources",
+    "level_total_dba": "level_whole",
+    "change_modelled_dba": "change_all_sources",
+    "change_total_dba": "change_whole",
+}
+"""Variables of these columns where gas, keys and motor are modelled, at the assumed values."""
+
 _TERMINAL: Final = {
     "force_1x_n": "1x N",
     "force_2x_n": "2x N",
@@ -59,11 +67,16 @@ _TERMINAL: Final = {
 
 
 _BESIDE: Final[dict[str, str]] = {"level_modelled_db": "Z", "level_modelled_dbc": "C"}
-"""Further columns of the CSV: the modelled level in the other weightings."""
+"""Further columns of the CSV: the level of the modelled orders in the other weightings."""
+
+_BANDS: Final = ("change_all_sources", "change_whole")
+"""Further columns of the CSV with inner sources, as quantiles over the draws."""
 
 
 def column(results: xr.Dataset, name: str) -> xr.DataArray:
     """One column over option, speed and, for levels, receiver; the unit is in its name."""
+    if has_inner_sources(results) and name in _OF_ALL_SOURCES:
+        return results[_OF_ALL_SOURCES[name]].reset_coords(drop=True)
     return _SOURCES[name](results).reset_coords(drop=True)
 
 
@@ -84,14 +97,28 @@ def comparison_csv(results: xr.Dataset) -> bytes:
     compared = comparison(results)
     receivers = [str(name) for name in compared["receiver"].values]
     keys: Iterable[tuple[str | float, ...]] = product(options(results), speeds(results), receivers)
-    beside = (
-        results["level_modelled"].sel(weighting=weighting).transpose("option", "speed", "receiver")
-        for weighting in _BESIDE.values()
-    )
-    arrays = [*(compared[name] for name in COLUMNS), *beside]
+    beside = _beside(results)
+    arrays = [
+        *(compared[name] for name in COLUMNS),
+        *(values.transpose("option", "speed", "receiver") for values in beside.values()),
+    ]
     values = zip(*(array.values.ravel() for array in arrays), strict=True)
     rows = [(*key, *map(float, row)) for key, row in zip(keys, values, strict=True)]
-    return to_csv(("option", "speed_rpm", "receiver", *COLUMNS, *_BESIDE), rows)
+    return to_csv(("option", "speed_rpm", "receiver", *COLUMNS, *beside), rows)
+
+
+def _beside(results: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Further columns: other weightings of the orders, or bands of the changes."""
+    if not has_inner_sources(results):
+        modelled = results["level_modelled"]
+        return {name: modelled.sel(weighting=weighting) for name, weighting in _BESIDE.items()}
+    return {
+        f"{name}_{100.0 * quantile:.0f}_percent_db": results[f"{name}_quantile"].sel(
+            quantile=quantile
+        )
+        for name in _BANDS
+        for quantile in results["quantile"].values
+    }
 
 
 def comparison_tables(results: xr.Dataset, receiver: str) -> list[Table]:
@@ -110,12 +137,14 @@ def _tables(results: xr.Dataset, receiver: str, heads: dict[str, str]) -> list[T
     numbers = {name: compared[name].transpose("speed", "option").values for name in COLUMNS}
     reference = options(results).index(REFERENCE_OPTION)
     pairs = zip(speeds(results), first_order_hz(results), strict=True)
+    uncertain = {"change_total_dba": _rough_change} if has_inner_sources(results) else {}
+    cells = {**_CELLS, **uncertain}
     return [
         Table(
             f"{speed:g} rpm (1× at {frequency:.1f} Hz), microphone {receiver}",
             ("Option", *heads.values()),
             tuple(
-                (option, *_cells(_at(numbers, i, j), _at(numbers, i, reference), heads))
+                (option, *_cells(_at(numbers, i, j), _at(numbers, i, reference), cells, heads))
                 for j, option in enumerate(options(results))
             ),
         )
@@ -124,14 +153,17 @@ def _tables(results: xr.Dataset, receiver: str, heads: dict[str, str]) -> list[T
 
 
 _Numbers = dict[str, float]
+_Cell = Callable[[_Numbers, _Numbers, str], str]
 
 
 def _at(numbers: dict[str, NDArray[np.float64]], speed: int, option: int) -> _Numbers:
     return {name: float(values[speed, option]) for name, values in numbers.items()}
 
 
-def _cells(own: _Numbers, reference: _Numbers, heads: dict[str, str]) -> Iterable[str]:
-    return (_CELLS[name](own, reference, name) for name in heads)
+def _cells(
+    own: _Numbers, reference: _Numbers, cells: dict[str, _Cell], names: Iterable[str]
+) -> Iterable[str]:
+    return (cells[name](own, reference, name) for name in names)
 
 
 def _amount(own: _Numbers, reference: _Numbers, name: str) -> str:
@@ -142,7 +174,7 @@ def _level(own: _Numbers, reference: _Numbers, name: str) -> str:
     return rounding.level(own[name])
 
 
-def _change_of(level_name: str) -> Callable[[_Numbers, _Numbers, str], str]:
+def _change_of(level_name: str) -> _Cell:
     def cell(own: _Numbers, reference: _Numbers, name: str) -> str:
         return rounding.level_change(own[name], own[level_name], reference[level_name])
 
@@ -153,7 +185,11 @@ def _total_change(own: _Numbers, reference: _Numbers, name: str) -> str:
     return rounding.signed(own[name], 3)
 
 
-_CELLS: Final[dict[str, Callable[[_Numbers, _Numbers, str], str]]] = {
+def _rough_change(own: _Numbers, reference: _Numbers, name: str) -> str:
+    return rounding.signed(own[name])
+
+
+_CELLS: Final[dict[str, _Cell]] = {
     "force_1x_n": _amount,
     "force_2x_n": _amount,
     "moment_1x_nm": _amount,

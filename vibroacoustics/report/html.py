@@ -10,13 +10,22 @@ import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from . import assumptions, housing, kind_words, provenance, scores, verdict
+from . import (
+    assumptions,
+    housing,
+    kind_words,
+    provenance,
+    scores,
+    source_tables,
+    source_words,
+    verdict,
+)
 from .comparison import comparison_tables
 from .figures import Picture
 from .option_facts import facts_table
 from .option_verdict import option_verdicts
 from .rounding import FORCE_FLOOR, LEVEL_FLOOR_DB, fixed
-from .study import catalogue_receiver, other_receivers, parameters
+from .study import catalogue_receiver, has_inner_sources, other_receivers, parameters
 
 
 def html(results: xr.Dataset, pictures: Sequence[Picture]) -> bytes:
@@ -52,11 +61,29 @@ def _context(results: xr.Dataset, pictures: Sequence[Picture]) -> dict[str, Any]
         "pictures": {picture.name: picture for picture in pictures},
         "transfer": [p for p in pictures if p.name.startswith("transfer_")],
         "maps": [p for p in pictures if p.name == "line_map"],
+        "spectra": [p for p in pictures if p.name.startswith("sources_")],
         "level_floor": fixed(LEVEL_FLOOR_DB, 0),
         "force_floor": f"{1e6 * FORCE_FLOOR:g}",
+        **_inside(results),
         **_housing(results),
         **_scores(results),
         **_sources(results),
+    }
+
+
+def _inside(results: xr.Dataset) -> dict[str, Any]:
+    """The section on what carries the level; empty where inner sources are not modelled."""
+    if not has_inner_sources(results):
+        return {"inside": None}
+    return {
+        "inside": {
+            "carrier": source_words.carrier_sentence(results),
+            "shares": source_words.shares_sentence(results),
+            "certainty": source_words.certainty_sentences(results),
+            "sources": source_tables.source_tables(results),
+            "changes": source_tables.change_tables(results),
+            "figures": source_tables.figures_table(results),
+        }
     }
 
 
@@ -81,6 +108,7 @@ def _scores(results: xr.Dataset) -> dict[str, Any]:
         "published_source": scores.published_source(results),
         "wrong_sums": scores.wrong_sums(results),
         "draws": parameters(results)["scoring"]["random_weightings"],
+        "scope": scores.scope_words(results),
     }
 
 

@@ -2,10 +2,10 @@
 
 import xarray as xr
 
-from . import verdict
+from . import source_tables, verdict
 from .comparison import comparison_tables
 from .rounding import FORCE_FLOOR, LEVEL_FLOOR_DB, fixed
-from .study import catalogue_receiver, other_receivers, parameters
+from .study import catalogue_receiver, has_inner_sources, other_receivers, parameters
 from .tables import escape_markdown, to_markdown
 
 
@@ -13,6 +13,9 @@ def comparison_markdown(results: xr.Dataset) -> bytes:
     """Verdict and tables, the catalogue's microphone first."""
     receivers = [catalogue_receiver(results), *other_receivers(results)]
     tables = [table for name in receivers for table in comparison_tables(results, name)]
+    if has_inner_sources(results):
+        inside = (source_tables.source_tables(results), source_tables.change_tables(results))
+        tables = [*inside[0], *inside[1], *tables]
     parts = [
         f"# {escape_markdown(parameters(results)['title'])}",
         escape_markdown(verdict.headline(results)),

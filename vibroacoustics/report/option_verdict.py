@@ -8,8 +8,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from . import rounding
-from .shifts import JUDGED, LINE, TOTAL, Shift, shift
-from .study import balancers, catalogue_receiver, other_receivers
+from .shifts import JUDGED, LINE, MODELLED, TOTAL, Shift, shift
+from .source_changes import change_sentences, source_change
+from .study import balancers, catalogue_receiver, has_inner_sources, other_receivers
 
 Facts = dict[str, NDArray[np.float64]]
 """Reported figures of an option by name, over the speeds at which they are given."""
@@ -18,6 +19,8 @@ BETTER: Final = "better"
 WORSE: Final = "worse"
 MIXED: Final = "mixed"
 NO_CHANGE: Final = "no change"
+
+ALL_SOURCES: Final = "sound of all sources"
 
 
 class OptionVerdict(NamedTuple):
@@ -35,17 +38,28 @@ def option_verdicts(results: xr.Dataset) -> list[OptionVerdict]:
 
 
 def option_verdict(results: xr.Dataset, option: str) -> OptionVerdict:
-    """Judge one option by its 1x force, moment, foot force and line, at every microphone."""
-    shifts = [shift(results, quantity, option) for quantity in JUDGED]
+    """Judge one option by its 1x force, moment, foot force and line, at every microphone.
+
+    Where gas, keys and motor are modelled, the band of all sources stands for the modelled level.
+    """
+    inside = source_change(results, option) if has_inner_sources(results) else None
+    shifts = [
+        shift(results, quantity, option)
+        for quantity in JUDGED
+        if inside is None or quantity != MODELLED
+    ]
     elsewhere = {
         receiver: shift(results, LINE, option, receiver) for receiver in other_receivers(results)
     }
     worse_in = _worse_in(shifts, elsewhere)
-    judgement = judge(bool(worse_in), any(own.improves for own in shifts))
+    if inside is not None and inside.worsens:
+        worse_in = (*worse_in, ALL_SOURCES)
+    better = any(own.improves for own in shifts) or (inside is not None and inside.improves)
+    judgement = judge(bool(worse_in), better)
     sentences = [
         _shift_sentence(shifts, judgement, catalogue_receiver(results)),
         _elsewhere(shifts[-1], elsewhere),
-        _total(results, option),
+        *([_total(results, option)] if inside is None else change_sentences(results, option)),
         *fact_sentences(facts(results, option), judgement),
     ]
     return OptionVerdict(option, judgement, worse_in, tuple(filter(None, sentences)))
@@ -77,7 +91,8 @@ def fact_sentences(known: Facts, judgement: str) -> list[str]:
 
 def _shift_sentence(shifts: Sequence[Shift], judgement: str, receiver: str) -> str:
     if judgement == NO_CHANGE:
-        return "1× force, 1× moment, 1× foot force, 1× line and modelled level stay the same."
+        *words, last = (own.quantity.words for own in shifts)
+        return f"{', '.join(words)} and {last} stay the same."
     mechanical = [own for own in shifts if not own.quantity.is_level]
     parts = [f"the {own.quantity.words} {own.sentence()}" for own in mechanical]
     return f"At 1×, {'; '.join(parts)}. ".replace("the 1× ", "the ") + (

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from . import labels, rounding
-from .study import options, parameters
+from .study import has_inner_sources, options, parameters
 from .tables import Table, to_csv
 
 SUM_TOLERANCE: Final = 1e-6
@@ -76,6 +76,16 @@ def scores_table(results: xr.Dataset) -> Table:
         "Scores and ranks, best first by the first method",
         (*head, "First in random weightings"),
         rows,
+    )
+
+
+def scope_words(results: xr.Dataset) -> str:
+    """Warn that the scores leave the inner sources out."""
+    if not has_inner_sources(results):
+        return ""
+    return (
+        " The scores count the shaft orders of the rigid machine only: the sound of gas "
+        "and keys is not in them."
     )
 
 

@@ -18,6 +18,10 @@ TOLERANCE_DB: Final = 0.05
 """Smaller changes count as none."""
 
 
+HEARD_DB: Final = 1.0
+"""A change of the total below about 1 dB is not heard, even side by side."""
+
+
 @dataclass(frozen=True)
 class Quantity:
     """A column of the comparison, and how a sentence calls it."""

@@ -42,6 +42,16 @@ def other_receivers(results: xr.Dataset) -> list[str]:
     return [name for name in names if name != catalogue_receiver(results)]
 
 
+def overall_noise(results: xr.Dataset) -> dict[str, float]:
+    """Published level of the whole machine with its speed and distance."""
+    return dict(parameters(results)["machine"]["overall_noise"])
+
+
+def has_inner_sources(results: xr.Dataset) -> bool:
+    """Whether gas, keys and motor drive an elastic shell."""
+    return "source_level" in results
+
+
 def first_order_hz(results: xr.Dataset) -> NDArray[np.float64]:
     """Frequency of the 1x line at each speed, Hz."""
     return np.array([shaft_frequency_hz(speed) for speed in speeds(results)])

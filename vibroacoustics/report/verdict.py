@@ -10,18 +10,32 @@ from ..schema import REFERENCE_OPTION
 from . import labels, rounding
 from .comparison import column, comparison
 from .option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, OptionVerdict, option_verdicts
-from .shifts import FOOT_FORCE, FORCE, LINE, MODELLED, MOMENT, TOTAL, Quantity, at_receiver, shift
+from .scores import scope_words
+from .shifts import (
+    FOOT_FORCE,
+    FORCE,
+    HEARD_DB,
+    LINE,
+    MODELLED,
+    MOMENT,
+    TOLERANCE_DB,
+    TOTAL,
+    Quantity,
+    at_receiver,
+    shift,
+)
+from .source_changes import changes_sentence
+from .source_words import carrier_sentence, left_out_sentence, shares_sentence
 from .study import (
     balancers,
     catalogue_receiver,
     first_order_hz,
+    has_inner_sources,
+    overall_noise,
     parameters,
     speeds,
 )
 from .tables import Table
-
-HEARD_DB: Final = 1.0
-"""A change of the total below about 1 dB is not heard, even side by side."""
 
 MEASURED_DB: Final = 0.1
 """A change of the total below 0.1 dB drowns in the repeatability of a measurement."""
@@ -30,8 +44,10 @@ COMPARED: Final = (FORCE, MOMENT, FOOT_FORCE, LINE, MODELLED, TOTAL)
 
 
 def headline(results: xr.Dataset) -> str:
-    """One sentence: what balancing does to the 1x line and to the total."""
+    """What carries the level where that is modelled; else what balancing does to the level."""
     receiver, names = catalogue_receiver(results), balancers(results)
+    if has_inner_sources(results):
+        return carrier_sentence(results)
     if not names:
         return f"This study has no balancing option beside {REFERENCE_OPTION}."
     line = np.concatenate([shift(results, LINE, name).gain_db for name in names])
@@ -45,10 +61,17 @@ def headline(results: xr.Dataset) -> str:
 
 def reasons(results: xr.Dataset) -> list[str]:
     """Sentences that explain the headline."""
-    texts = [_as_it_is(results), _remainder(results)]
+    inside = has_inner_sources(results)
+    texts = [_as_it_is(results)]
+    if inside:
+        texts += [shares_sentence(results), left_out_sentence(results)]
+    else:
+        texts.append(_remainder(results))
     if not balancers(results):
         return texts
     verdicts = option_verdicts(results)
+    if inside:
+        texts.insert(0, changes_sentence(results))
     return [*texts, *_warnings(verdicts), _ranking(results, verdicts)]
 
 
@@ -58,8 +81,9 @@ def extremes_table(results: xr.Dataset) -> Table | None:
         return None
     rows = tuple(_extremes(results, quantity) for quantity in COMPARED)
     head = ("Quantity, largest over the speeds", "Without balancer", "Best option", "Worst option")
+    values = ", values as assumed" if has_inner_sources(results) else ""
     return Table(
-        f"Best and worst, levels at {catalogue_receiver(results)}",
+        f"Best and worst, levels at {catalogue_receiver(results)}{values}",
         head,
         rows,
         frozenset({0, 1, 2, 3}),
@@ -141,7 +165,7 @@ def _warnings(verdicts: Sequence[OptionVerdict]) -> list[str]:
         f"Worse than no balancer: {', '.join(worse)}." if worse else "",
         f"Better in one respect, worse in another: {'; '.join(mixed)}." if mixed else "",
         f"Without any effect on force, feet and sound: {', '.join(idle)}." if idle else "",
-        "" if worse or mixed else "No option makes the force, the feet or the 1× line worse.",
+        "" if worse or mixed else "No option makes the force, the feet or the sound worse.",
     ]
     return [text for text in texts if text]
 
@@ -169,6 +193,7 @@ def _ranking(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> str:
         f"By the study's weights {' and '.join(winners)} {verb} first "
         f"({labels.name(method).lower()}, score {score} of 1), "
         f"and in {share:.0f} % of {draws} weightings drawn at random.{behind if unlucky else ''}"
+        f"{scope_words(results)}"
     )
 
 
@@ -178,11 +203,17 @@ def _extremes(results: xr.Dataset, quantity: Quantity) -> tuple[str, ...]:
     highest = values.max("speed")
     worst = highest.sel(option=balancers(results)).clip(min=quantity.floor)
     best_name, worst_name = (str(find("option").item()) for find in (worst.idxmin, worst.idxmax))
-    write = _write_total if quantity == TOTAL else quantity.write
+    exact = quantity == TOTAL and not has_inner_sources(results)
+    write = _write_total if exact else quantity.write
+    own = highest.sel(option=REFERENCE_OPTION).item()
+    best = highest.sel(option=best_name).item()
+    close = quantity in (MODELLED, TOTAL) and own - best < TOLERANCE_DB
+    none_better = close and has_inner_sources(results)
     return (
         quantity.words,
-        write(highest.sel(option=REFERENCE_OPTION).item()),
-        *(f"{write(highest.sel(option=name).item())}: {name}" for name in (best_name, worst_name)),
+        write(own),
+        f"none lower by {TOLERANCE_DB:g} dB" if none_better else f"{write(best)}: {best_name}",
+        f"{write(highest.sel(option=worst_name).item())}: {worst_name}",
     )
 
 
@@ -192,4 +223,4 @@ def _write_total(value_dba: float) -> str:
 
 
 def _whole(results: xr.Dataset) -> float:
-    return float(parameters(results)["machine"]["overall_noise"]["level_dba"])
+    return overall_noise(results)["level_dba"]

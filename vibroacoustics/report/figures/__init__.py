@@ -6,6 +6,7 @@ from .mounts import mount_figures
 from .orders import order_figures
 from .radiation import level_figures, transfer_figures
 from .scores import score_figures
+from .sources import source_figures
 from .style import Picture
 
 __all__ = [
@@ -16,5 +17,6 @@ __all__ = [
     "mount_figures",
     "order_figures",
     "score_figures",
+    "source_figures",
     "transfer_figures",
 ]

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from .. import rounding
 from ..comparison import comparison
-from ..study import catalogue_receiver, first_order_hz, options, speeds
+from ..study import catalogue_receiver, first_order_hz, has_inner_sources, options, speeds
 from .style import (
     COLOURS,
     Picture,
@@ -39,9 +39,10 @@ def level_figures(results: xr.Dataset) -> list[Picture]:
     receiver = catalogue_receiver(results)
     compared = comparison(results).sel(receiver=receiver)
     names = options(results)
+    what = "sources" if has_inner_sources(results) else "orders"
     kinds = {
         "level_1x_dba": ("1× line", "o", 6, COLOURS[3]),
-        "level_modelled_dba": ("all modelled orders", "|", 13, COLOURS[1]),
+        "level_modelled_dba": (f"all modelled {what}", "|", 13, COLOURS[1]),
         "level_total_dba": ("total", "s", 6, COLOURS[0]),
     }
 
@@ -63,11 +64,12 @@ def level_figures(results: xr.Dataset) -> list[Picture]:
         Picture(
             "levels",
             f"A-weighted levels at {receiver} for every option and speed: 1× line, all modelled "
-            f"orders, and the total near {float(total.mean()):.1f} dB(A).",
+            f"{what}, and the total near {float(total.mean()):.1f} dB(A).",
             f"A-weighted levels at {receiver}. The total stays where it is because the modelled "
             "orders lie far below it."
             if float(compared["level_modelled_dba"].max()) < float(total.min()) - 10.0
-            else f"A-weighted levels at {receiver}: 1× line, all modelled orders and the total.",
+            else f"A-weighted levels at {receiver}: 1× line, all modelled {what} and the total"
+            f"{', at the assumed values' if has_inner_sources(results) else ''}.",
             draw(len(speeds(results)), 0.7 + 0.26 * len(names), paint, sharex=True),
         )
     ]

@@ -1,0 +1,128 @@
+"""Third-octave spectra of the sources of sound, and of the options that change them."""
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from ...schema import REFERENCE_OPTION
+from ..shifts import HEARD_DB
+from ..source_words import quoted_speed, source_name
+from ..study import balancers, catalogue_receiver, has_inner_sources, speeds
+from .style import MARKERS, Picture, draw, frequency_ticks, legend_below, line_looks, wrap
+
+QUIETEST_DB: Final = -10.0
+"""Levels below are not drawn."""
+WITHIN_DB: Final = 20.0
+"""Bands that lie further below the loudest one do not decide whether options differ."""
+MOVING_PARTS: Final = "moving_parts"
+"""The source that is not an inner one."""
+
+
+def source_figures(results: xr.Dataset) -> list[Picture]:
+    """Spectra of the sources without a balancer; of the options that change the inner ones."""
+    if not has_inner_sources(results):
+        return []
+    changing = _changing_options(results)
+    pictures = [_sources(results)]
+    return [*pictures, _options(results, changing)] if changing else pictures
+
+
+def _sources(results: xr.Dataset) -> Picture:
+    receiver, speed = catalogue_receiver(results), quoted_speed(results)
+    spectra = results["source_band_level"].sel(
+        option=REFERENCE_OPTION, speed=speed, receiver=receiver
+    )
+    shown = [
+        str(source)
+        for source in spectra["sound_source"].values
+        if spectra.sel(sound_source=source).max() > QUIETEST_DB
+    ]
+    silent = [source_name(str(s)) for s in spectra["sound_source"].values if str(s) not in shown]
+
+    def paint(panels: Sequence[Axes]) -> None:
+        (axes,) = panels
+        curves = [spectra.sel(sound_source=source).values for source in shown]
+        _curves(axes, spectra["band"].values, curves, [source_name(name) for name in shown])
+        axes.set_xlabel("Third-octave band, Hz")
+        axes.set_ylabel("Level, dB re 20 µPa, unweighted")
+        legend_below(axes, 1)
+
+    below = (
+        f" Not drawn, everywhere below {QUIETEST_DB:g} dB: {', '.join(silent)}." if silent else ""
+    )
+    return Picture(
+        "sources_third_octaves",
+        f"Third-octave levels of each source at {receiver} and {speed:g} rpm without a balancer, "
+        f"20 Hz to {spectra['band'].values[-1]:g} Hz.",
+        f"Each source alone at {receiver}, {speed:g} rpm, without a balancer; values as assumed, "
+        f"no weighting.{below.replace('-', '−')}",
+        draw(1, 3.0, paint, len(shown)),
+    )
+
+
+def _options(results: xr.Dataset, changing: list[str]) -> Picture:
+    receiver = catalogue_receiver(results)
+    names = [REFERENCE_OPTION, *changing]
+    level = _inner_level(results)
+
+    def paint(panels: Sequence[Axes]) -> None:
+        for axes, speed in zip(panels, speeds(results), strict=True):
+            curves = [level.sel(option=name, speed=speed).values for name in names]
+            _curves(axes, level["band"].values, curves, [wrap(name, 24) for name in names])
+            axes.set_title(f"{speed:g} rpm", loc="left")
+            axes.set_ylabel("Level, dB re 20 µPa")
+        panels[-1].set_xlabel("Third-octave band, Hz")
+        legend_below(panels[0], 2)
+
+    return Picture(
+        "sources_options",
+        f"Third-octave levels of all inner sources together at {receiver} for {', '.join(names)}.",
+        f"Gas, keys and motor together (energies added) at {receiver}, values as assumed, no "
+        f"weighting: options that change a band within {WITHIN_DB:g} dB of the loudest by more "
+        f"than {HEARD_DB:g} dB. The 1× line is not in it.",
+        draw(len(speeds(results)), 2.4, paint, (len(names) + 1) // 2, sharex=True),
+    )
+
+
+def _curves(
+    axes: Axes,
+    band_hz: NDArray[np.float64],
+    curves: Sequence[NDArray[np.float64]],
+    names: list[str],
+) -> None:
+    for number, (curve, name, look) in enumerate(
+        zip(curves, names, line_looks(len(names)), strict=True)
+    ):
+        shown = np.where(curve > QUIETEST_DB, curve, np.nan)
+        marker = MARKERS[number % len(MARKERS)]
+        axes.semilogx(band_hz, shown, marker=marker, markersize=3.5, label=name, **look)
+    axes.set_ylim(bottom=QUIETEST_DB)
+    axes.set_xlim(band_hz[0] / 1.12, band_hz[-1] * 1.12)
+    frequency_ticks(axes, band_hz)
+
+
+def _changing_options(results: xr.Dataset) -> list[str]:
+    """Options that change a loud band of the inner sources by what can be heard."""
+    level = _inner_level(results)
+    reference = level.sel(option=REFERENCE_OPTION)
+    loudest = reference.max("band")
+    found = []
+    for option in balancers(results):
+        own = level.sel(option=option)
+        loud = (own > loudest - WITHIN_DB) | (reference > loudest - WITHIN_DB)
+        if (abs(own - reference).where(loud, 0.0) > HEARD_DB).any():
+            found.append(option)
+    return found
+
+
+def _inner_level(results: xr.Dataset) -> xr.DataArray:
+    """Energy sum of all sources but the moving parts, at the catalogue's microphone, dB."""
+    levels = results["source_band_level"].sel(receiver=catalogue_receiver(results))
+    inner = [name for name in levels["sound_source"].values if str(name) != MOVING_PARTS]
+    power = (10.0 ** (levels.sel(sound_source=inner) / 10.0)).sum("sound_source")
+    summed: xr.DataArray = 10.0 * xr.apply_ufunc(np.log10, power)
+    return summed

@@ -1,0 +1,196 @@
+"""Tables of the sources of sound, and of what the options do to them."""
+
+from itertools import product
+
+import numpy as np
+import xarray as xr
+
+from ..schema import REFERENCE_OPTION
+from . import labels, rounding
+from .bands import Band, band, band_words, energy_share, percent
+from .comparison import comparison
+from .source_changes import key_figure
+from .source_words import quoted_speed, ranked, source_name
+from .study import balancers, catalogue_receiver, options, overall_noise, speeds
+from .tables import Table, to_csv
+
+
+def source_tables(results: xr.Dataset) -> list[Table]:
+    """Level and share of each source without a balancer, a table per speed."""
+    return [_source_table(results, speed) for speed in speeds(results)]
+
+
+def change_tables(results: xr.Dataset) -> list[Table]:
+    """What each option does to the line, to all sources and to the whole, a table per speed."""
+    if not balancers(results):
+        return []
+    head = (
+        "Option",
+        "Δ 1× line, dB",
+        "Δ all modelled sources as assumed, dB",
+        f"its {band_words(results)}, dB",
+        "Δ total as assumed, dB",
+        f"its {band_words(results)}, dB",
+        "Key impacts per revolution",
+        "Largest key force, N",
+    )
+    receiver = catalogue_receiver(results)
+    return [
+        Table(
+            f"{speed:g} rpm, microphone {receiver}: changes against {REFERENCE_OPTION}; keys of "
+            "the ring + of a second ring",
+            head,
+            tuple(_change_row(results, option, speed) for option in options(results)),
+        )
+        for speed in speeds(results)
+    ]
+
+
+def figures_table(results: xr.Dataset) -> Table:
+    """Figures of the inner sources, and those of options that differ from no balancer."""
+    names = [str(name) for name in results["inner_figure"]["inner_figure_name"].values]
+    cells = {
+        (option, name): tuple(map(rounding.significant, key_figure(results, option, name)))
+        for option, name in product([REFERENCE_OPTION, *balancers(results)], names)
+    }
+    rows = tuple(
+        (option, labels.name(name), labels.unit(name) or "1", *values)
+        for (option, name), values in cells.items()
+        if set(values) != {rounding.NOTHING}
+        and (option == REFERENCE_OPTION or values != cells[REFERENCE_OPTION, name])
+    )
+    head = ("Option", "Figure", "Unit", *(f"At {speed:g} rpm" for speed in speeds(results)))
+    caption = "Figures of the inner sources, values as assumed; options where they differ from none"
+    return Table(caption, head, rows, frozenset({0, 1, 2}))
+
+
+def sources_csv(results: xr.Dataset) -> bytes:
+    """One row per option, speed, microphone and source, to nine significant digits."""
+    dims = ("option", "speed", "receiver", "sound_source")
+    quantiles = {
+        f"level_{100.0 * quantile:.0f}_percent_dba": results["source_level_quantile"].sel(
+            quantile=quantile
+        )
+        for quantile in results["quantile"].values
+    }
+    columns = {
+        "level_dba": results["source_level"],
+        **quantiles,
+        "share_of_modelled_energy": results["source_share"],
+    }
+    values = zip(
+        *(array.transpose(*dims).values.ravel() for array in columns.values()), strict=True
+    )
+    keys = product(*(results[dim].values.tolist() for dim in dims))
+    rows = ([*key, *map(float, row)] for key, row in zip(keys, values, strict=True))
+    return to_csv(("option", "speed_rpm", "receiver", "source", *columns), rows)
+
+
+def _source_table(results: xr.Dataset, speed: float) -> Table:
+    overall, quoted = overall_noise(results)["level_dba"], speed == quoted_speed(results)
+    head = [
+        "Source, the loudest first",
+        "Level as assumed, dB(A)",
+        f"Middle of the draws ({band_words(results)}), dB(A)",
+        "Share of the modelled energy, as assumed",
+    ]
+    if quoted:
+        head += [
+            f"Share of the energy of {overall:g} dB(A), as assumed",
+            f"The same, middle of the draws ({band_words(results)})",
+        ]
+    rows = [
+        _row(
+            source_name(source).capitalize(),
+            _level(results, source, speed),
+            level,
+            share,
+            quoted,
+            overall,
+        )
+        for source, level in ranked(results, speed)
+        for share in (percent(_at(results, "source_share", speed, sound_source=source)),)
+    ]
+    modelled, whole = (_at(results, name, speed) for name in ("level_all_sources", "level_whole"))
+    sums = (
+        ("All modelled sources", modelled, _band(results, "level_all_sources", speed), "100 %"),
+        (
+            "Not modelled, the remainder",
+            _difference(whole, modelled),
+            Band(*map(float, results["inner_remainder_level"].values)),
+            rounding.NOTHING,
+        ),
+        ("Whole machine", whole, _band(results, "level_whole", speed), rounding.NOTHING),
+    )
+    rows += [_row(*own, quoted, overall) for own in sums]
+    caption = (
+        f"{speed:g} rpm, option {REFERENCE_OPTION}, microphone {catalogue_receiver(results)}"
+        + ("" if quoted else "; no overall level is published at this speed")
+    )
+    return Table(caption, tuple(head), tuple(rows))
+
+
+def _row(
+    name: str, level_dba: float, drawn: Band, share: str, quoted: bool, overall_dba: float
+) -> tuple[str, ...]:
+    cells = (name, rounding.level(level_dba), drawn.whole(rounding.level), share)
+    if not quoted:
+        return cells
+    return (
+        *cells,
+        percent(energy_share(level_dba, overall_dba)),
+        drawn.share_of(overall_dba).whole(percent),
+    )
+
+
+def _change_row(results: xr.Dataset, option: str, speed: float) -> tuple[str, ...]:
+    place = {"option": option, "speed": speed, "receiver": catalogue_receiver(results)}
+    compared = comparison(results)
+    line = compared["level_1x_db"].sel({**place, "option": [option, REFERENCE_OPTION]}).values
+    cells = [
+        option,
+        rounding.level_change(float(compared["change_1x_db"].sel(place)), *map(float, line)),
+    ]
+    for name in ("change_all_sources", "change_whole"):
+        cells.append(rounding.signed(float(results[name].sel(place))))
+        cells.append(band(results, name, **place).ends(rounding.signed))
+    at = speeds(results).index(speed)
+    for figure, write in (
+        ("impacts_per_revolution", rounding.fixed),
+        ("force_peak_n", rounding.significant),
+    ):
+        of_rings = [
+            key_figure(results, option, f"{ring}_{figure}")[at] for ring in ("key", "twin_key")
+        ]
+        cells.append(" + ".join(write(value) for value in of_rings if np.isfinite(value)))
+    return tuple(cells)
+
+
+def _at(results: xr.Dataset, name: str, speed: float, **more: str) -> float:
+    place = {
+        "speed": speed,
+        "option": REFERENCE_OPTION,
+        "receiver": catalogue_receiver(results),
+        **more,
+    }
+    return float(results[name].sel(place))
+
+
+def _level(results: xr.Dataset, source: str, speed: float) -> float:
+    return _at(results, "source_level", speed, sound_source=source)
+
+
+def _band(results: xr.Dataset, name: str, speed: float) -> Band:
+    return band(
+        results,
+        name,
+        speed=speed,
+        option=REFERENCE_OPTION,
+        receiver=catalogue_receiver(results),
+    )
+
+
+def _difference(whole_dba: float, part_dba: float) -> float:
+    """Level of what is left of a whole without a part; far below any hearing if nothing is."""
+    left = 10.0 ** (whole_dba / 10.0) - 10.0 ** (part_dba / 10.0)
+    return float(10.0 * np.log10(max(left, 1e-30)))

@@ -1,0 +1,197 @@
+"""Which source carries the modelled level, in sentences made from its numbers."""
+
+from collections.abc import Sequence
+from typing import Final
+
+import xarray as xr
+
+from ..schema import REFERENCE_OPTION
+from . import labels, rounding
+from .bands import Band, band, band_words, draws, energy_share, percent
+from .study import catalogue_receiver, first_order_hz, overall_noise, parameters, speeds
+
+NAMES: Final = {
+    "moving_parts": "moving parts (orders of the rigid machine)",
+    "gas": "gas forces",
+    "keys": "Oldham keys",
+    "torque_ripple": "torque ripple on the stator",
+    "motor": "motor at twice the line frequency",
+}
+
+
+_TABLES: Final = {"doubt": "path through the shell"}
+
+
+def source_name(source: str) -> str:
+    """Plain words for a source of sound."""
+    return NAMES.get(source, source.replace("_", " "))
+
+
+def quoted_speed(results: xr.Dataset) -> float:
+    """The speed at which the overall level is published."""
+    return overall_noise(results)["speed_rpm"]
+
+
+def ranked(results: xr.Dataset, speed: float) -> list[tuple[str, Band]]:
+    """Sources without a balancer at the catalogue's microphone, the loudest first."""
+    found = [
+        (str(source), _source_band(results, str(source), speed))
+        for source in results["sound_source"].values
+    ]
+    return sorted(found, key=lambda entry: -entry[1].middle)
+
+
+def carrier_sentence(results: xr.Dataset) -> str:
+    """Which source carries the modelled level, and how loud it is."""
+    speed, overall = quoted_speed(results), overall_noise(results)["level_dba"]
+    source, level = ranked(results, speed)[0]
+    share, assumed = level.share_of(overall), _assumed_level(results, source)
+    return (
+        f"At {catalogue_receiver(results)} and {speed:g} rpm, without a balancer, the loudest "
+        f"modelled source is: {source_name(source)}, {rounding.level(level.middle)} dB(A) in the "
+        f"middle of the draws ({band_words(results)} {level.ends(rounding.level)}) or "
+        f"{rounding.level(assumed)} dB(A) at the assumed values, which is "
+        f"{percent(share.middle)} ({share.ends(percent)}) or "
+        f"{percent(energy_share(assumed, overall))} of the energy of {overall:g} dB(A)."
+    )
+
+
+def shares_sentence(results: xr.Dataset) -> str:
+    """How much of the overall level each source accounts for."""
+    speed, overall = quoted_speed(results), overall_noise(results)["level_dba"]
+    at = {
+        "speed": speed,
+        "option": REFERENCE_OPTION,
+        "receiver": catalogue_receiver(results),
+    }
+    shares = [
+        f"{source_name(source)} {level.share_of(overall).whole(percent)}"
+        for source, level in ranked(results, speed)
+    ]
+    together = band(results, "level_all_sources", **at).share_of(overall)
+    rest = Band(*map(float, results["inner_remainder_level"].values)).share_of(overall)
+    return (
+        f"Of the energy of {overall:g} dB(A) there, in the middle of the draws with the "
+        f"{band_words(results)} in brackets: {'; '.join(shares)}; all modelled sources together "
+        f"{together.whole(percent)}. Not modelled is the rest, {rest.whole(percent)}."
+    )
+
+
+def certainty_sentences(results: xr.Dataset) -> list[str]:
+    """What the ranking and the bands rest on."""
+    texts = [_ranking(results), left_out_sentence(results), _as_assumed(results), _drawn(results)]
+    return [*filter(None, texts), _up_to(results), _not_an_order(results)]
+
+
+def left_out_sentence(results: xr.Dataset) -> str:
+    """How many draws the bands rest on, and why others do not count."""
+    kept, louder = draws(results)
+    overall = overall_noise(results)["level_dba"]
+    if not louder:
+        return f"The bands rest on {kept} draws, none of which exceeds {overall:g} dB(A) alone."
+    tends = (
+        "; the model tends to be too loud, and the bands tell" if louder > kept else ": they tell"
+    )
+    return (
+        f"{louder} of {kept + louder} draws are left out because their modelled sources alone "
+        f"exceed {overall:g} dB(A), which they cannot{tends} only what agrees with the published "
+        f"level. They rest on {kept} draws."
+    )
+
+
+def _source_band(results: xr.Dataset, source: str, speed: float) -> Band:
+    return band(
+        results,
+        "source_level",
+        sound_source=source,
+        speed=speed,
+        option=REFERENCE_OPTION,
+        receiver=catalogue_receiver(results),
+    )
+
+
+def _assumed_level(results: xr.Dataset, source: str) -> float:
+    """At the assumed values, without a balancer, where the overall level is published, dB(A)."""
+    return float(
+        results["source_level"].sel(
+            sound_source=source,
+            speed=quoted_speed(results),
+            option=REFERENCE_OPTION,
+            receiver=catalogue_receiver(results),
+        )
+    )
+
+
+def _ranking(results: xr.Dataset) -> str:
+    (first, loudest), (second, next_one) = ranked(results, quoted_speed(results))[:2]
+    names = f"{source_name(first)} and {source_name(second)}"
+    if loudest.lowest > next_one.highest:
+        gap = rounding.fixed(loudest.lowest - next_one.highest)
+        return (
+            f"The bands of {names} do not overlap ({gap} dB apart): within them the loudest "
+            "modelled source stays the same."
+        )
+    return (
+        f"The bands of {names} overlap ({loudest.ends(rounding.level)} and "
+        f"{next_one.ends(rounding.level)} dB(A)): which is the louder is not sure."
+    )
+
+
+def _as_assumed(results: xr.Dataset) -> str:
+    """Warn where the assumed values lie outside of the band of the loudest source."""
+    speed, overall = quoted_speed(results), overall_noise(results)["level_dba"]
+    source, level = ranked(results, speed)[0]
+    value = _assumed_level(results, source)
+    if level.lowest <= value <= level.highest:
+        return ""
+    side = "above" if value > level.highest else "below"
+    return (
+        f"At the assumed values, nothing drawn, {source_name(source)} alone reach "
+        f"{rounding.level(value)} dB(A), {side} the band: its share is not known better than from "
+        f"{percent(level.share_of(overall).lowest)} to {percent(energy_share(value, overall))}."
+    )
+
+
+def _drawn(results: xr.Dataset) -> str:
+    doubts: Sequence[dict[str, str]] = parameters(results)["inside"]["doubts"]
+    tables: dict[str, list[str]] = {}
+    for doubt in doubts:
+        tables.setdefault(doubt["table"], []).append(labels.name(doubt["field"]).lower())
+    words = "; ".join(
+        f"{_TABLES.get(table, table)}: {', '.join(fields)}" for table, fields in tables.items()
+    )
+    inner = [
+        record for record in parameters(results)["records"] if record["field"].startswith("inside.")
+    ]
+    assumed = sum(str(record["source"]).startswith("assumed") for record in inner)
+    return (
+        f"Drawn from their ranges by Latin hypercube ({words}). The other values of the inside, "
+        f"such as where the parts are welded to the shell, are fixed; {assumed} of {len(inner)} "
+        "values of the inside are assumed."
+    )
+
+
+def _up_to(results: xr.Dataset) -> str:
+    highest = parameters(results)["radiation"]["maximum_frequency_hz"]
+    return (
+        f"Sources are modelled up to {highest:g} Hz; what they make above is part of the "
+        "remainder, so that an option whose keys strike can be louder than told here."
+    )
+
+
+def _not_an_order(results: xr.Dataset) -> str:
+    """Keep the motor's line apart from 2x."""
+    lines = parameters(results)["inside"]["line_frequency_hz"]
+    pairs = ", ".join(
+        f"{2.0 * line:g} Hz beside 2× at {2.0 * first:.1f} Hz ({speed:g} rpm)"
+        for speed, line, first in zip(speeds(results), lines, first_order_hz(results), strict=True)
+    )
+    figures = results["inner_figure"].sel(option=REFERENCE_OPTION)
+    motor = float(figures.sel(inner_figure_name="foot_force_2x_line_n").max())
+    foot = results["foot_force_amplitude"].sel(order=1, option=REFERENCE_OPTION)
+    return (
+        f"The motor's line at twice the line frequency is no order of the shaft: {pairs}. It and "
+        "its sidebands count as motor, never as 2×. Into a foot it passes at most "
+        f"{rounding.significant(motor)} N, beside {rounding.significant(float(foot.max()))} N at "
+        "1×: what it does to floor and pipes is not modelled."
+    )
