@@ -28,10 +28,12 @@ def residual_moment(results: xr.Dataset) -> xr.DataArray:
 def level_change(results: xr.Dataset) -> xr.DataArray:
     """Change of the modelled A-weighted level, energy mean over the microphones, dB.
 
-    Worst over the speeds. The mean keeps a microphone near a node of the sound field from
-    deciding the score.
+    Of all modelled sources where the study has inner ones, else of the shaft's orders. Worst over
+    the speeds. The mean keeps a microphone near a node of the sound field from deciding the score.
     """
-    power = 10.0 ** (results["level_modelled"].sel(weighting="A") / 10.0)
+    inner = "level_all_sources" in results
+    level = results["level_all_sources" if inner else "level_modelled"]
+    power = 10.0 ** ((level if inner else level.sel(weighting="A")) / 10.0)
     mean_level = 10.0 * xr.apply_ufunc(np.log10, power.mean("receiver"))
     change: xr.DataArray = mean_level - mean_level.sel(option=REFERENCE_OPTION, drop=True)
     return change.max("speed")
