@@ -1,8 +1,8 @@
-"""Switching off: run-down of the bare machine, its forces, sound and feet against steady running."""
+"""Switching off: run-down of the bare machine, forces, sound and feet against steady running."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import xarray as xr
@@ -32,7 +32,8 @@ SHIFTED: Final = ("orbiting_scroll", "brake", "oldham")
 """The set that the brake lets turn against pin and counterweights (thesis 6.4)."""
 PHASES: Final = ("steady", "stopping")
 REVOLUTIONS_BEFORE: Final = 5
-"""Shown before switch-off, of the slowest speed."""
+"""Shown before switch-off, of the slowest speed. The first half stands for steady running; in the
+second the forerunner of `transient` grows."""
 SHOWN_AFTER_S: Final = 0.4
 """Shown after the last stop: three Fast time constants, two periods of the softest rocking."""
 FADE_S: Final = 1.0
@@ -44,8 +45,8 @@ RESIDUE: Final = 1e-4
 LONGEST_RING_S: Final = 60.0
 MAP_REVOLUTIONS: Final = 8
 """In a block of the order map: orders 0.19 apart are told from each other."""
-MAP_ORDER: Final = 10
-MAP_SAMPLES: Final = 64
+MAP_ORDER: Final = 4
+MAP_SAMPLES: Final = 32
 """Samples of the run-down per revolution at full speed, for the order map."""
 
 
@@ -230,12 +231,13 @@ def _labelled(
 
     def greatest(values: Array) -> Array:
         """Over the times of each phase, shape (phase, ...)."""
-        return np.stack([values[..., own].max(axis=-1) for own in (time < 0.0, time >= 0.0)])
+        phases = (time < 0.5 * time[0], time >= 0.0)
+        return np.stack([values[..., own].max(axis=-1) for own in phases])
 
     pressure, fast = gathered("pressure"), gathered("fast_level")
     peak = levels.mean_square_level(greatest(pressure**2), REFERENCE_PRESSURE_PA)
     turned = [run.crank_angle_rad[-1] / (2.0 * np.pi) for run in runs]
-    arrays = {
+    arrays: dict[str, tuple[Any, dict[str, Any]]] = {
         "stopping_duration": ([run.stop_time_s for run in runs], by_speed),
         "stopping_revolutions": (turned, by_speed),
         "stopping_shaft_speed": (gathered("shaft_speed"), over_time),
