@@ -1,7 +1,6 @@
 """Stopping in the chain: transient response, steady running, momentum, energy, report."""
 
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -28,7 +27,7 @@ from vibroacoustics.transfer import RigidBodyOnMounts
 SPEED = 2900.0 * np.pi / 30.0
 INSIDE = f"""
 [machine.override.kinematics]
-orbit_radius_mm = 3.461
+orbit_radius_mm = {{ value = 3.461, source = "derived: as copeland_sources" }}
 
 [inside]
 file = "{ROOT / "data" / "machines" / "copeland_zp41k3e_inside.toml"}"
@@ -48,13 +47,20 @@ def study(tmp_path_factory) -> Study:
 
 
 def made_up(study: Study, motions=()) -> xr.Dataset:
-    """Transfer vectors of the rigid motions and of the shell's modes."""
+    """Transfer vectors of the rigid motions, silent about the axis, and of the shell's modes."""
     vectors = made_up_transfer_vectors(study)
+    for name in ("transfer_vector", "transfer_vector_closed_form"):
+        vectors[name].loc[{"dof": "rz"}] = 0.0
     coords = {name: vectors[name] for name in ("receiver", "frequency")}
     coords["pattern"] = [motion.name for motion in motions]
     shape = (len(study.receivers), len(motions), vectors.sizes["frequency"])
     vectors["pattern_transfer_vector"] = stamp(
         "pattern_transfer_vector", np.full(shape, 1e-3 + 0j), coords
+    )
+    vectors["transfer_vector_error"] = stamp(
+        "transfer_vector_error",
+        0.01 * np.abs(vectors["transfer_vector"].values),
+        {name: vectors[name] for name in ("receiver", "dof", "frequency")},
     )
     return vectors
 
@@ -76,10 +82,10 @@ GENTLE = {
     "gas_share_ratio": 0.0,
     "shift_rad": 0.0,
     "viscous_torque_n_m_s": 0.0,
-    "friction_torque_n_m": 4e-3,
+    "friction_torque_n_m": 0.12,
     "shaft_inertia_kg_m2": 5e-4,
 }
-"""Next to no drag: the shaft coasts for 40 s."""
+"""Little drag, no gas, no shift: the shaft coasts for 2 s."""
 
 
 @pytest.fixture(scope="module")
@@ -189,39 +195,38 @@ def test_steady_running_is_that_of_the_orders(gentle, results):
     steady = gentle.sel(stopping_phase="steady")
     foot = results["foot_force_amplitude"].sel(option="none", order=1).max("foot")
     # The load is faded in by half a cosine over 1 s: at the rocking's 44 Hz distance it leaves
-    # (π/1 s)²/(2 (2π 44/s)²) 1/(2π 44 · 1 s) = 2e-7 of the resonance. The kick's forerunner,
-    # η/(π ω² t²) of 4e-3 N m/(4 x 0.135 m), at t = 52 ms and 4.3 Hz: 0.016 x 7.4 mN = 0.12 mN.
-    assert steady["stopping_foot_force"].values == pytest.approx(foot.values, abs=1.5e-4)
+    # (π/1 s)²/(2 (2π 44/s)²) 1/(2π 44 x 1 s) = 2e-7 of the resonance. The roll kick's forerunner,
+    # η/(π ω² t²) of 0.12 N m/(4 x 0.135 m) at t = 52 ms and 17.5 Hz, is 1e-3 x 0.22 N.
+    assert steady["stopping_foot_force"].values == pytest.approx(foot.values, abs=3e-4)
     line = results["order_level"].sel(option="none", order=1, receiver="front_1m")
     # A Fast mean square of a tone at ω swings by 1/√(1 + (2ωτ)²) about its mean.
     swing = 10.0 * np.log10(1.0 + 1.0 / np.hypot(1.0, 2.0 * SPEED * 0.125))
     # Settling over twelve time constants, 3e-5 dB; samples beside the swing's top, (ω/rate)²/2 of
-    # it, 2e-4 dB; the forerunner, 0.12 mN of 250 mN, 4e-3 dB.
+    # its 0.06 dB, 2e-4 dB; roll is silent, and the ring's own kick is 1e-3 of its force.
     assert steady["stopping_fast_maximum_level"].sel(receiver="front_1m").values == pytest.approx(
-        line.sel(weighting="A").values + swing, abs=5e-3
+        line.sel(weighting="A").values + swing, abs=1e-3
     )
-    # The peak of a tone lies 3 dB over its level; samples beside it, 20 lg(1 - (ω/rate)²/8).
+    # The peak of a tone lies 3 dB over its level; beside it, 20 lg(1 - (ω/rate)²/8) = -6e-3.
     assert steady["stopping_peak_level"].sel(receiver="front_1m").values == pytest.approx(
         line.sel(weighting="Z").values + 10.0 * np.log10(2.0), abs=1e-2
     )
 
 
-def test_next_to_no_drag_changes_nothing(gentle):
-    """In the first 0.1 s the speed falls by α t/Ω, the forces by at most twice that."""
+def test_little_drag_changes_little(gentle):
+    """In the first 0.04 s the speed falls by α t/Ω, the forces by at most twice that."""
     inertia = GENTLE["shaft_inertia_kg_m2"]
-    slowed = GENTLE["friction_torque_n_m"] / inertia * 0.1 / SPEED
-    assert slowed < 0.003
+    slowed = GENTLE["friction_torque_n_m"] / inertia * 0.04 / SPEED  # more: inertia of the parts
     time = gentle["stopping_time"]
+    soon = (time >= 0.0) & (time < 0.04)
     for name in ("stopping_force", "stopping_shaft_speed"):
         course = np.abs(gentle[name].isel(speed=0))
-        before = course.where(time < 0.0).max()
-        after = course.where((time >= 0.0) & (time < 0.1)).max()
-        assert after.item() == pytest.approx(before.item(), rel=2.0 * slowed), name
-    # Fast level: A-weighting at 48 Hz rises by 24 dB an octave, the force by 12, the vectors by 6.
+        before, after = (course.where(each).max().item() for each in (time < 0.0, soon))
+        assert after == pytest.approx(before, rel=2.0 * slowed), name
+    # Over the speed A-weighting rises by 24 dB an octave here, the velocity and the vectors by 6
+    # each; a Fast level follows 27 % of it in 0.04 s.
     level = gentle["stopping_fast_level"].isel(speed=0)
-    after = level.where((time >= 0.0) & (time < 0.1)).max("stopping_time")
-    before = level.where(time < 0.0).max("stopping_time")
-    assert after.values == pytest.approx(before.values, abs=42.0 * np.log2(1.0 + slowed) + 0.05)
+    before, after = (level.where(each).min().item() for each in (time < 0.0, soon))
+    assert after == pytest.approx(before, abs=0.27 * 36.0 * np.log2(1.0 + slowed))
 
 
 # --- momentum and energy -------------------------------------------------------------------------
@@ -317,16 +322,13 @@ def test_report_has_a_section(results):
     assert section is not None
     foot = results["stopping_foot_force"].sel(stopping_phase="stopping").item()
     assert section.forces.rows[0][-1] == f"{foot:.1f}"
-    assert "too few to tell orders from each other" in section.sentences[1]
-    without = section_of(results, "stopping_order_map")
-    assert "no order map" in without.sentences[1]
+    assert "stop from the highest speed without gas load" in section.sentences[1]
+    without = stopping_section(results.drop_vars("stopping_order_map"))
+    assert without is not None
+    assert "There is no order map" in without.sentences[1]
 
 
-def section_of(results: xr.Dataset, *dropped: str):
-    return stopping_section(results.drop_vars(dropped))
-
-
-def test_no_section_without_inside(tmp_path: Path):
+def test_no_section_without_inside():
     assert stopping_section(xr.Dataset()) is None
 
 

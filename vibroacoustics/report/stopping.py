@@ -90,15 +90,15 @@ def _line_foot_force_n(results: xr.Dataset, speed: int) -> float:
 
 def _map_sentence(results: xr.Dataset) -> str:
     turned = rounding.span(results["stopping_revolutions"].values, rounding.fixed)
-    few = f"The shaft turns {turned} times while it stops"
     if "stopping_order_map" not in results:
         return (
-            f"{few}; without gas load it has too little friction or too few revolutions for an "
-            "order map."
+            f"The shaft turns {turned} times while it stops. There is no order map: even without "
+            "gas load the shaft turns too few times, or has no friction to stop it."
         )
     return (
-        f"{few}, too few to tell orders from each other. The order map is that of a stop from the "
-        "highest speed without gas load, as after the pressures have equalised."
+        f"The shaft turns {turned} times while it stops; a block of an order map needs 8. The map "
+        "is that of a stop from the highest speed without gas load, as after the pressures have "
+        "equalised."
     )
 
 
