@@ -1,16 +1,14 @@
 """Switching off: run-down of the bare machine, forces, sound and feet against steady running."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
 import xarray as xr
-from scipy import fft
 
 from .. import levels
 from ..constants import REFERENCE_PRESSURE_PA
-from ..errors import ParameterError
 from ..mechanisms.oldham_scroll import scroll_parts
 from ..mechanisms.run_down.coasting import RunDown, run_down
 from ..mechanisms.scroll_gas.cycle import scroll_gas_cycle
@@ -25,24 +23,20 @@ from ..schema import AXES, check, stamp
 from ..transfer import RigidBodyOnMounts, SuspendedBlock
 from ..units import shaft_frequency_hz
 from .inner_sound import rigid_pressures
-from .inner_sources import GAS_SAMPLES, Complex
-from .transient import LOAD_SAMPLES, RESULT_SAMPLES, transient
+from .inner_sources import GAS_SAMPLES
+from .stopping_event import FADE_S, STEADY_S, Clock, StoppingEvent, stopping_event
+from .transient import LOAD_SAMPLES, RESULT_SAMPLES
 
 SHIFTED: Final = ("orbiting_scroll", "brake", "oldham")
 """The set that the brake lets turn against pin and counterweights (thesis 6.4)."""
+PATH_SAMPLES: Final = 256
+"""Of the moving parts' paths, which are circles and a line."""
 PHASES: Final = ("steady", "stopping")
 REVOLUTIONS_BEFORE: Final = 5
 """Shown before switch-off, of the slowest speed. The first half stands for steady running; in the
 second the forerunner of `transient` grows."""
 SHOWN_AFTER_S: Final = 0.4
 """Shown after the last stop: three Fast time constants, two periods of the softest rocking."""
-FADE_S: Final = 1.0
-"""In which the steady load is faded in, so slowly that the mounts do not ring."""
-STEADY_S: Final = 1.5
-"""Twelve Fast time constants: the level is settled within 3e-5 dB."""
-RESIDUE: Final = 1e-4
-"""To which the mounts' ringing must have died out where the event repeats."""
-LONGEST_RING_S: Final = 60.0
 MAP_REVOLUTIONS: Final = 8
 """In a block of the order map: orders 0.19 apart are told from each other."""
 MAP_ORDER: Final = 4
@@ -68,157 +62,56 @@ def stopping_sound(
     results : with the transfer vectors of the rigid motions
     """
     speeds = study.operation.speed_rpm
-    stops = _Stops(inside, scroll_parts(machine, uniform_crank_angle(_SAMPLES)))
-    highest_hz = float(results["frequency"].values[-1])
-    rate = RESULT_SAMPLES * highest_hz
+    stops = _Stops.of(inside, machine)
+    rate = RESULT_SAMPLES * float(results["frequency"].values[-1])
     before = REVOLUTIONS_BEFORE / shaft_frequency_hz(min(speeds))
     lead = FADE_S + STEADY_S + before
-    runs = [stops.run_down(speed, LOAD_SAMPLES * rate, lead) for speed in speeds]
+    runs = [
+        # One revolution more than the lead has, and one for the rounding to whole samples.
+        stops.run_down(speed, LOAD_SAMPLES * rate, int(lead * shaft_frequency_hz(speed)) + 2)
+        for speed in speeds
+    ]
     after = max(run.stop_time_s for run in runs) + SHOWN_AFTER_S
-    clock = _Clock(rate, round(before * rate), round(after * rate), round(lead * rate))
-    ring = clock.ring_samples(body, machine)
+    clock = Clock(rate, round(before * rate), round(after * rate), round(lead * rate))
     events = [
-        _event(run, clock, body, ring, lambda hz: rigid_pressures(results, hz)) for run in runs
+        stopping_event(run, clock, body, lambda hertz: rigid_pressures(results, hertz))
+        for run in runs
     ]
     return _labelled(speeds, results, runs, clock, events).merge(_map(stops, max(speeds)))
-
-
-_SAMPLES: Final = 256
-"""Of the moving parts' paths, which are circles and a line."""
 
 
 @dataclass(frozen=True)
 class _Stops:
     """Run-downs of one machine."""
 
-    inside: Inside
+    stopping: Stopping
     parts: Sequence[MovingPart]
+    gas_torque_n_m: Array
 
-    def run_down(
-        self, speed_rpm: float, rate_hz: float, lead_s: float, stopping: Stopping | None = None
-    ) -> RunDown:
-        """From a speed, with at least `lead_s` of steady running before."""
-        gas = scroll_gas_cycle(
-            self.inside.wraps, self.inside.gas, uniform_crank_angle(GAS_SAMPLES)
-        ).torque_n_m
-        hertz = shaft_frequency_hz(speed_rpm)
+    @classmethod
+    def of(cls, inside: Inside, machine: OldhamScroll) -> "_Stops":
+        gas = scroll_gas_cycle(inside.wraps, inside.gas, uniform_crank_angle(GAS_SAMPLES))
+        parts = scroll_parts(machine, uniform_crank_angle(PATH_SAMPLES))
+        return cls(inside.stopping, parts, gas.torque_n_m)
+
+    def run_down(self, speed_rpm: float, rate_hz: float, steady_revolutions: int) -> RunDown:
         return run_down(
-            stopping or self.inside.stopping,
+            self.stopping,
             self.parts,
             SHIFTED,
-            gas,
-            2.0 * np.pi * hertz,
+            self.gas_torque_n_m,
+            2.0 * np.pi * shaft_frequency_hz(speed_rpm),
             rate_hz,
-            int(np.ceil(lead_s * hertz)) + 1 if lead_s else 0,
+            steady_revolutions,
         )
-
-
-@dataclass(frozen=True)
-class _Clock:
-    """Samples of the result: shown before and after switch-off, and led in before."""
-
-    rate_hz: float
-    before: int
-    after: int
-    lead: int
-
-    @property
-    def time_s(self) -> Array:
-        """Shown, from switch-off."""
-        return np.arange(-self.before, self.after) / self.rate_hz
-
-    @property
-    def shown(self) -> slice:
-        """Among the samples of a response that starts with the lead."""
-        return slice(self.lead - self.before, self.lead + self.after)
-
-    def ring_samples(self, body: RigidBodyOnMounts | SuspendedBlock, machine: OldhamScroll) -> int:
-        """Until the slowest ringing, exp(-π η f t), has died out.
-
-        Raises
-        ------
-        ParameterError
-            The mounts have next to no loss.
-        """
-        springs = [machine.mounts]
-        if machine.suspension is not None:
-            springs.append(machine.suspension.springs)
-        loss = min(spring.loss_factor_ratio for spring in springs)
-        softest_hz = float(body.natural_modes()[0].min())
-        rate = np.pi * loss * softest_hz
-        needed = -np.log(RESIDUE)
-        if rate * LONGEST_RING_S < needed:
-            raise ParameterError(
-                f"machine: mounts.loss_factor_ratio = {loss:g}: the mounts ring at "
-                f"{softest_hz:.3g} Hz for over {LONGEST_RING_S:g} s after a stop; must be at least "
-                f"{needed / (np.pi * softest_hz * LONGEST_RING_S):.2g}"
-            )
-        return int(np.ceil(needed / rate * self.rate_hz))
-
-
-@dataclass(frozen=True)
-class _Event:
-    """One stop over the times shown.
-
-    Attributes
-    ----------
-    shaft_speed, force, moment : shapes (times,), (3, times), (3, times)
-    foot_force : magnitude, shape (foot, times)
-    pressure : shape (receiver, times)
-    fast_level : A-weighted, shape (receiver, times)
-    """
-
-    shaft_speed: Array
-    force: Array
-    moment: Array
-    foot_force: Array
-    pressure: Array
-    fast_level: Array
-
-
-def _event(
-    run: RunDown,
-    clock: _Clock,
-    body: RigidBodyOnMounts | SuspendedBlock,
-    ring: int,
-    pressure_per_velocity: Callable[[Array], Complex],
-) -> _Event:
-    """Forces of a run-down and what they do, led in and followed by rest."""
-    lead = LOAD_SAMPLES * clock.lead
-    wrench = np.concatenate([run.force_n.sum(axis=0), run.moment_n_m.sum(axis=0)])
-    kept = np.concatenate([run.speed_rad_per_s[None], wrench])[:, _switch_off(run) - lead :]
-    length = LOAD_SAMPLES * fft.next_fast_len(clock.lead + clock.after + ring, real=True)
-    course = np.zeros((kept.shape[0], length))
-    course[:, : kept.shape[1]] = kept
-    fade = np.linspace(0.0, np.pi, round(FADE_S * LOAD_SAMPLES * clock.rate_hz))
-    load = course[1:].copy()
-    load[:, : fade.size] *= 0.5 - 0.5 * np.cos(fade)
-    response = transient(body, load, LOAD_SAMPLES * clock.rate_hz, pressure_per_velocity)
-    weighted = levels.weighted_signal(response.pressure_pa, clock.rate_hz, "A")
-    fast = levels.time_weighted_mean_square(weighted, clock.rate_hz, levels.FAST_TIME_CONSTANT_S)
-    shown = clock.shown
-    speed, force, moment = np.split(course[:, ::LOAD_SAMPLES][:, shown], [1, 4])
-    return _Event(
-        speed[0],
-        force,
-        moment,
-        np.linalg.norm(response.foot_force_n[..., shown], axis=1),
-        response.pressure_pa[:, shown],
-        levels.mean_square_level(fast[:, shown], REFERENCE_PRESSURE_PA),
-    )
-
-
-def _switch_off(run: RunDown) -> int:
-    """Sample at time zero."""
-    return int(np.argmin(np.abs(run.time_s)))
 
 
 def _labelled(
     speeds: Sequence[float],
     results: xr.Dataset,
     runs: Sequence[RunDown],
-    clock: _Clock,
-    events: Sequence[_Event],
+    clock: Clock,
+    events: Sequence[StoppingEvent],
 ) -> xr.Dataset:
     time = clock.time_s
     by_speed = {"speed": list(speeds)}
@@ -263,12 +156,11 @@ def _map(stops: _Stops, speed_rpm: float) -> xr.Dataset:
     A stop from the highest speed runs through all others. Under load it is over within a few
     revolutions, too few to tell orders from each other.
     """
-    own = stops.inside.stopping
-    if own.friction_torque_n_m == 0.0:  # it would never stop
+    if stops.stopping.friction_torque_n_m == 0.0:  # it would never stop
         return xr.Dataset()
-    unloaded = own.model_copy(update={"gas_share_ratio": 0.0})
+    no_gas = stops.stopping.model_copy(update={"gas_share_ratio": 0.0})
     rate = MAP_SAMPLES * shaft_frequency_hz(speed_rpm)
-    run = stops.run_down(speed_rpm, rate, 0.0, unloaded)
+    run = replace(stops, stopping=no_gas).run_down(speed_rpm, rate, 0)
     motion = from_angle(run.time_s, run.crank_angle_rad)
     signal = angular_resample(run.force_n.sum(axis=0), rate, motion, MAP_ORDER)
     if signal.time_s.size < MAP_REVOLUTIONS * signal.samples_per_revolution:
