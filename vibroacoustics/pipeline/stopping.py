@@ -9,6 +9,7 @@ import xarray as xr
 
 from .. import levels
 from ..constants import REFERENCE_PRESSURE_PA
+from ..errors import ParameterError
 from ..mechanisms.oldham_scroll import scroll_parts
 from ..mechanisms.run_down.coasting import RunDown, run_down
 from ..mechanisms.scroll_gas.cycle import scroll_gas_cycle
@@ -39,6 +40,8 @@ SHOWN_AFTER_S: Final = 0.4
 """Shown after the last stop: three Fast time constants, two periods of the softest rocking."""
 MAP_REVOLUTIONS: Final = 8
 """In a block of the order map: orders 0.19 apart are told from each other."""
+KERNEL_REVOLUTIONS: Final = 2
+"""Lost to the resampling's kernel, which spans 1.6 for the orders below."""
 MAP_ORDER: Final = 4
 MAP_SAMPLES: Final = 32
 """Samples of the run-down per revolution at full speed, for the order map."""
@@ -151,20 +154,23 @@ def _labelled(
 
 
 def _map(stops: _Stops, speed_rpm: float) -> xr.Dataset:
-    """Order map of a stop without gas load; empty where it lasts too few revolutions.
+    """Order map of a stop without gas load; empty where it lasts too few revolutions or too long.
 
     A stop from the highest speed runs through all others. Under load it is over within a few
     revolutions, too few to tell orders from each other.
     """
-    if stops.stopping.friction_torque_n_m == 0.0:  # it would never stop
-        return xr.Dataset()
     no_gas = stops.stopping.model_copy(update={"gas_share_ratio": 0.0})
     rate = MAP_SAMPLES * shaft_frequency_hz(speed_rpm)
-    run = replace(stops, stopping=no_gas).run_down(speed_rpm, rate, 0)
+    if no_gas.friction_torque_n_m == 0.0:  # it would never stop
+        return xr.Dataset()
+    try:
+        run = replace(stops, stopping=no_gas).run_down(speed_rpm, rate, 0)
+    except ParameterError:  # friction alone takes too long
+        return xr.Dataset()
+    if run.crank_angle_rad[-1] < 2.0 * np.pi * (MAP_REVOLUTIONS + KERNEL_REVOLUTIONS):
+        return xr.Dataset()
     motion = from_angle(run.time_s, run.crank_angle_rad)
     signal = angular_resample(run.force_n.sum(axis=0), rate, motion, MAP_ORDER)
-    if signal.time_s.size < MAP_REVOLUTIONS * signal.samples_per_revolution:
-        return xr.Dataset()
     spectra = order_map(signal, 1.5 / MAP_REVOLUTIONS, overlap_ratio=0.75)
     coords = {
         "axis": list(AXES),

@@ -93,7 +93,7 @@ def _map_sentence(results: xr.Dataset) -> str:
     if "stopping_order_map" not in results:
         return (
             f"The shaft turns {turned} times while it stops. There is no order map: even without "
-            "gas load the shaft turns too few times, or has no friction to stop it."
+            "gas load the shaft turns too few times, or has next to no friction to stop it."
         )
     return (
         f"The shaft turns {turned} times while it stops; a block of an order map needs 8. The map "
