@@ -14,8 +14,8 @@ from .inner_sources import Complex
 LOAD_SAMPLES: Final = 2
 """Samples of the load per sample of the result: a jump of the load aliases less."""
 RESULT_SAMPLES: Final = 4
-"""Samples of the result per period of the highest frequency: a peak is met within 30 % there, within
-0.3 % at a tenth of it, where a stop sounds."""
+"""Samples of the result per period of the highest frequency: a peak is met within 30 % there,
+within 0.3 % at a tenth of it, where a stop sounds."""
 
 
 @dataclass(frozen=True)
