@@ -30,6 +30,17 @@ OF_INSIDE = {
     "change_whole_quantile",
     "inner_remainder_level",
     "inner_figure",
+    "stopping_duration",
+    "stopping_revolutions",
+    "stopping_shaft_speed",
+    "stopping_force",
+    "stopping_moment",
+    "stopping_pressure",
+    "stopping_fast_level",
+    "stopping_fast_maximum_level",
+    "stopping_peak_level",
+    "stopping_foot_force",
+    "stopping_order_map",
 }
 NOT_MADE_HERE = {
     "block_velocity_order",

@@ -79,6 +79,11 @@ COORDINATES: Final[dict[str, Variable]] = {
     "sound_source": Variable(("sound_source",), "", "what makes the sound"),
     "quantile": Variable(("quantile",), "1", "quantile over the random draws"),
     "inner_figure_name": Variable(("inner_figure_name",), "", "figure of the inner sources"),
+    "stopping_time": Variable(("stopping_time",), "s", "time from switch-off"),
+    "stopping_phase": Variable(("stopping_phase",), "", "before or after switch-off"),
+    "stopping_block": Variable(("stopping_block",), "1", "block of revolutions of the run-down"),
+    "stopping_block_time": Variable(("stopping_block",), "s", "middle of the block"),
+    "stopping_block_speed": Variable(("stopping_block",), "rpm", "mean speed over the block"),
     "foot_position": Variable(
         ("foot", "axis"), "m", "foot position from the centre of mass at rest"
     ),
@@ -292,6 +297,39 @@ VARIABLES: Final[dict[str, Variable]] = {
         ("speed", "option", "inner_figure_name"),
         "",
         "figure of the inner sources, unit in its name",
+    ),
+    "stopping_duration": Variable(("speed",), "s", "time from switch-off to rest"),
+    "stopping_revolutions": Variable(("speed",), "1", "revolutions from switch-off to rest"),
+    "stopping_shaft_speed": Variable(
+        ("speed", "stopping_time"), "rad s-1", "speed of the shaft around a stop"
+    ),
+    "stopping_force": Variable(
+        ("speed", "axis", "stopping_time"), "N", "force on the housing around a stop"
+    ),
+    "stopping_moment": Variable(
+        ("speed", "axis", "stopping_time"),
+        "N m",
+        "moment on the housing about its centre of mass around a stop",
+    ),
+    "stopping_pressure": Variable(
+        ("speed", "receiver", "stopping_time"), "Pa", "sound pressure around a stop"
+    ),
+    "stopping_fast_level": Variable(
+        ("speed", "receiver", "stopping_time"), "dB", "A-weighted Fast level around a stop"
+    ),
+    "stopping_fast_maximum_level": Variable(
+        ("stopping_phase", "speed", "receiver"), "dB", "greatest A-weighted Fast level"
+    ),
+    "stopping_peak_level": Variable(
+        ("stopping_phase", "speed", "receiver"), "dB", "level of the largest unweighted pressure"
+    ),
+    "stopping_foot_force": Variable(
+        ("stopping_phase", "speed"), "N", "largest force into a foot, static part excluded"
+    ),
+    "stopping_order_map": Variable(
+        ("axis", "stopping_block", "map_order"),
+        "N",
+        "order spectra of the force on the housing in a stop without gas load, peak",
     ),
     "published_score": Variable(
         ("published_option", "published_criterion"), "1", "published score, as printed"

@@ -1,10 +1,21 @@
 """The scroll with an Oldham coupling: ring and rotating set at constant speed."""
 
-from ..moving_parts import MachineMotion, motion_of_parts
+from ..moving_parts import Array, MachineMotion, MovingPart, motion_of_parts
 from ..parameters.oldham_scroll import OldhamScroll
 from ..rotation import constant_rotation
 from .oldham import oldham_ring
 from .rotating_set import rotating_set
+
+
+def scroll_parts(machine: OldhamScroll, crank_angle: Array) -> tuple[MovingPart, ...]:
+    """Ring, orbiting scroll, pin, brake and counterweights.
+
+    Parameters
+    ----------
+    machine : masses in kg, places in m
+    crank_angle : shape (samples,), rad
+    """
+    return (*oldham_ring(machine, crank_angle), *rotating_set(machine, crank_angle))
 
 
 def oldham_scroll(machine: OldhamScroll, speed_rpm: float, samples: int) -> MachineMotion:
@@ -17,6 +28,4 @@ def oldham_scroll(machine: OldhamScroll, speed_rpm: float, samples: int) -> Mach
     samples : crank angles of the revolution
     """
     rotation = constant_rotation(speed_rpm, samples)
-    crank_angle = rotation.crank_angle
-    parts = (*oldham_ring(machine, crank_angle), *rotating_set(machine, crank_angle))
-    return motion_of_parts(parts, rotation)
+    return motion_of_parts(scroll_parts(machine, rotation.crank_angle), rotation)

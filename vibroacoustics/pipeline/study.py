@@ -38,6 +38,7 @@ from .inner_sound import shell_path
 from .inside import inside_sound
 from .progress import Progress
 from .radiating import attributes, sound_field, transfer_vectors
+from .stopping import stopping_sound
 
 MOUNT_FREQUENCY_HZ: Final[Array] = np.asarray(np.geomspace(1.0, 200.0, 400), dtype=np.float64)
 
@@ -79,6 +80,8 @@ def _run(study: Study, progress: Progress) -> xr.Dataset:
     if study.inside is not None and path is not None and isinstance(machine, OldhamScroll):
         sound = inside_sound(study, study.inside, machine, results, path, progress)
         results = results.merge(sound)
+        stopped = stopping_sound(study, study.inside.inside, machine, _on_mounts(machine), results)
+        results = results.merge(stopped)
     results = results.merge(_scores(study, results))
     results.attrs = attributes(study, radiated, was_cached)
     return check(label_coordinates(results))

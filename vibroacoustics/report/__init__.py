@@ -15,6 +15,7 @@ from .figures import (
 )
 from .figures.compared_orders import compared_order_figures
 from .figures.recorded_orders import recorded_order_figures
+from .figures.stopping import stopping_figures
 from .html import html
 from .markdown import comparison_markdown
 from .order_tables import (
@@ -52,6 +53,7 @@ _FIGURES = (
     transfer_figures,
     level_figures,
     line_map_figures,
+    stopping_figures,
     score_figures,
 )
 

@@ -25,6 +25,7 @@ from .figures import Picture
 from .option_facts import facts_table
 from .option_verdict import option_verdicts
 from .rounding import FORCE_FLOOR, LEVEL_FLOOR_DB, fixed
+from .stopping import stopping_section
 from .study import catalogue_receiver, has_inner_sources, other_receivers, parameters
 
 
@@ -65,6 +66,7 @@ def _context(results: xr.Dataset, pictures: Sequence[Picture]) -> dict[str, Any]
         "level_floor": fixed(LEVEL_FLOOR_DB, 0),
         "force_floor": f"{1e6 * FORCE_FLOOR:g}",
         **_inside(results),
+        "stopping": stopping_section(results),
         **_housing(results),
         **_scores(results),
         **_sources(results),

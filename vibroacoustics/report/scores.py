@@ -80,13 +80,10 @@ def scores_table(results: xr.Dataset) -> Table:
 
 
 def scope_words(results: xr.Dataset) -> str:
-    """Warn that the scores leave the inner sources out."""
+    """Say that the scores count the inner sources."""
     if not has_inner_sources(results):
         return ""
-    return (
-        " The scores count the shaft orders of the rigid machine only: the sound of gas "
-        "and keys is not in them."
-    )
+    return " The change of level in the scores counts gas, keys and motor, at the assumed values."
 
 
 def published_table(results: xr.Dataset) -> Table | None:

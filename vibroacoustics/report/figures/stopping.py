@@ -1,0 +1,89 @@
+"""The stop of the machine over time, and the order map of its run-down."""
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+
+from ..stopping import force_and_moments
+from ..study import catalogue_receiver, speeds
+from .style import Picture, draw, legend_below, line_looks, shortened, whole_number_ticks
+
+MAP_RANGE_DB: Final = 60.0
+LEVEL_RANGE_DB: Final = 40.0
+
+
+def stopping_figures(results: xr.Dataset) -> list[Picture]:
+    """Course of the stop and order map, as far as the results have them."""
+    makers = {"stopping_force": _course, "stopping_order_map": _map}
+    return [make(results) for name, make in makers.items() if name in results]
+
+
+def _course(results: xr.Dataset) -> Picture:
+    receiver = catalogue_receiver(results)
+    force, tilting, roll = force_and_moments(results)
+    level = results["stopping_fast_level"].sel(receiver=receiver)
+    curves = {
+        "Speed, rpm": results["stopping_shaft_speed"] * 30.0 / np.pi,
+        "Force, N": force,
+        "Tilting moment, N m": tilting,
+        "Roll moment, N m": roll,
+        "Fast level, dB(A)": level,
+    }
+    names = speeds(results)
+    milliseconds = 1e3 * results["stopping_time"].values
+
+    def paint(panels: Sequence[Axes]) -> None:
+        for axes, (label, over_time) in zip(panels, curves.items(), strict=True):
+            for speed, look in zip(names, line_looks(len(names)), strict=True):
+                own = over_time.sel(speed=speed)
+                axes.plot(milliseconds, own, label=f"{speed:g} rpm", **look)
+            axes.set_ylabel(label)
+        top = float(level.max())
+        panels[-1].set_ylim(top - LEVEL_RANGE_DB, top + 3.0)
+        panels[-1].set_xlabel("Time from switch-off, ms")
+        legend_below(panels[0], 4)
+
+    return Picture(
+        "stopping",
+        f"Speed, force, moments and A-weighted Fast level at {receiver} over the time around "
+        "switch-off; the largest values are in the tables.",
+        f"Switch-off at 0 ms: speed of the shaft, resultant force and moments on the housing, "
+        f"A-weighted Fast level at {shortened(receiver)}.",
+        draw(len(curves), 1.55, paint, -(-len(names) // 4), sharex=True),
+    )
+
+
+def _map(results: xr.Dataset) -> Picture:
+    along_x = results["stopping_order_map"].sel(axis="x").transpose("stopping_block", "map_order")
+    level = 20.0 * np.log10(np.maximum(along_x.values, np.finfo(float).tiny))
+    top = float(level.max())
+
+    def paint(panels: Sequence[Axes]) -> None:
+        (axes,) = panels
+        shown = axes.pcolormesh(
+            along_x["map_order"],
+            along_x["stopping_block_speed"],
+            level,
+            vmin=top - MAP_RANGE_DB,
+            vmax=top,
+            shading="nearest",
+            rasterized=True,
+        )
+        figure = axes.get_figure()
+        if figure is not None:
+            figure.colorbar(shown, ax=axes, label="Force along x, dB re 1 N peak")
+        axes.grid(visible=False)
+        whole_number_ticks(axes)
+        axes.set_xlabel("Shaft order")
+        axes.set_ylabel("Speed, rpm")
+
+    return Picture(
+        "stopping_order_map",
+        "Order map of the force along x over the falling speed of a stop without gas load.",
+        "Force along x on the housing by shaft order, over the falling speed of a stop without gas "
+        "load.",
+        draw(1, 2.8, paint, 0),
+    )

@@ -1,0 +1,158 @@
+"""What happens when the machine is switched off, against steady running."""
+
+from typing import Final, NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ..schema import REFERENCE_OPTION
+from . import rounding
+from .study import parameters, speeds
+from .tables import Table
+
+Real = NDArray[np.float64]
+
+
+class StoppingSection(NamedTuple):
+    """Sentences and tables of the section."""
+
+    sentences: tuple[str, ...]
+    forces: Table
+    sound: Table
+
+
+def stopping_section(results: xr.Dataset) -> StoppingSection | None:
+    """The section, if the study has a run-down."""
+    if "stopping_force" not in results:
+        return None
+    sentences = (_finding(results), _map_sentence(results), _limits(results))
+    return StoppingSection(sentences, _forces_table(results), _sound_table(results))
+
+
+def force_and_moments(results: xr.Dataset) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
+    """Resultant force, tilting moment and size of the roll moment, (speed, stopping_time)."""
+    force, moment = results["stopping_force"], results["stopping_moment"]
+    return (
+        _resultant(force),
+        _resultant(moment.sel(axis=["x", "y"])),
+        _resultant(moment.sel(axis=["z"])),
+    )
+
+
+def _resultant(vector: xr.DataArray) -> xr.DataArray:
+    return vector.reduce(np.linalg.norm, "axis")
+
+
+def _greatest(over_time: xr.DataArray) -> tuple[Real, Real]:
+    """Before switch-off and from then on, shape (speed,)."""
+    time = over_time["stopping_time"]
+    parts = (over_time.where(own).max("stopping_time") for own in (time < 0.0, time >= 0.0))
+    before, after = (np.asarray(part.values) for part in parts)
+    return before, after
+
+
+_PHASES: Final = ("steady", "stopping")
+
+
+def _finding(results: xr.Dataset) -> str:
+    steady, stopping = results["stopping_foot_force"].sel(stopping_phase=list(_PHASES)).values
+    speed = int(np.argmax(stopping))
+    return (
+        f"Switched off at {speeds(results)[speed]:g} rpm the shaft comes to rest in "
+        f"{rounding.significant(results['stopping_duration'].values[speed])} s, after "
+        f"{rounding.fixed(results['stopping_revolutions'].values[speed])} revolutions. The largest "
+        f"force into a foot is {rounding.significant(stopping[speed])} N, against "
+        f"{rounding.significant(steady[speed])} N in steady running without torque ripple and "
+        f"{rounding.significant(_line_foot_force_n(results, speed))} N by the motor's torque at "
+        "twice the line frequency: without the motor, all that slows the shaft reaches the housing "
+        "as roll moment. "
+    ) + _loudest(results.isel(speed=speed))
+
+
+def _loudest(results: xr.Dataset) -> str:
+    """Of one speed."""
+    level = results["stopping_fast_maximum_level"].sel(stopping_phase=list(_PHASES))
+    rise = np.subtract(*level.values[::-1])
+    most, loudest = int(np.argmax(rise)), int(np.argmax(level.values[1]))
+    names = level["receiver"].values
+    return (
+        f"The greatest Fast level rises by up to {rounding.fixed(float(rise[most]))} dB (at "
+        f"{names[most]}); at most it is {rounding.level(float(level.values[1, loudest]))} dB(A) "
+        f"(at {names[loudest]})."
+    )
+
+
+def _line_foot_force_n(results: xr.Dataset, speed: int) -> float:
+    figures = results["inner_figure"].sel(option=REFERENCE_OPTION).isel(speed=speed)
+    return float(figures.sel(inner_figure_name="foot_force_2x_line_n"))
+
+
+def _map_sentence(results: xr.Dataset) -> str:
+    turned = rounding.span(results["stopping_revolutions"].values, rounding.fixed)
+    if "stopping_order_map" not in results:
+        return (
+            f"The shaft turns {turned} times while it stops. There is no order map: even without "
+            "gas load the shaft turns too few times, or has next to no friction to stop it."
+        )
+    return (
+        f"The shaft turns {turned} times while it stops; a block of an order map needs 8. The map "
+        "is that of a stop from the highest speed without gas load, as after the pressures have "
+        "equalised."
+    )
+
+
+def _limits(results: xr.Dataset) -> str:
+    stop = parameters(results)["inside"]["inside"]["stopping"]
+    return (
+        f"Assumed: the orbiting set turns by {rounding.fixed(np.degrees(stop['shift_rad']))}° "
+        f"against its counterweights within {rounding.significant(1e3 * stop['shift_duration_s'])} "
+        f"ms; the gas keeps {rounding.fixed(100.0 * stop['gas_share_ratio'], 0)} % of its torque "
+        "until the shaft stands; the motor's torque is gone at once. Sound is that of the rigid "
+        "housing alone. Left out: the knock of the set at the end of its turn, gas that flows "
+        "back and turns the shaft backwards, valves, and the shell's own vibration."
+    )
+
+
+def _forces_table(results: xr.Dataset) -> Table:
+    foot = results["stopping_foot_force"].sel(stopping_phase=list(_PHASES)).values
+    pairs = [*(_greatest(values) for values in force_and_moments(results)), (foot[0], foot[1])]
+    rows = tuple(
+        (
+            f"{speed:g} rpm",
+            rounding.significant(results["stopping_duration"].values[number]),
+            rounding.fixed(results["stopping_revolutions"].values[number]),
+            *(rounding.significant(part[number]) for pair in pairs for part in pair),
+        )
+        for number, speed in enumerate(speeds(results))
+    )
+    what = ("Force, N", "Tilting moment, N m", "Roll moment, N m", "Force into a foot, N")
+    head = [f"{name}, {phase}" for name in what for phase in _PHASES]
+    caption = "Largest values over time in steady running and while the machine stops"
+    return Table(caption, ("Speed", "Time to rest, s", "Revolutions", *head), rows)
+
+
+def _sound_table(results: xr.Dataset) -> Table:
+    kinds = ("stopping_fast_maximum_level", "stopping_peak_level")
+    rows = tuple(
+        (
+            str(receiver),
+            *(
+                rounding.level(
+                    float(results[kind].sel(receiver=receiver, speed=speed, stopping_phase=phase))
+                )
+                for speed in speeds(results)
+                for kind in kinds
+                for phase in _PHASES
+            ),
+        )
+        for receiver in results["receiver"].values
+    )
+    head = [
+        f"{what} at {speed:g} rpm, {phase}"
+        for speed in speeds(results)
+        for what in ("Fast, dB(A)", "peak, dB")
+        for phase in _PHASES
+    ]
+    caption = "Greatest Fast level and level of the largest unweighted pressure, re 20 µPa"
+    return Table(caption, ("Microphone", *head), rows)
