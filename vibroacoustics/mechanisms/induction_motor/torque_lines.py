@@ -114,7 +114,9 @@ def torque_lines(
     orders = np.arange(1, len(ripple) + 1)
     names = [f"order {order}" for order in orders]
     load = np.array(ripple, dtype=complex)
-    shaft = rotor.lines(names, np.asarray(orders * speed / (2.0 * np.pi)), np.zeros_like(load), load)
+    shaft = rotor.lines(
+        names, np.asarray(orders * speed / (2.0 * np.pi)), np.zeros_like(load), load
+    )
     pulse = np.array([point.pulsating_torque_n_m])
     (pulsating,) = rotor.lines(["2 x line"], np.array([twice]), pulse)
     fourth = rotor.response(twice).upper * pulsating.speed_swing_rad_per_s
