@@ -32,9 +32,9 @@ def pocket_pressure(wraps: ScrollWraps, gas: ScrollGas, angle_since_closing: Arr
     compressed = gas.suction_pressure_pa * ratio**gas.polytropic_index
     closed = angle_since_closing < opening - OPENED_BEFORE
     since_opening = np.maximum(angle_since_closing - opening, 0.0)
-    width = max(gas.equalisation_angle_rad, np.finfo(float).tiny)
-    left = 0.5 + 0.5 * np.cos(np.pi * np.minimum(since_opening / width, 1.0))
-    left = np.where(since_opening < gas.equalisation_angle_rad, left, 0.0)
+    width = gas.equalisation_angle_rad
+    share = np.minimum(since_opening, width) / max(width, np.finfo(float).tiny)
+    left = np.where(since_opening < width, 0.5 + 0.5 * np.cos(np.pi * share), 0.0)
     opened = gas.discharge_pressure_pa + left * (compressed - gas.discharge_pressure_pa)
     return np.where(closed, compressed, opened)
 
