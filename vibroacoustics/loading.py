@@ -106,7 +106,8 @@ def _place_inside(
     reader = _Reader(file, {}, sources_required=True)
     values = reader.to_si(_read_toml(file), ())
     settings["inside"] = validated(Inside, values, reader)
-    settings["doubts"] = tuple(_doubt(record) for record in reader.records if _drawn(record))
+    drawn = [record for record in reader.records if _drawn(record)]
+    settings["doubts"] = tuple(_doubt(record, values, reader) for record in drawn)
     return [
         record.model_copy(update={"field": f"inside.{record.field}"}) for record in reader.records
     ]
@@ -117,11 +118,15 @@ def _drawn(record: ParameterRecord) -> bool:
     return record.lowest is not None and (table, si_key(key)[0]) in DRAWN
 
 
-def _doubt(record: ParameterRecord) -> Doubt:
+def _doubt(record: ParameterRecord, values: dict[str, Any], reader: "_Reader") -> Doubt:
+    """Range of a value in SI; both of its ends must be allowed."""
     table, key = record.field.split(".")
     name, factor = si_key(key)
-    lowest, highest = (factor * (limit or 0.0) for limit in (record.lowest, record.highest))
-    return Doubt(table=table, field=name, lowest=lowest, highest=highest)
+    ends = [(limit or 0.0, factor * (limit or 0.0)) for limit in (record.lowest, record.highest)]
+    for written, end in ends:
+        reader.file_keys[table, name] = (key, written)
+        validated(Inside, {**values, table: {**values[table], name: end}}, reader)
+    return Doubt(table=table, field=name, lowest=ends[0][1], highest=ends[1][1])
 
 
 def load_machine(path: str | Path) -> Machine:

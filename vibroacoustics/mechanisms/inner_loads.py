@@ -39,20 +39,40 @@ def gas_loads(cycle: ScrollGasCycle) -> Array:
     return loads
 
 
-def key_loads(forces: KeyForces, radius_m: float) -> Array:
+def key_loads(forces: KeyForces, radius_m: float, stroke_m: float) -> Array:
     """Resultant of the keys on the bearing housing: x, y, moment about z, shape (3, samples).
 
-    The forces in the scroll's slots come there through scroll, crank pin and main bearing.
+    The forces in the scroll's slots come there through scroll, crank pin and main bearing; what
+    they turn is the shaft, see `key_torque_n_m`. The housing's slots are loaded where the keys
+    are, which move with the ring by r cos θ.
 
     Parameters
     ----------
     forces : in all four slots
     radius_m : of the keys
+    stroke_m : r, of the ring
     """
     housing, scroll = forces.on_housing_slots_n, forces.on_scroll_slots_n
     push = housing.sum(axis=0) + scroll.sum(axis=0)
     turn = radius_m * (housing[0, 1] - housing[1, 1])
+    turn += stroke_m * np.cos(forces.crank_angle) * housing[:, 1].sum(axis=0)
     return np.concatenate([push, turn[None]])
+
+
+def key_torque_n_m(forces: KeyForces, stroke_m: float) -> Array:
+    """Torque that the shaft needs against the keys, shape (samples,), N m.
+
+    The scroll hands the keys' forces on to the crank pin, at r from the shaft's axis: the ring's
+    inertia to and fro at twice the speed, and the friction of all keys.
+
+    Parameters
+    ----------
+    forces : in all four slots
+    stroke_m : r, the orbit radius
+    """
+    along_x, along_y = forces.on_scroll_slots_n.sum(axis=0)
+    angle = forces.crank_angle
+    return np.asarray(stroke_m * (along_x * np.sin(angle) - along_y * np.cos(angle)))
 
 
 def stator_loads(lines: Sequence[TorqueLine]) -> tuple[Array, Array]:

@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from .base import Parameters
 from .induction_motor import CapacitorMotor
@@ -81,3 +81,10 @@ class InsideSettings(Parameters):
     seed: int = Field(default=6, ge=0, lt=2**63)
     key_revolutions: int = Field(default=8, ge=1, le=1000)
     """Over which the forces of the keys are taken."""
+
+    @model_validator(mode="after")
+    def _lines(self) -> "InsideSettings":
+        for line in self.line_frequency_hz:
+            if not 1.0 <= line <= 1e3:
+                raise ValueError(f"line_frequency_hz = {line:g} Hz: allowed 1 to 1000 Hz")
+        return self

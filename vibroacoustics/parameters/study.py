@@ -172,10 +172,23 @@ class Study(Parameters):
                 f"inside.line_frequency_hz: {len(self.inside.line_frequency_hz)} values for "
                 f"{len(self.operation.speed_rpm)} speeds; one is needed for each"
             )
-        orbit, own = self.machine.kinematics.orbit_radius_m, self.inside.inside.wraps.orbit_radius_m
+        twice = 2.0 * max(self.inside.line_frequency_hz)
+        if twice > self.radiation.maximum_frequency_hz:
+            raise ValueError(
+                f"radiation.maximum_frequency_hz = {self.radiation.maximum_frequency_hz:g} Hz: "
+                f"twice the line frequency is {twice:g} Hz"
+            )
+        self._check_orbit("", self.machine, self.inside)
+        for name, option in self.options.items():
+            if isinstance(option, Redesign) and isinstance(option.machine, OldhamScroll):
+                self._check_orbit(f"options.{name}.change: ", option.machine, self.inside)
+
+    def _check_orbit(self, where: str, machine: OldhamScroll, settings: InsideSettings) -> None:
+        """Refuse a machine that does not orbit as the wraps of the inside do."""
+        orbit, own = machine.kinematics.orbit_radius_m, settings.inside.wraps.orbit_radius_m
         if abs(orbit - own) > 0.01 * own:
             raise ValueError(
-                f"inside: its wraps orbit at {1e3 * own:.4g} mm; the machine's "
+                f"{where}inside: its wraps orbit at {1e3 * own:.4g} mm; the machine's "
                 f"kinematics.orbit_radius_mm = {1e3 * orbit:.4g} mm: must agree within 1 %"
             )
 

@@ -20,7 +20,8 @@ from ..transfer.shell_modes import (
     modal_forces,
     velocity_per_force,
 )
-from .inner_sources import Complex, InnerLoads
+from .inner_keys import Complex
+from .inner_sources import InnerLoads
 
 MODES_BEYOND: Final = 1.1
 """Modes up to this many times the highest frequency take part."""
@@ -126,9 +127,10 @@ class SourceSound:
         return np.asarray(self.part.sum(axis=0))
 
 
-def octave_thirds(maximum_frequency_hz: float) -> tuple[levels.Band, ...]:
-    """Third-octave bands of a study with inner sources."""
-    return levels.bands_between(3, LOWEST_BAND_HZ, maximum_frequency_hz)
+def whole_octave_thirds(maximum_frequency_hz: float) -> tuple[levels.Band, ...]:
+    """Third-octave bands that a study's frequencies fill."""
+    bands = levels.bands_between(3, LOWEST_BAND_HZ, maximum_frequency_hz)
+    return tuple(band for band in bands if band.upper_hz <= maximum_frequency_hz)
 
 
 def source_sound(
@@ -182,7 +184,8 @@ def mode_pressures(results: xr.Dataset, frequency_hz: Array) -> Complex:
     return np.asarray(radiation.interpolate_transfer_vector(vectors, at).values)
 
 
-def rigid_pressures(results: xr.Dataset, frequency_hz: Array) -> Complex:
-    """Transfer vectors of the rigid motions at any frequencies, (receiver, dof, frequency)."""
+def roll_pressures(results: xr.Dataset, frequency_hz: Array) -> Complex:
+    """Transfer vector of the rigid turn about z at any frequencies, (receiver, frequency)."""
+    vector = results["transfer_vector"].sel(dof=["rz"])
     at = xr.DataArray(frequency_hz, dims="line")
-    return np.asarray(radiation.interpolate_transfer_vector(results["transfer_vector"], at).values)
+    return np.asarray(radiation.interpolate_transfer_vector(vector, at).values[:, 0])

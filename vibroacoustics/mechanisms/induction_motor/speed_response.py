@@ -37,11 +37,12 @@ class TwoAxisMotor:
     voltage_v: float
 
     def forced(
-        self, speed_rad_per_s: float, angular_frequency: float, force: Array | ComplexArray
+        self, speed_rad_per_s: float, angular_frequency: Array | float, force: Array | ComplexArray
     ) -> ComplexArray:
-        """States under a force at an angular frequency, (jω - A - ΩB)⁻¹ f."""
+        """States under a force at angular frequencies (...), (jω - A - ΩB)⁻¹ f, shape (..., 5)."""
         system = self.at_rest + speed_rad_per_s * self.per_speed
-        return np.asarray(np.linalg.solve(1j * angular_frequency * np.eye(5) - system, force))
+        turning = 1j * np.asarray(angular_frequency)[..., None, None] * np.eye(5)
+        return np.asarray(np.linalg.solve(turning - system, force))
 
     def steady_states(self, speed_rad_per_s: float) -> ComplexArray:
         """Complex peaks of the states at line frequency and constant speed, shape (5,)."""
@@ -81,7 +82,7 @@ def two_axis_motor(motor: CapacitorMotor) -> TwoAxisMotor:
 
 @dataclass(frozen=True)
 class SpeedResponse:
-    """Motor torque per complex peak of a swing of the speed at ν, N m s.
+    """Motor torque per complex peak of a swing of the speed at ν, N m s, in the shape of ν.
 
     Attributes
     ----------
@@ -90,13 +91,13 @@ class SpeedResponse:
     lower : at twice the line frequency minus ν, per conjugate of the swing's peak
     """
 
-    direct: complex
-    upper: complex
-    lower: complex
+    direct: ComplexArray
+    upper: ComplexArray
+    lower: ComplexArray
 
 
 def speed_response(
-    motor: TwoAxisMotor, speed_rad_per_s: float, swing_rad_per_s: float
+    motor: TwoAxisMotor, speed_rad_per_s: float, swing_rad_per_s: Array | float
 ) -> SpeedResponse:
     """Torque that a small swing δ of the speed makes: x1 from B δ x0, torque 2 x0ᵀ Q x1.
 
@@ -107,15 +108,15 @@ def speed_response(
     ----------
     motor : two-axis equations
     speed_rad_per_s : mean speed of the rotor
-    swing_rad_per_s : ν, angular frequency of the swing, mechanical
+    swing_rad_per_s : ν, angular frequency of the swing, mechanical, any shape
     """
     steady, line = motor.steady_states(speed_rad_per_s), motor.line_rad_per_s
     push = 0.5 * motor.per_speed @ steady
     above = motor.forced(speed_rad_per_s, line + swing_rad_per_s, push)
     below = motor.forced(speed_rad_per_s, line - swing_rad_per_s, push)
-    with_above, with_below = motor.torque_form @ above, motor.torque_form @ below
+    forward = motor.torque_form @ steady
     return SpeedResponse(
-        direct=complex(steady.conj() @ with_above + (steady.conj() @ with_below).conj()),
-        upper=complex(steady @ with_above),
-        lower=complex(steady @ with_below),
+        direct=above @ forward.conj() + (below @ forward.conj()).conj(),
+        upper=above @ forward,
+        lower=below @ forward,
     )

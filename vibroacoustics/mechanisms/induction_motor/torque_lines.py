@@ -5,9 +5,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...moving_parts import Array
 from ...parameters.induction_motor import CapacitorMotor
 from .revolving_fields import OperatingPoint, point_at_torque
-from .speed_response import SpeedResponse, TwoAxisMotor, speed_response, two_axis_motor
+from .speed_response import (
+    ComplexArray,
+    SpeedResponse,
+    TwoAxisMotor,
+    speed_response,
+    two_axis_motor,
+)
 
 
 @dataclass(frozen=True)
@@ -59,18 +66,24 @@ class _RotorInMotor:
     speed_rad_per_s: float
     inertia_kg_m2: float
 
-    def response(self, frequency_hz: float) -> SpeedResponse:
-        return speed_response(self.motor, self.speed_rad_per_s, 2.0 * np.pi * frequency_hz)
+    def response(self, frequency_hz: Array | float) -> SpeedResponse:
+        swing = 2.0 * np.pi * np.asarray(frequency_hz)
+        return speed_response(self.motor, self.speed_rad_per_s, swing)
 
-    def line(
-        self, name: str, frequency_hz: float, motor_torque: complex, load_torque: complex = 0.0
-    ) -> TorqueLine:
-        """Line of torques at constant speed; the motor's answer to the swing is added."""
+    def lines(
+        self,
+        names: Sequence[str],
+        frequency_hz: Array,
+        motor_torque: ComplexArray,
+        load_torque: ComplexArray | float = 0.0,
+    ) -> tuple[TorqueLine, ...]:
+        """Lines of torques at constant speed; the motor's answer to the swings is added."""
         inertia = 2.0j * np.pi * frequency_hz * self.inertia_kg_m2
         response = self.response(frequency_hz).direct
         swing = (motor_torque - load_torque) / (inertia - response)
-        torque = motor_torque + response * swing
-        return TorqueLine(name, frequency_hz, torque, -inertia * swing, swing)
+        columns = (frequency_hz, motor_torque + response * swing, -inertia * swing, swing)
+        rows = zip(*(column.tolist() for column in columns), strict=True)
+        return tuple(TorqueLine(name, *row) for name, row in zip(names, rows, strict=True))
 
 
 def torque_lines(
@@ -97,32 +110,36 @@ def torque_lines(
     point = point_at_torque(motor, float(np.real(mean)))
     speed = motor.synchronous_speed_rad_per_s * (1.0 - point.slip)
     rotor = _RotorInMotor(two_axis_motor(motor), speed, inertia_kg_m2)
-    turns, twice = speed / (2.0 * np.pi), 2.0 * motor.line_frequency_hz
-    shaft = tuple(
-        rotor.line(f"order {order}", order * turns, 0.0, load)
-        for order, load in enumerate(ripple, 1)
+    twice = 2.0 * motor.line_frequency_hz
+    orders = np.arange(1, len(ripple) + 1)
+    names = [f"order {order}" for order in orders]
+    load = np.array(ripple, dtype=complex)
+    shaft = rotor.lines(
+        names, np.asarray(orders * speed / (2.0 * np.pi)), np.zeros_like(load), load
     )
-    pulsating = rotor.line("2 x line", twice, point.pulsating_torque_n_m)
+    pulse = np.array([point.pulsating_torque_n_m])
+    (pulsating,) = rotor.lines(["2 x line"], np.array([twice]), pulse)
     fourth = rotor.response(twice).upper * pulsating.speed_swing_rad_per_s
-    sidebands = tuple(band for line in shaft for band in _sidebands(rotor, line, twice))
-    double = rotor.line("4 x line", 2.0 * twice, fourth)
-    return TorqueLines(point, speed, shaft, (pulsating, double), sidebands)
+    (double,) = rotor.lines(["4 x line"], np.array([2.0 * twice]), fourth[None])
+    return TorqueLines(point, speed, shaft, (pulsating, double), _sidebands(rotor, shaft, twice))
 
 
 def _sidebands(
-    rotor: _RotorInMotor, line: TorqueLine, twice_line_hz: float
-) -> tuple[TorqueLine, TorqueLine]:
-    """Twice the line frequency plus and minus that of a shaft order."""
-    response, swing = rotor.response(line.frequency_hz), line.speed_swing_rad_per_s
-    difference = twice_line_hz - line.frequency_hz
-    lower = response.lower * np.conj(swing)
-    return (
-        rotor.line(
-            f"2 x line + {line.name}", twice_line_hz + line.frequency_hz, response.upper * swing
-        ),
-        rotor.line(
-            f"2 x line - {line.name}",
-            abs(difference),
-            complex(lower if difference > 0.0 else np.conj(lower)),
-        ),
+    rotor: _RotorInMotor, shaft: Sequence[TorqueLine], twice_line_hz: float
+) -> tuple[TorqueLine, ...]:
+    """Twice the line frequency plus and minus those of the shaft's orders, by order."""
+    frequency = np.array([line.frequency_hz for line in shaft])
+    swing = np.array([line.speed_swing_rad_per_s for line in shaft])
+    response, difference = rotor.response(frequency), twice_line_hz - frequency
+    lower = response.lower * swing.conj()
+    above = rotor.lines(
+        [f"2 x line + {line.name}" for line in shaft],
+        twice_line_hz + frequency,
+        response.upper * swing,
     )
+    below = rotor.lines(
+        [f"2 x line - {line.name}" for line in shaft],
+        np.abs(difference),
+        np.where(difference > 0.0, lower, lower.conj()),
+    )
+    return tuple(line for pair in zip(above, below, strict=True) for line in pair)

@@ -63,6 +63,12 @@ class KeyForces:
         return np.arange(self.normal_n.shape[-1]) / self.sample_rate_hz
 
     @property
+    def crank_angle(self) -> Array:
+        """Shape (samples,), rad."""
+        samples = self.normal_n.shape[-1]
+        return np.asarray(2.0 * np.pi * self.revolutions / samples * np.arange(samples))
+
+    @property
     def impacts_per_revolution(self) -> float:
         """Times that any key met a face."""
         return np.count_nonzero(self.impact_speed_m_per_s) / self.revolutions
