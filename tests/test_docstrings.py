@@ -67,6 +67,7 @@ def test_docstring_attributes_are_the_fields(path):
                     for item in node.body
                     if isinstance(item, ast.AnnAssign)
                     and isinstance(item.target, ast.Name)
+                    and not item.target.id.startswith("_")
                     and "ClassVar" not in ast.dump(item.annotation)
                 ]
                 assert documented == fields, node.name

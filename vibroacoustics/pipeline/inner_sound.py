@@ -184,8 +184,7 @@ def mode_pressures(results: xr.Dataset, frequency_hz: Array) -> Complex:
     return np.asarray(radiation.interpolate_transfer_vector(vectors, at).values)
 
 
-def roll_pressures(results: xr.Dataset, frequency_hz: Array) -> Complex:
-    """Transfer vector of the rigid turn about z at any frequencies, (receiver, frequency)."""
-    vector = results["transfer_vector"].sel(dof=["rz"])
+def rigid_pressures(results: xr.Dataset, frequency_hz: Array) -> Complex:
+    """Transfer vectors of the rigid motions at any frequencies, (receiver, dof, frequency)."""
     at = xr.DataArray(frequency_hz, dims="line")
-    return np.asarray(radiation.interpolate_transfer_vector(vector, at).values[:, 0])
+    return np.asarray(radiation.interpolate_transfer_vector(results["transfer_vector"], at).values)

@@ -24,7 +24,7 @@ from .inner_sound import (
     SourceSound,
     mode_pressures,
     pressure_per_load,
-    roll_pressures,
+    rigid_pressures,
     source_sound,
     whole_octave_thirds,
 )
@@ -142,7 +142,8 @@ class _Listener:
         """Sound of all sources, the moving parts of the rigid machine among them."""
         frequency = loads.frequency_hz
         per_load = self._per_load(frequency)
-        per_moment = roll_pressures(self.results, frequency) * _roll_velocity(body, frequency)
+        roll = rigid_pressures(self.results, frequency)[:, -1]  # about z
+        per_moment = roll * _roll_velocity(body, frequency)
         receivers, orders = case.moving_parts_pa.shape
         moving = np.zeros((receivers, frequency.size), dtype=complex)
         moving[:, :orders] = case.moving_parts_pa

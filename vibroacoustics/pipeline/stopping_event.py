@@ -13,7 +13,7 @@ from ..errors import ParameterError
 from ..mechanisms.run_down.coasting import RunDown
 from ..rotation import Array
 from ..transfer import RigidBodyOnMounts, SuspendedBlock
-from .inner_sources import Complex
+from .inner_keys import Complex
 from .transient import LOAD_SAMPLES, Transient, transient
 
 FADE_S: Final = 1.0

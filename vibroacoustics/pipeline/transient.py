@@ -9,7 +9,7 @@ from scipy import fft
 
 from ..rotation import Array
 from ..transfer import RigidBodyOnMounts, SuspendedBlock
-from .inner_sources import Complex
+from .inner_keys import Complex
 
 LOAD_SAMPLES: Final = 2
 """Samples of the load per sample of the result: a jump of the load aliases less."""
