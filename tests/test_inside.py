@@ -323,6 +323,15 @@ def test_rigid_machine_is_moved_by_momentum_alone(study, sources):
     assert np.all(loads.lines["keys"].roll_moment_n_m == 0.0)
 
 
+def test_modes_reach_the_highest_frequency_in_every_draw(study):
+    """Where natural frequencies are lowered to 0.8, modes up to 1.25 times it come below it."""
+    highest = study.radiation.maximum_frequency_hz
+    found = path_of(study).elastic.maximum_frequency_hz
+    assert found >= highest / min(
+        inside.doubt.frequency_factor_ratio for inside in latin_hypercube(study.inside)
+    )
+
+
 def test_body_on_mounts_turns_about_z_alone_under_a_moment_about_z(study):
     """So that its other motions need no transfer vector here."""
     machine = study.machine

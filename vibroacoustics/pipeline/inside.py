@@ -119,6 +119,7 @@ class _Listener:
     path : the elastic shell
     bands : third octaves
     inside : the values
+    _known : pressures per load, by their frequencies
     """
 
     results: xr.Dataset
