@@ -37,16 +37,19 @@ class ShellPath:
     shell : outline
     structure : wall, material, joints
     maximum_frequency_hz : of the study's transfer vectors
+    lowest_factor_ratio : the least by which a draw may multiply the natural frequencies
     """
 
     shell: Shell
     structure: ShellStructure
     maximum_frequency_hz: float
+    lowest_factor_ratio: float
 
     @cached_property
     def elastic(self) -> ElasticShell:
-        """The modes that take part."""
-        return elastic_shell(self.shell, self.structure, MODES_BEYOND * self.maximum_frequency_hz)
+        """The modes that take part in any draw."""
+        highest = MODES_BEYOND * self.maximum_frequency_hz / self.lowest_factor_ratio
+        return elastic_shell(self.shell, self.structure, highest)
 
     @property
     def motions(self) -> tuple[ShellMode, ...]:
@@ -74,8 +77,10 @@ def shell_path(study: Study) -> ShellPath | None:
     """The elastic shell of a study with inner sources; none without."""
     if study.inside is None:
         return None
-    structure = study.inside.inside.shell
-    return ShellPath(study.machine.shell, structure, study.radiation.maximum_frequency_hz)
+    inside, highest = study.inside.inside, study.radiation.maximum_frequency_hz
+    ranges = [d.lowest for d in study.inside.doubts if d.field == "frequency_factor_ratio"]
+    lowest = min([inside.doubt.frequency_factor_ratio, *ranges])
+    return ShellPath(study.machine.shell, inside.shell, highest, lowest)
 
 
 def pressure_per_load(
