@@ -93,7 +93,9 @@ def test_pressure_passes_half_of_the_step_in_the_middle():
     start, middle, end = pocket_pressure(WRAPS, gas, opening + np.radians([0.0, 10.0, 20.0]))
     assert start == pytest.approx(built_in_pressure_pa(WRAPS, gas), rel=1e-9)
     assert end == GAS.discharge_pressure_pa
-    assert middle == pytest.approx(0.5 * (start + end), rel=1e-12)
+    # A pocket opens 1e-9 rad early, and there the pressure changes by π/2 of the step a width.
+    early = 0.5 * np.pi * abs(end - start) / np.radians(20.0) * 1.1e-9
+    assert middle == pytest.approx(0.5 * (start + end), abs=early)
 
 
 def test_high_orders_fall_as_those_of_a_half_cosine_and_of_two_kinks():
