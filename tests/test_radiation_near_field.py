@@ -26,7 +26,7 @@ from vibroacoustics.radiation.scene import Scene
 
 RADIUS = 0.12
 ANGLES = np.linspace(0.0, np.pi, 11)
-FREQUENCY_HZ = np.array([48.0, 117.0, 250.0, 500.0, 1000.0, 2000.0, 3000.0, 4000.0])
+FREQUENCY_HZ = np.array([25.0, 48.0, 117.0, 250.0, 500.0, 1000.0, 2000.0, 3000.0, 4000.0])
 LOW_HZ = FREQUENCY_HZ[:5]
 
 

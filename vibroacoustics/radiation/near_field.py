@@ -48,7 +48,7 @@ from .wall_flux import wall_fluxes
 _PROGRESS_STEPS: Final = 50
 _MOST_DIAGONALS: Final = 250.0
 """Longest recording after the pulse, in passages of sound through the box's diagonal."""
-_QUIET: Final = 1e-7
+_QUIET: Final = 3e-8
 """A run ends when the pressure on the box has fallen to this share of its largest value."""
 _NOT_QUIET: Final = 1e-3
 """Share that is refused at the end of the longest recording."""
