@@ -17,7 +17,7 @@ INSIDE_STUDY = ROOT / "tests" / "studies" / "inside.toml"
 def made_up_modes(study: Study, gain: float = 1.0) -> xr.Dataset:
     """Transfer vectors of rigid motions and of the shell's modes, different for each."""
     vectors = made_up_transfer_vectors(study)
-    names = [motion.name for motion in path_of(study).motions] if study.inside else []
+    names = [motion.name for motion in path_of(study).modes] if study.inside else []
     frequency = vectors["frequency"].values
     generator = np.random.default_rng(5)
     shape = (len(study.receivers), len(names), 1)

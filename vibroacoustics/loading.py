@@ -102,6 +102,9 @@ def _place_inside(
     for name in ("inside", "doubts"):  # filled in here, not by a file
         if name in settings:
             raise ParameterError(f"{path}: inside.{name}: unknown key")
+    modes = settings.get("modes")
+    if isinstance(modes, dict) and isinstance(modes.get("file"), str):
+        modes["file"] = str(_beside(origin.get(("inside", "modes", "file"), path), modes["file"]))
     file = _beside(origin.get(("inside", "file"), path), settings.pop("file"))
     reader = _Reader(file, {}, sources_required=True)
     values = reader.to_si(_read_toml(file), ())

@@ -69,6 +69,15 @@ class Doubt(Parameters):
     highest: float
 
 
+class MeasuredModes(Parameters):
+    """Modes of the shell from a universal file (dataset 55), in place of the computed ones."""
+
+    file: str = Field(min_length=1)
+    """In a study relative to the study's folder; places are about the centre of mass, z up."""
+    file_unit_m: float | None = Field(default=None, gt=0.0, le=1.0)
+    """Length of the unit of the places; none where the file itself tells it (dataset 164)."""
+
+
 class InsideSettings(Parameters):
     """What a study asks of the inner sources."""
 
@@ -81,6 +90,7 @@ class InsideSettings(Parameters):
     seed: int = Field(default=6, ge=0, lt=2**63)
     key_revolutions: int = Field(default=8, ge=1, le=1000)
     """Over which the forces of the keys are taken."""
+    modes: MeasuredModes | None = None
 
     @model_validator(mode="after")
     def _lines(self) -> "InsideSettings":

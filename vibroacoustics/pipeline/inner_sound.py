@@ -7,14 +7,14 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from .. import levels, radiation
-from ..parameters.shell import Shell
-from ..parameters.shell_structure import JOINTS, ShellStructure
+from .. import levels, measurements, radiation
+from ..parameters.inside import MeasuredModes
+from ..parameters.shell_structure import JOINTS
 from ..parameters.study import Study
 from ..rotation import Array
 from ..transfer.shell_modes import (
-    ElasticShell,
     JointLoads,
+    SampledMode,
     ShellMode,
     elastic_shell,
     modal_forces,
@@ -30,57 +30,59 @@ LOWEST_BAND_HZ: Final = 20.0
 
 @dataclass(frozen=True)
 class ShellPath:
-    """The elastic shell of a machine and its modes' sound.
+    """The elastic modes of a machine's shell, and how loads on its joints drive them.
 
     Attributes
     ----------
-    shell : outline
-    structure : wall, material, joints
+    modes : computed or measured
+    joint_forces : generalised force per unit load, shape (mode, joint, component)
     maximum_frequency_hz : of the study's transfer vectors
-    lowest_factor_ratio : the least by which a draw may multiply the natural frequencies
     """
 
-    shell: Shell
-    structure: ShellStructure
+    modes: tuple[ShellMode, ...] | tuple[SampledMode, ...]
+    joint_forces: Array
     maximum_frequency_hz: float
-    lowest_factor_ratio: float
-
-    @cached_property
-    def elastic(self) -> ElasticShell:
-        """The modes that take part in any draw."""
-        highest = MODES_BEYOND * self.maximum_frequency_hz / self.lowest_factor_ratio
-        return elastic_shell(self.shell, self.structure, highest)
-
-    @property
-    def motions(self) -> tuple[ShellMode, ...]:
-        """The modes as motions of the surface."""
-        return self.elastic.modes
-
-    @cached_property
-    def joint_forces(self) -> Array:
-        """Generalised force per unit load, shape (mode, joint, component)."""
-        loads = [JointLoads(getattr(self.structure, name)) for name in JOINTS]
-        return np.stack([modal_forces(self.elastic, load) for load in loads], axis=1)
 
     @cached_property
     def natural_hz(self) -> Array:
         """Shape (mode,)."""
-        return np.array([mode.frequency_hz for mode in self.elastic.modes])
+        return np.array([mode.frequency_hz for mode in self.modes])
 
     @cached_property
     def modal_mass_kg(self) -> Array:
         """Shape (mode,)."""
-        return np.array([mode.modal_mass_kg for mode in self.elastic.modes])
+        return np.array([mode.modal_mass_kg for mode in self.modes])
 
 
 def shell_path(study: Study) -> ShellPath | None:
-    """The elastic shell of a study with inner sources; none without."""
+    """The elastic shell of a study with inner sources; none without.
+
+    Computed modes reach the highest frequency in every draw, measured ones as far as their file.
+    """
     if study.inside is None:
         return None
     inside, highest = study.inside.inside, study.radiation.maximum_frequency_hz
+    joints = [getattr(inside.shell, name) for name in JOINTS]
+    if study.inside.modes is not None:
+        modes = _measured(study.inside.modes)
+        radius = study.machine.shell.radius_m
+        forces = [[mode.modal_forces(joint, radius) for joint in joints] for mode in modes]
+        return ShellPath(modes, np.array(forces), highest)
     ranges = [d.lowest for d in study.inside.doubts if d.field == "frequency_factor_ratio"]
     lowest = min([inside.doubt.frequency_factor_ratio, *ranges])
-    return ShellPath(study.machine.shell, inside.shell, highest, lowest)
+    elastic = elastic_shell(study.machine.shell, inside.shell, MODES_BEYOND * highest / lowest)
+    loads = [modal_forces(elastic, JointLoads(joint)) for joint in joints]
+    return ShellPath(elastic.modes, np.stack(loads, axis=1), highest)
+
+
+def _measured(settings: MeasuredModes) -> tuple[SampledMode, ...]:
+    """Modes of a universal file."""
+    found = measurements.read_modes(settings.file, file_unit_m=settings.file_unit_m)
+    rows = zip(found.frequency_hz, found.modal_mass_kg, found.shape, strict=True)
+    return tuple(
+        SampledMode(f"measured_{number:02d}", float(hertz), float(mass), found.nodes_m, shape)
+        for number, (hertz, mass, shape) in enumerate(rows, 1)
+    )
 
 
 def pressure_per_load(

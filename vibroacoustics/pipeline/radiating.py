@@ -35,7 +35,7 @@ def radiate(study: Study, progress: Progress = lambda *_: None) -> xr.Dataset:
     """
     try:
         path = shell_path(study)
-        motions = () if path is None else path.motions
+        motions = () if path is None else path.modes
         radiated, was_cached = transfer_vectors(study, progress, motions)
     except ParameterError as error:
         raise ParameterError(f"{study.source_file}: {error}") from None

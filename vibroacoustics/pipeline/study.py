@@ -71,7 +71,7 @@ def _run(study: Study, progress: Progress) -> xr.Dataset:
     results = results.merge(_orders(study, results))
     results = results.merge(_housing(study, results))
     machine, path = study.machine, shell_path(study)
-    motions = () if path is None else path.motions
+    motions = () if path is None else path.modes
     radiated, was_cached = transfer_vectors(study, progress, motions)
     results = results.merge(radiated)
     results = results.merge(_pressures(results))
