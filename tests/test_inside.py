@@ -340,7 +340,10 @@ def test_pair_of_forces_on_one_joint_drives_nothing(study):
     """Gas forces with the fixed scroll held where the bearing housing is."""
     inside = study.inside.inside
     shell = inside.shell.model_copy(update={"fixed_scroll": inside.shell.bearing_housing})
-    path = dataclasses.replace(path_of(study), structure=shell)
+    settings = study.inside.model_copy(
+        update={"inside": inside.model_copy(update={"shell": shell})}
+    )
+    path = path_of(study.model_copy(update={"inside": settings}))
     pair = path.joint_forces[:, FIXED_SCROLL] - path.joint_forces[:, BEARING_HOUSING]
     assert np.all(pair == 0.0)
     apart = path_of(study).joint_forces
