@@ -51,7 +51,8 @@ def test_short_force_is_the_integral_of_its_pressure(eccentricity, rate, slip):
     parts = np.abs(short_bearing_force(BEARING, eccentricity, abs(rate), 0.0)) + np.abs(
         short_bearing_force(BEARING, eccentricity, 0.0, abs(slip))
     )
-    assert np.all(np.abs(found - expected) <= ISSUE * np.max(parts))
+    smallest = np.finfo(float).tiny  # below it numbers lose their digits
+    assert np.all(np.abs(found - expected) <= ISSUE * np.max(parts) + smallest)
 
 
 @given(eccentricities, rates, slips)

@@ -5,7 +5,7 @@ Published numbers are in test_literature.
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from machine_files import changed, machine_file
 from scipy.integrate import solve_ivp
@@ -61,7 +61,8 @@ def test_ideal_mechanism_needs_the_load_torque_only():
 errors_um = st.floats(-100.0, 100.0)
 
 
-@settings(max_examples=60, deadline=None)
+# Five in six draws do not close; those are what closing_margins is for.
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
 @given(
     crank=errors_um, scroll=errors_um, minicrank=errors_um, bracket=errors_um,
     branch=st.sampled_from([1, -1]),
