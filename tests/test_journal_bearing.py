@@ -24,6 +24,9 @@ SPIN = 312.0
 ISSUE = 1e-6
 """Issue 5: bearing forces equal the integrated film pressure to 1e-6."""
 
+SMALLEST = np.finfo(float).tiny
+"""Below it numbers lose their digits."""
+
 eccentricities = st.floats(0.01, 0.95)
 rates = st.floats(-200.0, 200.0)
 slips = st.floats(-900.0, 900.0)
@@ -51,8 +54,7 @@ def test_short_force_is_the_integral_of_its_pressure(eccentricity, rate, slip):
     parts = np.abs(short_bearing_force(BEARING, eccentricity, abs(rate), 0.0)) + np.abs(
         short_bearing_force(BEARING, eccentricity, 0.0, abs(slip))
     )
-    smallest = np.finfo(float).tiny  # below it numbers lose their digits
-    assert np.all(np.abs(found - expected) <= ISSUE * np.max(parts) + smallest)
+    assert np.all(np.abs(found - expected) <= ISSUE * np.max(parts) + SMALLEST)
 
 
 @given(eccentricities, rates, slips)
@@ -65,7 +67,7 @@ def test_long_force_is_the_integral_of_its_pressure(eccentricity, rate, slip):
     parts = np.abs(long_bearing_force(BEARING, eccentricity, abs(rate), 0.0)) + np.abs(
         long_bearing_force(BEARING, eccentricity, 0.0, abs(slip))
     )
-    assert np.all(np.abs(found - expected) <= ISSUE * np.max(parts))
+    assert np.all(np.abs(found - expected) <= ISSUE * np.max(parts) + SMALLEST)
 
 
 @pytest.mark.parametrize(("eccentricity", "rate", "slip"), [(0.3, 50.0, 312.0), (0.8, -20.0, 90.0)])
