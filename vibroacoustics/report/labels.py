@@ -32,7 +32,7 @@ _NAMES: Final = {
     "crank_pin_force_n": "Largest force at the rigid crank pin",
     "key_impacts_per_revolution": "Impacts of the keys per revolution",
     "key_force_peak_n": "Largest force on a key",
-    "key_contact_lost_above_rpm": "Speed above which keys lose contact (closed form, with friction)",
+    "key_contact_lost_above_rpm": "Speed above which keys lose contact, with friction",
     "foot_force_2x_line_n": "Largest foot force at twice the line frequency (motor, not 2×)",
     "twin_key_impacts_per_revolution": "Impacts of the second ring's keys per revolution",
     "twin_key_force_peak_n": "Largest force on a key of the second ring",
