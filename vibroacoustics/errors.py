@@ -22,3 +22,7 @@ class SolverError(VibroacousticsError):
 
 class StorageError(VibroacousticsError):
     """A file cannot be read or written, or its content does not match its hash."""
+
+
+class PluginError(VibroacousticsError):
+    """A stranger's option, machine, criterion, section or column cannot be taken in."""

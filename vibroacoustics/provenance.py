@@ -1,7 +1,5 @@
 """Where a result comes from: software, versions, parameters, time."""
 
-import hashlib
-import json
 import subprocess
 from datetime import UTC, datetime
 from functools import cache
@@ -9,6 +7,8 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, Final
 
+from .base.hashing import canonical_json, sha256
+from .base.registry import plugins
 from .parameters.study import Study
 
 SCHEMA_VERSION: Final = "1"
@@ -37,6 +37,7 @@ def attributes(study: Study) -> dict[str, Any]:
         "references": "see the sources in the attribute parameters",
         "parameters": parameters,
         "parameters_sha256": sha256(parameters.encode()),
+        "plugins": canonical_json(plugins()),
         "random_seed": study.scoring.seed,
     }
 
@@ -54,16 +55,6 @@ def software_attributes(command: str) -> dict[str, Any]:
         "created_utc": _now(),
         "phasor_convention": "x(t) = Re{X exp(+j w t)}, X is a complex peak",
     }
-
-
-def canonical_json(value: Any) -> str:
-    """ASCII JSON with sorted keys: the same text for the same content."""
-    return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
-
-
-def sha256(content: bytes) -> str:
-    """SHA-256 of the content, in hexadecimal."""
-    return hashlib.sha256(content).hexdigest()
 
 
 def software_version() -> str:

@@ -16,8 +16,8 @@ import platformdirs
 import xarray as xr
 from filelock import FileLock
 
+from .base.hashing import canonical_json, sha256
 from .errors import StorageError
-from .provenance import canonical_json, sha256
 
 REAL_SUFFIX, IMAGINARY_SUFFIX = "_re", "_im"
 

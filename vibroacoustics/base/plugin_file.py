@@ -1,0 +1,40 @@
+"""Python files of strangers that the user names: what they register becomes known."""
+
+import sys
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+
+from ..errors import PluginError, VibroacousticsError
+
+
+def load_plugin(path: str | Path) -> None:
+    """Run a Python file, which registers what it brings; a file that is known already, not again.
+
+    Parameters
+    ----------
+    path : file; its code runs with all rights of the user
+
+    Raises
+    ------
+    PluginError
+        It is missing, or fails, or registers what cannot be registered.
+    """
+    file = Path(path).resolve()
+    name = f"plugin_{file.stem}_{abs(hash(file)):x}"
+    if name in sys.modules:
+        return
+    if not file.is_file():
+        raise PluginError(f"{path}: no such file")
+    spec = spec_from_file_location(name, file)
+    if spec is None or spec.loader is None:
+        raise PluginError(f"{path}: is no Python file (.py)")
+    module = module_from_spec(spec)
+    sys.modules[name] = module  # its classes are looked up there
+    try:
+        spec.loader.exec_module(module)
+    except VibroacousticsError:
+        del sys.modules[name]
+        raise
+    except Exception as error:
+        del sys.modules[name]
+        raise PluginError(f"{path}: {type(error).__name__}: {error}") from None

@@ -1,0 +1,214 @@
+"""Named things that others can add to: options, machines, criteria, sections, columns.
+
+Built-in things are the modules of the registry's folder: they are imported when a name is first
+looked up, so that a new file edits no other. A stranger's thing comes from an installed package
+(entry point), from a file that the user names, or from a call of `register`; never because a
+study's file says so.
+"""
+
+import sys
+from collections.abc import Iterator
+from difflib import get_close_matches
+from importlib import import_module, metadata
+from pathlib import Path
+from pkgutil import iter_modules
+from typing import Any, Final, Generic, NamedTuple, TypeVar
+
+from ..errors import ParameterError, PluginError
+from .hashing import sha256
+
+Thing = TypeVar("Thing")
+
+PACKAGE: Final = __package__.partition(".")[0]
+LAST: Final = 1000.0
+"""Position of a thing that names none: behind the built-in ones."""
+
+
+class Origin(NamedTuple):
+    """Where a thing comes from that is not built in.
+
+    Attributes
+    ----------
+    file : name of the file that holds it
+    version : of the installed package, or `__version__` of the file; empty where it has none
+    sha256 : of the file's content
+    """
+
+    file: str
+    version: str
+    sha256: str
+
+
+class Registry(Generic[Thing]):
+    """Things of one kind by their name.
+
+    Parameters
+    ----------
+    noun : what one of them is called in messages
+    base : class that they are instances, or subclasses, of
+    label : attribute that holds a thing's name
+    folder : package, relative to this one, whose modules hold the built-in things
+    group : entry points of installed packages
+    """
+
+    def __init__(self, noun: str, base: type, label: str, folder: str, group: str) -> None:
+        self.noun = noun
+        self.base = base
+        self._label = label
+        self._folder = folder
+        self._group = group
+        self._things: dict[str, Thing] = {}
+        self._origins: dict[str, Origin] = {}
+        self._filled = False
+        _REGISTRIES.append(self)
+
+    def __getitem__(self, name: str) -> Thing:
+        """The thing of a name.
+
+        Raises
+        ------
+        ParameterError
+            There is none; the line names those that come close, or all.
+        """
+        self._fill()
+        if name not in self._things:
+            raise ParameterError(f"{self.noun} {name}: {self.unknown(name)}")
+        return self._things[name]
+
+    def __contains__(self, name: object) -> bool:
+        self._fill()
+        return name in self._things
+
+    def __iter__(self) -> Iterator[str]:
+        """Names, by position and then by the alphabet."""
+        self._fill()
+        return iter(sorted(self._things, key=lambda name: (self._position(name), name)))
+
+    def __len__(self) -> int:
+        self._fill()
+        return len(self._things)
+
+    def items(self) -> Iterator[tuple[str, Thing]]:
+        """Names and things, in the order of the names."""
+        return ((name, self._things[name]) for name in self)
+
+    def values(self) -> Iterator[Thing]:
+        """Things, in the order of the names."""
+        return (self._things[name] for name in self)
+
+    def unknown(self, name: str) -> str:
+        """What a refusal of a name says: names that come close, or all that there are."""
+        close = get_close_matches(name, list(self), n=1)
+        meant = f", did you mean {close[0]}?" if close else ";"
+        return f"unknown{meant} allowed {', '.join(self)}"
+
+    def origin(self, name: str) -> Origin | None:
+        """Where a thing comes from; None for a built-in one."""
+        self._fill()
+        return self._origins.get(name)
+
+    def origins(self) -> dict[str, Origin]:
+        """Where each thing comes from that is not built in."""
+        self._fill()
+        return dict(self._origins)
+
+    def add(self, thing: Thing, origin: Origin | None = None) -> None:
+        """Take a thing in; `register` finds registry and origin by itself.
+
+        Raises
+        ------
+        PluginError
+            Another thing has the name already.
+        """
+        name = getattr(thing, self._label, None)
+        if not isinstance(name, str) or not name:
+            raise PluginError(f"{thing!r}: a {self.noun} needs a text `{self._label}`")
+        if origin is not None:
+            self._fill()
+        known = self._things.get(name)
+        if known is thing:
+            return
+        if known is not None:
+            other = self._origins.get(name)
+            whose = "is built in" if other is None else f"is given by {other.file} already"
+            place = "" if origin is None else f"{origin.file}: "
+            raise PluginError(f"{place}{self.noun} {name}: {whose}; choose another name")
+        self._things[name] = thing
+        if origin is not None:
+            self._origins[name] = origin
+
+    def accepts(self, thing: object) -> bool:
+        """Whether a thing belongs here: an instance, or a subclass, of the base."""
+        return isinstance(thing, self.base) or (
+            isinstance(thing, type) and issubclass(thing, self.base) and thing is not self.base
+        )
+
+    def _position(self, name: str) -> float:
+        return float(getattr(self._things[name], "position", LAST))
+
+    def _fill(self) -> None:
+        """Import the built-in things and those of installed packages, once."""
+        if self._filled:
+            return
+        self._filled = True
+        folder = import_module(f"{PACKAGE}.{self._folder}")
+        for module in iter_modules(folder.__path__):
+            import_module(f"{folder.__name__}.{module.name}")
+        for point in metadata.entry_points(group=self._group):
+            self._add_installed(point)
+
+    def _add_installed(self, point: metadata.EntryPoint) -> None:
+        thing = _loaded(point)
+        if not self.accepts(thing):
+            raise PluginError(f"{point.value}: is no {self.noun}")
+        module = sys.modules[point.module]
+        version = point.dist.version if point.dist else ""
+        self.add(thing, origin_of(vars(module), version))
+
+
+_REGISTRIES: Final[list[Registry[Any]]] = []
+
+
+def _loaded(point: metadata.EntryPoint) -> Any:
+    try:
+        return point.load()
+    except PluginError:
+        raise
+    except Exception as error:
+        raise PluginError(f"{point.value}: cannot be loaded: {error!r}") from None
+
+
+def register(thing: Thing) -> Thing:
+    """Take an option, machine, criterion, section or column in; also a decorator of its class.
+
+    Raises
+    ------
+    PluginError
+        It is none of these, or its name is taken.
+    """
+    caller = sys._getframe(1).f_globals
+    built_in = str(caller.get("__name__", "")).startswith(f"{PACKAGE}.")
+    origin = None if built_in else origin_of(caller)
+    for registry in _REGISTRIES:
+        if registry.accepts(thing):
+            registry.add(thing, origin)
+            return thing
+    nouns = ", ".join(registry.noun for registry in _REGISTRIES)
+    raise PluginError(f"{thing!r}: is none of {nouns}")
+
+
+def origin_of(module: dict[str, Any], version: str = "") -> Origin:
+    """Origin of what a module holds, from its global names."""
+    file = module.get("__file__")
+    content = b"" if file is None else Path(file).read_bytes()
+    name = "notebook" if file is None else Path(file).name
+    return Origin(name, version or str(module.get("__version__", "")), sha256(content))
+
+
+def plugins() -> dict[str, dict[str, str]]:
+    """Where every stranger's thing that is loaded comes from, by noun and name, as JSON values."""
+    return {
+        f"{registry.noun} {name}": origin._asdict()
+        for registry in _REGISTRIES
+        for name, origin in sorted(registry._origins.items())
+    }
