@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 from .. import levels, provenance, radiation, sound_power, storage
+from ..base.hashing import canonical_json
 from ..constants import REFERENCE_PRESSURE_PA
 from ..errors import ParameterError
 from ..parameters.sound_power import SoundPowerSettings
@@ -144,5 +145,5 @@ def attributes(study: Study, radiated: xr.Dataset, was_cached: bool) -> dict[str
         **provenance.attributes(study),
         "reference_pressure_pa": REFERENCE_PRESSURE_PA,
         "transfer_vectors": "from the cache" if was_cached else "computed in this run",
-        "radiation": provenance.canonical_json(radiated.attrs),
+        "radiation": canonical_json(radiated.attrs),
     }

@@ -8,6 +8,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from .. import levels, orders, provenance
+from ..base.hashing import canonical_json
 from ..constants import REFERENCE_PRESSURE_PA
 from ..errors import VibroacousticsError
 from ..parameters.order_analysis import OrderAnalysis
@@ -221,5 +222,5 @@ def _attributes(
         "revolutions_per_block": spectra.revolutions,
         "resolution_order": spectra.resolution_order,
         "band_order": spectra.main_lobe_order,
-        "analysis": provenance.canonical_json(parameters),
+        "analysis": canonical_json(parameters),
     }
