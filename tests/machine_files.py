@@ -5,8 +5,8 @@ from typing import Any, TypeVar
 
 from support import ROOT
 
+from vibroacoustics.base.parameters import Parameters
 from vibroacoustics.loading import _read_toml, _Reader
-from vibroacoustics.parameters.base import Parameters
 from vibroacoustics.validation import validated
 
 Model = TypeVar("Model", bound=Parameters)

@@ -21,23 +21,23 @@ from vibroacoustics.balancers.pendulum import (
 from vibroacoustics.balancers.spring_mass import printed_mass, sprung_mass_response, tuned_mass
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.loading import load_machine
-from vibroacoustics.mechanisms.beam_rotor import (
+from vibroacoustics.mechanics.beam_rotor import (
     Section,
     assemble,
     natural_frequencies_hz,
     with_disc,
 )
+from vibroacoustics.mechanics.moving_parts import derivative, wrench
+from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.mechanisms.hermetic.cycle import mean_speed_rad_per_s, steady_cycle
 from vibroacoustics.mechanisms.hermetic.film_linearisation import damped_modes, linear_film
 from vibroacoustics.mechanisms.hermetic.gas import piston_area_m2
 from vibroacoustics.mechanisms.hermetic.results import bearing_cycles
 from vibroacoustics.mechanisms.hermetic.shaft import rotor_matrices
 from vibroacoustics.mechanisms.minicrank.four_bar import four_bar_motion
-from vibroacoustics.mechanisms.oldham import oldham_ring
-from vibroacoustics.moving_parts import derivative, wrench
+from vibroacoustics.mechanisms.minicrank.links import Links
+from vibroacoustics.mechanisms.oldham_scroll.ring import oldham_ring
 from vibroacoustics.orders import order_spectrum, semi_major_axis
-from vibroacoustics.parameters.four_bar import Links
-from vibroacoustics.rotation import uniform_crank_angle
 from vibroacoustics.transfer import RigidBodyOnMounts
 
 SPEEDS = (2900.0, 3500.0)
@@ -120,7 +120,7 @@ def test_pendulum_table(thesis_study, option, speed, alone, h1, h2, v1, v2):
 
 @pytest.mark.parametrize(("speed", "degrees"), [(2900.0, 83.3), (3500.0, 85.4)])  # B2
 def test_pendulum_settles_near_horizontal(thesis_study, speed, degrees):
-    facts = balancing(thesis_study, "pendulum-side", speed).facts
+    facts = balancing(thesis_study, "pendulum-side", speed).figures
     assert abs(facts["settled_angle_deg"]) == pytest.approx(degrees, abs=0.05)
     assert facts["settled_multiplier"] < 1.0
     # Averaging over the fast motion: cos = 2 g l / (A w)². It leaves out terms of the order of
@@ -130,7 +130,7 @@ def test_pendulum_settles_near_horizontal(thesis_study, speed, degrees):
 
 
 def test_hanging_pendulum_is_unstable_at_speed(thesis_study):
-    facts = balancing(thesis_study, "pendulum-side", 2900.0).facts
+    facts = balancing(thesis_study, "pendulum-side", 2900.0).figures
     assert facts["hanging_multiplier"] == pytest.approx(3.0, abs=0.05)  # B2
 
 
@@ -152,7 +152,7 @@ def test_hanging_pendulum_loses_stability_at_991_rpm():
 def test_pendulum_held_hanging(speed, h1, v2):
     """B2, last row: the unstable state does not balance either."""
     from vibroacoustics.balancers.pendulum import swing
-    from vibroacoustics.moving_parts import MovingPart, path
+    from vibroacoustics.mechanics.moving_parts import MovingPart, path
 
     drive = Drive(25e-3, 0.02, STROKE_M, speed / 60.0)
     angle = swing(drive, periodic_state(drive, (-0.27, 0.0)), CRANK_ANGLE)

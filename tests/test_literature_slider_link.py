@@ -14,8 +14,8 @@ from vibroacoustics.mechanisms.slider_link.bearing_friction import (
     petroff_coefficient,
     thrust_friction_moment,
 )
+from vibroacoustics.mechanisms.slider_link.machine import SliderLinkMachine
 from vibroacoustics.mechanisms.slider_link.motion import SliderLinkCycle, steady_motion
-from vibroacoustics.parameters.slider_link import SliderLinkMachine
 
 VALIDATION_FILE = ROOT / "data" / "validation" / "dagilis_slider_link.csv"
 

@@ -14,26 +14,22 @@ from scipy.signal import csd
 from support import ROOT
 
 from vibroacoustics.errors import ParameterError, SolverError
-from vibroacoustics.mechanisms.oldham_keys import rattle
-from vibroacoustics.mechanisms.oldham_keys.contact import (
-    CONTACT_LAWS,
-    flores,
-    lankarani_nikravesh,
-)
-from vibroacoustics.mechanisms.oldham_keys.contact_loss import (
+from vibroacoustics.parameters.oldham_keys import OldhamKeys
+from vibroacoustics.sources.oldham_keys import rattle
+from vibroacoustics.sources.oldham_keys.contact import CONTACT_LAWS, flores, lankarani_nikravesh
+from vibroacoustics.sources.oldham_keys.contact_loss import (
     contact_loss_moment_n_m,
     contact_loss_speed_rpm,
 )
-from vibroacoustics.mechanisms.oldham_keys.equations import Coupling
-from vibroacoustics.mechanisms.oldham_keys.integration import integrate
-from vibroacoustics.mechanisms.oldham_keys.rattle import steady_key_forces
-from vibroacoustics.mechanisms.oldham_keys.spectra import (
+from vibroacoustics.sources.oldham_keys.equations import Coupling
+from vibroacoustics.sources.oldham_keys.integration import integrate
+from vibroacoustics.sources.oldham_keys.rattle import steady_key_forces
+from vibroacoustics.sources.oldham_keys.spectra import (
     band_rms,
     order_phasors,
     spectral_density,
     split_periodic,
 )
-from vibroacoustics.parameters.oldham_keys import OldhamKeys
 from vibroacoustics.units import shaft_frequency_hz
 
 # Assumed constants of shared/physics.md C and shared/machines.yaml as a file has them.

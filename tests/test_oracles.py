@@ -15,7 +15,12 @@ from support import CRANK_ANGLE, balancing, turning, wrench_orders
 
 from vibroacoustics.balancers.spring_mass import sprung_mass_response, tuned_mass
 from vibroacoustics.levels import a_weighting, sound_pressure_level
-from vibroacoustics.moving_parts import MovingPart, derivative, path, wrench
+from vibroacoustics.mechanics.moving_parts import (
+    MovingPart,
+    derivative,
+    path,
+    wrench,
+)
 from vibroacoustics.orders import fourier, order_spectrum
 from vibroacoustics.radiation.arrays import no_progress
 from vibroacoustics.radiation.bodies import cylinder
@@ -188,7 +193,7 @@ def test_pendulum_forces_against_an_independent_integration(thesis_study, option
     ours = np.abs([net[0, 1], net[0, 2], net[2, 1], net[2, 2]])
     np.testing.assert_allclose(ours, again, rtol=0.01)
     mean_angle = np.rad2deg(np.mean(np.arctan2(x - stroke * np.cos(angle), -z)))
-    settled = balancing(thesis_study, option, speed).facts["settled_angle_deg"]
+    settled = balancing(thesis_study, option, speed).figures["settled_angle_deg"]
     # The mirrored state, half a revolution later, is as good: only the start decides.
     assert abs(settled) == pytest.approx(abs(mean_angle), abs=0.1)
 

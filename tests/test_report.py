@@ -11,13 +11,19 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from vibroacoustics.base.rounding import (
+    level,
+    level_change,
+    signed,
+    significant,
+    span,
+)
 from vibroacoustics.report import comparison_text, render
 from vibroacoustics.report.assumptions import records_table
 from vibroacoustics.report.comparison import comparison, comparison_csv, comparison_tables
 from vibroacoustics.report.figures.scores import contributions
 from vibroacoustics.report.housing import isolation_sentence, shape_words
 from vibroacoustics.report.option_verdict import option_verdict
-from vibroacoustics.report.rounding import level, level_change, signed, significant, span
 from vibroacoustics.report.scores import published_table, scores_csv, wrong_sums
 from vibroacoustics.report.verdict import extremes_table, headline, reasons
 from vibroacoustics.schema import AXES, RIGID_BODY_DOFS, WEIGHTINGS, check, stamp

@@ -9,21 +9,18 @@ from support import CRANK_ANGLE, PIPELINES, machine_parts
 
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.loading import load_study
-from vibroacoustics.mechanisms.run_down.coasting import peaks, run_down
-from vibroacoustics.mechanisms.run_down.paths import (
-    inertia_over_angle,
-    path_derivatives,
-    wrench_along,
+from vibroacoustics.mechanics.moving_parts import (
+    MovingPart,
+    derivative,
+    path,
+    wrench,
 )
-from vibroacoustics.mechanisms.run_down.shift import (
-    brake_shift,
-    overrun_torque_n_m,
-    residual_force_n,
-)
-from vibroacoustics.moving_parts import MovingPart, derivative, path, wrench
+from vibroacoustics.mechanics.rotation import constant_rotation
 from vibroacoustics.orders import angular_resample, block_phasors, from_angle, order_map
 from vibroacoustics.parameters.run_down import Stopping
-from vibroacoustics.rotation import constant_rotation
+from vibroacoustics.stopping.coasting import peaks, run_down
+from vibroacoustics.stopping.paths import inertia_over_angle, path_derivatives, wrench_along
+from vibroacoustics.stopping.shift import brake_shift, overrun_torque_n_m, residual_force_n
 
 FILE = values_of(machine_file("copeland_zp41k3e_inside"))["stopping"]
 VALUES = {**FILE, "friction_torque_n_m": 1.5}

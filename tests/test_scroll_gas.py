@@ -20,24 +20,24 @@ from scroll_flanks import (
 from support import ROOT
 
 from vibroacoustics.errors import ParameterError
-from vibroacoustics.mechanisms.scroll_gas import thesis_appendix_a
-from vibroacoustics.mechanisms.scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
-from vibroacoustics.mechanisms.scroll_gas.pockets import (
+from vibroacoustics.mechanics.rotation import uniform_crank_angle
+from vibroacoustics.orders import order_spectrum
+from vibroacoustics.parameters.scroll_gas import ScrollGas, ScrollWraps
+from vibroacoustics.sources.scroll_gas import thesis_appendix_a
+from vibroacoustics.sources.scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
+from vibroacoustics.sources.scroll_gas.pockets import (
     area_inside,
     built_in_volume_ratio,
     contact_angle,
     displacement_m3,
     pocket_volume,
 )
-from vibroacoustics.mechanisms.scroll_gas.pressures import (
+from vibroacoustics.sources.scroll_gas.pressures import (
     built_in_pressure_pa,
     compression_work_j,
     pocket_pressure,
 )
-from vibroacoustics.mechanisms.scroll_gas.thesis_appendix_a import appendix_a_force
-from vibroacoustics.orders import order_spectrum
-from vibroacoustics.parameters.scroll_gas import ScrollGas, ScrollWraps
-from vibroacoustics.rotation import uniform_crank_angle
+from vibroacoustics.sources.scroll_gas.thesis_appendix_a import appendix_a_force
 
 VALIDATION_FILE = ROOT / "data" / "validation" / "scroll_gas.csv"
 CASES = ["15 to 41.159 bar", "6.78 to 30.7 bar"]

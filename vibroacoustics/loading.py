@@ -6,17 +6,22 @@ import sys
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Final, cast
+from typing import Any, Final, TypeVar
 
+from .base.parameters import KindOfParameters
+from .base.registry import Registry
 from .errors import ParameterError
 from .parameters.inside import DRAWN, Doubt, Inside
-from .parameters.machines import MACHINES, Machine
+from .parameters.machine import MACHINES, Machine
+from .parameters.option import OPTIONS
 from .parameters.study import ParameterRecord, Study
 from .units import si_key, split_key
 from .validation import validated
 
 MAXIMUM_FILE_BYTES: Final = 1_000_000
 MAXIMUM_DEPTH: Final = 16
+Kind = TypeVar("Kind", bound=KindOfParameters)
+
 QUANTITY_KEYS: Final = {"value", "source", "range"}
 
 
@@ -68,6 +73,7 @@ def load_study(path: str | Path) -> Study:
     for name, (redesigned, change_records) in redesigns.items():
         content["options"][name]["machine"] = redesigned
         machine_records += change_records
+    _place_options(content, reader)
     content["records"] = (*machine_records, *inside_records, *reader.records)
     return validated(Study, content, reader)
 
@@ -88,6 +94,28 @@ def _place_files(
         if isinstance(table.get(name), str):
             file = origin.get(("radiation", "body", *prefix, name), path)
             table[name] = str(_beside(file, table[name]))
+
+
+def _place_options(content: dict[str, Any], reader: "_Reader") -> None:
+    """Turn the table of each option into parameters of its kind."""
+    options = content.get("options")
+    if not isinstance(options, dict):  # refused by the study
+        return
+    for name, table in options.items():
+        if isinstance(table, dict):
+            kind = _kind_of(OPTIONS, table, reader.place(("options", name)))
+            values = {key: value for key, value in table.items() if key != "kind"}
+            options[name] = validated(kind, values, reader, ("options", name))
+
+
+def _kind_of(registry: Registry[type[Kind]], table: Mapping[str, Any], where: str) -> type[Kind]:
+    """Class that the `kind` of a table names."""
+    kind = table.get("kind")
+    if kind is None:
+        raise ParameterError(f"{where}: kind is missing")
+    if not isinstance(kind, str) or kind not in registry:
+        raise ParameterError(f"{where}.kind = {kind}: {registry.unknown(str(kind))}")
+    return registry[kind]
 
 
 def _place_inside(
@@ -149,11 +177,12 @@ def _change_of(option: str) -> tuple[str, ...]:
 
 
 def _changes(content: Mapping[str, Any], path: Path) -> list[tuple[str, dict[str, Any]]]:
-    """Take the table `change` out of each option that is a redesign of the machine."""
+    """Take the table `change` out of each option that changes values of the machine."""
     options = content.get("options")
     found = []
     for name, option in (options if isinstance(options, dict) else {}).items():
-        if not isinstance(option, dict) or option.get("kind") != "redesign":
+        kind = option.get("kind") if isinstance(option, dict) else None
+        if not isinstance(kind, str) or kind not in OPTIONS or not OPTIONS[kind].changes_machine:
             continue
         if "machine" in option:  # filled in here, not by a file
             raise ParameterError(f"{path}: options.{name}.machine: unknown key")
@@ -195,12 +224,10 @@ def _load_machine(
     reader.origin = dict.fromkeys(_leaves(content), path)
     for prefix, change in changes.items():
         _apply(content, prefix, change, reader, study)
-    model = MACHINES.get(str(content.get("kind")))
-    if model is None:
-        raise ParameterError(
-            f"{path}: kind = {content.get('kind')!r}: unknown; allowed {', '.join(MACHINES)}"
-        )
-    return cast(Machine, validated(model, reader.to_si(content, ()), reader)), reader.records
+    model = _kind_of(MACHINES, content, f"{path}: machine")
+    values = reader.to_si(content, ())
+    del values["kind"]
+    return validated(model, values, reader), reader.records
 
 
 def _apply(

@@ -4,13 +4,13 @@ from typing import Any, Literal
 
 from pydantic import Field, model_validator
 
+from ..base.parameters import Parameters
+from ..mechanics.capabilities import OldhamRing
 from ..schema import REFERENCE_OPTION
 from ..units import shaft_frequency_hz
-from .base import Parameters
 from .inside import InsideSettings
-from .machines import Machine
-from .oldham_scroll import OldhamScroll
-from .options import RING_OPTIONS, SLIDER_OPTIONS, NoBalancer, Option, Redesign
+from .machine import AnyMachine, Machine
+from .option import AnyOption, Option
 from .radiation import RadiationSettings
 from .receivers import Receiver
 from .sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
@@ -103,9 +103,9 @@ class ParameterRecord(Parameters):
 
 class Study(Parameters):
     title: str = Field(min_length=1)
-    machine: Machine
+    machine: AnyMachine
     operation: Operation
-    options: dict[str, Option]
+    options: dict[str, AnyOption]
     receivers: dict[str, Receiver] = Field(min_length=1)
     catalogue_receiver: str
     radiation: RadiationSettings
@@ -120,7 +120,8 @@ class Study(Parameters):
 
     @model_validator(mode="after")
     def _consistent(self) -> "Study":
-        if not isinstance(self.options.get(REFERENCE_OPTION), NoBalancer):
+        reference = self.options.get(REFERENCE_OPTION)
+        if reference is None or reference.kind != REFERENCE_OPTION:
             raise ValueError('options: an option named none with kind = "none" is required')
         for name, option in self.options.items():
             self._check_fits(name, option)
@@ -163,7 +164,7 @@ class Study(Parameters):
         """Refuse inner sources that do not belong to the machine."""
         if self.inside is None:
             return
-        if not isinstance(self.machine, OldhamScroll):
+        if self.machine.capability(OldhamRing) is None:
             raise ValueError(
                 f"inside: needs a scroll with an Oldham ring; the machine is {self.machine.kind}"
             )
@@ -180,32 +181,30 @@ class Study(Parameters):
             )
         self._check_orbit("", self.machine, self.inside)
         for name, option in self.options.items():
-            if isinstance(option, Redesign) and isinstance(option.machine, OldhamScroll):
-                self._check_orbit(f"options.{name}.change: ", option.machine, self.inside)
+            machine = option.applied_to(self.machine)
+            self._check_orbit(f"options.{name}.change: ", machine, self.inside)
 
-    def _check_orbit(self, where: str, machine: OldhamScroll, settings: InsideSettings) -> None:
+    def _check_orbit(self, where: str, machine: Machine, settings: InsideSettings) -> None:
         """Refuse a machine that does not orbit as the wraps of the inside do."""
-        orbit, own = machine.kinematics.orbit_radius_m, settings.inside.wraps.orbit_radius_m
-        if abs(orbit - own) > 0.01 * own:
+        orbit = machine.require(OldhamRing).stroke_m
+        wraps = settings.inside.wraps.orbit_radius_m
+        if abs(orbit - wraps) > 0.01 * wraps:
             raise ValueError(
-                f"{where}inside: its wraps orbit at {1e3 * own:.4g} mm; the machine's "
+                f"{where}inside: its wraps orbit at {1e3 * wraps:.4g} mm; the machine's "
                 f"kinematics.orbit_radius_mm = {1e3 * orbit:.4g} mm: must agree within 1 %"
             )
 
     def _check_fits(self, name: str, option: Option) -> None:
-        """Refuse an option that the machine has no part for."""
-        where = f"options.{name}.kind = {option.kind}"
-        if isinstance(option, RING_OPTIONS) and not isinstance(self.machine, OldhamScroll):
-            raise ValueError(f"{where}: needs an Oldham ring; the machine is {self.machine.kind}")
-        if isinstance(option, SLIDER_OPTIONS) and self.machine.oscillation is None:
+        """Refuse an option that the machine has no part for, or that changes what all share."""
+        needed = option.needs
+        if needed is not None and self.machine.capability(needed) is None:
             raise ValueError(
-                f"{where}: needs a mass that slides to and fro; the machine is {self.machine.kind}"
+                f"options.{name}.kind = {option.kind}: needs {needed.words}; the machine is "
+                f"{self.machine.kind}"
             )
-
+        changed = option.applied_to(self.machine)
         for table in ("shell", "overall_noise"):
-            if isinstance(option, Redesign) and (
-                getattr(option.machine, table) != getattr(self.machine, table)
-            ):
+            if getattr(changed, table) != getattr(self.machine, table):
                 raise ValueError(
                     f"options.{name}.change.{table}: all options radiate from one shell and share "
                     "one overall noise; make a study of its own"

@@ -5,7 +5,8 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from . import labels, rounding
+from ..base import rounding
+from . import labels
 from .study import has_inner_sources, options, parameters
 from .tables import Table, to_csv
 

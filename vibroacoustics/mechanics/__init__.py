@@ -1,0 +1,1 @@
+"""Moving parts, rotation, shafts: what machines, sources and balancers share."""
