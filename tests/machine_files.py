@@ -1,4 +1,4 @@
-"""Machine files of issue 5 as parameter objects."""
+"""Machine files of `data/machines` as parameter objects."""
 
 from pathlib import Path
 from typing import Any, TypeVar

@@ -111,7 +111,7 @@ def test_stiff_springs_carry_the_mass_along():
 
 
 def test_dissipated_power_is_force_times_velocity(thesis_study):
-    """Mean of c (v1 - v2)² over the revolution, by quadrature; physics.md B3: 23 W at µ = 1."""
+    """Mean of c (v1 - v2)² over the revolution, by quadrature; 23 W at µ = 1, ζ = 0.05."""
     option = thesis_study.options["spring-mass"].model_copy(
         update={"stiffness_n_per_m": 2442.0, "damping_ratio": 0.05}
     )

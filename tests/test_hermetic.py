@@ -98,7 +98,7 @@ def test_point_of_the_crank_moves_as_its_rotations_say(place, rates, second):
 
 @given(st.floats(0.0, 6.28), st.floats(100.0, 400.0), st.floats(-2e3, 2e3))
 def test_piston_and_rod_by_differentiating_the_closed_form(angle, speed, acceleration):
-    """Shows that (7) needs -r_c (θ̈ sin θ + θ̇² cos θ), as physics.md B6 says."""
+    """Shows that (7) needs -r_c (θ̈ sin θ + θ̇² cos θ); the paper prints - θ̇² cos θ."""
     radius, length = 0.0075, 0.04
     place, rates, second = np.zeros((3, 5))
     place[4], rates[4], second[4] = angle, speed, acceleration
@@ -230,7 +230,7 @@ def test_energy_balance_closes(cycles, case):
     works = works_per_cycle_j(*cycles[case])
     assert works["gas"] < 0.0 < works["motor"]
     assert works["films"] <= 0.0  # oil takes energy
-    assert abs(sum(works.values())) < 1e-6 * abs(works["gas"])  # issue 5
+    assert abs(sum(works.values())) < 1e-6 * abs(works["gas"])  # what is left over
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -418,7 +418,7 @@ def test_dead_centres_of_an_offset_cylinder(offset_machine):
 def test_offset_cylinder_keeps_its_balances(offset_machine, offset_cycle):
     """Energy, and the roll moment with the head's force beside the shaft."""
     works = works_per_cycle_j(*offset_cycle)
-    assert abs(sum(works.values())) < 1e-6 * abs(works["gas"])  # issue 5
+    assert abs(sum(works.values())) < 1e-6 * abs(works["gas"])  # what is left over
     equations, solution = offset_cycle
     angle, states = solution.mesh, solution.states
     moment = sum(w.moment_n_m for w in housing_wrenches(equations, angle, states).values())

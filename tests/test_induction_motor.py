@@ -28,7 +28,7 @@ VALUES = values_of(machine_file("copeland_zp41k3e_inside"))["motor"]
 MOTOR = CapacitorMotor(**VALUES)
 INERTIA = 2.5e-3
 GAS_TORQUE = 10.24
-"""Mean of the scroll's gas torque, N m (shared/physics.md, B5)."""
+"""Mean of the scroll's gas torque, N m (data/validation/scroll_gas.csv)."""
 ROOT2 = np.sqrt(2.0)
 
 

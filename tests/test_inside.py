@@ -165,10 +165,10 @@ def test_twin_is_the_ring_turned_by_half_a_turn(study):
 
 
 def test_hanging_pendulum_lowers_the_speed_of_contact_loss(thesis_study):
-    """physics.md C: 5809 to 4308 rpm at rated load without friction, closed form.
+    """5809 to 4308 rpm at rated load without friction, closed form (oldham_keys.csv).
 
-    The moment is that of the gas at the derived orbit radius, so the stroke is too. 4308 is printed
-    to four digits, for bobs at rest at the angle of B2; theirs moves by a per cent.
+    The moment is that of the gas at the derived orbit radius, so the stroke is too. 4308 holds for
+    bobs at rest at the angle at which they settle; theirs moves by a per cent.
     """
     ring = dataclasses.replace(thesis_study.machine.require(OldhamRing), stroke_m=3.461e-3)
     keys = thesis_keys()
@@ -176,7 +176,7 @@ def test_hanging_pendulum_lowers_the_speed_of_contact_loss(thesis_study):
     operating = operating_of(load_study(INSIDE_STUDY), 1)
     omega = 2.0 * np.pi * operating.speed_rpm / 60.0
     angle = 2.0 * np.pi * np.arange(256) / 256
-    # B2: the ring with its pendulums pushes 81.8 N where the bare one pushes 45.26 N.
+    # test_literature: the ring with its pendulums pushes 81.8 N where the bare one pushes 45.26 N.
     bobs = (81.8 / 45.26 - 1.0) * ring.mass_kg * 3.461e-3 * omega**2 * np.cos(angle)
     lost = [
         key_sources(KeyRuns(keys), ring, Added(on_ring=hung), moment, operating).facts[
@@ -189,7 +189,7 @@ def test_hanging_pendulum_lowers_the_speed_of_contact_loss(thesis_study):
 
 
 def thesis_keys():
-    """Without friction and at 55 mm, as physics.md C has them."""
+    """Without friction and at 55 mm, as in data/validation/oldham_keys.csv."""
     keys = load_study(INSIDE_STUDY).inside.inside.keys
     return keys.model_copy(update={"friction_ratio": 0.0})
 
@@ -346,7 +346,7 @@ def test_pair_of_forces_on_one_joint_drives_nothing(study):
 
 
 def test_rigid_machine_is_moved_by_momentum_alone(study, sources):
-    """With modes that do not sound, gas and keys are silent and the rest is the first issue's.
+    """With modes that do not sound, gas and keys are silent and the rest is the rigid machine's.
 
     That modes have no share in the rigid motions is tested in test_shell_modes.
     """

@@ -29,7 +29,7 @@ PARTS = machine_parts(load_study(PIPELINES / "copeland_derived.toml"))
 SHIFTED = ("orbiting_scroll", "brake", "oldham")
 SPEED = 2900.0 * np.pi / 30.0
 GAS = 10.24 + 0.725 * np.cos(CRANK_ANGLE) + 0.201 * np.cos(2.0 * CRANK_ANGLE)
-"""Scroll's gas torque, N m (shared/physics.md, B5; phases made up)."""
+"""Scroll's gas torque, N m (data/validation/scroll_gas.csv; phases made up)."""
 NO_GAS = np.zeros(8)
 RATE_HZ = 20000.0
 

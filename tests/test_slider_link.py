@@ -1,4 +1,4 @@
-"""The slider-link compressor of Dagilis et al. (seed 4): invariants, a second method with Lagrange
+"""The slider-link compressor of Dagilis et al.: invariants, a second method with Lagrange
 multipliers, the machine in the chain."""
 
 from dataclasses import replace
@@ -268,7 +268,7 @@ def test_jamming_is_refused():
 
 
 def test_energy_balance(case):
-    """Motor work less gas work and friction, 1e-6 of the gas work (issue 5)."""
+    """Motor work less gas work and friction, to 1e-6 of the gas work."""
     _, cycle = case
     assert cycle.imbalance_ratio < 1e-6
 

@@ -1,6 +1,6 @@
 """A slider-link compressor: piston with cross link, slider on the crank pin, cantilever shaft.
 
-Symbols in brackets are those of Dagilis, Vaitkus and Kirejchick (seed 4). Offsets along y are in
+Symbols in brackets are those of Dagilis, Vaitkus and Kirejchick (2006). Offsets along y are in
 the paper's frame: x along the cylinder, z down along the shaft, origin on the shaft at the height
 of the block's centre of mass.
 """
