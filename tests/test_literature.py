@@ -9,7 +9,7 @@ import re
 
 import numpy as np
 import pytest
-from support import CRANK_ANGLE, ROOT, balancing, machine_parts, turning, wrench_orders
+from support import CRANK_ANGLE, PIPELINES, ROOT, balancing, machine_parts, turning, wrench_orders
 
 from vibroacoustics import levels, scoring, sound_power
 from vibroacoustics.balancers.pendulum import (
@@ -20,7 +20,7 @@ from vibroacoustics.balancers.pendulum import (
 )
 from vibroacoustics.balancers.spring_mass import printed_mass, sprung_mass_response, tuned_mass
 from vibroacoustics.errors import ParameterError
-from vibroacoustics.loading import load_machine
+from vibroacoustics.loading import load_machine, load_study
 from vibroacoustics.mechanics.beam_rotor import (
     Section,
     assemble,
@@ -294,6 +294,23 @@ def test_table_3_as_printed_and_added_up_again(thesis_study):
     assert table["recomputed_sum"].values.tolist() == [12, 13, 16]
     flagged = table["published_sum"] != table["recomputed_sum"]
     assert flagged.values.tolist() == [False, True, True]
+
+
+def test_table_3_is_made_again_from_its_marks():
+    """The ranking as printed, and the sums that the printed marks have."""
+    study = load_study(PIPELINES / "thesis_table_3.toml")
+    table = scoring.published_table(study.scoring.published)
+    designs = ["pendulum", "oscillating-mass", "eccentric"]
+    for design, printed in zip(designs, table["published_score"].values, strict=True):
+        marks = dict(zip(table["published_criterion"].values, printed, strict=True))
+        assert study.given[design] == {
+            name.lower().replace(" ", "_"): mark for name, mark in marks.items()
+        }
+    scores = scoring.score(scoring.given_values(study.given, list(study.options)), study.scoring)
+    summed = scores.sel(scoring_method="weighted_sum").sel(option=designs)
+    np.testing.assert_allclose(18.0 * summed["score"], [12.0, 13.0, 16.0], rtol=1e-12)
+    np.testing.assert_array_equal(summed["rank"], [3.0, 2.0, 1.0])
+    np.testing.assert_array_equal(np.argsort(table["published_sum"]), [0, 1, 2])
 
 
 def test_mount_frequencies(thesis_study):

@@ -1,6 +1,6 @@
 """A study: one machine, its operating points, options, microphones and scoring."""
 
-from typing import Any, Literal
+from typing import Any
 
 from pydantic import Field, model_validator
 
@@ -13,15 +13,8 @@ from .machine import AnyMachine, Machine
 from .option import AnyOption, Option
 from .radiation import RadiationSettings
 from .receivers import Receiver
+from .scoring import Scoring, check_given, check_scales
 from .sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
-
-CriterionName = Literal[
-    "foot_force_1x_n",
-    "residual_moment_nm",
-    "level_change_db",
-    "speed_sensitivity_db",
-    "added_mass_kg",
-]
 
 
 class Operation(Parameters):
@@ -41,47 +34,6 @@ class Operation(Parameters):
                 f"maximum_order = {self.maximum_order}: must be below half of "
                 f"crank_angle_samples = {self.crank_angle_samples}"
             )
-        return self
-
-
-class PublishedTable(Parameters):
-    """A published table of scores, as printed."""
-
-    source: str
-    options: tuple[str, ...]
-    criteria: tuple[str, ...]
-    scores: tuple[tuple[float, ...], ...]
-    """One row per option."""
-    sums: tuple[float, ...]
-
-
-class CriterionScale(Parameters):
-    """Weight of a criterion and the values that count as best and worst, in its unit.
-
-    Fixed scales keep a score from changing when an option is added or left out.
-    """
-
-    weight: float = Field(ge=0.0, le=1e6)
-    best: float
-    worst: float
-
-    @model_validator(mode="after")
-    def _apart(self) -> "CriterionScale":
-        if self.worst <= self.best:
-            raise ValueError(f"worst = {self.worst:g} must exceed best = {self.best:g}")
-        return self
-
-
-class Scoring(Parameters):
-    criteria: dict[CriterionName, CriterionScale] = Field(min_length=1)
-    random_weightings: int = Field(default=2000, ge=1, le=1_000_000)
-    seed: int = Field(default=20061, ge=0, lt=2**63)
-    published: PublishedTable | None = None
-
-    @model_validator(mode="after")
-    def _some_weight(self) -> "Scoring":
-        if sum(scale.weight for scale in self.criteria.values()) <= 0.0:
-            raise ValueError("at least one criterion needs a weight above 0")
         return self
 
 
@@ -110,6 +62,8 @@ class Study(Parameters):
     catalogue_receiver: str
     radiation: RadiationSettings
     scoring: Scoring
+    given: dict[str, dict[str, float]] = Field(default={})
+    """Values of criteria that are judged, not computed, by option and criterion."""
     sound_power: SoundPowerSettings | None = None
     map: MapSettings | None = None
     directivity: DirectivitySettings | None = None
@@ -125,6 +79,8 @@ class Study(Parameters):
             raise ValueError('options: an option named none with kind = "none" is required')
         for name, option in self.options.items():
             self._check_fits(name, option)
+        check_given(self.given, self.options)
+        check_scales(self.scoring, self.given, self.options)
         if self.catalogue_receiver not in self.receivers:
             raise ValueError(
                 f"catalogue_receiver = {self.catalogue_receiver}: not among the receivers "

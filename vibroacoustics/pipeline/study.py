@@ -369,7 +369,8 @@ def _remainder(study: Study, modelled: xr.DataArray) -> float:
 
 
 def _scores(study: Study, results: xr.Dataset) -> xr.Dataset:
-    scores = scoring.score(results, study.scoring)
+    given = scoring.given_values(study.given, list(study.options))
+    scores = scoring.score(results.merge(given), study.scoring).merge(given)
     if study.scoring.published is None:
         return scores
     return scores.merge(scoring.published_table(study.scoring.published))
