@@ -17,17 +17,9 @@ from vibroacoustics.parameters.criterion import CRITERIA
 from vibroacoustics.parameters.scoring import Scoring
 from vibroacoustics.parameters.study import Study
 
-STRANGER = """
-import vibroacoustics
-
-@vibroacoustics.register
-class SecondForce(vibroacoustics.Criterion):
-    name = "force_2x_n"
-    label = "Largest force at twice the speed"
-
-    def value(self, results):
-        return results["force_amplitude"].sel(order=2).max("speed")
-"""
+PAGE = (ROOT / "docs" / "criteria.md").read_text()
+STRANGER = PAGE.partition("```python\n")[2].partition("```")[0]
+"""The criterion that the page shows."""
 SECOND_FORCE = "force_2x_n = { weight = 1.0, best = 0.0, worst = 50.0 }\n"
 GIVEN = """
 [options.none.given]

@@ -209,7 +209,7 @@ VARIABLES: Final[dict[str, Variable]] = {
     "change_total": Variable(_CHANGES, "dB", "change of the A-weighted total level"),
     "criterion_value": Variable(("option", "criterion"), "", "criterion, unit in criterion_unit"),
     "given_value": Variable(
-        ("option", "given_criterion"), "", "value that the study gives; none where not a number"
+        ("option", "given_criterion"), "", "value that the study gives, not a number where none"
     ),
     "weight": Variable(("criterion",), "1", "weight of the criterion"),
     "criterion_best": Variable(("criterion",), "", "value that counts as best, utility 1"),
