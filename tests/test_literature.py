@@ -12,15 +12,11 @@ import pytest
 from support import CRANK_ANGLE, ROOT, balancing, machine_parts, turning, wrench_orders
 
 from vibroacoustics import levels, scoring, sound_power
-from vibroacoustics.balancers.pendulum import (
-    Drive,
-    multiplier,
-    pendulum_mass,
-    periodic_state,
-)
+from vibroacoustics.balancers.pendulum import pendulum_mass
 from vibroacoustics.balancers.spring_mass import printed_mass, sprung_mass_response, tuned_mass
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.loading import load_machine
+from vibroacoustics.mechanics.pendulum import Drive, multiplier, periodic_state
 from vibroacoustics.mechanisms.beam_rotor import (
     Section,
     assemble,
@@ -151,7 +147,7 @@ def test_hanging_pendulum_loses_stability_at_991_rpm():
 @pytest.mark.parametrize(("speed", "h1", "v2"), [(2900.0, 46.4, 9.5), (3500.0, 67.6, 13.8)])
 def test_pendulum_held_hanging(speed, h1, v2):
     """B2, last row: the unstable state does not balance either."""
-    from vibroacoustics.balancers.pendulum import swing
+    from vibroacoustics.mechanics.pendulum import swing
     from vibroacoustics.moving_parts import MovingPart, path
 
     drive = Drive(25e-3, 0.02, STROKE_M, speed / 60.0)

@@ -1,0 +1,1 @@
+"""Motions that machine kinds and balancers share."""
