@@ -22,7 +22,7 @@ from ..parameters.oldham_scroll import OldhamScroll
 from ..parameters.options import Option, Pendulum, RingDamping, SprungMass, TwinOldham
 from ..parameters.shell_structure import JOINTS
 from ..rotation import Array, uniform_crank_angle
-from ..units import shaft_frequency_hz
+from ..units import orders_below, shaft_frequency_hz
 
 Complex = NDArray[np.complex128]
 
@@ -49,7 +49,7 @@ class Operating:
 
     @property
     def maximum_order(self) -> int:
-        return int(self.maximum_frequency_hz / shaft_frequency_hz(self.speed_rpm) + 1e-9)
+        return orders_below(self.maximum_frequency_hz, self.speed_rpm)
 
 
 @dataclass(frozen=True)
