@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 
 from ..rotation import crank_time_s
 from .angular import whole_revolutions
+from .fourier import real_transform
 from .order_cut import order_lines
 from .order_map import order_map
 
@@ -88,7 +89,9 @@ def order_spectra(
     shape (*cases, ..., maximum_order + 1), in the signal's unit, peak
     """
     if np.all(speed_rad_per_s == speed_rad_per_s[..., :1]):
-        return order_spectrum(signal, maximum_order)
+        lines = real_transform(signal)[..., : maximum_order + 1] * (2.0 / signal.shape[-1])
+        lines[..., 0] *= 0.5
+        return lines
     spectra = np.empty((*signal.shape[:-1], maximum_order + 1), dtype=complex)
     for case in np.ndindex(speed_rad_per_s.shape[:-1]):
         spectra[case] = order_spectrum_at_speed(signal[case], speed_rad_per_s[case], maximum_order)
