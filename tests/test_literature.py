@@ -12,12 +12,7 @@ import pytest
 from support import CRANK_ANGLE, PIPELINES, ROOT, balancing, machine_parts, turning, wrench_orders
 
 from vibroacoustics import levels, scoring, sound_power
-from vibroacoustics.balancers.pendulum import (
-    Drive,
-    multiplier,
-    pendulum_mass,
-    periodic_state,
-)
+from vibroacoustics.balancers.pendulum import pendulum_mass
 from vibroacoustics.balancers.spring_mass import printed_mass, sprung_mass_response, tuned_mass
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.loading import load_machine, load_study
@@ -28,6 +23,7 @@ from vibroacoustics.mechanics.beam_rotor import (
     with_disc,
 )
 from vibroacoustics.mechanics.moving_parts import derivative, wrench
+from vibroacoustics.mechanics.pendulum import Drive, multiplier, periodic_state
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.mechanisms.hermetic.cycle import mean_speed_rad_per_s, steady_cycle
 from vibroacoustics.mechanisms.hermetic.film_linearisation import damped_modes, linear_film
@@ -152,8 +148,8 @@ def test_hanging_pendulum_loses_stability_at_991_rpm():
 @pytest.mark.parametrize(("speed", "h1", "v2"), [(2900.0, 46.4, 9.5), (3500.0, 67.6, 13.8)])
 def test_pendulum_held_hanging(speed, h1, v2):
     """The unstable state does not balance either."""
-    from vibroacoustics.balancers.pendulum import swing
     from vibroacoustics.mechanics.moving_parts import MovingPart, path
+    from vibroacoustics.mechanics.pendulum import swing
 
     drive = Drive(25e-3, 0.02, STROKE_M, speed / 60.0)
     angle = swing(drive, periodic_state(drive, (-0.27, 0.0)), CRANK_ANGLE)

@@ -76,3 +76,8 @@ def si_key(key: str) -> tuple[str, float]:
 def shaft_frequency_hz(speed_rpm: float) -> float:
     """Shaft frequency in Hz of a speed in revolutions per minute: 3000 rpm is 50 Hz."""
     return speed_rpm / 60.0
+
+
+def orders_below(frequency_hz: float, speed_rpm: float) -> int:
+    """Number of shaft orders up to a frequency, which counts if an order meets it in rounding."""
+    return int(frequency_hz / shaft_frequency_hz(speed_rpm) + 1e-9)
