@@ -65,7 +65,7 @@ def make_results(
         _published() if published else xr.Dataset(),
     ]
     results = xr.merge([check(part) for part in parts], join="exact")
-    results.attrs = _attributes(list(receivers), published_dba)
+    results.attrs = _attributes(options, list(receivers), published_dba)
     return results
 
 
@@ -196,7 +196,7 @@ def _published() -> xr.Dataset:
     )
 
 
-def _attributes(receivers: list[str], published_dba: float) -> dict[str, str]:
+def _attributes(options: list[str], receivers: list[str], published_dba: float) -> dict[str, str]:
     record = {"file": "m.toml", "value": "1", "unit": "kg", "lowest": None, "highest": None}
     noise = {"level_dba": published_dba, "speed_rpm": 2900.0, "distance_m": 1.0}
     parameters = {
@@ -219,10 +219,18 @@ def _attributes(receivers: list[str], published_dba: float) -> dict[str, str]:
             {**record, "field": "guessed", "source": "assumed", "lowest": 0.5, "highest": 2.0},
         ],
     }
+    words = {
+        "axes": "x, y and z",
+        "orders": "Orders are multiples of the mean shaft frequency.",
+        "leaves_out": [],
+        "labels": {},
+        "sentences": {key: [] for key in options},
+    }
     return {
         "title": "A study",
         "created_utc": "2026-01-01T00:00:00Z",
         "parameters": json.dumps(parameters),
+        "words": json.dumps(words),
         "package_versions": json.dumps({"numpy": "2.2"}),
         "radiation": "{}",
     }
