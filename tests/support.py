@@ -68,14 +68,15 @@ def made_up_transfer_vectors(study: Study, gain: float = 1.0) -> xr.Dataset:
     }
     values = gain * 0.01 * size * frequency
     names = ("transfer_vector", "transfer_vector_closed_form")
+    error = stamp("transfer_vector_error", 0.01 * np.abs(values), coords)
     return xr.Dataset(
-        {name: stamp(name, values, coords) for name in names},
+        {**{name: stamp(name, values, coords) for name in names}, error.name: error},
         attrs={"method": "made up"},
     )
 
 
-def tiny_run(options: str = "") -> xr.Dataset:
-    """Results of the tiny study with further options, radiation made up."""
+def tiny_run(options: str = "", criteria: str = "") -> xr.Dataset:
+    """Results of the tiny study with further options and criteria, radiation made up."""
     text = TINY.read_text().replace("../../data", str(ROOT / "data"))
     with tempfile.TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as context:
         context.setattr(
@@ -83,7 +84,7 @@ def tiny_run(options: str = "") -> xr.Dataset:
             lambda study, *_: (made_up_transfer_vectors(study), False),
         )
         file = Path(folder) / "tiny.toml"
-        file.write_text(text.replace("[receivers.", f"{options}\n[receivers.", 1))
+        file.write_text(text.replace("[receivers.", f"{options}\n[receivers.", 1) + criteria)
         return pipeline.run(load_study(file))
 
 

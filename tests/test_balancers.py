@@ -2,19 +2,20 @@
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from support import CRANK_ANGLE, balancing
 
-from vibroacoustics.balancers.pendulum import (
+from vibroacoustics.balancers.pendulum import pendulum_mass
+from vibroacoustics.balancers.spring_mass import printed_mass, sprung_mass_response, tuned_mass
+from vibroacoustics.errors import ParameterError
+from vibroacoustics.mechanics.pendulum import (
     Drive,
     multiplier,
-    pendulum_mass,
     periodic_state,
     revolution,
     settle,
     swing,
 )
-from vibroacoustics.balancers.spring_mass import printed_mass, sprung_mass_response, tuned_mass
-from vibroacoustics.errors import ParameterError
 
 DRIVE = Drive(length_m=25e-3, damping_ratio=0.02, stroke_m=6.75e-3, frequency_hz=3500.0 / 60.0)
 
@@ -72,6 +73,31 @@ def test_slow_pendulum_hangs():
     ratio = np.sqrt(9.80665 / 25e-3) / (2.0 * np.pi * 500.0 / 60.0)
     linear = (1e-4 / 25e-3) / (ratio**2 - 1.0 + 2j * 0.02 * ratio)
     assert state[0] == pytest.approx(linear.real, rel=1e-4)
+
+
+def test_swing_against_another_integrator():
+    """Radau of another family, to 1e-10: its tolerance times the number of its steps."""
+    push, stiffness, damping = DRIVE.motion
+
+    def slope(angle, state):
+        swung, rate = state
+        turning = push * np.cos(angle) * np.cos(swung) - stiffness * np.sin(swung)
+        return rate, turning - damping * rate
+
+    state = settle(DRIVE)
+    other = solve_ivp(
+        slope, (0.0, 2.0 * np.pi), state, "Radau", CRANK_ANGLE, rtol=1e-11, atol=1e-12
+    )
+    np.testing.assert_allclose(swing(DRIVE, state, CRANK_ANGLE), other.y[0], atol=1e-9)
+
+
+@pytest.mark.parametrize("speed_rpm", [3396.741854636591, 3409.0])
+def test_pendulum_settles_where_the_start_near_hanging_leads_to_no_periodic_motion(speed_rpm):
+    """At the first speed to one that repeats after several revolutions, at the second late."""
+    drive = Drive(25e-3, 0.02, 6.75e-3, speed_rpm / 60.0)
+    state = settle(drive)
+    assert multiplier(drive, state) < 1.0
+    assert abs(np.rad2deg(np.mean(swing(drive, state, CRANK_ANGLE)))) == pytest.approx(85, abs=0.5)
 
 
 def test_periodic_state_from_hanging_keeps_to_it():

@@ -9,18 +9,13 @@ import re
 
 import numpy as np
 import pytest
-from support import CRANK_ANGLE, ROOT, balancing, machine_parts, turning, wrench_orders
+from support import CRANK_ANGLE, PIPELINES, ROOT, balancing, machine_parts, turning, wrench_orders
 
 from vibroacoustics import levels, scoring, sound_power
-from vibroacoustics.balancers.pendulum import (
-    Drive,
-    multiplier,
-    pendulum_mass,
-    periodic_state,
-)
+from vibroacoustics.balancers.pendulum import pendulum_mass
 from vibroacoustics.balancers.spring_mass import printed_mass, sprung_mass_response, tuned_mass
 from vibroacoustics.errors import ParameterError
-from vibroacoustics.loading import load_machine
+from vibroacoustics.loading import load_machine, load_study
 from vibroacoustics.mechanics.beam_rotor import (
     Section,
     assemble,
@@ -28,6 +23,7 @@ from vibroacoustics.mechanics.beam_rotor import (
     with_disc,
 )
 from vibroacoustics.mechanics.moving_parts import derivative, wrench
+from vibroacoustics.mechanics.pendulum import Drive, multiplier, periodic_state
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.mechanisms.hermetic.cycle import mean_speed_rad_per_s, steady_cycle
 from vibroacoustics.mechanisms.hermetic.film_linearisation import damped_modes, linear_film
@@ -152,8 +148,8 @@ def test_hanging_pendulum_loses_stability_at_991_rpm():
 @pytest.mark.parametrize(("speed", "h1", "v2"), [(2900.0, 46.4, 9.5), (3500.0, 67.6, 13.8)])
 def test_pendulum_held_hanging(speed, h1, v2):
     """The unstable state does not balance either."""
-    from vibroacoustics.balancers.pendulum import swing
     from vibroacoustics.mechanics.moving_parts import MovingPart, path
+    from vibroacoustics.mechanics.pendulum import swing
 
     drive = Drive(25e-3, 0.02, STROKE_M, speed / 60.0)
     angle = swing(drive, periodic_state(drive, (-0.27, 0.0)), CRANK_ANGLE)
@@ -294,6 +290,23 @@ def test_table_3_as_printed_and_added_up_again(thesis_study):
     assert table["recomputed_sum"].values.tolist() == [12, 13, 16]
     flagged = table["published_sum"] != table["recomputed_sum"]
     assert flagged.values.tolist() == [False, True, True]
+
+
+def test_table_3_is_made_again_from_its_marks():
+    """The ranking as printed, and the sums that the printed marks have."""
+    study = load_study(PIPELINES / "thesis_table_3.toml")
+    table = scoring.published_table(study.scoring.published)
+    designs = ["pendulum", "oscillating-mass", "eccentric"]
+    for design, printed in zip(designs, table["published_score"].values, strict=True):
+        marks = dict(zip(table["published_criterion"].values, printed, strict=True))
+        assert study.given[design] == {
+            name.lower().replace(" ", "_"): mark for name, mark in marks.items()
+        }
+    scores = scoring.score(scoring.given_values(study.given, list(study.options)), study.scoring)
+    summed = scores.sel(scoring_method="weighted_sum").sel(option=designs)
+    np.testing.assert_allclose(18.0 * summed["score"], [12.0, 13.0, 16.0], rtol=1e-12)
+    np.testing.assert_array_equal(summed["rank"], [3.0, 2.0, 1.0])
+    np.testing.assert_array_equal(np.argsort(table["published_sum"]), [0, 1, 2])
 
 
 def test_mount_frequencies(thesis_study):

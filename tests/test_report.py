@@ -164,7 +164,12 @@ def _facts(coords: dict[str, Any], facts: dict[str, dict[str, float]]) -> xr.Dat
 
 
 def _scores(options: list[str], gain: np.ndarray) -> xr.Dataset:
-    option, criterion = {"option": options}, {"criterion": ["foot_force_1x_n"]}
+    option = {"option": options}
+    criterion = {
+        "criterion": ["foot_force_1x_n"],
+        "criterion_label": ("criterion", ["Foot force"]),
+        "criterion_unit": ("criterion", ["N"]),
+    }
     by_method = {**option, "scoring_method": ["weighted_sum"]}
     utility = np.clip((4.0 - gain) / 4.0, 0.0, 1.0)
     rank = 1.0 + (utility[:, None] < utility[None, :]).sum(axis=1)

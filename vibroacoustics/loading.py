@@ -65,11 +65,12 @@ def load_study(path: str | Path) -> Study:
             )
         scoring["published"] = _read_published_table(_beside(origin_file, name))
     _place_files(content, origin, path)
-    for name in ("records", "source_file"):  # filled in here, not by a file
+    for name in ("records", "source_file", "given"):  # filled in here, not by a file
         if name in content:
             raise ParameterError(f"{path}: {name}: unknown key")
+    given = _take_given(content, reader)
     content = reader.to_si(content, ())
-    content.update(machine=machine, source_file=path.name)
+    content.update(machine=machine, source_file=path.name, given=given)
     for name, (redesigned, change_records) in redesigns.items():
         content["options"][name]["machine"] = redesigned
         machine_records += change_records
@@ -106,6 +107,40 @@ def _place_options(content: dict[str, Any], reader: "_Reader") -> None:
             kind = _kind_of(OPTIONS, table, reader.place(("options", name)))
             values = {key: value for key, value in table.items() if key != "kind"}
             options[name] = validated(kind, values, reader, ("options", name))
+
+
+def _take_given(content: Mapping[str, Any], reader: "_Reader") -> dict[str, dict[str, float]]:
+    """Take the table `given` out of each option: its values as written, by criterion."""
+    options = content.get("options")
+    return {
+        name: _given_values(table.pop("given"), name, content, reader)
+        for name, table in (options if isinstance(options, dict) else {}).items()
+        if isinstance(table, dict) and "given" in table
+    }
+
+
+def _given_values(
+    table: Any, option: str, content: Mapping[str, Any], reader: "_Reader"
+) -> dict[str, float]:
+    """Numbers of one option's table; those with a source are recorded in the scale's unit."""
+    keys = ("options", option, "given")
+    if not _table(table):
+        raise ParameterError(f"{reader.place(keys)}: must be a table")
+    values = {}
+    for name, written in table.items():
+        unit = _at(content, ("scoring", "criteria", name, "unit"))
+        number = reader.number((*keys, name), written, unit if isinstance(unit, str) else "")
+        if not _is_number(number):
+            raise ParameterError(f"{reader.place((*keys, name))} = {number}: must be a number")
+        values[name] = float(number)
+    return values
+
+
+def _at(content: Any, keys: tuple[str, ...]) -> Any:
+    """Value under nested keys; None where one is missing."""
+    for key in keys:
+        content = content.get(key) if isinstance(content, dict) else None
+    return content
 
 
 def _kind_of(registry: Registry[type[Kind]], table: Mapping[str, Any], where: str) -> type[Kind]:
@@ -370,7 +405,7 @@ class _Reader:
             name, factor = si_key(key)
             if name in result:
                 raise ParameterError(f"{self.place(keys)}: given twice, in two units")
-            number = self._number(keys, value)
+            number = self.number(keys, value)
             self.file_keys[(*prefix, name)] = (key, number)
             result[name] = _scale(number, factor)
         return result
@@ -384,8 +419,15 @@ class _Reader:
         dotted = ".".join((*prefix, *keys))
         return f"{self.file(keys)}: {dotted}" if dotted else f"{self.file(keys)}"
 
-    def _number(self, keys: tuple[str, ...], value: Any) -> Any:
-        """The bare value of a leaf; records its source and checks it against its own range."""
+    def number(self, keys: tuple[str, ...], value: Any, unit: str = "") -> Any:
+        """The bare value of a leaf; records its source and checks it against its own range.
+
+        Parameters
+        ----------
+        keys : of the leaf
+        value : number, or table with value, source and range
+        unit : where the key's suffix tells none
+        """
         where = self.place(keys)
         if not _quantity(value):
             if self.sources_required and _is_number(value):
@@ -398,8 +440,8 @@ class _Reader:
         if not isinstance(source, str) or not source.strip():
             raise ParameterError(f"{where}: source is missing")
         number = value["value"]
-        unit = split_key(keys[-1])[1]
-        symbol = unit.symbol if unit else ""
+        suffix = split_key(keys[-1])[1]
+        symbol = unit or (suffix.symbol if suffix else "")
         lowest, highest = _range(where, value.get("range"))
         if source.startswith("assumed") and lowest is None:
             raise ParameterError(f"{where}: an assumed value needs a range")

@@ -51,6 +51,7 @@ UNITS: Final[dict[str, Unit]] = {
     "rpm": Unit("rpm", "rpm", 1.0),  # the label of a speed; see shaft_frequency_hz
     "db": Unit("dB", "db", 1.0),
     "dba": Unit("dB(A)", "dba", 1.0),
+    "eur": Unit("€", "eur", 1.0),
     "percent": Unit("%", "ratio", 1e-2),
     "ratio": Unit("", "ratio", 1.0),
 }
@@ -75,3 +76,8 @@ def si_key(key: str) -> tuple[str, float]:
 def shaft_frequency_hz(speed_rpm: float) -> float:
     """Shaft frequency in Hz of a speed in revolutions per minute: 3000 rpm is 50 Hz."""
     return speed_rpm / 60.0
+
+
+def orders_below(frequency_hz: float, speed_rpm: float) -> int:
+    """Number of shaft orders up to a frequency, which counts if an order meets it in rounding."""
+    return int(frequency_hz / shaft_frequency_hz(speed_rpm) + 1e-9)

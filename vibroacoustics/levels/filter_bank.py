@@ -8,8 +8,8 @@ hand.
 from typing import Final
 
 import numpy as np
+import scipy  # loads its subpackages when they are needed
 from numpy.typing import NDArray
-from scipy.signal import butter, sosfilt, sosfreqz
 
 from ..errors import ParameterError
 from .bands import OCTAVE_RATIO, Band, check_measurable
@@ -75,10 +75,10 @@ def band_filter(band: Band, sample_rate_hz: float) -> Real:
     """
     check_measurable([band], sample_rate_hz)
     edges = [band.lower_hz, band.upper_hz]
-    sections = butter(FILTER_ORDER, edges, "bandpass", output="sos", fs=sample_rate_hz)
+    sections = scipy.signal.butter(FILTER_ORDER, edges, "bandpass", output="sos", fs=sample_rate_hz)
     ratio = np.asarray(np.geomspace(OCTAVE_RATIO**-5, OCTAVE_RATIO**5, 2001), dtype=np.float64)
     ratio = ratio[ratio * band.middle_hz < 0.5 * sample_rate_hz]
-    response = sosfreqz(sections, ratio * band.middle_hz, fs=sample_rate_hz)[1]
+    response = scipy.signal.sosfreqz(sections, ratio * band.middle_hz, fs=sample_rate_hz)[1]
     attenuation = -20.0 * np.log10(np.maximum(np.abs(response), 1e-15))
     least, greatest = class_1_limits_db(ratio, band.bands_per_octave)
     if not np.all((least <= attenuation) & (attenuation <= greatest)):
@@ -102,4 +102,4 @@ def band_signal(signal: Real, sample_rate_hz: float, band: Band) -> Real:
     -------
     same shape and unit; the filter settles in a few times the inverse of the band's width
     """
-    return np.asarray(sosfilt(band_filter(band, sample_rate_hz), signal))
+    return np.asarray(scipy.signal.sosfilt(band_filter(band, sample_rate_hz), signal))

@@ -3,8 +3,8 @@
 from typing import Final
 
 import numpy as np
+import scipy  # loads its subpackages when they are needed
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 Real = NDArray[np.float64]
 
@@ -29,4 +29,6 @@ def time_weighted_mean_square(signal: Real, sample_rate_hz: float, time_constant
     same shape, unit squared
     """
     kept = np.exp(-1.0 / (sample_rate_hz * time_constant_s))
-    return np.asarray(lfilter([1.0 - kept], [1.0, -kept], np.square(signal, dtype=float)))
+    return np.asarray(
+        scipy.signal.lfilter([1.0 - kept], [1.0, -kept], np.square(signal, dtype=float))
+    )

@@ -9,7 +9,7 @@ from .order_cut import OrderCut, OrderResolutionWarning, order_cut, order_lines
 from .order_map import OrderMap, block_phasors, mean_order_spectrum, order_map
 from .pulse_edges import pulse_times
 from .pulse_faults import PulseFault
-from .spectrum import order_spectrum, order_spectrum_at_speed
+from .spectrum import order_spectra, order_spectrum, order_spectrum_at_speed
 from .synchronous import (
     OrderEnvelope,
     SynchronousAverage,
@@ -45,6 +45,7 @@ __all__ = [
     "order_cut",
     "order_lines",
     "order_map",
+    "order_spectra",
     "order_spectrum",
     "order_spectrum_at_speed",
     "pulse_times",

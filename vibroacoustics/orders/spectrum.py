@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 
 from ..mechanics.rotation import crank_time_s
 from .angular import whole_revolutions
+from .fourier import real_transform
 from .order_cut import order_lines
 from .order_map import order_map
 
@@ -70,3 +71,28 @@ def order_spectrum_at_speed(
     kernel = 2.0 * waves * weight / np.sum(weight)
     kernel[0] *= 0.5
     return np.asarray(signal @ kernel.T)
+
+
+def order_spectra(
+    signal: NDArray[np.float64], speed_rad_per_s: NDArray[np.float64], maximum_order: int
+) -> NDArray[np.complex128]:
+    """`order_spectrum_at_speed` of many cases, those of constant speed at once.
+
+    Parameters
+    ----------
+    signal : shape (*cases, ..., samples), over uniform crank angles of one revolution
+    speed_rad_per_s : of the shaft at these angles, shape (*cases, samples)
+    maximum_order : highest order to return, below half the samples
+
+    Returns
+    -------
+    shape (*cases, ..., maximum_order + 1), in the signal's unit, peak
+    """
+    if np.all(speed_rad_per_s == speed_rad_per_s[..., :1]):
+        lines = real_transform(signal)[..., : maximum_order + 1] * (2.0 / signal.shape[-1])
+        lines[..., 0] *= 0.5
+        return lines
+    spectra = np.empty((*signal.shape[:-1], maximum_order + 1), dtype=complex)
+    for case in np.ndindex(speed_rad_per_s.shape[:-1]):
+        spectra[case] = order_spectrum_at_speed(signal[case], speed_rad_per_s[case], maximum_order)
+    return spectra

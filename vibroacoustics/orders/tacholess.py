@@ -6,10 +6,10 @@ from typing import Final
 
 import numba
 import numpy as np
+import scipy  # loads its subpackages when they are needed
 from numpy.typing import NDArray
 from scipy.fft import next_fast_len
 from scipy.interpolate import PPoly
-from scipy.signal import resample_poly
 
 from ..errors import ParameterError
 from .crank_motion import CrankMotion, from_curve
@@ -83,7 +83,7 @@ def tacholess_motion(
     order = np.asarray(orders, dtype=float)
     _check(signal, sample_rate_hz, minimum_frequency_hz, maximum_frequency_hz, order)
     down = max(1, int(sample_rate_hz / (_OVERSAMPLING * order[-1] * maximum_frequency_hz)))
-    samples, rate = resample_poly(signal, 1, down), sample_rate_hz / down
+    samples, rate = scipy.signal.resample_poly(signal, 1, down), sample_rate_hz / down
     length = next_fast_len(int(_REVOLUTIONS * rate / minimum_frequency_hz), real=True)
     centres = 0.5 * (length - 1) + np.arange(
         0, samples.size - length + 1, length / _FRAMES_PER_LENGTH

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+import scipy  # loads its subpackages when they are needed
 from numpy.typing import NDArray
-from scipy.signal.windows import general_cosine
 
 from ..errors import ParameterError
 
@@ -36,7 +36,9 @@ class Window:
 
     def samples(self, length: int) -> NDArray[np.float64]:
         """The window over `length` samples, mean 1."""
-        return np.asarray(general_cosine(length, np.asarray(self.cosines), sym=False))
+        return np.asarray(
+            scipy.signal.windows.general_cosine(length, np.asarray(self.cosines), sym=False)
+        )
 
 
 WINDOWS: Final = {

@@ -1,33 +1,41 @@
 """A study: one machine, its operating points, options, microphones and scoring."""
 
-from typing import Any, Literal
+from typing import Any, Final
 
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from ..base.parameters import Parameters
 from ..mechanics.capabilities import OldhamRing
 from ..schema import REFERENCE_OPTION
-from ..units import shaft_frequency_hz
+from ..units import orders_below, shaft_frequency_hz
 from .inside import InsideSettings
 from .machine import AnyMachine, Machine
 from .option import AnyOption, Option
 from .radiation import RadiationSettings
 from .receivers import Receiver
+from .scoring import Scoring, check_given, check_scales
 from .sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
+from .speeds import MOST_SPEEDS, speed_range
 
-CriterionName = Literal[
-    "foot_force_1x_n",
-    "residual_moment_nm",
-    "level_change_db",
-    "speed_sensitivity_db",
-    "added_mass_kg",
-]
+MOST_SPEEDS_WITH_TIME_SERIES: Final = 100
+LEAST_ORDERS: Final = 2
+"""Which every result holds."""
+ROUNDING: Final = 1e-9
 
 
 class Operation(Parameters):
-    speed_rpm: tuple[float, ...] = Field(min_length=1, max_length=100)
+    speed_rpm: tuple[float, ...] = Field(min_length=1, max_length=MOST_SPEEDS)
+    """In a file also a table of start, stop and step."""
     crank_angle_samples: int = Field(default=256, ge=64, le=65536)
-    maximum_order: int = Field(default=40, ge=2, le=1000)
+    maximum_order: int | None = Field(default=None, ge=2, le=1000)
+    """None for as many at each speed as the highest frequency of the radiation holds."""
+    keep_time_series: bool | None = None
+    """Forces and moments over crank angle in the results; none for up to 100 speeds only."""
+
+    @field_validator("speed_rpm", mode="before")
+    @classmethod
+    def _range(cls, given: Any) -> Any:
+        return speed_range(given) if isinstance(given, dict) else given
 
     @model_validator(mode="after")
     def _speeds(self) -> "Operation":
@@ -36,53 +44,13 @@ class Operation(Parameters):
                 raise ValueError(f"speed_rpm = {speed:g} rpm: allowed 60 to 60000 rpm")
         if len(set(self.speed_rpm)) < len(self.speed_rpm):
             raise ValueError("speed_rpm lists a speed twice")
-        if 2 * self.maximum_order >= self.crank_angle_samples:
-            raise ValueError(
-                f"maximum_order = {self.maximum_order}: must be below half of "
-                f"crank_angle_samples = {self.crank_angle_samples}"
-            )
         return self
 
-
-class PublishedTable(Parameters):
-    """A published table of scores, as printed."""
-
-    source: str
-    options: tuple[str, ...]
-    criteria: tuple[str, ...]
-    scores: tuple[tuple[float, ...], ...]
-    """One row per option."""
-    sums: tuple[float, ...]
-
-
-class CriterionScale(Parameters):
-    """Weight of a criterion and the values that count as best and worst, in its unit.
-
-    Fixed scales keep a score from changing when an option is added or left out.
-    """
-
-    weight: float = Field(ge=0.0, le=1e6)
-    best: float
-    worst: float
-
-    @model_validator(mode="after")
-    def _apart(self) -> "CriterionScale":
-        if self.worst <= self.best:
-            raise ValueError(f"worst = {self.worst:g} must exceed best = {self.best:g}")
-        return self
-
-
-class Scoring(Parameters):
-    criteria: dict[CriterionName, CriterionScale] = Field(min_length=1)
-    random_weightings: int = Field(default=2000, ge=1, le=1_000_000)
-    seed: int = Field(default=20061, ge=0, lt=2**63)
-    published: PublishedTable | None = None
-
-    @model_validator(mode="after")
-    def _some_weight(self) -> "Scoring":
-        if sum(scale.weight for scale in self.criteria.values()) <= 0.0:
-            raise ValueError("at least one criterion needs a weight above 0")
-        return self
+    @property
+    def keeps_time_series(self) -> bool:
+        """Whether the results hold forces and moments over crank angle."""
+        few = len(self.speed_rpm) <= MOST_SPEEDS_WITH_TIME_SERIES
+        return few if self.keep_time_series is None else self.keep_time_series
 
 
 class ParameterRecord(Parameters):
@@ -110,6 +78,8 @@ class Study(Parameters):
     catalogue_receiver: str
     radiation: RadiationSettings
     scoring: Scoring
+    given: dict[str, dict[str, float]] = Field(default={})
+    """Values of criteria that are judged, not computed, by option and criterion."""
     sound_power: SoundPowerSettings | None = None
     map: MapSettings | None = None
     directivity: DirectivitySettings | None = None
@@ -125,6 +95,8 @@ class Study(Parameters):
             raise ValueError('options: an option named none with kind = "none" is required')
         for name, option in self.options.items():
             self._check_fits(name, option)
+        check_given(self.given, self.options)
+        check_scales(self.scoring, self.given, self.options)
         if self.catalogue_receiver not in self.receivers:
             raise ValueError(
                 f"catalogue_receiver = {self.catalogue_receiver}: not among the receivers "
@@ -140,12 +112,7 @@ class Study(Parameters):
                 f"catalogue_receiver = {self.catalogue_receiver}: stands {distance:.3g} m from the "
                 f"shell; the overall noise holds at {published.distance_m:g} m"
             )
-        highest = self.operation.maximum_order * shaft_frequency_hz(max(self.operation.speed_rpm))
-        if highest > self.radiation.maximum_frequency_hz:
-            raise ValueError(
-                f"radiation.maximum_frequency_hz = {self.radiation.maximum_frequency_hz:g} Hz: "
-                f"order {self.operation.maximum_order} reaches {highest:g} Hz"
-            )
+        self._check_orders()
         self._check_inside()
         surroundings = self.radiation.surroundings
         if self.sound_power and (surroundings.walls or surroundings.cabinet):
@@ -153,17 +120,44 @@ class Study(Parameters):
                 "sound_power: ISO 3744 measures over a hard floor alone; "
                 "radiation.surroundings has walls or a cabinet"
             )
-        if published.speed_rpm not in self.operation.speed_rpm:
-            raise ValueError(
-                "operation.speed_rpm: must include the speed of the overall noise, "
-                f"{published.speed_rpm:g} rpm, to fix the remainder"
-            )
         return self
+
+    def highest_order(self, speed_rpm: float) -> int:
+        """The highest shaft order that is taken along at a speed."""
+        if self.operation.maximum_order is not None:
+            return self.operation.maximum_order
+        return orders_below(self.radiation.maximum_frequency_hz, speed_rpm)
+
+    def _check_orders(self) -> None:
+        """Refuse more orders than the radiation or the crank angles can tell apart."""
+        speeds = {*self.operation.speed_rpm, self.machine.overall_noise.speed_rpm}
+        fastest, slowest = max(speeds), min(speeds)
+        order = max(self.highest_order(fastest), LEAST_ORDERS)
+        highest, allowed = order * shaft_frequency_hz(fastest), self.radiation.maximum_frequency_hz
+        if highest > allowed * (1.0 + ROUNDING):
+            raise ValueError(
+                f"radiation.maximum_frequency_hz = {allowed:g} Hz: order {order} reaches "
+                f"{highest:g} Hz"
+            )
+        orders, samples = self.highest_order(slowest), self.operation.crank_angle_samples
+        if 2 * orders >= samples:
+            given = self.operation.maximum_order is not None
+            twice = f"maximum_order = {orders}" if given else f"{orders} orders at {slowest:g} rpm"
+            raise ValueError(
+                f"operation.crank_angle_samples = {samples}: must be above {2 * orders}, "
+                f"twice {twice}"
+            )
 
     def _check_inside(self) -> None:
         """Refuse inner sources that do not belong to the machine."""
         if self.inside is None:
             return
+        published = self.machine.overall_noise
+        if published.speed_rpm not in self.operation.speed_rpm:
+            raise ValueError(
+                "operation.speed_rpm: must include the speed of the overall noise, "
+                f"{published.speed_rpm:g} rpm, to fix the remainder"
+            )
         if self.machine.capability(OldhamRing) is None:
             raise ValueError(
                 f"inside: needs a scroll with an Oldham ring; the machine is {self.machine.kind}"

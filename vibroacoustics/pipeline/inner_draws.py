@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Final
 
-from scipy.stats import qmc
+import scipy  # loads its subpackages when they are needed
 
 from ..mechanics.rotation import Array
 from ..parameters.inside import Doubt, Inside, InsideSettings
@@ -14,7 +14,7 @@ WIDE_RATIO: Final = 3.0
 
 def latin_hypercube(settings: InsideSettings) -> list[Inside]:
     """Insides whose uncertain values are drawn from their ranges (McKay, Beckman, Conover 1979)."""
-    sampler = qmc.LatinHypercube(len(settings.doubts), rng=settings.seed)
+    sampler = scipy.stats.qmc.LatinHypercube(len(settings.doubts), rng=settings.seed)
     return [
         _drawn(settings.inside, settings.doubts, row)
         for row in sampler.random(settings.random_samples)

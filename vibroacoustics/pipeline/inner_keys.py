@@ -22,7 +22,7 @@ from ..sources.joint_loads import (
 from ..sources.oldham_keys.contact_loss import contact_loss_speed_rpm
 from ..sources.oldham_keys.rattle import KeyForces, steady_key_forces
 from ..sources.oldham_keys.spectra import spectral_density, split_periodic
-from ..units import shaft_frequency_hz
+from ..units import orders_below, shaft_frequency_hz
 
 Complex = NDArray[np.complex128]
 
@@ -49,7 +49,7 @@ class Operating:
 
     @property
     def maximum_order(self) -> int:
-        return int(self.maximum_frequency_hz / shaft_frequency_hz(self.speed_rpm) + 1e-9)
+        return orders_below(self.maximum_frequency_hz, self.speed_rpm)
 
 
 @dataclass(frozen=True)

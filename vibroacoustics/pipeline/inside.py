@@ -143,7 +143,8 @@ class _Listener:
         per_moment = roll * _roll_velocity(body, frequency)
         receivers, orders = case.moving_parts_pa.shape
         moving = np.zeros((receivers, frequency.size), dtype=complex)
-        moving[:, :orders] = case.moving_parts_pa
+        held = min(orders, case.operating.maximum_order + 1)  # silent beyond; other lines follow
+        moving[:, :held] = case.moving_parts_pa[:, :held]
         pressure: dict[str, Complex] = {MOVING_PARTS: moving}
         for source, lines in loads.lines.items():
             elastic = np.einsum("rjcf,jcf->rf", per_load, lines.load, optimize=True)

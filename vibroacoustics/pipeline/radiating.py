@@ -116,7 +116,7 @@ def sound_field(study: Study, results: xr.Dataset) -> xr.Dataset:
         surface = results["surface_transfer_vector"]
         vectors = radiation.interpolate_transfer_vector(
             surface.rename(position="receiver", position_distance="distance"),
-            results["order_frequency"],
+            within(results, surface),
         )
         pressure = xr.dot(velocity, vectors, dim="dof")
         dims = ("speed", "option", "order", "receiver")
@@ -132,6 +132,14 @@ def sound_field(study: Study, results: xr.Dataset) -> xr.Dataset:
             by["weighting"] = xr.DataArray(list(WEIGHTINGS), dims="weighting")
             fields[name] = stamp(name, level, by, arrangement=study.sound_power.arrangement)
     return check(xr.Dataset(fields))
+
+
+def within(results: xr.Dataset, tabulated: xr.DataArray) -> xr.DataArray:
+    """Frequencies of the orders; those beyond the table, which are silent, at its highest one."""
+    frequency: xr.DataArray = results["order_frequency"].clip(
+        max=tabulated["frequency"].max().item()
+    )
+    return frequency
 
 
 def _surface_area_m2(settings: SoundPowerSettings, surface: xr.DataArray) -> float:

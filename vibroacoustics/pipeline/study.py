@@ -3,7 +3,7 @@
 study -> moving parts -> orders -> transfer -> radiation -> levels -> scores, one dataset.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
 from typing import Final
 
@@ -17,8 +17,9 @@ from ..errors import ParameterError
 from ..mechanics.added import Added
 from ..mechanics.moving_parts import Revolution, wrench
 from ..mechanics.rotation import Array, uniform_crank_angle
-from ..orders import order_spectrum_at_speed, semi_major_axis
+from ..orders import order_spectra, semi_major_axis
 from ..parameters.machine import Machine
+from ..parameters.option import Option
 from ..parameters.study import Study
 from ..schema import (
     AXES,
@@ -35,7 +36,8 @@ from ..units import shaft_frequency_hz
 from .inner_sound import shell_path
 from .inside import inside_sound
 from .progress import Progress
-from .radiating import attributes, sound_field, transfer_vectors
+from .radiating import attributes, sound_field, transfer_vectors, within
+from .speed_blocks import TIME_SERIES, blocks, check_size, joined
 from .stopping import stopping_sound
 from .words import words
 
@@ -69,9 +71,7 @@ def run(study: Study, progress: Progress = lambda *_: None) -> xr.Dataset:
 
 
 def _run(study: Study, progress: Progress) -> xr.Dataset:
-    results, added = _forces(study, progress)
-    results = results.merge(_orders(study, results))
-    results = results.merge(_housing(study, results))
+    results, added = _motion(study, progress)
     machine, path = study.machine, shell_path(study)
     motions = () if path is None else path.modes
     radiated, was_cached = transfer_vectors(study, progress, motions)
@@ -88,6 +88,38 @@ def _run(study: Study, progress: Progress) -> xr.Dataset:
     results.attrs = attributes(study, radiated, was_cached)
     results.attrs["words"] = canonical_json(words(study, results))
     return check(label_coordinates(results))
+
+
+def _motion(study: Study, progress: Progress) -> tuple[xr.Dataset, dict[Case, Added]]:
+    """Forces, their orders and the motion that follows, block by block of speeds.
+
+    Also what each option adds in each case.
+    """
+    parts: list[xr.Dataset] = []
+    everything: dict[Case, Added] = {}
+    done, total = 0, len(study.operation.speed_rpm) * len(study.options)
+
+    def advance(task: str, step: int, _: int) -> None:
+        progress(task, done + step, total)
+
+    for speeds in blocks(study.operation.speed_rpm):
+        part, added = _forces(_at_speeds(study, speeds, study.options), advance)
+        part = part.merge(_orders(study, part))
+        part = part.merge(_housing(study, part))
+        if not study.operation.keeps_time_series:
+            part = part.drop_vars(TIME_SERIES)
+        if not parts:
+            check_size(study, part, progress)
+        parts.append(part)
+        everything |= added
+        done += len(speeds) * len(study.options)
+    return joined(parts), everything
+
+
+def _at_speeds(study: Study, speeds: tuple[float, ...], options: Mapping[str, Option]) -> Study:
+    """The study with other speeds and options."""
+    operation = study.operation.model_copy(update={"speed_rpm": speeds})
+    return study.model_copy(update={"operation": operation, "options": dict(options)})
 
 
 def _forces(study: Study, progress: Progress) -> tuple[xr.Dataset, dict[Case, Added]]:
@@ -181,19 +213,19 @@ def _option_facts(
 
 
 def _orders(study: Study, results: xr.Dataset) -> xr.Dataset:
-    """Order spectra of force and moment, and the ellipses of their resultants."""
-    highest = study.operation.maximum_order
-    order = np.arange(highest + 1)
-    speeds = np.array(study.operation.speed_rpm)
+    """Order spectra of force and moment, and the ellipses of their resultants.
+
+    The slowest speed of the study has the most orders. Beyond the highest one of a speed there is
+    silence: force, moment and all that follows of them are zero.
+    """
+    speeds = results["speed"].values
+    order = np.arange(study.highest_order(min(study.operation.speed_rpm)) + 1)
+    held = order <= np.array([[study.highest_order(speed)] for speed in speeds])
     coords = {name: results[name] for name in ("speed", "option", "source", "axis")}
     spectra = {}
     for name in ("force", "moment"):
-        spectrum = np.array(
-            [
-                [order_spectrum_at_speed(*pair, highest) for pair in zip(*row, strict=True)]
-                for row in zip(results[name].values, results["shaft_speed"].values, strict=True)
-            ]
-        )
+        spectrum = order_spectra(results[name].values, results["shaft_speed"].values, order[-1])
+        spectrum = np.where(held[:, None, None, None], spectrum, 0.0)
         spectra[f"{name}_order"] = stamp(f"{name}_order", spectrum, {**coords, "order": order})
         resultant = semi_major_axis(spectrum.sum(axis=2), axis=2)
         spectra[f"{name}_amplitude"] = stamp(
@@ -217,10 +249,11 @@ def _housing(study: Study, results: xr.Dataset) -> xr.Dataset:
 
     def response(name: str) -> NDArray[np.complex128]:
         """Of each option's own body, shape (speed, option, source, order, ...)."""
-        found = [
-            getattr(body, name)(load, frequency) for body, load in zip(bodies, loads, strict=True)
-        ]
-        return np.stack(found, axis=1)
+        moved: dict[int, NDArray[np.complex128]] = {}
+        for body in dict.fromkeys(bodies):
+            rows = [row for row, other in enumerate(bodies) if other == body]
+            moved.update(zip(rows, getattr(body, name)(loads[rows], frequency), strict=True))
+        return np.stack([moved[row] for row in range(len(bodies))], axis=1)
 
     body = bodies[list(study.options).index(REFERENCE_OPTION)]
     foot_force = np.moveaxis(response("foot_force"), (-2, -1), (-3, -2))
@@ -294,18 +327,21 @@ def _pressures(results: xr.Dataset) -> xr.Dataset:
     coords = {name: results[name] for name in dims}
     found = {"pressure_order": stamp("pressure_order", pressure.transpose(*dims).values, coords)}
     if "transfer_vector_closed_form" in results:
-        first, second = (
-            levels.sound_pressure_level(field.sel(order=1).sum("source").transpose(*_CHANGE).values)
-            for field in (pressure, _pressure(results, "transfer_vector_closed_form"))
-        )
+        first = results.sel(order=1)
+        other = _pressure(first, "transfer_vector_closed_form")
+        both = [
+            levels.sound_pressure_level(field.sum("source").transpose(*_CHANGE).values)
+            for field in (pressure.sel(order=1), other)
+        ]
         at = {name: results[name] for name in _CHANGE}
-        found["line_difference"] = stamp("line_difference", first - second, at)
+        found["line_difference"] = stamp("line_difference", both[0] - both[1], at)
     return check(xr.Dataset(found))
 
 
 def _pressure(results: xr.Dataset, name: str) -> xr.DataArray:
     """Pressure of every source at every order by the transfer vectors of a name."""
-    vectors = radiation.interpolate_transfer_vector(results[name], results["order_frequency"])
+    tabulated = results[name]
+    vectors = radiation.interpolate_transfer_vector(tabulated, within(results, tabulated))
     pressure: xr.DataArray = xr.dot(results["velocity_order"], vectors, dim="dof")
     return pressure
 
@@ -315,22 +351,15 @@ _CHANGE: Final = ("speed", "option", "receiver")
 
 def _levels(study: Study, results: xr.Dataset) -> xr.Dataset:
     """Order levels, modelled and total levels, and their changes against `none`."""
-    pressure = results["pressure_order"].sum("source")
-    frequency = results["order_frequency"].values[:, None, None, :]
-    unweighted = levels.sound_pressure_level(pressure.values)
-    order_level = np.stack(
-        [unweighted + levels.WEIGHTING[name](frequency) for name in WEIGHTINGS], axis=-1
-    )
-    audible = order_level[:, :, :, 1:, :]  # order 0 is no sound
-    modelled = levels.energy_sum(audible, axis=3)
+    order_level, modelled = _order_levels(results["pressure_order"], results["order_frequency"])
     coords = {name: results[name] for name in ("speed", "option", "receiver")}
     weighted = {**coords, "weighting": list(WEIGHTINGS)}
     modelled_level = stamp("level_modelled", modelled, weighted)
-    remainder = _remainder(study, modelled_level)
+    remainder = _remainder(study, results, modelled_level)
     a_level = modelled_level.sel(weighting="A").values
     total = levels.energy_sum(np.stack([a_level, np.full_like(a_level, remainder)]), axis=0)
     reference = list(study.options).index(REFERENCE_OPTION)
-    first = unweighted[..., 1]
+    first = order_level[..., 1, WEIGHTINGS.index("Z")]
     changes = {"change_1x": first, "change_modelled": a_level, "change_total": total}
     return check(
         xr.Dataset(
@@ -350,9 +379,23 @@ def _levels(study: Study, results: xr.Dataset) -> xr.Dataset:
     )
 
 
-def _remainder(study: Study, modelled: xr.DataArray) -> float:
+def _order_levels(pressure: xr.DataArray, frequency: xr.DataArray) -> tuple[Array, Array]:
+    """Levels (speed, option, receiver, order, weighting), and of all orders together."""
+    summed = pressure.sum("source").transpose("speed", "option", "receiver", "order")
+    unweighted = levels.sound_pressure_level(summed.values)
+    hertz = frequency.values[:, None, None, :]
+    order_level = np.stack(
+        [unweighted + levels.WEIGHTING[name](hertz) for name in WEIGHTINGS], axis=-1
+    )
+    audible = order_level[:, :, :, 1:, :]  # order 0 is no sound
+    return order_level, levels.energy_sum(audible, axis=3)
+
+
+def _remainder(study: Study, results: xr.Dataset, modelled: xr.DataArray) -> float:
     """What the model leaves of the published level at its microphone and speed, dB(A)."""
     published = study.machine.overall_noise
+    if published.speed_rpm not in study.operation.speed_rpm:
+        modelled = _modelled_alone(study, results, published.speed_rpm)
     explained = modelled.sel(
         speed=published.speed_rpm,
         option=REFERENCE_OPTION,
@@ -368,8 +411,20 @@ def _remainder(study: Study, modelled: xr.DataArray) -> float:
         ) from None
 
 
+def _modelled_alone(study: Study, results: xr.Dataset, speed_rpm: float) -> xr.DataArray:
+    """Modelled level of the reference option at a speed that is none of the study's."""
+    reference = {REFERENCE_OPTION: study.options[REFERENCE_OPTION]}
+    motion, _ = _motion(_at_speeds(study, (speed_rpm,), reference), lambda *_: None)
+    motion = motion.assign(transfer_vector=results["transfer_vector"])
+    pressure = _pressure(motion, "transfer_vector")
+    coords = {name: pressure[name] for name in ("speed", "option", "receiver")}
+    level = _order_levels(pressure, motion["order_frequency"])[1]
+    return stamp("level_modelled", level, {**coords, "weighting": list(WEIGHTINGS)})
+
+
 def _scores(study: Study, results: xr.Dataset) -> xr.Dataset:
-    scores = scoring.score(results, study.scoring)
+    given = scoring.given_values(study.given, list(study.options))
+    scores = scoring.score(results.merge(given), study.scoring).merge(given)
     if study.scoring.published is None:
         return scores
     return scores.merge(scoring.published_table(study.scoring.published))

@@ -17,11 +17,6 @@ DOF_WORDS: Final = {
 }
 
 _NAMES: Final = {
-    "foot_force_1x_n": "Largest foot force, 1×",
-    "residual_moment_nm": "Residual moment, 1×",
-    "level_change_db": "Change of the modelled level, energy mean of the microphones",
-    "speed_sensitivity_db": "Spread of the foot-force change over the speeds",
-    "added_mass_kg": "Added mass",
     "dissipated_power_w": "Dissipated power",
     "key_impacts_per_revolution": "Impacts of the keys per revolution",
     "key_force_peak_n": "Largest force on a key",
@@ -50,11 +45,6 @@ def name(label: str, of_study: Mapping[str, str] | None = None) -> str:
 def unit(label: str) -> str:
     """Unit in the suffix of a label; empty where it has none."""
     return _split(label)[1]
-
-
-def named(label: str) -> str:
-    """Plain words and unit: `Added mass, kg`."""
-    return ", ".join(part for part in (name(label), unit(label)) if part)
 
 
 def _split(label: str) -> tuple[str, str]:

@@ -11,7 +11,9 @@ from .style import Picture, draw, legend_below, line_looks, wrap
 
 
 def force_figures(results: xr.Dataset) -> list[Picture]:
-    """Force along each axis over the crank angle, at the highest speed."""
+    """Force along each axis over the crank angle, at the highest speed; none where not kept."""
+    if "force" not in results:
+        return []
     speed = max(speeds(results))
     total = results["force"].sel(speed=speed).sum("source").transpose("axis", "option", ...)
     degrees = np.rad2deg(results["crank_angle"].values)

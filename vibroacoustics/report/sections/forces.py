@@ -3,7 +3,7 @@
 import xarray as xr
 
 from ...base.registry import register
-from ..blocks import Block, Pictures
+from ..blocks import Block, Pictures, Text
 from ..figures import force_figures
 from ..option_facts import facts_table
 from ..speeds import chosen_speeds
@@ -13,8 +13,20 @@ from . import Section
 
 def _blocks(results: xr.Dataset) -> list[Block]:
     facts = facts_table(few_speeds(results))
-    figures = Pictures(tuple(force_figures(results)))
-    return [figures, *chosen_speeds(results, "results.nc"), facts] if facts else [figures]
+    return [
+        _figure(results),
+        *([*chosen_speeds(results, "results.nc"), facts] if facts else []),
+    ]
+
+
+def _figure(results: xr.Dataset) -> Block:
+    """The force, where the run kept it over time."""
+    figures = tuple(force_figures(results))
+    if not figures:
+        return Text(
+            "Forces over crank angle are not in these results: operation.keep_time_series."
+        )
+    return Pictures(figures)
 
 
 register(Section("forces", "Force over a revolution", _blocks, position=50.0))
