@@ -13,19 +13,15 @@ from . import Section
 
 def _blocks(results: xr.Dataset) -> list[Block]:
     facts = facts_table(few_speeds(results))
-    return [
-        _figure(results),
-        *([*chosen_speeds(results, "results.nc"), facts] if facts else []),
-    ]
+    shown = _figure(results)
+    return [shown, *chosen_speeds(results, "results.nc"), facts] if facts else [shown]
 
 
 def _figure(results: xr.Dataset) -> Block:
     """The force, where the run kept it over time."""
     figures = tuple(force_figures(results))
     if not figures:
-        return Text(
-            "Forces over crank angle are not in these results: operation.keep_time_series."
-        )
+        return Text("Forces over crank angle are not in these results: operation.keep_time_series.")
     return Pictures(figures)
 
 
