@@ -229,7 +229,7 @@ def _attributes(options: list[str], receivers: list[str], published_dba: float) 
         "orders": "Orders are multiples of the mean shaft frequency.",
         "leaves_out": [],
         "labels": {},
-        "sentences": {key: [] for key in options},
+        "sentences": {option: [] for option in options},
     }
     return {
         "title": "A study",

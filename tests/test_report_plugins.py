@@ -101,6 +101,9 @@ def test_section_and_column_are_shown_and_made_again_without_the_plugin(
     csv = (tmp_path / "run" / "comparison.csv").read_text().splitlines()
     assert csv[0].endswith(",level_modelled_dbc,force_3x_n")
     assert csv[1].endswith(",15.1")
+    origins = json.loads(storage.open_results(tmp_path / "run" / "results.nc").attrs["plugins"])
+    assert origins["section prices"]["file"] == "prices.py"
+    assert len(origins["column force_3x_n"]["sha256"]) == 64
     _made_again_is_the_same(tmp_path)
 
 
@@ -219,3 +222,13 @@ def test_example_of_the_page_works(results: xr.Dataset, tmp_path: Path, registri
     assert "| louder | 119 |" in files["comparison.md"].decode()  # 1.8 x 45.3 (3500/2900)²
     assert "Moment 2×, N m" in files["report.html"].decode()
     assert files["comparison.csv"].decode().splitlines()[0].endswith(",moment_2x_nm")
+
+
+def test_report_takes_a_plugin_that_the_run_did_not_have(
+    results: xr.Dataset, tmp_path: Path
+) -> None:
+    storage.write_results(results, tmp_path / "results.nc")
+    (tmp_path / "prices.py").write_text(SECTION)
+    words = ["report", tmp_path / "results.nc", "--plugin", tmp_path / "prices.py"]
+    subprocess.run([sys.executable, "-m", "vibroacoustics", *words], check=True)
+    assert "What it costs" in (tmp_path / "report.html").read_text()

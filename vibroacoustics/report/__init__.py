@@ -1,7 +1,11 @@
 """The report: what a finished run says, as HTML, CSV, Markdown, plain text and figures."""
 
+import json
+
 import xarray as xr
 
+from ..base.hashing import canonical_json
+from ..base.registry import plugins
 from .comparison import comparison_csv, comparison_text
 from .figures.compared_orders import compared_order_figures
 from .figures.recorded_orders import recorded_order_figures
@@ -58,5 +62,10 @@ def render(results: xr.Dataset) -> dict[str, bytes]:
 
 
 def keep(results: xr.Dataset) -> xr.Dataset:
-    """The results with what strangers' sections and columns show, for a report without them."""
-    return keep_sections(keep_columns(results))
+    """The results with what strangers' sections and columns show, and where these come from.
+
+    The report can then be made again without them.
+    """
+    kept = keep_sections(keep_columns(results))
+    known = json.loads(kept.attrs.get("plugins") or "{}")
+    return kept.assign_attrs(plugins=canonical_json({**known, **plugins()}))

@@ -94,12 +94,12 @@ def _named(results: xr.Dataset, changes: dict[str, SourceChange]) -> str:
 
 
 def _by_speed(results: xr.Dataset, bands: tuple[Band, ...]) -> str:
-    if many_speeds(results):
-        lowest, highest = min(own.lowest for own in bands), max(own.highest for own in bands)
-        return f"{change_words(Band(lowest, lowest, highest))}, depending on the speed"
     words = [change_words(own) for own in bands]
     if len(set(words)) == 1:
         return words[0]
+    if many_speeds(results):
+        lowest, highest = min(own.lowest for own in bands), max(own.highest for own in bands)
+        return f"{change_words(Band(lowest, lowest, highest))}, depending on the speed"
     return " and ".join(
         f"{text} at {speed:g} rpm" for text, speed in zip(words, speeds(results), strict=True)
     )
