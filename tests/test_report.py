@@ -338,6 +338,15 @@ def test_the_headline_says_whether_the_total_moves() -> None:
     assert "no balancing option" in headline(make_results({"none": 1.0}))
 
 
+def test_what_an_option_says_of_itself_is_in_its_verdict() -> None:
+    results = make_results({"none": 1.0, "swing": 1.8, "calm": 1.1})
+    words = json.loads(results.attrs["words"])
+    words["sentences"]["swing"] = ["Hanging is unstable."]
+    results.attrs["words"] = json.dumps(words)
+    assert "Hanging is unstable." in option_verdict(results, "swing").sentences
+    assert "Hanging is unstable." not in option_verdict(results, "calm").sentences
+
+
 def test_best_and_worst_are_found(results: xr.Dataset) -> None:
     table = extremes_table(results)
     assert table is not None

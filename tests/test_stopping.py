@@ -17,7 +17,8 @@ from vibroacoustics.parameters.study import Study
 from vibroacoustics.pipeline.stopping import MAP_REVOLUTIONS, stopping_sound
 from vibroacoustics.pipeline.transient import LOAD_SAMPLES, RESULT_SAMPLES, transient
 from vibroacoustics.report import render
-from vibroacoustics.report.stopping import stopping_section
+from vibroacoustics.report.sections import SECTIONS
+from vibroacoustics.report.stopping import forces_table, sentences
 from vibroacoustics.schema import check, stamp
 from vibroacoustics.stopping.paths import inertia_over_angle
 from vibroacoustics.transfer import RigidBodyOnMounts
@@ -312,18 +313,15 @@ def test_report_has_a_section(results):
     assert '<section id="stopping">' in page
     assert "figures/stopping.png" in files
     assert "figures/stopping_order_map.png" in files
-    section = stopping_section(results)
-    assert section is not None
     foot = results["stopping_foot_force"].sel(stopping_phase="stopping").item()
-    assert section.forces.rows[0][-1] == f"{foot:.1f}"
-    assert "stop from the highest speed without gas load" in section.sentences[1]
-    without = stopping_section(results.drop_vars("stopping_order_map"))
-    assert without is not None
-    assert "There is no order map" in without.sentences[1]
+    assert forces_table(results).rows[0][-1] == f"{foot:.1f}"
+    assert "stop from the highest speed without gas load" in sentences(results)[1]
+    without = sentences(results.drop_vars("stopping_order_map"))
+    assert "There is no order map" in without[1]
 
 
 def test_no_section_without_inside():
-    assert stopping_section(xr.Dataset()) is None
+    assert not SECTIONS["stopping"].applies(xr.Dataset())
 
 
 # --- bad input -----------------------------------------------------------------------------------

@@ -196,10 +196,12 @@ def report_command(
     out: Annotated[
         Path | None, typer.Option("--out", help="Folder of the report; default: that of the file.")
     ] = None,
+    plugin: Plugins = None,
 ) -> None:
     """Write the report of results again, without computing anything."""
     from . import outputs
 
+    _load(plugin)
     results = outputs.open_run(results_file)
     typer.echo(f"report: {outputs.write_report(results, out or results_file.parent)}")
 

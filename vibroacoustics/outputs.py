@@ -82,7 +82,12 @@ def write_report(results: xr.Dataset, folder: str | Path) -> Path:
 
 
 def write_all(results: xr.Dataset, folder: str | Path) -> Path:
-    """Write the dataset and then the report; returns the path of the report."""
+    """Write the dataset and then the report; returns the path of the report.
+
+    The dataset holds what sections and columns of plug-ins show, so that the report can be made
+    again without them.
+    """
+    results = report.keep(results)
     storage.write_results(results, Path(folder) / RESULTS_NAME)
     return write_report(results, folder)
 

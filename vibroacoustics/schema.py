@@ -87,6 +87,7 @@ COORDINATES: Final[dict[str, Variable]] = {
     "stopping_block": Variable(("stopping_block",), "1", "block of revolutions of the run-down"),
     "stopping_block_time": Variable(("stopping_block",), "s", "middle of the block"),
     "stopping_block_speed": Variable(("stopping_block",), "rpm", "mean speed over the block"),
+    "column": Variable(("column",), "", "further column of the comparison, unit in its name"),
     "foot_position": Variable(
         ("foot", "axis"), "m", "foot position from the centre of mass at rest"
     ),
@@ -336,6 +337,9 @@ VARIABLES: Final[dict[str, Variable]] = {
         ("axis", "stopping_block", "map_order"),
         "N",
         "order spectra of the force on the housing in a stop without gas load, peak",
+    ),
+    "column_value": Variable(
+        ("column", "option", "speed", "receiver"), "", "further column of the comparison"
     ),
     "published_score": Variable(
         ("published_option", "published_criterion"), "1", "published score, as printed"

@@ -1,23 +1,18 @@
 """The report: what a finished run says, as HTML, CSV, Markdown, plain text and figures."""
 
+import json
+
 import xarray as xr
 
+from ..base.hashing import canonical_json
+from ..base.registry import plugins
 from .comparison import comparison_csv, comparison_text
-from .figures import (
-    force_figures,
-    level_figures,
-    line_map_figures,
-    mount_figures,
-    order_figures,
-    score_figures,
-    source_figures,
-    transfer_figures,
-)
 from .figures.compared_orders import compared_order_figures
 from .figures.recorded_orders import recorded_order_figures
-from .figures.stopping import stopping_figures
 from .html import html
-from .markdown import comparison_markdown
+from .kept_columns import keep_columns
+from .kept_sections import keep_sections
+from .markdown import markdown
 from .order_tables import (
     comparison_of_orders_csv,
     comparison_of_orders_text,
@@ -25,6 +20,7 @@ from .order_tables import (
     orders_csv,
     orders_text,
 )
+from .page import page_of
 from .radiation_figures import radiation_figures
 from .radiation_tables import radiation_text
 from .scores import scores_csv
@@ -36,6 +32,7 @@ __all__ = [
     "comparison_of_orders_csv",
     "comparison_of_orders_text",
     "comparison_text",
+    "keep",
     "levels_csv",
     "orders_csv",
     "orders_text",
@@ -45,18 +42,6 @@ __all__ = [
     "render",
 ]
 
-_FIGURES = (
-    order_figures,
-    source_figures,
-    force_figures,
-    mount_figures,
-    transfer_figures,
-    level_figures,
-    line_map_figures,
-    stopping_figures,
-    score_figures,
-)
-
 
 def render(results: xr.Dataset) -> dict[str, bytes]:
     """All files of the report, by name; `/` in a name stands for a folder.
@@ -65,12 +50,22 @@ def render(results: xr.Dataset) -> dict[str, bytes]:
     ----------
     results : dataset of a finished run, its attributes included
     """
-    pictures = [picture for make in _FIGURES for picture in make(results)]
+    page = page_of(results)
     return {
-        "report.html": html(results, pictures),
+        "report.html": html(page),
         "comparison.csv": comparison_csv(results),
-        "comparison.md": comparison_markdown(results),
+        "comparison.md": markdown(page),
         "scores.csv": scores_csv(results),
         **({"sources.csv": sources_csv(results)} if has_inner_sources(results) else {}),
-        **{f"figures/{picture.name}.png": picture.png for picture in pictures},
+        **{file: picture.png for file, picture in page.pictures().items()},
     }
+
+
+def keep(results: xr.Dataset) -> xr.Dataset:
+    """The results with what strangers' sections and columns show, and where these come from.
+
+    The report can then be made again without them.
+    """
+    kept = keep_sections(keep_columns(results))
+    known = json.loads(kept.attrs.get("plugins") or "{}")
+    return kept.assign_attrs(plugins=canonical_json({**known, **plugins()}))

@@ -35,6 +35,12 @@ def band(results: xr.Dataset, name: str, **at: Any) -> Band:
     return Band(*map(float, results[f"{name}_quantile"].sel(at).transpose("quantile").values))
 
 
+def bands_by_speed(results: xr.Dataset, name: str, **at: Any) -> tuple[Band, ...]:
+    """Bands of a variable's quantiles at every speed, at an option and a receiver."""
+    quantiles = results[f"{name}_quantile"].sel(at).transpose("speed", "quantile").values
+    return tuple(Band(*row) for row in quantiles.tolist())
+
+
 def energy_share(level_db: float, of_level_db: float) -> float:
     """Energy of a level as a share of another's."""
     return float(10.0 ** ((level_db - of_level_db) / 10.0))

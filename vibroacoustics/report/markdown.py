@@ -1,36 +1,67 @@
-"""The comparison as Markdown."""
+"""The report as Markdown; figures are files beside it."""
 
-import xarray as xr
+from functools import singledispatch
 
-from ..base.rounding import FORCE_FLOOR, LEVEL_FLOOR_DB, fixed
-from . import source_tables, verdict
-from .comparison import comparison_tables
-from .study import catalogue_receiver, has_inner_sources, other_receivers, parameters
-from .tables import escape_markdown, to_markdown
+from .blocks import Block, Bullets, Definitions, Details, Heading, Pictures, Text
+from .page import Page, figure_file
+from .tables import Table, escape_markdown, to_markdown
 
 
-def comparison_markdown(results: xr.Dataset) -> bytes:
-    """Verdict and tables, the catalogue's microphone first."""
-    receivers = [catalogue_receiver(results), *other_receivers(results)]
-    tables = [table for name in receivers for table in comparison_tables(results, name)]
-    if has_inner_sources(results):
-        inside = (source_tables.source_tables(results), source_tables.change_tables(results))
-        tables = [*inside[0], *inside[1], *tables]
+def markdown(page: Page) -> bytes:
+    """The sections of the page, each under its heading."""
     parts = [
-        f"# {escape_markdown(parameters(results)['title'])}",
-        escape_markdown(verdict.headline(results)),
-        "\n".join(f"- {escape_markdown(text)}" for text in verdict.reasons(results)),
-        _legend(),
-        *(to_markdown(table) for table in tables),
+        f"# {escape_markdown(page.title)}",
+        escape_markdown(f"{page.machine}. Computed {page.created}."),
     ]
-    return ("\n\n".join(parts) + "\n").encode()
+    for part in page.parts:
+        parts.append(f"## {escape_markdown(part.title)}")
+        parts += [_block(block) for block in part.blocks]
+    return ("\n\n".join(filter(None, parts)) + "\n").encode()
 
 
-def _legend() -> str:
-    return escape_markdown(
-        "1×, 2×: once and twice per shaft revolution. Forces (N) and moments (N m) are semi-major "
-        "axes, peak, about the centre of mass; the foot force is the largest over the feet; below "
-        f"{1e6 * FORCE_FLOOR:g} µN they are shown as 0. Levels are in dB re 20 µPa; below "
-        f"{fixed(LEVEL_FLOOR_DB, 0)} dB they are silent. Δ is the change against none; – stands "
-        "where the line without a balancer is silent."
+@singledispatch
+def _block(block: Block) -> str:
+    raise TypeError(f"{block!r}: is no block")
+
+
+@_block.register
+def _text(block: Text) -> str:
+    words = escape_markdown(block.words)
+    return f"**{words}**" if block.kind in {"headline", "strong"} else words
+
+
+@_block.register
+def _heading(block: Heading) -> str:
+    return f"### {escape_markdown(block.words)}"
+
+
+@_block.register
+def _bullets(block: Bullets) -> str:
+    return "\n".join(f"- {escape_markdown(item)}" for item in block.items)
+
+
+@_block.register
+def _definitions(block: Definitions) -> str:
+    return "\n".join(
+        f"- **{escape_markdown(own.term)}** ({escape_markdown(own.tag)}): "
+        f"{escape_markdown(own.words)}"
+        for own in block.entries
     )
+
+
+@_block.register
+def _table(block: Table) -> str:
+    return to_markdown(block)
+
+
+@_block.register
+def _pictures(block: Pictures) -> str:
+    return "\n\n".join(
+        f"![{escape_markdown(own.alt)}]({figure_file(own)})\n{escape_markdown(own.caption)}"
+        for own in block.pictures
+    )
+
+
+@_block.register
+def _details(block: Details) -> str:
+    return "\n\n".join([f"### {escape_markdown(block.summary)}", *map(_block, block.blocks)])

@@ -7,9 +7,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ..base import rounding
-from .bands import Band, band, band_words
+from .bands import Band, band_words, bands_by_speed
 from .shifts import HEARD_DB, TOLERANCE_DB
-from .study import balancers, catalogue_receiver, overall_noise, speeds
+from .study import balancers, catalogue_receiver, many_speeds, overall_noise, speeds
 
 
 class SourceChange(NamedTuple):
@@ -33,10 +33,7 @@ def source_change(results: xr.Dataset, option: str) -> SourceChange:
     """Changes by an option at the catalogue's microphone."""
     at = {"option": option, "receiver": catalogue_receiver(results)}
     return SourceChange(
-        *(
-            tuple(band(results, name, speed=speed, **at) for speed in speeds(results))
-            for name in ("change_all_sources", "change_whole")
-        )
+        *(bands_by_speed(results, name, **at) for name in ("change_all_sources", "change_whole"))
     )
 
 
@@ -100,6 +97,9 @@ def _by_speed(results: xr.Dataset, bands: tuple[Band, ...]) -> str:
     words = [change_words(own) for own in bands]
     if len(set(words)) == 1:
         return words[0]
+    if many_speeds(results):
+        lowest, highest = min(own.lowest for own in bands), max(own.highest for own in bands)
+        return f"{change_words(Band(lowest, lowest, highest))}, depending on the speed"
     return " and ".join(
         f"{text} at {speed:g} rpm" for text, speed in zip(words, speeds(results), strict=True)
     )

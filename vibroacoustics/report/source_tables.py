@@ -9,7 +9,7 @@ from ..base import rounding
 from ..schema import REFERENCE_OPTION
 from . import labels
 from .bands import Band, band, band_words, energy_share, percent
-from .comparison import comparison
+from .comparison import column
 from .source_changes import key_figure
 from .source_words import quoted_speed, ranked, source_name
 from .study import balancers, catalogue_receiver, options, overall_noise, speeds
@@ -146,12 +146,10 @@ def _row(
 
 def _change_row(results: xr.Dataset, option: str, speed: float) -> tuple[str, ...]:
     place = {"option": option, "speed": speed, "receiver": catalogue_receiver(results)}
-    compared = comparison(results)
-    line = compared["level_1x_db"].sel({**place, "option": [option, REFERENCE_OPTION]}).values
-    cells = [
-        option,
-        rounding.level_change(float(compared["change_1x_db"].sel(place)), *map(float, line)),
-    ]
+    of_both = {**place, "option": [option, REFERENCE_OPTION]}
+    line = column(results, "level_1x_db").sel(of_both).values
+    change = float(column(results, "change_1x_db").sel(place))
+    cells = [option, rounding.level_change(change, *map(float, line))]
     for name in ("change_all_sources", "change_whole"):
         cells.append(rounding.signed(float(results[name].sel(place))))
         cells.append(band(results, name, **place).ends(rounding.signed))

@@ -9,7 +9,14 @@ from ..base import rounding
 from ..schema import REFERENCE_OPTION
 from . import labels
 from .bands import Band, band, band_words, draws, energy_share, percent
-from .study import catalogue_receiver, first_order_hz, overall_noise, parameters, speeds
+from .study import (
+    catalogue_receiver,
+    first_order_hz,
+    many_speeds,
+    overall_noise,
+    parameters,
+    speeds,
+)
 
 NAMES: Final = {
     "moving_parts": "moving parts (orders of the rigid machine)",
@@ -183,9 +190,16 @@ def _up_to(results: xr.Dataset) -> str:
 def _not_an_order(results: xr.Dataset) -> str:
     """Keep the motor's line apart from 2x."""
     lines = parameters(results)["inside"]["line_frequency_hz"]
-    pairs = ", ".join(
-        f"{2.0 * line:g} Hz beside 2× at {2.0 * first:.1f} Hz ({speed:g} rpm)"
-        for speed, line, first in zip(speeds(results), lines, first_order_hz(results), strict=True)
+    pairs = (
+        f"{rounding.span(lines, lambda line: f'{2.0 * line:g}')} Hz beside 2× at "
+        f"{rounding.span(2.0 * first_order_hz(results), rounding.fixed)} Hz"
+        if many_speeds(results)
+        else ", ".join(
+            f"{2.0 * line:g} Hz beside 2× at {2.0 * first:.1f} Hz ({speed:g} rpm)"
+            for speed, line, first in zip(
+                speeds(results), lines, first_order_hz(results), strict=True
+            )
+        )
     )
     figures = results["inner_figure"].sel(option=REFERENCE_OPTION)
     motor = float(figures.sel(inner_figure_name="foot_force_2x_line_n").max())

@@ -1,6 +1,6 @@
 """What happens when the machine is switched off, against steady running."""
 
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 import xarray as xr
@@ -14,20 +14,9 @@ from .tables import Table
 Real = NDArray[np.float64]
 
 
-class StoppingSection(NamedTuple):
-    """Sentences and tables of the section."""
-
-    sentences: tuple[str, ...]
-    forces: Table
-    sound: Table
-
-
-def stopping_section(results: xr.Dataset) -> StoppingSection | None:
-    """The section, if the study has a run-down."""
-    if "stopping_force" not in results:
-        return None
-    sentences = (_finding(results), _map_sentence(results), _limits(results))
-    return StoppingSection(sentences, _forces_table(results), _sound_table(results))
+def sentences(results: xr.Dataset) -> tuple[str, ...]:
+    """What the stop does, its order map, and what is left out."""
+    return (_finding(results), _map_sentence(results), _limits(results))
 
 
 def force_and_moments(results: xr.Dataset) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
@@ -114,7 +103,8 @@ def _limits(results: xr.Dataset) -> str:
     )
 
 
-def _forces_table(results: xr.Dataset) -> Table:
+def forces_table(results: xr.Dataset) -> Table:
+    """Largest forces before and after switch-off, a row per speed."""
     foot = results["stopping_foot_force"].sel(stopping_phase=list(_PHASES)).values
     pairs = [*(_greatest(values) for values in force_and_moments(results)), (foot[0], foot[1])]
     rows = tuple(
@@ -132,7 +122,8 @@ def _forces_table(results: xr.Dataset) -> Table:
     return Table(caption, ("Speed", "Time to rest, s", "Revolutions", *head), rows)
 
 
-def _sound_table(results: xr.Dataset) -> Table:
+def sound_table(results: xr.Dataset) -> Table:
+    """Greatest levels before and after switch-off, a row per microphone."""
     kinds = ("stopping_fast_maximum_level", "stopping_peak_level")
     rows = tuple(
         (

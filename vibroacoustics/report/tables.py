@@ -3,10 +3,12 @@
 import csv
 import io
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
+from dataclasses import dataclass, field
+from typing import Literal
 
 
-class Table(NamedTuple):
+@dataclass(frozen=True)
+class Table:
     """Rows of finished text under a head; the first column names the row."""
 
     caption: str
@@ -14,6 +16,7 @@ class Table(NamedTuple):
     rows: tuple[tuple[str, ...], ...]
     words: frozenset[int] = frozenset({0})
     """Columns of words, set flush left; numbers are set flush right."""
+    block: Literal["table"] = field(default="table", kw_only=True, repr=False)
 
 
 def to_csv(columns: Sequence[str], rows: Iterable[Sequence[str | float]]) -> bytes:

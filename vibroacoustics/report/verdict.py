@@ -32,6 +32,7 @@ from .study import (
     catalogue_receiver,
     first_order_hz,
     has_inner_sources,
+    many_speeds,
     overall_noise,
     parameters,
     speeds,
@@ -108,7 +109,22 @@ def _as_it_is(results: xr.Dataset) -> str:
     own = comparison(results).sel(
         {"option": REFERENCE_OPTION, "receiver": catalogue_receiver(results)}
     )
-    shaken = ", ".join(
+    shaken = (
+        _shaken_over_the_speeds(results, own)
+        if many_speeds(results)
+        else _shaken_by_speed(results, own)
+    )
+    return (
+        f"Without a balancer the moving parts shake the {_body(results)} at 1× with {shaken}; "
+        f"at 2× with {_twice(float(own['force_2x_n'].max()))}. A foot passes on at most "
+        f"{FOOT_FORCE.write(float(own['foot_force_1x_n'].max()))}; at {own['receiver'].item()} the "
+        f"1× line has {rounding.span(own['level_1x_db'].values, rounding.level)} dB or "
+        f"{rounding.span(own['level_1x_dba'].values, rounding.level)} dB(A)."
+    )
+
+
+def _shaken_by_speed(results: xr.Dataset, own: xr.Dataset) -> str:
+    return ", ".join(
         f"{FORCE.write(force)} and {MOMENT.write(moment)} at {speed:g} rpm ({frequency:.1f} Hz)"
         for speed, frequency, force, moment in zip(
             speeds(results),
@@ -118,12 +134,15 @@ def _as_it_is(results: xr.Dataset) -> str:
             strict=True,
         )
     )
+
+
+def _shaken_over_the_speeds(results: xr.Dataset, own: xr.Dataset) -> str:
+    """Ranges, where a list of all speeds would be long."""
     return (
-        f"Without a balancer the moving parts shake the {_body(results)} at 1× with {shaken}; "
-        f"at 2× with {_twice(float(own['force_2x_n'].max()))}. A foot passes on at most "
-        f"{FOOT_FORCE.write(float(own['foot_force_1x_n'].max()))}; at {own['receiver'].item()} the "
-        f"1× line has {rounding.span(own['level_1x_db'].values, rounding.level)} dB or "
-        f"{rounding.span(own['level_1x_dba'].values, rounding.level)} dB(A)."
+        f"{rounding.span(own['force_1x_n'].values, rounding.significant)} N and "
+        f"{rounding.span(own['moment_1x_nm'].values, rounding.significant)} N m at "
+        f"{rounding.span(speeds(results), '{:g}'.format)} rpm "
+        f"({rounding.span(first_order_hz(results), rounding.fixed)} Hz)"
     )
 
 

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ...schema import REFERENCE_OPTION
+from ..study import few_speeds
 from .style import Picture, plain, render
 from .unit_levels import (
     COLOUR_MAP,
@@ -60,10 +61,10 @@ def map_figure(radiated: xr.Dataset) -> Picture:
 
 
 def line_map_figures(results: xr.Dataset) -> list[Picture]:
-    """Level of the 1x line of option `none` on the map, by speed; nothing without a map."""
+    """Level of the 1x line of option `none` on the map, by speed shown; nothing without a map."""
     if "map_level" not in results:
         return []
-    level = results["map_level"].sel(option=REFERENCE_OPTION)
+    level = few_speeds(results)["map_level"].sel(option=REFERENCE_OPTION)
     panels = {f"{speed:g} rpm": level.sel(speed=speed).values for speed in level["speed"].values}
     return [
         Picture(

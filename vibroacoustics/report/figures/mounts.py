@@ -5,14 +5,15 @@ from collections.abc import Sequence
 import xarray as xr
 from matplotlib.axes import Axes
 
-from ..study import first_order_hz
+from ...base import rounding
+from ..study import first_order_hz, many_speeds
+from .first_order import mark_first_order
 from .style import COLOURS, Picture, draw, frequency_ticks, legend_below
 
 
 def mount_figures(results: xr.Dataset) -> list[Picture]:
     """Transmissibility along each axis, with the 1x line marked at every speed."""
     transmitted = abs(results["mount_transmissibility"])
-    shaft = first_order_hz(results)
 
     def paint(panels: Sequence[Axes]) -> None:
         (axes,) = panels
@@ -20,24 +21,29 @@ def mount_figures(results: xr.Dataset) -> list[Picture]:
         for curve, (dash, colour) in zip(transmitted, looks, strict=True):
             label = f"along {curve['axis'].item()}"
             axes.loglog(curve["mount_frequency"], curve, dash, color=colour, label=label)
-        for index, frequency in enumerate(shaft):
-            label = "1× at the speeds of the study" if index == 0 else "_nolegend_"
-            axes.axvline(frequency, color="black", linewidth=0.9, linestyle=":", label=label)
+        mark_first_order(axes, results, "black", "1× at the speeds of the study")
         axes.axhline(1.0, color="#888888", linewidth=0.8)
         axes.set_xlabel("Frequency, Hz")
         axes.set_ylabel("Sum of foot forces per force, 1")
         frequency_ticks(axes, transmitted["mount_frequency"].values)
         legend_below(axes)
 
-    marks = " and ".join(f"{frequency:.1f} Hz" for frequency in shaft[:2])
     return [
         Picture(
             "mount_transmissibility",
             "Transmissibility of the mounts along x, y and z against frequency, above one around "
             "the natural frequencies and falling above them.",
             "Sum of the foot forces per force at the centre of mass, along the same axis. "
-            f"Below 1 the mounts isolate. 1× lies at {marks}"
-            f"{'' if len(shaft) <= 2 else ' and further speeds'}.",
+            f"Below 1 the mounts isolate. 1× lies at {_first_order(results)}.",
             draw(1, 3.0, paint, 2),
         )
     ]
+
+
+def _first_order(results: xr.Dataset) -> str:
+    """Frequencies of 1×: the first two, or the range of many."""
+    shaft = first_order_hz(results)
+    if many_speeds(results):
+        return f"{rounding.span(shaft, rounding.fixed)} Hz"
+    marks = " and ".join(f"{frequency:.1f} Hz" for frequency in shaft[:2])
+    return marks if len(shaft) <= 2 else f"{marks} and further speeds"

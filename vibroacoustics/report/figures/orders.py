@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from ...base import rounding
-from ..study import catalogue_receiver, options, speeds
+from ..study import catalogue_receiver, few_speeds, options, speeds
 from .style import COLOURS, MARKERS, Picture, draw, legend_below, logarithmic_ticks, wrap
 
 HIGHEST_ORDER: Final = 4
@@ -18,8 +18,8 @@ LOWEST_FORCE_N: Final = 1e-3
 
 
 def order_figures(results: xr.Dataset) -> list[Picture]:
-    """One figure per quantity: a row per option, a marker per order, a panel per speed."""
-    receiver = catalogue_receiver(results)
+    """One figure per quantity: a row per option, a marker per order, a panel per speed shown."""
+    results, receiver = few_speeds(results), catalogue_receiver(results)
     feet = results["foot_force_amplitude"].max("foot")
     line = results["order_level"].sel(receiver=receiver, weighting="Z")
     floor_db = rounding.LEVEL_FLOOR_DB

@@ -9,7 +9,8 @@ from matplotlib.axes import Axes
 
 from ...base import rounding
 from ..comparison import comparison
-from ..study import catalogue_receiver, first_order_hz, has_inner_sources, options, speeds
+from ..study import catalogue_receiver, few_speeds, has_inner_sources, options, speeds
+from .first_order import first_order_marks, mark_first_order
 from .style import (
     COLOURS,
     Picture,
@@ -38,7 +39,7 @@ def level_figures(results: xr.Dataset) -> list[Picture]:
     """Where line, modelled level and total lie, for every option and speed."""
     receiver = catalogue_receiver(results)
     compared = comparison(results).sel(receiver=receiver)
-    names = options(results)
+    names, shown_speeds = options(results), speeds(few_speeds(results))
     what = "sources" if has_inner_sources(results) else "orders"
     kinds = {
         "level_1x_dba": ("1× line", "o", 6, COLOURS[3]),
@@ -47,7 +48,7 @@ def level_figures(results: xr.Dataset) -> list[Picture]:
     }
 
     def paint(panels: Sequence[Axes]) -> None:
-        for axes, speed in zip(panels, speeds(results), strict=True):
+        for axes, speed in zip(panels, shown_speeds, strict=True):
             for column, (label, marker, size, colour) in kinds.items():
                 values = compared[column].sel(speed=speed).values
                 shown = np.where(values >= rounding.LEVEL_FLOOR_DB, values, np.nan)
@@ -70,7 +71,7 @@ def level_figures(results: xr.Dataset) -> list[Picture]:
             if float(compared["level_modelled_dba"].max()) < float(total.min()) - 10.0
             else f"A-weighted levels at {receiver}: 1× line, all modelled {what} and the total"
             f"{', at the assumed values' if has_inner_sources(results) else ''}.",
-            draw(len(speeds(results)), 0.7 + 0.26 * len(names), paint, sharex=True),
+            draw(len(shown_speeds), 0.7 + 0.26 * len(names), paint, sharex=True),
         )
     ]
 
@@ -87,8 +88,7 @@ def _transfer(results: xr.Dataset, receiver: str) -> Picture:
             _transfer_panel(axes, simulated, closed, letter)
             axes.set_title(title.capitalize(), loc="left")
             axes.set_ylabel(unit)
-            for frequency in first_order_hz(results):
-                axes.axvline(frequency, color="#888888", linewidth=0.9, linestyle=":")
+            mark_first_order(axes, results, "#888888")
         panels[-1].set_xlabel("Frequency, Hz")
 
     greens = (
@@ -103,7 +103,8 @@ def _transfer(results: xr.Dataset, receiver: str) -> Picture:
         f"Sound pressure at {receiver} per velocity of the housing{greens}. "
         "tx, ty, tz: motion along x, y, z; "
         "rx, ry, rz: rotation about them; motions that do not radiate there are left out. "
-        "Upright dotted lines: 1× at the speeds of the study. Other microphones: in results.nc.",
+        f"{first_order_marks(results)}: 1× at the speeds of the study. Other microphones: in "
+        "results.nc.",
         draw(2, 2.5, paint, 0, sharex=True),
     )
 

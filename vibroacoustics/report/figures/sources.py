@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ...schema import REFERENCE_OPTION
 from ..shifts import HEARD_DB
 from ..source_words import quoted_speed, source_name
-from ..study import balancers, catalogue_receiver, has_inner_sources, speeds
+from ..study import balancers, catalogue_receiver, few_speeds, has_inner_sources, speeds
 from .style import MARKERS, Picture, draw, frequency_ticks, legend_below, line_looks, wrap
 
 QUIETEST_DB: Final = -10.0
@@ -67,10 +67,11 @@ def _sources(results: xr.Dataset) -> Picture:
 def _options(results: xr.Dataset, changing: list[str]) -> Picture:
     receiver = catalogue_receiver(results)
     names = [REFERENCE_OPTION, *changing]
-    level = _inner_level(results)
+    shown = few_speeds(results)
+    level = _inner_level(shown)
 
     def paint(panels: Sequence[Axes]) -> None:
-        for axes, speed in zip(panels, speeds(results), strict=True):
+        for axes, speed in zip(panels, speeds(shown), strict=True):
             curves = [level.sel(option=name, speed=speed).values for name in names]
             _curves(axes, level["band"].values, curves, [wrap(name, 24) for name in names])
             axes.set_title(f"{speed:g} rpm", loc="left")
@@ -84,7 +85,7 @@ def _options(results: xr.Dataset, changing: list[str]) -> Picture:
         f"Gas, keys and motor together (energies added) at {receiver}, values as assumed, no "
         f"weighting: options that change a band within {WITHIN_DB:g} dB of the loudest by more "
         f"than {HEARD_DB:g} dB. The 1× line is not in it.",
-        draw(len(speeds(results)), 2.4, paint, (len(names) + 1) // 2, sharex=True),
+        draw(len(speeds(shown)), 2.4, paint, (len(names) + 1) // 2, sharex=True),
     )
 
 

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import LogLocator, MaxNLocator
 from numpy.typing import NDArray
+from pydantic import Base64Bytes
 
 WIDTH_INCH: Final = 4.6
 DOTS_PER_INCH: Final = 160
@@ -56,7 +57,7 @@ class Picture(NamedTuple):
     name: str
     alt: str
     caption: str
-    png: bytes
+    png: Base64Bytes
 
 
 FAST: Final = {"compress_level": 1}

@@ -1,0 +1,163 @@
+"""Sections and blocks of the report, and what it shows of many speeds."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+import xarray as xr
+from test_report import make_results
+from test_report_sources import with_sources
+
+from vibroacoustics.report import blocks, comparison_text, render
+from vibroacoustics.report.columns import COLUMNS
+from vibroacoustics.report.figures.style import Picture
+from vibroacoustics.report.html import html
+from vibroacoustics.report.markdown import markdown
+from vibroacoustics.report.page import Page, Part
+from vibroacoustics.report.sections import SECTIONS
+from vibroacoustics.report.study import few_speeds, few_speeds_words, speeds
+from vibroacoustics.report.tables import Table
+
+PNG = b"\x89PNG and so on"
+EVERY_BLOCK = (
+    blocks.Text("see there", "note", (("there", "scores"),)),
+    blocks.Text("It is loud.", "headline"),
+    blocks.Heading("Head"),
+    blocks.Bullets(("first", "a|b")),
+    blocks.Definitions((blocks.Definition("term", "no change", "words"),)),
+    Table("Caption µ", ("Option", "N"), (("none", "1"),)),
+    blocks.Details("Fold", (blocks.Pictures((Picture("one", "alt", "caption", PNG),)),)),
+)
+BUILT_IN = [
+    "verdict", "comparison", "sources", "orders", "forces", "mounts", "radiation", "stopping",
+    "scores", "assumptions", "errata", "provenance",
+]  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def results() -> xr.Dataset:
+    made = with_sources({"none": 40.0, "rattles": 62.0})
+    parameters = json.loads(made.attrs["parameters"])
+    parameters["machine"]["errata"] = [{"item": "Mass", "printed": "1", "finding": "2"}]
+    return made.assign_attrs(parameters=json.dumps(parameters))
+
+
+def test_blocks_survive_json() -> None:
+    assert blocks.from_json(blocks.to_json(EVERY_BLOCK)) == EVERY_BLOCK
+    assert blocks.to_json(EVERY_BLOCK).isascii()
+
+
+def test_every_block_is_in_both_forms() -> None:
+    page = Page("Title", "Machine", "now", (Part("mine", "Mine", EVERY_BLOCK),))
+    in_html, in_markdown = html(page).decode(), markdown(page).decode()
+    assert '<p class="note">see <a href="#scores">there</a></p>' in in_html
+    assert '<span class="tag tag-no-change">no change</span>' in in_html
+    assert "<details><summary>Fold</summary>" in in_html
+    assert "data:image/png;base64," in in_html
+    assert "- a\\|b" in in_markdown
+    assert "![alt](figures/one.png)" in in_markdown
+    assert "| none | 1 |" in in_markdown
+    assert page.pictures()["figures/one.png"].png == PNG
+
+
+def test_what_is_no_block_is_refused() -> None:
+    for wrong in ("words", [blocks.Text(3)], [Table("c", ("a",), ((1,),))]):  # type: ignore[arg-type]
+        with pytest.raises(ValueError, match="validation error"):
+            blocks.to_json(wrong)  # type: ignore[arg-type]
+
+
+def test_sections_are_in_their_order() -> None:
+    assert [name for name in SECTIONS if name not in SECTIONS.origins()] == BUILT_IN
+
+
+@pytest.mark.parametrize("name", [name for name in BUILT_IN if name != "stopping"])
+def test_every_section_is_html_and_markdown(name: str, results: xr.Dataset) -> None:
+    section = SECTIONS[name]
+    assert section.applies(results)
+    page = Page("T", "M", "now", (Part(name, section.title, tuple(section.blocks(results))),))
+    in_html, in_markdown = html(page).decode(), markdown(page).decode()
+    assert f'<section id="{name}">\n<h2>{section.title}</h2>' in in_html
+    assert f"## {section.title}\n" in in_markdown
+    captions = re.findall(r"<caption>(.*?)</caption>", in_html)
+    assert len(captions) == len(re.findall(r"^\|[-: |]+\|$", in_markdown, re.MULTILINE))
+    assert in_html.count("<img ") == in_markdown.count("](figures/")
+    assert captions or "<img " in in_html
+
+
+def test_contents_lead_to_every_other_section(results: xr.Dataset) -> None:
+    page = render(results)["report.html"].decode()
+    contents = re.search(r"<nav.*?</nav>", page, re.DOTALL)
+    assert contents is not None
+    ids = re.findall(r'<section id="(.*?)">', page)
+    assert re.findall(r'href="#(.*?)"', contents[0]) == ids[1:]
+
+
+def test_names_and_units_of_the_columns() -> None:
+    assert [column.name for column in COLUMNS.values()][:2] == ["force_1x_n", "force_2x_n"]
+    for column in COLUMNS.values():
+        assert column.name.rsplit("_", 1)[1] in {"n", "nm", "db", "dba", "dbc"}
+        assert not column.change_of or column.change_of in COLUMNS
+
+
+def many(count: int = 23) -> xr.Dataset:
+    """Results at many speeds, the catalogue's 2900 rpm among them."""
+    grid = [*np.linspace(2000.0, 3700.0, count - 1), 2900.0]
+    return make_results({"none": 1.0, "halved": 0.5}, speeds=sorted(grid))
+
+
+def test_six_speeds_are_chosen_evenly() -> None:
+    results = many()
+    shown = speeds(few_speeds(results))
+    assert len(shown) == 6
+    assert {2000.0, 2900.0, 3700.0} <= set(shown)
+    assert shown == sorted(shown)
+    assert max(np.diff(shown)) < 3.0 * min(np.diff(shown))
+    assert few_speeds_words(results) == "6 of 23 speeds; all are in comparison.csv."
+    few = results.isel(speed=slice(6))
+    assert few_speeds(few) is few
+    assert few_speeds_words(few) == ""
+
+
+def test_speeds_in_any_order_keep_it() -> None:
+    results = many().isel(speed=slice(None, None, -1))
+    assert speeds(few_speeds(results))[0] == 3700.0
+    assert set(speeds(few_speeds(results))) == set(speeds(few_speeds(many())))
+
+
+def test_the_catalogue_speed_may_be_missing_or_last() -> None:
+    results = many()
+    without = results.sel(speed=results["speed"] != 2900.0)
+    assert len(speeds(few_speeds(without))) == 6
+    slow = results.sel(speed=slice(None, 2900.0))
+    assert speeds(few_speeds(slow))[-1] == 2900.0
+
+
+def test_many_speeds_make_six_tables_and_ranges() -> None:
+    files = render(many())
+    page = files["report.html"].decode()
+    assert page.count(", microphone front_1m</caption>") == 6
+    assert "6 of 23 speeds; all are in comparison.csv." in page
+    assert "at 2000 to 3700 rpm (33.3 to 61.7 Hz)" in page
+    assert len(files["comparison.csv"].decode().splitlines()) == 1 + 23 * 2 * 2
+    assert "6 of 23 speeds" in comparison_text(many())
+    of_few = render(make_results({"none": 1.0, "halved": 0.5}))["report.html"].decode()
+    assert "speeds; all are in" not in of_few
+
+
+def test_the_page_does_not_grow_with_the_speeds() -> None:
+    pages = [render(many(count))["report.html"] for count in (8, 60)]
+    assert len(pages[1]) < 1.2 * len(pages[0])
+
+
+def test_many_speeds_with_sources_are_six_tables(results: xr.Dataset) -> None:
+    times = np.repeat([0, 1], 6)
+    wide = results.isel(speed=times).assign_coords(speed=[2900.0, *np.linspace(2950.0, 3500.0, 11)])
+    wide.attrs = results.attrs | {
+        "parameters": results.attrs["parameters"].replace("[50.0, 60.0]", str([50.0] * 12))
+    }
+    wide["change_whole_quantile"] *= xr.DataArray(np.linspace(0.5, 1.0, 12), dims="speed")
+    page = render(wide)["report.html"].decode()
+    assert len(re.findall("<caption>[^<]*option none, microphone front_1m", page)) == 6
+    assert "6 of 12 speeds; all are in sources.csv." in page
+    assert "depending on the speed" in page

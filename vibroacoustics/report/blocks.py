@@ -1,0 +1,128 @@
+"""What a section of the report consists of: one list of blocks makes HTML, Markdown and JSON.
+
+All are frozen and hold finished text; `block` names the kind of block in templates and JSON.
+`Table` is a block too.
+"""
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from typing import Annotated, Literal, TypeAlias
+
+from pydantic import Field, TypeAdapter
+
+from .figures.style import Picture
+from .tables import Table
+
+
+@dataclass(frozen=True)
+class Text:
+    """A paragraph.
+
+    Attributes
+    ----------
+    words : the text
+    kind : `headline` opens the report, `note` explains how to read what follows
+    links : words of the text that lead to another section, each with the name of that section
+    block : kind of block
+    """
+
+    words: str
+    kind: Literal["plain", "headline", "strong", "note"] = "plain"
+    links: tuple[tuple[str, str], ...] = ()
+    block: Literal["text"] = field(default="text", kw_only=True, repr=False)
+
+
+@dataclass(frozen=True)
+class Heading:
+    """A heading within a section."""
+
+    words: str
+    block: Literal["heading"] = field(default="heading", kw_only=True, repr=False)
+
+
+@dataclass(frozen=True)
+class Bullets:
+    """A list of sentences."""
+
+    items: tuple[str, ...]
+    block: Literal["bullets"] = field(default="bullets", kw_only=True, repr=False)
+
+
+@dataclass(frozen=True)
+class Definition:
+    """A term, a tag of one or two words beside it, and what there is to say."""
+
+    term: str
+    tag: str
+    words: str
+
+
+@dataclass(frozen=True)
+class Definitions:
+    """A list of terms with what there is to say of each."""
+
+    entries: tuple[Definition, ...]
+    block: Literal["definitions"] = field(default="definitions", kw_only=True, repr=False)
+
+
+@dataclass(frozen=True)
+class Pictures:
+    """Figures side by side where there is room."""
+
+    pictures: tuple[Picture, ...]
+    block: Literal["pictures"] = field(default="pictures", kw_only=True, repr=False)
+
+
+@dataclass(frozen=True)
+class Details:
+    """Blocks that are folded below a summary."""
+
+    summary: str
+    blocks: "tuple[Block, ...]"
+    block: Literal["details"] = field(default="details", kw_only=True, repr=False)
+
+
+Block: TypeAlias = Annotated[
+    Text | Heading | Bullets | Definitions | Table | Pictures | Details,
+    Field(discriminator="block"),
+]
+
+
+def to_json(blocks: Sequence[Block]) -> str:
+    """Blocks as JSON in ASCII; pictures in base64.
+
+    Raises
+    ------
+    ValueError
+        One of them is no block, or holds a value of another type than its own.
+    """
+    text = json.dumps(_adapter().dump_python(tuple(blocks), mode="json", warnings=False))
+    from_json(text)
+    return text
+
+
+def from_json(text: str) -> tuple[Block, ...]:
+    """Blocks from their JSON.
+
+    Raises
+    ------
+    ValueError
+        The text is no JSON of blocks.
+    """
+    return _adapter().validate_json(text)
+
+
+def pictures(blocks: Sequence[Block]) -> Iterator[Picture]:
+    """All pictures of some blocks, folded ones too."""
+    for block in blocks:
+        if isinstance(block, Pictures):
+            yield from block.pictures
+        elif isinstance(block, Details):
+            yield from pictures(block.blocks)
+
+
+@cache
+def _adapter() -> TypeAdapter[tuple[Block, ...]]:
+    return TypeAdapter(tuple[Block, ...])

@@ -1,0 +1,58 @@
+"""Columns of the comparison: one value per option, speed and microphone.
+
+A column is one object, in one list of `built_in` or registered by a stranger; it appears in
+`comparison.csv`, and in the tables of the report and the terminal where it has a head for them.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+import xarray as xr
+
+from ...base import rounding
+from ...base.registry import LAST, Registry
+
+Values = Callable[[xr.Dataset], xr.DataArray]
+Write = Callable[[float, xr.Dataset], str]
+
+
+def amount(value: float, results: xr.Dataset) -> str:
+    """A quantity to three significant digits."""
+    return rounding.significant(value)
+
+
+def _always(results: xr.Dataset) -> bool:
+    return True
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of the comparison.
+
+    Attributes
+    ----------
+    name : as in comparison.csv, with its unit
+    values : from the results, over option, speed and, where it depends on it, receiver
+    head : in the tables of the report; None: not in them
+    terminal : head in the terminal; None: not there
+    write : text of a cell, from value and results
+    change_of : column of the level that this one is a change of: `–` where that is silent
+        without a balancer, `silent` where it is with the option
+    applies : whether results have such a column
+    position : from left to right; a stranger's are the last
+    """
+
+    name: str
+    values: Values
+    head: str | None = None
+    terminal: str | None = None
+    write: Write = amount
+    change_of: str = ""
+    applies: Callable[[xr.Dataset], bool] = _always
+    position: float = LAST
+
+
+COLUMNS: Final[Registry[Column]] = Registry(
+    "column", Column, "name", "report.columns", "vibroacoustics.columns"
+)

@@ -1,0 +1,126 @@
+"""Columns of strangers: checked, and kept in the results for a report without the plug-in."""
+
+import json
+from collections.abc import Mapping
+from functools import partial
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from ..base import rounding
+from ..schema import stamp
+from . import left_out
+from .columns import COLUMNS, Column, Write
+from .study import few_speeds
+
+ATTRIBUTE: Final = "report_columns"
+_PLACE: Final = ("option", "speed", "receiver")
+
+
+class ColumnsOf(NamedTuple):
+    """Columns of some results, and a line on each that is left out."""
+
+    columns: tuple[Column, ...]
+    left_out: tuple[str, ...]
+
+
+def columns_of(results: xr.Dataset) -> ColumnsOf:
+    """Built-in columns, those of strangers that are loaded, and kept ones of others, in order."""
+    strangers = COLUMNS.origins()
+    columns = [
+        own for own in COLUMNS.values() if own.name not in strangers and own.applies(results)
+    ]
+    names = frozenset(own.name for own in columns)
+    lines = []
+    for name in strangers:
+        try:
+            columns += _checked(COLUMNS[name], results, names)
+        except Exception as error:
+            lines.append(left_out.failure(f"column {name}", error))
+    columns += [own for own in _kept(results) if own.name not in COLUMNS]
+    absent = left_out.missing(results, "column", ATTRIBUTE)
+    lines += [line for name, line in absent.items() if name not in COLUMNS]
+    return ColumnsOf(tuple(sorted(columns, key=lambda own: own.position)), tuple(lines))
+
+
+def keep_columns(results: xr.Dataset) -> xr.Dataset:
+    """The results with head, values and texts of every column that is not built in."""
+    others = [
+        own
+        for own in columns_of(results).columns
+        if COLUMNS.origin(own.name) or own.name not in COLUMNS
+    ]
+    kept = results.drop_vars(["column_value", "column"], errors="ignore")
+    if not others:
+        return kept.assign_attrs({ATTRIBUTE: "[]"}) if COLUMNS.origins() else kept
+    arrays = [_values(own, results).astype(float) for own in others]
+    kept.attrs[ATTRIBUTE] = json.dumps(
+        [_as_json(own, values, results) for own, values in zip(others, arrays, strict=True)]
+    )
+    values = np.stack([array.values for array in arrays])
+    coords = {"column": [own.name for own in others], **{dim: results[dim] for dim in _PLACE}}
+    kept["column_value"] = stamp("column_value", values, coords)
+    return kept
+
+
+def _checked(column: Column, results: xr.Dataset, names: frozenset[str]) -> list[Column]:
+    """The column, if it applies and can be shown."""
+    if not column.applies(results):
+        return []
+    if column.change_of and column.change_of not in names:
+        raise ValueError(f"change_of = {column.change_of}: no such column")
+    _texts(column, _values(column, few_speeds(results)), results)
+    return [column]
+
+
+def _values(column: Column, results: xr.Dataset) -> xr.DataArray:
+    """Values over option, speed and microphone."""
+    values = column.values(results).reset_coords(drop=True)
+    if not set(values.dims) <= set(_PLACE):
+        raise ValueError(f"dimensions are {values.dims}; allowed {', '.join(_PLACE)}")
+    place = xr.Dataset(coords={dim: results[dim] for dim in _PLACE})
+    own, _ = xr.align(values, place, join="exact")
+    return own.broadcast_like(place).transpose(*_PLACE)
+
+
+def _texts(column: Column, values: xr.DataArray, results: xr.Dataset) -> dict[str, str]:
+    """Text of every value that is shown."""
+    shown = np.unique(values.values.astype(float)).tolist()
+    texts = {repr(value): column.write(value, results) for value in shown}
+    if not all(isinstance(text, str) for text in texts.values()):
+        raise ValueError("write gives no text")
+    return texts
+
+
+def _as_json(column: Column, values: xr.DataArray, results: xr.Dataset) -> dict[str, Any]:
+    shown = values.sel(speed=few_speeds(results)["speed"])
+    return {
+        **{name: getattr(column, name) for name in ("name", "head", "terminal", "change_of")},
+        "position": column.position,
+        "texts": _texts(column, shown, results),
+    }
+
+
+def _kept(results: xr.Dataset) -> list[Column]:
+    return [
+        Column(
+            own["name"],
+            partial(_kept_values, own["name"]),
+            own["head"],
+            own["terminal"],
+            _writer(own["texts"]),
+            own["change_of"],
+            position=own["position"],
+        )
+        for own in json.loads(results.attrs.get(ATTRIBUTE) or "[]")
+    ]
+
+
+def _kept_values(name: str, results: xr.Dataset) -> xr.DataArray:
+    return results["column_value"].sel(column=name, drop=True)
+
+
+def _writer(texts: Mapping[str, str]) -> Write:
+    """The texts that were kept; three digits for a value that was not shown then."""
+    return lambda value, results: texts.get(repr(value)) or rounding.significant(value)

@@ -1,0 +1,39 @@
+"""Sections of the report, each in one file: it says when it applies and of what it consists."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import xarray as xr
+
+from ...base.registry import LAST, Registry
+from ..blocks import Block
+
+
+def _always(results: xr.Dataset) -> bool:
+    return True
+
+
+@dataclass(frozen=True)
+class Section:
+    """A section of the report.
+
+    Attributes
+    ----------
+    name : of its address within the page
+    title : heading, and entry in the contents
+    blocks : makes what stands in it from the results, its pictures too
+    applies : whether results have such a section
+    position : from top to bottom; a stranger's are the last
+    """
+
+    name: str
+    title: str
+    blocks: Callable[[xr.Dataset], Sequence[Block]]
+    applies: Callable[[xr.Dataset], bool] = _always
+    position: float = LAST
+
+
+SECTIONS: Final[Registry[Section]] = Registry(
+    "section", Section, "name", "report.sections", "vibroacoustics.sections"
+)

@@ -1,0 +1,55 @@
+"""Every option beside every other: forces, levels and their changes."""
+
+import xarray as xr
+
+from ...base.registry import register
+from ...base.rounding import FORCE_FLOOR, LEVEL_FLOOR_DB, fixed
+from ..blocks import Block, Details, Heading, Text
+from ..comparison import comparison_tables
+from ..kept_columns import columns_of
+from ..speeds import chosen_speeds
+from ..study import catalogue_receiver, has_inner_sources, other_receivers
+from . import Section
+
+
+def _blocks(results: xr.Dataset) -> list[Block]:
+    receiver = catalogue_receiver(results)
+    return [
+        _legend(results),
+        *chosen_speeds(results, "comparison.csv"),
+        *(Text(line, "note") for line in columns_of(results).left_out),
+        Heading(f"Microphone of the overall level: {receiver}"),
+        *comparison_tables(results, receiver),
+        *(
+            Details(f"Microphone {name}", tuple(comparison_tables(results, name)))
+            for name in other_receivers(results)
+        ),
+    ]
+
+
+def _legend(results: xr.Dataset) -> Text:
+    sources = (
+        " Modelled and total levels include gas, keys and motor, at the assumed values; their "
+        "bands are in What carries the level."
+        if has_inner_sources(results)
+        else ""
+    )
+    links = [
+        ("assumptions", "assumptions"),
+        *([("What carries the level", "sources")] if sources else []),
+    ]
+    floor = f"{1e6 * FORCE_FLOOR:g}"
+    return Text(
+        "1× and 2× are once and twice per shaft revolution. Forces (N) and moments (N m, about "
+        "the centre of mass) are peak values: the semi-major axis of the ellipse that the "
+        "resultant draws. The foot force is the largest over the feet. Values below "
+        f"{floor} µN or µN m are rounding errors and shown as 0. Levels are in dB re 20 µPa, rms; "
+        f"below {fixed(LEVEL_FLOOR_DB, 0)} dB they are silent. The total holds the part that is "
+        f"not modelled (see assumptions).{sources} Δ is the change against none; “–” stands where "
+        "the line without a balancer is silent, “silent” where the option silences it.",
+        "note",
+        tuple(links),
+    )
+
+
+register(Section("comparison", "Comparison", _blocks, position=20.0))

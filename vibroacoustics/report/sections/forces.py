@@ -1,0 +1,28 @@
+"""Force over a revolution, and the figures that the options report."""
+
+import xarray as xr
+
+from ...base.registry import register
+from ..blocks import Block, Pictures, Text
+from ..figures import force_figures
+from ..option_facts import facts_table
+from ..speeds import chosen_speeds
+from ..study import few_speeds
+from . import Section
+
+
+def _blocks(results: xr.Dataset) -> list[Block]:
+    facts = facts_table(few_speeds(results))
+    shown = _figure(results)
+    return [shown, *chosen_speeds(results, "results.nc"), facts] if facts else [shown]
+
+
+def _figure(results: xr.Dataset) -> Block:
+    """The force, where the run kept it over time."""
+    figures = tuple(force_figures(results))
+    if not figures:
+        return Text("Forces over crank angle are not in these results: operation.keep_time_series.")
+    return Pictures(figures)
+
+
+register(Section("forces", "Force over a revolution", _blocks, position=50.0))

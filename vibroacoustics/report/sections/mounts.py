@@ -1,0 +1,29 @@
+"""The housing on its mounts."""
+
+import xarray as xr
+
+from ...base.registry import register
+from ..blocks import Block, Pictures, Text
+from ..figures import mount_figures
+from ..housing import block_table, isolation_sentence, modes_table
+from ..speeds import chosen_speeds
+from ..study import few_speeds
+from . import Section
+
+
+def _blocks(results: xr.Dataset) -> list[Block]:
+    return [
+        Text(isolation_sentence(results)),
+        modes_table(results),
+        *_block(results),
+        Pictures(tuple(mount_figures(results))),
+    ]
+
+
+def _block(results: xr.Dataset) -> list[Block]:
+    """Displacement of a block on springs, where there is one."""
+    table = block_table(few_speeds(results))
+    return [*chosen_speeds(results, "results.nc"), table] if table else []
+
+
+register(Section("mounts", "Mounts", _blocks, position=60.0))

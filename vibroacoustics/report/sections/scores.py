@@ -1,0 +1,44 @@
+"""How the options rank, and the published scores."""
+
+import xarray as xr
+
+from ...base.registry import register
+from .. import scores
+from ..blocks import Block, Heading, Pictures, Text
+from ..figures import score_figures
+from ..study import parameters
+from . import Section
+
+
+def _blocks(results: xr.Dataset) -> list[Block]:
+    draws = parameters(results)["scoring"]["random_weightings"]
+    return [
+        Text(
+            "Each criterion gives a utility from 0 (worst) to 1 (best) on a fixed scale. The "
+            "weighted sum adds the utilities times their weights; TOPSIS measures closeness to "
+            "the ideal option. The last column says how often an option comes first in "
+            f"{draws} random weightings. Scale and weights are a choice of the study, not a "
+            f"result.{scores.scope_words(results)}"
+        ),
+        scores.scores_table(results),
+        Pictures(tuple(score_figures(results))),
+        scores.criteria_table(results),
+        scores.values_table(results),
+        *_published(results),
+    ]
+
+
+def _published(results: xr.Dataset) -> list[Block]:
+    table = scores.published_table(results)
+    if table is None:
+        return []
+    wrong = ", ".join(scores.wrong_sums(results))
+    return [
+        Heading("Published scores"),
+        Text(scores.published_source(results)),
+        *([Text(f"The printed sum does not add up for {wrong}.", "strong")] if wrong else []),
+        table,
+    ]
+
+
+register(Section("scores", "Scores", _blocks, position=90.0))

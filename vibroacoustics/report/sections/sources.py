@@ -1,0 +1,53 @@
+"""What carries the level: the sources of sound, and what the options do to them."""
+
+import xarray as xr
+
+from ...base.registry import register
+from .. import source_tables, source_words
+from ..blocks import Block, Bullets, Heading, Pictures, Text
+from ..figures import source_figures
+from ..speeds import chosen_speeds
+from ..study import few_speeds, has_inner_sources
+from . import Section
+
+
+def _blocks(results: xr.Dataset) -> list[Block]:
+    return [
+        Text(source_words.carrier_sentence(results), "strong"),
+        Text(source_words.shares_sentence(results)),
+        Heading("How sure that is"),
+        Bullets(tuple(source_words.certainty_sentences(results))),
+        Heading("Sources without a balancer"),
+        Text(
+            "Each level is that of the source alone. Shares of the modelled energy add up to "
+            "100 %: lines of two sources at one frequency add as phasors, so a share can be "
+            "negative. The band of a sum is not the sum of bands. The remainder is what each draw "
+            "leaves of the published level.",
+            "note",
+        ),
+        *chosen_speeds(results, "sources.csv"),
+        *source_tables.source_tables(few_speeds(results)),
+        Pictures(tuple(source_figures(results))),
+        *_changes(few_speeds(results)),
+        source_tables.figures_table(few_speeds(results)),
+    ]
+
+
+def _changes(results: xr.Dataset) -> list[Block]:
+    tables = source_tables.change_tables(results)
+    if not tables:
+        return []
+    return [
+        Heading("What the options do to all sources"),
+        Text(
+            "The change of all modelled sources holds the high-frequency side effects of an "
+            "option: keys without preload that strike, and what pushes the ring. The total adds "
+            "the remainder, which is held constant. A band that reaches from below to above zero "
+            "says that not even the sign is known.",
+            "note",
+        ),
+        *tables,
+    ]
+
+
+register(Section("sources", "What carries the level", _blocks, has_inner_sources, 30.0))
