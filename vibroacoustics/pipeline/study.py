@@ -3,7 +3,7 @@
 study -> moving parts -> orders -> transfer -> radiation -> levels -> scores, one dataset.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import product
 from typing import Final
 
@@ -38,7 +38,7 @@ from .inner_sound import shell_path
 from .inside import inside_sound
 from .progress import Progress
 from .radiating import attributes, sound_field, transfer_vectors, within
-from .speed_blocks import TIME_SERIES, blocks, check_size, joined
+from .speed_blocks import TIME_SERIES, blocks, check_size, gathered
 from .stopping import stopping_sound
 
 MOUNT_FREQUENCY_HZ: Final[Array] = np.asarray(np.geomspace(1.0, 200.0, 400), dtype=np.float64)
@@ -88,7 +88,10 @@ def _run(study: Study, progress: Progress) -> xr.Dataset:
 
 def _motion(study: Study, progress: Progress) -> xr.Dataset:
     """Forces, their orders and the motion that follows, block by block of speeds."""
-    parts: list[xr.Dataset] = []
+    return gathered(_motion_blocks(study, progress), len(study.operation.speed_rpm))
+
+
+def _motion_blocks(study: Study, progress: Progress) -> Iterator[xr.Dataset]:
     done, total = 0, len(study.operation.speed_rpm) * len(study.options)
 
     def advance(task: str, step: int, _: int) -> None:
@@ -100,11 +103,10 @@ def _motion(study: Study, progress: Progress) -> xr.Dataset:
         part = part.merge(_housing(study, part))
         if not study.operation.keeps_time_series:
             part = part.drop_vars(TIME_SERIES)
-        if not parts:
+        if done == 0:
             check_size(study, part, progress)
-        parts.append(part)
+        yield part
         done += len(speeds) * len(study.options)
-    return joined(parts)
 
 
 def _at_speeds(study: Study, speeds: tuple[float, ...], options: Mapping[str, Option]) -> Study:
