@@ -1,12 +1,12 @@
-"""Machine files of issue 5 as parameter objects."""
+"""Machine files of `data/machines` as parameter objects."""
 
 from pathlib import Path
 from typing import Any, TypeVar
 
 from support import ROOT
 
+from vibroacoustics.base.parameters import Parameters
 from vibroacoustics.loading import _read_toml, _Reader
-from vibroacoustics.parameters.base import Parameters
 from vibroacoustics.validation import validated
 
 Model = TypeVar("Model", bound=Parameters)

@@ -7,7 +7,7 @@ import numpy as np
 from support import PIPELINES, ROOT
 
 from vibroacoustics.loading import load_study
-from vibroacoustics.parameters.slider_link import SliderLinkMachine
+from vibroacoustics.mechanisms.slider_link.machine import SliderLinkMachine
 
 MACHINE_FILE = ROOT / "data" / "machines" / "dagilis_slider_link.toml"
 STUDY = PIPELINES / "dagilis_slider_link.toml"

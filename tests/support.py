@@ -16,11 +16,17 @@ import pytest
 import xarray as xr
 
 from vibroacoustics import cli, pipeline
-from vibroacoustics.balancers import BALANCERS
 from vibroacoustics.loading import load_study
-from vibroacoustics.mechanisms.oldham import oldham_ring
-from vibroacoustics.mechanisms.rotating_set import rotating_set
-from vibroacoustics.moving_parts import Array, Balancing, MovingPart, wrench
+from vibroacoustics.mechanics.added import Added
+from vibroacoustics.mechanics.moving_parts import (
+    Array,
+    MovingPart,
+    Revolution,
+    wrench,
+)
+from vibroacoustics.mechanics.rotation import Rotation, constant_rotation
+from vibroacoustics.mechanisms.oldham_scroll.ring import oldham_ring
+from vibroacoustics.mechanisms.oldham_scroll.rotating_set import rotating_set
 from vibroacoustics.orders import order_spectrum
 from vibroacoustics.parameters.study import Study
 from vibroacoustics.radiation.arrays import Progress, no_progress
@@ -29,7 +35,6 @@ from vibroacoustics.radiation.box import Box, BoxField, closed_box
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.patterns import Pattern
 from vibroacoustics.radiation.surface_points import SurfacePoints, surface_points
-from vibroacoustics.rotation import Rotation, constant_rotation
 from vibroacoustics.schema import RIGID_BODY_DOFS, stamp
 
 ROOT = Path(__file__).parents[1]
@@ -63,14 +68,15 @@ def made_up_transfer_vectors(study: Study, gain: float = 1.0) -> xr.Dataset:
     }
     values = gain * 0.01 * size * frequency
     names = ("transfer_vector", "transfer_vector_closed_form")
+    error = stamp("transfer_vector_error", 0.01 * np.abs(values), coords)
     return xr.Dataset(
-        {name: stamp(name, values, coords) for name in names},
+        {**{name: stamp(name, values, coords) for name in names}, error.name: error},
         attrs={"method": "made up"},
     )
 
 
-def tiny_run(options: str = "") -> xr.Dataset:
-    """Results of the tiny study with further options, radiation made up."""
+def tiny_run(options: str = "", criteria: str = "") -> xr.Dataset:
+    """Results of the tiny study with further options and criteria, radiation made up."""
     text = TINY.read_text().replace("../../data", str(ROOT / "data"))
     with tempfile.TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as context:
         context.setattr(
@@ -78,7 +84,7 @@ def tiny_run(options: str = "") -> xr.Dataset:
             lambda study, *_: (made_up_transfer_vectors(study), False),
         )
         file = Path(folder) / "tiny.toml"
-        file.write_text(text.replace("[receivers.", f"{options}\n[receivers.", 1))
+        file.write_text(text.replace("[receivers.", f"{options}\n[receivers.", 1) + criteria)
         return pipeline.run(load_study(file))
 
 
@@ -180,17 +186,22 @@ def machine_parts(study: Study) -> list[MovingPart]:
     return [*oldham_ring(study.machine, CRANK_ANGLE), *rotating_set(study.machine, CRANK_ANGLE)]
 
 
-def balancing(study: Study, option: str, speed_rpm: float) -> Balancing:
+def steady(speed_rpm: float, samples: int = CRANK_ANGLE.size) -> Revolution:
+    """A revolution at constant speed of a machine without moving parts."""
+    return Revolution(speed_rpm, constant_rotation(speed_rpm, samples), {})
+
+
+def balancing(study: Study, option: str, speed_rpm: float) -> Added:
     """What an option of the study adds."""
     parameters = study.options[option]
     key = (parameters.model_dump_json(), study.machine.model_dump_json(), speed_rpm)
     if key not in _BALANCING:  # a pendulum takes half a second to settle
-        balancer = BALANCERS[parameters.kind]
-        _BALANCING[key] = balancer(parameters, study.machine, speed_rpm, CRANK_ANGLE)
+        machine = parameters.applied_to(study.machine)
+        _BALANCING[key] = parameters.added(machine, steady(speed_rpm))
     return _BALANCING[key]
 
 
-_BALANCING: dict[tuple[str, str, float], Balancing] = {}
+_BALANCING: dict[tuple[str, str, float], Added] = {}
 
 
 def wrench_orders(study: Study, option: str, speed_rpm: float) -> tuple[Array, Array]:

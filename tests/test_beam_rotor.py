@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vibroacoustics.errors import ParameterError
-from vibroacoustics.mechanisms.beam_rotor import (
+from vibroacoustics.mechanics.beam_rotor import (
     RotorMatrices,
     Section,
     assemble,

@@ -10,14 +10,14 @@ from machine_files import machine_file, values_of
 from support import ROOT
 
 from vibroacoustics.constants import STANDARD_GRAVITY_M_PER_S2
-from vibroacoustics.mechanisms.beam_rotor import (
+from vibroacoustics.mechanics.beam_rotor import (
     RotorMatrices,
     Section,
     assemble,
     whirl_frequencies_hz,
     with_disc,
 )
-from vibroacoustics.mechanisms.critical_speed import (
+from vibroacoustics.mechanics.critical_speed import (
     forward_critical_speeds,
     on_bearings,
     rule_of_thumb_rpm,
@@ -25,7 +25,7 @@ from vibroacoustics.mechanisms.critical_speed import (
     scroll_shaft_rotor,
     unbalance_deflection_m,
 )
-from vibroacoustics.parameters.scroll_shaft import ScrollShaft
+from vibroacoustics.mechanics.scroll_shaft import ScrollShaft
 
 VALUES = values_of(machine_file("copeland_zp41k3e_inside"))["shaft"]
 SHAFT = ScrollShaft(**VALUES)

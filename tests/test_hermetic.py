@@ -10,12 +10,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
-from support import PIPELINES, ROOT
+from support import PIPELINES, ROOT, steady
 
-from vibroacoustics.balancers.lanchester import lanchester
-from vibroacoustics.balancers.rotating_counterweight import rotating_counterweight
+from vibroacoustics.balancers.lanchester import Lanchester
+from vibroacoustics.balancers.rotating_counterweight import RotatingCounterweight
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.loading import load_machine, load_study
+from vibroacoustics.mechanics.capabilities import Slider
+from vibroacoustics.mechanics.moving_parts import wrench
+from vibroacoustics.mechanics.rotation import constant_rotation
 from vibroacoustics.mechanisms.hermetic.cycle import (
     cycle_at_speed,
     mean_speed_rad_per_s,
@@ -42,9 +45,6 @@ from vibroacoustics.mechanisms.hermetic.results import (
     works_per_cycle_j,
 )
 from vibroacoustics.mechanisms.hermetic.revolution import hermetic_revolution
-from vibroacoustics.moving_parts import wrench
-from vibroacoustics.parameters.options import Lanchester, RotatingCounterweight
-from vibroacoustics.rotation import constant_rotation
 
 MACHINE_FILE = ROOT / "data" / "machines" / "estupinan_hermetic.toml"
 GRAVITY = 9.80665
@@ -98,7 +98,7 @@ def test_point_of_the_crank_moves_as_its_rotations_say(place, rates, second):
 
 @given(st.floats(0.0, 6.28), st.floats(100.0, 400.0), st.floats(-2e3, 2e3))
 def test_piston_and_rod_by_differentiating_the_closed_form(angle, speed, acceleration):
-    """Shows that (7) needs -r_c (θ̈ sin θ + θ̇² cos θ), as physics.md B6 says."""
+    """Shows that (7) needs -r_c (θ̈ sin θ + θ̇² cos θ); the paper prints - θ̇² cos θ."""
     radius, length = 0.0075, 0.04
     place, rates, second = np.zeros((3, 5))
     place[4], rates[4], second[4] = angle, speed, acceleration
@@ -230,7 +230,7 @@ def test_energy_balance_closes(cycles, case):
     works = works_per_cycle_j(*cycles[case])
     assert works["gas"] < 0.0 < works["motor"]
     assert works["films"] <= 0.0  # oil takes energy
-    assert abs(sum(works.values())) < 1e-6 * abs(works["gas"])  # issue 5
+    assert abs(sum(works.values())) < 1e-6 * abs(works["gas"])  # what is left over
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -418,7 +418,7 @@ def test_dead_centres_of_an_offset_cylinder(offset_machine):
 def test_offset_cylinder_keeps_its_balances(offset_machine, offset_cycle):
     """Energy, and the roll moment with the head's force beside the shaft."""
     works = works_per_cycle_j(*offset_cycle)
-    assert abs(sum(works.values())) < 1e-6 * abs(works["gas"])  # issue 5
+    assert abs(sum(works.values())) < 1e-6 * abs(works["gas"])  # what is left over
     equations, solution = offset_cycle
     angle, states = solution.mesh, solution.states
     moment = sum(w.moment_n_m for w in housing_wrenches(equations, angle, states).values())
@@ -474,18 +474,18 @@ def test_first_order_at_constant_speed_in_closed_form(machine):
     height, pin = machine.crank_height_m, machine.crank_height_m + crank.pin_offset_m
     tilt = np.array([-1j * (across * pin + turning * height), along * pin + turning * height])
     assert moment[:2] == pytest.approx(tilt, rel=1e-5)
-    assert motion.facts["speed_fluctuation_percent"] < 1e-3
+    assert motion.figures["speed_fluctuation_percent"] < 1e-3
 
 
 def test_oscillation_is_what_first_order_balancers_take(machine):
     """A full Lanchester balancer leaves of the first order what turns: rod's big end and crank."""
-    slider = machine.oscillation
+    slider = machine.require(Slider)
     rod = machine.rod
     small_end = rod.mass_kg * (1.0 - rod.centre_of_mass_m / rod.length_m)
     assert slider.mass_kg == pytest.approx(machine.piston.mass_kg + small_end)
-    option = Lanchester(kind="lanchester", share_ratio=1.0, radius_m=0.015)
+    option = Lanchester(share_ratio=1.0, radius_m=0.015)
     turning = constant_rotation(2980.0, 256)
-    parts = lanchester(option, machine, 2980.0, turning.crank_angle).parts
+    parts = option.added(machine, steady(2980.0)).parts
     own = wrench(parts, turning)
     force, moment = (np.fft.rfft(value)[:, 1] / 128.0 for value in own)
     expected = -slider.mass_kg * machine.crank.radius_m * (2980.0 * np.pi / 30.0) ** 2
@@ -496,12 +496,9 @@ def test_oscillation_is_what_first_order_balancers_take(machine):
 
 def test_counterweight_planes_lie_where_the_file_says(machine):
     """The shaft points down in the mechanism's frame; heights in the file are upwards."""
-    option = RotatingCounterweight(kind="rotating-counterweight", share_ratio=1.0)
-    angle = constant_rotation(2980.0, 64).crank_angle
-    upper, lower = sorted(
-        (part.position_m[2, 0] for part in rotating_counterweight(
-            option, machine, 2980.0, angle).parts), reverse=True,
-    )  # fmt: skip
+    option = RotatingCounterweight(share_ratio=1.0)
+    parts = option.added(machine, steady(2980.0)).parts
+    upper, lower = sorted((part.position_m[2, 0] for part in parts), reverse=True)
     planes = machine.counterweights
     assert upper == pytest.approx(machine.crank_height_m + planes.upper_height_m)
     assert lower == pytest.approx(machine.crank_height_m + planes.lower_height_m)
@@ -509,7 +506,7 @@ def test_counterweight_planes_lie_where_the_file_says(machine):
 
 def test_facts_are_those_of_the_cycle(machine, cycles):
     """At 2980 rpm; the fixture's cycle runs at 50 Hz supply, 0.9 rpm slower."""
-    facts = hermetic_revolution(in_case(machine, "II"), 2980.0, 360).facts
+    facts = hermetic_revolution(in_case(machine, "II"), 2980.0, 360).figures
     equations, solution = cycles["II"]
     (bearing,) = bearing_cycles(equations, solution.states)
     assert facts["upper_bearing_thinnest_film_um"] == pytest.approx(
@@ -519,7 +516,7 @@ def test_facts_are_those_of_the_cycle(machine, cycles):
         1e-6 * bearing.highest_pressure_pa.max(), rel=2e-3
     )
     assert facts["supply_frequency_hz"] == pytest.approx(50.0, abs=0.05)
-    held = hermetic_revolution(in_case(machine, "I"), 2980.0, 180).facts
+    held = hermetic_revolution(in_case(machine, "I"), 2980.0, 180).figures
     # The journal's own acceleration is small beside the load that it carries.
     assert facts["upper_bearing_largest_load_n"] == pytest.approx(
         held["upper_bearing_largest_load_n"], rel=0.02
@@ -542,7 +539,7 @@ def test_study_of_the_machine_loads():
     assert offset == pytest.approx(-2e-3)
     # 67 g opposite the pin: turning mass and half of the piston's are balanced to 5 %.
     crank = study.options["crank-counterweight"].machine.crank
-    slider, rod = study.machine.oscillation, study.machine.rod
+    slider, rod = study.machine.require(Slider), study.machine.rod
     turning = rod.mass_kg * rod.centre_of_mass_m / rod.length_m
     wanted = -(turning + 0.5 * slider.mass_kg) * crank.radius_m
     assert crank.mass_kg * crank.mass_eccentricity_m == pytest.approx(wanted, rel=0.05)

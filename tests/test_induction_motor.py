@@ -11,24 +11,24 @@ from scipy.integrate import solve_ivp
 from support import ROOT
 
 from vibroacoustics.errors import ParameterError, SolverError
-from vibroacoustics.mechanisms.crankshaft import steady_rotation
-from vibroacoustics.mechanisms.induction_motor.kloss import slip_at_torque, slope_ratio, torque
-from vibroacoustics.mechanisms.induction_motor.revolving_fields import (
+from vibroacoustics.mechanics.crankshaft import steady_rotation
+from vibroacoustics.mechanics.rotation import uniform_crank_angle
+from vibroacoustics.parameters.induction_motor import CapacitorMotor, KlossMotor
+from vibroacoustics.sources.induction_motor.kloss import slip_at_torque, slope_ratio, torque
+from vibroacoustics.sources.induction_motor.revolving_fields import (
     breakdown_slip,
     field_impedance,
     operating_point,
     point_at_torque,
 )
-from vibroacoustics.mechanisms.induction_motor.speed_response import speed_response, two_axis_motor
-from vibroacoustics.mechanisms.induction_motor.torque_lines import torque_lines
-from vibroacoustics.parameters.induction_motor import CapacitorMotor, KlossMotor
-from vibroacoustics.rotation import uniform_crank_angle
+from vibroacoustics.sources.induction_motor.speed_response import speed_response, two_axis_motor
+from vibroacoustics.sources.induction_motor.torque_lines import torque_lines
 
 VALUES = values_of(machine_file("copeland_zp41k3e_inside"))["motor"]
 MOTOR = CapacitorMotor(**VALUES)
 INERTIA = 2.5e-3
 GAS_TORQUE = 10.24
-"""Mean of the scroll's gas torque, N m (shared/physics.md, B5)."""
+"""Mean of the scroll's gas torque, N m (data/validation/scroll_gas.csv)."""
 ROOT2 = np.sqrt(2.0)
 
 

@@ -6,21 +6,15 @@ import numpy as np
 import pytest
 import pyuff
 from inside_study import INSIDE_STUDY, made_up_modes, operating_of, path_of, run_made_up
-from support import ROOT, assert_refused, command_here
+from support import ROOT, assert_refused, balancing, command_here
 
 from vibroacoustics import levels
 from vibroacoustics.constants import REFERENCE_PRESSURE_PA
 from vibroacoustics.errors import ParameterError, SolverError
 from vibroacoustics.loading import load_study
-from vibroacoustics.mechanisms.inner_loads import (
-    BEARING_HOUSING,
-    FIXED_SCROLL,
-    STATOR,
-    key_torque_n_m,
-)
-from vibroacoustics.mechanisms.oldham_keys.spectra import spectral_density
+from vibroacoustics.mechanics.added import Added, RingForce
+from vibroacoustics.mechanics.capabilities import OldhamRing
 from vibroacoustics.parameters.inside import DRAWN, Doubt, MeasuredModes
-from vibroacoustics.parameters.options import NoBalancer
 from vibroacoustics.parameters.shell_structure import JOINTS
 from vibroacoustics.pipeline.inner_draws import latin_hypercube
 from vibroacoustics.pipeline.inner_keys import (
@@ -28,7 +22,6 @@ from vibroacoustics.pipeline.inner_keys import (
     KeyRuns,
     Noise,
     key_sources,
-    ring_force,
 )
 from vibroacoustics.pipeline.inner_levels import labelled_levels
 from vibroacoustics.pipeline.inner_sound import (
@@ -41,6 +34,13 @@ from vibroacoustics.pipeline.inner_sound import (
 )
 from vibroacoustics.pipeline.inner_sources import InnerLoads, InnerSources, Lines
 from vibroacoustics.radiation.scene import machine_body
+from vibroacoustics.sources.joint_loads import (
+    BEARING_HOUSING,
+    FIXED_SCROLL,
+    STATOR,
+    key_torque_n_m,
+)
+from vibroacoustics.sources.oldham_keys.spectra import spectral_density
 from vibroacoustics.transfer import RigidBodyOnMounts
 from vibroacoustics.transfer.shell_modes import elastic_shell
 
@@ -66,10 +66,8 @@ def sources(study):
 
 
 def loads_of(sources, study, option, revolutions=2):
-    hanging = ring_force(study.options[option], np.zeros(256), study.machine, 2900.0)
-    return sources.loads(
-        study.machine, study.options[option], hanging, operating_of(study, revolutions)
-    )
+    ring = study.machine.require(OldhamRing)
+    return sources.loads(ring, balancing(study, option, 2900.0), operating_of(study, revolutions))
 
 
 # --- balance of the loads ------------------------------------------------------------------------
@@ -153,9 +151,8 @@ def test_keys_push_the_machine_with_the_rings_inertia(sources, study):
 def test_twin_is_the_ring_turned_by_half_a_turn(study):
     """Its noise too: what couples a force with the moment changes its sign."""
     keys, operating = KeyRuns(study.inside.inside.keys), operating_of(study, 4)
-    twin = study.options["twin-oldham"]
-    free = np.zeros(1)
-    both = key_sources(keys, study.machine, twin, free, np.zeros(256), operating)
+    added, free = balancing(study, "twin-oldham", 2900.0), np.zeros(1)
+    both = key_sources(keys, study.machine.require(OldhamRing), added, free, operating)
     first, second = both.noise
     assert (first.joint, second.joint) == (BEARING_HOUSING, STATOR)
     half_turn = np.array([-1.0, -1.0, 1.0])
@@ -168,33 +165,31 @@ def test_twin_is_the_ring_turned_by_half_a_turn(study):
 
 
 def test_hanging_pendulum_lowers_the_speed_of_contact_loss(thesis_study):
-    """physics.md C: 5809 to 4308 rpm at rated load without friction, closed form.
+    """5809 to 4308 rpm at rated load without friction, closed form (oldham_keys.csv).
 
-    The moment is that of the gas at the derived orbit radius, so the stroke is too. 4308 is printed
-    to four digits, for bobs at rest at the angle of B2; theirs moves by a per cent.
+    The moment is that of the gas at the derived orbit radius, so the stroke is too. 4308 holds for
+    bobs at rest at the angle at which they settle; theirs moves by a per cent.
     """
-    machine = thesis_study.machine
-    kinematics = machine.kinematics.model_copy(update={"orbit_radius_m": 3.461e-3})
-    derived = machine.model_copy(update={"kinematics": kinematics})
+    ring = dataclasses.replace(thesis_study.machine.require(OldhamRing), stroke_m=3.461e-3)
     keys = thesis_keys()
     moment = np.array([2959.0 * 3.461e-3 / 2.0])
     operating = operating_of(load_study(INSIDE_STUDY), 1)
     omega = 2.0 * np.pi * operating.speed_rpm / 60.0
     angle = 2.0 * np.pi * np.arange(256) / 256
-    # B2: the ring with its pendulums pushes 81.8 N where the bare one pushes 45.26 N.
-    bobs = (81.8 / 45.26 - 1.0) * derived.oldham.mass_kg * 3.461e-3 * omega**2 * np.cos(angle)
+    # test_literature: the ring with its pendulums pushes 81.8 N where the bare one pushes 45.26 N.
+    bobs = (81.8 / 45.26 - 1.0) * ring.mass_kg * 3.461e-3 * omega**2 * np.cos(angle)
     lost = [
-        key_sources(
-            KeyRuns(keys), derived, NoBalancer(kind="none"), moment, force, operating
-        ).facts["key_contact_lost_above_rpm"]
-        for force in (np.zeros(256), bobs)
+        key_sources(KeyRuns(keys), ring, Added(on_ring=hung), moment, operating).facts[
+            "key_contact_lost_above_rpm"
+        ]
+        for hung in (None, RingForce(bobs))
     ]
     assert lost[0] == pytest.approx(5809.0, rel=1e-3)
     assert lost[1] == pytest.approx(4308.0, rel=0.01)
 
 
 def thesis_keys():
-    """Without friction and at 55 mm, as physics.md C has them."""
+    """Without friction and at 55 mm, as in data/validation/oldham_keys.csv."""
     keys = load_study(INSIDE_STUDY).inside.inside.keys
     return keys.model_copy(update={"friction_ratio": 0.0})
 
@@ -202,7 +197,7 @@ def thesis_keys():
 def test_lines_of_the_motor_and_orders_of_the_shaft_never_share_a_place(sources, study):
     """Even at 3000 rpm, where twice 50 Hz is the frequency of order 2: the phases are unrelated."""
     operating = dataclasses.replace(operating_of(study), speed_rpm=3000.0)
-    loads = sources.loads(study.machine, study.options["none"], np.zeros(256), operating)
+    loads = sources.loads(study.machine.require(OldhamRing), Added(), operating)
     orders = operating.maximum_order + 1
     assert loads.line_name[2] == "order 2"
     assert loads.line_name.index("2 x line") >= orders
@@ -351,7 +346,7 @@ def test_pair_of_forces_on_one_joint_drives_nothing(study):
 
 
 def test_rigid_machine_is_moved_by_momentum_alone(study, sources):
-    """With modes that do not sound, gas and keys are silent and the rest is the first issue's.
+    """With modes that do not sound, gas and keys are silent and the rest is the rigid machine's.
 
     That modes have no share in the rigid motions is tested in test_shell_modes.
     """

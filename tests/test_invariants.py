@@ -17,13 +17,13 @@ from support import (
 
 from vibroacoustics.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from vibroacoustics.levels import energy_difference, energy_sum
-from vibroacoustics.mechanisms.rotating_set import (
+from vibroacoustics.mechanics.moving_parts import MovingPart, path, wrench
+from vibroacoustics.mechanisms.oldham_scroll.rotating_set import (
     circling,
     counterweight,
     rotating_set,
     two_plane_balance,
 )
-from vibroacoustics.moving_parts import MovingPart, path, wrench
 from vibroacoustics.orders import order_spectrum, semi_major_axis
 from vibroacoustics.parameters.housing import Housing
 from vibroacoustics.parameters.mounts import Mounts

@@ -62,7 +62,7 @@ def test_sum_over_several_axes():
 
 @pytest.mark.parametrize(
     ("line", "change"),
-    [(40.0, -0.11), (45.0, -0.36), (50.0, -1.26)],  # physics.md C: a line taken out of 56 dB(A)
+    [(40.0, -0.11), (45.0, -0.36), (50.0, -1.26)],  # 10 lg(10^5.6 - 10^(L/10)) - 56
 )
 def test_what_a_line_is_worth(line, change):
     assert energy_difference(56.0, line) - 56.0 == pytest.approx(change, abs=0.005)

@@ -32,7 +32,7 @@ def published(quantity: str) -> dict[str, float]:
 
 @pytest.mark.parametrize("speed_rpm", [800, 1000, 1200])
 def test_best_efficiency_and_its_bore(speed_rpm):
-    """Within 0.4 points and 2 mm (issue 5): radii, centre of mass and clearance are inferred."""
+    """Within 0.4 points and 2 mm: radii, centre of mass and clearance are inferred."""
     bore_m, efficiency = optimum_bore(MACHINE, speed_rpm, 0.10, 0.18)
     assert 1e3 * bore_m == pytest.approx(published("optimum bore")[f"{speed_rpm} rpm"], abs=2.0)
     printed = published("mechanical efficiency")[f"{speed_rpm} rpm"]
@@ -41,12 +41,11 @@ def test_best_efficiency_and_its_bore(speed_rpm):
 
 @pytest.mark.parametrize(
     ("speed_rpm", "bore_mm", "percent"),
-    [(800.0, 120.0, 86.63), (1000.0, 129.0, 84.63), (1200.0, 138.0, 82.71)],  # physics.md A4
+    [(800.0, 120.0, 86.63), (1000.0, 129.0, 84.63), (1200.0, 138.0, 82.71)],
 )
 def test_printed_radii_are_no_radii(speed_rpm, bore_mm, percent):
-    """The page's own model, solved otherwise: to 0.1 points, and to 1 mm as it prints whole ones.
-
-    At 1000 rpm to the digit of the issue, 84.6 %.
+    """Against the same model solved apart from this code: to 0.1 points, and to 1 mm, as it has
+    whole ones. The paper prints 92.1, 91.1 and 90.3 %.
     """
     bore_m, efficiency = optimum_bore(
         changed(MACHINE, sliding_pairs=PRINTED_RADII), speed_rpm, 0.10, 0.18
@@ -127,7 +126,7 @@ def test_efficiency_map():
 
 
 def test_piston_torque_is_a_misprint_by_ten():
-    """physics.md A4: 71.2 N m at -38.6° for 100 mm, of the piston's mass alone."""
+    """m ω² x' x'' of the piston has -71.2 N m at -38.6° for 100 mm; the paper prints -7.5 N m."""
     crank = design_at_bore(MACHINE.piston_and_rod, 0.10)
     moved = motion(crank, np.deg2rad(np.arange(-1800, 1800) / 10.0))
     omega = 2.0 * np.pi * 1000.0 / 60.0

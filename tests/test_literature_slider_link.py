@@ -1,4 +1,4 @@
-"""Published numbers of the slider-link compressor (Dagilis et al., seed 4), beside ours."""
+"""Published numbers of the slider-link compressor (Dagilis et al.), beside ours."""
 
 import csv
 
@@ -14,8 +14,8 @@ from vibroacoustics.mechanisms.slider_link.bearing_friction import (
     petroff_coefficient,
     thrust_friction_moment,
 )
+from vibroacoustics.mechanisms.slider_link.machine import SliderLinkMachine
 from vibroacoustics.mechanisms.slider_link.motion import SliderLinkCycle, steady_motion
-from vibroacoustics.parameters.slider_link import SliderLinkMachine
 
 VALIDATION_FILE = ROOT / "data" / "validation" / "dagilis_slider_link.csv"
 
@@ -48,7 +48,7 @@ def test_thrust_bearing_power(machine, which):
 
 
 def test_thrust_powers_belong_to_one_bearing(machine):
-    """F R_eff = P / (µ ω) = 0.1135 N m (physics.md A5), half of the last digits of P and µ."""
+    """F R_eff = P / (µ ω) = 0.1135 N m, half of the last digits of P and µ."""
     values = printed()
     for which in ("low", "high", "tilted"):
         friction, power = values[f"thrust_friction_{which}"], values[f"thrust_power_{which}"]

@@ -4,12 +4,14 @@ import numpy as np
 import pytest
 from support import CRANK_ANGLE, machine_parts, turning
 
-from vibroacoustics.mechanisms import MECHANISMS
-from vibroacoustics.mechanisms.oldham import oldham_ring
-from vibroacoustics.mechanisms.rotating_set import counterweight, rotating_set, two_plane_balance
-from vibroacoustics.moving_parts import wrench
+from vibroacoustics.mechanics.moving_parts import wrench
+from vibroacoustics.mechanisms.oldham_scroll.ring import oldham_ring
+from vibroacoustics.mechanisms.oldham_scroll.rotating_set import (
+    counterweight,
+    rotating_set,
+    two_plane_balance,
+)
 from vibroacoustics.orders import order_spectrum
-from vibroacoustics.parameters.machines import MACHINES
 
 
 def test_oldham_ring_slides_along_x(thesis_study):
@@ -18,10 +20,6 @@ def test_oldham_ring_slides_along_x(thesis_study):
     assert ring.position_m[0, 0] == pytest.approx(6.75e-3)
     assert not ring.position_m[1].any()
     assert np.all(ring.position_m[2] == thesis_study.machine.oldham.height_m)
-
-
-def test_every_kind_of_machine_has_a_mechanism():
-    assert MECHANISMS.keys() == MACHINES.keys()
 
 
 def test_sources_are_named_once(thesis_study):

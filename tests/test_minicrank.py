@@ -14,6 +14,14 @@ from support import PIPELINES
 
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.loading import load_machine, load_study
+from vibroacoustics.mechanics.moving_parts import (
+    MovingPart,
+    axes_of,
+    derivative,
+    path,
+    wrench,
+)
+from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.mechanisms.minicrank.cycle import steady_minicrank_cycle
 from vibroacoustics.mechanisms.minicrank.four_bar import (
     four_bar_motion,
@@ -21,13 +29,11 @@ from vibroacoustics.mechanisms.minicrank.four_bar import (
     three_minicranks_motion,
 )
 from vibroacoustics.mechanisms.minicrank.housing import counterweight_moments, housing_wrenches
+from vibroacoustics.mechanisms.minicrank.links import FourBar, Links, closing_margins
+from vibroacoustics.mechanisms.minicrank.machine import MiniCrankMachine
 from vibroacoustics.mechanisms.minicrank.pin_forces import crank_pin_force, minicrank_pin_force
 from vibroacoustics.mechanisms.minicrank.revolution import minicrank_revolution
-from vibroacoustics.moving_parts import MovingPart, axes_of, derivative, path, wrench
 from vibroacoustics.orders import order_spectrum, order_spectrum_at_speed
-from vibroacoustics.parameters.four_bar import FourBar, Links, closing_margins
-from vibroacoustics.parameters.minicrank import MiniCrankMachine
-from vibroacoustics.rotation import uniform_crank_angle
 
 MACHINE = load_machine(machine_file("zhao_minicrank"))
 HEAVY = changed(  # with what the paper neglects, to see every term
@@ -499,14 +505,14 @@ def test_samples_of_the_chain_are_enough():
 
 
 def test_facts_of_a_revolution():
-    rigid = minicrank_revolution(MACHINE, 1500.0, 720).facts
+    rigid = minicrank_revolution(MACHINE, 1500.0, 720).figures
     assert rigid["minicrank_swing_deg"] == pytest.approx(164.0, abs=10.0)  # rocks: 156 to 172°
     assert rigid["scroll_swing_deg"] == pytest.approx(4.4, abs=0.1)
     # 2000 N at 4.45 mm and 1500 rpm; 2000 N · 0.5 · 0.1 of friction and M_z do next to nothing.
     assert rigid["shaft_power_w"] == pytest.approx(2000.0 * 4.45e-3 * 50.0 * np.pi, rel=0.005)
     matched = minicrank_revolution(
         changed(MACHINE, four_bar={"crank_error_m": 0.0}), 1500.0, 720
-    ).facts
+    ).figures
     assert matched["scroll_swing_deg"] == 0.0
     assert "minicrank_pin_force_n" not in matched  # no force closes a rigid parallelogram
     assert matched["largest_input_torque_nm"] == pytest.approx(2200.0 * 4.5e-3, rel=1e-12)

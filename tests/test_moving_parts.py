@@ -4,7 +4,13 @@ import numpy as np
 import pytest
 from support import CRANK_ANGLE, turning
 
-from vibroacoustics.moving_parts import Balancing, MovingPart, derivative, path, wrench
+from vibroacoustics.mechanics.added import Added
+from vibroacoustics.mechanics.moving_parts import (
+    MovingPart,
+    derivative,
+    path,
+    wrench,
+)
 
 
 @pytest.mark.parametrize("order", [1, 2, 7, 127])
@@ -54,8 +60,8 @@ def test_path_has_three_rows_of_floats():
 
 
 def test_balancing_of_nothing_is_empty():
-    assert Balancing().parts == ()
-    assert dict(Balancing().facts) == {}
+    assert Added().parts == ()
+    assert dict(Added().figures) == {}
 
 
 def test_moving_parts_are_frozen():

@@ -14,29 +14,25 @@ from scipy.signal import csd
 from support import ROOT
 
 from vibroacoustics.errors import ParameterError, SolverError
-from vibroacoustics.mechanisms.oldham_keys import rattle
-from vibroacoustics.mechanisms.oldham_keys.contact import (
-    CONTACT_LAWS,
-    flores,
-    lankarani_nikravesh,
-)
-from vibroacoustics.mechanisms.oldham_keys.contact_loss import (
+from vibroacoustics.parameters.oldham_keys import OldhamKeys
+from vibroacoustics.sources.oldham_keys import rattle
+from vibroacoustics.sources.oldham_keys.contact import CONTACT_LAWS, flores, lankarani_nikravesh
+from vibroacoustics.sources.oldham_keys.contact_loss import (
     contact_loss_moment_n_m,
     contact_loss_speed_rpm,
 )
-from vibroacoustics.mechanisms.oldham_keys.equations import Coupling
-from vibroacoustics.mechanisms.oldham_keys.integration import integrate
-from vibroacoustics.mechanisms.oldham_keys.rattle import steady_key_forces
-from vibroacoustics.mechanisms.oldham_keys.spectra import (
+from vibroacoustics.sources.oldham_keys.equations import Coupling
+from vibroacoustics.sources.oldham_keys.integration import integrate
+from vibroacoustics.sources.oldham_keys.rattle import steady_key_forces
+from vibroacoustics.sources.oldham_keys.spectra import (
     band_rms,
     order_phasors,
     spectral_density,
     split_periodic,
 )
-from vibroacoustics.parameters.oldham_keys import OldhamKeys
 from vibroacoustics.units import shaft_frequency_hz
 
-# Assumed constants of shared/physics.md C and shared/machines.yaml as a file has them.
+# The assumed constants of data/validation/oldham_keys.csv as a file has them.
 KEYS_TOML = """
 radius_mm = { value = 55.0, source = "assumed", range = [45.0, 60.0] }
 clearance_um = { value = 15.0, source = "assumed: on each side of a key", range = [8.0, 40.0] }
@@ -52,7 +48,7 @@ scroll_inertia_kg_m2 = { value = 8e-4, source = "assumed: disc", range = [5e-4, 
 MACHINE_KEYS = machine_of(tomllib.loads(KEYS_TOML), Path("keys.toml"), OldhamKeys)
 KEYS = MACHINE_KEYS.model_copy(update={"friction_ratio": 0.0})
 MASS_KG, STROKE_M, SPEED_RPM = 0.0727, 3.461e-3, 3500.0
-RATED_N_M = 2959.0 * STROKE_M / 2.0  # physics.md B5: M_z = F_t r_o / 2, mean over a revolution
+RATED_N_M = 2959.0 * STROKE_M / 2.0  # M_z = F_t r_o / 2, mean over a revolution
 NONE = np.zeros(1)
 
 
@@ -109,7 +105,7 @@ def coupling(**changes) -> Coupling:
 
 
 def test_contact_loss_speed():
-    """To the page's digit; it is the mean, not the least, tangential force that gives it."""
+    """To the last digit; it is the mean, not the least, tangential force that gives it."""
     of_mean = contact_loss_speed_rpm(KEYS, MASS_KG, STROKE_M, np.array([RATED_N_M]))
     assert of_mean == pytest.approx(published("contact loss speed")["5.1205", "0", ""], abs=0.5)
     of_least = contact_loss_speed_rpm(KEYS, MASS_KG, STROKE_M, np.array([2771.0 * STROKE_M / 2.0]))
@@ -138,16 +134,16 @@ def test_contact_loss_force_at_3500_rpm():
     assert force == pytest.approx(published("contact loss tangential force")["", "0", ""], abs=50.0)
 
 
-# The earlier simulation's lever arms, inertias, film in contact and damping of lasting contact are
-# not printed. Over the page's own ranges of restitution and film the figures here vary by 30 % and
-# more; 20 % says that two independent models agree to better than what is not known.
+# The other simulation's lever arms, inertias, film in contact and damping of lasting contact are
+# not given. Over the machine file's ranges of restitution and film the figures here vary by 30 %
+# and more; 20 % says that two independent models agree to better than what is not known.
 TABLE_TOLERANCE = 0.2
 
 
 @pytest.mark.parametrize(
     "case", sorted({*published("peak force"), *published("impacts per revolution")})
 )
-def test_table_of_the_earlier_simulation(case):
+def test_table_of_the_other_simulation(case):
     """Rated, light and unloaded load at 3500 rpm."""
     moment, friction, gap = map(float, case)
     forces = run(moment, revolutions=20, friction_ratio=friction, clearance_m=gap * 1e-6)

@@ -15,7 +15,12 @@ from support import CRANK_ANGLE, balancing, turning, wrench_orders
 
 from vibroacoustics.balancers.spring_mass import sprung_mass_response, tuned_mass
 from vibroacoustics.levels import a_weighting, sound_pressure_level
-from vibroacoustics.moving_parts import MovingPart, derivative, path, wrench
+from vibroacoustics.mechanics.moving_parts import (
+    MovingPart,
+    derivative,
+    path,
+    wrench,
+)
 from vibroacoustics.orders import fourier, order_spectrum
 from vibroacoustics.radiation.arrays import no_progress
 from vibroacoustics.radiation.bodies import cylinder
@@ -160,7 +165,7 @@ def _settled_bob(stroke, length, damping_ratio, frequency, start_deg, seconds):
 @pytest.mark.parametrize("option", ["pendulum-side", "pendulum-inline"])
 @pytest.mark.parametrize("speed", [2900.0, 3500.0])
 def test_pendulum_forces_against_an_independent_integration(thesis_study, option, speed):
-    """Net 1x and 2x, horizontal and vertical, within 1 % (issue 2).
+    """Net 1x and 2x, horizontal and vertical, within 1 %.
 
     What is left of the start decays with ζ ω_n = 0.40 /s: 5e-5 after 25 s. The second differences
     of position err by (n · 2π/96)²/12: 0.04 % at 1x, 0.15 % at 2x.
@@ -188,7 +193,7 @@ def test_pendulum_forces_against_an_independent_integration(thesis_study, option
     ours = np.abs([net[0, 1], net[0, 2], net[2, 1], net[2, 2]])
     np.testing.assert_allclose(ours, again, rtol=0.01)
     mean_angle = np.rad2deg(np.mean(np.arctan2(x - stroke * np.cos(angle), -z)))
-    settled = balancing(thesis_study, option, speed).facts["settled_angle_deg"]
+    settled = balancing(thesis_study, option, speed).figures["settled_angle_deg"]
     # The mirrored state, half a revolution later, is as good: only the start decides.
     assert abs(settled) == pytest.approx(abs(mean_angle), abs=0.1)
 
@@ -225,7 +230,7 @@ def test_spring_mass_against_time_integration(speed, damping):
 @pytest.mark.parametrize("speed", [1000.0, 2900.0, 3500.0, 6000.0])
 @pytest.mark.parametrize("ratio", [1.0, 2.0, 5.0])
 def test_undamped_spring_mass_against_the_closed_form(thesis_study, speed, ratio):
-    """R(ω) = 1 + µ / [1 - (1 + µ)(ω/ω0)²] (physics.md B3), through the moving-part engine."""
+    """R(ω) = 1 + µ / [1 - (1 + µ)(ω/ω0)²] through the moving-part engine."""
     machine = thesis_study.machine
     ring, tuned = machine.oldham.mass_kg, 2.0 * np.pi * 3500.0 / 60.0
     option = thesis_study.options["spring-mass"].model_copy(
@@ -350,8 +355,8 @@ def test_path_broadcasts_constants():
 
 # --- 1x line at one metre in free field against boundary elements ---------------------------------
 
-# shared/physics.md, table C: boundary elements on the 165 x 417 mm cylinder, free field, maximum
-# at 1 m, dB(A). They are printed to 0.1 dB and were off an exact sphere by 0.1 dB; the near field
+# Computed apart from this code: boundary elements on the 165 x 417 mm cylinder, free field, maximum
+# at 1 m, dB(A). They are given to 0.1 dB and were off an exact sphere by 0.1 dB; the near field
 # with its default settings is within 0.1 dB of the boundary elements below: 0.3 dB in all.
 BOUNDARY_ELEMENTS_DBA = {
     ("none", 3500.0): 15.7,

@@ -50,7 +50,7 @@ NOT_MADE_HERE = {
     "map_level",
     "order_sound_power_level",
     "sound_power_level",
-    "transfer_vector_error",
+    "given_value",
     "map_transfer_vector",
     "directivity_transfer_vector",
     "surface_transfer_vector",

@@ -9,7 +9,9 @@ from scipy.integrate import solve_ivp
 
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.loading import load_machine
-from vibroacoustics.mechanisms.crankshaft import reduced_inertia
+from vibroacoustics.mechanics.crankshaft import reduced_inertia
+from vibroacoustics.mechanics.moving_parts import derivative, wrench
+from vibroacoustics.mechanics.rotation import constant_rotation, uniform_crank_angle
 from vibroacoustics.mechanisms.reciprocating.cycle import optimum_bore, steady_cycle
 from vibroacoustics.mechanisms.reciprocating.gas import (
     compression_work_j,
@@ -24,8 +26,6 @@ from vibroacoustics.mechanisms.reciprocating.slider_crank import (
     slider_crank_parts,
     top_dead_centre_m,
 )
-from vibroacoustics.moving_parts import derivative, wrench
-from vibroacoustics.rotation import constant_rotation, uniform_crank_angle
 
 MACHINE = load_machine(machine_file("mayekawa_wbhe"))
 BORE_M = 0.13

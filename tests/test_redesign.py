@@ -2,15 +2,14 @@
 
 import numpy as np
 import pytest
-from support import PIPELINES, ROOT
+from support import PIPELINES, ROOT, steady
 
-from vibroacoustics.balancers import BALANCERS
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.loading import load_machine, load_study
-from vibroacoustics.mechanisms import MECHANISMS
-from vibroacoustics.moving_parts import wrench
+from vibroacoustics.mechanics.capabilities import Slider
+from vibroacoustics.mechanics.moving_parts import wrench
+from vibroacoustics.mechanics.rotation import constant_rotation
 from vibroacoustics.orders import order_spectrum
-from vibroacoustics.rotation import constant_rotation
 
 STUDY = PIPELINES / "mayekawa_wbhe.toml"
 
@@ -86,7 +85,7 @@ def test_unknown_kind_of_machine(tmp_path):
     text = (ROOT / "data" / "machines" / "mayekawa_wbhe.toml").read_text(encoding="utf-8")
     file = tmp_path / "machine.toml"
     file.write_text(text.replace('kind = "reciprocating"', 'kind = "rotary"'))
-    with pytest.raises(ParameterError, match="kind = 'rotary': unknown; allowed minicrank"):
+    with pytest.raises(ParameterError, match="kind = rotary: unknown; allowed hermetic"):
         load_machine(file)
 
 
@@ -94,19 +93,21 @@ def first_order(study, option: str, speed_rpm: float):
     """1x force of what an option adds, along the machine's axes."""
     rotation = constant_rotation(speed_rpm, 64)
     parameters = study.options[option]
-    added = BALANCERS[parameters.kind](parameters, study.machine, speed_rpm, rotation.crank_angle)
+    added = parameters.added(study.machine, steady(speed_rpm, 64))
     force, moment = wrench(added.parts, rotation)
     return order_spectrum(force, 3), order_spectrum(moment, 3), added
 
 
 def test_lanchester_pushes_along_the_stroke_only(study):
     force, moment, added = first_order(study, "lanchester", 1000.0)
-    slider = study.machine.oscillation
+    slider = study.machine.require(Slider)
     expected = -slider.mass_kg * slider.amplitude_m * (2.0 * np.pi * 1000.0 / 60.0) ** 2
     assert force[2, 1] == pytest.approx(expected, rel=1e-12)  # the cylinder stands upright
     assert np.max(np.abs(force[:2])) < 1e-12 * abs(expected)
     assert np.max(np.abs(moment)) < 1e-12 * abs(expected)
-    assert added.facts["added_mass_kg"] == pytest.approx(slider.mass_kg * slider.amplitude_m / 0.05)
+    assert added.figures["added_mass_kg"] == pytest.approx(
+        slider.mass_kg * slider.amplitude_m / 0.05
+    )
 
 
 def test_half_counterweight_turns_against_the_crank_pin(study):
@@ -128,10 +129,10 @@ def test_lanchester_cancels_the_first_order_of_the_piston(study):
             ),
         }
     )
-    motion = MECHANISMS[machine.kind](heavy, 1000.0, 720)
+    motion = heavy.revolution(1000.0, 720)
     bare = order_spectrum(sum(own.force_n for own in motion.wrenches.values()), 3)
     option = study.options["lanchester"]
-    added = BALANCERS[option.kind](option, heavy, 1000.0, motion.rotation.crank_angle)
+    added = option.added(heavy, motion)
     balanced = bare + order_spectrum(wrench(added.parts, motion.rotation).force_n, 3)
     # x_p = r cos θ + l cos φ, and cos φ has even orders only. The speed swings by W/(I Ω²) =
     # 500 J/(1e6 kg m² · 1e4), 5e-8.

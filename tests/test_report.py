@@ -11,13 +11,19 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from vibroacoustics.base.rounding import (
+    level,
+    level_change,
+    signed,
+    significant,
+    span,
+)
 from vibroacoustics.report import comparison_text, render
 from vibroacoustics.report.assumptions import records_table
 from vibroacoustics.report.comparison import comparison, comparison_csv, comparison_tables
 from vibroacoustics.report.figures.scores import contributions
 from vibroacoustics.report.housing import isolation_sentence, shape_words
 from vibroacoustics.report.option_verdict import option_verdict
-from vibroacoustics.report.rounding import level, level_change, signed, significant, span
 from vibroacoustics.report.scores import published_table, scores_csv, wrong_sums
 from vibroacoustics.report.verdict import extremes_table, headline, reasons
 from vibroacoustics.schema import AXES, RIGID_BODY_DOFS, WEIGHTINGS, check, stamp
@@ -158,7 +164,12 @@ def _facts(coords: dict[str, Any], facts: dict[str, dict[str, float]]) -> xr.Dat
 
 
 def _scores(options: list[str], gain: np.ndarray) -> xr.Dataset:
-    option, criterion = {"option": options}, {"criterion": ["foot_force_1x_n"]}
+    option = {"option": options}
+    criterion = {
+        "criterion": ["foot_force_1x_n"],
+        "criterion_label": ("criterion", ["Foot force"]),
+        "criterion_unit": ("criterion", ["N"]),
+    }
     by_method = {**option, "scoring_method": ["weighted_sum"]}
     utility = np.clip((4.0 - gain) / 4.0, 0.0, 1.0)
     rank = 1.0 + (utility[:, None] < utility[None, :]).sum(axis=1)

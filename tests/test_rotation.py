@@ -4,9 +4,14 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from vibroacoustics.moving_parts import MovingPart, path, wrench
+from vibroacoustics.mechanics.moving_parts import MovingPart, path, wrench
+from vibroacoustics.mechanics.rotation import (
+    Rotation,
+    constant_rotation,
+    crank_time_s,
+    uniform_crank_angle,
+)
 from vibroacoustics.orders import order_spectrum, order_spectrum_at_speed
-from vibroacoustics.rotation import Rotation, constant_rotation, crank_time_s, uniform_crank_angle
 
 OMEGA = 2.0 * np.pi * 25.0
 

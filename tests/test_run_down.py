@@ -9,21 +9,18 @@ from support import CRANK_ANGLE, PIPELINES, machine_parts
 
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.loading import load_study
-from vibroacoustics.mechanisms.run_down.coasting import peaks, run_down
-from vibroacoustics.mechanisms.run_down.paths import (
-    inertia_over_angle,
-    path_derivatives,
-    wrench_along,
+from vibroacoustics.mechanics.moving_parts import (
+    MovingPart,
+    derivative,
+    path,
+    wrench,
 )
-from vibroacoustics.mechanisms.run_down.shift import (
-    brake_shift,
-    overrun_torque_n_m,
-    residual_force_n,
-)
-from vibroacoustics.moving_parts import MovingPart, derivative, path, wrench
+from vibroacoustics.mechanics.rotation import constant_rotation
 from vibroacoustics.orders import angular_resample, block_phasors, from_angle, order_map
 from vibroacoustics.parameters.run_down import Stopping
-from vibroacoustics.rotation import constant_rotation
+from vibroacoustics.stopping.coasting import peaks, run_down
+from vibroacoustics.stopping.paths import inertia_over_angle, path_derivatives, wrench_along
+from vibroacoustics.stopping.shift import brake_shift, overrun_torque_n_m, residual_force_n
 
 FILE = values_of(machine_file("copeland_zp41k3e_inside"))["stopping"]
 VALUES = {**FILE, "friction_torque_n_m": 1.5}
@@ -32,7 +29,7 @@ PARTS = machine_parts(load_study(PIPELINES / "copeland_derived.toml"))
 SHIFTED = ("orbiting_scroll", "brake", "oldham")
 SPEED = 2900.0 * np.pi / 30.0
 GAS = 10.24 + 0.725 * np.cos(CRANK_ANGLE) + 0.201 * np.cos(2.0 * CRANK_ANGLE)
-"""Scroll's gas torque, N m (shared/physics.md, B5; phases made up)."""
+"""Scroll's gas torque, N m (data/validation/scroll_gas.csv; phases made up)."""
 NO_GAS = np.zeros(8)
 RATE_HZ = 20000.0
 

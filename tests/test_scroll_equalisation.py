@@ -6,14 +6,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_scroll_gas import CASES, GAS, OTHER_WRAPS, WRAPS, gas_of
 
-from vibroacoustics.mechanisms.scroll_gas.cycle import scroll_gas_cycle
-from vibroacoustics.mechanisms.scroll_gas.pressures import (
+from vibroacoustics.mechanics.rotation import uniform_crank_angle
+from vibroacoustics.orders import order_spectrum
+from vibroacoustics.sources.scroll_gas.cycle import scroll_gas_cycle
+from vibroacoustics.sources.scroll_gas.pressures import (
     built_in_pressure_pa,
     compression_work_j,
     pocket_pressure,
 )
-from vibroacoustics.orders import order_spectrum
-from vibroacoustics.rotation import uniform_crank_angle
 
 SAMPLES = 36000
 ANGLE = uniform_crank_angle(SAMPLES)

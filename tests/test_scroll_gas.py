@@ -20,24 +20,24 @@ from scroll_flanks import (
 from support import ROOT
 
 from vibroacoustics.errors import ParameterError
-from vibroacoustics.mechanisms.scroll_gas import thesis_appendix_a
-from vibroacoustics.mechanisms.scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
-from vibroacoustics.mechanisms.scroll_gas.pockets import (
+from vibroacoustics.mechanics.rotation import uniform_crank_angle
+from vibroacoustics.orders import order_spectrum
+from vibroacoustics.parameters.scroll_gas import ScrollGas, ScrollWraps
+from vibroacoustics.sources.scroll_gas import thesis_appendix_a
+from vibroacoustics.sources.scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
+from vibroacoustics.sources.scroll_gas.pockets import (
     area_inside,
     built_in_volume_ratio,
     contact_angle,
     displacement_m3,
     pocket_volume,
 )
-from vibroacoustics.mechanisms.scroll_gas.pressures import (
+from vibroacoustics.sources.scroll_gas.pressures import (
     built_in_pressure_pa,
     compression_work_j,
     pocket_pressure,
 )
-from vibroacoustics.mechanisms.scroll_gas.thesis_appendix_a import appendix_a_force
-from vibroacoustics.orders import order_spectrum
-from vibroacoustics.parameters.scroll_gas import ScrollGas, ScrollWraps
-from vibroacoustics.rotation import uniform_crank_angle
+from vibroacoustics.sources.scroll_gas.thesis_appendix_a import appendix_a_force
 
 VALIDATION_FILE = ROOT / "data" / "validation" / "scroll_gas.csv"
 CASES = ["15 to 41.159 bar", "6.78 to 30.7 bar"]
@@ -83,7 +83,7 @@ GAS = gas_of(CASES[0])
 
 
 def figures(cycle: ScrollGasCycle) -> dict[str, float]:
-    """The figures of physics.md B5."""
+    """The figures of data/validation/scroll_gas.csv."""
     orders = np.abs(order_spectrum(cycle.torque_n_m, 4))
     tangential = cycle.tangential_force_n
     return {
@@ -102,7 +102,7 @@ def figures(cycle: ScrollGasCycle) -> dict[str, float]:
 
 @pytest.mark.parametrize("case", CASES)
 def test_forces_and_torque_orders_are_the_published_ones(case):
-    """Within 1 % (issue 6), and half a unit of the last digit printed."""
+    """Within 1 %, for the finer step and the second case's derived index, and half a last digit."""
     printed = published(case)
     found = figures(scroll_gas_cycle(WRAPS, gas_of(case), FINE))
     for name in printed.keys() & found.keys():
@@ -262,8 +262,7 @@ def test_area_inside_grows_by_gas_and_wraps_from_contact_to_contact():
 FLANKS = 2e-6
 """Relative. A polygon of 20 000 points over 17.8 rad lies (9e-4)²/8 = 1e-7 of the radius of
 curvature off its arcs, and so the contacts that are fitted to its gaps are found to 2e-7 rad. That
-moves the force by as much of the tangential one, which is up to 9 times the radial one: 1.8e-6.
-Issue 6 allows 1e-3."""
+moves the force by as much of the tangential one, which is up to 9 times the radial one: 1.8e-6."""
 
 
 @pytest.mark.parametrize(
@@ -361,7 +360,7 @@ def test_faults_of_appendix_a_are_as_stated(appendix_a):
             total += float(np.sum(np.sqrt(np.abs(np.diff(radius**2 * (1.0 + t**2))))))
         return total
 
-    # physics.md B5, three digits: 0.440 m at 1°, 1.397 m at 0.1°, true 0.127 m.
+    # Three digits: 0.440 m at 1°, 1.397 m at 0.1°, true 0.127 m.
     assert length(1.0) == pytest.approx(0.440, abs=0.0005)
     assert length(0.1) == pytest.approx(np.sqrt(10.0) * length(1.0), rel=0.01)
     thin = WRAPS.model_copy(update={"thickness_m": 0.0})

@@ -199,7 +199,7 @@ def test_frequency_converges_with_the_fourth_power_or_better():
 
 @pytest.mark.parametrize("order", [2, 3])
 def test_three_dimensional_elasticity_between_diaphragms(order):
-    """The issue's case: two theories and a solid agree within 1 %.
+    """Between shear diaphragms, 0.38 m apart: two theories and a solid agree within 1 %.
 
     Kirchhoff's excess is at most that of the flat plate, since part of the energy is stretching;
     the theories themselves differ from each other by terms of (h/R) (h/R) n².

@@ -1,4 +1,4 @@
-"""The slider-link compressor of Dagilis et al. (seed 4): invariants, a second method with Lagrange
+"""The slider-link compressor of Dagilis et al.: invariants, a second method with Lagrange
 multipliers, the machine in the chain."""
 
 from dataclasses import replace
@@ -10,12 +10,22 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 from scipy.integrate import quad, solve_ivp
 from slider_link_files import MACHINE_FILE, SPEED, STUDY, changed_machine
+from support import steady
 
-from vibroacoustics.balancers import lanchester, rotating_counterweight
+from vibroacoustics.balancers.lanchester import Lanchester
+from vibroacoustics.balancers.rotating_counterweight import RotatingCounterweight
 from vibroacoustics.constants import STANDARD_GRAVITY_M_PER_S2
 from vibroacoustics.errors import ParameterError, SolverError
 from vibroacoustics.loading import load_machine, load_study
-from vibroacoustics.mechanisms import MECHANISMS
+from vibroacoustics.mechanics.moving_parts import (
+    MovingPart,
+    Revolution,
+    Wrench,
+    path,
+    wrench,
+    wrenches_of_parts,
+)
+from vibroacoustics.mechanics.rotation import constant_rotation
 from vibroacoustics.mechanisms.slider_link.bearing_friction import (
     eccentricity_ratio,
     journal_friction_moment,
@@ -32,6 +42,7 @@ from vibroacoustics.mechanisms.slider_link.crankshaft import (
 )
 from vibroacoustics.mechanisms.slider_link.gas import cylinder_pressure, gas_force, valve_angles
 from vibroacoustics.mechanisms.slider_link.gauss_panels import GaussPanels
+from vibroacoustics.mechanisms.slider_link.machine import JournalBearing, SliderLinkMachine
 from vibroacoustics.mechanisms.slider_link.motion import SliderLinkCycle, steady_motion
 from vibroacoustics.mechanisms.slider_link.piston import (
     SIDES,
@@ -47,18 +58,7 @@ from vibroacoustics.mechanisms.slider_link.unbalance import (
     internal_forces,
     unbalance,
 )
-from vibroacoustics.moving_parts import (
-    MachineMotion,
-    MovingPart,
-    Wrench,
-    motion_of_parts,
-    path,
-    wrench,
-)
 from vibroacoustics.orders import order_spectrum, order_spectrum_at_speed
-from vibroacoustics.parameters.options import Lanchester, RotatingCounterweight
-from vibroacoustics.parameters.slider_link import JournalBearing, SliderLinkMachine
-from vibroacoustics.rotation import constant_rotation
 from vibroacoustics.transfer import RigidBodyOnMounts
 
 ROUNDING = 1e-11
@@ -268,7 +268,7 @@ def test_jamming_is_refused():
 
 
 def test_energy_balance(case):
-    """Motor work less gas work and friction, 1e-6 of the gas work (issue 5)."""
+    """Motor work less gas work and friction, to 1e-6 of the gas work."""
     _, cycle = case
     assert cycle.imbalance_ratio < 1e-6
 
@@ -692,8 +692,8 @@ def test_vibration_on_springs_is_the_free_one_above_resonance(machine, cycle):
 
 
 @pytest.fixture(scope="module")
-def revolution(machine) -> MachineMotion:
-    return MECHANISMS["slider-link"](machine, 2950.0, 360)
+def revolution(machine) -> Revolution:
+    return machine.revolution(2950.0, 360)
 
 
 def test_wrench_is_the_momentum_change_of_the_parts(machine, revolution):
@@ -713,7 +713,7 @@ def test_wrench_is_the_momentum_change_of_the_parts(machine, revolution):
         MovingPart("crankshaft", pair, path(axis + out, across, -0.05)),
         MovingPart("crankshaft", pair, path(axis - out, -across, 0.05)),
     ]
-    by_parts = motion_of_parts(parts, turn).wrenches
+    by_parts = wrenches_of_parts(parts, turn)
     # Of the point masses' own spin about the shaft only the right amount may count.
     points = (share * masses.crankshaft_mass_kg + 2.0 * pair) * 0.02**2
     spin = masses.crankshaft_inertia_kg_m2 - points
@@ -736,7 +736,7 @@ def test_first_order_of_the_chain_is_that_of_constant_speed(machine, inertia):
     heavy = masses.model_copy(
         update={"crankshaft_inertia_kg_m2": inertia * masses.crankshaft_inertia_kg_m2}
     )
-    found = MECHANISMS["slider-link"](machine.model_copy(update={"masses": heavy}), 2950.0, 360)
+    found = machine.model_copy(update={"masses": heavy}).revolution(2950.0, 360)
     turn = found.rotation
     order = order_spectrum_at_speed(total(found.wrenches).force_n, turn.speed_rad_per_s, 1)[:, 1]
     swing = turn.crank_angle - SPEED * turn.time_s
@@ -752,7 +752,7 @@ def test_first_order_of_the_chain_is_that_of_constant_speed(machine, inertia):
 
 
 def test_losses_add_up_to_the_shaft_power(machine, revolution):
-    facts = dict(revolution.facts)
+    facts = dict(revolution.figures)
     gas = 0.01 * facts.pop("mechanical_efficiency_percent") * facts["shaft_power_w"]
     assert facts.pop("speed_fluctuation_percent") == pytest.approx(2.12, abs=0.005)  # golden
     pump = machine.oil.pump_power_w
@@ -760,15 +760,15 @@ def test_losses_add_up_to_the_shaft_power(machine, revolution):
 
 
 def test_any_number_of_samples_is_taken_from_whole_quarters(machine):
-    coarse, fine = (MECHANISMS["slider-link"](machine, 2950.0, count) for count in (90, 360))
+    coarse, fine = (machine.revolution(2950.0, count) for count in (90, 360))
     for name, own in coarse.wrenches.items():
         np.testing.assert_array_equal(own.force_n, fine.wrenches[name].force_n[:, ::4])
-    assert coarse.facts == fine.facts
+    assert coarse.figures == fine.figures
 
 
 @pytest.mark.parametrize("samples", [61, 122])
 def test_odd_samples_run(machine, samples):
-    found = MECHANISMS["slider-link"](machine, 2950.0, samples)
+    found = machine.revolution(2950.0, samples)
     assert found.rotation.speed_rad_per_s.size == samples
     assert found.rotation.duration_s == pytest.approx(60.0 / 2950.0, rel=1e-6)
 
@@ -776,8 +776,8 @@ def test_odd_samples_run(machine, samples):
 def test_counterweight_takes_its_share_of_the_piston(machine):
     """It is opposite to a mass s m_p that goes round with the crank pin at the piston's height."""
     turn = constant_rotation(2950.0, 96)
-    option = RotatingCounterweight(kind="rotating-counterweight", share_ratio=0.4)
-    added = rotating_counterweight(option, machine, 2950.0, turn.crank_angle).parts
+    option = RotatingCounterweight(share_ratio=0.4)
+    added = option.added(machine, steady(2950.0, turn.crank_angle.size)).parts
     mass, radius = 0.4 * machine.masses.piston_mass_kg, machine.mechanism.crank_radius_m
     along, across = radius * np.cos(turn.crank_angle), -radius * np.sin(turn.crank_angle)
     round_ = path(along - machine.centre_of_mass_offset_m, across, machine.heights.piston_axis_m)
@@ -791,8 +791,8 @@ def test_counterweight_takes_its_share_of_the_piston(machine):
 
 def test_lanchester_takes_the_piston_alone(machine):
     turn = constant_rotation(2950.0, 96)
-    option = Lanchester(kind="lanchester", share_ratio=1.0, radius_m=0.015)
-    added = wrench(lanchester(option, machine, 2950.0, turn.crank_angle).parts, turn)
+    option = Lanchester(share_ratio=1.0, radius_m=0.015)
+    added = wrench(option.added(machine, steady(2950.0, turn.crank_angle.size)).parts, turn)
     size = machine.masses.piston_mass_kg * machine.mechanism.crank_radius_m * SPEED**2
     expected = [-size * np.cos(turn.crank_angle), 0.0 * turn.crank_angle, 0.0 * turn.crank_angle]
     np.testing.assert_allclose(added.force_n, expected, atol=48.0**2 * EPSILON * size)

@@ -11,8 +11,8 @@ from support import ROOT, TINY, made_up_transfer_vectors
 from vibroacoustics import levels, pipeline
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.loading import load_study
-from vibroacoustics.mechanisms.oldham_scroll import scroll_parts
-from vibroacoustics.mechanisms.run_down.paths import inertia_over_angle
+from vibroacoustics.mechanics.rotation import uniform_crank_angle
+from vibroacoustics.mechanisms.oldham_scroll.revolution import scroll_parts
 from vibroacoustics.parameters.housing import Housing
 from vibroacoustics.parameters.mounts import Mounts
 from vibroacoustics.parameters.study import Study
@@ -20,8 +20,8 @@ from vibroacoustics.pipeline.stopping import MAP_REVOLUTIONS, stopping_sound
 from vibroacoustics.pipeline.transient import LOAD_SAMPLES, RESULT_SAMPLES, transient
 from vibroacoustics.report import render
 from vibroacoustics.report.stopping import stopping_section
-from vibroacoustics.rotation import uniform_crank_angle
 from vibroacoustics.schema import check, stamp
+from vibroacoustics.stopping.paths import inertia_over_angle
 from vibroacoustics.transfer import RigidBodyOnMounts
 
 SPEED = 2900.0 * np.pi / 30.0

@@ -2,40 +2,46 @@
 
 The public functions take or return one `xarray.Dataset`, so that a notebook needs no files:
 `load_study`, `run`, `open_results`, `score`, `write_report`; `read_recording`, `label_recording`,
-`analyse_orders`, `compare`.
+`analyse_orders`, `compare`. A file that adds a criterion uses `Criterion` and `register`.
 """
 
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .base.registry import register
     from .comparison import compare
     from .loading import load_study
     from .measurements import label_recording, read_recording
     from .outputs import write_report
+    from .parameters.criterion import Criterion
     from .pipeline import analyse_orders, run
     from .scoring import score
     from .storage import open_results
 
 __all__ = [
+    "Criterion",
     "analyse_orders",
     "compare",
     "label_recording",
     "load_study",
     "open_results",
     "read_recording",
+    "register",
     "run",
     "score",
     "write_report",
 ]
 
 _HOME = {
+    "Criterion": "parameters.criterion",
     "analyse_orders": "pipeline",
     "compare": "comparison",
     "label_recording": "measurements",
     "load_study": "loading",
     "open_results": "storage",
     "read_recording": "measurements",
+    "register": "base.registry",
     "run": "pipeline",
     "score": "scoring",
     "write_report": "outputs",

@@ -6,17 +6,22 @@ import sys
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Final, cast
+from typing import Any, Final, TypeVar
 
+from .base.parameters import KindOfParameters
+from .base.registry import Registry
 from .errors import ParameterError
 from .parameters.inside import DRAWN, Doubt, Inside
-from .parameters.machines import MACHINES, Machine
+from .parameters.machine import MACHINES, Machine
+from .parameters.option import OPTIONS
 from .parameters.study import ParameterRecord, Study
 from .units import si_key, split_key
 from .validation import validated
 
 MAXIMUM_FILE_BYTES: Final = 1_000_000
 MAXIMUM_DEPTH: Final = 16
+Kind = TypeVar("Kind", bound=KindOfParameters)
+
 QUANTITY_KEYS: Final = {"value", "source", "range"}
 
 
@@ -60,14 +65,16 @@ def load_study(path: str | Path) -> Study:
             )
         scoring["published"] = _read_published_table(_beside(origin_file, name))
     _place_files(content, origin, path)
-    for name in ("records", "source_file"):  # filled in here, not by a file
+    for name in ("records", "source_file", "given"):  # filled in here, not by a file
         if name in content:
             raise ParameterError(f"{path}: {name}: unknown key")
+    given = _take_given(content, reader)
     content = reader.to_si(content, ())
-    content.update(machine=machine, source_file=path.name)
+    content.update(machine=machine, source_file=path.name, given=given)
     for name, (redesigned, change_records) in redesigns.items():
         content["options"][name]["machine"] = redesigned
         machine_records += change_records
+    _place_options(content, reader)
     content["records"] = (*machine_records, *inside_records, *reader.records)
     return validated(Study, content, reader)
 
@@ -88,6 +95,62 @@ def _place_files(
         if isinstance(table.get(name), str):
             file = origin.get(("radiation", "body", *prefix, name), path)
             table[name] = str(_beside(file, table[name]))
+
+
+def _place_options(content: dict[str, Any], reader: "_Reader") -> None:
+    """Turn the table of each option into parameters of its kind."""
+    options = content.get("options")
+    if not isinstance(options, dict):  # refused by the study
+        return
+    for name, table in options.items():
+        if isinstance(table, dict):
+            kind = _kind_of(OPTIONS, table, reader.place(("options", name)))
+            values = {key: value for key, value in table.items() if key != "kind"}
+            options[name] = validated(kind, values, reader, ("options", name))
+
+
+def _take_given(content: Mapping[str, Any], reader: "_Reader") -> dict[str, dict[str, float]]:
+    """Take the table `given` out of each option: its values as written, by criterion."""
+    options = content.get("options")
+    return {
+        name: _given_values(table.pop("given"), name, content, reader)
+        for name, table in (options if isinstance(options, dict) else {}).items()
+        if isinstance(table, dict) and "given" in table
+    }
+
+
+def _given_values(
+    table: Any, option: str, content: Mapping[str, Any], reader: "_Reader"
+) -> dict[str, float]:
+    """Numbers of one option's table; those with a source are recorded in the scale's unit."""
+    keys = ("options", option, "given")
+    if not _table(table):
+        raise ParameterError(f"{reader.place(keys)}: must be a table")
+    values = {}
+    for name, written in table.items():
+        unit = _at(content, ("scoring", "criteria", name, "unit"))
+        number = reader.number((*keys, name), written, unit if isinstance(unit, str) else "")
+        if not _is_number(number):
+            raise ParameterError(f"{reader.place((*keys, name))} = {number}: must be a number")
+        values[name] = float(number)
+    return values
+
+
+def _at(content: Any, keys: tuple[str, ...]) -> Any:
+    """Value under nested keys; None where one is missing."""
+    for key in keys:
+        content = content.get(key) if isinstance(content, dict) else None
+    return content
+
+
+def _kind_of(registry: Registry[type[Kind]], table: Mapping[str, Any], where: str) -> type[Kind]:
+    """Class that the `kind` of a table names."""
+    kind = table.get("kind")
+    if kind is None:
+        raise ParameterError(f"{where}: kind is missing")
+    if not isinstance(kind, str) or kind not in registry:
+        raise ParameterError(f"{where}.kind = {kind}: {registry.unknown(str(kind))}")
+    return registry[kind]
 
 
 def _place_inside(
@@ -149,11 +212,12 @@ def _change_of(option: str) -> tuple[str, ...]:
 
 
 def _changes(content: Mapping[str, Any], path: Path) -> list[tuple[str, dict[str, Any]]]:
-    """Take the table `change` out of each option that is a redesign of the machine."""
+    """Take the table `change` out of each option that changes values of the machine."""
     options = content.get("options")
     found = []
     for name, option in (options if isinstance(options, dict) else {}).items():
-        if not isinstance(option, dict) or option.get("kind") != "redesign":
+        kind = option.get("kind") if isinstance(option, dict) else None
+        if not isinstance(kind, str) or kind not in OPTIONS or not OPTIONS[kind].changes_machine:
             continue
         if "machine" in option:  # filled in here, not by a file
             raise ParameterError(f"{path}: options.{name}.machine: unknown key")
@@ -195,12 +259,10 @@ def _load_machine(
     reader.origin = dict.fromkeys(_leaves(content), path)
     for prefix, change in changes.items():
         _apply(content, prefix, change, reader, study)
-    model = MACHINES.get(str(content.get("kind")))
-    if model is None:
-        raise ParameterError(
-            f"{path}: kind = {content.get('kind')!r}: unknown; allowed {', '.join(MACHINES)}"
-        )
-    return cast(Machine, validated(model, reader.to_si(content, ()), reader)), reader.records
+    model = _kind_of(MACHINES, content, f"{path}: machine")
+    values = reader.to_si(content, ())
+    del values["kind"]
+    return validated(model, values, reader), reader.records
 
 
 def _apply(
@@ -343,7 +405,7 @@ class _Reader:
             name, factor = si_key(key)
             if name in result:
                 raise ParameterError(f"{self.place(keys)}: given twice, in two units")
-            number = self._number(keys, value)
+            number = self.number(keys, value)
             self.file_keys[(*prefix, name)] = (key, number)
             result[name] = _scale(number, factor)
         return result
@@ -357,8 +419,15 @@ class _Reader:
         dotted = ".".join((*prefix, *keys))
         return f"{self.file(keys)}: {dotted}" if dotted else f"{self.file(keys)}"
 
-    def _number(self, keys: tuple[str, ...], value: Any) -> Any:
-        """The bare value of a leaf; records its source and checks it against its own range."""
+    def number(self, keys: tuple[str, ...], value: Any, unit: str = "") -> Any:
+        """The bare value of a leaf; records its source and checks it against its own range.
+
+        Parameters
+        ----------
+        keys : of the leaf
+        value : number, or table with value, source and range
+        unit : where the key's suffix tells none
+        """
         where = self.place(keys)
         if not _quantity(value):
             if self.sources_required and _is_number(value):
@@ -371,8 +440,8 @@ class _Reader:
         if not isinstance(source, str) or not source.strip():
             raise ParameterError(f"{where}: source is missing")
         number = value["value"]
-        unit = split_key(keys[-1])[1]
-        symbol = unit.symbol if unit else ""
+        suffix = split_key(keys[-1])[1]
+        symbol = unit or (suffix.symbol if suffix else "")
         lowest, highest = _range(where, value.get("range"))
         if source.startswith("assumed") and lowest is None:
             raise ParameterError(f"{where}: an assumed value needs a range")

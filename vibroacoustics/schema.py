@@ -49,7 +49,10 @@ COORDINATES: Final[dict[str, Variable]] = {
     "mount_frequency": Variable(("mount_frequency",), "Hz", "frequency of the mounts' response"),
     "weighting": Variable(("weighting",), "", "frequency weighting (IEC 61672-1)"),
     "fact": Variable(("fact",), "", "reported figure of an option, unit in its name"),
-    "criterion": Variable(("criterion",), "", "scoring criterion, unit in its name"),
+    "criterion": Variable(("criterion",), "", "scoring criterion"),
+    "criterion_label": Variable(("criterion",), "", "the criterion in plain words"),
+    "criterion_unit": Variable(("criterion",), "", "unit of the criterion"),
+    "given_criterion": Variable(("given_criterion",), "", "criterion whose values are given"),
     "scoring_method": Variable(("scoring_method",), "", "scoring method"),
     "published_option": Variable(("published_option",), "", "option in the published table"),
     "published_criterion": Variable(("published_criterion",), "", "criterion in the table"),
@@ -204,7 +207,10 @@ VARIABLES: Final[dict[str, Variable]] = {
     "change_1x": Variable(_CHANGES, "dB", "change of the 1x line against none"),
     "change_modelled": Variable(_CHANGES, "dB", "change of the modelled A-weighted level"),
     "change_total": Variable(_CHANGES, "dB", "change of the A-weighted total level"),
-    "criterion_value": Variable(("option", "criterion"), "", "criterion, worst over the speeds"),
+    "criterion_value": Variable(("option", "criterion"), "", "criterion, unit in criterion_unit"),
+    "given_value": Variable(
+        ("option", "given_criterion"), "", "value that the study gives, not a number where none"
+    ),
     "weight": Variable(("criterion",), "1", "weight of the criterion"),
     "criterion_best": Variable(("criterion",), "", "value that counts as best, utility 1"),
     "criterion_worst": Variable(("criterion",), "", "value that counts as worst, utility 0"),

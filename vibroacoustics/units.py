@@ -51,6 +51,7 @@ UNITS: Final[dict[str, Unit]] = {
     "rpm": Unit("rpm", "rpm", 1.0),  # the label of a speed; see shaft_frequency_hz
     "db": Unit("dB", "db", 1.0),
     "dba": Unit("dB(A)", "dba", 1.0),
+    "eur": Unit("€", "eur", 1.0),
     "percent": Unit("%", "ratio", 1e-2),
     "ratio": Unit("", "ratio", 1.0),
 }

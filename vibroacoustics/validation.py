@@ -8,7 +8,6 @@ from pydantic_core import ErrorDetails
 
 from .errors import ParameterError
 from .parameters.radiation import RadiationSettings
-from .parameters.study import Study
 from .units import split_key
 
 Model = TypeVar("Model", bound=BaseModel)
@@ -24,8 +23,17 @@ class FileKeys(Protocol):
         """File and dotted key, as written, of a path of keys."""
 
 
-def validated(model: type[Model], content: dict[str, Any], reader: FileKeys) -> Model:
+def validated(
+    model: type[Model], content: dict[str, Any], reader: FileKeys, table: tuple[str, ...] = ()
+) -> Model:
     """Validate SI values; a refusal is worded in the file's own keys and units.
+
+    Parameters
+    ----------
+    model : class of the parameters
+    content : values in SI by field
+    reader : of the file
+    table : keys of the table in the file that holds the content
 
     Raises
     ------
@@ -35,11 +43,14 @@ def validated(model: type[Model], content: dict[str, Any], reader: FileKeys) -> 
     try:
         return model.model_validate(content)
     except ValidationError as error:
-        raise ParameterError(_one_line(model, error.errors()[0], reader)) from None
+        raise ParameterError(_one_line(model, error.errors()[0], reader, table)) from None
 
 
-def _one_line(model: type[BaseModel], details: ErrorDetails, reader: FileKeys) -> str:
-    location = _without_tags(tuple(str(part) for part in details["loc"]))
+def _one_line(
+    model: type[BaseModel], details: ErrorDetails, reader: FileKeys, table: tuple[str, ...]
+) -> str:
+    inner = _without_tags(tuple(str(part) for part in details["loc"]))
+    location = (*table, *inner)
     key, value = reader.file_keys.get(location, (location[-1] if location else "", None))
     where = reader.place((*location[:-1], key) if location else ())
     plain = _PLAIN.get(details["type"])
@@ -52,7 +63,7 @@ def _one_line(model: type[BaseModel], details: ErrorDetails, reader: FileKeys) -
         return f"{where}.kind = {context['tag']}: unknown; allowed {context['expected_tags']}"
     unit = split_key(key)[1]
     symbol = f" {unit.symbol}" if unit and unit.symbol else ""
-    bounds = _allowed(model, location, 1.0 if unit is None else unit.factor)
+    bounds = _allowed(model, inner, 1.0 if unit is None else unit.factor)
     reason = "out of range" if details["type"] in _LIMITS else _reason(details["msg"])
     allowed = f"; allowed {bounds}{symbol}" if bounds else ""
     shown = details["input"] if value is None else value
@@ -68,11 +79,10 @@ _LIMITS: Final = {"greater_than", "greater_than_equal", "less_than", "less_than_
 
 
 def _without_tags(location: tuple[str, ...]) -> tuple[str, ...]:
-    """Location without what pydantic adds: the kind of an option or body, and a key's mark."""
-    for table in ("options", "body"):
-        place = location.index(table) + (2 if table == "options" else 1) if table in location else 0
-        if 0 < place < len(location) and location[place] in _KINDS:
-            location = (*location[:place], *location[place + 1 :])
+    """Location without what pydantic adds: the kind of a body, and a key's mark."""
+    at = location.index("body") + 1 if "body" in location else 0
+    if 0 < at < len(location) and location[at] in _BODIES:
+        location = (*location[:at], *location[at + 1 :])
     return tuple(part for part in location if part != "[key]")
 
 
@@ -121,12 +131,8 @@ def _models_in(annotation: Any) -> list[type[BaseModel]]:
     return [found for argument in get_args(annotation) for found in _models_in(argument)]
 
 
-_KINDS: Final = {
+_BODIES: Final = {
     kind
-    for annotation in (
-        Study.model_fields["options"].annotation,
-        RadiationSettings.model_fields["body"].annotation,
-    )
-    for model in _models_in(annotation)
+    for model in _models_in(RadiationSettings.model_fields["body"].annotation)
     for kind in get_args(model.model_fields["kind"].annotation)
 }

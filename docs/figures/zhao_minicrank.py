@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from vibroacoustics.loading import load_machine
 from vibroacoustics.mechanisms.minicrank.cycle import steady_minicrank_cycle
 from vibroacoustics.mechanisms.minicrank.four_bar import four_bar_motion
-from vibroacoustics.parameters.four_bar import Links
+from vibroacoustics.mechanisms.minicrank.links import Links
 
 HERE = Path(__file__).resolve().parent
 MACHINE = HERE.parent.parent / "data" / "machines" / "zhao_minicrank.toml"

@@ -1,25 +1,42 @@
 """Lanchester's balancer: two weights that turn in opposite senses at the shaft's speed."""
 
-from ..moving_parts import Array, Balancing, circling
-from ..parameters.machine import CommonMachine
-from ..parameters.options import Lanchester
-from .rotating_counterweight import oscillation
+from typing import ClassVar
+
+from pydantic import Field
+
+from ..base.registry import register
+from ..mechanics.added import Added
+from ..mechanics.capabilities import Capability, Slider
+from ..mechanics.moving_parts import Revolution, circling
+from ..parameters.machine import Machine
+from ..parameters.option import Option
 
 
-def lanchester(
-    option: Lanchester, machine: CommonMachine, speed_rpm: float, crank_angle: Array
-) -> Balancing:
-    """First-order balancer: together the weights make a force along the stroke only.
+@register
+class Lanchester(Option):
+    """Two weights that turn in opposite senses at the shaft's speed."""
 
-    Each has half of the mass moment to balance (Lanchester 1914; Taylor, The Internal-Combustion
-    Engine in Theory and Practice, vol. 2, chapter 8). They turn about the shaft's axis in the
-    plane of the oscillating mass, as two shafts on either side of it would in the mean: no moment
-    is left. The change of their own spin is small beside the shaft's and left out.
-    """
-    slider = oscillation(machine)
-    mass = 0.5 * option.share_ratio * slider.mass_kg * slider.amplitude_m / option.radius_m
-    parts = tuple(
-        circling("balancer", mass, -option.radius_m, slider.height_m, angle, slider.frame)
-        for angle in (crank_angle, -crank_angle)
-    )
-    return Balancing(parts, {"added_mass_kg": 2.0 * mass})
+    kind: ClassVar[str] = "lanchester"
+    needs: ClassVar[type[Capability]] = Slider
+    share_ratio: float = Field(ge=0.0, le=2.0)
+    """Share of the oscillating mass moment that both balance together."""
+    radius_m: float = Field(gt=0.0, le=1.0)
+    """Of the centre of mass of each weight from its shaft."""
+
+    def added(self, machine: Machine, revolution: Revolution) -> Added:
+        """First-order balancer: together the weights make a force along the stroke only.
+
+        Each has half of the mass moment to balance (Lanchester 1914; Taylor, The
+        Internal-Combustion Engine in Theory and Practice, vol. 2, chapter 8). They turn about the
+        shaft's axis in the plane of the oscillating mass, as two shafts on either side of it would
+        in the mean: no moment is left. The change of their own spin is small beside the shaft's
+        and left out.
+        """
+        slider = machine.require(Slider)
+        mass = 0.5 * self.share_ratio * slider.mass_kg * slider.amplitude_m / self.radius_m
+        crank_angle = revolution.rotation.crank_angle
+        parts = tuple(
+            circling("balancer", mass, -self.radius_m, slider.height_m, angle, slider.frame)
+            for angle in (crank_angle, -crank_angle)
+        )
+        return Added(parts, {"added_mass_kg": 2.0 * mass})

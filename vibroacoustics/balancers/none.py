@@ -1,12 +1,20 @@
 """The reference: nothing added."""
 
-from ..moving_parts import Array, Balancing
-from ..parameters.machine import CommonMachine
-from ..parameters.options import NoBalancer
+from typing import ClassVar
+
+from ..base.registry import register
+from ..mechanics.added import Added
+from ..mechanics.moving_parts import Revolution
+from ..parameters.machine import Machine
+from ..parameters.option import Option
 
 
-def none(
-    option: NoBalancer, machine: CommonMachine, speed_rpm: float, crank_angle: Array
-) -> Balancing:
-    """Nothing is added; every change is told against this."""
-    return Balancing(facts={"added_mass_kg": 0.0})
+@register
+class NoBalancer(Option):
+    """The machine as it is; the reference of every change."""
+
+    kind: ClassVar[str] = "none"
+
+    def added(self, machine: Machine, revolution: Revolution) -> Added:
+        """Nothing."""
+        return Added(figures={"added_mass_kg": 0.0})

@@ -1,21 +1,44 @@
 """Damping between the Oldham ring and the frame (thesis 7.4)."""
 
-import numpy as np
+from typing import ClassVar
 
-from ..moving_parts import Array, Balancing
-from ..parameters.oldham_scroll import OldhamScroll
-from ..parameters.options import RingDamping
+import numpy as np
+from pydantic import Field
+
+from ..base import rounding
+from ..base.registry import register
+from ..mechanics.added import Added, RingForce
+from ..mechanics.capabilities import Capability, OldhamRing
+from ..mechanics.moving_parts import Revolution
+from ..parameters.machine import Machine
+from ..parameters.option import Figures, Option
 from ..units import shaft_frequency_hz
 
 
-def ring_damping(
-    option: RingDamping, machine: OldhamScroll, speed_rpm: float, crank_angle: Array
-) -> Balancing:
-    """Viscous damping of the ring against the frame.
+@register
+class RingDamping(Option):
+    """Rubber or springs between ring and frame (thesis 7.4)."""
 
-    The damping force is an internal pair and the crank prescribes the ring's motion: no momentum
-    changes, so no force on the housing does. It costs the power c (ω r)² / 2.
-    """
-    velocity = 2.0 * np.pi * shaft_frequency_hz(speed_rpm) * machine.kinematics.orbit_radius_m
-    power = 0.5 * option.damping_ns_per_m * velocity**2
-    return Balancing(facts={"added_mass_kg": 0.0, "dissipated_power_w": power})
+    kind: ClassVar[str] = "ring-damping"
+    needs: ClassVar[type[Capability]] = OldhamRing
+    damping_ns_per_m: float = Field(ge=0.0, le=1e6)
+
+    def added(self, machine: Machine, revolution: Revolution) -> Added:
+        """Viscous damping of the ring against the frame.
+
+        The damping force is an internal pair and the crank prescribes the ring's motion: no
+        momentum changes, so no force on the housing does. It costs the power c (ω r)² / 2.
+        """
+        ring = machine.require(OldhamRing)
+        velocity = 2.0 * np.pi * shaft_frequency_hz(revolution.speed_rpm) * ring.stroke_m
+        power = 0.5 * self.damping_ns_per_m * velocity**2
+        force = self.damping_ns_per_m * velocity * np.sin(revolution.rotation.crank_angle)
+        return Added(
+            figures={"added_mass_kg": 0.0, "dissipated_power_w": power},
+            on_ring=RingForce(force, from_housing=True),
+        )
+
+    def sentences(self, figures: Figures) -> tuple[str, ...]:
+        """What the damping costs."""
+        cost = rounding.span(figures["dissipated_power_w"], rounding.significant)
+        return (f"It dissipates {cost} W.",)

@@ -1,40 +1,108 @@
 """A mass between springs on the Oldham ring (thesis 7.2), tuned rightly and as printed."""
 
-import numpy as np
+from collections.abc import Mapping
+from typing import ClassVar
 
+import numpy as np
+from pydantic import Field
+
+from ..base import rounding
+from ..base.registry import register
 from ..errors import ParameterError
-from ..moving_parts import Array, Balancing, MovingPart, path
-from ..parameters.oldham_scroll import OldhamScroll
-from ..parameters.options import SpringMass, SpringMassPrinted, SprungMass
+from ..mechanics.added import Added, RingForce
+from ..mechanics.capabilities import Capability, OldhamRing
+from ..mechanics.moving_parts import MovingPart, Revolution, path, wrench
+from ..parameters.machine import Machine
+from ..parameters.option import Figures, Option
 from ..units import shaft_frequency_hz
 
 
-def spring_mass(
-    option: SpringMass, machine: OldhamScroll, speed_rpm: float, crank_angle: Array
-) -> Balancing:
-    """Sprung mass tuned so that its momentum cancels the ring's at one speed.
+class SprungMass(Option):
+    """A mass between two springs on the Oldham ring (thesis 7.2)."""
 
-    The mass follows from m2 ẍ2 = 2K (x1 - x2), which corrects the sign of thesis (7.15):
-    see `tuned_mass`.
-    """
-    mass = tuned_mass(
-        option.stiffness_n_per_m, machine.oldham.mass_kg, _angular_frequency(option.tuned_speed_rpm)
-    )
-    return _sprung_mass(option, mass, machine, speed_rpm, crank_angle)
+    needs: ClassVar[type[Capability]] = OldhamRing
+    labels: ClassVar[Mapping[str, str]] = {
+        "stroke_amplitude_mm": "Stroke amplitude of the sprung mass",
+        "resonance_speed_rpm": "Speed at which the sprung mass resonates",
+    }
+    stiffness_n_per_m: float = Field(gt=0.0, le=1e7)
+    """Stiffness K of each of the two springs."""
+    tuned_speed_rpm: float = Field(ge=60.0, le=60000.0)
+    damping_ratio: float = Field(ge=0.0, le=1.0)
+    """Damping of the mass on both springs, as a fraction of critical."""
+    height_below_ring_m: float = Field(ge=-1.0, le=1.0)
+
+    def mass_kg(self, ring_mass_kg: float) -> float:
+        """Mass that the tuning asks for."""
+        raise NotImplementedError
+
+    def added(self, machine: Machine, revolution: Revolution) -> Added:
+        """The sprung mass as the springs move it at the revolution's speed."""
+        ring, rotation = machine.require(OldhamRing), revolution.rotation
+        mass, angular_frequency = self.mass_kg(ring.mass_kg), _angular(revolution.speed_rpm)
+        ratio = sprung_mass_response(
+            mass, self.stiffness_n_per_m, self.damping_ratio, angular_frequency
+        )
+        amplitude = ring.stroke_m * ratio
+        position = np.real(amplitude * np.exp(1j * rotation.crank_angle))
+        height = ring.height_m - self.height_below_ring_m
+        part = MovingPart("balancer", mass, path(position, 0.0, height))
+        damper = damping_coefficient(mass, self.stiffness_n_per_m, self.damping_ratio)
+        resonance = np.sqrt(2.0 * self.stiffness_n_per_m / mass)
+        slip = angular_frequency * ring.stroke_m * abs(ratio - 1.0)
+        return Added(
+            (part,),
+            {
+                "added_mass_kg": mass,
+                "stroke_amplitude_mm": 1e3 * abs(amplitude),
+                "resonance_speed_rpm": float(resonance) * 30.0 / np.pi,
+                "dissipated_power_w": float(0.5 * damper * slip**2),
+            },
+            RingForce(wrench((part,), rotation).force_n[0], inertial=False),
+        )
+
+    def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
+        """Its narrow tuning."""
+        return ("A sprung mass is tuned to one speed.",)
+
+    def sentences(self, figures: Figures) -> tuple[str, ...]:
+        """Its stroke, its resonance and what it costs."""
+        stroke = rounding.span(figures["stroke_amplitude_mm"], rounding.significant)
+        speed = rounding.span(figures["resonance_speed_rpm"], lambda rpm: rounding.fixed(rpm, 0))
+        cost = rounding.span(figures["dissipated_power_w"], rounding.significant)
+        return (
+            f"Its mass moves with an amplitude of {stroke} mm.",
+            f"Its mass resonates on the springs at {speed} rpm, also on the way up to speed.",
+            f"It dissipates {cost} W.",
+        )
 
 
-def spring_mass_printed(
-    option: SpringMassPrinted, machine: OldhamScroll, speed_rpm: float, crank_angle: Array
-) -> Balancing:
-    """The mass of equation (7.20) as printed, moved as the springs really move it."""
-    mass = printed_mass(
-        option.stiffness_n_per_m, machine.oldham.mass_kg, _angular_frequency(option.tuned_speed_rpm)
-    )
-    return _sprung_mass(option, mass, machine, speed_rpm, crank_angle)
+@register
+class SpringMass(SprungMass):
+    """The sprung mass as dynamics tune it."""
+
+    kind: ClassVar[str] = "spring-mass"
+
+    def mass_kg(self, ring_mass_kg: float) -> float:
+        """Mass whose momentum cancels the ring's at one speed; see `tuned_mass`."""
+        return tuned_mass(self.stiffness_n_per_m, ring_mass_kg, _angular(self.tuned_speed_rpm))
+
+
+@register
+class SpringMassPrinted(SprungMass):
+    """The sprung mass of equation (7.20) as printed, which has a sign error."""
+
+    kind: ClassVar[str] = "spring-mass-printed"
+
+    def mass_kg(self, ring_mass_kg: float) -> float:
+        """The mass as printed, which the springs move as they really do; see `printed_mass`."""
+        return printed_mass(self.stiffness_n_per_m, ring_mass_kg, _angular(self.tuned_speed_rpm))
 
 
 def tuned_mass(stiffness_n_per_m: float, ring_mass_kg: float, angular_frequency: float) -> float:
     """Mass that cancels the ring's momentum: m2 = 2K m1 / (m1 ω² - 2K), kg.
+
+    It follows from m2 ẍ2 = 2K (x1 - x2), which corrects the sign of thesis (7.15).
 
     Raises
     ------
@@ -97,33 +165,6 @@ def damping_coefficient(mass_kg: float, stiffness_n_per_m: float, damping_ratio:
     return 2.0 * damping_ratio * float(np.sqrt(2.0 * stiffness_n_per_m * mass_kg))
 
 
-def _sprung_mass(
-    option: SprungMass,
-    mass_kg: float,
-    machine: OldhamScroll,
-    speed_rpm: float,
-    crank_angle: Array,
-) -> Balancing:
-    angular_frequency = _angular_frequency(speed_rpm)
-    ratio = sprung_mass_response(
-        mass_kg, option.stiffness_n_per_m, option.damping_ratio, angular_frequency
-    )
-    amplitude = machine.kinematics.orbit_radius_m * ratio
-    position = np.real(amplitude * np.exp(1j * crank_angle))
-    height = machine.oldham.height_m - option.height_below_ring_m
-    damper = damping_coefficient(mass_kg, option.stiffness_n_per_m, option.damping_ratio)
-    resonance = np.sqrt(2.0 * option.stiffness_n_per_m / mass_kg)
-    slip = angular_frequency * machine.kinematics.orbit_radius_m * abs(ratio - 1.0)
-    return Balancing(
-        (MovingPart("balancer", mass_kg, path(position, 0.0, height)),),
-        {
-            "added_mass_kg": mass_kg,
-            "stroke_amplitude_mm": 1e3 * abs(amplitude),
-            "resonance_speed_rpm": float(resonance) * 30.0 / np.pi,
-            "dissipated_power_w": float(0.5 * damper * slip**2),
-        },
-    )
-
-
-def _angular_frequency(speed_rpm: float) -> float:
+def _angular(speed_rpm: float) -> float:
+    """Angular frequency of the shaft, rad/s."""
     return 2.0 * np.pi * shaft_frequency_hz(speed_rpm)

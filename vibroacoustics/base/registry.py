@@ -7,7 +7,7 @@ study's file says so.
 """
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from difflib import get_close_matches
 from importlib import import_module, metadata
 from pathlib import Path
@@ -96,11 +96,18 @@ class Registry(Generic[Thing]):
         """Things, in the order of the names."""
         return (self._things[name] for name in self)
 
-    def unknown(self, name: str) -> str:
-        """What a refusal of a name says: names that come close, or all that there are."""
-        close = get_close_matches(name, list(self), n=1)
+    def unknown(self, name: str, further: Iterable[str] = ()) -> str:
+        """What a refusal of a name says: names that come close, or all that there are.
+
+        Parameters
+        ----------
+        name : the unknown one
+        further : names that are allowed beside those of the registry
+        """
+        allowed = [*self, *sorted(further)]
+        close = get_close_matches(name, allowed, n=1)
         meant = f", did you mean {close[0]}?" if close else ";"
-        return f"unknown{meant} allowed {', '.join(self)}"
+        return f"unknown{meant} allowed {', '.join(allowed)}"
 
     def origin(self, name: str) -> Origin | None:
         """Where a thing comes from; None for a built-in one."""

@@ -1,1 +1,1 @@
-"""Motions that machine kinds and balancers share."""
+"""Moving parts, rotation, shafts: what machines, sources and balancers share."""

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ..rotation import crank_time_s
+from ..mechanics.rotation import crank_time_s
 from .angular import whole_revolutions
 from .fourier import real_transform
 from .order_cut import order_lines

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from .base import Parameters
+from ..base.parameters import Parameters
 
 
 class ShellBody(Parameters):

@@ -4,7 +4,7 @@ import math
 
 from pydantic import Field
 
-from .base import Parameters
+from ..base.parameters import Parameters
 
 OHM = Field(gt=0.0, le=1e5)
 

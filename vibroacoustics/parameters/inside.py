@@ -4,12 +4,12 @@ from typing import Final
 
 from pydantic import Field, model_validator
 
-from .base import Parameters
+from ..base.parameters import Parameters
+from ..mechanics.scroll_shaft import ScrollShaft
 from .induction_motor import CapacitorMotor
 from .oldham_keys import OldhamKeys
 from .run_down import Stopping
 from .scroll_gas import ScrollGas, ScrollWraps
-from .scroll_shaft import ScrollShaft
 from .shell_structure import ShellStructure
 
 DRAWN: Final = frozenset(

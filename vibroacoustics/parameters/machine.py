@@ -3,12 +3,18 @@
 Heights are those of the machine's frame: z up, zero at the centre of mass at rest.
 """
 
-from pydantic import Field
+from collections.abc import Mapping
+from typing import Annotated, ClassVar, Final, TypeVar
 
-from .base import Parameters
+from pydantic import Field, SerializeAsAny
+
+from ..base.parameters import AnyOf, KindOfParameters, Parameters
+from ..base.registry import Registry
+from ..errors import ParameterError
+from ..mechanics.capabilities import UPRIGHT, Capability, CrankFrame
+from ..mechanics.moving_parts import Array, MovingPart, Revolution
 from .housing import Housing
 from .mounts import Mounts
-from .oscillation import Oscillation
 from .shell import Shell
 from .suspension import Suspension
 
@@ -31,8 +37,14 @@ class Erratum(Parameters):
     finding: str
 
 
-class CommonMachine(Parameters):
-    """Fields of all machines; each kind of machine adds those of its mechanism."""
+C = TypeVar("C", bound=Capability)
+
+
+class Machine(KindOfParameters):
+    """A kind of machine: its parameters, its steady revolution, and the words that fit it only.
+
+    A further kind is a folder of `mechanisms` whose class is registered; it edits no other file.
+    """
 
     name: str = Field(min_length=1)
     housing: Housing
@@ -44,7 +56,70 @@ class CommonMachine(Parameters):
     """Springs between the block with the mechanism and the shell; none where both are one."""
     errata: tuple[Erratum, ...] = ()
 
+    axes: ClassVar[str] = "x, y and z"
+    """What x, y and z are on this machine."""
+    orders: ClassVar[str] = "Orders are multiples of the mean shaft frequency in time."
+    """Where the orders of the force come from."""
+    labels: ClassVar[Mapping[str, str]] = {}
+    """Plain words for its reported figures, where the name does not say it."""
+
+    def revolution(self, speed_rpm: float, samples: int) -> Revolution:
+        """One steady revolution: force and moment of the moving parts by source.
+
+        Parameters
+        ----------
+        speed_rpm : mean over time
+        samples : uniform crank angles
+
+        Raises
+        ------
+        ParameterError, SolverError
+            The machine cannot run so.
+        """
+        raise NotImplementedError
+
+    def moving_parts(self, crank_angle: Array) -> tuple[MovingPart, ...]:
+        """Moving parts whose path is given by the crank angle alone; none where it is not.
+
+        Parameters
+        ----------
+        crank_angle : shape (samples,), rad
+        """
+        return ()
+
+    def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
+        """What the model of this kind leaves out, a sentence or two each."""
+        return ()
+
     @property
-    def oscillation(self) -> Oscillation | None:
-        """The mass that slides to and fro; none where nothing does."""
-        return None
+    def crank_frame(self) -> CrankFrame:
+        """Axes of stroke and shaft."""
+        return UPRIGHT
+
+    @property
+    def capabilities(self) -> tuple[Capability, ...]:
+        """What options can work on."""
+        return ()
+
+    def capability(self, needed: type[C]) -> C | None:
+        """The part of a type that options can work on; none where the machine has none."""
+        return next((part for part in self.capabilities if isinstance(part, needed)), None)
+
+    def require(self, needed: type[C]) -> C:
+        """The part of a type that options can work on.
+
+        Raises
+        ------
+        ParameterError
+            The machine has none.
+        """
+        part = self.capability(needed)
+        if part is None:
+            raise ParameterError(f"needs {needed.words}; the machine is {self.kind}")
+        return part
+
+
+MACHINES: Final[Registry[type[Machine]]] = Registry(
+    "kind of machine", Machine, "kind", "mechanisms", "vibroacoustics.machines"
+)
+AnyMachine = Annotated[SerializeAsAny[Machine], AnyOf(MACHINES)]

@@ -4,8 +4,8 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
+from ..base.parameters import Parameters
 from ..constants import SPEED_OF_SOUND_M_PER_S
-from .base import Parameters
 from .body import RadiatingBody, ShellBody
 from .surroundings import Surroundings
 

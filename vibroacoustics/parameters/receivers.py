@@ -2,7 +2,7 @@
 
 from pydantic import Field
 
-from .base import Parameters
+from ..base.parameters import Parameters
 
 
 class Receiver(Parameters):

@@ -2,7 +2,7 @@
 
 from pydantic import Field, model_validator
 
-from .base import Parameters
+from ..base.parameters import Parameters
 
 
 class Stopping(Parameters):

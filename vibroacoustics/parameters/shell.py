@@ -4,7 +4,7 @@ from math import hypot
 
 from pydantic import Field, model_validator
 
-from .base import Parameters
+from ..base.parameters import Parameters
 
 
 class Shell(Parameters):

@@ -5,7 +5,7 @@ from typing import Final
 
 from pydantic import Field, model_validator
 
-from .base import Parameters
+from ..base.parameters import Parameters
 
 JOINTS: Final = ("bearing_housing", "fixed_scroll", "stator")
 """Inner parts that are fixed to the wall."""

@@ -5,7 +5,7 @@ from typing import Annotated, Final, Literal
 
 from pydantic import Field, model_validator
 
-from .base import Parameters
+from ..base.parameters import Parameters
 
 HEMISPHERES: Final = ("iso3744-hemisphere-10", "iso3744-hemisphere-20")
 MINIMUM_BACKGROUND_MARGIN_DB: Final = 6.0

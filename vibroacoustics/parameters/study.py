@@ -1,18 +1,19 @@
 """A study: one machine, its operating points, options, microphones and scoring."""
 
-from typing import Any, Final, Literal
+from typing import Any, Final
 
 from pydantic import Field, field_validator, model_validator
 
+from ..base.parameters import Parameters
+from ..mechanics.capabilities import OldhamRing
 from ..schema import REFERENCE_OPTION
 from ..units import orders_below, shaft_frequency_hz
-from .base import Parameters
 from .inside import InsideSettings
-from .machines import Machine
-from .oldham_scroll import OldhamScroll
-from .options import RING_OPTIONS, SLIDER_OPTIONS, NoBalancer, Option, Redesign
+from .machine import AnyMachine, Machine
+from .option import AnyOption, Option
 from .radiation import RadiationSettings
 from .receivers import Receiver
+from .scoring import Scoring, check_given, check_scales
 from .sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
 from .speeds import MOST_SPEEDS, speed_range
 
@@ -20,14 +21,6 @@ MOST_SPEEDS_WITH_TIME_SERIES: Final = 100
 LEAST_ORDERS: Final = 2
 """Which every result holds."""
 ROUNDING: Final = 1e-9
-
-CriterionName = Literal[
-    "foot_force_1x_n",
-    "residual_moment_nm",
-    "level_change_db",
-    "speed_sensitivity_db",
-    "added_mass_kg",
-]
 
 
 class Operation(Parameters):
@@ -60,47 +53,6 @@ class Operation(Parameters):
         return few if self.keep_time_series is None else self.keep_time_series
 
 
-class PublishedTable(Parameters):
-    """A published table of scores, as printed."""
-
-    source: str
-    options: tuple[str, ...]
-    criteria: tuple[str, ...]
-    scores: tuple[tuple[float, ...], ...]
-    """One row per option."""
-    sums: tuple[float, ...]
-
-
-class CriterionScale(Parameters):
-    """Weight of a criterion and the values that count as best and worst, in its unit.
-
-    Fixed scales keep a score from changing when an option is added or left out.
-    """
-
-    weight: float = Field(ge=0.0, le=1e6)
-    best: float
-    worst: float
-
-    @model_validator(mode="after")
-    def _apart(self) -> "CriterionScale":
-        if self.worst <= self.best:
-            raise ValueError(f"worst = {self.worst:g} must exceed best = {self.best:g}")
-        return self
-
-
-class Scoring(Parameters):
-    criteria: dict[CriterionName, CriterionScale] = Field(min_length=1)
-    random_weightings: int = Field(default=2000, ge=1, le=1_000_000)
-    seed: int = Field(default=20061, ge=0, lt=2**63)
-    published: PublishedTable | None = None
-
-    @model_validator(mode="after")
-    def _some_weight(self) -> "Scoring":
-        if sum(scale.weight for scale in self.criteria.values()) <= 0.0:
-            raise ValueError("at least one criterion needs a weight above 0")
-        return self
-
-
 class ParameterRecord(Parameters):
     """Where a value comes from: one row of the assumptions table."""
 
@@ -119,13 +71,15 @@ class ParameterRecord(Parameters):
 
 class Study(Parameters):
     title: str = Field(min_length=1)
-    machine: Machine
+    machine: AnyMachine
     operation: Operation
-    options: dict[str, Option]
+    options: dict[str, AnyOption]
     receivers: dict[str, Receiver] = Field(min_length=1)
     catalogue_receiver: str
     radiation: RadiationSettings
     scoring: Scoring
+    given: dict[str, dict[str, float]] = Field(default={})
+    """Values of criteria that are judged, not computed, by option and criterion."""
     sound_power: SoundPowerSettings | None = None
     map: MapSettings | None = None
     directivity: DirectivitySettings | None = None
@@ -136,10 +90,13 @@ class Study(Parameters):
 
     @model_validator(mode="after")
     def _consistent(self) -> "Study":
-        if not isinstance(self.options.get(REFERENCE_OPTION), NoBalancer):
+        reference = self.options.get(REFERENCE_OPTION)
+        if reference is None or reference.kind != REFERENCE_OPTION:
             raise ValueError('options: an option named none with kind = "none" is required')
         for name, option in self.options.items():
             self._check_fits(name, option)
+        check_given(self.given, self.options)
+        check_scales(self.scoring, self.given, self.options)
         if self.catalogue_receiver not in self.receivers:
             raise ValueError(
                 f"catalogue_receiver = {self.catalogue_receiver}: not among the receivers "
@@ -201,7 +158,7 @@ class Study(Parameters):
                 "operation.speed_rpm: must include the speed of the overall noise, "
                 f"{published.speed_rpm:g} rpm, to fix the remainder"
             )
-        if not isinstance(self.machine, OldhamScroll):
+        if self.machine.capability(OldhamRing) is None:
             raise ValueError(
                 f"inside: needs a scroll with an Oldham ring; the machine is {self.machine.kind}"
             )
@@ -218,32 +175,30 @@ class Study(Parameters):
             )
         self._check_orbit("", self.machine, self.inside)
         for name, option in self.options.items():
-            if isinstance(option, Redesign) and isinstance(option.machine, OldhamScroll):
-                self._check_orbit(f"options.{name}.change: ", option.machine, self.inside)
+            machine = option.applied_to(self.machine)
+            self._check_orbit(f"options.{name}.change: ", machine, self.inside)
 
-    def _check_orbit(self, where: str, machine: OldhamScroll, settings: InsideSettings) -> None:
+    def _check_orbit(self, where: str, machine: Machine, settings: InsideSettings) -> None:
         """Refuse a machine that does not orbit as the wraps of the inside do."""
-        orbit, own = machine.kinematics.orbit_radius_m, settings.inside.wraps.orbit_radius_m
-        if abs(orbit - own) > 0.01 * own:
+        orbit = machine.require(OldhamRing).stroke_m
+        wraps = settings.inside.wraps.orbit_radius_m
+        if abs(orbit - wraps) > 0.01 * wraps:
             raise ValueError(
-                f"{where}inside: its wraps orbit at {1e3 * own:.4g} mm; the machine's "
+                f"{where}inside: its wraps orbit at {1e3 * wraps:.4g} mm; the machine's "
                 f"kinematics.orbit_radius_mm = {1e3 * orbit:.4g} mm: must agree within 1 %"
             )
 
     def _check_fits(self, name: str, option: Option) -> None:
-        """Refuse an option that the machine has no part for."""
-        where = f"options.{name}.kind = {option.kind}"
-        if isinstance(option, RING_OPTIONS) and not isinstance(self.machine, OldhamScroll):
-            raise ValueError(f"{where}: needs an Oldham ring; the machine is {self.machine.kind}")
-        if isinstance(option, SLIDER_OPTIONS) and self.machine.oscillation is None:
+        """Refuse an option that the machine has no part for, or that changes what all share."""
+        needed = option.needs
+        if needed is not None and self.machine.capability(needed) is None:
             raise ValueError(
-                f"{where}: needs a mass that slides to and fro; the machine is {self.machine.kind}"
+                f"options.{name}.kind = {option.kind}: needs {needed.words}; the machine is "
+                f"{self.machine.kind}"
             )
-
+        changed = option.applied_to(self.machine)
         for table in ("shell", "overall_noise"):
-            if isinstance(option, Redesign) and (
-                getattr(option.machine, table) != getattr(self.machine, table)
-            ):
+            if getattr(changed, table) != getattr(self.machine, table):
                 raise ValueError(
                     f"options.{name}.change.{table}: all options radiate from one shell and share "
                     "one overall noise; make a study of its own"

@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
-from .base import Parameters
+from ..base.parameters import Parameters
 
 WallSide = Literal["-x", "+x", "-y", "+y"]
 PanelSide = Literal["-x", "+x", "-y", "+y", "top"]

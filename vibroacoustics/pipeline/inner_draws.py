@@ -5,8 +5,8 @@ from typing import Final
 
 import scipy  # loads its subpackages when they are needed
 
+from ..mechanics.rotation import Array
 from ..parameters.inside import Doubt, Inside, InsideSettings
-from ..rotation import Array
 
 WIDE_RATIO: Final = 3.0
 """A range wider than this is drawn evenly over its logarithm."""

@@ -6,22 +6,22 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mechanisms.inner_loads import (
+from ..mechanics.added import Added, FurtherRing, RingForce
+from ..mechanics.capabilities import OldhamRing
+from ..mechanics.rotation import Array
+from ..orders import order_spectrum
+from ..parameters.oldham_keys import OldhamKeys
+from ..parameters.shell_structure import JOINTS
+from ..sources.joint_loads import (
     BEARING_HOUSING,
     COMPONENTS,
     STATOR,
     key_loads,
     key_torque_n_m,
 )
-from ..mechanisms.oldham_keys.contact_loss import contact_loss_speed_rpm
-from ..mechanisms.oldham_keys.rattle import KeyForces, steady_key_forces
-from ..mechanisms.oldham_keys.spectra import spectral_density, split_periodic
-from ..orders import order_spectrum
-from ..parameters.oldham_keys import OldhamKeys
-from ..parameters.oldham_scroll import OldhamScroll
-from ..parameters.options import Option, Pendulum, RingDamping, SprungMass, TwinOldham
-from ..parameters.shell_structure import JOINTS
-from ..rotation import Array, uniform_crank_angle
+from ..sources.oldham_keys.contact_loss import contact_loss_speed_rpm
+from ..sources.oldham_keys.rattle import KeyForces, steady_key_forces
+from ..sources.oldham_keys.spectra import spectral_density, split_periodic
 from ..units import orders_below, shaft_frequency_hz
 
 Complex = NDArray[np.complex128]
@@ -114,56 +114,59 @@ class KeyRuns:
 
 def key_sources(
     runs: KeyRuns,
-    machine: OldhamScroll,
-    option: Option,
+    ring: OldhamRing,
+    added: Added,
     moment_n_m: Array,
-    ring_force_n: Array,
     operating: Operating,
 ) -> KeySources:
-    """Loads of the ring's keys and, with a twin ring, of the twin's.
+    """Loads of the ring's keys and of those of further rings.
 
     Parameters
     ----------
     runs : of the keys
-    machine : the ring and its stroke
-    option : of the study
+    ring : of the machine
+    added : by the option
     moment_n_m : of the gas on the orbiting scroll, over uniform crank angles
-    ring_force_n : of what hangs on the ring, along x over uniform crank angles
     operating : the speed
     """
-    keys, stroke = runs.keys, machine.kinematics.orbit_radius_m
-    forces = runs.forces(machine.oldham.mass_kg, stroke, operating, moment_n_m, ring_force_n)
+    keys, stroke, hung = runs.keys, ring.stroke_m, added.on_ring or NOTHING_HUNG
+    forces = runs.forces(ring.mass_kg, stroke, operating, moment_n_m, hung.force_n)
     load = key_loads(forces, keys.radius_m, stroke)
-    found = _spectra(load, key_torque_n_m(forces, stroke), forces, operating, BEARING_HOUSING)
-    found.facts.update(
+    total = _spectra(load, key_torque_n_m(forces, stroke), forces, operating, BEARING_HOUSING)
+    total.facts.update(
         key_impacts_per_revolution=forces.impacts_per_revolution,
         key_force_peak_n=float(forces.peak_n.max()),
     )
-    first = order_spectrum(ring_force_n, 1)[1]
-    if isinstance(option, RingDamping):  # its layer pushes the housing back
-        found.load[BEARING_HOUSING, 0, 1] -= first
-    if not isinstance(option, SprungMass):  # whose force does not grow as the speed squared
+    first = order_spectrum(hung.force_n, 1)[1]
+    if hung.from_housing:
+        total.load[BEARING_HOUSING, 0, 1] -= first
+    if hung.inertial:
         omega = 2.0 * np.pi * shaft_frequency_hz(operating.speed_rpm)
-        carried = machine.oldham.mass_kg + first.real / (stroke * omega**2)
+        carried = ring.mass_kg + first.real / (stroke * omega**2)
         lost = contact_loss_speed_rpm(keys, carried, stroke, moment_n_m)
-        found.facts["key_contact_lost_above_rpm"] = lost
-    if not isinstance(option, TwinOldham):
-        return found
-    return _with(found, _twin(runs, option, option.stroke_ratio * stroke, operating))
+        total.facts["key_contact_lost_above_rpm"] = lost
+    for further in added.rings:
+        total = _with(total, _further_ring(runs, further, operating))
+    return total
 
 
-def _twin(runs: KeyRuns, option: TwinOldham, stroke_m: float, operating: Operating) -> KeySources:
-    """Keys of a twin ring, which no gas loads."""
+NOTHING_HUNG: Final = RingForce(np.zeros(64))
+"""Force on a ring that carries nothing: few samples, all zero."""
+
+
+def _further_ring(runs: KeyRuns, ring: FurtherRing, operating: Operating) -> KeySources:
+    """Keys of a second ring, which no gas loads."""
     free = np.zeros(1)
-    forces = runs.forces(option.mass_kg, stroke_m, operating, free, free)
-    load = key_loads(forces, runs.keys.radius_m, stroke_m)
+    forces = runs.forces(ring.mass_kg, ring.stroke_m, operating, free, free)
+    load = key_loads(forces, runs.keys.radius_m, ring.stroke_m)
     load[:2] *= -1.0  # in opposite phase: all is turned by half a turn about the shaft
-    found = _spectra(load, key_torque_n_m(forces, stroke_m), forces, operating, STATOR)
-    found.facts.update(
+    torque = key_torque_n_m(forces, ring.stroke_m)
+    turned = _spectra(load, torque, forces, operating, STATOR)
+    turned.facts.update(
         twin_key_impacts_per_revolution=forces.impacts_per_revolution,
         twin_key_force_peak_n=float(forces.peak_n.max()),
     )
-    return found
+    return turned
 
 
 def _with(one: KeySources, other: KeySources) -> KeySources:
@@ -188,27 +191,3 @@ def _spectra(
     frequency, density = spectral_density(rest, forces.sample_rate_hz, block)
     kept = frequency <= operating.maximum_frequency_hz
     return KeySources(orders, torque, [Noise(joint, frequency[kept], density[..., kept])], {})
-
-
-def ring_force(option: Option, hanging_n: Array, machine: OldhamScroll, speed_rpm: float) -> Array:
-    """Force on the ring along x of what an option hangs on it, over uniform crank angles, N.
-
-    Parameters
-    ----------
-    option : of the study
-    hanging_n : force of the option's moving parts along x, shape (samples,)
-    machine : stroke of the ring
-    speed_rpm : of the shaft
-    """
-    if isinstance(option, RingDamping):
-        speed = 2.0 * np.pi * shaft_frequency_hz(speed_rpm) * machine.kinematics.orbit_radius_m
-        return np.asarray(
-            option.damping_ns_per_m * speed * np.sin(uniform_crank_angle(hanging_n.size))
-        )
-    if isinstance(option, HUNG_ON_RING):
-        return hanging_n
-    return np.zeros_like(hanging_n)
-
-
-HUNG_ON_RING: Final = (Pendulum, SprungMass)
-"""Options whose moving parts push the ring."""

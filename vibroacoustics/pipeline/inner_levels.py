@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from .. import levels
 from ..constants import REFERENCE_PRESSURE_PA
 from ..errors import SolverError
+from ..mechanics.rotation import Array
 from ..parameters.study import Study
-from ..rotation import Array
 from ..schema import REFERENCE_OPTION, check, stamp
 from .inner_sound import SourceSound
 

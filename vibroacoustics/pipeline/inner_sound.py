@@ -8,10 +8,10 @@ import numpy as np
 import xarray as xr
 
 from .. import levels, measurements, radiation
+from ..mechanics.rotation import Array
 from ..parameters.inside import MeasuredModes
 from ..parameters.shell_structure import JOINTS
 from ..parameters.study import Study
-from ..rotation import Array
 from ..transfer.shell_modes import (
     JointLoads,
     SampledMode,

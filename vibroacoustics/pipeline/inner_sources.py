@@ -7,14 +7,14 @@ from typing import Final
 
 import numpy as np
 
-from ..mechanisms.induction_motor.torque_lines import TorqueLine, TorqueLines, torque_lines
-from ..mechanisms.inner_loads import gas_loads, stator_loads
-from ..mechanisms.scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
+from ..mechanics.added import Added
+from ..mechanics.capabilities import OldhamRing
+from ..mechanics.rotation import Array, uniform_crank_angle
 from ..orders import order_spectrum
 from ..parameters.inside import Inside
-from ..parameters.oldham_scroll import OldhamScroll
-from ..parameters.options import Option
-from ..rotation import Array, uniform_crank_angle
+from ..sources.induction_motor.torque_lines import TorqueLine, TorqueLines, torque_lines
+from ..sources.joint_loads import gas_loads, stator_loads
+from ..sources.scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
 from ..units import shaft_frequency_hz
 from .inner_keys import Complex, KeyRuns, Noise, Operating, key_sources
 
@@ -75,21 +75,18 @@ class InnerSources:
     def key_runs(self) -> KeyRuns:
         return KeyRuns(self.inside.keys)
 
-    def loads(
-        self, machine: OldhamScroll, option: Option, ring_force_n: Array, operating: Operating
-    ) -> InnerLoads:
+    def loads(self, ring: OldhamRing, added: Added, operating: Operating) -> InnerLoads:
         """Loads of gas, keys, torque ripple and motor with one balancing option.
 
         Parameters
         ----------
-        machine : the ring and its stroke
-        option : of the study
-        ring_force_n : of what hangs on the ring, along x over uniform crank angles
+        ring : of the machine
+        added : by the option
         operating : the speed
         """
         highest, gas = operating.maximum_order, self.gas
         moment = gas.self_rotation_moment_n_m
-        keys = key_sources(self.key_runs, machine, option, moment, ring_force_n, operating)
+        keys = key_sources(self.key_runs, ring, added, moment, operating)
         torque = order_spectrum(gas.torque_n_m, highest)
         torque[1:] += keys.torque_n_m[1:]  # all friction is left out of the mean
         torques = _motor_torques(self.inside, torque, operating)

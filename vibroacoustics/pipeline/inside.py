@@ -9,15 +9,16 @@ import numpy as np
 import xarray as xr
 
 from .. import levels
+from ..mechanics.added import Added
+from ..mechanics.capabilities import OldhamRing
+from ..mechanics.rotation import Array
 from ..parameters.inside import Inside, InsideSettings
-from ..parameters.oldham_scroll import OldhamScroll
-from ..parameters.options import Option, Redesign
+from ..parameters.machine import Machine
 from ..parameters.study import Study
 from ..radiation.machine_side import processors
-from ..rotation import Array
 from ..transfer import RigidBodyOnMounts
 from .inner_draws import latin_hypercube
-from .inner_keys import KEY_COMPONENTS, Complex, Operating, ring_force
+from .inner_keys import KEY_COMPONENTS, Complex, Operating
 from .inner_levels import Heard, labelled_levels
 from .inner_sound import (
     ShellPath,
@@ -41,23 +42,21 @@ class _Case:
     Attributes
     ----------
     operating : the speed
-    option : parameters of the option
     machine : as the option leaves it
-    ring_force_n : of what hangs on the ring, shape (samples,)
+    added : by the option
     moving_parts_pa : sound of the rigid machine's orders, shape (receiver, order)
     """
 
     operating: Operating
-    option: Option
-    machine: OldhamScroll
-    ring_force_n: Array
+    machine: Machine
+    added: Added
     moving_parts_pa: Complex
 
 
 def inside_sound(
     study: Study,
     settings: InsideSettings,
-    machine: OldhamScroll,
+    added: Mapping[tuple[float, str], Added],
     results: xr.Dataset,
     path: ShellPath,
     progress: Progress,
@@ -68,12 +67,12 @@ def inside_sound(
     ----------
     study : speeds, options, overall level
     settings : of its inner sources
-    machine : of the study
+    added : by each option at each speed
     results : of the stages before, with the transfer vectors of the shell's modes
     path : the elastic shell
     progress : told of the advance
     """
-    cases = _cases(study, results, settings, machine)
+    cases = _cases(study, results, settings, added)
     draws = [settings.inside, *latin_hypercube(settings)]
     bands = whole_octave_thirds(path.maximum_frequency_hz)
     heard: list[Heard] = []
@@ -85,10 +84,12 @@ def inside_sound(
 
 
 def _cases(
-    study: Study, results: xr.Dataset, settings: InsideSettings, machine: OldhamScroll
+    study: Study,
+    results: xr.Dataset,
+    settings: InsideSettings,
+    added: Mapping[tuple[float, str], Added],
 ) -> dict[tuple[float, str], _Case]:
     pressure = results["pressure_order"].sum("source")
-    hanging = results["force"].sel(source="balancer", axis="x")
     cases = {}
     for speed, line in zip(study.operation.speed_rpm, settings.line_frequency_hz, strict=True):
         operating = Operating(
@@ -96,14 +97,10 @@ def _cases(
         )
         for name, option in study.options.items():
             at = {"speed": speed, "option": name}
-            own = machine
-            if isinstance(option, Redesign) and isinstance(option.machine, OldhamScroll):
-                own = option.machine
             cases[speed, name] = _Case(
                 operating,
-                option,
-                own,
-                ring_force(option, hanging.sel(at).values, own, speed),
+                option.applied_to(study.machine),
+                added[speed, name],
                 pressure.sel(at).transpose("receiver", "order").values,
             )
     return cases
@@ -132,7 +129,7 @@ class _Listener:
         sources = InnerSources(self.inside)
         found = {}
         for key, case in cases.items():
-            loads = sources.loads(case.machine, case.option, case.ring_force_n, case.operating)
+            loads = sources.loads(case.machine.require(OldhamRing), case.added, case.operating)
             body = _body(case.machine)
             sound = self._hears(case, loads, body)
             found[key] = sound, {**loads.facts, **_feet(body, loads)}
@@ -177,7 +174,7 @@ class _Listener:
         return self._known[key]
 
 
-def _body(machine: OldhamScroll) -> RigidBodyOnMounts:
+def _body(machine: Machine) -> RigidBodyOnMounts:
     return RigidBodyOnMounts(
         machine.housing, machine.mounts, -machine.shell.centre_of_mass_height_m
     )

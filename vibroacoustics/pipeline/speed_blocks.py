@@ -49,7 +49,7 @@ def gathered(parts: Iterable[xr.Dataset], speeds: int) -> xr.Dataset:
                     rows[str(name)] = _room(variable, speeds)
                 rows[str(name)][at] = variable
         steady, done = part.drop_dims(["speed", "fact"]), at["speed"].stop
-    coords = {name: rows.pop(name) for name in COORDINATES.keys() & rows.keys()}
+    coords = {name: rows.pop(name) for name in list(rows) if name in COORDINATES}
     whole = steady.assign_coords(coords).assign(rows)
     return whole.assign(option_fact=_all_facts(facts))
 

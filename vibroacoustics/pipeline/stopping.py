@@ -10,17 +10,16 @@ import xarray as xr
 from .. import levels
 from ..constants import REFERENCE_PRESSURE_PA
 from ..errors import ParameterError
-from ..mechanisms.oldham_scroll import scroll_parts
-from ..mechanisms.run_down.coasting import RunDown, run_down
-from ..mechanisms.scroll_gas.cycle import scroll_gas_cycle
-from ..moving_parts import MovingPart
+from ..mechanics.moving_parts import MovingPart
+from ..mechanics.rotation import Array, uniform_crank_angle
 from ..orders import angular_resample, from_angle, order_map
 from ..parameters.inside import Inside
-from ..parameters.oldham_scroll import OldhamScroll
+from ..parameters.machine import Machine
 from ..parameters.run_down import Stopping
 from ..parameters.study import Study
-from ..rotation import Array, uniform_crank_angle
 from ..schema import AXES, check, stamp
+from ..sources.scroll_gas.cycle import scroll_gas_cycle
+from ..stopping.coasting import RunDown, run_down
 from ..transfer import RigidBodyOnMounts, SuspendedBlock
 from ..units import shaft_frequency_hz
 from .inner_sound import rigid_pressures
@@ -50,7 +49,7 @@ MAP_SAMPLES: Final = 32
 def stopping_sound(
     study: Study,
     inside: Inside,
-    machine: OldhamScroll,
+    machine: Machine,
     body: RigidBodyOnMounts | SuspendedBlock,
     results: xr.Dataset,
 ) -> xr.Dataset:
@@ -92,9 +91,9 @@ class _Stops:
     gas_torque_n_m: Array
 
     @classmethod
-    def of(cls, inside: Inside, machine: OldhamScroll) -> "_Stops":
+    def of(cls, inside: Inside, machine: Machine) -> "_Stops":
         gas = scroll_gas_cycle(inside.wraps, inside.gas, uniform_crank_angle(GAS_SAMPLES))
-        parts = scroll_parts(machine, uniform_crank_angle(PATH_SAMPLES))
+        parts = machine.moving_parts(uniform_crank_angle(PATH_SAMPLES))
         return cls(inside.stopping, parts, gas.torque_n_m)
 
     def run_down(self, speed_rpm: float, rate_hz: float, steady_revolutions: int) -> RunDown:

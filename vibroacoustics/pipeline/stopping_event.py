@@ -10,8 +10,8 @@ from scipy import fft
 from .. import levels
 from ..constants import REFERENCE_PRESSURE_PA
 from ..errors import ParameterError
-from ..mechanisms.run_down.coasting import RunDown
-from ..rotation import Array
+from ..mechanics.rotation import Array
+from ..stopping.coasting import RunDown
 from ..transfer import RigidBodyOnMounts, SuspendedBlock
 from .inner_keys import Complex
 from .transient import LOAD_SAMPLES, Transient, transient

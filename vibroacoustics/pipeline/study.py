@@ -12,16 +12,15 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from .. import levels, radiation, scoring
-from ..balancers import BALANCERS
+from ..base.hashing import canonical_json
 from ..errors import ParameterError
-from ..mechanisms import MECHANISMS
-from ..moving_parts import Balancing, MachineMotion, wrench
+from ..mechanics.added import Added
+from ..mechanics.moving_parts import Revolution, wrench
+from ..mechanics.rotation import Array, uniform_crank_angle
 from ..orders import order_spectra, semi_major_axis
-from ..parameters.machine import CommonMachine
-from ..parameters.oldham_scroll import OldhamScroll
-from ..parameters.options import Option, Redesign
+from ..parameters.machine import Machine
+from ..parameters.option import Option
 from ..parameters.study import Study
-from ..rotation import Array, uniform_crank_angle
 from ..schema import (
     AXES,
     REFERENCE_OPTION,
@@ -40,6 +39,10 @@ from .progress import Progress
 from .radiating import attributes, sound_field, transfer_vectors, within
 from .speed_blocks import TIME_SERIES, blocks, check_size, gathered
 from .stopping import stopping_sound
+from .words import words
+
+Case = tuple[float, str]
+"""Speed in rpm and option."""
 
 MOUNT_FREQUENCY_HZ: Final[Array] = np.asarray(np.geomspace(1.0, 200.0, 400), dtype=np.float64)
 
@@ -68,7 +71,7 @@ def run(study: Study, progress: Progress = lambda *_: None) -> xr.Dataset:
 
 
 def _run(study: Study, progress: Progress) -> xr.Dataset:
-    results = _motion(study, progress)
+    results, added = _motion(study, progress)
     machine, path = study.machine, shell_path(study)
     motions = () if path is None else path.modes
     radiated, was_cached = transfer_vectors(study, progress, motions)
@@ -76,29 +79,40 @@ def _run(study: Study, progress: Progress) -> xr.Dataset:
     results = results.merge(_pressures(results))
     results = results.merge(sound_field(study, results))
     results = results.merge(_levels(study, results))
-    if study.inside is not None and path is not None and isinstance(machine, OldhamScroll):
-        sound = inside_sound(study, study.inside, machine, results, path, progress)
+    if study.inside is not None and path is not None:
+        sound = inside_sound(study, study.inside, added, results, path, progress)
         results = results.merge(sound)
         stopped = stopping_sound(study, study.inside.inside, machine, _on_mounts(machine), results)
         results = results.merge(stopped)
     results = results.merge(_scores(study, results))
     results.attrs = attributes(study, radiated, was_cached)
+    results.attrs["words"] = canonical_json(words(study, results))
     return check(label_coordinates(results))
 
 
-def _motion(study: Study, progress: Progress) -> xr.Dataset:
-    """Forces, their orders and the motion that follows, block by block of speeds."""
-    return gathered(_motion_blocks(study, progress), len(study.operation.speed_rpm))
+def _motion(study: Study, progress: Progress) -> tuple[xr.Dataset, dict[Case, Added]]:
+    """Forces, their orders and the motion that follows, block by block of speeds.
+
+    Also what each option adds in each case, where inner sources need it.
+    """
+    added: dict[Case, Added] = {}
+    parts = _motion_blocks(study, progress, added)
+    return gathered(parts, len(study.operation.speed_rpm)), added
 
 
-def _motion_blocks(study: Study, progress: Progress) -> Iterator[xr.Dataset]:
+def _motion_blocks(
+    study: Study, progress: Progress, everything: dict[Case, Added]
+) -> Iterator[xr.Dataset]:
+    """One dataset a block; what the options add is put into `everything`."""
     done, total = 0, len(study.operation.speed_rpm) * len(study.options)
 
     def advance(task: str, step: int, _: int) -> None:
         progress(task, done + step, total)
 
     for speeds in blocks(study.operation.speed_rpm):
-        part = _forces(_at_speeds(study, speeds, study.options), advance)
+        part, added = _forces(_at_speeds(study, speeds, study.options), advance)
+        if study.inside is not None:
+            everything |= added
         part = part.merge(_orders(study, part))
         part = part.merge(_housing(study, part))
         if not study.operation.keeps_time_series:
@@ -115,19 +129,20 @@ def _at_speeds(study: Study, speeds: tuple[float, ...], options: Mapping[str, Op
     return study.model_copy(update={"operation": operation, "options": dict(options)})
 
 
-def _forces(study: Study, progress: Progress) -> xr.Dataset:
-    """Force and moment of every source, and what each option reports of itself."""
+def _forces(study: Study, progress: Progress) -> tuple[xr.Dataset, dict[Case, Added]]:
+    """Force and moment of every source, what each option reports of itself, and what it adds."""
     speeds, options = list(study.operation.speed_rpm), list(study.options)
-    motions, added = _motions(study, progress)
+    revolutions, added = _revolutions(study, progress)
     sources = [
-        *_unique(name for motion in motions.values() for name in motion.wrenches),
+        *_unique(name for turned in revolutions.values() for name in turned.wrenches),
         "balancer",
     ]
     samples = study.operation.crank_angle_samples
     wrenches = np.zeros((len(speeds), len(options), 2, len(sources), 3, samples))
     for (s, speed), (o, option) in product(enumerate(speeds), enumerate(options)):
-        motion = motions[speed, option]
-        named = {**motion.wrenches, "balancer": wrench(added[speed, option].parts, motion.rotation)}
+        turned = revolutions[speed, option]
+        balancer = wrench(added[speed, option].parts, turned.rotation)
+        named = {**turned.wrenches, "balancer": balancer}
         for source, own in named.items():
             wrenches[s, o, :, sources.index(source)] = own
     coords = {
@@ -138,68 +153,58 @@ def _forces(study: Study, progress: Progress) -> xr.Dataset:
         "crank_angle": uniform_crank_angle(samples),
     }
     turning = {name: coords[name] for name in _TURNING}
-    rotations = [[motions[s, o].rotation for o in options] for s in speeds]
+    rotations = [[revolutions[s, o].rotation for o in options] for s in speeds]
     shaft_speed = [[turn.speed_rad_per_s for turn in row] for row in rotations]
-    return check(
+    labelled = check(
         xr.Dataset(
             {
                 "force": stamp("force", wrenches[:, :, 0], coords),
                 "moment": stamp("moment", wrenches[:, :, 1], coords),
                 "shaft_speed": stamp("shaft_speed", shaft_speed, turning),
-                "option_fact": _option_facts(_facts(study, motions, added), speeds, options),
+                "option_fact": _option_facts(_facts(study, revolutions, added), speeds, options),
             },
             coords={"crank_time": (_TURNING, [[turn.time_s for turn in row] for row in rotations])},
         )
     )
+    return labelled, added
 
 
 _TURNING: Final = ("speed", "option", "crank_angle")
 
-Case = tuple[float, str]
-"""Speed in rpm and option."""
 
-
-def _motions(
+def _revolutions(
     study: Study, progress: Progress
-) -> tuple[dict[Case, MachineMotion], dict[Case, Balancing]]:
+) -> tuple[dict[Case, Revolution], dict[Case, Added]]:
     """Steady revolution of the machine and what the option adds to it, in each case."""
-    motions: dict[Case, MachineMotion] = {}
-    added: dict[Case, Balancing] = {}
-    cases = [(speed, name) for speed in study.operation.speed_rpm for name in study.options]
-    samples = study.operation.crank_angle_samples
-    mechanism = MECHANISMS[study.machine.kind]
+    revolutions: dict[Case, Revolution] = {}
+    added: dict[Case, Added] = {}
+    cases = list(product(study.operation.speed_rpm, study.options))
     for number, (speed, name) in enumerate(cases):
         option = study.options[name]
+        machine = option.applied_to(study.machine)
+        shared = revolutions.get((speed, REFERENCE_OPTION)) if machine is study.machine else None
         try:
-            machine = _machine_of(study, option)
-            if isinstance(option, Redesign):
-                motions[speed, name] = mechanism(machine, speed, samples)
-            elif (speed, REFERENCE_OPTION) in motions:
-                motions[speed, name] = motions[speed, REFERENCE_OPTION]
-            else:
-                motions[speed, name] = motions[speed, REFERENCE_OPTION] = mechanism(
-                    machine, speed, samples
-                )
-            crank_angle = motions[speed, name].rotation.crank_angle
-            added[speed, name] = BALANCERS[option.kind](option, machine, speed, crank_angle)
+            turned = shared or machine.revolution(speed, study.operation.crank_angle_samples)
+            revolutions[speed, name] = turned
+            added[speed, name] = option.added(machine, turned)
         except ParameterError as error:
             raise ParameterError(f"options.{name}: {error}") from None
         progress("forces", number + 1, len(cases))
-    return motions, added
+    return revolutions, added
 
 
 def _facts(
-    study: Study, motions: dict[Case, MachineMotion], added: dict[Case, Balancing]
+    study: Study, revolutions: dict[Case, Revolution], added: dict[Case, Added]
 ) -> dict[Case, dict[str, float]]:
     """Figures of the machine, as it is and where it is changed, and of the options."""
     changed = {
         name
         for name, option in study.options.items()
-        if name == REFERENCE_OPTION or isinstance(option, Redesign)
+        if name == REFERENCE_OPTION or option.applied_to(study.machine) is not study.machine
     }
     return {
-        case: {**(motions[case].facts if case[1] in changed else {}), **added[case].facts}
-        for case in motions
+        case: {**(turned.figures if case[1] in changed else {}), **added[case].figures}
+        for case, turned in revolutions.items()
     }
 
 
@@ -244,7 +249,7 @@ def _housing(study: Study, results: xr.Dataset) -> xr.Dataset:
 
     Every option moves on its own mounts; the natural modes are those of the machine as it is.
     """
-    bodies = [_on_mounts(_machine_of(study, option)) for option in study.options.values()]
+    bodies = [_on_mounts(option.applied_to(study.machine)) for option in study.options.values()]
     parts = [results[name].transpose("option", ..., "order", "axis") for name in _WRENCH]
     loads = np.concatenate([part.values for part in parts], axis=-1)
     frequency = results["order_frequency"].values[:, None, :]
@@ -304,12 +309,7 @@ def _housing(study: Study, results: xr.Dataset) -> xr.Dataset:
     )
 
 
-def _machine_of(study: Study, option: Option) -> CommonMachine:
-    """The machine that an option leaves: itself, but for a redesign."""
-    return option.machine if isinstance(option, Redesign) else study.machine
-
-
-def _on_mounts(machine: CommonMachine) -> RigidBodyOnMounts | SuspendedBlock:
+def _on_mounts(machine: Machine) -> RigidBodyOnMounts | SuspendedBlock:
     """The machine on its mounts: one rigid body, or a block on springs in a shell."""
     foot_height = -machine.shell.centre_of_mass_height_m
     if machine.suspension is None:
@@ -421,7 +421,7 @@ def _remainder(study: Study, results: xr.Dataset, modelled: xr.DataArray) -> flo
 def _modelled_alone(study: Study, results: xr.Dataset, speed_rpm: float) -> xr.DataArray:
     """Modelled level of the reference option at a speed that is none of the study's."""
     reference = {REFERENCE_OPTION: study.options[REFERENCE_OPTION]}
-    motion = _motion(_at_speeds(study, (speed_rpm,), reference), lambda *_: None)
+    motion, _ = _motion(_at_speeds(study, (speed_rpm,), reference), lambda *_: None)
     motion = motion.assign(transfer_vector=results["transfer_vector"])
     pressure = _pressure(motion, "transfer_vector")
     coords = {name: pressure[name] for name in ("speed", "option", "receiver")}
@@ -430,7 +430,8 @@ def _modelled_alone(study: Study, results: xr.Dataset, speed_rpm: float) -> xr.D
 
 
 def _scores(study: Study, results: xr.Dataset) -> xr.Dataset:
-    scores = scoring.score(results, study.scoring)
+    given = scoring.given_values(study.given, list(study.options))
+    scores = scoring.score(results.merge(given), study.scoring).merge(given)
     if study.scoring.published is None:
         return scores
     return scores.merge(scoring.published_table(study.scoring.published))

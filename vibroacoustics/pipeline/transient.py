@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 from scipy import fft
 
-from ..rotation import Array
+from ..mechanics.rotation import Array
 from ..transfer import RigidBodyOnMounts, SuspendedBlock
 from .inner_keys import Complex
 

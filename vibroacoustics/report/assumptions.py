@@ -5,9 +5,9 @@ from typing import Any, Final
 import numpy as np
 import xarray as xr
 
-from . import rounding
+from ..base import rounding
 from .bands import Band, band_words
-from .study import catalogue_receiver, has_inner_sources, overall_noise, parameters
+from .study import catalogue_receiver, has_inner_sources, overall_noise, parameters, words
 from .tables import Table
 
 ASSUMED: Final = "assumed"
@@ -43,77 +43,11 @@ NOT_MODELLED: Final = (
     "The weight of moving parts times their sideways shift is left out of the moment: some mN m.",
 )
 
-NOT_MODELLED_OF_KIND: Final = {
-    "minicrank-scroll": (
-        "Links and bearings are rigid and without clearance where there is one mini-crank. It then "
-        "rocks, and the scroll swings by some 4°, which the wraps forbid: the torque peaks and pin "
-        "forces of such an option are those of the paper's model, not of a machine.",
-        "Three mini-cranks hold the scroll on equal elastic pins, quasi-statically and to first "
-        "order in the errors; the first has the errors, the others fit the crank.",
-        "The gas load has one harmonic; twice-line torque of the motor is not modelled. The "
-        "weight of what link errors leave unbalanced on the shaft is left out of its torque: "
-        "some mN m.",
-    ),
-    "oldham-scroll": (
-        "Both bobs of a pendulum option are taken on the same side, so that their vertical forces "
-        "add; on opposite sides the vertical 1× force would cancel. Stops are not modelled.",
-        "A weight on the shaft turns: it lowers the force along the stroke of the ring and makes "
-        "one across it. The machine's own counterweights may already hold part of it; they are "
-        "taken to balance scroll, pin and brake only.",
-        "A sprung mass is tuned to one speed.",
-    ),
-    "slider-link": (
-        "Start and stop, in which the block swings widely on its springs, and knocks of the block "
-        "against the shell are not modelled; springs and discharge tube are linear and without "
-        "mass, so that their own resonances are missing.",
-        "Sound and force that pass from the block to the shell through gas and oil are left out: "
-        "above some hundred hertz they can carry more than the springs.",
-        "A weight on the shaft turns: it lowers the force along the stroke and makes one across "
-        "it. It adds to the shaft's own counterweight, which holds the slider and a part of the "
-        "piston already. The couple of an option's weights about the block's centre of mass is "
-        "included, their share in its mass and inertia is not.",
-        "The motor's torque falls linearly with the speed; its pulsation at twice the line "
-        "frequency is not modelled.",
-    ),
-    "hermetic-reciprocating": (
-        "Friction of the piston and drag of the oil films are left out, as in the paper: the shaft "
-        "power is that of the gas and of the films that are squeezed.",
-        "The springs of the block are linear and meet no stops; the weight of the block, start and "
-        "stop are not modelled. The tube has no mass, hence no resonance of its own.",
-        "The valves open without loss, and the gas in the shell, which carries sound from the "
-        "block to the shell, is not modelled.",
-        "An option that puts weights on the shaft leaves the films as they are; a redesign of the "
-        "crank has its own.",
-    ),
-    "reciprocating": (
-        "One cylinder stands for the machine. The crankshaft is balanced about its axis, the big "
-        "end of the rod is not; the paper gives no counterweight. Lanchester's weights are in "
-        "the plane of the cylinder's axis, without the moment of their gears.",
-    ),
-}
-"""What each kind of machine leaves out besides."""
-
-_WITHOUT_INSIDE: Final = (
-    "A second ring has no gas force that presses its keys: they are likely to rattle, which can be "
-    "louder than the 1× line that it removes.",
-    "The shaft turns at constant speed; torque ripple, twice-line torque of the motor and key slap "
-    "are not modelled.",
-)
-_WITH_INSIDE: Final = (
-    "Forces of the moving parts and keys are those at constant speed; torque ripple and the "
-    "motor's torque act on stator and machine only. The ring's keys strike along a clearance and "
-    "its bodies are rigid; all four have the same clearance, friction and stiffness.",
-)
-_OF_SCROLL: Final = {False: _WITHOUT_INSIDE, True: _WITH_INSIDE}
-"""What a scroll leaves out, without and with inner sources."""
-
 
 def not_modelled(results: xr.Dataset) -> tuple[str, ...]:
     """What the results leave out, one sentence or two each."""
-    kind, inside = parameters(results)["machine"]["kind"], has_inner_sources(results)
-    of_scroll = _OF_SCROLL[inside] if kind == "oldham-scroll" else ()
-    of_shell = ELASTIC_SHELL if inside else RIGID_SHELL
-    return (*of_shell, *NOT_MODELLED, *NOT_MODELLED_OF_KIND.get(kind, ()), *of_scroll)
+    of_shell = ELASTIC_SHELL if has_inner_sources(results) else RIGID_SHELL
+    return (*of_shell, *NOT_MODELLED, *words(results)["leaves_out"])
 
 
 def records_table(results: xr.Dataset) -> Table:

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from . import rounding
+from ..base import rounding
 
 
 class Band(NamedTuple):

@@ -8,8 +8,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..base import rounding
 from ..schema import REFERENCE_OPTION
-from . import rounding
 from .study import catalogue_receiver, first_order_hz, has_inner_sources, options, speeds
 from .tables import Table, to_csv, to_text
 

@@ -6,7 +6,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from . import labels, rounding
+from ..base import rounding
+from . import labels
 from .study import first_order_hz, options, parameters, speeds
 from .tables import Table
 

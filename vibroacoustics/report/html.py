@@ -10,10 +10,10 @@ import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
+from ..base.rounding import FORCE_FLOOR, LEVEL_FLOOR_DB, fixed
 from . import (
     assumptions,
     housing,
-    kind_words,
     provenance,
     scores,
     source_tables,
@@ -24,9 +24,8 @@ from .comparison import comparison_tables
 from .figures import Picture
 from .option_facts import facts_table
 from .option_verdict import option_verdicts
-from .rounding import FORCE_FLOOR, LEVEL_FLOOR_DB, fixed
 from .stopping import stopping_section
-from .study import catalogue_receiver, has_inner_sources, other_receivers, parameters
+from .study import catalogue_receiver, has_inner_sources, other_receivers, parameters, words
 
 
 def html(results: xr.Dataset, pictures: Sequence[Picture]) -> bytes:
@@ -119,7 +118,7 @@ def _sources(results: xr.Dataset) -> dict[str, Any]:
         "records": assumptions.records_table(results),
         "assumed_count": assumptions.assumed_count(results),
         "remainder": assumptions.remainder_sentence(results),
-        "order_words": kind_words.order_words(results),
+        "order_words": words(results)["orders"],
         "not_modelled": assumptions.not_modelled(results),
         "structure_borne": assumptions.structure_borne_sentence(results),
         "errata": assumptions.errata_table(results),

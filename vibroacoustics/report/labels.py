@@ -1,5 +1,6 @@
 """Names and units in plain words for the vocabulary's coded labels."""
 
+from collections.abc import Mapping
 from typing import Final
 
 from ..units import split_key
@@ -16,44 +17,34 @@ DOF_WORDS: Final = {
 }
 
 _NAMES: Final = {
-    "foot_force_1x_n": "Largest foot force, 1×",
-    "residual_moment_nm": "Residual moment, 1×",
-    "level_change_db": "Change of the modelled level, energy mean of the microphones",
-    "speed_sensitivity_db": "Spread of the foot-force change over the speeds",
-    "added_mass_kg": "Added mass",
-    "settled_angle_deg": "Mean angle in which the pendulum settles, from hanging (to either side)",
-    "hanging_multiplier": "Growth per revolution when hanging (Floquet multiplier)",
-    "settled_multiplier": "Growth per revolution when settled (Floquet multiplier)",
-    "stroke_amplitude_mm": "Stroke amplitude of the sprung mass",
-    "resonance_speed_rpm": "Speed at which the sprung mass resonates",
     "dissipated_power_w": "Dissipated power",
-    "minicrank_swing_deg": "Swing of the mini-crank, which does not turn",
-    "minicrank_pin_force_n": "Largest force at the rigid pin of the mini-crank",
-    "crank_pin_force_n": "Largest force at the rigid crank pin",
     "key_impacts_per_revolution": "Impacts of the keys per revolution",
     "key_force_peak_n": "Largest force on a key",
     "key_contact_lost_above_rpm": "Speed above which keys lose contact, with friction",
     "foot_force_2x_line_n": "Largest foot force at twice the line frequency (motor, not 2×)",
-    "twin_key_impacts_per_revolution": "Impacts of the second ring's keys per revolution",
-    "twin_key_force_peak_n": "Largest force on a key of the second ring",
     "weighted_sum": "Weighted sum",
     "topsis": "TOPSIS",
 }
 
 
-def name(label: str) -> str:
-    """Plain words for a label such as `added_mass_kg`, without its unit."""
-    return _NAMES.get(label) or _split(label)[0].replace("_", " ").capitalize()
+def name(label: str, of_study: Mapping[str, str] | None = None) -> str:
+    """Plain words for a label such as `added_mass_kg`, without its unit.
+
+    Parameters
+    ----------
+    label : name with its unit
+    of_study : further words, of machine and options
+    """
+    return (
+        (of_study or {}).get(label)
+        or _NAMES.get(label)
+        or _split(label)[0].replace("_", " ").capitalize()
+    )
 
 
 def unit(label: str) -> str:
     """Unit in the suffix of a label; empty where it has none."""
     return _split(label)[1]
-
-
-def named(label: str) -> str:
-    """Plain words and unit: `Added mass, kg`."""
-    return ", ".join(part for part in (name(label), unit(label)) if part)
 
 
 def _split(label: str) -> tuple[str, str]:

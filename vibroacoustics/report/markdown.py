@@ -2,9 +2,9 @@
 
 import xarray as xr
 
+from ..base.rounding import FORCE_FLOOR, LEVEL_FLOOR_DB, fixed
 from . import source_tables, verdict
 from .comparison import comparison_tables
-from .rounding import FORCE_FLOOR, LEVEL_FLOOR_DB, fixed
 from .study import catalogue_receiver, has_inner_sources, other_receivers, parameters
 from .tables import escape_markdown, to_markdown
 

@@ -3,19 +3,21 @@
 import numpy as np
 import xarray as xr
 
+from ..base import rounding
 from ..schema import REFERENCE_OPTION
-from . import labels, rounding
-from .study import balancers, speeds
+from . import labels
+from .study import balancers, speeds, words
 from .tables import Table
 
 
 def facts_table(results: xr.Dataset) -> Table | None:
     """One row per figure of the machine or an option, one column per speed; None without any."""
+    of_study = words(results)["labels"]
     facts = results["option_fact"].transpose("option", "fact", "speed")
     rows = tuple(
         (
             option,
-            labels.name(str(fact)),
+            labels.name(str(fact), of_study),
             labels.unit(str(fact)) or "1",
             *(rounding.significant(value) for value in values),
         )

@@ -1,19 +1,15 @@
 """What each option does, in sentences that are made from its numbers."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Final, NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from . import rounding
+from ..base import rounding
 from .shifts import JUDGED, LINE, MODELLED, TOTAL, Shift, shift
 from .source_changes import change_sentences, source_change
-from .study import balancers, catalogue_receiver, has_inner_sources, other_receivers
-
-Facts = dict[str, NDArray[np.float64]]
-"""Reported figures of an option by name, over the speeds at which they are given."""
+from .study import balancers, catalogue_receiver, has_inner_sources, other_receivers, words
 
 BETTER: Final = "better"
 WORSE: Final = "worse"
@@ -60,7 +56,8 @@ def option_verdict(results: xr.Dataset, option: str) -> OptionVerdict:
         _shift_sentence(shifts, judgement, catalogue_receiver(results)),
         _elsewhere(shifts[-1], elsewhere),
         *([_total(results, option)] if inside is None else change_sentences(results, option)),
-        *fact_sentences(facts(results, option), judgement),
+        *words(results)["sentences"][option],
+        _mass(results, option),
     ]
     return OptionVerdict(option, judgement, worse_in, tuple(filter(None, sentences)))
 
@@ -72,21 +69,6 @@ def judge(worse: bool, better: bool) -> str:
     if worse:
         return WORSE
     return BETTER if better else NO_CHANGE
-
-
-def facts(results: xr.Dataset, option: str) -> Facts:
-    """The figures that the option reports of itself."""
-    table = results["option_fact"].sel(option=option).transpose("fact", "speed")
-    return {
-        str(name): row[np.isfinite(row)]
-        for name, row in zip(table["fact"].values, table.values, strict=True)
-        if np.isfinite(row).any()
-    }
-
-
-def fact_sentences(known: Facts, judgement: str) -> list[str]:
-    """Sentences about the reported figures that have one."""
-    return [text for write in _FACT_SENTENCES if (text := write(known, judgement))]
 
 
 def _shift_sentence(shifts: Sequence[Shift], judgement: str, receiver: str) -> str:
@@ -127,64 +109,8 @@ def _milli(value: float) -> str:
     return rounding.signed(value, 3)
 
 
-def _hanging(known: Facts, judgement: str) -> str:
-    growth = known.get("hanging_multiplier")
-    if growth is None:
-        return ""
-    size = rounding.span(growth, lambda value: rounding.fixed(value, 2))
-    if growth.min() > 1.0:
-        return (
-            f"Hanging is unstable: a deviation grows {size}-fold a revolution (Floquet multiplier)."
-        )
-    state = "stable" if growth.max() < 1.0 else "stable at some of the speeds only"
-    return f"Hanging is {state} (Floquet multiplier {size})."
-
-
-def _settled(known: Facts, judgement: str) -> str:
-    angle = known.get("settled_angle_deg")
-    if angle is None:
-        return ""
-    where = rounding.span(abs(angle), rounding.fixed)
-    return f"The pendulum settles {where}° from hanging on average; stops are not modelled."
-
-
-def _stroke(known: Facts, judgement: str) -> str:
-    stroke = known.get("stroke_amplitude_mm")
-    if stroke is None:
-        return ""
-    return f"Its mass moves with an amplitude of {rounding.span(stroke, rounding.significant)} mm."
-
-
-def _resonance(known: Facts, judgement: str) -> str:
-    speed = known.get("resonance_speed_rpm")
-    if speed is None:
-        return ""
-    size = rounding.span(speed, lambda value: rounding.fixed(value, 0))
-    return f"Its mass resonates on the springs at {size} rpm, also on the way up to speed."
-
-
-def _power(known: Facts, judgement: str) -> str:
-    power = known.get("dissipated_power_w")
-    if power is None:
-        return ""
-    cost = rounding.span(power, rounding.significant)
-    if judgement == NO_CHANGE:
-        return f"It buys nothing in this model and costs {cost} W."
-    return f"It dissipates {cost} W."
-
-
-def _mass(known: Facts, judgement: str) -> str:
-    mass = known.get("added_mass_kg")
-    if mass is None or mass.max() <= 0.0:
+def _mass(results: xr.Dataset, option: str) -> str:
+    mass = results["option_fact"].sel(option=option, fact="added_mass_kg").values
+    if not np.nanmax(mass) > 0.0:
         return ""
     return f"It adds {rounding.span(1e3 * mass, rounding.significant)} g."
-
-
-_FACT_SENTENCES: Final[tuple[Callable[[Facts, str], str], ...]] = (
-    _hanging,
-    _settled,
-    _stroke,
-    _resonance,
-    _power,
-    _mass,
-)

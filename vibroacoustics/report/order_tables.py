@@ -7,9 +7,9 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 import xarray as xr
 
+from ..base import rounding
+from ..base.rounding import NOTHING
 from ..schema import NO_ANGLE_ZERO
-from . import rounding
-from .rounding import NOTHING
 from .tables import Table, to_csv, to_text
 
 _MOST_SPEEDS: Final = 6

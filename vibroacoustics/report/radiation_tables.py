@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from . import rounding
+from ..base import rounding
 from .figures.unit_levels import Real, names, silent_dofs, unit_level_db
 from .tables import Table, to_text
 

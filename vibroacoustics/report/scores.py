@@ -5,7 +5,8 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from . import labels, rounding
+from ..base import rounding
+from . import labels
 from .study import has_inner_sources, options, parameters
 from .tables import Table, to_csv
 
@@ -32,21 +33,23 @@ def criteria_table(results: xr.Dataset) -> Table:
     """What is scored: weight, and the values that count as best and worst."""
     rows = tuple(
         (
-            labels.name(criterion),
-            labels.unit(criterion),
+            label,
+            unit or "1",
             f"{100.0 * results['weight'].sel(criterion=criterion).item():.3g} %",
             rounding.significant(results["criterion_best"].sel(criterion=criterion).item()),
             rounding.significant(results["criterion_worst"].sel(criterion=criterion).item()),
         )
-        for criterion in _names(results, "criterion")
+        for criterion, label, unit in _criteria(results)
     )
     head = ("Criterion", "Unit", "Weight", "Best (utility 1)", "Worst (utility 0)")
-    return Table("Criteria, each the worst over the speeds", head, rows, frozenset({0, 1}))
+    return Table(
+        "Criteria; computed ones are the worst over the speeds", head, rows, frozenset({0, 1})
+    )
 
 
 def values_table(results: xr.Dataset) -> Table:
     """Value of every criterion for every option."""
-    criteria = _names(results, "criterion")
+    criteria = _criteria(results)
     rows = tuple(
         (
             option,
@@ -54,12 +57,12 @@ def values_table(results: xr.Dataset) -> Table:
                 rounding.significant(
                     results["criterion_value"].sel(option=option, criterion=criterion).item()
                 )
-                for criterion in criteria
+                for criterion, _, _ in criteria
             ),
         )
         for option in options(results)
     )
-    head = ("Option", *(labels.named(criterion) for criterion in criteria))
+    head = ("Option", *(f"{label}, {unit}" if unit else label for _, label, unit in criteria))
     return Table("Values of the criteria", head, rows)
 
 
@@ -134,6 +137,12 @@ def _published_row(printed: xr.Dataset, option: str) -> tuple[str, ...]:
 def _ranked(results: xr.Dataset) -> list[str]:
     order = np.argsort(results["rank"].isel(scoring_method=0).values, kind="stable")
     return [options(results)[index] for index in order]
+
+
+def _criteria(results: xr.Dataset) -> list[tuple[str, str, str]]:
+    """Name, words and unit of every criterion, as the results keep them."""
+    names = ("criterion", "criterion_label", "criterion_unit")
+    return list(zip(*(_names(results, name) for name in names), strict=True))
 
 
 def _names(results: xr.Dataset, dim: str) -> list[str]:

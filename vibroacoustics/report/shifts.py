@@ -7,8 +7,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..base import rounding
 from ..schema import REFERENCE_OPTION
-from . import rounding
 from .comparison import column
 from .study import catalogue_receiver
 

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from . import rounding
+from ..base import rounding
 from .bands import Band, band, band_words
 from .shifts import HEARD_DB, TOLERANCE_DB
 from .study import balancers, catalogue_receiver, overall_noise, speeds

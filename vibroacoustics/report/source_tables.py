@@ -5,8 +5,9 @@ from itertools import product
 import numpy as np
 import xarray as xr
 
+from ..base import rounding
 from ..schema import REFERENCE_OPTION
-from . import labels, rounding
+from . import labels
 from .bands import Band, band, band_words, energy_share, percent
 from .comparison import comparison
 from .source_changes import key_figure

@@ -5,8 +5,9 @@ from typing import Final
 
 import xarray as xr
 
+from ..base import rounding
 from ..schema import REFERENCE_OPTION
-from . import labels, rounding
+from . import labels
 from .bands import Band, band, band_words, draws, energy_share, percent
 from .study import catalogue_receiver, first_order_hz, overall_noise, parameters, speeds
 

@@ -6,8 +6,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..base import rounding
 from ..schema import REFERENCE_OPTION
-from . import rounding
 from .study import parameters, speeds
 from .tables import Table
 

@@ -16,6 +16,11 @@ def parameters(results: xr.Dataset) -> dict[str, Any]:
     return dict(json.loads(results.attrs["parameters"]))
 
 
+def words(results: xr.Dataset) -> dict[str, Any]:
+    """What machine and options say of themselves, as the run kept it."""
+    return dict(json.loads(results.attrs["words"]))
+
+
 def catalogue_receiver(results: xr.Dataset) -> str:
     """Name of the microphone at which the machine's noise is published."""
     return str(parameters(results)["catalogue_receiver"])

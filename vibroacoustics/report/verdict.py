@@ -6,8 +6,9 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
+from ..base import rounding
 from ..schema import REFERENCE_OPTION
-from . import labels, rounding
+from . import labels
 from .comparison import column, comparison
 from .option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, OptionVerdict, option_verdicts
 from .scores import scope_words

@@ -6,11 +6,11 @@ from typing import Final
 import numpy as np
 
 from ...errors import ParameterError, SolverError
-from ...moving_parts import Array
-from ...parameters.hermetic import HermeticCompressor
+from ...mechanics.moving_parts import Array
 from ...units import shaft_frequency_hz
 from .film_force import FilmForce, positive_film_force
 from .gas import valve_angles
+from .machine import HermeticCompressor
 from .periodic_collocation import PeriodicSolution, periodic_solution
 from .shaft import Crankshaft, ShaftEquations, crankshaft
 

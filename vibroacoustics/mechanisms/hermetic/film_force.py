@@ -5,9 +5,9 @@ from typing import Final
 
 import numpy as np
 
-from ...moving_parts import Array
-from ...parameters.hermetic import JournalBearing
+from ...mechanics.moving_parts import Array
 from .journal_bearing import Values, sommerfeld_angle
+from .machine import JournalBearing
 
 FilmForce = Callable[[JournalBearing, Values, Values, Values], Values]
 """Force on the journal, N, from its displacement, velocity (..., 2) and spin (...)."""

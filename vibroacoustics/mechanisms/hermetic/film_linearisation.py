@@ -7,11 +7,11 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ...errors import ParameterError
-from ...moving_parts import Array
-from ...parameters.hermetic import JournalBearing
-from ..beam_rotor import RotorMatrices
+from ...mechanics.beam_rotor import RotorMatrices
+from ...mechanics.moving_parts import Array
 from .film_force import COMPLEX_STEP, positive_film_force
 from .journal_bearing import short_bearing_force
+from .machine import JournalBearing
 
 DEEPEST: Final = 0.999
 """Eccentricity up to which an equilibrium is sought."""

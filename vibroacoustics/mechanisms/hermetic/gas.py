@@ -4,9 +4,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from ...moving_parts import Array
-from ...parameters.hermetic import HermeticCompressor
-from ..cylinder_gas import IdealValveCycle
+from ...mechanics.cylinder_gas import IdealValveCycle
+from ...mechanics.moving_parts import Array
+from .machine import HermeticCompressor
 
 
 def piston_area_m2(machine: HermeticCompressor) -> float:

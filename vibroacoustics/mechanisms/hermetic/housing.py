@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ...moving_parts import Array, Wrench, path
-from ..beam_rotor import NODE_FREEDOMS
+from ...mechanics.beam_rotor import NODE_FREEDOMS
+from ...mechanics.moving_parts import Array, Wrench, path
 from .results import motion_of
 from .shaft import ShaftEquations, node_positions_m
 

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import ParameterError
-from ...moving_parts import Array
-from ...parameters.hermetic import JournalBearing
+from ...mechanics.moving_parts import Array
+from .machine import JournalBearing
 
 Values = NDArray[Any]
 """Real values, or complex ones where a derivative is taken by a complex step."""

@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from ...errors import SolverError
-from ...moving_parts import Array
+from ...mechanics.moving_parts import Array
 
 Slope = Callable[[Array, Array], tuple[Array, Array]]
 """Slopes (points, states) and their tangents (points, states, states) at angles and states."""

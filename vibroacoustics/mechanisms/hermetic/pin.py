@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import ParameterError
-from ...parameters.hermetic import Rod
 from .journal_bearing import Values
+from .machine import Rod
 
 COORDINATES = 5
 

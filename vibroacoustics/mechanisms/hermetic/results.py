@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...constants import STANDARD_GRAVITY_M_PER_S2
-from ...moving_parts import Array
+from ...mechanics.moving_parts import Array
 from .forces import MechanismMotion, mechanism_motion
 from .gas import gas_force_n
 from .journal_bearing import film_coordinates, highest_pressure_pa

@@ -9,12 +9,18 @@ from typing import Final
 
 import numpy as np
 
-from ...moving_parts import Array
-from ...parameters.hermetic import HermeticCompressor
-from ..beam_rotor import NODE_FREEDOMS, RotorMatrices, Section, assemble, with_disc
+from ...mechanics.beam_rotor import (
+    NODE_FREEDOMS,
+    RotorMatrices,
+    Section,
+    assemble,
+    with_disc,
+)
+from ...mechanics.moving_parts import Array
 from .film_force import COMPLEX_STEP, FilmForce
 from .forces import added_mass, mechanism_motion
 from .gas import gas_force_n
+from .machine import HermeticCompressor
 from .pin import COORDINATES
 
 ELEMENTS_TO_LOWER_BEARING: Final = 2

@@ -8,13 +8,13 @@ import numpy as np
 
 from ...constants import STANDARD_GRAVITY_M_PER_S2
 from ...errors import ParameterError
-from ...moving_parts import Array
-from ...parameters.four_bar import FourBar, Links
-from ...parameters.minicrank import Masses, MiniCrankMachine, ScrollLoads
-from ...rotation import uniform_crank_angle
+from ...mechanics.crankshaft import DrivenRotation, reduced_inertia, steady_rotation
+from ...mechanics.moving_parts import Array
+from ...mechanics.rotation import uniform_crank_angle
 from ...units import shaft_frequency_hz
-from ..crankshaft import DrivenRotation, reduced_inertia, steady_rotation
 from .four_bar import FourBarMotion, four_bar_motion, three_minicranks_motion
+from .links import FourBar, Links
+from .machine import Masses, MiniCrankMachine, ScrollLoads
 
 SAMPLES: Final = 14400
 """Crank angles a revolution. Errors of 10 µm make a torque peak some 1° wide: 40 samples."""

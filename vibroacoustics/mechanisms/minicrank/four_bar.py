@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import ParameterError
-from ...moving_parts import Array
-from ...parameters.four_bar import Links, closing_margins, why_open
+from ...mechanics.moving_parts import Array
+from .links import Links, closing_margins, why_open
 
 
 def reachable_crank_angles(links: Links) -> tuple[float, float]:

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from ...moving_parts import Wrench
-from ...parameters.minicrank import MiniCrankMachine
-from ..crankshaft import acceleration_of, planar
-from ..rotating_set import two_plane_balance
+from ...mechanics.crankshaft import acceleration_of, planar
+from ...mechanics.moving_parts import Wrench
+from ..oldham_scroll.rotating_set import two_plane_balance
 from .cycle import MiniCrankCycle
+from .machine import MiniCrankMachine
 from .pin_forces import direction, turning_force
 
 

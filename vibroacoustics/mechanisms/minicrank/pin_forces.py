@@ -4,13 +4,13 @@ import numpy as np
 
 from ...constants import STANDARD_GRAVITY_M_PER_S2
 from ...errors import ParameterError
-from ...moving_parts import Array
-from ...parameters.four_bar import Links
-from ...parameters.minicrank import Masses
-from ...rotation import Rotation
-from ..crankshaft import acceleration_of
+from ...mechanics.crankshaft import acceleration_of
+from ...mechanics.moving_parts import Array
+from ...mechanics.rotation import Rotation
 from .cycle import ScrollLoad, weight_moment
 from .four_bar import FourBarMotion
+from .links import Links
+from .machine import Masses
 
 
 def minicrank_pin_force(

@@ -2,17 +2,15 @@
 
 import numpy as np
 
-from ...moving_parts import MachineMotion
-from ...parameters.minicrank import MiniCrankMachine
-from ..crankshaft import every
+from ...mechanics.crankshaft import every
+from ...mechanics.moving_parts import Revolution
 from .cycle import SAMPLES, MiniCrankCycle, steady_minicrank_cycle
 from .housing import housing_wrenches
+from .machine import MiniCrankMachine
 from .pin_forces import crank_pin_force, minicrank_pin_force
 
 
-def minicrank_revolution(
-    machine: MiniCrankMachine, speed_rpm: float, samples: int
-) -> MachineMotion:
+def minicrank_revolution(machine: MiniCrankMachine, speed_rpm: float, samples: int) -> Revolution:
     """Steady revolution of crankshaft, scroll and mini-cranks under gas and link errors.
 
     Parameters
@@ -26,7 +24,7 @@ def minicrank_revolution(
     facts = _facts(cycle)
     if machine.four_bar.minicranks == 1 and not cycle.links.is_parallelogram:
         facts |= _facts_of_rocking(cycle)
-    return every(stride, cycle.rotation, housing_wrenches(machine, cycle), facts)
+    return every(stride, speed_rpm, cycle.rotation, housing_wrenches(machine, cycle), facts)
 
 
 def _facts(cycle: MiniCrankCycle) -> dict[str, float]:

@@ -8,12 +8,12 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from ...errors import ParameterError, SolverError
-from ...moving_parts import Array
-from ...parameters.reciprocating import ReciprocatingMachine, SlidingPairs
-from ...rotation import Rotation, uniform_crank_angle
+from ...mechanics.crankshaft import DrivenRotation, reduced_inertia, steady_rotation
+from ...mechanics.moving_parts import Array
+from ...mechanics.rotation import Rotation, uniform_crank_angle
 from ...units import shaft_frequency_hz
-from ..crankshaft import DrivenRotation, reduced_inertia, steady_rotation
 from .gas import cylinder_pressure
+from .machine import ReciprocatingMachine, SlidingPairs
 from .slider_crank import (
     Motion,
     SliderCrank,

@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ...moving_parts import Array
-from ...parameters.reciprocating import CylinderGas
-from ..cylinder_gas import IdealValveCycle
+from ...mechanics.cylinder_gas import IdealValveCycle
+from ...mechanics.moving_parts import Array
+from .machine import CylinderGas
 
 
 def cylinder_pressure(swept_m3: Array, expanding: NDArray[np.bool_], gas: CylinderGas) -> Array:

@@ -1,15 +1,15 @@
 """The reciprocating compressor as the chain takes it: force and moment by source."""
 
-from ...moving_parts import MachineMotion
-from ...parameters.reciprocating import ReciprocatingMachine
-from ..crankshaft import every
+from ...mechanics.crankshaft import every
+from ...mechanics.moving_parts import Revolution
 from .cycle import SAMPLES, steady_cycle
+from .machine import ReciprocatingMachine
 from .slider_crank import housing_wrenches
 
 
 def reciprocating_revolution(
     machine: ReciprocatingMachine, speed_rpm: float, samples: int
-) -> MachineMotion:
+) -> Revolution:
     """Steady revolution of piston, connecting rod and crankshaft under gas and friction.
 
     Parameters
@@ -26,6 +26,7 @@ def reciprocating_revolution(
     )
     return every(
         stride,
+        speed_rpm,
         cycle.rotation,
         {name: own.placed(machine.crank_frame) for name, own in wrenches.items()},
         {

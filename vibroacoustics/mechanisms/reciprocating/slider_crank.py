@@ -5,10 +5,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import ParameterError
-from ...moving_parts import Array, MovingPart, Wrench, path
-from ...parameters.reciprocating import PistonAndRod
-from ...rotation import Rotation
-from ..crankshaft import acceleration_of, planar
+from ...mechanics.crankshaft import acceleration_of, planar
+from ...mechanics.moving_parts import (
+    Array,
+    MovingPart,
+    Wrench,
+    path,
+)
+from ...mechanics.rotation import Rotation
+from .machine import PistonAndRod
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,8 @@ from typing import Final
 import numpy as np
 
 from ...errors import ParameterError
-from ...moving_parts import Array
-from ...parameters.slider_link import JournalBearing, ThrustBearing
+from ...mechanics.moving_parts import Array
+from .machine import JournalBearing, ThrustBearing
 
 HALVINGS: Final = 60
 """Halvings of the eccentricity's interval, down to the rounding of a double."""

@@ -7,10 +7,10 @@ import numpy as np
 
 from ...constants import STANDARD_GRAVITY_M_PER_S2
 from ...errors import SolverError
-from ...moving_parts import Array
-from ...parameters.slider_link import SliderLinkMachine
+from ...mechanics.moving_parts import Array
 from .bearing_friction import journal_friction_moment, thrust_friction_moment
 from .gas import gas_force
+from .machine import SliderLinkMachine
 from .piston import (
     CrankState,
     PistonContacts,

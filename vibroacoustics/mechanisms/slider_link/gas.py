@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from ...moving_parts import Array
-from ...parameters.cylinder_gas import CylinderGas
-from ...parameters.slider_link import SliderLink
-from ..cylinder_gas import IdealValveCycle
+from ...mechanics.cylinder import CylinderGas
+from ...mechanics.cylinder_gas import IdealValveCycle
+from ...mechanics.moving_parts import Array
+from .machine import SliderLink
 
 
 def cylinder_pressure(gas: CylinderGas, angle: Array) -> Array:

@@ -6,11 +6,11 @@ from typing import Final
 import numpy as np
 
 from ...errors import ParameterError, SolverError
-from ...moving_parts import Array
-from ...parameters.slider_link import SliderLinkMachine
+from ...mechanics.moving_parts import Array
 from .crankshaft import CrankForces, settled
 from .gas import valve_angles
 from .gauss_panels import GaussPanels
+from .machine import SliderLinkMachine
 from .piston import (
     CrankState,
     check_not_jammed,

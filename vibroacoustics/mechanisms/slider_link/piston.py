@@ -12,8 +12,8 @@ from typing import Final
 import numpy as np
 
 from ...errors import ParameterError
-from ...moving_parts import Array
-from ...parameters.slider_link import SliderLink
+from ...mechanics.moving_parts import Array
+from .machine import SliderLink
 
 SIDES: Final = np.array(list(product((1.0, -1.0), repeat=3)))
 """Signs of F_GN1, F_GN2 and F_BN (δ3, δ4, δ5) for the eight ways to touch."""

@@ -3,11 +3,11 @@
 from math import gcd, pi
 from typing import Final
 
-from ...moving_parts import MachineMotion
-from ...parameters.slider_link import SliderLinkMachine
-from ...rotation import Rotation
+from ...mechanics.crankshaft import every
+from ...mechanics.moving_parts import Revolution
+from ...mechanics.rotation import Rotation
 from ...units import shaft_frequency_hz
-from ..crankshaft import every
+from .machine import SliderLinkMachine
 from .motion import steady_motion
 from .unbalance import unbalance
 
@@ -25,7 +25,7 @@ FRICTION: Final = {
 
 def slider_link_revolution(
     machine: SliderLinkMachine, speed_rpm: float, samples: int
-) -> MachineMotion:
+) -> Revolution:
     """Steady revolution of piston, slider and crankshaft under gas, friction and motor.
 
     Parameters
@@ -50,4 +50,4 @@ def slider_link_revolution(
         "mechanical_efficiency_percent": 100.0 * power["gas"] / power["motor"],
         **{name: sum(power[part] for part in parts) for name, parts in FRICTION.items()},
     }
-    return every(stride, rotation, wrenches, facts)
+    return every(stride, speed_rpm, rotation, wrenches, facts)

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from ...moving_parts import Array, Wrench
+from ...mechanics.moving_parts import Array, Wrench
 from ...parameters.housing import Housing
-from ...parameters.slider_link import SliderLinkMachine
 from .crankshaft import CrankForces
+from .machine import SliderLinkMachine
 from .piston import CrankState, engaged_length
 
 

@@ -9,7 +9,7 @@ from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from .. import rounding
+from ...base import rounding
 from .style import COLOURS, Picture, plain, render
 from .unit_levels import (
     COLOUR_MAP,

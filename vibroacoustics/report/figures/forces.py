@@ -6,8 +6,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from ..kind_words import axes_words
-from ..study import options, speeds
+from ..study import options, speeds, words
 from .style import Picture, draw, legend_below, line_looks, wrap
 
 
@@ -39,7 +38,7 @@ def force_figures(results: xr.Dataset) -> list[Picture]:
             f"Resultant force along x, y and z over one revolution at {speed:g} rpm for every "
             f"option; the largest force is {peak:.3g} N.",
             f"Resultant force on the housing over one revolution at {speed:g} rpm, along "
-            f"{axes_words(results)}. All three on one scale; "
+            f"{words(results)['axes']}. All three on one scale; "
             "lines that coincide are dashed differently.",
             png,
         )

@@ -8,7 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from .. import rounding
+from ...base import rounding
 from ..study import catalogue_receiver, options, speeds
 from .style import COLOURS, MARKERS, Picture, draw, legend_below, logarithmic_ticks, wrap
 

@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from .. import rounding
+from ...base import rounding
 from ..comparison import comparison
 from ..study import catalogue_receiver, first_order_hz, has_inner_sources, options, speeds
 from .style import (

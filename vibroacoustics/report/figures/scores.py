@@ -6,7 +6,6 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from .. import labels
 from ..study import options
 from .style import COLOURS, Picture, draw, legend_below, wrap
 
@@ -20,7 +19,7 @@ def score_figures(results: xr.Dataset) -> list[Picture]:
         (axes,) = panels
         left = np.zeros(len(names))
         for index, part in enumerate(parts.transpose("criterion", "option")):
-            label = wrap(labels.name(str(part["criterion"].item())), 50)
+            label = wrap(str(part["criterion_label"].item()), 50)
             colour = COLOURS[1:][index % (len(COLOURS) - 1)]
             axes.barh(range(len(names)), part.values, left=left, color=colour, label=label)
             left = left + part.values

@@ -1,0 +1,60 @@
+"""A hood, jacket or damping sheet around the shell: insertion loss by third octave."""
+
+from typing import ClassVar
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from ..base.registry import register
+from ..mechanics.added import Added, InsertionLoss
+from ..mechanics.moving_parts import Revolution
+from ..parameters.machine import Machine
+from ..parameters.option import Option
+
+
+@register
+class Hood(Option):
+    """What takes a known loss off the airborne sound and leaves the machine as it is."""
+
+    kind: ClassVar[str] = "hood"
+    band_hz: tuple[float, ...] = Field(min_length=1, max_length=40)
+    """Nominal middles of the third octaves in which the loss is known."""
+    insertion_loss_db: tuple[float, ...]
+    """In each band, level without less level with the hood (ISO 11546, ISO 15665)."""
+    mass_kg: float = Field(default=0.0, ge=0.0, le=100.0)
+    """Not on the mounts."""
+
+    @model_validator(mode="after")
+    def _one_loss_a_band(self) -> "Hood":
+        if len(self.band_hz) != len(self.insertion_loss_db):
+            raise ValueError(
+                f"insertion_loss_db: {len(self.insertion_loss_db)} values for "
+                f"{len(self.band_hz)} bands in band_hz"
+            )
+        numbers = np.rint(10.0 * np.log10(np.clip(self.band_hz, 1e-3, None)))
+        if min(self.band_hz) < 20.0 or max(self.band_hz) > 20e3 or np.any(np.diff(numbers) < 1):
+            raise ValueError(
+                f"band_hz = {list(self.band_hz)} Hz: must rise by a third octave or more from "
+                "20 to 20000 Hz"
+            )
+        if max(map(abs, self.insertion_loss_db)) > 80.0:
+            raise ValueError(
+                f"insertion_loss_db = {list(self.insertion_loss_db)} dB: allowed -80 to 80 dB"
+            )
+        return self
+
+    def added(self, machine: Machine, revolution: Revolution) -> Added:
+        """No moving part."""
+        return Added(figures={"added_mass_kg": self.mass_kg})
+
+    def insertion_loss(self) -> InsertionLoss:
+        """As measured."""
+        return InsertionLoss(np.array(self.band_hz), np.array(self.insertion_loss_db))
+
+    def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
+        """What a loss by third octaves does not hold."""
+        return (
+            "A hood acts on the airborne sound only, alike in all directions, and takes nothing "
+            "off outside the bands that its loss is given for; the sound that is not modelled is "
+            "taken as spread evenly over these bands.",
+        )

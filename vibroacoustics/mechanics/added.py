@@ -1,0 +1,86 @@
+"""What a balancing option adds to a machine."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .moving_parts import Array, MovingPart
+
+
+@dataclass(frozen=True)
+class RingForce:
+    """Force of what an option hangs on an Oldham ring, along the ring's stroke.
+
+    Attributes
+    ----------
+    force_n : over uniform crank angles, shape (samples,)
+    from_housing : whether the housing takes the reaction, as of a layer between the two; else what
+        hangs there does, by its change of momentum
+    inertial : whether its part in phase with the stroke grows as the speed squared
+    """
+
+    force_n: Array
+    from_housing: bool = False
+    inertial: bool = True
+
+
+@dataclass(frozen=True)
+class FurtherRing:
+    """A second Oldham ring in opposite phase, with keys of its own that no gas presses.
+
+    Attributes
+    ----------
+    mass_kg : mass
+    stroke_m : amplitude of its stroke
+    """
+
+    mass_kg: float
+    stroke_m: float
+
+
+@dataclass(frozen=True)
+class Added:
+    """What an option adds at one speed.
+
+    Attributes
+    ----------
+    parts : moving parts
+    figures : to report of it, by name; the unit is the suffix of the name
+    on_ring : force of what hangs on the machine's Oldham ring; none where nothing does
+    rings : further Oldham rings
+    """
+
+    parts: tuple[MovingPart, ...] = ()
+    figures: Mapping[str, float] = field(default_factory=dict)
+    on_ring: RingForce | None = None
+    rings: tuple[FurtherRing, ...] = ()
+
+
+@dataclass(frozen=True)
+class InsertionLoss:
+    """What a hood, jacket or damping sheet takes off the sound, by third octave.
+
+    Attributes
+    ----------
+    band_hz : nominal middle of the bands, shape (band,)
+    loss_db : shape (band,)
+    """
+
+    band_hz: Array
+    loss_db: Array
+
+    def at(self, frequency_hz: Array) -> Array:
+        """Loss at each frequency, dB; zero outside the bands, where nothing is known."""
+        same = _number(np.asarray(frequency_hz))[..., None] == _number(self.band_hz)
+        return np.asarray(np.where(same, self.loss_db, 0.0).sum(axis=-1))
+
+    @property
+    def even_db(self) -> float:
+        """Loss of sound whose energy is spread evenly over the bands, dB."""
+        return float(-10.0 * np.log10(np.mean(10.0 ** (-self.loss_db / 10.0))))
+
+
+def _number(frequency_hz: Array) -> Array:
+    """Number of the third octave of a frequency, 10 lg f rounded (IEC 61260-1, base ten)."""
+    return np.asarray(np.rint(10.0 * np.log10(np.maximum(frequency_hz, 1e-3))))

@@ -1,0 +1,170 @@
+"""Finite-element rotor of Nelson & McVaugh (1976): beams with rotary inertia, rigid discs.
+
+Each node has x, y, θx, θy; M q̈ + Ω G q̇ + K q = f. Slopes are dx/dz = θy and dy/dz = -θx.
+"""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from scipy.linalg import eigh
+
+from ..errors import ParameterError
+from .moving_parts import Array
+
+NODE_FREEDOMS: Final = 4
+X_PLANE: Final = np.eye(8)[[0, 3, 4, 7]]
+"""x1, dx1/dz, x2, dx2/dz from the element's eight displacements."""
+Y_PLANE: Final = np.array([[1.0], [-1.0], [1.0], [-1.0]]) * np.eye(8)[[1, 2, 5, 6]]
+
+
+@dataclass(frozen=True)
+class Section:
+    """Round section of a shaft: diameter in m, Young's modulus in Pa, density in kg/m³."""
+
+    diameter_m: float
+    youngs_modulus_pa: float
+    density_kg_per_m3: float
+
+    @property
+    def area_m2(self) -> float:
+        return 0.25 * np.pi * self.diameter_m**2
+
+    @property
+    def second_moment_m4(self) -> float:
+        """Second moment of area about a diameter."""
+        return np.pi * self.diameter_m**4 / 64.0
+
+
+@dataclass(frozen=True)
+class RotorMatrices:
+    """Mass, gyroscopic matrix per rad/s of spin and stiffness, all (freedoms, freedoms)."""
+
+    mass: Array
+    gyroscopic: Array
+    stiffness: Array
+
+
+def translation_matrix(length_m: float) -> Array:
+    """∫ N Nᵀ dz of cubic Hermite shapes (Nelson & McVaugh, [M_T] per unit mass per length)."""
+    le = length_m
+    return (
+        np.array(
+            [
+                [156.0, 22.0 * le, 54.0, -13.0 * le],
+                [22.0 * le, 4.0 * le**2, 13.0 * le, -3.0 * le**2],
+                [54.0, 13.0 * le, 156.0, -22.0 * le],
+                [-13.0 * le, -3.0 * le**2, -22.0 * le, 4.0 * le**2],
+            ]
+        )
+        * le
+        / 420.0
+    )
+
+
+def rotation_matrix(length_m: float) -> Array:
+    """∫ N' N'ᵀ dz (Nelson & McVaugh, [M_R] per unit of second moment times density)."""
+    le = length_m
+    return np.array(
+        [
+            [36.0, 3.0 * le, -36.0, 3.0 * le],
+            [3.0 * le, 4.0 * le**2, -3.0 * le, -(le**2)],
+            [-36.0, -3.0 * le, 36.0, -3.0 * le],
+            [3.0 * le, -(le**2), -3.0 * le, 4.0 * le**2],
+        ]
+    ) / (30.0 * le)
+
+
+def bending_matrix(length_m: float) -> Array:
+    """∫ N'' N''ᵀ dz (Nelson & McVaugh, [K_B] per unit of bending stiffness)."""
+    le = length_m
+    return (
+        np.array(
+            [
+                [12.0, 6.0 * le, -12.0, 6.0 * le],
+                [6.0 * le, 4.0 * le**2, -6.0 * le, 2.0 * le**2],
+                [-12.0, -6.0 * le, 12.0, -6.0 * le],
+                [6.0 * le, 2.0 * le**2, -6.0 * le, 4.0 * le**2],
+            ]
+        )
+        / le**3
+    )
+
+
+def beam_element(section: Section, length_m: float) -> RotorMatrices:
+    """Matrices of one element, both planes (Nelson & McVaugh 1976, eq. 23 and appendix)."""
+    density = section.density_kg_per_m3
+    plane_mass = density * section.area_m2 * translation_matrix(length_m)
+    rotary = density * section.second_moment_m4 * rotation_matrix(length_m)
+    bending = section.youngs_modulus_pa * section.second_moment_m4 * bending_matrix(length_m)
+    half = X_PLANE.T @ (2.0 * rotary) @ Y_PLANE  # polar second moment: twice that about a diameter
+    return RotorMatrices(_both_planes(plane_mass + rotary), half - half.T, _both_planes(bending))
+
+
+def _both_planes(plane: Array) -> Array:
+    return np.asarray(X_PLANE.T @ plane @ X_PLANE + Y_PLANE.T @ plane @ Y_PLANE)
+
+
+def assemble(section: Section, node_positions_m: Array) -> RotorMatrices:
+    """A uniform shaft with elements between the nodes.
+
+    Parameters
+    ----------
+    section : the shaft's section
+    node_positions_m : along the shaft, ascending, shape (nodes,)
+
+    Raises
+    ------
+    ParameterError
+        An element has no length.
+    """
+    lengths = np.diff(node_positions_m)
+    if lengths.size == 0 or np.min(lengths) <= 0.0:
+        raise ParameterError(f"node_positions_m = {node_positions_m}: must ascend")
+    size = NODE_FREEDOMS * (lengths.size + 1)
+    total = RotorMatrices(*(np.zeros((size, size)) for _ in range(3)))
+    for first, length in enumerate(lengths):
+        at = slice(NODE_FREEDOMS * first, NODE_FREEDOMS * (first + 2))
+        element = beam_element(section, float(length))
+        total.mass[at, at] += element.mass
+        total.gyroscopic[at, at] += element.gyroscopic
+        total.stiffness[at, at] += element.stiffness
+    return total
+
+
+def with_disc(
+    rotor: RotorMatrices, node: int, mass_kg: float, transverse_kg_m2: float, axial_kg_m2: float
+) -> RotorMatrices:
+    """The rotor with a rigid disc at a node (Nelson & McVaugh 1976, eq. 10)."""
+    mass, gyroscopic = rotor.mass.copy(), rotor.gyroscopic.copy()
+    at = NODE_FREEDOMS * node + np.arange(NODE_FREEDOMS)
+    mass[at, at] += [mass_kg, mass_kg, transverse_kg_m2, transverse_kg_m2]
+    gyroscopic[at[2], at[3]] += axial_kg_m2
+    gyroscopic[at[3], at[2]] -= axial_kg_m2
+    return RotorMatrices(mass, gyroscopic, rotor.stiffness)
+
+
+def natural_frequencies_hz(rotor: RotorMatrices, support: Array | None = None) -> Array:
+    """Natural frequencies at rest, each plane's, with an added support stiffness in N/m.
+
+    Rigid-body motions of a free rotor come out as zero to rounding.
+    """
+    stiffness = rotor.stiffness if support is None else rotor.stiffness + support
+    squared = eigh(stiffness, rotor.mass, eigvals_only=True)
+    return np.asarray(np.sqrt(np.abs(squared)) / (2.0 * np.pi))
+
+
+def whirl_frequencies_hz(rotor: RotorMatrices, spin_rad_per_s: float) -> Array:
+    """Whirl frequencies of an undamped spinning rotor, ascending, backward and forward.
+
+    M is positive definite and K must be too: the state matrix is similar to a Hermitian one.
+    """
+    lower = np.linalg.cholesky(rotor.mass)
+    inverse = np.linalg.inv(lower)
+    stiffness = inverse @ rotor.stiffness @ inverse.T
+    gyroscopic = spin_rad_per_s * inverse @ rotor.gyroscopic @ inverse.T
+    root = np.linalg.cholesky(stiffness)
+    zero = np.zeros_like(root)
+    skew = np.block([[zero, root.T], [-root, -gyroscopic]])  # states Lᵀq and q̇
+    frequencies = np.linalg.eigvalsh(1j * skew)
+    return np.asarray(frequencies[frequencies > 0.0] / (2.0 * np.pi))

@@ -1,0 +1,80 @@
+"""What a machine has that an option can work on: its shaft's axes, a slider, an Oldham ring."""
+
+from dataclasses import dataclass
+from typing import ClassVar, Final, NamedTuple
+
+from pydantic import Field, model_validator
+
+from ..base.parameters import Parameters
+
+HEIGHT = Field(ge=-2.0, le=2.0)
+
+
+class BalancePlanes(Parameters):
+    """Two balance planes on the shaft and the radius at which weights sit there."""
+
+    upper_height_m: float = HEIGHT
+    lower_height_m: float = HEIGHT
+    radius_m: float = Field(gt=0.0, le=0.5)
+
+    @model_validator(mode="after")
+    def _planes_apart(self) -> "BalancePlanes":
+        if self.upper_height_m - self.lower_height_m < 1e-3:
+            raise ValueError(
+                f"upper_height_mm = {1e3 * self.upper_height_m:g} mm: must be at least 1 mm above "
+                f"lower_height_mm = {1e3 * self.lower_height_m:g} mm"
+            )
+        return self
+
+
+class CrankFrame(NamedTuple):
+    """Axes of a mechanism: stroke, a quarter turn of the crank later, shaft; right-handed.
+
+    Each is a unit vector x, y, z of the machine.
+    """
+
+    stroke: tuple[float, float, float] = (1.0, 0.0, 0.0)
+    across: tuple[float, float, float] = (0.0, 1.0, 0.0)
+    shaft: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    origin_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """A point of the shaft, from the centre of mass at rest."""
+
+
+UPRIGHT: Final = CrankFrame()
+"""Stroke along x, shaft along z through the centre of mass."""
+
+
+class Capability:
+    """Something of a machine that an option can work on; a kind of machine may bring more."""
+
+    words: ClassVar[str]
+    """What it is, as a refusal names it."""
+
+
+@dataclass(frozen=True)
+class Slider(Capability):
+    """A mass that slides to and fro with the crank.
+
+    To first order its place is `amplitude_m` cos θ along the stroke from its middle.
+    """
+
+    words: ClassVar[str] = "a mass that slides to and fro"
+    mass_kg: float
+    amplitude_m: float
+    height_m: float
+    """Of the plane in which it slides, along the shaft from the frame's origin."""
+    planes: BalancePlanes
+    """Where weights can sit on the shaft; heights along the shaft from the frame's origin."""
+    frame: CrankFrame
+
+
+@dataclass(frozen=True)
+class OldhamRing(Capability):
+    """A ring that keeps an orbiting scroll from turning; x = `stroke_m` cos θ."""
+
+    words: ClassVar[str] = "an Oldham ring"
+    mass_kg: float
+    stroke_m: float
+    """Amplitude of its stroke, the radius of the scroll's orbit."""
+    height_m: float
+    """From the centre of mass at rest."""

@@ -1,0 +1,120 @@
+"""Critical speeds of a shaft in round bearings, and the thesis's estimate from a deflection."""
+
+from dataclasses import replace
+from itertools import pairwise
+from typing import Final
+
+import numpy as np
+from scipy.linalg import eigh
+
+from ..constants import STANDARD_GRAVITY_M_PER_S2
+from .beam_rotor import NODE_FREEDOMS, RotorMatrices, Section, assemble, with_disc
+from .moving_parts import Array
+from .scroll_shaft import ScrollShaft
+
+ELEMENT_LENGTH_M: Final = 0.01
+"""Ten elements or more over half a wave of the highest mode of interest."""
+ROTOR_SLICES: Final = 4
+"""The motor's rotor as discs in the middle of slices of equal length."""
+
+
+def rule_of_thumb_rpm(deflection_cm: float) -> float:
+    """n_c = 300/√y[cm], thesis eq. (6.2): √(g/y) rounded up from 299.04 rpm √cm.
+
+    It holds for y the sag under the shaft's own weight, which stands for its stiffness. The
+    thesis puts in the deflection y = e ω²/(ω_c² - ω²) under the centrifugal force instead: that
+    grows with the unbalance's radius e and the speed squared, so "n_c" falls with the speed.
+    """
+    return float(300.0 / np.sqrt(deflection_cm))
+
+
+def unbalance_deflection_m(
+    eccentricity_m: float, speed: Array | float, critical_speed: float
+) -> Array | float:
+    """Deflection of a disc on a light shaft, y = e ω²/(ω_c² - ω²) (Jeffcott 1919).
+
+    Parameters
+    ----------
+    eccentricity_m : e of the disc's centre of mass
+    speed, critical_speed : in the same unit
+    """
+    return eccentricity_m * speed**2 / (critical_speed**2 - speed**2)
+
+
+def on_bearings(rotor: RotorMatrices, nodes: Array, stiffness_n_per_m: float) -> RotorMatrices:
+    """The rotor with springs in x and y at nodes."""
+    stiffness = rotor.stiffness.copy()
+    for node in nodes:
+        at = NODE_FREEDOMS * int(node)
+        stiffness[[at, at + 1], [at, at + 1]] += stiffness_n_per_m
+    return replace(rotor, stiffness=stiffness)
+
+
+def forward_critical_speeds(rotor: RotorMatrices) -> Array:
+    """Speeds at which unbalance is in resonance, rad/s, ascending.
+
+    Forward circular whirl at the speed of rotation: K v = Ω² (M - jG) v on x = v, y = -jv. A disc
+    thicker than long (I_p > I_d) makes M - jG indefinite; its negative roots are no speeds.
+
+    Parameters
+    ----------
+    rotor : alike in both planes, on its bearings
+    """
+    node = np.array([[1.0, 0.0], [-1j, 0.0], [0.0, 1j], [0.0, 1.0]])  # x, y, θx, θy
+    forward = np.kron(np.eye(len(rotor.mass) // NODE_FREEDOMS), node)
+    stiffness, mass = (
+        (forward.conj().T @ matrix @ forward).real
+        for matrix in (rotor.stiffness, rotor.mass - 1j * rotor.gyroscopic)
+    )
+    inverse_squares = eigh(mass, stiffness, eigvals_only=True)
+    rounding = np.finfo(float).eps * len(mass) * np.max(np.abs(inverse_squares))
+    return np.asarray(1.0 / np.sqrt(inverse_squares[inverse_squares > rounding][::-1]))
+
+
+def scroll_shaft_rotor(shaft: ScrollShaft) -> RotorMatrices:
+    """Beam model of the scroll compressor's shaft on its two bearings."""
+    slices = shaft.rotor_length_m * (np.arange(ROTOR_SLICES) + 0.5) / ROTOR_SLICES
+    discs = shaft.rotor_height_m - 0.5 * shaft.rotor_length_m + slices
+    nodes = _nodes(np.array([0.0, *discs, shaft.main_bearing_height_m, shaft.length_m]))
+    section = Section(shaft.diameter_m, shaft.youngs_modulus_pa, shaft.density_kg_per_m3)
+    rotor = assemble(section, nodes)
+    mass, inertias = _slice_of_rotor(shaft)
+    for height in discs:
+        rotor = with_disc(rotor, _node_at(nodes, height), mass, *inertias)
+    rotor = with_disc(rotor, nodes.size - 1, shaft.pin_mass_kg, 0.0, 0.0)
+    bearings = np.array([0, _node_at(nodes, shaft.main_bearing_height_m)])
+    return on_bearings(rotor, bearings, shaft.bearing_stiffness_n_per_m)
+
+
+def sag_under_weight_m(rotor: RotorMatrices) -> Array:
+    """Sag of each node of a rotor whose weight acts along x, m, for the rule of thumb.
+
+    Parameters
+    ----------
+    rotor : on its bearings
+    """
+    weight = np.zeros(len(rotor.mass))
+    weight[::NODE_FREEDOMS] = STANDARD_GRAVITY_M_PER_S2
+    sag = np.linalg.solve(rotor.stiffness, rotor.mass @ weight)
+    return np.asarray(sag[::NODE_FREEDOMS])
+
+
+def _slice_of_rotor(shaft: ScrollShaft) -> tuple[float, tuple[float, float]]:
+    """Mass, and transverse and axial moment of inertia, of one slice as a thick ring."""
+    mass = shaft.rotor_mass_kg / ROTOR_SLICES
+    squares = 0.25 * (shaft.rotor_diameter_m**2 + shaft.diameter_m**2)
+    length = shaft.rotor_length_m / ROTOR_SLICES
+    return mass, (mass * (0.25 * squares + length**2 / 12.0), 0.5 * mass * squares)
+
+
+def _nodes(fixed: Array) -> Array:
+    """Nodes at the given places and no farther apart than an element's length."""
+    spans = [
+        np.linspace(start, end, int(np.ceil((end - start) / ELEMENT_LENGTH_M)), endpoint=False)
+        for start, end in pairwise(fixed)
+    ]
+    return np.append(np.concatenate(spans), fixed[-1])
+
+
+def _node_at(nodes: Array, height: float) -> int:
+    return int(np.argmin(np.abs(nodes - height)))

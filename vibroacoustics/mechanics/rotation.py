@@ -1,0 +1,75 @@
+"""Rotation of a shaft over one revolution, at a constant or a varying speed."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..units import shaft_frequency_hz
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Rotation:
+    """Periodic rotation of a shaft over uniform crank angles of one revolution.
+
+    Attributes
+    ----------
+    speed_rad_per_s : shape (samples,)
+    acceleration_rad_per_s2 : shape (samples,)
+    """
+
+    speed_rad_per_s: Array
+    acceleration_rad_per_s2: Array
+
+    @property
+    def crank_angle(self) -> Array:
+        """Shape (samples,), rad."""
+        return uniform_crank_angle(self.speed_rad_per_s.size)
+
+    @property
+    def fluctuation_ratio(self) -> float:
+        """(largest - smallest speed)/mean speed over time."""
+        return float(np.ptp(self.speed_rad_per_s) * np.mean(1.0 / self.speed_rad_per_s))
+
+    @property
+    def duration_s(self) -> float:
+        """Time of one revolution."""
+        return float(2.0 * np.pi * np.mean(1.0 / self.speed_rad_per_s))
+
+    @property
+    def time_s(self) -> Array:
+        """Time at each crank angle from crank angle zero, shape (samples,)."""
+        return crank_time_s(self.speed_rad_per_s)
+
+
+def uniform_crank_angle(samples: int) -> Array:
+    """Crank angles of one revolution from zero, shape (samples,), rad."""
+    return 2.0 * np.pi * np.arange(samples) / samples
+
+
+def constant_rotation(speed_rpm: float, samples: int) -> Rotation:
+    """Rotation at a constant speed."""
+    speed = 2.0 * np.pi * shaft_frequency_hz(speed_rpm)
+    return Rotation(np.full(samples, speed), np.zeros(samples))
+
+
+def crank_time_s(speed_rad_per_s: Array) -> Array:
+    """Time at uniform crank angles of one revolution from zero, shape (samples,).
+
+    The integral of 1/speed over crank angle, by its Fourier series.
+
+    Parameters
+    ----------
+    speed_rad_per_s : shape (samples,)
+    """
+    slowness = 1.0 / speed_rad_per_s
+    mean = slowness.mean()
+    spectrum = np.fft.rfft(slowness - mean)
+    orders = np.arange(1, spectrum.size)
+    spectrum[1:] /= 1j * orders
+    if slowness.size % 2 == 0:
+        spectrum[-1] = 0.0  # the highest order has no integral on these samples
+    wave = np.fft.irfft(spectrum, n=slowness.size)
+    return np.asarray(mean * uniform_crank_angle(slowness.size) + wave - wave[0])

@@ -1,0 +1,45 @@
+"""The scroll compressor's shaft as a rotor: section, bearings, motor rotor, overhung mass."""
+
+from pydantic import Field, model_validator
+
+from ..base.parameters import Parameters
+
+LENGTH = Field(gt=0.0, le=2.0)
+MASS = Field(gt=0.0, le=100.0)
+
+
+class ScrollShaft(Parameters):
+    """A uniform vertical shaft; heights are above its lower end, where the lower bearing is."""
+
+    length_m: float = LENGTH
+    """From the middle of the lower bearing to the middle of the crank pin."""
+    diameter_m: float = LENGTH
+    youngs_modulus_pa: float = Field(gt=0.0, le=1e13)
+    density_kg_per_m3: float = Field(gt=0.0, le=1e5)
+    main_bearing_height_m: float = LENGTH
+    bearing_stiffness_n_per_m: float = Field(gt=0.0, le=1e13)
+    """Of each bearing, alike in all directions."""
+    rotor_height_m: float = LENGTH
+    """Middle of the motor's rotor."""
+    rotor_length_m: float = LENGTH
+    rotor_diameter_m: float = LENGTH
+    rotor_mass_kg: float = MASS
+    """With the counterweights; its stiffness is left out."""
+    pin_mass_kg: float = Field(ge=0.0, le=100.0)
+    """Scroll and brake as a point mass on the crank pin, as in the thesis's model."""
+
+    @model_validator(mode="after")
+    def _in_place(self) -> "ScrollShaft":
+        top = self.rotor_height_m + 0.5 * self.rotor_length_m
+        if not top < self.main_bearing_height_m < self.length_m:
+            raise ValueError(
+                f"main_bearing_height_mm = {1e3 * self.main_bearing_height_m:g} mm: must be above "
+                f"the rotor's top at {1e3 * top:g} mm and below the crank pin at "
+                f"{1e3 * self.length_m:g} mm"
+            )
+        if self.rotor_height_m < 0.5 * self.rotor_length_m:
+            raise ValueError(
+                f"rotor_height_mm = {1e3 * self.rotor_height_m:g} mm: the rotor of "
+                f"{1e3 * self.rotor_length_m:g} mm reaches below the lower bearing"
+            )
+        return self

@@ -1,0 +1,124 @@
+"""Links of a scroll with mini-crank: lengths, errors, whether they close."""
+
+from dataclasses import astuple, dataclass
+from typing import Final, Literal
+
+from pydantic import Field, model_validator
+
+from ...base.parameters import Parameters
+
+LINK = Field(gt=0.0, le=10.0)
+ERROR = Field(default=0.0, ge=-1e-3, le=1e-3)
+
+SMALLEST_MARGIN_M: Final = 1e-9
+"""Below it a four-bar that is no parallelogram is at a change point to rounding: angular
+accelerations grow without bound and so do their rounding errors."""
+LARGEST_MISFIT: Final = 0.1
+"""Over the crank: three mini-cranks are taken to first order in the errors."""
+
+
+@dataclass(frozen=True)
+class Links:
+    """Link lengths with their errors.
+
+    Attributes
+    ----------
+    crank_m : l1, eccentricity of the crankshaft, the driver
+    scroll_m : l2, from crank pin to mini-crank pin
+    minicrank_m : l3
+    bracket_m : l4, from crankshaft to mini-crank axis
+    """
+
+    crank_m: float
+    scroll_m: float
+    minicrank_m: float
+    bracket_m: float
+
+    def __str__(self) -> str:
+        """Names and lengths as a machine file writes them."""
+        lengths = (self.crank_m, self.scroll_m, self.minicrank_m, self.bracket_m)
+        shown = ", ".join(f"{1e3 * length:.7g}" for length in lengths)
+        return f"crank_mm, scroll_mm, minicrank_mm, bracket_mm = {shown} mm"
+
+    @property
+    def is_parallelogram(self) -> bool:
+        return self.crank_m == self.minicrank_m and self.scroll_m == self.bracket_m
+
+    @property
+    def slack_m(self) -> float:
+        """Third condition, l1 + l3 ≤ l2 + l4, which any scroll with small cranks meets."""
+        return self.scroll_m + self.bracket_m - self.crank_m - self.minicrank_m
+
+
+def closing_margins(links: Links) -> tuple[float, float]:
+    """What the links have to spare in the two collinear positions of crank and bracket, m.
+
+    Both must hold for the crank to turn: l1 + l2 ≤ l3 + l4 and l1 + l4 ≤ l3 + l2 (Zhao et al.
+    2013, eq. 19 and 20; the paper's "or" is an error). A negative margin is the clearance that
+    the joints must have.
+
+    Returns
+    -------
+    inner, outer : l3 + l4 - l1 - l2 with the crank pin between the axes (θ1 = 0), and
+        l3 + l2 - l1 - l4 with the crank pin beyond (θ1 = 180°)
+    """
+    l1, l2, l3, l4 = links.crank_m, links.scroll_m, links.minicrank_m, links.bracket_m
+    return l3 + l4 - l1 - l2, l3 + l2 - l1 - l4
+
+
+def why_open(links: Links) -> str | None:
+    """Why rigid links with one mini-crank let the crankshaft not turn; None where they do."""
+    margin = min(*closing_margins(links), links.slack_m)
+    if links.is_parallelogram or margin >= SMALLEST_MARGIN_M:
+        return None
+    short = margin <= -SMALLEST_MARGIN_M
+    found = f"{-1e6 * margin:.4g} µm are missing" if short else "they only just reach"
+    return f"{links}: the links do not close over a revolution of the crankshaft; {found}"
+
+
+def why_misfit(links: Links) -> str | None:
+    """Why three mini-cranks cannot hold the scroll by small strains; None where they can."""
+    misfit = abs(links.minicrank_m - links.crank_m) + abs(links.bracket_m - links.scroll_m)
+    if misfit <= LARGEST_MISFIT * links.crank_m:
+        return None
+    return (
+        f"{links}: with minicranks = 3 crank and mini-crank, scroll and bracket must fit within "
+        f"{1e3 * LARGEST_MISFIT * links.crank_m:.4g} mm; they differ by {1e3 * misfit:.4g} mm"
+    )
+
+
+class FourBar(Parameters):
+    """Nominal links and their errors: crankshaft l1, scroll l2, mini-crank l3, bracket l4."""
+
+    crank_m: float = LINK
+    scroll_m: float = LINK
+    minicrank_m: float = LINK
+    bracket_m: float = LINK
+    crank_error_m: float = ERROR
+    scroll_error_m: float = ERROR
+    minicrank_error_m: float = ERROR
+    bracket_error_m: float = ERROR
+    branch: Literal[1, -1]
+    """M of equation (5): which way the mechanism is assembled."""
+    minicranks: Literal[1, 3]
+    """1 is the paper's rigid four-bar; of 3, at 120° to each other and on elastic pins, the first
+    has the errors."""
+
+    @model_validator(mode="after")
+    def _closes(self) -> "FourBar":
+        why_not = why_open if self.minicranks == 1 else why_misfit
+        if min(astuple(self.links)) <= 0.0:
+            raise ValueError(f"{self.links}: must be positive with their errors")
+        if reason := why_not(self.links):
+            raise ValueError(reason)
+        return self
+
+    @property
+    def links(self) -> Links:
+        """Nominal lengths and errors added up."""
+        return Links(
+            self.crank_m + self.crank_error_m,
+            self.scroll_m + self.scroll_error_m,
+            self.minicrank_m + self.minicrank_error_m,
+            self.bracket_m + self.bracket_error_m,
+        )

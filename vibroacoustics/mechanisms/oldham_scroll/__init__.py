@@ -1,0 +1,5 @@
+"""The scroll with an Oldham coupling."""
+
+from .machine import OldhamScroll
+
+__all__ = ["OldhamScroll"]

@@ -1,0 +1,98 @@
+"""A scroll compressor with an Oldham coupling: masses and places of its moving parts."""
+
+from typing import ClassVar, Final
+
+from pydantic import Field
+
+from ...base.parameters import Parameters
+from ...base.registry import register
+from ...mechanics.capabilities import (
+    HEIGHT,
+    UPRIGHT,
+    BalancePlanes,
+    Capability,
+    OldhamRing,
+    Slider,
+)
+from ...mechanics.moving_parts import Array, MovingPart, Revolution
+from ...parameters.machine import PART_MASS, Machine
+
+
+class Kinematics(Parameters):
+    orbit_radius_m: float = Field(ge=1e-4, le=0.05)
+    """Radius of the orbit of the scroll; the Oldham ring's stroke amplitude equals it."""
+
+
+class Ring(Parameters):
+    mass_kg: float = PART_MASS
+    height_m: float = HEIGHT
+
+
+class OrbitingPart(Parameters):
+    """A part whose centre of mass circles the shaft axis, in phase with the crank pin."""
+
+    mass_kg: float = PART_MASS
+    radius_m: float | None = Field(default=None, gt=0.0, le=0.5)
+    """Radius of its circle; the orbit radius where none is given."""
+    height_m: float = HEIGHT
+
+
+@register
+class OldhamScroll(Machine):
+    """The shaft stands upright, the ring slides along x."""
+
+    kind: ClassVar[str] = "oldham-scroll"
+    axes: ClassVar[str] = "the Oldham stroke (x), across (y) and along the shaft (z)"
+    orders: ClassVar[str] = (
+        "The stroke of the ring is a pure cosine of the crank angle, so order 2 of the ring "
+        "alone is zero; higher orders come from what an option adds."
+    )
+    kinematics: Kinematics
+    oldham: Ring
+    orbiting_scroll: OrbitingPart
+    crank_pin: OrbitingPart
+    brake: OrbitingPart
+    counterweights: BalancePlanes
+    """The mass moments follow from two-plane balance of the orbiting parts."""
+
+    @property
+    def capabilities(self) -> tuple[Capability, ...]:
+        """The Oldham ring, also as a mass that slides to and fro."""
+        ring = self.oldham
+        stroke = self.kinematics.orbit_radius_m
+        return (
+            Slider(ring.mass_kg, stroke, ring.height_m, self.counterweights, UPRIGHT),
+            OldhamRing(ring.mass_kg, stroke, ring.height_m),
+        )
+
+    def revolution(self, speed_rpm: float, samples: int) -> Revolution:
+        """Steady revolution of the moving parts; see `oldham_scroll`."""
+        from .revolution import oldham_scroll
+
+        return oldham_scroll(self, speed_rpm, samples)
+
+    def moving_parts(self, crank_angle: Array) -> tuple[MovingPart, ...]:
+        """Ring, orbiting scroll, pin, brake and counterweights."""
+        from .revolution import scroll_parts
+
+        return scroll_parts(self, crank_angle)
+
+    def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
+        """What the model leaves out, without and with gas, keys and motor."""
+        return (*_LEAVES_OUT, *(_WITH_SOURCES if inner_sources else _WITHOUT_SOURCES))
+
+
+_LEAVES_OUT: Final = (
+    "A weight on the shaft turns: it lowers the force along the stroke of the ring and makes one "
+    "across it. The machine's own counterweights may already hold part of it; they are taken to "
+    "balance scroll, pin and brake only.",
+)
+_WITHOUT_SOURCES: Final = (
+    "The shaft turns at constant speed; torque ripple, twice-line torque of the motor and key "
+    "slap are not modelled.",
+)
+_WITH_SOURCES: Final = (
+    "Forces of the moving parts and keys are those at constant speed; torque ripple and the "
+    "motor's torque act on stator and machine only. The ring's keys strike along a clearance and "
+    "its bodies are rigid; all four have the same clearance, friction and stiffness.",
+)

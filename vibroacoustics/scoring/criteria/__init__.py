@@ -1,0 +1,1 @@
+"""Criteria that are computed from the results, one file each."""

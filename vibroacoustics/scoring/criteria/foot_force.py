@@ -1,0 +1,20 @@
+"""Force into the feet."""
+
+import xarray as xr
+
+from ...base.registry import register
+from ...parameters.criterion import Criterion
+
+
+@register
+class FootForce(Criterion):
+    """Largest 1x force into a foot, worst over the speeds."""
+
+    name = "foot_force_1x_n"
+    label = "Largest foot force, 1×"
+    unit = "N"
+    position = 1.0
+
+    def value(self, results: xr.Dataset) -> xr.DataArray:
+        """Largest 1x force into a foot, N."""
+        return results["foot_force_amplitude"].sel(order=1).max(("speed", "foot"))

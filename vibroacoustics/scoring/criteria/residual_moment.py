@@ -1,0 +1,20 @@
+"""Moment that is left on the housing."""
+
+import xarray as xr
+
+from ...base.registry import register
+from ...parameters.criterion import Criterion
+
+
+@register
+class ResidualMoment(Criterion):
+    """1x moment about the centre of mass, worst over the speeds."""
+
+    name = "residual_moment_nm"
+    label = "Residual moment, 1×"
+    unit = "N m"
+    position = 2.0
+
+    def value(self, results: xr.Dataset) -> xr.DataArray:
+        """1x moment about the centre of mass, N m."""
+        return results["moment_amplitude"].sel(order=1).max("speed")

@@ -1,0 +1,30 @@
+"""How far the benefit depends on the speed."""
+
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from ...base.registry import register
+from ...parameters.criterion import Criterion
+from ...schema import REFERENCE_OPTION
+
+SMALLEST_RATIO: Final = 1e-6
+"""Below -120 dB is rounding."""
+
+
+@register
+class SpeedSensitivity(Criterion):
+    """Spread over the speeds of the change of the 1x foot force against `none`."""
+
+    name = "speed_sensitivity_db"
+    label = "Spread of the foot-force change over the speeds"
+    unit = "dB"
+    position = 4.0
+
+    def value(self, results: xr.Dataset) -> xr.DataArray:
+        """Largest minus smallest change, dB."""
+        foot = results["foot_force_amplitude"].sel(order=1).max("foot")
+        ratio = foot / foot.sel(option=REFERENCE_OPTION, drop=True)
+        change: xr.DataArray = 20.0 * xr.apply_ufunc(np.log10, ratio.clip(min=SMALLEST_RATIO))
+        return change.max("speed") - change.min("speed")

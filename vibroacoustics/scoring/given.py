@@ -1,0 +1,19 @@
+"""Values of criteria that a study gives: cost, assembly, risk, space."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+
+from ..parameters.scoring import Given
+from ..schema import check, stamp
+
+
+def given_values(given: Given, options: Sequence[str]) -> xr.Dataset:
+    """Dataset with given_value, not a number where an option gives none; empty if none does."""
+    names = sorted({name for values in given.values() for name in values})
+    if not names:
+        return xr.Dataset()
+    values = [[given.get(option, {}).get(name, np.nan) for name in names] for option in options]
+    coords = {"option": list(options), "given_criterion": names}
+    return check(xr.Dataset({"given_value": stamp("given_value", values, coords)}))

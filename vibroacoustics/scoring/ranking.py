@@ -1,0 +1,48 @@
+"""From values to utilities, scores and the share of first places."""
+
+from collections.abc import Callable
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+Real = NDArray[np.float64]
+
+
+def utilities(values: Real, best: Real, worst: Real) -> Real:
+    """Utility of each option and criterion: 1 at `best`, 0 at `worst`, linear, within 0 to 1.
+
+    The scale does not depend on the options at hand: adding one cannot reorder the others.
+    """
+    return np.clip((worst - values) / (worst - best), 0.0, 1.0)
+
+
+def weighted_sum(utility: Real, shares: Real) -> Real:
+    """Sum of the utilities times their weights."""
+    return utility @ shares
+
+
+def topsis(utility: Real, shares: Real) -> Real:
+    """Closeness to the ideal option (Hwang & Yoon 1981): d⁻ / (d⁺ + d⁻)."""
+    to_ideal = np.linalg.norm((1.0 - utility) * shares, axis=1)
+    to_worst = np.linalg.norm(utility * shares, axis=1)
+    total = to_ideal + to_worst
+    return np.where(total > 0.0, to_worst / np.where(total > 0.0, total, 1.0), 1.0)
+
+
+METHODS: Final[dict[str, Callable[[Real, Real], Real]]] = {
+    "weighted_sum": weighted_sum,
+    "topsis": topsis,
+}
+
+
+def first_place_share(utility: Real, random_weightings: int, seed: int) -> Real:
+    """Share of uniformly random weightings in which each option has the best weighted sum.
+
+    Options that tie for the first place share it.
+    """
+    generator = np.random.default_rng(seed)
+    shares = generator.dirichlet(np.ones(utility.shape[1]), size=random_weightings)
+    sums = utility @ shares.T
+    winners = sums >= sums.max(axis=0) - 1e-9
+    return np.asarray((winners / winners.sum(axis=0)).mean(axis=1))

@@ -1,0 +1,1 @@
+"""Who drives the machine from within: gas, keys, motor."""

@@ -1,0 +1,145 @@
+"""Torque of a capacitor motor and its load as lines: shaft orders and line frequency kept apart."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...mechanics.moving_parts import Array
+from ...parameters.induction_motor import CapacitorMotor
+from .revolving_fields import OperatingPoint, point_at_torque
+from .speed_response import (
+    ComplexArray,
+    SpeedResponse,
+    TwoAxisMotor,
+    speed_response,
+    two_axis_motor,
+)
+
+
+@dataclass(frozen=True)
+class TorqueLine:
+    """One frequency of the balance J Ω̇ = T_motor - T_load; complex peaks.
+
+    Attributes
+    ----------
+    name : order of the shaft, multiple of the line frequency, or both
+    frequency_hz : above zero
+    motor_torque_n_m : on the rotor; the stator, and with it the housing, gets the opposite
+    roll_moment_n_m : on the housing about z by change of the rotor's momentum, -J Ω̇: reaction of
+        the motor and of the load together
+    speed_swing_rad_per_s : of the rotor
+    """
+
+    name: str
+    frequency_hz: float
+    motor_torque_n_m: complex
+    roll_moment_n_m: complex
+    speed_swing_rad_per_s: complex
+
+
+@dataclass(frozen=True)
+class TorqueLines:
+    """All lines of a motor under load, one list a phase reference.
+
+    Attributes
+    ----------
+    operating_point : of the motor at the mean load
+    speed_rad_per_s : mean speed
+    shaft : orders of the load, phases against crank angle zero
+    line : twice and four times the line frequency, against the maximum of the line voltage
+    sidebands : twice the line frequency plus and minus an order, with both references at time zero
+    """
+
+    operating_point: OperatingPoint
+    speed_rad_per_s: float
+    shaft: tuple[TorqueLine, ...]
+    line: tuple[TorqueLine, ...]
+    sidebands: tuple[TorqueLine, ...]
+
+
+@dataclass(frozen=True)
+class _RotorInMotor:
+    """The rotor with all that turns with it, in the field of the motor, at a mean speed."""
+
+    motor: TwoAxisMotor
+    speed_rad_per_s: float
+    inertia_kg_m2: float
+
+    def response(self, frequency_hz: Array | float) -> SpeedResponse:
+        swing = 2.0 * np.pi * np.asarray(frequency_hz)
+        return speed_response(self.motor, self.speed_rad_per_s, swing)
+
+    def lines(
+        self,
+        names: Sequence[str],
+        frequency_hz: Array,
+        motor_torque: ComplexArray,
+        load_torque: ComplexArray | float = 0.0,
+    ) -> tuple[TorqueLine, ...]:
+        """Lines of torques at constant speed; the motor's answer to the swings is added."""
+        inertia = 2.0j * np.pi * frequency_hz * self.inertia_kg_m2
+        response = self.response(frequency_hz).direct
+        swing = (motor_torque - load_torque) / (inertia - response)
+        columns = (frequency_hz, motor_torque + response * swing, -inertia * swing, swing)
+        rows = zip(*(column.tolist() for column in columns), strict=True)
+        return tuple(TorqueLine(name, *row) for name, row in zip(names, rows, strict=True))
+
+
+def torque_lines(
+    motor: CapacitorMotor, inertia_kg_m2: float, load_order_n_m: Sequence[complex]
+) -> TorqueLines:
+    """Torque balance of the rotor, linear in the swings of its speed.
+
+    The twice-line-frequency torque is no shaft order. A swing of the speed modulates it, which
+    makes the sidebands and four times the line frequency. Left out as smaller: what the swings
+    at twice the line frequency change in the load's crank angle, and sidebands of sidebands.
+
+    Parameters
+    ----------
+    motor : the motor's circuit
+    inertia_kg_m2 : J of all that turns with the shaft
+    load_order_n_m : load torque against the rotation, mean and complex peak of orders 1, 2, …
+
+    Raises
+    ------
+    ParameterError
+        The motor cannot carry the mean load.
+    """
+    mean, *ripple = load_order_n_m
+    point = point_at_torque(motor, float(np.real(mean)))
+    speed = motor.synchronous_speed_rad_per_s * (1.0 - point.slip)
+    rotor = _RotorInMotor(two_axis_motor(motor), speed, inertia_kg_m2)
+    twice = 2.0 * motor.line_frequency_hz
+    orders = np.arange(1, len(ripple) + 1)
+    names = [f"order {order}" for order in orders]
+    load = np.array(ripple, dtype=complex)
+    shaft = rotor.lines(
+        names, np.asarray(orders * speed / (2.0 * np.pi)), np.zeros_like(load), load
+    )
+    pulse = np.array([point.pulsating_torque_n_m])
+    (pulsating,) = rotor.lines(["2 x line"], np.array([twice]), pulse)
+    fourth = rotor.response(twice).upper * pulsating.speed_swing_rad_per_s
+    (double,) = rotor.lines(["4 x line"], np.array([2.0 * twice]), fourth[None])
+    return TorqueLines(point, speed, shaft, (pulsating, double), _sidebands(rotor, shaft, twice))
+
+
+def _sidebands(
+    rotor: _RotorInMotor, shaft: Sequence[TorqueLine], twice_line_hz: float
+) -> tuple[TorqueLine, ...]:
+    """Twice the line frequency plus and minus those of the shaft's orders, by order."""
+    frequency = np.array([line.frequency_hz for line in shaft])
+    swing = np.array([line.speed_swing_rad_per_s for line in shaft])
+    response, difference = rotor.response(frequency), twice_line_hz - frequency
+    lower = response.lower * swing.conj()
+    above = rotor.lines(
+        [f"2 x line + {line.name}" for line in shaft],
+        twice_line_hz + frequency,
+        response.upper * swing,
+    )
+    below = rotor.lines(
+        [f"2 x line - {line.name}" for line in shaft],
+        np.abs(difference),
+        np.where(difference > 0.0, lower, lower.conj()),
+    )
+    return tuple(line for pair in zip(above, below, strict=True) for line in pair)

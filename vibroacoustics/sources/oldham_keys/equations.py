@@ -1,0 +1,129 @@
+"""Equations of motion of ring and scroll between the faces of the slots.
+
+Coordinates are small: u of the ring from the scroll's centre along x, y of the ring, turns ψ of
+ring and φ of scroll. Keys 0 and 1 are at y = ±R in the scroll's slots, whose faces push along x;
+keys 2 and 3 at x = ±R in the housing's slots, whose faces push along y.
+"""
+
+from typing import Final, NamedTuple
+
+import numba
+import numpy as np
+
+from ...mechanics.moving_parts import Array
+from .contact import contact_force
+
+KEYS: Final = 4
+COORDINATES: Final = 4
+SIDE, APPROACH = 0, 1
+"""Rows of a contacts array, shape (2, 4): face that each key touches, -1, 1 or 0 for none; speed
+at which the contact began, m/s."""
+SHIFT, RATE, NORMAL, FRICTION = 0, 1, 2, 3
+"""Rows of a keys array, shape (4, 4): displacement of each key across its slot, m, and its
+velocity, m/s; force on the key across and along its slot, N."""
+
+
+class Coupling(NamedTuple):
+    """Constants of the equations in SI units; numba takes named tuples, not dataclasses.
+
+    `moment` and `ring_force` are periodic cubic splines over crank angle, shape (4, pieces).
+    """
+
+    angular_speed: float
+    stroke: float
+    mass: float
+    ring_inertia: float
+    scroll_inertia: float
+    radius: float
+    clearance: float
+    stiffness: float
+    hysteresis: float
+    least_approach: float
+    film: float
+    friction: float
+    sticking_speed: float
+    moment: Array
+    ring_force: Array
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def spline_value(spline: Array, angle: float) -> float:
+    """Value of a periodic cubic spline of equal pieces over one turn."""
+    pieces = spline.shape[1]
+    turn = angle / (2.0 * np.pi)
+    place = (turn - np.floor(turn)) * pieces
+    piece = min(int(place), pieces - 1)
+    step = (place - piece) * (2.0 * np.pi / pieces)
+    value = spline[0, piece]
+    for power in range(1, 4):
+        value = value * step + spline[power, piece]
+    return float(value)
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def key_motion(time: float, state: Array, c: Coupling, keys: Array) -> None:
+    """Displacement and velocity of each key across its slot, into rows of `keys`.
+
+    The lever arm of the scroll's slots is counted from the scroll's centre, which orbits.
+    """
+    sway = c.stroke * np.sin(c.angular_speed * time)
+    sway_rate = c.angular_speed * c.stroke * np.cos(c.angular_speed * time)
+    for key in range(2):
+        arm = c.radius if key == 0 else -c.radius
+        lever = arm - sway
+        keys[SHIFT, key] = state[0] - arm * state[2] + lever * state[3]
+        keys[RATE, key] = state[4] - arm * state[6] + lever * state[7] - sway_rate * state[3]
+        keys[SHIFT, 2 + key] = state[1] + arm * state[2]
+        keys[RATE, 2 + key] = state[5] + arm * state[6]
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def key_forces(time: float, state: Array, contacts: Array, c: Coupling, keys: Array) -> None:
+    """Motion of the ring's keys and forces on them, into all rows of `keys`.
+
+    Parameters
+    ----------
+    time : from crank angle zero, s
+    state : coordinates and their rates, shape (8,)
+    contacts : shape (2, 4)
+    c : constants
+    keys : shape (4, 4); it is changed
+    """
+    key_motion(time, state, c, keys)
+    orbital = c.angular_speed * c.stroke
+    along_scroll = state[5] - orbital * np.cos(c.angular_speed * time)
+    along_housing = state[4] - orbital * np.sin(c.angular_speed * time)
+    friction_scroll = -c.friction * np.tanh(along_scroll / c.sticking_speed)
+    friction_housing = -c.friction * np.tanh(along_housing / c.sticking_speed)
+    for key in range(KEYS):
+        side, rate = contacts[SIDE, key], keys[RATE, key]
+        push = 0.0
+        if side != 0.0:
+            depth = side * keys[SHIFT, key] - c.clearance
+            closing_ratio = side * rate / contacts[APPROACH, key]
+            push = contact_force(depth, closing_ratio, c.stiffness, c.hysteresis)
+        # A key always approaches one of the two faces, so that their films damp both ways.
+        keys[NORMAL, key] = -side * push - c.film * rate
+        keys[FRICTION, key] = push * (friction_scroll if key < 2 else friction_housing)
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def state_rate(
+    time: float, state: Array, contacts: Array, c: Coupling, keys: Array, result: Array
+) -> None:
+    """Newton's and Euler's laws for ring and scroll, into `result`; arguments of `key_forces`."""
+    key_forces(time, state, contacts, c, keys)
+    angle = c.angular_speed * time
+    normal, friction = keys[NORMAL], keys[FRICTION]
+    along_x = normal[0] + normal[1] + friction[2] + friction[3] + spline_value(c.ring_force, angle)
+    along_y = normal[2] + normal[3] + friction[0] + friction[1]
+    on_ring = c.radius * (normal[1] - normal[0] + normal[2] - normal[3])
+    sway = c.stroke * np.sin(angle)
+    on_scroll = (c.radius - sway) * normal[0] - (c.radius + sway) * normal[1]
+    for coordinate in range(COORDINATES):
+        result[coordinate] = state[COORDINATES + coordinate]
+    # The scroll's centre, from which u counts, accelerates by -ω² r cos θ.
+    result[4] = along_x / c.mass + c.angular_speed**2 * c.stroke * np.cos(angle)
+    result[5] = along_y / c.mass
+    result[6] = on_ring / c.ring_inertia
+    result[7] = (spline_value(c.moment, angle) + on_scroll) / c.scroll_inertia

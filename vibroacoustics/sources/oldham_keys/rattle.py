@@ -1,0 +1,212 @@
+"""Forces between keys and slots over steady revolutions at constant speed."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from ...errors import ParameterError, SolverError
+from ...mechanics.moving_parts import Array
+from ...parameters.oldham_keys import OldhamKeys
+from ...units import shaft_frequency_hz
+from .contact import CONTACT_LAWS
+from .equations import COORDINATES, Coupling
+from .integration import integrate
+
+SETTLING_REVOLUTIONS: Final = 4
+"""Left out: from the start in the middle of the slots. At rated load, at all corners of the assumed
+ranges, forces are then within 2e-8 N of those after ten."""
+SAMPLE_RATE_HZ: Final = 1e5
+"""At least; of an unloaded ring's 14 N rms at 3500 rpm 0.13 N rms lie above 32 kHz."""
+MOST_STEPS: Final = 1000
+"""Between two samples; some seven are usual."""
+STEP_RATIO: Final = 0.15
+"""Step times the highest angular frequency of contact; the forces of one revolution of rattle
+are then right to 0.1 N."""
+STICKING_SPEED_M_PER_S: Final = 2e-3
+"""Friction grows as tanh of sliding speed over this one; at rated load a quarter of it
+changes no peak by more than 0.2 N. The ring slides at up to 1.3 m/s at 3500 rpm."""
+
+
+@dataclass(frozen=True)
+class KeyForces:
+    """What keys and slots do to each other over whole revolutions from crank angle zero.
+
+    Keys 0 and 1 are in the scroll's slots, at y = ±R of the ring; 2 and 3 in the housing's, at
+    x = ±R.
+
+    Attributes
+    ----------
+    speed_rpm : of the shaft, constant
+    revolutions : their number
+    normal_n : force on each key across its slot, shape (4, samples); along x for keys 0 and 1,
+        along y for 2 and 3
+    friction_n : force on each key along its slot, shape (4, samples)
+    impact_speed_m_per_s : of a key that met a face in the interval before, otherwise 0, shape
+        (4, samples)
+    """
+
+    speed_rpm: float
+    revolutions: int
+    normal_n: Array
+    friction_n: Array
+    impact_speed_m_per_s: Array
+
+    @property
+    def sample_rate_hz(self) -> float:
+        per_revolution = self.normal_n.shape[-1] / self.revolutions
+        return per_revolution * shaft_frequency_hz(self.speed_rpm)
+
+    @property
+    def time_s(self) -> Array:
+        """Shape (samples,); crank angle zero at time 0."""
+        return np.arange(self.normal_n.shape[-1]) / self.sample_rate_hz
+
+    @property
+    def crank_angle(self) -> Array:
+        """Shape (samples,), rad."""
+        samples = self.normal_n.shape[-1]
+        return np.asarray(2.0 * np.pi * self.revolutions / samples * np.arange(samples))
+
+    @property
+    def impacts_per_revolution(self) -> float:
+        """Times that any key met a face."""
+        return np.count_nonzero(self.impact_speed_m_per_s) / self.revolutions
+
+    @property
+    def peak_n(self) -> Array:
+        """Greatest force of each key across its slot, shape (4,)."""
+        return np.asarray(np.max(np.abs(self.normal_n), axis=-1))
+
+    @property
+    def on_scroll_slots_n(self) -> Array:
+        """Force of keys 0 and 1 on the scroll along x and y, shape (2, 2, samples)."""
+        return -np.stack([self.normal_n[:2], self.friction_n[:2]], axis=1)
+
+    @property
+    def on_housing_slots_n(self) -> Array:
+        """Force of keys 2 and 3 on the housing along x and y, shape (2, 2, samples)."""
+        return -np.stack([self.friction_n[2:], self.normal_n[2:]], axis=1)
+
+
+def steady_key_forces(
+    keys: OldhamKeys,
+    ring_mass_kg: float,
+    stroke_m: float,
+    speed_rpm: float,
+    moment_n_m: Array,
+    ring_force_n: Array,
+    revolutions: int,
+) -> KeyForces:
+    """Simulate ring and scroll between the faces of the slots.
+
+    The scroll's centre orbits as the crank pin leads it; its turn about this centre is held by
+    the keys alone and is free within their clearance, for once a key has left its face the
+    scroll's own inertia decides when it returns. A twin ring is the same call with a mass, keys
+    and a moment of its own.
+
+    Parameters
+    ----------
+    keys : contact, clearance, film, friction, inertias
+    ring_mass_kg : mass of the ring
+    stroke_m : amplitude of the ring's stroke, the orbit radius
+    speed_rpm : constant speed of the shaft
+    moment_n_m : turns the scroll about its centre, counter-clockwise as the shaft turns, over
+        uniform crank angles from zero, shape (samples,), or one value in (1,)
+    ring_force_n : of a balancer on the ring along x, sampled alike
+    revolutions : to be returned, after those in which the motion settles
+
+    Raises
+    ------
+    ParameterError
+        Speed, moment, force or number of revolutions cannot be.
+    SolverError
+        The contacts are too stiff to be resolved, or the integration diverged.
+    """
+    if not 100.0 <= speed_rpm <= 60000.0:
+        raise ParameterError(f"speed_rpm = {speed_rpm:g} rpm: must be from 100 to 60000 rpm")
+    if revolutions < 1:
+        raise ParameterError(f"revolutions = {revolutions}: must be at least 1")
+    coupling = _coupling(keys, ring_mass_kg, stroke_m, speed_rpm, moment_n_m, ring_force_n)
+    period = 1.0 / shaft_frequency_hz(speed_rpm)
+    samples = 2 ** int(np.ceil(np.log2(SAMPLE_RATE_HZ * period)))
+    steps = _steps(period / samples, greatest_step_s(coupling))
+    settled, all_samples = SETTLING_REVOLUTIONS * samples, revolutions * samples
+    found = integrate(
+        np.zeros(2 * COORDINATES), settled + all_samples, period / samples, steps, coupling
+    )
+    # An interval's end is its sample: the one before the first kept is at crank angle zero.
+    kept = [np.ascontiguousarray(rows[settled - 1 : -1].T) for rows in found[1:]]
+    if not all(np.all(np.isfinite(rows)) for rows in kept):
+        raise SolverError(f"Oldham keys at {speed_rpm:g} rpm: the integration diverged")
+    return KeyForces(speed_rpm, revolutions, *kept)
+
+
+def _coupling(
+    keys: OldhamKeys,
+    ring_mass_kg: float,
+    stroke_m: float,
+    speed_rpm: float,
+    moment_n_m: Array,
+    ring_force_n: Array,
+) -> Coupling:
+    return Coupling(
+        angular_speed=2.0 * np.pi * shaft_frequency_hz(speed_rpm),
+        stroke=stroke_m,
+        mass=ring_mass_kg,
+        ring_inertia=keys.ring_inertia_kg_m2,
+        scroll_inertia=keys.scroll_inertia_kg_m2,
+        radius=keys.radius_m,
+        clearance=keys.clearance_m,
+        stiffness=keys.contact_stiffness_n_per_m1p5,
+        hysteresis=CONTACT_LAWS[keys.contact_law](keys.restitution_ratio),
+        least_approach=keys.least_approach_speed_m_per_s,
+        film=keys.film_damping_ns_per_m,
+        friction=keys.friction_ratio,
+        sticking_speed=STICKING_SPEED_M_PER_S,
+        moment=_periodic_spline("moment_n_m", moment_n_m),
+        ring_force=_periodic_spline("ring_force_n", ring_force_n),
+    )
+
+
+def _steps(interval_s: float, greatest_s: float) -> int:
+    steps = interval_s / greatest_s
+    if not steps <= MOST_STEPS:
+        raise SolverError(
+            f"Oldham keys: contacts too stiff for steps of {interval_s / MOST_STEPS:.2g} s; "
+            "lower the moment, contact_stiffness or film_damping, or raise restitution or "
+            "least_approach_speed"
+        )
+    return int(np.ceil(steps))
+
+
+def greatest_step_s(c: Coupling) -> float:
+    """Step that resolves the stiffest contact to be expected and is stable with its damping, s.
+
+    The depth is that of the static load and of an impact after a flight over both gaps at the
+    orbit's acceleration: ½ m v² = ⅖ K δ^2.5. m is the mass that a key feels of ring and scroll.
+    """
+    acceleration = c.stroke * c.angular_speed**2
+    mass = 1.0 / (1.0 / c.mass + c.radius**2 * (1.0 / c.ring_inertia + 1.0 / c.scroll_inertia))
+    load = _greatest(c.moment) / c.radius + c.mass * acceleration + _greatest(c.ring_force)
+    impact = (1.25 * mass * 4.0 * acceleration * c.clearance / c.stiffness) ** 0.4
+    depth = (0.5 * load / c.stiffness) ** (2.0 / 3.0) + impact
+    resolved = STEP_RATIO * np.sqrt(mass / (1.5 * c.stiffness * np.sqrt(depth)))
+    damping = c.film + c.hysteresis * 0.5 * load / c.least_approach
+    return float(min(resolved, mass / max(damping, 1e-12)))
+
+
+def _greatest(spline: Array) -> float:
+    return float(np.max(np.abs(spline[3])))
+
+
+def _periodic_spline(name: str, values: Array) -> Array:
+    """Coefficients of the periodic cubic spline through values over one turn, (4, pieces)."""
+    if values.ndim != 1 or values.size < 1 or not np.all(np.isfinite(values)):
+        raise ParameterError(f"{name}: must be finite values over crank angle, one or more")
+    if values.size == 1:
+        return np.array([[0.0], [0.0], [0.0], [float(values[0])]])
+    closed = np.append(values, values[0])
+    angles = np.linspace(0.0, 2.0 * np.pi, closed.size)
+    return np.ascontiguousarray(CubicSpline(angles, closed, bc_type="periodic").c)

@@ -1,0 +1,100 @@
+"""Gas forces on the two scrolls over crank angle: an internal pair, and what the shaft feels."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...mechanics.moving_parts import Array, path
+from ...parameters.scroll_gas import ScrollGas, ScrollWraps
+from .pockets import area_inside, contact_angle, contact_count
+from .pressures import pocket_pressure
+
+
+@dataclass(frozen=True)
+class ScrollGasCycle:
+    """Gas forces over crank angle, on the orbiting scroll and, equal and opposite, on the fixed.
+
+    Each acts along one line through the point half way between the axes of the two scrolls, as
+    the pockets come in pairs that lie opposite about it.
+
+    Attributes
+    ----------
+    crank_angle : of the crank pin from x, shape (samples,), rad
+    orbit_radius_m : radius of the orbiting scroll's circle
+    tangential_force_n : against the motion of the orbiting scroll, shape (samples,)
+    radial_force_n : towards the axis of the fixed scroll, apart from the flanks' contacts, shape
+        (samples,)
+    axial_force_n : parts the plates of the scrolls, over suction pressure on their backs, shape
+        (samples,)
+    """
+
+    crank_angle: Array
+    orbit_radius_m: float
+    tangential_force_n: Array
+    radial_force_n: Array
+    axial_force_n: Array
+
+    @property
+    def on_orbiting_scroll_n(self) -> Array:
+        """x, y, z in the machine's frame, fixed scroll above, shape (3, samples)."""
+        cosine, sine = np.cos(self.crank_angle), np.sin(self.crank_angle)
+        tangential, radial = self.tangential_force_n, self.radial_force_n
+        x = tangential * sine - radial * cosine
+        y = -tangential * cosine - radial * sine
+        return path(x, y, -self.axial_force_n)
+
+    @property
+    def on_fixed_scroll_n(self) -> Array:
+        """Equal and opposite, on the same lines, shape (3, samples)."""
+        return -self.on_orbiting_scroll_n
+
+    @property
+    def line_of_action_m(self) -> Array:
+        """Point that the forces pass through, x and y from the shaft's axis, shape (2, samples)."""
+        half = 0.5 * self.orbit_radius_m
+        return half * np.stack([np.cos(self.crank_angle), np.sin(self.crank_angle)])
+
+    @property
+    def torque_n_m(self) -> Array:
+        """F_t r_o that the shaft needs against the gas; the gas turns it with -1 times this."""
+        return self.tangential_force_n * self.orbit_radius_m
+
+    @property
+    def self_rotation_moment_n_m(self) -> Array:
+        """M_z = F_t r_o/2 about the orbiting scroll's own axis, in the sense of the shaft.
+
+        The keys of the Oldham ring bear it, which is their preload.
+        """
+        return 0.5 * self.torque_n_m
+
+
+def scroll_gas_cycle(wraps: ScrollWraps, gas: ScrollGas, crank_angle: Array) -> ScrollGasCycle:
+    """Gas forces of the pressure steps at the contacts, in closed form.
+
+    F_t = 2 r_b h Σ Δp t, F_r = 2 r_b h Σ Δp, F_z = Σ Δp A(t): the half turn of wrap between the
+    two contacts of a pair has the chord 2 r_b t along the crank and 2 r_b across it. Δp is the
+    pressure inside less that outside the contact at the contact angle t.
+
+    A sample on the opening of a pocket counts as open. The step there lies between two samples,
+    so an order is right to about the step of the force over the number of samples.
+
+    Parameters
+    ----------
+    wraps : geometry
+    gas : pressures and polytropic index
+    crank_angle : shape (samples,), rad
+    """
+    turn = 2.0 * np.pi
+    count = contact_count(wraps, gas.equalisation_angle_rad)
+    since_closing = np.mod(crank_angle - wraps.closing_crank_angle_rad, turn)
+    inside = since_closing + turn * np.arange(count)[:, None]
+    step = pocket_pressure(wraps, gas, inside) - pocket_pressure(wraps, gas, inside - turn)
+    contact = contact_angle(wraps, inside)
+    width = 2.0 * wraps.base_radius_m * wraps.height_m
+    return ScrollGasCycle(
+        crank_angle=crank_angle,
+        orbit_radius_m=wraps.orbit_radius_m,
+        tangential_force_n=np.sum(width * step * contact, axis=0),
+        radial_force_n=np.sum(width * step, axis=0),
+        axial_force_n=np.sum(step * area_inside(wraps, contact), axis=0),
+    )
