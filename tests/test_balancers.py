@@ -2,12 +2,16 @@
 
 import numpy as np
 import pytest
+from pydantic import ValidationError
 from scipy.integrate import solve_ivp
-from support import CRANK_ANGLE, balancing
+from support import CRANK_ANGLE, ROUNDING, balancing, steady, turning
 
+from vibroacoustics.balancers.counterweight import Counterweight
+from vibroacoustics.balancers.hood import Hood
 from vibroacoustics.balancers.pendulum import pendulum_mass
 from vibroacoustics.balancers.spring_mass import printed_mass, sprung_mass_response, tuned_mass
 from vibroacoustics.errors import ParameterError
+from vibroacoustics.mechanics.moving_parts import wrench
 from vibroacoustics.mechanics.pendulum import (
     Drive,
     multiplier,
@@ -16,6 +20,7 @@ from vibroacoustics.mechanics.pendulum import (
     settle,
     swing,
 )
+from vibroacoustics.orders import order_spectrum
 
 DRIVE = Drive(length_m=25e-3, damping_ratio=0.02, stroke_m=6.75e-3, frequency_hz=3500.0 / 60.0)
 
@@ -33,6 +38,65 @@ def test_reports_carry_their_unit(thesis_study):
     for option in thesis_study.options:
         for name in balancing(thesis_study, option, 3500.0).figures:
             assert name.endswith(("_kg", "_deg", "_mm", "_w", "_rpm", "_multiplier")), name
+
+
+@pytest.mark.parametrize(
+    ("growth", "words"),
+    [
+        ([3.0], "Hanging is unstable: a deviation grows 3.00-fold"),
+        ([0.9], "Hanging is stable"),
+        ([0.9, 1.2], "Hanging is stable at some of the speeds only"),
+    ],
+)
+def test_figures_of_a_pendulum_become_sentences(thesis_study, growth, words):
+    figures = {
+        "hanging_multiplier": np.array(growth),
+        "settled_angle_deg": np.array([-83.3]),
+    }
+    sentences = thesis_study.options["pendulum-side"].sentences(figures)
+    assert words in sentences[0]
+    assert "settles 83.3°" in sentences[1]
+
+
+def test_figures_of_damping_become_sentences(thesis_study):
+    sentences = thesis_study.options["damping"].sentences({"dissipated_power_w": np.array([10.5])})
+    assert sentences == ("It dissipates 10.5 W.",)
+
+
+def test_counterweight_opposite_the_pin_is_what_its_place_says(thesis_study):
+    """m r ω² along the shaft's frame, ahead of the crank pin by its angle."""
+    weight = Counterweight(mass_kg=0.1, radius_m=0.02, angle_rad=np.pi, height_m=0.05)
+    (part,) = weight.added(thesis_study.machine, steady(3000.0)).parts
+    assert part.position_m[:, 0] == pytest.approx([-0.02, 0.0, 0.05])
+    force = order_spectrum(wrench([part], turning(50.0)).force_n, 1)[:, 1]
+    size = 0.1 * 0.02 * (100.0 * np.pi) ** 2
+    # -m a of x = -r cos θ: the force points to the weight.
+    assert force[0] == pytest.approx(-size, rel=ROUNDING)
+    assert force[1] == pytest.approx(1j * size, rel=ROUNDING)
+
+
+def test_insertion_loss_holds_in_its_bands_only():
+    """Edges of the third octave at 1 kHz, base ten: 891.3 and 1122.0 Hz."""
+    hood = Hood(band_hz=(800.0, 1000.0), insertion_loss_db=(3.0, 10.0))
+    loss = hood.insertion_loss()
+    frequency = np.array([0.0, 700.0, 800.0, 891.0, 892.0, 1122.0, 1123.0])
+    assert list(loss.at(frequency)) == [0.0, 0.0, 3.0, 3.0, 10.0, 10.0, 0.0]
+    assert loss.even_db == pytest.approx(-10.0 * np.log10(0.5 * (10.0**-0.3 + 0.1)))
+    assert loss.amplitude_factor(np.array([1000.0]))[0] == pytest.approx(10.0**-0.5)
+
+
+@pytest.mark.parametrize(
+    ("bands", "losses", "words"),
+    [
+        ((100.0, 125.0), (3.0,), "1 values for 2 bands"),
+        ((125.0, 100.0), (3.0, 3.0), "must rise"),
+        ((10.0,), (3.0,), "from 20 to 20000 Hz"),
+        ((100.0,), (90.0,), "allowed -80 to 80 dB"),
+    ],
+)
+def test_hood_that_cannot_be(bands, losses, words):
+    with pytest.raises(ValidationError, match=words):
+        Hood(band_hz=bands, insertion_loss_db=losses)
 
 
 # --- pendulum ------------------------------------------------------------------------------------

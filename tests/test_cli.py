@@ -151,7 +151,7 @@ def test_doctor(cache: Path) -> None:
         (
             "[operation]",
             '[options.magic]\nkind = "magic"\n[operation]',
-            ["options.magic.kind = magic", "'spring-mass'"],
+            ["options.magic.kind = magic: unknown", "spring-mass,"],
         ),
         (
             "[operation]",

@@ -65,7 +65,7 @@ def make_results(
         _published() if published else xr.Dataset(),
     ]
     results = xr.merge([check(part) for part in parts], join="exact")
-    results.attrs = _attributes(list(receivers), published_dba)
+    results.attrs = _attributes(options, list(receivers), published_dba)
     return results
 
 
@@ -201,7 +201,7 @@ def _published() -> xr.Dataset:
     )
 
 
-def _attributes(receivers: list[str], published_dba: float) -> dict[str, str]:
+def _attributes(options: list[str], receivers: list[str], published_dba: float) -> dict[str, str]:
     record = {"file": "m.toml", "value": "1", "unit": "kg", "lowest": None, "highest": None}
     noise = {"level_dba": published_dba, "speed_rpm": 2900.0, "distance_m": 1.0}
     parameters = {
@@ -224,10 +224,18 @@ def _attributes(receivers: list[str], published_dba: float) -> dict[str, str]:
             {**record, "field": "guessed", "source": "assumed", "lowest": 0.5, "highest": 2.0},
         ],
     }
+    words = {
+        "axes": "x, y and z",
+        "orders": "Orders are multiples of the mean shaft frequency.",
+        "leaves_out": [],
+        "labels": {},
+        "sentences": {option: [] for option in options},
+    }
     return {
         "title": "A study",
         "created_utc": "2026-01-01T00:00:00Z",
         "parameters": json.dumps(parameters),
+        "words": json.dumps(words),
         "package_versions": json.dumps({"numpy": "2.2"}),
         "radiation": "{}",
     }
@@ -328,22 +336,6 @@ def test_the_headline_says_whether_the_total_moves() -> None:
     assert "which can be heard" in headline(make_results(factors, published_dba=22.0))
     assert "not at all" in headline(make_results({"none": 1.0, "idle": 1.0}))
     assert "no balancing option" in headline(make_results({"none": 1.0}))
-
-
-def test_facts_become_sentences() -> None:
-    facts = {
-        "swing": {"hanging_multiplier": 3.0, "settled_angle_deg": -83.3},
-        "calm": {"hanging_multiplier": 0.9},
-        "rubber": {"dissipated_power_w": 10.5},
-    }
-    results = make_results({"none": 1.0, "swing": 1.8, "calm": 1.1, "rubber": 1.0}, facts=facts)
-    swing = " ".join(option_verdict(results, "swing").sentences)
-    assert "Hanging is unstable: a deviation grows 3.00-fold" in swing
-    assert "settles 83.3°" in swing
-    assert "Hanging is stable" in " ".join(option_verdict(results, "calm").sentences)
-    assert "buys nothing in this model and costs 10.5 W" in " ".join(
-        option_verdict(results, "rubber").sentences
-    )
 
 
 def test_best_and_worst_are_found(results: xr.Dataset) -> None:

@@ -2,28 +2,44 @@
 
 The public functions take or return one `xarray.Dataset`, so that a notebook needs no files:
 `load_study`, `run`, `open_results`, `score`, `write_report`; `read_recording`, `label_recording`,
-`analyse_orders`, `compare`. A file that adds a criterion uses `Criterion` and `register`.
+`analyse_orders`, `compare`.
+
+A file of a stranger that adds a criterion, a balancing option or a kind of machine derives from
+`Criterion`, `Option` or `Machine`, gives its class to `register`, and uses `Added`, `MovingPart`,
+`Revolution`, `Wrench`; `load_plugin` takes it in.
 """
 
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .base.plugin_file import load_plugin
     from .base.registry import register
     from .comparison import compare
     from .loading import load_study
     from .measurements import label_recording, read_recording
+    from .mechanics.added import Added
+    from .mechanics.moving_parts import MovingPart, Revolution, Wrench
     from .outputs import write_report
     from .parameters.criterion import Criterion
+    from .parameters.machine import Machine
+    from .parameters.option import Option
     from .pipeline import analyse_orders, run
     from .scoring import score
     from .storage import open_results
 
 __all__ = [
+    "Added",
     "Criterion",
+    "Machine",
+    "MovingPart",
+    "Option",
+    "Revolution",
+    "Wrench",
     "analyse_orders",
     "compare",
     "label_recording",
+    "load_plugin",
     "load_study",
     "open_results",
     "read_recording",
@@ -34,10 +50,17 @@ __all__ = [
 ]
 
 _HOME = {
+    "Added": "mechanics.added",
     "Criterion": "parameters.criterion",
+    "Machine": "parameters.machine",
+    "MovingPart": "mechanics.moving_parts",
+    "Option": "parameters.option",
+    "Revolution": "mechanics.moving_parts",
+    "Wrench": "mechanics.moving_parts",
     "analyse_orders": "pipeline",
     "compare": "comparison",
     "label_recording": "measurements",
+    "load_plugin": "base.plugin_file",
     "load_study": "loading",
     "open_results": "storage",
     "read_recording": "measurements",

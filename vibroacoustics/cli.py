@@ -24,6 +24,14 @@ app = typer.Typer(
 )
 
 StudyFile = Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study to run.")]
+Plugins = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--plugin",
+        metavar="FILE.py",
+        help="Python file with options, machines or criteria of yours; it is run.",
+    ),
+]
 ResultsFile = Annotated[Path, typer.Argument(metavar="RESULTS.nc", help="Results of a run.")]
 
 
@@ -46,10 +54,12 @@ def run_command(
         Path | None,
         typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE STUDY."),
     ] = None,
+    plugin: Plugins = None,
 ) -> None:
     """Run a study and write results.nc, report.html, tables and figures."""
     from . import loading, outputs, pipeline, report
 
+    _load(plugin)
     folder = out or Path("reports") / study_file.stem
     study = loading.load_study(study_file)
     outputs.check_folder(folder)
@@ -67,10 +77,12 @@ def radiation_command(
         Path | None,
         typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE STUDY."),
     ] = None,
+    plugin: Plugins = None,
 ) -> None:
     """Compute the housing's radiation alone: transfer vectors, map, directivity, sound power."""
     from . import loading, outputs, pipeline, report
 
+    _load(plugin)
     folder = out or Path("reports") / study_file.stem
     study = loading.load_study(study_file)
     outputs.check_folder(folder)
@@ -199,10 +211,12 @@ def score_command(
         Path | None,
         typer.Option("--scoring", metavar="STUDY.toml", help="Take scales and weights from here."),
     ] = None,
+    plugin: Plugins = None,
 ) -> None:
     """Score the options again and print the ranking."""
     from . import loading, outputs, scoring
 
+    _load(plugin)
     results = outputs.open_run(results_file)
     settings = loading.load_study(scoring_of).scoring if scoring_of else None
     typer.echo(scoring.ranking_text(scoring.score(results, settings)))
@@ -215,6 +229,14 @@ def doctor_command() -> None:
 
     for line in doctor.findings():
         typer.echo(line)
+
+
+def _load(plugins: list[Path] | None) -> None:
+    """Take in the files that the user names."""
+    from .base.plugin_file import load_plugin
+
+    for file in plugins or ():
+        load_plugin(file)
 
 
 @contextmanager

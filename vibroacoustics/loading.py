@@ -6,9 +6,9 @@ import sys
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Final, TypeVar
+from typing import Any, Final
 
-from .base.parameters import KindOfParameters
+from .base.parameters import Kind, split_kind
 from .base.registry import Registry
 from .errors import ParameterError
 from .parameters.inside import DRAWN, Doubt, Inside
@@ -20,8 +20,6 @@ from .validation import validated
 
 MAXIMUM_FILE_BYTES: Final = 1_000_000
 MAXIMUM_DEPTH: Final = 16
-Kind = TypeVar("Kind", bound=KindOfParameters)
-
 QUANTITY_KEYS: Final = {"value", "source", "range"}
 
 
@@ -104,8 +102,7 @@ def _place_options(content: dict[str, Any], reader: "_Reader") -> None:
         return
     for name, table in options.items():
         if isinstance(table, dict):
-            kind = _kind_of(OPTIONS, table, reader.place(("options", name)))
-            values = {key: value for key, value in table.items() if key != "kind"}
+            kind, values = _of_kind(OPTIONS, table, reader.place(("options", name)))
             options[name] = validated(kind, values, reader, ("options", name))
 
 
@@ -143,14 +140,15 @@ def _at(content: Any, keys: tuple[str, ...]) -> Any:
     return content
 
 
-def _kind_of(registry: Registry[type[Kind]], table: Mapping[str, Any], where: str) -> type[Kind]:
-    """Class that the `kind` of a table names."""
-    kind = table.get("kind")
-    if kind is None:
-        raise ParameterError(f"{where}: kind is missing")
-    if not isinstance(kind, str) or kind not in registry:
-        raise ParameterError(f"{where}.kind = {kind}: {registry.unknown(str(kind))}")
-    return registry[kind]
+def _of_kind(
+    registry: Registry[type[Kind]], table: Mapping[str, Any], where: str
+) -> tuple[type[Kind], dict[str, Any]]:
+    """Class and values of a table, by its key `kind`."""
+    try:
+        return split_kind(registry, table)
+    except ParameterError as error:
+        text = str(error)
+        raise ParameterError(f"{where}{'.' if text.startswith('kind =') else ': '}{text}") from None
 
 
 def _place_inside(
@@ -259,9 +257,7 @@ def _load_machine(
     reader.origin = dict.fromkeys(_leaves(content), path)
     for prefix, change in changes.items():
         _apply(content, prefix, change, reader, study)
-    model = _kind_of(MACHINES, content, f"{path}: machine")
-    values = reader.to_si(content, ())
-    del values["kind"]
+    model, values = _of_kind(MACHINES, reader.to_si(content, ()), f"{path}: machine")
     return validated(model, values, reader), reader.records
 
 

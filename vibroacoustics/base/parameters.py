@@ -1,13 +1,15 @@
 """What every parameter object has in common."""
 
-from collections.abc import Callable
-from typing import Any, ClassVar
+import json
+from collections.abc import Callable, Mapping
+from typing import Any, ClassVar, TypeVar
 
 from pydantic import (
     BaseModel,
     ConfigDict,
     GetJsonSchemaHandler,
     SerializerFunctionWrapHandler,
+    ValidationInfo,
     model_serializer,
 )
 from pydantic.json_schema import JsonSchemaValue
@@ -42,15 +44,8 @@ class KindOfParameters(Parameters):
     def _with_kind(self, dump: SerializerFunctionWrapHandler) -> dict[str, Any]:
         return {"kind": self.kind, **dump(self)}
 
-    @classmethod
-    def __get_pydantic_json_schema__(
-        cls, core_schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
-        schema = handler.resolve_ref_schema(handler(core_schema))
-        if "kind" in vars(cls):
-            schema.setdefault("properties", {})["kind"] = {"const": cls.kind}
-            schema["required"] = ["kind", *schema.get("required", [])]
-        return schema
+
+Kind = TypeVar("Kind", bound=KindOfParameters)
 
 
 class AnyOf:
@@ -68,30 +63,44 @@ class AnyOf:
     ) -> CoreSchema:
         from pydantic_core import core_schema
 
-        return core_schema.no_info_before_validator_function(self._read, handler(source))
+        return core_schema.with_info_before_validator_function(self._read, handler(source))
 
     def __get_pydantic_json_schema__(
         self, core_schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
-        schemas = (handler(kind.__pydantic_core_schema__) for kind in self._registry.values())
-        return {"anyOf": list(schemas)}
+        return {"anyOf": [self._schema(kind, handler) for kind in self._registry.values()]}
 
-    def _read(self, given: Any) -> Any:
-        return of_kind(self._registry, given) if isinstance(given, dict) else given
+    def _schema(
+        self, kind: type[KindOfParameters], handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        schema = handler.resolve_ref_schema(handler(kind.__pydantic_core_schema__))
+        properties = {"kind": {"const": kind.kind}, **schema.get("properties", {})}
+        required = ["kind", *schema.get("required", [])]
+        return {**schema, "properties": properties, "required": required}
+
+    def _read(self, given: Any, info: ValidationInfo) -> Any:
+        if not isinstance(given, dict):
+            return given
+        kind, values = split_kind(self._registry, given)
+        if info.mode == "json":  # where a list stands for a tuple
+            return kind.model_validate_json(json.dumps(values))
+        return kind.model_validate(values)
 
 
-def of_kind(registry: Registry[Any], table: dict[str, Any]) -> Any:
-    """Parameters of a table by the class that its `kind` names, from values in SI.
+def split_kind(
+    registry: Registry[type[Kind]], table: Mapping[str, Any]
+) -> tuple[type[Kind], dict[str, Any]]:
+    """The class that the `kind` of a table names, and the other values of the table.
 
     Raises
     ------
     ParameterError
         There is no such kind.
-    pydantic.ValidationError
-        The class refuses a value.
     """
     values = dict(table)
     kind = values.pop("kind", None)
-    if not isinstance(kind, str):
-        raise ParameterError(f"kind = {kind!r}: must name a {registry.noun}")
-    return registry[kind].model_validate(values)
+    if kind is None:
+        raise ParameterError("kind is missing")
+    if not isinstance(kind, str) or kind not in registry:
+        raise ParameterError(f"kind = {kind}: {registry.unknown(str(kind))}")
+    return registry[kind], values

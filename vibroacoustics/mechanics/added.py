@@ -75,6 +75,10 @@ class InsertionLoss:
         same = _number(np.asarray(frequency_hz))[..., None] == _number(self.band_hz)
         return np.asarray(np.where(same, self.loss_db, 0.0).sum(axis=-1))
 
+    def amplitude_factor(self, frequency_hz: Array) -> Array:
+        """Pressure with it over pressure without it at each frequency."""
+        return np.asarray(10.0 ** (-self.at(frequency_hz) / 20.0))
+
     @property
     def even_db(self) -> float:
         """Loss of sound whose energy is spread evenly over the bands, dB."""

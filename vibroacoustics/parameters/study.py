@@ -35,7 +35,9 @@ class Operation(Parameters):
     @field_validator("speed_rpm", mode="before")
     @classmethod
     def _range(cls, given: Any) -> Any:
-        return speed_range(given) if isinstance(given, dict) else given
+        if isinstance(given, dict):
+            return speed_range(given)
+        return tuple(given) if isinstance(given, list) else given
 
     @model_validator(mode="after")
     def _speeds(self) -> "Operation":

@@ -14,6 +14,7 @@ from ..mechanics.rotation import Array
 from ..parameters.study import Study
 from ..schema import REFERENCE_OPTION, check, stamp
 from .inner_sound import SourceSound
+from .radiating import even_losses_db
 
 QUANTILES: Final = (0.1, 0.5, 0.9)
 LEAST_DRAWS: Final = 3
@@ -109,7 +110,8 @@ def _whole(study: Study, results: xr.Dataset, total: Array) -> tuple[Array, Arra
     option = list(study.options).index(REFERENCE_OPTION)
     published = REFERENCE_PRESSURE_PA**2 * 10.0 ** (overall.level_dba / 10.0)
     remainder = np.maximum(published - total[:, speed, option, receiver], 0.0)
-    return total + remainder[:, None, None, None], remainder
+    left = 10.0 ** (-np.array(list(even_losses_db(study).values())) / 10.0)
+    return total + remainder[:, None, None, None] * left[:, None], remainder
 
 
 def _figures(

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from .. import levels
-from ..mechanics.added import Added
+from ..mechanics.added import Added, InsertionLoss
 from ..mechanics.capabilities import OldhamRing
 from ..mechanics.rotation import Array
 from ..parameters.inside import Inside, InsideSettings
@@ -44,12 +44,14 @@ class _Case:
     operating : the speed
     machine : as the option leaves it
     added : by the option
+    insertion_loss : of the option
     moving_parts_pa : sound of the rigid machine's orders, shape (receiver, order)
     """
 
     operating: Operating
     machine: Machine
     added: Added
+    insertion_loss: InsertionLoss | None
     moving_parts_pa: Complex
 
 
@@ -101,6 +103,7 @@ def _cases(
                 operating,
                 option.applied_to(study.machine),
                 added[speed, name],
+                option.insertion_loss(),
                 pressure.sel(at).transpose("receiver", "order").values,
             )
     return cases
@@ -141,6 +144,7 @@ class _Listener:
         per_load = self._per_load(frequency)
         roll = rigid_pressures(self.results, frequency)[:, -1]  # about z
         per_moment = roll * _roll_velocity(body, frequency)
+        factor = _left(case.insertion_loss, frequency)
         receivers, orders = case.moving_parts_pa.shape
         moving = np.zeros((receivers, frequency.size), dtype=complex)
         held = min(orders, case.operating.maximum_order + 1)  # silent beyond; other lines follow
@@ -148,10 +152,11 @@ class _Listener:
         pressure: dict[str, Complex] = {MOVING_PARTS: moving}
         for source, lines in loads.lines.items():
             elastic = np.einsum("rjcf,jcf->rf", per_load, lines.load, optimize=True)
-            pressure[source] = elastic + per_moment * lines.roll_moment_n_m
+            pressure[source] = factor * (elastic + per_moment * lines.roll_moment_n_m)
         noise = {
             source: [
-                self._per_load(part.frequency_hz)[:, part.joint][:, KEY_COMPONENTS]
+                _left(case.insertion_loss, part.frequency_hz)
+                * self._per_load(part.frequency_hz)[:, part.joint][:, KEY_COMPONENTS]
                 for part in parts
             ]
             for source, parts in loads.noise.items()
@@ -172,6 +177,11 @@ class _Listener:
                 inside.doubt.frequency_factor_ratio,
             )
         return self._known[key]
+
+
+def _left(loss: InsertionLoss | None, frequency_hz: Array) -> Array:
+    """What is left of the pressure at each frequency."""
+    return np.ones(frequency_hz.shape) if loss is None else loss.amplitude_factor(frequency_hz)
 
 
 def _body(machine: Machine) -> RigidBodyOnMounts:

@@ -102,7 +102,7 @@ def unit_sound_power(
 
 def sound_field(study: Study, results: xr.Dataset) -> xr.Dataset:
     """Level of the 1x line on the map, sound power of every order; what the study asks for."""
-    velocity = results["velocity_order"].sum("source")
+    velocity = airborne_factor(study, results) * results["velocity_order"].sum("source")
     fields: dict[str, xr.DataArray] = {}
     if "map_transfer_vector" in results:
         by_speed = results["map_transfer_vector"].rename(line_frequency="speed")
@@ -132,6 +132,24 @@ def sound_field(study: Study, results: xr.Dataset) -> xr.Dataset:
             by["weighting"] = xr.DataArray(list(WEIGHTINGS), dims="weighting")
             fields[name] = stamp(name, level, by, arrangement=study.sound_power.arrangement)
     return check(xr.Dataset(fields))
+
+
+def airborne_factor(study: Study, results: xr.Dataset) -> xr.DataArray:
+    """What each option leaves of the airborne sound at every order, (option, speed, order)."""
+    frequency = results["order_frequency"]
+    losses = [option.insertion_loss() for option in study.options.values()]
+    factor = [
+        np.ones(frequency.shape) if loss is None else loss.amplitude_factor(frequency.values)
+        for loss in losses
+    ]
+    coords = {"option": list(study.options), **{n: frequency[n] for n in frequency.dims}}
+    return xr.DataArray(factor, coords, ("option", *frequency.dims))
+
+
+def even_losses_db(study: Study) -> dict[str, float]:
+    """What each option takes off the sound that is not modelled, spread evenly over its bands."""
+    losses = {name: option.insertion_loss() for name, option in study.options.items()}
+    return {name: 0.0 if loss is None else loss.even_db for name, loss in losses.items()}
 
 
 def within(results: xr.Dataset, tabulated: xr.DataArray) -> xr.DataArray:

@@ -36,7 +36,14 @@ from ..units import shaft_frequency_hz
 from .inner_sound import shell_path
 from .inside import inside_sound
 from .progress import Progress
-from .radiating import attributes, sound_field, transfer_vectors, within
+from .radiating import (
+    airborne_factor,
+    attributes,
+    even_losses_db,
+    sound_field,
+    transfer_vectors,
+    within,
+)
 from .speed_blocks import TIME_SERIES, blocks, check_size, gathered
 from .stopping import stopping_sound
 from .words import words
@@ -76,7 +83,7 @@ def _run(study: Study, progress: Progress) -> xr.Dataset:
     motions = () if path is None else path.modes
     radiated, was_cached = transfer_vectors(study, progress, motions)
     results = results.merge(radiated)
-    results = results.merge(_pressures(results))
+    results = results.merge(_pressures(study, results))
     results = results.merge(sound_field(study, results))
     results = results.merge(_levels(study, results))
     if study.inside is not None and path is not None:
@@ -327,15 +334,16 @@ def _transmissibility(body: RigidBodyOnMounts | SuspendedBlock) -> NDArray[np.co
     return np.stack([force[axis, :, :, axis].sum(axis=-1) for axis in range(3)])
 
 
-def _pressures(results: xr.Dataset) -> xr.Dataset:
+def _pressures(study: Study, results: xr.Dataset) -> xr.Dataset:
     """Pressure at each microphone: contraction of velocity and transfer vector over the dofs."""
-    pressure = _pressure(results, "transfer_vector")
+    left = airborne_factor(study, results)
+    pressure = left * _pressure(results, "transfer_vector")
     dims = VARIABLES["pressure_order"].dims
     coords = {name: results[name] for name in dims}
     found = {"pressure_order": stamp("pressure_order", pressure.transpose(*dims).values, coords)}
     if "transfer_vector_closed_form" in results:
         first = results.sel(order=1)
-        other = _pressure(first, "transfer_vector_closed_form")
+        other = left.sel(order=1) * _pressure(first, "transfer_vector_closed_form")
         both = [
             levels.sound_pressure_level(field.sum("source").transpose(*_CHANGE).values)
             for field in (pressure.sel(order=1), other)
@@ -364,7 +372,8 @@ def _levels(study: Study, results: xr.Dataset) -> xr.Dataset:
     modelled_level = stamp("level_modelled", modelled, weighted)
     remainder = _remainder(study, results, modelled_level)
     a_level = modelled_level.sel(weighting="A").values
-    total = levels.energy_sum(np.stack([a_level, np.full_like(a_level, remainder)]), axis=0)
+    left = remainder - np.array(list(even_losses_db(study).values()))[:, None]
+    total = levels.energy_sum(np.stack([a_level, np.broadcast_to(left, a_level.shape)]), axis=0)
     reference = list(study.options).index(REFERENCE_OPTION)
     first = order_level[..., 1, WEIGHTINGS.index("Z")]
     changes = {"change_1x": first, "change_modelled": a_level, "change_total": total}
