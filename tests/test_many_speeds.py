@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from support import PIPELINES, ROOT, made_up_transfer_vectors
+from support import PIPELINES, ROOT, made_up_radiation, made_up_transfer_vectors
 
 from vibroacoustics import outputs, pipeline
 from vibroacoustics.errors import ParameterError
@@ -33,12 +33,7 @@ def study_at(folder: Path, operation: str) -> Study:
 
 def run_at(folder: Path, operation: str) -> xr.Dataset:
     """Its results, radiation made up."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(
-            "vibroacoustics.pipeline.study.transfer_vectors",
-            lambda study, *_: (made_up_transfer_vectors(study), False),
-        )
-        return pipeline.run(study_at(folder, operation))
+    return pipeline.run(study_at(folder, operation), radiation=made_up_radiation)
 
 
 def assert_same_at_speed(one: xr.Dataset, many: xr.Dataset, speed: float) -> None:
@@ -140,12 +135,11 @@ def test_remainder_does_not_depend_on_the_speeds(folder, many):
     assert apart == pytest.approx(many["level_remainder"].item(), rel=1e-12)
 
 
-def test_louder_model_is_refused_at_a_catalogue_speed_apart(tmp_path, monkeypatch):
+def test_louder_model_is_refused_at_a_catalogue_speed_apart(tmp_path):
     study = study_at(tmp_path, "speed_rpm = [3500.0]")
     loud = (made_up_transfer_vectors(study, gain=1e6), False)
-    monkeypatch.setattr("vibroacoustics.pipeline.study.transfer_vectors", lambda *_: loud)
     with pytest.raises(ParameterError, match=r"overall_noise\.level_dba = 56 dB\(A\)"):
-        pipeline.run(study)
+        pipeline.run(study, radiation=lambda *_: loud)
 
 
 # --- orders --------------------------------------------------------------------------------------
