@@ -410,6 +410,7 @@ def test_impossible_speed(tree, speed):
     [
         ("speed_rpm = [2900.0, 3500.0]", "speed_rpm = []", ["speed_rpm"]),
         ("speed_rpm = [2900.0, 3500.0]", "speed_rpm = [2900.0, 2900.0]", ["speed_rpm", "twice"]),
+        ("maximum_order = 40", "maximum_order = 128", ["maximum_order", "128", "256"]),
         ("crank_angle_samples = 256", "crank_angle_samples = 80",
          ["crank_angle_samples = 80", "above 80", "twice maximum_order = 40"]),
         ("maximum_order = 40", "maximum_order = 60", ["maximum_frequency_hz", "3500 Hz"]),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from support import CRANK_ANGLE
 
-from vibroacoustics.orders import order_spectrum
+from vibroacoustics.orders import order_spectra, order_spectrum, order_spectrum_at_speed
 
 
 def test_amplitude_and_phase_of_a_tone():
@@ -51,3 +51,16 @@ def test_signal_that_is_not_contiguous():
     np.testing.assert_allclose(
         order_spectrum(signal.T, 40), order_spectrum(signal.T.copy(), 40), atol=1e-15
     )
+
+
+@pytest.mark.parametrize("swing", [0.0, 0.1])
+def test_spectra_of_many_cases_are_those_of_each(swing):
+    """Of constant speed all at once, of varying speed one after the other."""
+    generator = np.random.default_rng(1)
+    signal = generator.standard_normal((2, 3, 4, CRANK_ANGLE.size))
+    speed = 300.0 + np.zeros((2, 3, 1)) + swing * np.cos(CRANK_ANGLE)
+    spectra = order_spectra(signal, speed, 20)
+    assert spectra.shape == (2, 3, 4, 21)
+    for case in np.ndindex(2, 3):
+        each = order_spectrum_at_speed(signal[case], speed[case], 20)
+        np.testing.assert_allclose(spectra[case], each, atol=1e-14)

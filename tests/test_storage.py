@@ -185,6 +185,26 @@ def test_failure_leaves_the_old_file_and_nothing_else(tmp_path, monkeypatch, ste
     assert [item.name for item in tmp_path.iterdir()] == ["results.nc"]
 
 
+def test_large_variables_come_back_like_small_ones(results, tmp_path, monkeypatch):
+    small = storage.open_results(storage.write_results(results, tmp_path / "small.nc"))
+    monkeypatch.setattr(storage, "LARGE_BYTES", 8)
+    large = storage.open_results(storage.write_results(results, tmp_path / "large.nc"))
+    xr.testing.assert_identical(large, small)
+
+
+def test_full_disk_leaves_the_old_results_and_nothing_else(results, tmp_path, monkeypatch):
+    path = storage.write_results(results, tmp_path / "results.nc")
+
+    def fail(*_, **__):
+        raise RuntimeError("NetCDF: HDF error")
+
+    monkeypatch.setattr(xr.Dataset, "to_netcdf", fail)
+    with pytest.raises(StorageError, match=r"results\.nc: cannot be written: NetCDF: HDF error"):
+        storage.write_results(results.assign_attrs(title="another"), path)
+    xr.testing.assert_identical(storage.open_results(path), results)
+    assert {item.name for item in tmp_path.iterdir()} == {"results.nc", "results.nc.sha256"}
+
+
 def test_interrupt_leaves_the_old_file_and_nothing_else(tmp_path, monkeypatch):
     path = tmp_path / "results.nc"
     storage.write_bytes(path, b"old")
@@ -223,7 +243,8 @@ def test_no_reader_ever_sees_a_part(tmp_path, monkeypatch):
 def test_killed_between_content_and_hash_counts_as_not_done(results, tmp_path, monkeypatch):
     path = storage.write_results(results, tmp_path / "results.nc")
     changed = results.assign_attrs(title="another")
-    storage.write_bytes(path, storage.to_bytes(changed))  # and no new hash
+    other = storage.write_results(changed, tmp_path / "other.nc")
+    storage.write_bytes(path, other.read_bytes())  # and no new hash
     with pytest.raises(StorageError, match="hash"):
         storage.open_results(path)
 

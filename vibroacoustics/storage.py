@@ -1,15 +1,18 @@
 """Results on disk: atomic netCDF with a hash, and a content-addressed cache.
 
 A netCDF file that is killed while it is written opens cleanly with variables missing. So the
-content is made in memory, written beside its name, synced and moved into place; `NAME.sha256`
-follows. A file counts as done only if the hash matches.
+content is written beside its name, synced and moved into place; `NAME.sha256` follows. A file
+counts as done only if the hash matches.
 """
 
+import errno
+import hashlib
 import os
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import platformdirs
@@ -19,6 +22,7 @@ from filelock import FileLock
 from .base.hashing import canonical_json, sha256
 from .errors import StorageError
 
+LARGE_BYTES: Final = 20_000_000
 REAL_SUFFIX, IMAGINARY_SUFFIX = "_re", "_im"
 
 
@@ -29,13 +33,12 @@ def write_results(results: xr.Dataset, path: str | Path) -> Path:
     hash goes first, so that at no moment does a file stand beside the hash of another.
     """
     path = Path(path)
-    content = to_bytes(results)
-    try:
+    with _appearing(path) as temporary:
+        _write_netcdf(results, temporary)
+        with temporary.open("rb") as file:
+            digest = hashlib.file_digest(file, "sha256").hexdigest()
         _hash_path(path).unlink(missing_ok=True)
-    except OSError as error:
-        raise _not_writable(path, error) from None
-    write_bytes(path, content)
-    write_bytes(_hash_path(path), f"{sha256(content)}  {path.name}\n".encode())
+    write_bytes(_hash_path(path), f"{digest}  {path.name}\n".encode())
     return path
 
 
@@ -63,20 +66,27 @@ def write_bytes(path: Path, content: bytes) -> None:
     StorageError
         The folder cannot be written.
     """
+    with _appearing(path) as temporary:
+        temporary.write_bytes(content)
+
+
+@contextmanager
+def _appearing(path: Path) -> Iterator[Path]:
+    """A name beside the file's to write to; then it is synced and takes the file's place."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+        handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+        os.close(handle)
+        temporary = Path(name)
         try:
-            with os.fdopen(handle, "wb") as file:
-                file.write(content)
-                file.flush()
-                os.fsync(file.fileno())
+            yield temporary
+            _sync(temporary)
             os.chmod(temporary, 0o644)
             os.replace(temporary, path)
         except BaseException:
             os.unlink(temporary)
             raise
-        _sync_folder(path.parent)
+        _sync(path.parent)
     except OSError as error:
         raise _not_writable(path, error) from None
 
@@ -85,20 +95,33 @@ def _not_writable(path: Path, error: OSError) -> StorageError:
     return StorageError(f"{path}: cannot be written: {error.strerror}")
 
 
-def to_bytes(results: xr.Dataset) -> bytes:
-    """The dataset as the bytes of a netCDF4 file."""
+def _write_netcdf(results: xr.Dataset, path: Path) -> None:
+    """Write a netCDF4 file; large variables one by one, as xarray copies all that it is given."""
     split = _ascii_attributes(_split_complex(results))
+    large = [str(name) for name, array in split.data_vars.items() if array.nbytes > LARGE_BYTES]
+    parts = [split.drop_vars(large)]
+    parts += [split[[name]].drop_vars(list(split.coords), errors="ignore") for name in large]
+    try:
+        for number, part in enumerate(parts):
+            part.to_netcdf(
+                path,
+                mode="a" if number else "w",
+                engine="netcdf4",
+                format="NETCDF4",
+                encoding=_encoding(part),
+            )
+    except RuntimeError as error:  # netCDF's word for a full disk
+        raise OSError(errno.EIO, str(error)) from None
+
+
+def _encoding(part: xr.Dataset) -> dict[Hashable, dict[str, Any]]:
     numbers = {"fletcher32": True, "zlib": True, "complevel": 4}
-    names = {
-        "fletcher32": True,
-        "dtype": "S1",
-    }  # arrays of characters: GNU Octave cannot read netCDF's strings
-    encoding = {
+    names = {"fletcher32": True, "dtype": "S1"}  # GNU Octave cannot read netCDF's strings
+    return {
         name: numbers if variable.dtype.kind in "fiu" else names
-        for name, variable in split.variables.items()
+        for name, variable in part.variables.items()
         if variable.ndim
     }
-    return bytes(split.to_netcdf(engine="netcdf4", format="NETCDF4", encoding=encoding))
 
 
 def from_bytes(content: bytes, path: Path) -> xr.Dataset:
@@ -199,8 +222,9 @@ def _read(path: Path) -> bytes:
         raise StorageError(f"{path}: cannot be read: {error.strerror}") from None
 
 
-def _sync_folder(folder: Path) -> None:
-    descriptor = os.open(folder, os.O_RDONLY)
+def _sync(path: Path) -> None:
+    """Carry a file, or the names in a folder, to the disk."""
+    descriptor = os.open(path, os.O_RDONLY)
     try:
         os.fsync(descriptor)
     finally:

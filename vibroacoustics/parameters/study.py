@@ -134,13 +134,6 @@ class Study(Parameters):
         """Refuse more orders than the radiation or the crank angles can tell apart."""
         speeds = {*self.operation.speed_rpm, self.machine.overall_noise.speed_rpm}
         fastest, slowest = max(speeds), min(speeds)
-        order = max(self.highest_order(fastest), LEAST_ORDERS)
-        highest, allowed = order * shaft_frequency_hz(fastest), self.radiation.maximum_frequency_hz
-        if highest > allowed * (1.0 + ROUNDING):
-            raise ValueError(
-                f"radiation.maximum_frequency_hz = {allowed:g} Hz: order {order} reaches "
-                f"{highest:g} Hz"
-            )
         orders, samples = self.highest_order(slowest), self.operation.crank_angle_samples
         if 2 * orders >= samples:
             given = self.operation.maximum_order is not None
@@ -148,6 +141,13 @@ class Study(Parameters):
             raise ValueError(
                 f"operation.crank_angle_samples = {samples}: must be above {2 * orders}, "
                 f"twice {twice}"
+            )
+        order = max(self.highest_order(fastest), LEAST_ORDERS)
+        highest, allowed = order * shaft_frequency_hz(fastest), self.radiation.maximum_frequency_hz
+        if highest > allowed * (1.0 + ROUNDING):
+            raise ValueError(
+                f"radiation.maximum_frequency_hz = {allowed:g} Hz: order {order} reaches "
+                f"{highest:g} Hz"
             )
 
     def _check_inside(self) -> None:

@@ -1,6 +1,6 @@
 """Many speeds: worked through in blocks, so that no more is held in memory than is kept."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from math import prod
 from typing import Final
 
@@ -26,30 +26,44 @@ def blocks(speeds: Sequence[float]) -> Iterator[tuple[float, ...]]:
         yield tuple(speeds[first : first + SPEEDS_IN_BLOCK])
 
 
-def joined(parts: list[xr.Dataset]) -> xr.Dataset:
-    """The blocks' variables one after the other along the speed; the list of blocks is emptied.
+def gathered(parts: Iterable[xr.Dataset], speeds: int) -> xr.Dataset:
+    """The blocks' variables one after the other along the speed.
 
-    Variable by variable, so that only one of them is held twice. Figures that a block does not
+    Each block is copied to its rows before the next one is made. Figures that a block does not
     have are NaN.
+
+    Parameters
+    ----------
+    parts : one dataset a block
+    speeds : number of speeds of all blocks
     """
-    if len(parts) == 1:
-        return parts.pop()
-    facts = list(dict.fromkeys(name for part in parts for name in part["fact"].values))
-    parts[:] = [part.reindex(fact=facts) for part in parts]
-    steady = parts[0].drop_dims("speed")
-    names = [str(name) for name in parts[0].variables if name not in steady.variables]
-    variables = {}
-    for name in names:
-        variables[name] = _end_to_end([part.variables[name] for part in parts])
-        parts[:] = [part.drop_vars(name) for part in parts]
-    parts.clear()
-    return steady.assign(variables).set_coords(COORDINATES.keys() & variables.keys())
+    rows: dict[str, xr.Variable] = {}
+    facts: list[xr.DataArray] = []
+    steady, done = xr.Dataset(), 0
+    for part in parts:
+        facts.append(part["option_fact"])
+        at = {"speed": slice(done, done + part.sizes["speed"])}
+        for name, variable in part.drop_dims("fact").variables.items():
+            if "speed" in variable.dims:
+                if name not in rows:
+                    rows[str(name)] = _room(variable, speeds)
+                rows[str(name)][at] = variable
+        steady, done = part.drop_dims(["speed", "fact"]), at["speed"].stop
+    coords = {name: rows.pop(name) for name in list(rows) if name in COORDINATES}
+    whole = steady.assign_coords(coords).assign(rows)
+    return whole.assign(option_fact=_all_facts(facts))
 
 
-def _end_to_end(pieces: Sequence[xr.Variable]) -> xr.Variable:
-    dims = pieces[0].dims
-    values = np.concatenate([piece.values for piece in pieces], axis=dims.index("speed"))
-    return xr.Variable(dims, values, pieces[0].attrs)
+def _room(variable: xr.Variable, speeds: int) -> xr.Variable:
+    """A variable of as many speeds, to be filled."""
+    shape = [speeds if dim == "speed" else size for dim, size in variable.sizes.items()]
+    return xr.Variable(variable.dims, np.empty(shape, dtype=variable.dtype), variable.attrs)
+
+
+def _all_facts(parts: Sequence[xr.DataArray]) -> xr.DataArray:
+    names = list(dict.fromkeys(name for part in parts for name in part["fact"].values))
+    facts: xr.DataArray = xr.concat([part.reindex(fact=names) for part in parts], "speed")
+    return facts
 
 
 def check_size(study: Study, first: xr.Dataset, progress: Progress) -> None:

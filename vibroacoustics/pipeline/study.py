@@ -3,7 +3,7 @@
 study -> moving parts -> orders -> transfer -> radiation -> levels -> scores, one dataset.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import product
 from typing import Final
 
@@ -46,7 +46,7 @@ from .radiating import (
     transfer_vectors,
     within,
 )
-from .speed_blocks import TIME_SERIES, blocks, check_size, joined
+from .speed_blocks import TIME_SERIES, blocks, check_size, gathered
 from .stopping import stopping_sound
 from .words import words
 
@@ -107,10 +107,17 @@ def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
 def _motion(study: Study, progress: Progress) -> tuple[xr.Dataset, dict[Case, Added]]:
     """Forces, their orders and the motion that follows, block by block of speeds.
 
-    Also what each option adds in each case.
+    Also what each option adds in each case, where inner sources need it.
     """
-    parts: list[xr.Dataset] = []
-    everything: dict[Case, Added] = {}
+    added: dict[Case, Added] = {}
+    parts = _motion_blocks(study, progress, added)
+    return gathered(parts, len(study.operation.speed_rpm)), added
+
+
+def _motion_blocks(
+    study: Study, progress: Progress, everything: dict[Case, Added]
+) -> Iterator[xr.Dataset]:
+    """One dataset a block; what the options add is put into `everything`."""
     done, total = 0, len(study.operation.speed_rpm) * len(study.options)
 
     def advance(task: str, step: int, _: int) -> None:
@@ -118,16 +125,16 @@ def _motion(study: Study, progress: Progress) -> tuple[xr.Dataset, dict[Case, Ad
 
     for speeds in blocks(study.operation.speed_rpm):
         part, added = _forces(_at_speeds(study, speeds, study.options), advance)
+        if study.inside is not None:
+            everything |= added
         part = part.merge(_orders(study, part))
         part = part.merge(_housing(study, part))
         if not study.operation.keeps_time_series:
             part = part.drop_vars(TIME_SERIES)
-        if not parts:
+        if done == 0:
             check_size(study, part, progress)
-        parts.append(part)
-        everything |= added
+        yield part
         done += len(speeds) * len(study.options)
-    return joined(parts), everything
 
 
 def _at_speeds(study: Study, speeds: tuple[float, ...], options: Mapping[str, Option]) -> Study:

@@ -1,0 +1,67 @@
+"""Time, memory and disk of a study at many speeds, its radiation from the cache.
+
+    python benchmarks/many_speeds.py [--study FILE] [--speeds 2 200 1000]
+
+Each number of speeds from 2000 to 3700 rpm runs in a process of its own. The first run of a study
+fills the cache, which takes minutes; its time does not count.
+"""
+
+import argparse
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import Final
+
+STUDY: Final = Path(__file__).parents[1] / "pipelines" / "copeland_thesis.toml"
+LOWEST_RPM: Final = 2000.0
+HIGHEST_RPM: Final = 3700.0
+
+
+def text_of(study: Path, speeds: int) -> str:
+    """A study that extends another, at so many speeds."""
+    step = (HIGHEST_RPM - LOWEST_RPM) / (speeds - 1)
+    table = f"{{ start = {LOWEST_RPM}, stop = {HIGHEST_RPM}, step = {step!r} }}"
+    return f'extends = "{study.resolve()}"\n[operation]\nspeed_rpm = {table}\n'
+
+
+def measure(file: Path, folder: Path) -> str:
+    """Run the study in this process: one line of the table."""
+    from vibroacoustics import loading, pipeline, storage
+
+    study = loading.load_study(file)
+    pipeline.radiate(study)
+    start = time.perf_counter()
+    results = pipeline.run(study)
+    computed = time.perf_counter()
+    path = storage.write_results(results, folder / "results.nc")
+    written = time.perf_counter()
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
+    return (
+        f"{len(study.operation.speed_rpm):6d} {computed - start:10.1f} {written - computed:10.1f} "
+        f"{peak:10.0f} {path.stat().st_size / 1e6:10.0f}"
+    )
+
+
+def main() -> None:
+    """Print a line for each number of speeds."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--study", type=Path, default=STUDY)
+    parser.add_argument("--speeds", type=int, nargs="+", default=[2, 200, 1000])
+    parser.add_argument("--measure", type=Path, help=argparse.SUPPRESS)
+    given = parser.parse_args()
+    if given.measure:
+        print(measure(given.measure, given.measure.parent))
+        return
+    print("speeds  compute, s   write, s   peak, MB   disk, MB", flush=True)
+    for speeds in given.speeds:
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "many.toml"
+            file.write_text(text_of(given.study, speeds), encoding="utf-8")
+            subprocess.run([sys.executable, __file__, "--measure", str(file)], check=True)
+
+
+if __name__ == "__main__":
+    main()
