@@ -1,7 +1,6 @@
 """A small study of inner sources, with transfer vectors made up."""
 
 import numpy as np
-import pytest
 import xarray as xr
 from support import ROOT, made_up_transfer_vectors
 
@@ -37,12 +36,7 @@ def path_of(study: Study) -> ShellPath:
 
 def run_made_up(study: Study, gain: float = 1.0) -> xr.Dataset:
     """Results with made-up transfer vectors."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(
-            "vibroacoustics.pipeline.study.transfer_vectors",
-            lambda study, *_: (made_up_modes(study, gain), False),
-        )
-        return pipeline.run(study)
+    return pipeline.run(study, radiation=lambda study, *_: (made_up_modes(study, gain), False))
 
 
 def operating_of(study: Study, revolutions: int = 2) -> Operating:

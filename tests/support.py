@@ -12,7 +12,6 @@ from pathlib import Path
 from unittest.mock import patch
 
 import numpy as np
-import pytest
 import xarray as xr
 
 from vibroacoustics import cli, pipeline
@@ -75,17 +74,18 @@ def made_up_transfer_vectors(study: Study, gain: float = 1.0) -> xr.Dataset:
     )
 
 
+def made_up_radiation(study: Study, *_: object) -> tuple[xr.Dataset, bool]:
+    """In place of the radiation: transfer vectors made up."""
+    return made_up_transfer_vectors(study), False
+
+
 def tiny_run(options: str = "", criteria: str = "") -> xr.Dataset:
     """Results of the tiny study with further options and criteria, radiation made up."""
     text = TINY.read_text().replace("../../data", str(ROOT / "data"))
-    with tempfile.TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as context:
-        context.setattr(
-            "vibroacoustics.pipeline.study.transfer_vectors",
-            lambda study, *_: (made_up_transfer_vectors(study), False),
-        )
+    with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "tiny.toml"
         file.write_text(text.replace("[receivers.", f"{options}\n[receivers.", 1) + criteria)
-        return pipeline.run(load_study(file))
+        return pipeline.run(load_study(file), radiation=made_up_radiation)
 
 
 def command(*arguments: object, cache: Path) -> subprocess.CompletedProcess[str]:

@@ -30,8 +30,9 @@ def workplace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """
     monkeypatch.chdir(tmp_path)
     Path("data").symlink_to(ROOT / "data")
-    monkeypatch.setattr("vibroacoustics.pipeline.study.transfer_vectors", _unit_vectors)
-    results = vibroacoustics.run(vibroacoustics.load_study(PIPELINES / "copeland_thesis.toml"))
+    results = vibroacoustics.run(
+        vibroacoustics.load_study(PIPELINES / "copeland_thesis.toml"), radiation=_unit_vectors
+    )
     storage.write_results(results, "reports/copeland_thesis/results.nc")
     return tmp_path
 

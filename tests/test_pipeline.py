@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from support import made_up_transfer_vectors
+from support import made_up_radiation, made_up_transfer_vectors
 
 from vibroacoustics import pipeline, storage
 from vibroacoustics.errors import ParameterError
@@ -60,12 +60,7 @@ NOT_MADE_HERE = {
 
 @pytest.fixture(scope="module")
 def results(thesis_study) -> xr.Dataset:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(
-            "vibroacoustics.pipeline.study.transfer_vectors",
-            lambda study, *_: (made_up_transfer_vectors(study), False),
-        )
-        return pipeline.run(thesis_study)
+    return pipeline.run(thesis_study, radiation=made_up_radiation)
 
 
 def test_run_makes_the_whole_vocabulary(results):
@@ -134,18 +129,15 @@ def test_results_survive_the_disk(results, tmp_path):
     xr.testing.assert_identical(results, again[list(results.data_vars)])
 
 
-def test_model_louder_than_the_catalogue_is_refused(thesis_study, monkeypatch):
+def test_model_louder_than_the_catalogue_is_refused(thesis_study):
     loud = (made_up_transfer_vectors(thesis_study, gain=1e6), False)
-    monkeypatch.setattr("vibroacoustics.pipeline.study.transfer_vectors", lambda *_: loud)
     with pytest.raises(ParameterError, match=r"overall_noise\.level_dba = 56 dB\(A\)"):
-        pipeline.run(thesis_study)
+        pipeline.run(thesis_study, radiation=lambda *_: loud)
 
 
-def test_radiation_alone_tells_where_it_comes_from(thesis_study, monkeypatch):
+def test_radiation_alone_tells_where_it_comes_from(thesis_study):
     made = made_up_transfer_vectors(thesis_study)
-    target = "vibroacoustics.pipeline.radiating.transfer_vectors"
-    monkeypatch.setattr(target, lambda *_: (made, True))
-    radiated = pipeline.radiate(thesis_study)
+    radiated = pipeline.radiate(thesis_study, radiation=lambda *_: (made, True))
     assert set(radiated.data_vars) == set(made.data_vars)
     assert radiated.attrs["transfer_vectors"] == "from the cache"
     assert radiated.attrs["title"] == thesis_study.title
@@ -153,13 +145,12 @@ def test_radiation_alone_tells_where_it_comes_from(thesis_study, monkeypatch):
     assert radiated["frequency"].attrs["units"] == "Hz"
 
 
-def test_radiation_refuses_in_the_name_of_the_study(thesis_study, monkeypatch):
+def test_radiation_refuses_in_the_name_of_the_study(thesis_study):
     def refuse(*_):
         raise ParameterError("receivers.a: too close")
 
-    monkeypatch.setattr("vibroacoustics.pipeline.radiating.transfer_vectors", refuse)
     with pytest.raises(ParameterError, match=r"copeland_thesis\.toml: receivers\.a: too close"):
-        pipeline.radiate(thesis_study)
+        pipeline.radiate(thesis_study, radiation=refuse)
 
 
 @pytest.fixture(scope="module")

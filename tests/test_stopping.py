@@ -1,7 +1,5 @@
 """Stopping in the chain: transient response, steady running, momentum, energy, report."""
 
-from collections.abc import Iterator
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -100,14 +98,9 @@ def loaded(study) -> xr.Dataset:
 
 
 @pytest.fixture(scope="module")
-def results(study) -> Iterator[xr.Dataset]:
+def results(study) -> xr.Dataset:
     """The whole chain."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(
-            "vibroacoustics.pipeline.study.transfer_vectors",
-            lambda study, _, motions: (made_up(study, motions), False),
-        )
-        yield pipeline.run(study)
+    return pipeline.run(study, radiation=lambda study, _, motions: (made_up(study, motions), False))
 
 
 # --- second method -------------------------------------------------------------------------------

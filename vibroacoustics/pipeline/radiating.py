@@ -1,6 +1,6 @@
 """The housing's radiation: transfer vectors, and what map and sound power make of them."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -17,35 +17,11 @@ from ..units import shaft_frequency_hz
 from .inner_sound import shell_path
 from .progress import Progress
 
+Radiation = Callable[[Study, Progress, Sequence[radiation.SurfaceMotion]], tuple[xr.Dataset, bool]]
+"""From a study and the shell's modes to transfer vectors, and whether they were known already."""
+
 UNIT_VELOCITY_PEAK: Final = np.sqrt(2.0) * 1e-3
 """1 mm/s (1 mrad/s) root mean square as a peak."""
-
-
-def radiate(study: Study, progress: Progress = lambda *_: None) -> xr.Dataset:
-    """Only the radiation of the housing: transfer vectors, from the cache if they are there.
-
-    Parameters
-    ----------
-    study : from `load_study`
-    progress : told of the advance of long work
-
-    Raises
-    ------
-    ParameterError, SolverError, StorageError
-        An input is out of range, a computation failed, the cache cannot be written.
-    """
-    try:
-        path = shell_path(study)
-        motions = () if path is None else path.modes
-        radiated, was_cached = transfer_vectors(study, progress, motions)
-    except ParameterError as error:
-        raise ParameterError(f"{study.source_file}: {error}") from None
-    if study.sound_power is not None:
-        surface = radiated["surface_transfer_vector"]
-        area = _surface_area_m2(study.sound_power, surface)
-        radiated["unit_sound_power_level"] = unit_sound_power(surface, study.sound_power, area)
-    radiated.attrs = attributes(study, radiated, was_cached)
-    return check(label_coordinates(radiated))
 
 
 def transfer_vectors(
@@ -65,6 +41,36 @@ def transfer_vectors(
         radiation.cache_key_material(*inputs),
         lambda: radiation.transfer_vectors(*inputs, progress),
     )
+
+
+def radiate(
+    study: Study, progress: Progress = lambda *_: None, radiation: Radiation = transfer_vectors
+) -> xr.Dataset:
+    """Only the radiation of the housing: transfer vectors, from the cache if they are there.
+
+    Parameters
+    ----------
+    study : from `load_study`
+    progress : told of the advance of long work
+    radiation : gives the transfer vectors: the package's, measured ones or a second method's
+
+    Raises
+    ------
+    ParameterError, SolverError, StorageError
+        An input is out of range, a computation failed, the cache cannot be written.
+    """
+    try:
+        path = shell_path(study)
+        motions = () if path is None else path.modes
+        radiated, was_cached = radiation(study, progress, motions)
+    except ParameterError as error:
+        raise ParameterError(f"{study.source_file}: {error}") from None
+    if study.sound_power is not None:
+        surface = radiated["surface_transfer_vector"]
+        area = _surface_area_m2(study.sound_power, surface)
+        radiated["unit_sound_power_level"] = unit_sound_power(surface, study.sound_power, area)
+    radiated.attrs = attributes(study, radiated, was_cached)
+    return check(label_coordinates(radiated))
 
 
 def unit_sound_power(

@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from .. import levels, radiation, scoring
+from .. import levels, scoring
 from ..base.hashing import canonical_json
 from ..errors import ParameterError
 from ..mechanics.added import Added
@@ -21,6 +21,7 @@ from ..orders import order_spectra, semi_major_axis
 from ..parameters.machine import Machine
 from ..parameters.option import Option
 from ..parameters.study import Study
+from ..radiation import interpolate_transfer_vector
 from ..schema import (
     AXES,
     REFERENCE_OPTION,
@@ -37,6 +38,7 @@ from .inner_sound import shell_path
 from .inside import inside_sound
 from .progress import Progress
 from .radiating import (
+    Radiation,
     airborne_factor,
     attributes,
     even_losses_db,
@@ -54,13 +56,18 @@ Case = tuple[float, str]
 MOUNT_FREQUENCY_HZ: Final[Array] = np.asarray(np.geomspace(1.0, 200.0, 400), dtype=np.float64)
 
 
-def run(study: Study, progress: Progress = lambda *_: None) -> xr.Dataset:
+def run(
+    study: Study,
+    progress: Progress = lambda *_: None,
+    radiation: Radiation = transfer_vectors,
+) -> xr.Dataset:
     """Carry a study from the machine's parameters to the scores of its options.
 
     Parameters
     ----------
     study : from `load_study`
     progress : told of the advance of long work
+    radiation : gives the transfer vectors: the package's, measured ones or a second method's
 
     Returns
     -------
@@ -72,16 +79,16 @@ def run(study: Study, progress: Progress = lambda *_: None) -> xr.Dataset:
         An input is out of range, a computation failed, the cache cannot be written.
     """
     try:
-        return _run(study, progress)
+        return _run(study, progress, radiation)
     except ParameterError as error:
         raise ParameterError(f"{study.source_file}: {error}") from None
 
 
-def _run(study: Study, progress: Progress) -> xr.Dataset:
+def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
     results, added = _motion(study, progress)
     machine, path = study.machine, shell_path(study)
     motions = () if path is None else path.modes
-    radiated, was_cached = transfer_vectors(study, progress, motions)
+    radiated, was_cached = radiation(study, progress, motions)
     results = results.merge(radiated)
     results = results.merge(_pressures(study, results))
     results = results.merge(sound_field(study, results))
@@ -349,7 +356,7 @@ def _pressures(study: Study, results: xr.Dataset) -> xr.Dataset:
 def _pressure(results: xr.Dataset, name: str) -> xr.DataArray:
     """Pressure of every source at every order by the transfer vectors of a name."""
     tabulated = results[name]
-    vectors = radiation.interpolate_transfer_vector(tabulated, within(results, tabulated))
+    vectors = interpolate_transfer_vector(tabulated, within(results, tabulated))
     pressure: xr.DataArray = xr.dot(results["velocity_order"], vectors, dim="dof")
     return pressure
 
