@@ -51,6 +51,7 @@ NOT_MADE_HERE = {
     "order_sound_power_level",
     "sound_power_level",
     "given_value",
+    "column_value",  # of strangers only
     "map_transfer_vector",
     "directivity_transfer_vector",
     "surface_transfer_vector",
