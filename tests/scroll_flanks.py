@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 from scipy.spatial import cKDTree
 
-from vibroacoustics.parameters.scroll_gas import ScrollGas, ScrollWraps
+from vibroacoustics.sources.scroll_gas.parameters import ScrollGas, ScrollWraps
 
 POINTS = 20001
 INNER, OUTER = -1.0, 1.0

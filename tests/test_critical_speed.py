@@ -27,7 +27,7 @@ from vibroacoustics.mechanics.critical_speed import (
 )
 from vibroacoustics.mechanics.scroll_shaft import ScrollShaft
 
-VALUES = values_of(machine_file("copeland_zp41k3e_inside"))["shaft"]
+VALUES = values_of(machine_file("copeland_zp41k3e"))["shaft"]
 SHAFT = ScrollShaft(**VALUES)
 RPM = 30.0 / np.pi
 LENGTH = 0.2

@@ -13,8 +13,8 @@ from support import ROOT
 from vibroacoustics.errors import ParameterError, SolverError
 from vibroacoustics.mechanics.crankshaft import steady_rotation
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
-from vibroacoustics.parameters.induction_motor import CapacitorMotor, KlossMotor
 from vibroacoustics.sources.induction_motor.kloss import slip_at_torque, slope_ratio, torque
+from vibroacoustics.sources.induction_motor.parameters import CapacitorMotor, KlossMotor
 from vibroacoustics.sources.induction_motor.revolving_fields import (
     breakdown_slip,
     field_impedance,
@@ -24,7 +24,7 @@ from vibroacoustics.sources.induction_motor.revolving_fields import (
 from vibroacoustics.sources.induction_motor.speed_response import speed_response, two_axis_motor
 from vibroacoustics.sources.induction_motor.torque_lines import torque_lines
 
-VALUES = values_of(machine_file("copeland_zp41k3e_inside"))["motor"]
+VALUES = values_of(machine_file("copeland_zp41k3e"))["motor"]
 MOTOR = CapacitorMotor(**VALUES)
 INERTIA = 2.5e-3
 GAS_TORQUE = 10.24

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from sources_study import SOURCES_STUDY, run_made_up
 from support import PIPELINES, ROOT, made_up_radiation, made_up_transfer_vectors
 
 from vibroacoustics import outputs, pipeline
@@ -13,7 +14,7 @@ from vibroacoustics.levels import SILENCE_DB
 from vibroacoustics.loading import load_study
 from vibroacoustics.parameters.speeds import speed_range
 from vibroacoustics.parameters.study import Study
-from vibroacoustics.pipeline import speed_blocks
+from vibroacoustics.pipeline import motion, speed_blocks
 
 THESIS = (PIPELINES / "copeland_thesis.toml").read_text().replace("../data", str(ROOT / "data"))
 OPERATION = """speed_rpm = [2900.0, 3500.0]
@@ -43,8 +44,8 @@ def assert_same_at_speed(one: xr.Dataset, many: xr.Dataset, speed: float) -> Non
             continue
         at = {"speed": speed}
         here, there = alone.sel(at), many[name].sel(at)
-        if "order" in alone.dims:
-            there = there.sel(order=alone["order"])
+        for axis in {"order", "line"} & set(alone.dims):
+            there = there.sel({axis: alone[axis]})
         here, there = np.asarray(here), np.asarray(there)
         np.testing.assert_array_equal(np.isnan(here), np.isnan(there))
         largest = np.nanmax(np.abs(here), initial=0.0)
@@ -149,9 +150,13 @@ def test_as_many_orders_as_the_highest_frequency_holds(many):
     """2500 Hz: 57 at 2600 rpm, 42 at 3500 rpm; beyond them there is silence."""
     assert many["order"].values.tolist() == list(range(58))
     fast = many.sel(speed=3500.0)
-    for name in ("force_order", "velocity_order", "foot_force_order", "pressure_order"):
+    for name in ("force_order", "velocity_order", "foot_force_order"):
         assert not fast[name].sel(order=slice(43, None)).values.any(), name
         assert many[name].sel(speed=2600.0, order=57).values.any(), name
+    silent = fast["pressure_line"].sel(line=fast["line_order"] > 42.5)
+    assert silent.sizes["line"] == 15
+    assert not silent.values.any()
+    assert many["pressure_line"].sel(speed=2600.0, line="order 57").values.any()
     silent = fast["order_level"].sel(order=slice(43, None), weighting="Z")
     assert np.all(silent == SILENCE_DB)
     assert np.all(np.isfinite(many["level_modelled"]))
@@ -171,13 +176,53 @@ def test_catalogue_speed_counts_among_the_speeds_for_the_orders(tmp_path):
         study_at(tmp_path, "speed_rpm = [2000.0]\nmaximum_order = 60")
 
 
-def test_inner_sources_need_the_catalogue_speed(tmp_path):
-    text = (ROOT / "tests" / "studies" / "inside.toml").read_text()
-    file = tmp_path / "inside.toml"
-    text = text.replace("../../data", str(ROOT / "data"))
-    file.write_text(text.replace("speed_rpm = [2900.0]", "speed_rpm = [2800.0]"))
-    with pytest.raises(ParameterError, match=r"operation\.speed_rpm: must include .* 2900 rpm"):
-        load_study(file)
+def sources_at(folder: Path, *replaced: tuple[str, str]) -> Study:
+    """The study of several sources with another operation."""
+    text = SOURCES_STUDY.read_text().replace("../../data", str(ROOT / "data"))
+    for old, new in (("stopping = true\n", ""), ("maximum_order = 16\n", ""), *replaced):
+        assert old in text
+        text = text.replace(old, new)
+    file = folder / "sources.toml"
+    file.write_text(text)
+    return load_study(file)
+
+
+@pytest.fixture(scope="module")
+def driven(folder) -> xr.Dataset:
+    """Several sources at three speeds, as many orders as the highest frequency holds."""
+    return run_made_up(
+        sources_at(
+            folder,
+            ("speed_rpm = [2900.0]", "speed_rpm = [2600.0, 2900.0, 3500.0]"),
+            ("= [50.0]", "= [45.0, 50.0, 60.0]"),
+        )
+    )
+
+
+@pytest.mark.parametrize(("speed", "supply"), [(2600.0, 45.0), (3500.0, 60.0)])
+def test_sources_at_few_speeds_agree_with_the_same_in_a_list(folder, driven, speed, supply):
+    study = sources_at(
+        folder,
+        ("speed_rpm = [2900.0]", f"speed_rpm = [{speed}, 2900.0]"),
+        ("= [50.0]", f"= [{supply}, 50.0]"),
+    )
+    few = run_made_up(study)
+    for own in (speed, 2900.0):
+        assert_same_at_speed(few, driven, own)
+    assert few["level_remainder"].item() == pytest.approx(driven["level_remainder"].item())
+
+
+def test_supply_is_unknown_at_a_catalogue_speed_apart(folder):
+    """One line; without supply frequencies other sources run at any speed."""
+    apart = ("speed_rpm = [2900.0]", "speed_rpm = [2800.0]")
+    with pytest.raises(ParameterError, match="2900 rpm"):
+        run_made_up(sources_at(folder, apart))
+    unmoved = '[sources.torque_ripple]\nkind = "torque-ripple"\n\n'
+    unmoved += '[sources.motor]\nkind = "motor-pulsation"\n'
+    supply = "supply_frequency_hz = [50.0]\n"
+    more = ("random_samples = 4", "random_samples = 12")  # three must be below the catalogue
+    results = run_made_up(sources_at(folder, apart, (unmoved, ""), (supply, ""), more))
+    assert results["sound_source"].values.tolist() == ["moving_parts", "gas", "keys"]
 
 
 # --- size ----------------------------------------------------------------------------------------
@@ -204,13 +249,13 @@ def test_result_above_2_gib_is_refused_before_the_second_speed(tmp_path, monkeyp
         tmp_path,
         "speed_rpm = { start = 1000.0, stop = 1999.0, step = 1.0 }\ncrank_angle_samples = 512",
     )
-    forces = pipeline.study._forces
+    forces = motion._forces
 
     def counted(part, *others):
         motions.append(part.operation.speed_rpm)
         return forces(part, *others)
 
-    monkeypatch.setattr("vibroacoustics.pipeline.study._forces", counted)
+    monkeypatch.setattr(motion, "_forces", counted)
     with pytest.raises(ParameterError, match=r"1000 speeds takes .* GiB; allowed 2 GiB"):
         pipeline.run(study, lambda task, *_: told.append(task))
     assert motions == [(1000.0,)]
@@ -220,6 +265,6 @@ def test_result_above_2_gib_is_refused_before_the_second_speed(tmp_path, monkeyp
 def test_size_told_is_that_of_the_result(tmp_path, many):
     study = study_at(tmp_path, "speed_rpm = { start = 2600.0, stop = 3500.0, step = 300.0 }")
     by_speed = sum(array.nbytes for array in many.data_vars.values() if "speed" in array.dims)
-    first = many.drop_vars(["pressure_order", "order_level", "level_modelled", "level_total"])
+    first = many.drop_vars(["pressure_line", "order_level", "level_modelled", "level_total"])
     # The changes and the coordinates are left out of the estimate, a part in a thousand.
     assert speed_blocks.result_bytes(study, first) == pytest.approx(by_speed, rel=2e-3)

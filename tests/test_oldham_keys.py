@@ -14,7 +14,6 @@ from scipy.signal import csd
 from support import ROOT
 
 from vibroacoustics.errors import ParameterError, SolverError
-from vibroacoustics.parameters.oldham_keys import OldhamKeys
 from vibroacoustics.sources.oldham_keys import rattle
 from vibroacoustics.sources.oldham_keys.contact import CONTACT_LAWS, flores, lankarani_nikravesh
 from vibroacoustics.sources.oldham_keys.contact_loss import (
@@ -23,6 +22,7 @@ from vibroacoustics.sources.oldham_keys.contact_loss import (
 )
 from vibroacoustics.sources.oldham_keys.equations import Coupling
 from vibroacoustics.sources.oldham_keys.integration import integrate
+from vibroacoustics.sources.oldham_keys.parameters import OldhamKeys
 from vibroacoustics.sources.oldham_keys.rattle import steady_key_forces
 from vibroacoustics.sources.oldham_keys.spectra import (
     band_rms,

@@ -120,6 +120,7 @@ def _sound(
     total = 10.0 * np.log10(10.0 ** (modelled[..., 1] / 10.0) + 10.0 ** (published_dba / 10.0))
     at = {**coords, "receiver": receivers}
     weighted = {**at, "weighting": list(WEIGHTINGS)}
+    by_source = {**coords, "sound_source": ["moving_parts"], "receiver": receivers}
     frequency = np.array([25.0, 50.0, 100.0])
     transfer = np.ones((len(receivers), 6, 3)) * frequency * (1.0 + 0.5j)
     field = {"receiver": receivers, "dof": list(RIGID_BODY_DOFS), "frequency": frequency}
@@ -147,6 +148,7 @@ def _sound(
             "level_modelled": stamp("level_modelled", modelled, weighted),
             "level_total": stamp("level_total", total, at),
             "level_remainder": stamp("level_remainder", published_dba),
+            "source_level": stamp("source_level", modelled[:, :, None, :, 1], by_source),
             "line_difference": stamp("line_difference", np.full(total.shape, -0.02), at),
             "green_difference": stamp("green_difference", np.full((len(receivers), 3), -0.07), gap),
         }
@@ -160,7 +162,9 @@ def _facts(coords: dict[str, Any], facts: dict[str, dict[str, float]]) -> xr.Dat
     for option, own in facts.items():
         for fact, value in own.items():
             values[:, coords["option"].index(option), names.index(fact)] = value
-    return xr.Dataset({"option_fact": stamp("option_fact", values, {**coords, "fact": names})})
+    return xr.Dataset(
+        {"reported_figure": stamp("reported_figure", values, {**coords, "figure": names})}
+    )
 
 
 def _scores(options: list[str], gain: np.ndarray) -> xr.Dataset:
@@ -229,6 +233,9 @@ def _attributes(options: list[str], receivers: list[str], published_dba: float) 
         "orders": "Orders are multiples of the mean shaft frequency.",
         "leaves_out": [],
         "labels": {},
+        "sources": {},
+        "source_figures": [],
+        "shell_bends": False,
         "sentences": {option: [] for option in options},
     }
     return {

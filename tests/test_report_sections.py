@@ -156,7 +156,9 @@ def test_many_speeds_with_sources_are_six_tables(results: xr.Dataset) -> None:
     wide.attrs = results.attrs | {
         "parameters": results.attrs["parameters"].replace("[50.0, 60.0]", str([50.0] * 12))
     }
-    wide["change_whole_quantile"] *= xr.DataArray(np.linspace(0.5, 1.0, 12), dims="speed")
+    louder = wide["level_total_by_draw"].copy()
+    louder.loc[{"option": "rattles"}] += xr.DataArray(np.linspace(0.0, 3.0, 12), dims="speed")
+    wide["level_total_by_draw"] = louder
     page = render(wide)["report.html"].decode()
     assert len(re.findall("<caption>[^<]*option none, microphone front_1m", page)) == 6
     assert "6 of 12 speeds; all are in sources.csv." in page

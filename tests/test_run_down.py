@@ -22,7 +22,7 @@ from vibroacoustics.stopping.coasting import peaks, run_down
 from vibroacoustics.stopping.paths import inertia_over_angle, path_derivatives, wrench_along
 from vibroacoustics.stopping.shift import brake_shift, overrun_torque_n_m, residual_force_n
 
-FILE = values_of(machine_file("copeland_zp41k3e_inside"))["stopping"]
+FILE = values_of(machine_file("copeland_zp41k3e"))["stopping"]
 VALUES = {**FILE, "friction_torque_n_m": 1.5}
 """With more friction than the file assumes: shorter runs."""
 PARTS = machine_parts(load_study(PIPELINES / "copeland_derived.toml"))

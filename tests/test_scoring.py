@@ -53,8 +53,8 @@ def _results(options=OPTIONS, seed=1) -> xr.Dataset:
                 "level_modelled": stamp(
                     "level_modelled", stacked(level), {**base, "weighting": ["Z", "A", "C"]}
                 ),
-                "option_fact": stamp(
-                    "option_fact", stacked(mass), {**base, "fact": ["added_mass_kg"]}
+                "reported_figure": stamp(
+                    "reported_figure", stacked(mass), {**base, "figure": ["added_mass_kg"]}
                 ),
             }
         )
@@ -141,7 +141,7 @@ def test_more_is_better_where_best_lies_above_worst():
 
 def test_no_rank_is_made_of_what_is_no_number():
     results = _results()
-    results["option_fact"].loc[{"option": "a"}] = np.nan
+    results["reported_figure"].loc[{"option": "a"}] = np.nan
     with pytest.raises(ParameterError, match="added_mass_kg: has no finite value for the option a"):
         scoring.score(results, _settings())
 
@@ -205,7 +205,7 @@ def test_criterion_without_weight_does_not_count():
     weightless = {**CRITERIA, "added_mass_kg": {**CRITERIA["added_mass_kg"], "weight": 0.0}}
     results = _results()
     before = scoring.score(results, _settings(**weightless))["score"]
-    results["option_fact"][:] = 0.1
+    results["reported_figure"][:] = 0.1
     after = scoring.score(results, _settings(**weightless))["score"]
     np.testing.assert_allclose(before, after, rtol=1e-12)
 

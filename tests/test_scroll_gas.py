@@ -22,9 +22,9 @@ from support import ROOT
 from vibroacoustics.errors import ParameterError
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.orders import order_spectrum
-from vibroacoustics.parameters.scroll_gas import ScrollGas, ScrollWraps
 from vibroacoustics.sources.scroll_gas import thesis_appendix_a
 from vibroacoustics.sources.scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
+from vibroacoustics.sources.scroll_gas.parameters import ScrollGas, ScrollWraps
 from vibroacoustics.sources.scroll_gas.pockets import (
     area_inside,
     built_in_volume_ratio,

@@ -15,33 +15,27 @@ from vibroacoustics.parameters.housing import Housing
 from vibroacoustics.parameters.mounts import Mounts
 from vibroacoustics.parameters.study import Study
 from vibroacoustics.pipeline.stopping import MAP_REVOLUTIONS, stopping_sound
-from vibroacoustics.pipeline.transient import LOAD_SAMPLES, RESULT_SAMPLES, transient
 from vibroacoustics.report import render
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.stopping import forces_table, sentences
 from vibroacoustics.schema import check, stamp
 from vibroacoustics.stopping.paths import inertia_over_angle
 from vibroacoustics.transfer import RigidBodyOnMounts
+from vibroacoustics.transfer.transient import LOAD_SAMPLES, RESULT_SAMPLES, transient
 
 SPEED = 2900.0 * np.pi / 30.0
-INSIDE = f"""
+ORBIT = """
 [machine.override.kinematics]
-orbit_radius_mm = {{ value = 3.461, source = "derived: as copeland_sources" }}
-
-[inside]
-file = "{ROOT / "data" / "machines" / "copeland_zp41k3e_inside.toml"}"
-line_frequency_hz = [50.0]
-random_samples = 4
-key_revolutions = 1
+orbit_radius_mm = { value = 3.461, source = "derived: as copeland_sources" }
 """
 
 
 @pytest.fixture(scope="module")
 def study(tmp_path_factory) -> Study:
-    """The tiny study with the inside of the Copeland machine."""
-    file = tmp_path_factory.mktemp("stopping") / "tiny_inside.toml"
+    """The tiny study with a stop."""
+    file = tmp_path_factory.mktemp("stopping") / "tiny_stopping.toml"
     text = TINY.read_text().replace("../../data", str(ROOT / "data"))
-    file.write_text(text.replace("[operation]", f"{INSIDE}\n[operation]", 1))
+    file.write_text(text.replace("[operation]", f"{ORBIT}\n[operation]\nstopping = true", 1))
     return load_study(file)
 
 
@@ -66,9 +60,9 @@ def made_up(study: Study, motions=()) -> xr.Dataset:
 
 def stopped(study: Study, **values: float) -> xr.Dataset:
     """The stage alone, with other values of stopping."""
-    inside = study.inside.inside
-    inside = inside.model_copy(update={"stopping": inside.stopping.model_copy(update=values)})
-    return stopping_sound(study, inside, study.machine, body(study), made_up(study))
+    stopping = study.machine.stopping.model_copy(update=values)
+    machine = study.machine.model_copy(update={"stopping": stopping})
+    return stopping_sound(study, machine, body(study), made_up(study))
 
 
 def body(study: Study) -> RigidBodyOnMounts:
@@ -230,7 +224,7 @@ def inertia_about_shaft(study: Study) -> float:
     """Rotor and what circles with it; the ring only slides."""
     crank_angle = uniform_crank_angle(256)
     parts = [p for p in scroll_parts(study.machine, crank_angle) if p.source != "oldham"]
-    own = study.inside.inside.stopping.shaft_inertia_kg_m2
+    own = study.machine.stopping.shaft_inertia_kg_m2
     return own + float(inertia_over_angle(parts, np.zeros(1))[0])
 
 
@@ -278,7 +272,7 @@ def test_order_map_follows_the_square_of_the_speed(study, loaded):
     machine = study.machine
     exact = machine.oldham.mass_kg * machine.kinematics.orbit_radius_m * speed**2
     # Over a block the speed falls by s = ΔΩ/Ω; its mean square is that of its mean but for s²/4.
-    torque = study.inside.inside.stopping
+    torque = study.machine.stopping
     drag = torque.friction_torque_n_m + torque.viscous_torque_n_m_s * speed
     fall = drag / inertia_about_shaft(study) * 2.0 * np.pi * MAP_REVOLUTIONS / speed**2
     assert np.all(np.abs(spectra.values / exact - 1.0) < 0.3 * fall**2 + 1e-3)
@@ -320,7 +314,7 @@ def test_report_has_a_section(results):
     assert "There is no order map" in without[1]
 
 
-def test_no_section_without_inside():
+def test_no_section_without_a_stop():
     assert not SECTIONS["stopping"].applies(xr.Dataset())
 
 

@@ -25,8 +25,17 @@ radius_mm = { value = 20.0, source = "a test" }
 CRITERION = """[scoring.criteria]
 force_2x_n = { weight = 1.0, best = 0.0, worst = 1.0 }
 """
+SOURCE = """
+[sources.table]
+kind = "force-table"
+force_n = [1000.0, 0.0, -1000.0, 0.0]
+
+[radiation]
+"""
 ENTRY_POINTS = """[vibroacoustics.options]
 counter-shaft = counter_shaft:CounterShaft
+[vibroacoustics.sources]
+force-table = force_table:ForceTable
 [vibroacoustics.criteria]
 force_2x_n = second_order:SecondForce
 [vibroacoustics.machines]
@@ -62,7 +71,7 @@ def study(tmp_path_factory) -> Path:
     text = TINY.read_text().replace("../../data", str(ROOT / "data"))
     text = text.replace("[receivers.", OPTION.lstrip("\n"), 1)
     text = text.replace("[scoring.criteria]\n", CRITERION)
-    text = text.replace("[radiation]\n", '[radiation]\nroom_solver = "closed-form"\n')
+    text = text.replace("[radiation]\n", f'{SOURCE}room_solver = "closed-form"\n')
     file = tmp_path_factory.mktemp("study") / "study.toml"
     file.write_text(text)
     return file
@@ -71,7 +80,7 @@ def study(tmp_path_factory) -> Path:
 @pytest.fixture(scope="module")
 def finished(study, cache, tmp_path_factory) -> Path:
     out = tmp_path_factory.mktemp("out")
-    named = plugins("counter_shaft", "second_order")
+    named = plugins("counter_shaft", "second_order", "force_table")
     outcome = command(cache, "run", study, "--out", out, *named)
     assert outcome.returncode == 0, outcome.stderr
     return out
@@ -97,6 +106,19 @@ def test_balancer_and_criterion_are_in_force_level_score_and_report(finished):
     assert "force_2x_n" in (finished / "scores.csv").read_text()
 
 
+def test_source_is_in_force_level_and_report(finished):
+    """A cosine of 1 kN through four points: the first order alone."""
+    results = open_results(finished / "results.nc")
+    force = results["force_order"].sel(source="table", option="none", speed=2900.0)
+    assert abs(force.sel(axis="x", order=1).item()) == pytest.approx(1e3, rel=1e-12)
+    assert np.max(np.abs(force.sel(order=[2, 3, 5]))) < 1e-9
+    alone = results["source_level"].sel(sound_source="table", option="none", receiver="front_1m")
+    assert 0.0 < alone.item() < results["level_total"].sel(option="none").item()
+    page = (finished / "report.html").read_text()
+    assert "Force of the table" in page
+    assert "Largest force of the table" in page
+
+
 def test_hashes_of_the_files_are_in_the_results(finished):
     kept = json.loads(open_results(finished / "results.nc").attrs["plugins"])
     assert kept["kind of option counter-shaft"]["file"] == "counter_shaft.py"
@@ -112,15 +134,18 @@ def test_the_report_is_made_again_without_the_files(finished, cache, tmp_path):
 def test_without_the_files_the_study_is_refused(study, cache, tmp_path):
     outcome = command(cache, "run", study, "--out", tmp_path)
     assert_refused(outcome, "options.counter-shaft.kind = counter-shaft: unknown", "allowed")
-    named = plugins("counter_shaft")
+    named = plugins("counter_shaft", "force_table")
     assert_refused(command(cache, "run", study, "--out", tmp_path, *named), "force_2x_n", "unknown")
+    named = plugins("counter_shaft", "second_order")
+    outcome = command(cache, "run", study, "--out", tmp_path, *named)
+    assert_refused(outcome, "sources.table.kind = force-table: unknown; allowed")
     assert not any(tmp_path.iterdir())
 
 
 def test_refusal_names_key_unit_and_bounds(study, cache, tmp_path):
     wrong = tmp_path / "wrong.toml"
     wrong.write_text(study.read_text().replace("mass_g = { value = 10.0", "mass_g = { value = 2e3"))
-    named = plugins("counter_shaft", "second_order")
+    named = plugins("counter_shaft", "second_order", "force_table")
     outcome = command(cache, "run", wrong, "--out", tmp_path / "out", *named)
     assert_refused(outcome, "options.counter-shaft.mass_g = 2000.0 g", "above 0 to 1000 g")
 

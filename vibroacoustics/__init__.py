@@ -4,9 +4,9 @@ The public functions take or return one `xarray.Dataset`, so that a notebook nee
 `load_study`, `run`, `open_results`, `score`, `write_report`; `read_recording`, `label_recording`,
 `analyse_orders`, `compare`.
 
-A file of a stranger that adds a criterion, a balancing option or a kind of machine derives from
-`Criterion`, `Option` or `Machine`, gives its class to `register`, and uses `Added`, `MovingPart`,
-`Revolution`, `Wrench`; `load_plugin` takes it in.
+A file of a stranger that adds a criterion, a balancing option, a source or a kind of machine
+derives from `Criterion`, `Option`, `Source` or `Machine`, gives its class to `register`, and uses
+`Added`, `Case`, `Loads`, `MovingPart`, `Revolution`, `Wrench`; `load_plugin` takes it in.
 """
 
 from importlib import import_module
@@ -19,22 +19,27 @@ if TYPE_CHECKING:
     from .loading import load_study
     from .measurements import label_recording, read_recording
     from .mechanics.added import Added
+    from .mechanics.loads import Loads
     from .mechanics.moving_parts import MovingPart, Revolution, Wrench
     from .outputs import write_report
     from .parameters.criterion import Criterion
     from .parameters.machine import Machine
     from .parameters.option import Option
+    from .parameters.source import Case, Source
     from .pipeline import analyse_orders, run
     from .scoring import score
     from .storage import open_results
 
 __all__ = [
     "Added",
+    "Case",
     "Criterion",
+    "Loads",
     "Machine",
     "MovingPart",
     "Option",
     "Revolution",
+    "Source",
     "Wrench",
     "analyse_orders",
     "compare",
@@ -51,11 +56,14 @@ __all__ = [
 
 _HOME = {
     "Added": "mechanics.added",
+    "Case": "parameters.source",
     "Criterion": "parameters.criterion",
+    "Loads": "mechanics.loads",
     "Machine": "parameters.machine",
     "MovingPart": "mechanics.moving_parts",
     "Option": "parameters.option",
     "Revolution": "mechanics.moving_parts",
+    "Source": "parameters.source",
     "Wrench": "mechanics.moving_parts",
     "analyse_orders": "pipeline",
     "compare": "comparison",

@@ -29,7 +29,7 @@ Plugins = Annotated[
     typer.Option(
         "--plugin",
         metavar="FILE.py",
-        help="Python file with options, machines or criteria of yours; it is run.",
+        help="Python file with options, sources, machines, … of yours; it is run.",
     ),
 ]
 ResultsFile = Annotated[Path, typer.Argument(metavar="RESULTS.nc", help="Results of a run.")]

@@ -104,9 +104,7 @@ def channel_orders(result: xr.Dataset, option: str = REFERENCE_OPTION) -> xr.Dat
     if option not in options:
         raise ParameterError(f"option {option!r}: is none of {', '.join(options)}")
     chosen = result.sel(option=option)
-    parts = [
-        _named(chosen[variable].sum("source"), word, unit) for variable, word, unit in _SIMULATED
-    ]
+    parts = [_named(_by_order(chosen, variable), word, unit) for variable, word, unit in _SIMULATED]
     velocity = chosen["velocity_order"].sum("source")
     translation = velocity.sel(dof=[name for name in velocity["dof"].values if name[0] == "t"])
     parts.append(_named(translation, "velocity", "m/s"))
@@ -127,11 +125,21 @@ def _recorded(result: xr.Dataset) -> xr.DataArray:
 
 
 _SIMULATED: Final = (
-    ("pressure_order", "pressure", "Pa"),
+    ("pressure_line", "pressure", "Pa"),
     ("force_order", "force", "N"),
     ("moment_order", "moment", "N m"),
     ("foot_force_order", "foot force", "N"),
 )
+
+
+def _by_order(study: xr.Dataset, variable: str) -> xr.DataArray:
+    """A variable by shaft order, of all that makes it."""
+    values = study[variable]
+    if "line" not in values.dims:
+        return values.sum("source")
+    lines = values.isel(line=slice(0, study.sizes["order"])).sum("sound_source")  # orders first
+    plain = lines.drop_vars(("line", "line_order", "tone_frequency"))
+    return plain.rename(line="order").assign_coords(order=study["order"])
 
 
 def _named(values: xr.DataArray, word: str, unit: str) -> xr.DataArray:

@@ -4,17 +4,19 @@ import csv
 import os
 import sys
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, Final
 
 from .base.parameters import Kind, split_kind
 from .base.registry import Registry
 from .errors import ParameterError
-from .parameters.inside import DRAWN, Doubt, Inside
 from .parameters.machine import MACHINES, Machine
 from .parameters.option import OPTIONS
+from .parameters.shell_structure import DRAWN_OF_SHELL
+from .parameters.source import SOURCES, Source
 from .parameters.study import ParameterRecord, Study
+from .parameters.uncertainty import Range
 from .units import si_key, split_key
 from .validation import validated
 
@@ -47,12 +49,12 @@ def load_study(path: str | Path) -> Study:
     if machine_table:
         raise ParameterError(f"{path}: machine.{next(iter(machine_table))}: unknown key")
     changes: dict[tuple[str, ...], Any] = {("machine", "override"): overrides}
-    machine, machine_records = _load_machine(machine_file, changes, reader)
+    machine, machine_reader = _load_machine(machine_file, changes, reader)
+    machine_records = machine_reader.records
     redesigns = {
         name: _load_redesign(machine_file, {**changes, _change_of(name): change}, reader)
         for name, change in _changes(content, path)
     }
-    inside_records = _place_inside(content, origin, path)
     scoring = content.get("scoring")
     if isinstance(scoring, dict) and "published_table" in scoring:
         name = scoring.pop("published_table")
@@ -63,7 +65,7 @@ def load_study(path: str | Path) -> Study:
             )
         scoring["published"] = _read_published_table(_beside(origin_file, name))
     _place_files(content, origin, path)
-    for name in ("records", "source_file", "given"):  # filled in here, not by a file
+    for name in ("records", "ranges", "source_file", "given"):  # filled in here, not by a file
         if name in content:
             raise ParameterError(f"{path}: {name}: unknown key")
     given = _take_given(content, reader)
@@ -72,15 +74,22 @@ def load_study(path: str | Path) -> Study:
     for name, (redesigned, change_records) in redesigns.items():
         content["options"][name]["machine"] = redesigned
         machine_records += change_records
-    _place_options(content, reader)
-    content["records"] = (*machine_records, *inside_records, *reader.records)
+    _place_kinds(content, "options", OPTIONS, reader)
+    _place_kinds(content, "sources", SOURCES, reader)
+    used = _tables_used(content)
+    machine_records = [record for record in machine_records if _is_used(record, machine, used)]
+    content["records"] = (*machine_records, *reader.records)
+    content["ranges"] = _ranges(machine, machine_records, _drawn(content), machine_reader)
     return validated(Study, content, reader)
 
 
 def _place_files(
     content: dict[str, Any], origin: Mapping[tuple[str, ...], Path], path: Path
 ) -> None:
-    """Make the names of the radiating body's files relative to the file that gives them."""
+    """Make names of files relative to the file that gives them."""
+    modes = content.get("shell_modes")
+    if isinstance(modes, dict) and isinstance(modes.get("file"), str):
+        modes["file"] = str(_beside(origin.get(("shell_modes", "file"), path), modes["file"]))
     radiation = content.get("radiation")
     body = radiation.get("body") if isinstance(radiation, dict) else None
     if not isinstance(body, dict):
@@ -95,15 +104,76 @@ def _place_files(
             table[name] = str(_beside(file, table[name]))
 
 
-def _place_options(content: dict[str, Any], reader: "_Reader") -> None:
-    """Turn the table of each option into parameters of its kind."""
-    options = content.get("options")
-    if not isinstance(options, dict):  # refused by the study
+def _place_kinds(
+    content: dict[str, Any], name: str, registry: Registry[type[Kind]], reader: "_Reader"
+) -> None:
+    """Turn each table of a table, such as that of the options, into parameters of its kind."""
+    tables = content.get(name)
+    if not isinstance(tables, dict):  # refused by the study
         return
-    for name, table in options.items():
+    for key, table in tables.items():
         if isinstance(table, dict):
-            kind, values = _of_kind(OPTIONS, table, reader.place(("options", name)))
-            options[name] = validated(kind, values, reader, ("options", name))
+            kind, values = _of_kind(registry, table, reader.place((name, key)))
+            tables[key] = validated(kind, values, reader, (name, key))
+
+
+def _sources(content: Mapping[str, Any]) -> list[Source]:
+    tables = content.get("sources")
+    found = tables.values() if isinstance(tables, dict) else ()
+    return [source for source in found if isinstance(source, Source)]
+
+
+def _tables_used(content: Mapping[str, Any]) -> set[str]:
+    """Tables of the machine that the study's sources and stops read."""
+    sources, operation = _sources(content), content.get("operation")
+    used = {name for source in sources for name in source.tables}
+    if any(source.drives_shell for source in sources):
+        used |= {"structure", "variation"}
+    if isinstance(operation, dict) and operation.get("stopping"):
+        used |= {"stopping"}
+    return used
+
+
+def _is_used(record: ParameterRecord, machine: Machine, used: set[str]) -> bool:
+    """Whether the study reads a value: not those of a table that only sources read."""
+    table = record.field.partition(".")[0]
+    field = type(machine).model_fields.get(table)
+    return field is None or field.is_required() or table in used | _ALWAYS_READ
+
+
+_ALWAYS_READ: Final = {"suspension"}
+
+
+def _drawn(content: Mapping[str, Any]) -> frozenset[tuple[str, str]]:
+    """Values that are drawn from their range, by table and field."""
+    sources = _sources(content)
+    of_shell = any(source.drives_shell for source in sources)
+    drawn = frozenset(pair for source in sources for pair in source.drawn)
+    return drawn | DRAWN_OF_SHELL if of_shell else drawn
+
+
+def _ranges(
+    machine: Machine,
+    records: Iterable[ParameterRecord],
+    drawn: frozenset[tuple[str, str]],
+    reader: "_Reader",
+) -> tuple[Range, ...]:
+    """Ranges in SI of the values that are drawn; the machine must take both ends of each."""
+    found = []
+    for record in records:
+        table, _, key = record.field.partition(".")
+        field, factor = si_key(key)
+        if (table, field) not in drawn or record.lowest is None or record.highest is None:
+            continue
+        ends = [(limit, factor * limit) for limit in (record.lowest, record.highest)]
+        model = type(getattr(machine, table))
+        for written, end in ends:
+            reader.file_keys[table, field] = (key, written)
+            values = getattr(machine, table).model_dump() | {field: end}
+            validated(model, values, reader, (table,))
+        lowest, highest = (end for _, end in ends)
+        found.append(Range(table=table, field=field, lowest=lowest, highest=highest))
+    return tuple(found)
 
 
 def _take_given(content: Mapping[str, Any], reader: "_Reader") -> dict[str, dict[str, float]]:
@@ -151,48 +221,6 @@ def _of_kind(
         raise ParameterError(f"{where}{'.' if text.startswith('kind =') else ': '}{text}") from None
 
 
-def _place_inside(
-    content: dict[str, Any], origin: Mapping[tuple[str, ...], Path], path: Path
-) -> list[ParameterRecord]:
-    """Read the file of the inner sources into the study's table that names it."""
-    settings = content.get("inside")
-    if settings is None:
-        return []
-    if not isinstance(settings, dict) or not isinstance(settings.get("file"), str):
-        raise ParameterError(f"{path}: inside.file = missing: name the TOML file of the inside")
-    for name in ("inside", "doubts"):  # filled in here, not by a file
-        if name in settings:
-            raise ParameterError(f"{path}: inside.{name}: unknown key")
-    modes = settings.get("modes")
-    if isinstance(modes, dict) and isinstance(modes.get("file"), str):
-        modes["file"] = str(_beside(origin.get(("inside", "modes", "file"), path), modes["file"]))
-    file = _beside(origin.get(("inside", "file"), path), settings.pop("file"))
-    reader = _Reader(file, {}, sources_required=True)
-    values = reader.to_si(_read_toml(file), ())
-    settings["inside"] = validated(Inside, values, reader)
-    drawn = [record for record in reader.records if _drawn(record)]
-    settings["doubts"] = tuple(_doubt(record, values, reader) for record in drawn)
-    return [
-        record.model_copy(update={"field": f"inside.{record.field}"}) for record in reader.records
-    ]
-
-
-def _drawn(record: ParameterRecord) -> bool:
-    table, _, key = record.field.partition(".")
-    return record.lowest is not None and (table, si_key(key)[0]) in DRAWN
-
-
-def _doubt(record: ParameterRecord, values: dict[str, Any], reader: "_Reader") -> Doubt:
-    """Range of a value in SI; both of its ends must be allowed."""
-    table, key = record.field.split(".")
-    name, factor = si_key(key)
-    ends = [(limit or 0.0, factor * (limit or 0.0)) for limit in (record.lowest, record.highest)]
-    for written, end in ends:
-        reader.file_keys[table, name] = (key, written)
-        validated(Inside, {**values, table: {**values[table], name: end}}, reader)
-    return Doubt(table=table, field=name, lowest=ends[0][1], highest=ends[1][1])
-
-
 def load_machine(path: str | Path) -> Machine:
     """Read a machine file alone.
 
@@ -229,20 +257,20 @@ def _load_redesign(
     path: Path, changes: Mapping[tuple[str, ...], Any], study: "_Reader"
 ) -> tuple[Machine, list[ParameterRecord]]:
     """The changed machine, and the records of the change, which is the last one."""
-    machine, records = _load_machine(path, changes, study)
+    machine, reader = _load_machine(path, changes, study)
     prefix = list(changes)[-1]
     changed = {".".join(keys) for keys in _leaves(changes[prefix])}
     dotted = ".".join(prefix)
     return machine, [
         record.model_copy(update={"field": f"{dotted}.{record.field}"})
-        for record in records
+        for record in reader.records
         if record.field in changed
     ]
 
 
 def _load_machine(
     path: Path, changes: Mapping[tuple[str, ...], Any], study: "_Reader"
-) -> tuple[Machine, list[ParameterRecord]]:
+) -> tuple[Machine, "_Reader"]:
     """The machine of the file with the study's changes; every value of it needs a source.
 
     Parameters
@@ -258,7 +286,7 @@ def _load_machine(
     for prefix, change in changes.items():
         _apply(content, prefix, change, reader, study)
     model, values = _of_kind(MACHINES, reader.to_si(content, ()), f"{path}: machine")
-    return validated(model, values, reader), reader.records
+    return validated(model, values, reader), reader
 
 
 def _apply(

@@ -9,7 +9,7 @@ import xarray as xr
 
 from . import report, storage
 from .errors import StorageError
-from .provenance import SCHEMA_VERSION
+from .provenance import RECORDING_SCHEMA_VERSION, SCHEMA_VERSION
 from .report.figures import Picture
 
 RESULTS_NAME: Final = "results.nc"
@@ -43,10 +43,13 @@ def open_orders(path: str | Path) -> xr.Dataset:
     """
     results = storage.open_results(path)
     version = results.attrs.get("schema_version")
-    if version != SCHEMA_VERSION:
+    recorded = "channel_order" in results
+    allowed = RECORDING_SCHEMA_VERSION if recorded else SCHEMA_VERSION
+    if version != allowed:
+        again = "orders RECORDING" if recorded else "run STUDY.toml"
         raise StorageError(
-            f"{path}: schema_version = {version}: is no result of this version; "
-            f"allowed {SCHEMA_VERSION}"
+            f"{path}: schema_version = {version}: is no result of this version, {allowed}; make it "
+            f"again: vibroacoustics {again}"
         )
     return results
 

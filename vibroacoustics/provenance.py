@@ -11,7 +11,9 @@ from .base.hashing import canonical_json, sha256
 from .base.registry import plugins
 from .parameters.study import Study
 
-SCHEMA_VERSION: Final = "1"
+SCHEMA_VERSION: Final = "2"
+RECORDING_SCHEMA_VERSION: Final = "1"
+"""Of orders of a recording and of compared orders."""
 NOT_INSTALLED: Final = "not installed"
 READERS: Final = ("pyuff", "nptdms")
 """The extra `io`."""
@@ -42,13 +44,13 @@ def attributes(study: Study) -> dict[str, Any]:
     }
 
 
-def software_attributes(command: str) -> dict[str, Any]:
+def software_attributes(command: str, schema_version: str = SCHEMA_VERSION) -> dict[str, Any]:
     """Global attributes of any result: what made it, and when."""
     return {
         "Conventions": "CF-1.11",
         "history": f"{_now()} vibroacoustics {software_version()}: {command}",
         "source": f"vibroacoustics {software_version()}",
-        "schema_version": SCHEMA_VERSION,
+        "schema_version": schema_version,
         "software_version": software_version(),
         "git_revision": git_revision(),
         "package_versions": canonical_json(package_versions()),

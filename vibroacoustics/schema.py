@@ -48,7 +48,7 @@ COORDINATES: Final[dict[str, Variable]] = {
     "pattern": Variable(("pattern",), "", "surface velocity given by a file"),
     "mount_frequency": Variable(("mount_frequency",), "Hz", "frequency of the mounts' response"),
     "weighting": Variable(("weighting",), "", "frequency weighting (IEC 61672-1)"),
-    "fact": Variable(("fact",), "", "reported figure of an option, unit in its name"),
+    "figure": Variable(("figure",), "", "reported figure, unit in its name"),
     "criterion": Variable(("criterion",), "", "scoring criterion"),
     "criterion_label": Variable(("criterion",), "", "the criterion in plain words"),
     "criterion_unit": Variable(("criterion",), "", "unit of the criterion"),
@@ -80,8 +80,11 @@ COORDINATES: Final[dict[str, Variable]] = {
     "compared_channel": Variable(("channel",), "", "channel of the other result"),
     "compared_speed": Variable(("speed",), "rpm", "speed in the other result"),
     "sound_source": Variable(("sound_source",), "", "what makes the sound"),
-    "quantile": Variable(("quantile",), "1", "quantile over the random draws"),
-    "inner_figure_name": Variable(("inner_figure_name",), "", "figure of the inner sources"),
+    "line": Variable(("line",), "", "order or other tone"),
+    "tone_frequency": Variable(("speed", "line"), "Hz", "frequency of a line; empty without it"),
+    "line_order": Variable(("line",), "1", "shaft order of a line; empty where it is none"),
+    "draw": Variable(("draw",), "1", "random set of values"),
+    "drawn_parameter": Variable(("drawn_parameter",), "", "value that is drawn, SI unit in name"),
     "stopping_time": Variable(("stopping_time",), "s", "time from switch-off"),
     "stopping_phase": Variable(("stopping_phase",), "", "before or after switch-off"),
     "stopping_block": Variable(("stopping_block",), "1", "block of revolutions of the run-down"),
@@ -112,7 +115,9 @@ VARIABLES: Final[dict[str, Variable]] = {
     "moment_amplitude": Variable(
         _ORDERS, "N m", "resultant moment, semi-major axis of its ellipse, peak"
     ),
-    "option_fact": Variable(("speed", "option", "fact"), "", "reported figure of an option"),
+    "reported_figure": Variable(
+        ("speed", "option", "figure"), "", "figure of machine, option or source, unit in its name"
+    ),
     "velocity_order": Variable(
         ("speed", "option", "source", "dof", "order"), "m s-1", "velocity of the housing", True
     ),
@@ -194,14 +199,14 @@ VARIABLES: Final[dict[str, Variable]] = {
     "line_difference": Variable(
         _CHANGES, "dB", "1x level with k-Wave's Green's function against the closed form"
     ),
-    "pressure_order": Variable(
-        ("speed", "option", "source", "receiver", "order"), "Pa", "sound pressure", True
+    "pressure_line": Variable(
+        ("speed", "option", "sound_source", "receiver", "line"), "Pa", "sound pressure", True
     ),
     "order_level": Variable(
         ("speed", "option", "receiver", "order", "weighting"), "dB", "level of a shaft order"
     ),
     "level_modelled": Variable(
-        ("speed", "option", "receiver", "weighting"), "dB", "level of all modelled orders"
+        ("speed", "option", "receiver", "weighting"), "dB", "level of all modelled sources"
     ),
     "level_total": Variable(_CHANGES, "dB", "A-weighted level with the unmodelled remainder"),
     "level_remainder": Variable((), "dB", "A-weighted level that the model does not explain"),
@@ -274,37 +279,22 @@ VARIABLES: Final[dict[str, Variable]] = {
         ("channel", "speed", "order"), "rad", "phase of the order in the other result minus this"
     ),
     "source_level": Variable(_SOURCES, "dB", "A-weighted level of a source alone"),
-    "source_level_quantile": Variable(
-        ("quantile", *_SOURCES), "dB", "A-weighted level of a source alone over the draws"
-    ),
     "source_share": Variable(_SOURCES, "1", "share of the A-weighted energy of all sources"),
     "source_band_level": Variable((*_SOURCES, "band"), "dB", "level of a source in a third-octave"),
-    "level_all_sources": Variable(_CHANGES, "dB", "A-weighted level of all modelled sources"),
-    "level_all_sources_quantile": Variable(
-        ("quantile", *_CHANGES), "dB", "A-weighted level of all modelled sources over the draws"
+    "source_level_by_draw": Variable(
+        ("draw", *_SOURCES), "dB", "A-weighted level of a source alone"
     ),
-    "change_all_sources": Variable(_CHANGES, "dB", "its change against none"),
-    "change_all_sources_quantile": Variable(
-        ("quantile", *_CHANGES), "dB", "its change against none over the draws"
+    "level_modelled_by_draw": Variable(
+        ("draw", *_CHANGES), "dB", "A-weighted level of all modelled sources"
     ),
-    "level_whole": Variable(
-        _CHANGES, "dB", "A-weighted level of all modelled sources and the remainder"
+    "level_total_by_draw": Variable(
+        ("draw", *_CHANGES), "dB", "A-weighted level with the draw's own remainder"
     ),
-    "level_whole_quantile": Variable(
-        ("quantile", *_CHANGES), "dB", "the same over the draws, each with its own remainder"
+    "level_remainder_by_draw": Variable(
+        ("draw",), "dB", "A-weighted level that the draw leaves unexplained"
     ),
-    "change_whole": Variable(_CHANGES, "dB", "change of the whole A-weighted level against none"),
-    "change_whole_quantile": Variable(
-        ("quantile", *_CHANGES), "dB", "change of the whole A-weighted level over the draws"
-    ),
-    "inner_remainder_level": Variable(
-        ("quantile",), "dB", "what the draws leave of the overall level"
-    ),
-    "inner_figure": Variable(
-        ("speed", "option", "inner_figure_name"),
-        "",
-        "figure of the inner sources, unit in its name",
-    ),
+    "draw_weight": Variable(("draw",), "1", "weight of the draw; 0 where it is left out"),
+    "drawn_value": Variable(("draw", "drawn_parameter"), "", "drawn value, SI unit in the name"),
     "stopping_duration": Variable(("speed",), "s", "time from switch-off to rest"),
     "stopping_revolutions": Variable(("speed",), "1", "revolutions from switch-off to rest"),
     "stopping_shaft_speed": Variable(

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Annulus, Circle, Polygon, Rectangle
 
 from vibroacoustics.loading import load_study
-from vibroacoustics.parameters.scroll_gas import ScrollWraps
+from vibroacoustics.sources.scroll_gas.parameters import ScrollWraps
 
 HERE = Path(__file__).parent
 ANGLE = np.deg2rad(50.0)
@@ -19,13 +19,13 @@ ARROW = {"arrowstyle": "->", "lw": 2}
 def main() -> None:
     """Wraps in contact and ring with its keys at one crank angle, to scale, from above."""
     study = load_study(HERE.parents[1] / "pipelines" / "copeland_sources.toml")
-    inside = study.inside.inside
-    orbit = 1e3 * inside.wraps.orbit_radius_m
+    machine = study.machine
+    orbit = 1e3 * machine.wraps.orbit_radius_m
     centre = orbit * np.array([np.cos(ANGLE), np.sin(ANGLE)])
     plt.rcParams.update({"svg.hashsalt": "vibroacoustics", "font.size": 11})
     figure, panels = plt.subplots(1, 2, figsize=(9.6, 5.0))
-    draw_wraps(panels[0], inside.wraps, centre)
-    draw_ring(panels[1], 1e3 * inside.keys.radius_m, centre)
+    draw_wraps(panels[0], machine.wraps, centre)
+    draw_ring(panels[1], 1e3 * machine.keys.radius_m, centre)
     for axes in panels:
         axes.set(aspect="equal")
         axes.axis("off")

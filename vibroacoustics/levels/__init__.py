@@ -1,6 +1,7 @@
 """Levels: weightings, sums, bands, filter bank, time weighting, levels of recordings."""
 
 from .bands import Band, band_mean_square, bands_between, measurable_bands
+from .by_source import NoisePower, SourceSound, filled_thirds, source_sound
 from .decibel import (
     SILENCE_DB,
     energy_difference,
@@ -9,6 +10,7 @@ from .decibel import (
     sound_pressure_level,
 )
 from .filter_bank import band_filter, band_signal, class_1_limits_db
+from .labelled import Places, draw_variables, level, level_variables
 from .signal_levels import (
     RecordedLevels,
     band_levels,
@@ -29,7 +31,10 @@ __all__ = [
     "SLOW_TIME_CONSTANT_S",
     "WEIGHTING",
     "Band",
+    "NoisePower",
+    "Places",
     "RecordedLevels",
+    "SourceSound",
     "a_weighting",
     "band_filter",
     "band_levels",
@@ -38,14 +43,19 @@ __all__ = [
     "bands_between",
     "c_weighting",
     "class_1_limits_db",
+    "draw_variables",
     "energy_difference",
     "energy_sum",
     "equivalent_level",
+    "filled_thirds",
+    "level",
     "level_reference",
+    "level_variables",
     "mean_square_level",
     "measurable_bands",
     "recorded_levels",
     "sound_pressure_level",
+    "source_sound",
     "time_weighted_mean_square",
     "weighted_signal",
     "z_weighting",

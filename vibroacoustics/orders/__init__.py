@@ -1,8 +1,8 @@
 """Order analysis: spectra over crank angle and the ellipses of vector orders."""
 
+from ..mechanics.ellipse import semi_major_axis
 from .angular import AngularSignal, angular_resample, whole_revolutions
 from .crank_motion import CrankMotion, constant_speed, from_angle, from_speed
-from .ellipse import semi_major_axis
 from .fourier import FFT_ENGINE
 from .frequency_map import FrequencyMap, frequency_map
 from .order_cut import OrderCut, OrderResolutionWarning, order_cut, order_lines

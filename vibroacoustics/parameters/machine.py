@@ -38,6 +38,7 @@ class Erratum(Parameters):
 
 
 C = TypeVar("C", bound=Capability)
+T = TypeVar("T", bound=Parameters)
 
 
 class Machine(KindOfParameters):
@@ -104,6 +105,24 @@ class Machine(KindOfParameters):
     def capability(self, needed: type[C]) -> C | None:
         """The part of a type that options can work on; none where the machine has none."""
         return next((part for part in self.capabilities if isinstance(part, needed)), None)
+
+    def table(self, wanted: type[T]) -> T:
+        """The machine's table of a type.
+
+        Raises
+        ------
+        ParameterError
+            The machine has none.
+        """
+        for name in type(self).model_fields:
+            table = getattr(self, name)
+            if isinstance(table, wanted):
+                return table
+        raise ParameterError(f"machine {self.name}: has no table of {wanted.__name__}")
+
+    def has_table(self, wanted: type[Parameters]) -> bool:
+        """Whether the machine has a table of a type."""
+        return any(isinstance(getattr(self, name), wanted) for name in type(self).model_fields)
 
     def require(self, needed: type[C]) -> C:
         """The part of a type that options can work on.

@@ -9,6 +9,8 @@ from ..base.parameters import Parameters
 
 JOINTS: Final = ("bearing_housing", "fixed_scroll", "stator")
 """Inner parts that are fixed to the wall."""
+BEARING_HOUSING, FIXED_SCROLL, STATOR = range(3)
+"""Their indices."""
 
 
 class Joint(Parameters):
@@ -51,3 +53,22 @@ class ShellStructure(Parameters):
     bearing_housing: Joint
     fixed_scroll: Joint
     stator: Joint
+
+
+class ShellVariation(Parameters):
+    """How the real shell may differ from the empty closed cylinder of the model."""
+
+    mobility_change_db: float = Field(ge=-40.0, le=40.0)
+    """Added to the level of every path through the shell."""
+    frequency_factor_ratio: float = Field(ge=0.3, le=3.0)
+    """Times every natural frequency: parts and oil inside add stiffness and mass."""
+
+
+DRAWN_OF_SHELL: Final = frozenset(
+    {
+        ("structure", "loss_factor_ratio"),
+        ("variation", "mobility_change_db"),
+        ("variation", "frequency_factor_ratio"),
+    }
+)
+"""Values of an elastic shell that are drawn from their range; the others change its modes."""

@@ -5,17 +5,19 @@ from typing import Any, Final
 from pydantic import Field, field_validator, model_validator
 
 from ..base.parameters import Parameters
-from ..mechanics.capabilities import OldhamRing
 from ..schema import REFERENCE_OPTION
 from ..units import orders_below, shaft_frequency_hz
-from .inside import InsideSettings
-from .machine import AnyMachine, Machine
+from .machine import AnyMachine
 from .option import AnyOption, Option
 from .radiation import RadiationSettings
 from .receivers import Receiver
+from .run_down import Stopping
 from .scoring import Scoring, check_given, check_scales
+from .shell_structure import ShellStructure, ShellVariation
 from .sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
+from .source import AnySource
 from .speeds import MOST_SPEEDS, speed_range
+from .uncertainty import MeasuredModes, Range, Uncertainty
 
 MOST_SPEEDS_WITH_TIME_SERIES: Final = 100
 LEAST_ORDERS: Final = 2
@@ -31,6 +33,10 @@ class Operation(Parameters):
     """None for as many at each speed as the highest frequency of the radiation holds."""
     keep_time_series: bool | None = None
     """Forces and moments over crank angle in the results; none for up to 100 speeds only."""
+    supply_frequency_hz: tuple[float, ...] | None = None
+    """Of the motor's supply, one for each speed; where a source needs it."""
+    stopping: bool = False
+    """Whether a stop from each speed is computed, where the machine has a table of that name."""
 
     @field_validator("speed_rpm", mode="before")
     @classmethod
@@ -46,6 +52,15 @@ class Operation(Parameters):
                 raise ValueError(f"speed_rpm = {speed:g} rpm: allowed 60 to 60000 rpm")
         if len(set(self.speed_rpm)) < len(self.speed_rpm):
             raise ValueError("speed_rpm lists a speed twice")
+        supply = self.supply_frequency_hz
+        if supply is not None and len(supply) != len(self.speed_rpm):
+            raise ValueError(
+                f"supply_frequency_hz: {len(supply)} values for {len(self.speed_rpm)} speeds; one "
+                "is needed for each"
+            )
+        for frequency in supply or ():
+            if not 1.0 <= frequency <= 1e3:
+                raise ValueError(f"supply_frequency_hz = {frequency:g} Hz: allowed 1 to 1000 Hz")
         return self
 
     @property
@@ -85,8 +100,13 @@ class Study(Parameters):
     sound_power: SoundPowerSettings | None = None
     map: MapSettings | None = None
     directivity: DirectivitySettings | None = None
-    inside: InsideSettings | None = None
-    """Inner sources and the elastic shell; none for the rigid machine alone."""
+    sources: dict[str, AnySource] = Field(default_factory=dict)
+    """Who drives the machine beside its moving parts."""
+    uncertainty: Uncertainty = Uncertainty()
+    shell_modes: MeasuredModes | None = None
+    """Measured modes of the shell, in place of the computed ones."""
+    ranges: tuple[Range, ...] = ()
+    """Of the machine's values that are drawn at random."""
     records: tuple[ParameterRecord, ...] = ()
     source_file: str = ""
 
@@ -115,7 +135,7 @@ class Study(Parameters):
                 f"shell; the overall noise holds at {published.distance_m:g} m"
             )
         self._check_orders()
-        self._check_inside()
+        self._check_sources()
         surroundings = self.radiation.surroundings
         if self.sound_power and (surroundings.walls or surroundings.cabinet):
             raise ValueError(
@@ -150,45 +170,43 @@ class Study(Parameters):
                 f"{highest:g} Hz"
             )
 
-    def _check_inside(self) -> None:
-        """Refuse inner sources that do not belong to the machine."""
-        if self.inside is None:
-            return
-        published = self.machine.overall_noise
-        if published.speed_rpm not in self.operation.speed_rpm:
+    def _check_sources(self) -> None:
+        """Refuse sources that the machine, or what an option makes of it, cannot have."""
+        if "moving_parts" in self.sources:
+            raise ValueError("sources.moving_parts: are always there; choose another name")
+        changed = {
+            f"options.{name}.change: ": option.applied_to(self.machine)
+            for name, option in self.options.items()
+            if option.applied_to(self.machine) is not self.machine
+        }
+        for name, source in self.sources.items():
+            for where, machine in {"": self.machine, **changed}.items():
+                if reason := source.why_not(machine):
+                    raise ValueError(f"{where}sources.{name}.kind = {source.kind}: {reason}")
+        published, operation = self.machine.overall_noise.speed_rpm, self.operation
+        if operation.supply_frequency_hz and published not in operation.speed_rpm:
             raise ValueError(
                 "operation.speed_rpm: must include the speed of the overall noise, "
-                f"{published.speed_rpm:g} rpm, to fix the remainder"
+                f"{published:g} rpm, whose supply_frequency_hz is not known otherwise"
             )
-        if self.machine.capability(OldhamRing) is None:
-            raise ValueError(
-                f"inside: needs a scroll with an Oldham ring; the machine is {self.machine.kind}"
-            )
-        if len(self.inside.line_frequency_hz) != len(self.operation.speed_rpm):
-            raise ValueError(
-                f"inside.line_frequency_hz: {len(self.inside.line_frequency_hz)} values for "
-                f"{len(self.operation.speed_rpm)} speeds; one is needed for each"
-            )
-        twice = 2.0 * max(self.inside.line_frequency_hz)
-        if twice > self.radiation.maximum_frequency_hz:
+        twice = 2.0 * max(self.operation.supply_frequency_hz or (0.0,))
+        if self.sources and twice > self.radiation.maximum_frequency_hz:
             raise ValueError(
                 f"radiation.maximum_frequency_hz = {self.radiation.maximum_frequency_hz:g} Hz: "
-                f"twice the line frequency is {twice:g} Hz"
+                f"twice the supply frequency is {twice:g} Hz"
             )
-        self._check_orbit("", self.machine, self.inside)
-        for name, option in self.options.items():
-            machine = option.applied_to(self.machine)
-            self._check_orbit(f"options.{name}.change: ", machine, self.inside)
-
-    def _check_orbit(self, where: str, machine: Machine, settings: InsideSettings) -> None:
-        """Refuse a machine that does not orbit as the wraps of the inside do."""
-        orbit = machine.require(OldhamRing).stroke_m
-        wraps = settings.inside.wraps.orbit_radius_m
-        if abs(orbit - wraps) > 0.01 * wraps:
+        bends = self.machine.has_table(ShellStructure) and self.machine.has_table(ShellVariation)
+        if self.drives_shell and not bends:
             raise ValueError(
-                f"{where}inside: its wraps orbit at {1e3 * wraps:.4g} mm; the machine's "
-                f"kinematics.orbit_radius_mm = {1e3 * orbit:.4g} mm: must agree within 1 %"
+                "sources: drive an elastic shell; the machine has no tables structure and variation"
             )
+        if self.operation.stopping and not self.machine.has_table(Stopping):
+            raise ValueError("operation.stopping: the machine has no table stopping")
+
+    @property
+    def drives_shell(self) -> bool:
+        """Whether a source loads the joints of an elastic shell."""
+        return any(source.drives_shell for source in self.sources.values())
 
     def _check_fits(self, name: str, option: Option) -> None:
         """Refuse an option that the machine has no part for, or that changes what all share."""

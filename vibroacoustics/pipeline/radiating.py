@@ -14,8 +14,8 @@ from ..parameters.sound_power import SoundPowerSettings
 from ..parameters.study import Study
 from ..schema import VARIABLES, WEIGHTINGS, check, label_coordinates, stamp
 from ..units import shaft_frequency_hz
-from .inner_sound import shell_path
 from .progress import Progress
+from .shell import shell_path
 
 Radiation = Callable[[Study, Progress, Sequence[radiation.SurfaceMotion]], tuple[xr.Dataset, bool]]
 """From a study and the shell's modes to transfer vectors, and whether they were known already."""

@@ -210,7 +210,9 @@ def _attributes(
     kept = ("source_sha256", "start_time", "sample_rate_hz")
     parameters = asdict(settings) | {"orders": [float(order) for order in settings.orders]}
     return {
-        **provenance.software_attributes(f"orders of {source}"),
+        **provenance.software_attributes(
+            f"orders of {source}", provenance.RECORDING_SCHEMA_VERSION
+        ),
         "title": f"Orders of {source}",
         "source_file": source,
         **{name: recording.attrs[name] for name in kept if name in recording.attrs},

@@ -15,7 +15,7 @@ from .progress import Progress
 SPEEDS_IN_BLOCK: Final = 50
 MOST_BYTES: Final = 2**31
 TIME_SERIES: Final = ("force", "moment", "shaft_speed", "crank_time", "crank_angle")
-OF_SOUND: Final = ("pressure_order", "order_level", "level_modelled", "level_total")
+OF_SOUND: Final = ("pressure_line", "order_level", "level_modelled", "level_total")
 """What is computed of the motion later, and by far the largest of it."""
 
 
@@ -38,20 +38,20 @@ def gathered(parts: Iterable[xr.Dataset], speeds: int) -> xr.Dataset:
     speeds : number of speeds of all blocks
     """
     rows: dict[str, xr.Variable] = {}
-    facts: list[xr.DataArray] = []
+    figures: list[xr.DataArray] = []
     steady, done = xr.Dataset(), 0
     for part in parts:
-        facts.append(part["option_fact"])
+        figures.append(part["reported_figure"])
         at = {"speed": slice(done, done + part.sizes["speed"])}
-        for name, variable in part.drop_dims("fact").variables.items():
+        for name, variable in part.drop_dims("figure").variables.items():
             if "speed" in variable.dims:
                 if name not in rows:
                     rows[str(name)] = _room(variable, speeds)
                 rows[str(name)][at] = variable
-        steady, done = part.drop_dims(["speed", "fact"]), at["speed"].stop
+        steady, done = part.drop_dims(["speed", "figure"]), at["speed"].stop
     coords = {name: rows.pop(name) for name in list(rows) if name in COORDINATES}
     whole = steady.assign_coords(coords).assign(rows)
-    return whole.assign(option_fact=_all_facts(facts))
+    return whole.assign(reported_figure=_all_figures(figures))
 
 
 def _room(variable: xr.Variable, speeds: int) -> xr.Variable:
@@ -60,10 +60,10 @@ def _room(variable: xr.Variable, speeds: int) -> xr.Variable:
     return xr.Variable(variable.dims, np.empty(shape, dtype=variable.dtype), variable.attrs)
 
 
-def _all_facts(parts: Sequence[xr.DataArray]) -> xr.DataArray:
-    names = list(dict.fromkeys(name for part in parts for name in part["fact"].values))
-    facts: xr.DataArray = xr.concat([part.reindex(fact=names) for part in parts], "speed")
-    return facts
+def _all_figures(parts: Sequence[xr.DataArray]) -> xr.DataArray:
+    names = list(dict.fromkeys(name for part in parts for name in part["figure"].values))
+    figures: xr.DataArray = xr.concat([part.reindex(figure=names) for part in parts], "speed")
+    return figures
 
 
 def check_size(study: Study, first: xr.Dataset, progress: Progress) -> None:
@@ -91,6 +91,8 @@ def result_bytes(study: Study, first: xr.Dataset) -> int:
         "speed": len(study.operation.speed_rpm),
         "receiver": len(study.receivers),
         "weighting": len(WEIGHTINGS),
+        "sound_source": 1 + len(study.sources),
+        "line": first.sizes["order"],
     }
     by_speed = [str(name) for name, array in first.data_vars.items() if "speed" in array.dims]
     return sum(_bytes(name, sizes) for name in (*by_speed, *OF_SOUND))

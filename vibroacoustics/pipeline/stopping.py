@@ -13,19 +13,24 @@ from ..errors import ParameterError
 from ..mechanics.moving_parts import MovingPart
 from ..mechanics.rotation import Array, uniform_crank_angle
 from ..orders import angular_resample, from_angle, order_map
-from ..parameters.inside import Inside
 from ..parameters.machine import Machine
 from ..parameters.run_down import Stopping
+from ..parameters.source import Shared
 from ..parameters.study import Study
 from ..schema import AXES, check, stamp
-from ..sources.scroll_gas.cycle import scroll_gas_cycle
+from ..sources.gas import gas_cycle
 from ..stopping.coasting import RunDown, run_down
+from ..stopping.event import (
+    FADE_S,
+    STEADY_S,
+    Clock,
+    StoppingEvent,
+    stopping_event,
+)
 from ..transfer import RigidBodyOnMounts, SuspendedBlock
+from ..transfer.transient import LOAD_SAMPLES, RESULT_SAMPLES
 from ..units import shaft_frequency_hz
-from .inner_sound import rigid_pressures
-from .inner_sources import GAS_SAMPLES
-from .stopping_event import FADE_S, STEADY_S, Clock, StoppingEvent, stopping_event
-from .transient import LOAD_SAMPLES, RESULT_SAMPLES
+from .sound import pressure_per_velocity
 
 SHIFTED: Final = ("orbiting_scroll", "brake", "oldham")
 """The set that the brake lets turn against pin and counterweights (thesis 6.4)."""
@@ -48,7 +53,6 @@ MAP_SAMPLES: Final = 32
 
 def stopping_sound(
     study: Study,
-    inside: Inside,
     machine: Machine,
     body: RigidBodyOnMounts | SuspendedBlock,
     results: xr.Dataset,
@@ -58,13 +62,12 @@ def stopping_sound(
     Parameters
     ----------
     study : its speeds
-    inside : gas and stopping
-    machine : moving parts
+    machine : moving parts, gas and stopping
     body : the machine on its mounts
     results : with the transfer vectors of the rigid motions
     """
     speeds = study.operation.speed_rpm
-    stops = _Stops.of(inside, machine)
+    stops = _Stops.of(machine)
     rate = RESULT_SAMPLES * float(results["frequency"].values[-1])
     before = REVOLUTIONS_BEFORE / shaft_frequency_hz(min(speeds))
     lead = FADE_S + STEADY_S + before
@@ -75,10 +78,8 @@ def stopping_sound(
     ]
     after = max(run.stop_time_s for run in runs) + SHOWN_AFTER_S
     clock = Clock(rate, round(before * rate), round(after * rate), round(lead * rate))
-    events = [
-        stopping_event(run, clock, body, lambda hertz: rigid_pressures(results, hertz))
-        for run in runs
-    ]
+    vectors = pressure_per_velocity(results["transfer_vector"])
+    events = [stopping_event(run, clock, body, vectors) for run in runs]
     return _labelled(speeds, results, runs, clock, events).merge(_map(stops, max(speeds)))
 
 
@@ -91,10 +92,10 @@ class _Stops:
     gas_torque_n_m: Array
 
     @classmethod
-    def of(cls, inside: Inside, machine: Machine) -> "_Stops":
-        gas = scroll_gas_cycle(inside.wraps, inside.gas, uniform_crank_angle(GAS_SAMPLES))
+    def of(cls, machine: Machine) -> "_Stops":
+        gas = gas_cycle(machine, Shared())
         parts = machine.moving_parts(uniform_crank_angle(PATH_SAMPLES))
-        return cls(inside.stopping, parts, gas.torque_n_m)
+        return cls(machine.table(Stopping), parts, gas.torque_n_m)
 
     def run_down(self, speed_rpm: float, rate_hz: float, steady_revolutions: int) -> RunDown:
         return run_down(

@@ -7,17 +7,20 @@ import xarray as xr
 
 from ..mechanics.rotation import Array
 from ..parameters.study import Study
+from .cases import sources_of
+from .motion import Motion
 
 
-def words(study: Study, results: xr.Dataset) -> dict[str, Any]:
+def words(study: Study, motion: Motion, results: xr.Dataset) -> dict[str, Any]:
     """What machine and options say of themselves, as JSON values.
 
     Parameters
     ----------
     study : with machine and options
+    motion : with the loads of the sources
     results : with their reported figures
     """
-    inner_sources = study.inside is not None
+    inner_sources = bool(study.sources)
     options = study.options.items()
     left_out = [
         *study.machine.leaves_out(inner_sources),
@@ -26,22 +29,33 @@ def words(study: Study, results: xr.Dataset) -> dict[str, Any]:
     labels = dict(study.machine.labels)
     for _, option in options:
         labels |= option.labels
+    for source in study.sources.values():
+        labels |= source.labels
     return {
         "axes": study.machine.axes,
         "orders": study.machine.orders,
         "leaves_out": list(dict.fromkeys(left_out)),
         "labels": labels,
+        "shell_bends": study.drives_shell,
+        "source_figures": _source_figures(motion),
+        "sources": {name: own.label for name, own in sources_of(study).items() if own.label},
         "sentences": {
             name: list(option.sentences(_figures(results, name))) for name, option in options
         },
     }
 
 
+def _source_figures(motion: Motion) -> list[str]:
+    """Names of the figures that sources report."""
+    loads = (load for case in motion.loads.values() for load in case.values())
+    return sorted({name for load in loads for name in load.figures})
+
+
 def _figures(results: xr.Dataset, option: str) -> dict[str, Array]:
     """Reported figures of an option, each over the speeds at which it has one."""
-    table = results["option_fact"].sel(option=option).transpose("fact", "speed")
+    table = results["reported_figure"].sel(option=option).transpose("figure", "speed")
     return {
         str(name): row[np.isfinite(row)]
-        for name, row in zip(table["fact"].values, table.values, strict=True)
+        for name, row in zip(table["figure"].values, table.values, strict=True)
         if np.isfinite(row).any()
     }

@@ -25,7 +25,7 @@ from .radiation_figures import radiation_figures
 from .radiation_tables import radiation_text
 from .scores import scores_csv
 from .source_tables import sources_csv
-from .study import has_inner_sources
+from .study import has_sources
 
 __all__ = [
     "compared_order_figures",
@@ -56,7 +56,7 @@ def render(results: xr.Dataset) -> dict[str, bytes]:
         "comparison.csv": comparison_csv(results),
         "comparison.md": markdown(page),
         "scores.csv": scores_csv(results),
-        **({"sources.csv": sources_csv(results)} if has_inner_sources(results) else {}),
+        **({"sources.csv": sources_csv(results)} if has_sources(results) else {}),
         **{file: picture.png for file, picture in page.pictures().items()},
     }
 

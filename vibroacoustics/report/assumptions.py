@@ -6,8 +6,8 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
-from .bands import Band, band_words
-from .study import catalogue_receiver, has_inner_sources, overall_noise, parameters, words
+from .bands import band, band_words
+from .study import catalogue_receiver, has_draws, overall_noise, parameters, words
 from .tables import Table
 
 ASSUMED: Final = "assumed"
@@ -30,7 +30,7 @@ ELASTIC_SHELL: Final = (
     "other than its torque, the flow through the discharge port and sound in the gas of the shell "
     "are not modelled; they are part of the remainder.",
 )
-"""Instead of RIGID_SHELL where inner sources are modelled."""
+"""Instead of RIGID_SHELL where sources drive the shell."""
 
 NOT_MODELLED: Final = (
     "Gas pulsation in the suction and discharge pipes is not modelled.",
@@ -46,7 +46,7 @@ NOT_MODELLED: Final = (
 
 def not_modelled(results: xr.Dataset) -> tuple[str, ...]:
     """What the results leave out, one sentence or two each."""
-    of_shell = ELASTIC_SHELL if has_inner_sources(results) else RIGID_SHELL
+    of_shell = ELASTIC_SHELL if words(results)["shell_bends"] else RIGID_SHELL
     return (*of_shell, *NOT_MODELLED, *words(results)["leaves_out"])
 
 
@@ -81,8 +81,8 @@ def remainder_sentence(results: xr.Dataset) -> str:
         for record in parameters(results)["records"]
     )
     who = "The catalogue gives" if not assumed else "The level of the whole machine is assumed:"
-    if has_inner_sources(results):
-        rest = Band(*map(float, results["inner_remainder_level"].values))
+    if has_draws(results):
+        rest = band(results, "level_remainder")
         left = f"{rest.ends(rounding.fixed)} dB(A) ({band_words(results)} of the draws)"
     else:
         left = f"{rounding.fixed(results['level_remainder'].item(), 3)} dB(A)"

@@ -1,12 +1,14 @@
 """Bands of the draws: what the ranges of the assumed values leave open."""
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 import xarray as xr
 
 from ..base import rounding
+from ..schema import REFERENCE_OPTION
+from .study import has_draws
 
 
 class Band(NamedTuple):
@@ -30,15 +32,41 @@ class Band(NamedTuple):
         return Band(*(energy_share(level, level_db) for level in self))
 
 
+QUANTILES: Final = (0.1, 0.5, 0.9)
+
+
+def quantiles(results: xr.Dataset, name: str) -> xr.DataArray:
+    """Quantiles of an A-weighted level or its change over the draws that count, (quantile, ...).
+
+    Where nothing was drawn all are the value as given.
+
+    Parameters
+    ----------
+    results : of a run
+    name : `source_level`, `level_modelled`, `level_total`, `level_remainder`, `change_modelled`
+        or `change_total`
+    """
+    if not has_draws(results):
+        given = results[name]
+        given = given.sel(weighting="A", drop=True) if "weighting" in given.dims else given
+        return given.expand_dims(quantile=list(QUANTILES))
+    level = results[f"{name.replace('change', 'level')}_by_draw"]
+    level = level.isel(draw=results["draw_weight"].values > 0.0)
+    if name.startswith("change"):
+        level = level - level.sel(option=REFERENCE_OPTION, drop=True)
+    found: xr.DataArray = level.quantile(QUANTILES, "draw")
+    return found
+
+
 def band(results: xr.Dataset, name: str, **at: Any) -> Band:
     """Band of a variable's quantiles at a speed, option, receiver or source."""
-    return Band(*map(float, results[f"{name}_quantile"].sel(at).transpose("quantile").values))
+    return Band(*map(float, quantiles(results, name).sel(at).transpose("quantile").values))
 
 
 def bands_by_speed(results: xr.Dataset, name: str, **at: Any) -> tuple[Band, ...]:
     """Bands of a variable's quantiles at every speed, at an option and a receiver."""
-    quantiles = results[f"{name}_quantile"].sel(at).transpose("speed", "quantile").values
-    return tuple(Band(*row) for row in quantiles.tolist())
+    rows = quantiles(results, name).sel(at).transpose("speed", "quantile").values
+    return tuple(Band(*row) for row in rows.tolist())
 
 
 def energy_share(level_db: float, of_level_db: float) -> float:
@@ -59,12 +87,10 @@ def percent(share: float) -> str:
 
 def draws(results: xr.Dataset) -> tuple[int, int]:
     """Draws that are kept, and those left out because they alone exceed the overall level."""
-    attrs = results["source_level_quantile"].attrs
-    louder = int(attrs["draws_above_overall_level"])
-    return int(attrs["draws"]) - louder, louder
+    weight = results["draw_weight"].values
+    return int(np.count_nonzero(weight)), int(np.count_nonzero(weight == 0.0))
 
 
 def band_words(results: xr.Dataset) -> str:
     """`10 to 90 % quantiles`."""
-    quantiles = results["quantile"].values
-    return f"{100.0 * quantiles[0]:.0f} to {100.0 * quantiles[-1]:.0f} % quantiles"
+    return f"{100.0 * QUANTILES[0]:.0f} to {100.0 * QUANTILES[-1]:.0f} % quantiles"

@@ -18,10 +18,6 @@ DOF_WORDS: Final = {
 
 _NAMES: Final = {
     "dissipated_power_w": "Dissipated power",
-    "key_impacts_per_revolution": "Impacts of the keys per revolution",
-    "key_force_peak_n": "Largest force on a key",
-    "key_contact_lost_above_rpm": "Speed above which keys lose contact, with friction",
-    "foot_force_2x_line_n": "Largest foot force at twice the line frequency (motor, not 2×)",
     "weighted_sum": "Weighted sum",
     "topsis": "TOPSIS",
 }

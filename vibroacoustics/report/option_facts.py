@@ -12,8 +12,11 @@ from .tables import Table
 
 def facts_table(results: xr.Dataset) -> Table | None:
     """One row per figure of the machine or an option, one column per speed; None without any."""
-    of_study = words(results)["labels"]
-    facts = results["option_fact"].transpose("option", "fact", "speed")
+    known = words(results)
+    of_study = known["labels"]
+    facts = results["reported_figure"].transpose("option", "figure", "speed")
+    kept = [name not in known["source_figures"] for name in facts["figure"].values]
+    facts = facts.isel(figure=kept)
     rows = tuple(
         (
             option,
@@ -22,7 +25,9 @@ def facts_table(results: xr.Dataset) -> Table | None:
             *(rounding.significant(value) for value in values),
         )
         for option in [REFERENCE_OPTION, *balancers(results)]
-        for fact, values in zip(facts["fact"].values, facts.sel(option=option).values, strict=True)
+        for fact, values in zip(
+            facts["figure"].values, facts.sel(option=option).values, strict=True
+        )
         if np.isfinite(values).any() and (option, fact) != (REFERENCE_OPTION, "added_mass_kg")
     )
     head = ("Option", "Figure", "Unit", *(f"At {speed:g} rpm" for speed in speeds(results)))

@@ -9,7 +9,7 @@ import xarray as xr
 from ..base import rounding
 from .shifts import JUDGED, LINE, MODELLED, TOTAL, Shift, shift
 from .source_changes import change_sentences, source_change
-from .study import balancers, catalogue_receiver, has_inner_sources, other_receivers, words
+from .study import balancers, catalogue_receiver, has_sources, other_receivers, words
 
 BETTER: Final = "better"
 WORSE: Final = "worse"
@@ -36,9 +36,9 @@ def option_verdicts(results: xr.Dataset) -> list[OptionVerdict]:
 def option_verdict(results: xr.Dataset, option: str) -> OptionVerdict:
     """Judge one option by its 1x force, moment, foot force and line, at every microphone.
 
-    Where gas, keys and motor are modelled, the band of all sources stands for the modelled level.
+    With further sources the band of all sources stands for the modelled level.
     """
-    inside = source_change(results, option) if has_inner_sources(results) else None
+    inside = source_change(results, option) if has_sources(results) else None
     shifts = [
         shift(results, quantity, option)
         for quantity in JUDGED
@@ -110,7 +110,7 @@ def _milli(value: float) -> str:
 
 
 def _mass(results: xr.Dataset, option: str) -> str:
-    mass = results["option_fact"].sel(option=option, fact="added_mass_kg").values
+    mass = results["reported_figure"].sel(option=option, figure="added_mass_kg").values
     if not np.nanmax(mass) > 0.0:
         return ""
     return f"It adds {rounding.span(1e3 * mass, rounding.significant)} g."

@@ -7,7 +7,7 @@ import xarray as xr
 
 from ..base import rounding
 from . import labels
-from .study import has_inner_sources, options, parameters
+from .study import has_sources, options, parameters
 from .tables import Table, to_csv
 
 SUM_TOLERANCE: Final = 1e-6
@@ -83,10 +83,10 @@ def scores_table(results: xr.Dataset) -> Table:
 
 
 def scope_words(results: xr.Dataset) -> str:
-    """Say that the scores count the inner sources."""
-    if not has_inner_sources(results):
+    """Say that the scores count further sources."""
+    if not has_sources(results):
         return ""
-    return " The change of level in the scores counts gas, keys and motor, at the assumed values."
+    return " The change of level in the scores counts all sources, at the assumed values."
 
 
 def published_table(results: xr.Dataset) -> Table | None:

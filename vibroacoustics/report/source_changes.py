@@ -33,7 +33,7 @@ def source_change(results: xr.Dataset, option: str) -> SourceChange:
     """Changes by an option at the catalogue's microphone."""
     at = {"option": option, "receiver": catalogue_receiver(results)}
     return SourceChange(
-        *(bands_by_speed(results, name, **at) for name in ("change_all_sources", "change_whole"))
+        *(bands_by_speed(results, name, **at) for name in ("change_modelled", "change_total"))
     )
 
 
@@ -50,7 +50,7 @@ def changes_sentence(results: xr.Dataset) -> str:
     ]
     if rest:
         ends = [end for option in rest for own in changes[option].whole for end in own]
-        assumed = results["change_whole"].sel(option=rest, receiver=catalogue_receiver(results))
+        assumed = results["change_total"].sel(option=rest, receiver=catalogue_receiver(results))
         largest = float(np.abs([*ends, *assumed.values.ravel()]).max())
         bound = 0.1 * max(np.ceil(10.0 * largest), 1.0)
         which = "No other option changes" if louder or quieter else "No option changes"
@@ -66,7 +66,7 @@ def change_sentences(results: xr.Dataset, option: str) -> list[str]:
     """What an option does to all sources and the total, and why."""
     own = source_change(results, option)
     return [
-        f"With gas, keys and motor the modelled level changes by {_by_speed(results, own.sources)} "
+        f"With all sources the modelled level changes by {_by_speed(results, own.sources)} "
         f"({band_words(results)} of the draws), the total by {_by_speed(results, own.whole)}.",
         *_impacts(results, option),
     ]
@@ -121,8 +121,8 @@ def _impacts(results: xr.Dataset, option: str) -> list[str]:
 
 
 def key_figure(results: xr.Dataset, option: str, name: str) -> NDArray[np.float64]:
-    """A figure of the inner sources at every speed; NaN where the option has none."""
-    figures = results["inner_figure"]
-    if name not in figures["inner_figure_name"].values:
+    """A figure of the sources at every speed; NaN where the option has none."""
+    figures = results["reported_figure"]
+    if name not in figures["figure"].values:
         return np.full(len(speeds(results)), np.nan)
-    return np.asarray(figures.sel(option=option, inner_figure_name=name).values)
+    return np.asarray(figures.sel(option=option, figure=name).values)

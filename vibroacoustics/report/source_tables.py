@@ -8,11 +8,11 @@ import xarray as xr
 from ..base import rounding
 from ..schema import REFERENCE_OPTION
 from . import labels
-from .bands import Band, band, band_words, energy_share, percent
+from .bands import QUANTILES, Band, band, band_words, energy_share, percent, quantiles
 from .comparison import column
 from .source_changes import key_figure
 from .source_words import quoted_speed, ranked, source_name
-from .study import balancers, catalogue_receiver, options, overall_noise, speeds
+from .study import balancers, catalogue_receiver, options, overall_noise, speeds, words
 from .tables import Table, to_csv
 
 
@@ -48,35 +48,35 @@ def change_tables(results: xr.Dataset) -> list[Table]:
 
 
 def figures_table(results: xr.Dataset) -> Table:
-    """Figures of the inner sources, and those of options that differ from no balancer."""
-    names = [str(name) for name in results["inner_figure"]["inner_figure_name"].values]
+    """Figures of the sources, and those of options that differ from no balancer."""
+    known = words(results)["source_figures"]
+    names = [str(name) for name in results["reported_figure"]["figure"].values if name in known]
     cells = {
         (option, name): tuple(map(rounding.significant, key_figure(results, option, name)))
         for option, name in product([REFERENCE_OPTION, *balancers(results)], names)
     }
     rows = tuple(
-        (option, labels.name(name), labels.unit(name) or "1", *values)
+        (option, labels.name(name, words(results)["labels"]), labels.unit(name) or "1", *values)
         for (option, name), values in cells.items()
         if set(values) != {rounding.NOTHING}
         and (option == REFERENCE_OPTION or values != cells[REFERENCE_OPTION, name])
     )
     head = ("Option", "Figure", "Unit", *(f"At {speed:g} rpm" for speed in speeds(results)))
-    caption = "Figures of the inner sources, values as assumed; options where they differ from none"
+    caption = "Figures of the sources, values as assumed; options where they differ from none"
     return Table(caption, head, rows, frozenset({0, 1, 2}))
 
 
 def sources_csv(results: xr.Dataset) -> bytes:
     """One row per option, speed, microphone and source, to nine significant digits."""
     dims = ("option", "speed", "receiver", "sound_source")
-    quantiles = {
-        f"level_{100.0 * quantile:.0f}_percent_dba": results["source_level_quantile"].sel(
-            quantile=quantile
-        )
-        for quantile in results["quantile"].values
+    drawn = quantiles(results, "source_level")
+    by_quantile = {
+        f"level_{100.0 * quantile:.0f}_percent_dba": drawn.sel(quantile=quantile)
+        for quantile in QUANTILES
     }
     columns = {
         "level_dba": results["source_level"],
-        **quantiles,
+        **by_quantile,
         "share_of_modelled_energy": results["source_share"],
     }
     values = zip(
@@ -102,7 +102,7 @@ def _source_table(results: xr.Dataset, speed: float) -> Table:
         ]
     rows = [
         _row(
-            source_name(source).capitalize(),
+            source_name(results, source).capitalize(),
             _level(results, source, speed),
             level,
             share,
@@ -112,16 +112,16 @@ def _source_table(results: xr.Dataset, speed: float) -> Table:
         for source, level in ranked(results, speed)
         for share in (percent(_at(results, "source_share", speed, sound_source=source)),)
     ]
-    modelled, whole = (_at(results, name, speed) for name in ("level_all_sources", "level_whole"))
+    modelled, whole = (_at(results, name, speed) for name in ("level_modelled", "level_total"))
     sums = (
-        ("All modelled sources", modelled, _band(results, "level_all_sources", speed), "100 %"),
+        ("All modelled sources", modelled, _band(results, "level_modelled", speed), "100 %"),
         (
             "Not modelled, the remainder",
             _difference(whole, modelled),
-            Band(*map(float, results["inner_remainder_level"].values)),
+            band(results, "level_remainder"),
             rounding.NOTHING,
         ),
-        ("Whole machine", whole, _band(results, "level_whole", speed), rounding.NOTHING),
+        ("Whole machine", whole, _band(results, "level_total", speed), rounding.NOTHING),
     )
     rows += [_row(*own, quoted, overall) for own in sums]
     caption = (
@@ -150,7 +150,7 @@ def _change_row(results: xr.Dataset, option: str, speed: float) -> tuple[str, ..
     line = column(results, "level_1x_db").sel(of_both).values
     change = float(column(results, "change_1x_db").sel(place))
     cells = [option, rounding.level_change(change, *map(float, line))]
-    for name in ("change_all_sources", "change_whole"):
+    for name in ("change_modelled", "change_total"):
         cells.append(rounding.signed(float(results[name].sel(place))))
         cells.append(band(results, name, **place).ends(rounding.signed))
     at = speeds(results).index(speed)
@@ -172,7 +172,10 @@ def _at(results: xr.Dataset, name: str, speed: float, **more: str) -> float:
         "receiver": catalogue_receiver(results),
         **more,
     }
-    return float(results[name].sel(place))
+    values = results[name]
+    if "weighting" in values.dims:
+        place["weighting"] = "A"
+    return float(values.sel(place))
 
 
 def _level(results: xr.Dataset, source: str, speed: float) -> float:

@@ -1,6 +1,5 @@
 """Which source carries the modelled level, in sentences made from its numbers."""
 
-from collections.abc import Sequence
 from typing import Final
 
 import xarray as xr
@@ -12,27 +11,23 @@ from .bands import Band, band, band_words, draws, energy_share, percent
 from .study import (
     catalogue_receiver,
     first_order_hz,
+    has_draws,
     many_speeds,
     overall_noise,
     parameters,
     speeds,
+    words,
 )
 
-NAMES: Final = {
-    "moving_parts": "moving parts (orders of the rigid machine)",
-    "gas": "gas forces",
-    "keys": "Oldham keys",
-    "torque_ripple": "torque ripple on the stator",
-    "motor": "motor at twice the line frequency",
-}
+LINE_FIGURE: Final = "foot_force_2x_line_n"
+
+_TABLES: Final = {"variation": "path through the shell", "structure": "shell"}
 
 
-_TABLES: Final = {"doubt": "path through the shell"}
-
-
-def source_name(source: str) -> str:
+def source_name(results: xr.Dataset, source: str) -> str:
     """Plain words for a source of sound."""
-    return NAMES.get(source, source.replace("_", " "))
+    label = words(results)["sources"].get(source, source.replace("_", " "))
+    return str(label)
 
 
 def quoted_speed(results: xr.Dataset) -> float:
@@ -56,8 +51,9 @@ def carrier_sentence(results: xr.Dataset) -> str:
     share, assumed = level.share_of(overall), _assumed_level(results, source)
     return (
         f"At {catalogue_receiver(results)} and {speed:g} rpm, without a balancer, the loudest "
-        f"modelled source is: {source_name(source)}, {rounding.level(level.middle)} dB(A) in the "
-        f"middle of the draws ({band_words(results)} {level.ends(rounding.level)}) or "
+        f"modelled source is: {source_name(results, source)}, "
+        f"{rounding.level(level.middle)} dB(A) in the middle of the draws "
+        f"({band_words(results)} {level.ends(rounding.level)}) or "
         f"{rounding.level(assumed)} dB(A) at the assumed values, which is "
         f"{percent(share.middle)} ({share.ends(percent)}) or "
         f"{percent(energy_share(assumed, overall))} of the energy of {overall:g} dB(A)."
@@ -73,11 +69,11 @@ def shares_sentence(results: xr.Dataset) -> str:
         "receiver": catalogue_receiver(results),
     }
     shares = [
-        f"{source_name(source)} {level.share_of(overall).whole(percent)}"
+        f"{source_name(results, source)} {level.share_of(overall).whole(percent)}"
         for source, level in ranked(results, speed)
     ]
-    together = band(results, "level_all_sources", **at).share_of(overall)
-    rest = Band(*map(float, results["inner_remainder_level"].values)).share_of(overall)
+    together = band(results, "level_modelled", **at).share_of(overall)
+    rest = band(results, "level_remainder").share_of(overall)
     return (
         f"Of the energy of {overall:g} dB(A) there, in the middle of the draws with the "
         f"{band_words(results)} in brackets: {'; '.join(shares)}; all modelled sources together "
@@ -87,12 +83,15 @@ def shares_sentence(results: xr.Dataset) -> str:
 
 def certainty_sentences(results: xr.Dataset) -> list[str]:
     """What the ranking and the bands rest on."""
-    texts = [_ranking(results), left_out_sentence(results), _as_assumed(results), _drawn(results)]
-    return [*filter(None, texts), _up_to(results), _not_an_order(results)]
+    texts = [_ranking(results), left_out_sentence(results), _as_assumed(results)]
+    texts += [_drawn(results)] if has_draws(results) else []
+    return [*filter(None, [*texts, _up_to(results), _not_an_order(results)])]
 
 
 def left_out_sentence(results: xr.Dataset) -> str:
     """How many draws the bands rest on, and why others do not count."""
+    if not has_draws(results):
+        return "No value of the sources has a range: nothing was drawn, and there are no bands."
     kept, louder = draws(results)
     overall = overall_noise(results)["level_dba"]
     if not louder:
@@ -132,7 +131,7 @@ def _assumed_level(results: xr.Dataset, source: str) -> float:
 
 def _ranking(results: xr.Dataset) -> str:
     (first, loudest), (second, next_one) = ranked(results, quoted_speed(results))[:2]
-    names = f"{source_name(first)} and {source_name(second)}"
+    names = f"{source_name(results, first)} and {source_name(results, second)}"
     if loudest.lowest > next_one.highest:
         gap = rounding.fixed(loudest.lowest - next_one.highest)
         return (
@@ -154,28 +153,30 @@ def _as_assumed(results: xr.Dataset) -> str:
         return ""
     side = "above" if value > level.highest else "below"
     return (
-        f"At the assumed values, nothing drawn, {source_name(source)} alone reach "
+        f"At the assumed values, nothing drawn, {source_name(results, source)} alone reach "
         f"{rounding.level(value)} dB(A), {side} the band: its share is not known better than from "
         f"{percent(level.share_of(overall).lowest)} to {percent(energy_share(value, overall))}."
     )
 
 
 def _drawn(results: xr.Dataset) -> str:
-    doubts: Sequence[dict[str, str]] = parameters(results)["inside"]["doubts"]
+    """Which values were drawn, and how many others of their tables are assumed and fixed."""
     tables: dict[str, list[str]] = {}
-    for doubt in doubts:
-        tables.setdefault(doubt["table"], []).append(labels.name(doubt["field"]).lower())
-    words = "; ".join(
+    for own in parameters(results)["ranges"]:
+        tables.setdefault(own["table"], []).append(labels.name(own["field"]).lower())
+    words_of = "; ".join(
         f"{_TABLES.get(table, table)}: {', '.join(fields)}" for table, fields in tables.items()
     )
-    inner = [
-        record for record in parameters(results)["records"] if record["field"].startswith("inside.")
+    known = [
+        record
+        for record in parameters(results)["records"]
+        if record["field"].partition(".")[0] in tables
     ]
-    assumed = sum(str(record["source"]).startswith("assumed") for record in inner)
+    assumed = sum(str(record["source"]).startswith("assumed") for record in known)
     return (
-        f"Drawn from their ranges by Latin hypercube ({words}). The other values of the inside, "
-        f"such as where the parts are welded to the shell, are fixed; {assumed} of {len(inner)} "
-        "values of the inside are assumed."
+        f"Drawn from their ranges by Latin hypercube ({words_of}). The other values of these "
+        f"tables, such as where the parts are welded to the shell, are fixed; {assumed} of "
+        f"{len(known)} values of these tables are assumed."
     )
 
 
@@ -189,7 +190,9 @@ def _up_to(results: xr.Dataset) -> str:
 
 def _not_an_order(results: xr.Dataset) -> str:
     """Keep the motor's line apart from 2x."""
-    lines = parameters(results)["inside"]["line_frequency_hz"]
+    if LINE_FIGURE not in results["figure"].values:
+        return ""
+    lines = parameters(results)["operation"]["supply_frequency_hz"]
     pairs = (
         f"{rounding.span(lines, lambda line: f'{2.0 * line:g}')} Hz beside 2× at "
         f"{rounding.span(2.0 * first_order_hz(results), rounding.fixed)} Hz"
@@ -201,8 +204,8 @@ def _not_an_order(results: xr.Dataset) -> str:
             )
         )
     )
-    figures = results["inner_figure"].sel(option=REFERENCE_OPTION)
-    motor = float(figures.sel(inner_figure_name="foot_force_2x_line_n").max())
+    figures = results["reported_figure"].sel(option=REFERENCE_OPTION)
+    motor = float(figures.sel(figure=LINE_FIGURE).max())
     foot = results["foot_force_amplitude"].sel(order=1, option=REFERENCE_OPTION)
     return (
         f"The motor's line at twice the line frequency is no order of the shaft: {pairs}. It and "

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ..base import rounding
 from ..schema import REFERENCE_OPTION
+from .source_words import LINE_FIGURE
 from .study import parameters, speeds
 from .tables import Table
 
@@ -73,8 +74,10 @@ def _loudest(results: xr.Dataset) -> str:
 
 
 def _line_foot_force_n(results: xr.Dataset, speed: int) -> float:
-    figures = results["inner_figure"].sel(option=REFERENCE_OPTION).isel(speed=speed)
-    return float(figures.sel(inner_figure_name="foot_force_2x_line_n"))
+    if LINE_FIGURE not in results["figure"].values:
+        return float("nan")
+    figures = results["reported_figure"].sel(option=REFERENCE_OPTION).isel(speed=speed)
+    return float(figures.sel(figure=LINE_FIGURE))
 
 
 def _map_sentence(results: xr.Dataset) -> str:
@@ -92,7 +95,7 @@ def _map_sentence(results: xr.Dataset) -> str:
 
 
 def _limits(results: xr.Dataset) -> str:
-    stop = parameters(results)["inside"]["inside"]["stopping"]
+    stop = parameters(results)["machine"]["stopping"]
     return (
         f"Assumed: the orbiting set turns by {rounding.fixed(np.degrees(stop['shift_rad']))}° "
         f"against its counterweights within {rounding.significant(1e3 * stop['shift_duration_s'])} "

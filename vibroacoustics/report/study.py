@@ -55,9 +55,14 @@ def overall_noise(results: xr.Dataset) -> dict[str, float]:
     return dict(parameters(results)["machine"]["overall_noise"])
 
 
-def has_inner_sources(results: xr.Dataset) -> bool:
-    """Whether gas, keys and motor drive an elastic shell."""
-    return "source_level" in results
+def has_sources(results: xr.Dataset) -> bool:
+    """Whether more than the moving parts drives the machine."""
+    return bool(results.sizes["sound_source"] > 1)
+
+
+def has_draws(results: xr.Dataset) -> bool:
+    """Whether values were drawn from their ranges."""
+    return "draw_weight" in results
 
 
 def first_order_hz(results: xr.Dataset) -> NDArray[np.float64]:

@@ -31,7 +31,7 @@ from .study import (
     balancers,
     catalogue_receiver,
     first_order_hz,
-    has_inner_sources,
+    has_sources,
     many_speeds,
     overall_noise,
     parameters,
@@ -48,7 +48,7 @@ COMPARED: Final = (FORCE, MOMENT, FOOT_FORCE, LINE, MODELLED, TOTAL)
 def headline(results: xr.Dataset) -> str:
     """What carries the level where that is modelled; else what balancing does to the level."""
     receiver, names = catalogue_receiver(results), balancers(results)
-    if has_inner_sources(results):
+    if has_sources(results):
         return carrier_sentence(results)
     if not names:
         return f"This study has no balancing option beside {REFERENCE_OPTION}."
@@ -63,7 +63,7 @@ def headline(results: xr.Dataset) -> str:
 
 def reasons(results: xr.Dataset) -> list[str]:
     """Sentences that explain the headline."""
-    inside = has_inner_sources(results)
+    inside = has_sources(results)
     texts = [_as_it_is(results)]
     if inside:
         texts += [shares_sentence(results), left_out_sentence(results)]
@@ -83,7 +83,7 @@ def extremes_table(results: xr.Dataset) -> Table | None:
         return None
     rows = tuple(_extremes(results, quantity) for quantity in COMPARED)
     head = ("Quantity, largest over the speeds", "Without balancer", "Best option", "Worst option")
-    values = ", values as assumed" if has_inner_sources(results) else ""
+    values = ", values as assumed" if has_sources(results) else ""
     return Table(
         f"Best and worst, levels at {catalogue_receiver(results)}{values}",
         head,
@@ -223,12 +223,12 @@ def _extremes(results: xr.Dataset, quantity: Quantity) -> tuple[str, ...]:
     highest = values.max("speed")
     worst = highest.sel(option=balancers(results)).clip(min=quantity.floor)
     best_name, worst_name = (str(find("option").item()) for find in (worst.idxmin, worst.idxmax))
-    exact = quantity == TOTAL and not has_inner_sources(results)
+    exact = quantity == TOTAL and not has_sources(results)
     write = _write_total if exact else quantity.write
     own = highest.sel(option=REFERENCE_OPTION).item()
     best = highest.sel(option=best_name).item()
     close = quantity in (MODELLED, TOTAL) and own - best < TOLERANCE_DB
-    none_better = close and has_inner_sources(results)
+    none_better = close and has_sources(results)
     return (
         quantity.words,
         write(own),

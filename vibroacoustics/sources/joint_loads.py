@@ -1,20 +1,15 @@
-"""What the inner sources of a scroll do to the shell's joints, over crank angle."""
+"""What the sources of a scroll do to the shell's joints, over crank angle."""
 
 from collections.abc import Sequence
 
 import numpy as np
 
+from ..mechanics.loads import JOINT_COMPONENTS, Complex
 from ..mechanics.moving_parts import Array
-from ..parameters.shell_structure import JOINTS
+from ..parameters.shell_structure import BEARING_HOUSING, FIXED_SCROLL, JOINTS, STATOR
 from .induction_motor.torque_lines import TorqueLine
 from .oldham_keys.rattle import KeyForces
 from .scroll_gas.cycle import ScrollGasCycle
-
-BEARING_HOUSING, FIXED_SCROLL, STATOR = (
-    JOINTS.index(name) for name in ("bearing_housing", "fixed_scroll", "stator")
-)
-COMPONENTS = 4
-"""Force along x, y, z and moment about z, on each joint."""
 
 
 def gas_loads(cycle: ScrollGasCycle) -> Array:
@@ -32,7 +27,7 @@ def gas_loads(cycle: ScrollGasCycle) -> Array:
     shape (joint, component, samples), N and N m
     """
     force, (x, y) = cycle.on_fixed_scroll_n, cycle.line_of_action_m
-    loads = np.zeros((len(JOINTS), COMPONENTS, force.shape[-1]))
+    loads = np.zeros((len(JOINTS), JOINT_COMPONENTS, force.shape[-1]))
     loads[FIXED_SCROLL, :3] = force
     loads[FIXED_SCROLL, 3] = x * force[1] - y * force[0]
     loads[BEARING_HOUSING, :3] = -force
@@ -75,13 +70,13 @@ def key_torque_n_m(forces: KeyForces, stroke_m: float) -> Array:
     return np.asarray(stroke_m * (along_x * np.sin(angle) - along_y * np.cos(angle)))
 
 
-def stator_loads(lines: Sequence[TorqueLine]) -> tuple[Array, Array]:
+def stator_loads(lines: Sequence[TorqueLine]) -> tuple[Complex, Complex]:
     """Torque of the motor on the stator, and the roll moment on the whole machine, by line.
 
     Returns
     -------
     loads, roll_moment : complex peaks, shapes (joint, component, line) and (line,), N m
     """
-    loads = np.zeros((len(JOINTS), COMPONENTS, len(lines)), dtype=complex)
+    loads = np.zeros((len(JOINTS), JOINT_COMPONENTS, len(lines)), dtype=complex)
     loads[STATOR, 3] = [-line.motor_torque_n_m for line in lines]
     return loads, np.array([line.roll_moment_n_m for line in lines], dtype=complex)

@@ -2,6 +2,7 @@
 
 from .bushings import Bushing, RigidBody
 from .isolation import Isolation
+from .machine import largest_foot_force_n, on_mounts
 from .mounts import FOOT_NAMES, RigidBodyOnMounts
 from .suspended_block import SuspendedBlock
 from .tube import tube_stiffness
@@ -13,5 +14,7 @@ __all__ = [
     "RigidBody",
     "RigidBodyOnMounts",
     "SuspendedBlock",
+    "largest_foot_force_n",
+    "on_mounts",
     "tube_stiffness",
 ]

@@ -15,7 +15,13 @@ from ...mechanics.capabilities import (
     Slider,
 )
 from ...mechanics.moving_parts import Array, MovingPart, Revolution
+from ...mechanics.scroll_shaft import ScrollShaft
 from ...parameters.machine import PART_MASS, Machine
+from ...parameters.run_down import Stopping
+from ...parameters.shell_structure import ShellStructure, ShellVariation
+from ...sources.induction_motor.parameters import CapacitorMotor, TurningRotor
+from ...sources.oldham_keys.parameters import OldhamKeys
+from ...sources.scroll_gas.parameters import ScrollGas, ScrollWraps
 
 
 class Kinematics(Parameters):
@@ -54,6 +60,17 @@ class OldhamScroll(Machine):
     brake: OrbitingPart
     counterweights: BalancePlanes
     """The mass moments follow from two-plane balance of the orbiting parts."""
+    wraps: ScrollWraps | None = None
+    gas: ScrollGas | None = None
+    keys: OldhamKeys | None = None
+    motor: CapacitorMotor | None = None
+    """At its own line frequency; a study names those of its speeds."""
+    rotor: TurningRotor | None = None
+    structure: ShellStructure | None = None
+    """Of the shell, where it may bend."""
+    variation: ShellVariation | None = None
+    stopping: Stopping | None = None
+    shaft: ScrollShaft | None = None
 
     @property
     def capabilities(self) -> tuple[Capability, ...]:

@@ -1,6 +1,5 @@
 """The columns that every comparison has, and further ones of the CSV: one line each."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Final
 
@@ -8,7 +7,8 @@ import xarray as xr
 
 from ...base import rounding
 from ...base.registry import register
-from ..study import has_inner_sources
+from ..bands import quantiles
+from ..study import has_draws, has_sources
 from . import Column, Values
 
 
@@ -28,17 +28,12 @@ def _modelled(weighting: str) -> Values:
     return lambda results: results["level_modelled"].sel(weighting=weighting)
 
 
-def _either(orders: Values, all_sources: str) -> Values:
-    """Of the orders; where gas, keys and motor are modelled, of all sources as assumed."""
-    return lambda results: results[all_sources] if has_inner_sources(results) else orders(results)
-
-
 def _variable(name: str) -> Values:
     return lambda results: results[name]
 
 
 def _quantile(name: str, quantile: float) -> Values:
-    return lambda results: results[f"{name}_quantile"].sel(quantile=quantile)
+    return lambda results: quantiles(results, name).sel(quantile=quantile)
 
 
 def _level(value: float, results: xr.Dataset) -> str:
@@ -51,18 +46,8 @@ def _change(value: float, results: xr.Dataset) -> str:
 
 def _total_change(value: float, results: xr.Dataset) -> str:
     """To 0.001 dB; of all sources, which rest on assumed values, to 0.1 dB."""
-    return rounding.signed(value, 1 if has_inner_sources(results) else 3)
+    return rounding.signed(value, 1 if has_sources(results) else 3)
 
-
-def _orders_only(results: xr.Dataset) -> bool:
-    return not has_inner_sources(results)
-
-
-_modelled_level = _either(_modelled("A"), "level_all_sources")
-_total_level = _either(_variable("level_total"), "level_whole")
-_modelled_change = _either(_variable("change_modelled"), "change_all_sources")
-_whole_change = _either(_variable("change_total"), "change_whole")
-_drawn: Callable[[xr.Dataset], bool] = has_inner_sources
 
 # fmt: off
 _COLUMNS: Final = (
@@ -73,19 +58,19 @@ _COLUMNS: Final = (
     Column("level_1x_db", _line(1, "Z"), "Level 1×, dB", "1x dB", _level),
     Column("level_2x_db", _line(2, "Z"), "Level 2×, dB", "2x dB", _level),
     Column("level_1x_dba", _line(1, "A"), "Level 1×, dB(A)", None, _level),
-    Column("level_modelled_dba", _modelled_level, "Modelled level, dB(A)", "model dB(A)", _level),
-    Column("level_total_dba", _total_level, "Total level, dB(A)", None, _level),
+    Column("level_modelled_dba", _modelled("A"), "Modelled level, dB(A)", "model dB(A)", _level),
+    Column("level_total_dba", _variable("level_total"), "Total level, dB(A)", None, _level),
     Column("change_1x_db", _variable("change_1x"), "Δ 1×, dB", "Δ1x dB", _change, "level_1x_db"),
-    Column("change_modelled_dba", _modelled_change, "Δ modelled, dB", None, _change, "level_modelled_dba"),  # noqa: E501
-    Column("change_total_dba", _whole_change, "Δ total, dB", "Δtotal dB", _total_change),
-    Column("level_modelled_db", _modelled("Z"), applies=_orders_only),
-    Column("level_modelled_dbc", _modelled("C"), applies=_orders_only),
-    Column("change_all_sources_10_percent_db", _quantile("change_all_sources", 0.1), applies=_drawn),  # noqa: E501
-    Column("change_all_sources_50_percent_db", _quantile("change_all_sources", 0.5), applies=_drawn),  # noqa: E501
-    Column("change_all_sources_90_percent_db", _quantile("change_all_sources", 0.9), applies=_drawn),  # noqa: E501
-    Column("change_whole_10_percent_db", _quantile("change_whole", 0.1), applies=_drawn),
-    Column("change_whole_50_percent_db", _quantile("change_whole", 0.5), applies=_drawn),
-    Column("change_whole_90_percent_db", _quantile("change_whole", 0.9), applies=_drawn),
+    Column("change_modelled_dba", _variable("change_modelled"), "Δ modelled, dB", None, _change, "level_modelled_dba"),  # noqa: E501
+    Column("change_total_dba", _variable("change_total"), "Δ total, dB", "Δtotal dB", _total_change),  # noqa: E501
+    Column("level_modelled_db", _modelled("Z")),
+    Column("level_modelled_dbc", _modelled("C")),
+    Column("change_modelled_10_percent_db", _quantile("change_modelled", 0.1), applies=has_draws),
+    Column("change_modelled_50_percent_db", _quantile("change_modelled", 0.5), applies=has_draws),
+    Column("change_modelled_90_percent_db", _quantile("change_modelled", 0.9), applies=has_draws),
+    Column("change_total_10_percent_db", _quantile("change_total", 0.1), applies=has_draws),
+    Column("change_total_50_percent_db", _quantile("change_total", 0.5), applies=has_draws),
+    Column("change_total_90_percent_db", _quantile("change_total", 0.9), applies=has_draws),
 )
 # fmt: on
 

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from ...base import rounding
 from ..comparison import comparison
-from ..study import catalogue_receiver, few_speeds, has_inner_sources, options, speeds
+from ..study import catalogue_receiver, few_speeds, has_sources, options, speeds
 from .first_order import first_order_marks, mark_first_order
 from .style import (
     COLOURS,
@@ -40,7 +40,7 @@ def level_figures(results: xr.Dataset) -> list[Picture]:
     receiver = catalogue_receiver(results)
     compared = comparison(results).sel(receiver=receiver)
     names, shown_speeds = options(results), speeds(few_speeds(results))
-    what = "sources" if has_inner_sources(results) else "orders"
+    what = "sources" if has_sources(results) else "orders"
     kinds = {
         "level_1x_dba": ("1× line", "o", 6, COLOURS[3]),
         "level_modelled_dba": (f"all modelled {what}", "|", 13, COLOURS[1]),
@@ -70,7 +70,7 @@ def level_figures(results: xr.Dataset) -> list[Picture]:
             "orders lie far below it."
             if float(compared["level_modelled_dba"].max()) < float(total.min()) - 10.0
             else f"A-weighted levels at {receiver}: 1× line, all modelled {what} and the total"
-            f"{', at the assumed values' if has_inner_sources(results) else ''}.",
+            f"{', at the assumed values' if has_sources(results) else ''}.",
             draw(len(shown_speeds), 0.7 + 0.26 * len(names), paint, sharex=True),
         )
     ]

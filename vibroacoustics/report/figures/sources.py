@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ...schema import REFERENCE_OPTION
 from ..shifts import HEARD_DB
 from ..source_words import quoted_speed, source_name
-from ..study import balancers, catalogue_receiver, few_speeds, has_inner_sources, speeds
+from ..study import balancers, catalogue_receiver, few_speeds, has_sources, speeds
 from .style import MARKERS, Picture, draw, frequency_ticks, legend_below, line_looks, wrap
 
 QUIETEST_DB: Final = -10.0
@@ -24,7 +24,7 @@ MOVING_PARTS: Final = "moving_parts"
 
 def source_figures(results: xr.Dataset) -> list[Picture]:
     """Spectra of the sources without a balancer; of the options that change the inner ones."""
-    if not has_inner_sources(results):
+    if not has_sources(results):
         return []
     changing = _changing_options(results)
     pictures = [_sources(results)]
@@ -41,12 +41,15 @@ def _sources(results: xr.Dataset) -> Picture:
         for source in spectra["sound_source"].values
         if spectra.sel(sound_source=source).max() > QUIETEST_DB
     ]
-    silent = [source_name(str(s)) for s in spectra["sound_source"].values if str(s) not in shown]
+    silent = [
+        source_name(results, str(s)) for s in spectra["sound_source"].values if str(s) not in shown
+    ]
 
     def paint(panels: Sequence[Axes]) -> None:
         (axes,) = panels
         curves = [spectra.sel(sound_source=source).values for source in shown]
-        _curves(axes, spectra["band"].values, curves, [source_name(name) for name in shown])
+        names = [source_name(results, source) for source in shown]
+        _curves(axes, spectra["band"].values, curves, names)
         axes.set_xlabel("Third-octave band, Hz")
         axes.set_ylabel("Level, dB re 20 µPa, unweighted")
         legend_below(axes, 1)
@@ -81,7 +84,7 @@ def _options(results: xr.Dataset, changing: list[str]) -> Picture:
 
     return Picture(
         "sources_options",
-        f"Third-octave levels of all inner sources together at {receiver} for {', '.join(names)}.",
+        f"Third-octave levels of all sources together at {receiver} for {', '.join(names)}.",
         f"Gas, keys and motor together (energies added) at {receiver}, values as assumed, no "
         f"weighting: options that change a band within {WITHIN_DB:g} dB of the loudest by more "
         f"than {HEARD_DB:g} dB. The 1× line is not in it.",
@@ -107,7 +110,7 @@ def _curves(
 
 
 def _changing_options(results: xr.Dataset) -> list[str]:
-    """Options that change a loud band of the inner sources by what can be heard."""
+    """Options that change a loud band of the sources by what can be heard."""
     level = _inner_level(results)
     reference = level.sel(option=REFERENCE_OPTION)
     loudest = reference.max("band")

@@ -8,7 +8,7 @@ from ..blocks import Block, Details, Heading, Text
 from ..comparison import comparison_tables
 from ..kept_columns import columns_of
 from ..speeds import chosen_speeds
-from ..study import catalogue_receiver, has_inner_sources, other_receivers
+from ..study import catalogue_receiver, has_sources, other_receivers
 from . import Section
 
 
@@ -29,9 +29,9 @@ def _blocks(results: xr.Dataset) -> list[Block]:
 
 def _legend(results: xr.Dataset) -> Text:
     sources = (
-        " Modelled and total levels include gas, keys and motor, at the assumed values; their "
+        " Modelled and total levels include all sources, at the assumed values; their "
         "bands are in What carries the level."
-        if has_inner_sources(results)
+        if has_sources(results)
         else ""
     )
     links = [

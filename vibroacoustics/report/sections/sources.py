@@ -7,7 +7,7 @@ from .. import source_tables, source_words
 from ..blocks import Block, Bullets, Heading, Pictures, Text
 from ..figures import source_figures
 from ..speeds import chosen_speeds
-from ..study import few_speeds, has_inner_sources
+from ..study import few_speeds, has_sources
 from . import Section
 
 
@@ -50,4 +50,4 @@ def _changes(results: xr.Dataset) -> list[Block]:
     ]
 
 
-register(Section("sources", "What carries the level", _blocks, has_inner_sources, 30.0))
+register(Section("sources", "What carries the level", _blocks, has_sources, 30.0))

@@ -17,4 +17,4 @@ class AddedMass(Criterion):
 
     def value(self, results: xr.Dataset) -> xr.DataArray:
         """Added mass, kg."""
-        return results["option_fact"].sel(fact="added_mass_kg", drop=True).max("speed")
+        return results["reported_figure"].sel(figure="added_mass_kg", drop=True).max("speed")

@@ -12,8 +12,8 @@ from ...schema import REFERENCE_OPTION
 class LevelChange(Criterion):
     """Change of the modelled A-weighted level, energy mean over the microphones.
 
-    Of all modelled sources where the study has inner ones, else of the shaft's orders. Worst over
-    the speeds. The mean keeps a microphone near a node of the sound field from deciding the score.
+    Worst over the speeds. The mean keeps a microphone near a node of the sound field from deciding
+    the score.
     """
 
     name = "level_change_db"
@@ -23,9 +23,7 @@ class LevelChange(Criterion):
 
     def value(self, results: xr.Dataset) -> xr.DataArray:
         """Change against `none`, dB."""
-        inner = "level_all_sources" in results
-        level = results["level_all_sources" if inner else "level_modelled"]
-        power = 10.0 ** ((level if inner else level.sel(weighting="A")) / 10.0)
+        power = 10.0 ** (results["level_modelled"].sel(weighting="A") / 10.0)
         mean_level = 10.0 * xr.apply_ufunc(np.log10, power.mean("receiver"))
         change: xr.DataArray = mean_level - mean_level.sel(option=REFERENCE_OPTION, drop=True)
         return change.max("speed")

@@ -4,7 +4,7 @@ import numpy as np
 
 from ...errors import ParameterError
 from ...mechanics.moving_parts import Array
-from ...parameters.induction_motor import KlossMotor
+from .parameters import KlossMotor
 
 
 def torque(motor: KlossMotor, slip: Array) -> Array:

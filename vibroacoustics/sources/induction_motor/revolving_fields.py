@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
 from ...errors import ParameterError
-from ...parameters.induction_motor import CapacitorMotor
+from .parameters import CapacitorMotor
 
 LARGEST_RUNNING_SLIP: Final = 0.5
 """The breakdown torque of a running compressor motor lies below this slip."""

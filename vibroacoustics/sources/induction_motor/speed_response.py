@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...mechanics.moving_parts import Array
-from ...parameters.induction_motor import CapacitorMotor
+from .parameters import CapacitorMotor
 
 ComplexArray = NDArray[np.complex128]
 

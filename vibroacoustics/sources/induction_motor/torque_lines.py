@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...mechanics.moving_parts import Array
-from ...parameters.induction_motor import CapacitorMotor
+from .parameters import CapacitorMotor
 from .revolving_fields import OperatingPoint, point_at_torque
 from .speed_response import (
     ComplexArray,

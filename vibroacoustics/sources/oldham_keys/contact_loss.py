@@ -9,7 +9,7 @@ import numpy as np
 
 from ...mechanics.moving_parts import Array
 from ...mechanics.rotation import uniform_crank_angle
-from ...parameters.oldham_keys import OldhamKeys
+from .parameters import OldhamKeys
 
 
 def contact_loss_speed_rpm(

@@ -8,11 +8,11 @@ from scipy.interpolate import CubicSpline
 
 from ...errors import ParameterError, SolverError
 from ...mechanics.moving_parts import Array
-from ...parameters.oldham_keys import OldhamKeys
 from ...units import shaft_frequency_hz
 from .contact import CONTACT_LAWS
 from .equations import COORDINATES, Coupling
 from .integration import integrate
+from .parameters import OldhamKeys
 
 SETTLING_REVOLUTIONS: Final = 4
 """Left out: from the start in the middle of the slots. At rated load, at all corners of the assumed

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...mechanics.moving_parts import Array, path
-from ...parameters.scroll_gas import ScrollGas, ScrollWraps
+from .parameters import ScrollGas, ScrollWraps
 from .pockets import area_inside, contact_angle, contact_count
 from .pressures import pocket_pressure
 

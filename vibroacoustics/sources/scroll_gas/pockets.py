@@ -8,7 +8,7 @@ It falls by the crank angle, and the next contact inwards lies a turn further in
 import numpy as np
 
 from ...mechanics.moving_parts import Array
-from ...parameters.scroll_gas import ScrollWraps
+from .parameters import ScrollWraps
 
 
 def contact_angle(wraps: ScrollWraps, angle_since_closing: Array) -> Array:

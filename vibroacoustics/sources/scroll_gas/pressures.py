@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 
 from ...mechanics.moving_parts import Array
-from ...parameters.scroll_gas import ScrollGas, ScrollWraps
+from .parameters import ScrollGas, ScrollWraps
 from .pockets import built_in_volume_ratio, displacement_m3, pocket_volume
 
 OPENED_BEFORE: Final = 1e-9

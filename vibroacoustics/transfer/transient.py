@@ -7,9 +7,9 @@ from typing import Final
 import numpy as np
 from scipy import fft
 
+from ..mechanics.loads import Complex
 from ..mechanics.rotation import Array
-from ..transfer import RigidBodyOnMounts, SuspendedBlock
-from .inner_keys import Complex
+from . import RigidBodyOnMounts, SuspendedBlock
 
 LOAD_SAMPLES: Final = 2
 """Samples of the load per sample of the result: a jump of the load aliases less."""

@@ -4,7 +4,7 @@ import math
 
 from pydantic import Field
 
-from ..base.parameters import Parameters
+from ...base.parameters import Parameters
 
 OHM = Field(gt=0.0, le=1e5)
 
@@ -46,3 +46,8 @@ class CapacitorMotor(Parameters):
     @property
     def synchronous_speed_rad_per_s(self) -> float:
         return self.line_rad_per_s / self.pole_pairs
+
+
+class TurningRotor(Parameters):
+    inertia_kg_m2: float = Field(gt=0.0, le=1e3)
+    """About the shaft's axis, of all that turns with it."""

@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from ..base.parameters import Parameters
+from ...base.parameters import Parameters
 
 INERTIA = Field(gt=0.0, le=10.0)
 

@@ -10,11 +10,11 @@ from scipy import fft
 from .. import levels
 from ..constants import REFERENCE_PRESSURE_PA
 from ..errors import ParameterError
+from ..mechanics.loads import Complex
 from ..mechanics.rotation import Array
-from ..stopping.coasting import RunDown
 from ..transfer import RigidBodyOnMounts, SuspendedBlock
-from .inner_keys import Complex
-from .transient import LOAD_SAMPLES, Transient, transient
+from ..transfer.transient import LOAD_SAMPLES, Transient, transient
+from .coasting import RunDown
 
 FADE_S: Final = 1.0
 """In which the steady load is faded in, so slowly that the mounts do not ring."""

@@ -3,7 +3,7 @@
 import numpy as np
 from pydantic import Field, model_validator
 
-from ..base.parameters import Parameters
+from ...base.parameters import Parameters
 
 PRESSURE = Field(gt=0.0, le=1e9)
 

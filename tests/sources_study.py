@@ -1,0 +1,63 @@
+"""A small study of several sources, with transfer vectors made up."""
+
+import numpy as np
+import xarray as xr
+from support import ROOT, made_up_transfer_vectors
+
+from vibroacoustics import pipeline
+from vibroacoustics.mechanics.loads import Lines, Loads, lines_of
+from vibroacoustics.parameters.shell_structure import JOINTS
+from vibroacoustics.parameters.source import Case
+from vibroacoustics.parameters.study import Study
+from vibroacoustics.pipeline.cases import cases_of
+from vibroacoustics.pipeline.shell import shell_path
+from vibroacoustics.schema import REFERENCE_OPTION, stamp
+from vibroacoustics.transfer.path import ShellPath
+
+SOURCES_STUDY = ROOT / "tests" / "studies" / "sources_made_up.toml"
+
+
+def made_up_modes(study: Study, gain: float = 1.0) -> xr.Dataset:
+    """Transfer vectors of rigid motions and of the shell's modes, different for each."""
+    vectors = made_up_transfer_vectors(study)
+    names = [motion.name for motion in path_of(study).modes] if study.drives_shell else []
+    frequency = vectors["frequency"].values
+    generator = np.random.default_rng(5)
+    shape = (len(study.receivers), len(names), 1)
+    size = generator.standard_normal(shape) + 1j * generator.standard_normal(shape)
+    coords = {"receiver": list(study.receivers), "pattern": names, "frequency": frequency}
+    if names:
+        values = 0.01 * gain * size * frequency
+        vectors["pattern_transfer_vector"] = stamp("pattern_transfer_vector", values, coords)
+    return vectors
+
+
+def path_of(study: Study) -> ShellPath:
+    path = shell_path(study)
+    assert path is not None
+    return path
+
+
+def run_made_up(study: Study, gain: float = 1.0) -> xr.Dataset:
+    """Results with made-up transfer vectors."""
+    return pipeline.run(study, radiation=lambda study, *_: (made_up_modes(study, gain), False))
+
+
+def case_of(study: Study, option: str = REFERENCE_OPTION) -> Case:
+    """An option at the study's only speed."""
+    (speed,) = study.operation.speed_rpm
+    return cases_of(study, lambda *_: None)[speed, option]
+
+
+def all_lines(case: Case, loads: dict[str, Loads]) -> Lines:
+    """The lines of all sources up to the highest frequency."""
+    return lines_of(loads, case.shaft_frequency_hz, case.maximum_order, len(JOINTS))
+
+
+def with_tables(study: Study, **tables: dict[str, object]) -> Study:
+    """The study with values of tables of its machine replaced, unchecked."""
+    machine = study.machine
+    changed = {
+        name: getattr(machine, name).model_copy(update=values) for name, values in tables.items()
+    }
+    return study.model_copy(update={"machine": machine.model_copy(update=changed)})

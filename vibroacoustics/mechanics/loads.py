@@ -1,0 +1,138 @@
+"""What a source does to the machine: on the rigid machine and on the joints of its shell."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .moving_parts import Array, Wrench
+
+Complex = NDArray[np.complex128]
+
+JOINT_COMPONENTS = 4
+"""Force along x, y, z and moment about z, on each joint of the shell."""
+
+
+@dataclass(frozen=True)
+class Tone:
+    """A line that is no order of the shaft.
+
+    Attributes
+    ----------
+    name : what makes it
+    frequency_hz : above zero
+    rigid : force and moment on the rigid machine about its centre of mass, complex peaks, shape
+        (6,), N and N m
+    joints : on the joints of the shell, shape (joint, component), N and N m
+    figure : name of the reported figure of the largest force that it makes in a foot; none for none
+    """
+
+    name: str
+    frequency_hz: float
+    rigid: Complex
+    joints: Complex
+    figure: str | None = None
+
+
+@dataclass(frozen=True)
+class Noise:
+    """What does not repeat with the revolution, on one joint.
+
+    Attributes
+    ----------
+    joint : index of the joint
+    components : indices of the loaded components, shape (loaded,)
+    frequency_hz : shape (line,)
+    density : shape (loaded, loaded, line), N²/Hz, N² m/Hz and N² m²/Hz
+    """
+
+    joint: int
+    components: tuple[int, ...]
+    frequency_hz: Array
+    density: Complex
+
+
+@dataclass(frozen=True)
+class Loads:
+    """Loads of one source in one case; what a source does not do is left out.
+
+    Attributes
+    ----------
+    wrenches : on the rigid machine over uniform crank angles, by what makes them
+    rigid : further wrench on it by order from zero, complex peaks, shape (6, order), N and N m
+    joints : on the joints of the shell by order, shape (joint, component, order), N and N m
+    tones : lines that are no orders
+    noise : random loads
+    shaft_torque_n_m : that the shaft needs, mean and complex peaks by order, shape (order,)
+    figures : to report, by name; the unit is the suffix of the name
+    """
+
+    wrenches: Mapping[str, Wrench] = field(default_factory=dict)
+    rigid: Complex | None = None
+    joints: Complex | None = None
+    tones: tuple[Tone, ...] = ()
+    noise: tuple[Noise, ...] = ()
+    shaft_torque_n_m: Complex | None = None
+    figures: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Lines:
+    """The lines of all sources in one case: orders from zero, then tones.
+
+    Attributes
+    ----------
+    names : of the lines
+    frequency_hz : shape (line,)
+    rigid : wrench on the rigid machine by source but for what `wrenches` give, shape (6, line)
+    joints : on the joints of the shell by source, shape (joint, component, line)
+    """
+
+    names: tuple[str, ...]
+    frequency_hz: Array
+    rigid: Mapping[str, Complex]
+    joints: Mapping[str, Complex]
+
+
+def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int, joints: int) -> Lines:
+    """Lay the loads of all sources on one axis of lines; every tone is a line of its own.
+
+    Parameters
+    ----------
+    loads : by source
+    shaft_hz : frequency of the first order
+    highest : order
+    joints : number of joints of the shell
+    """
+    tones = [(source, tone) for source, given in loads.items() for tone in given.tones]
+    orders, count = highest + 1, highest + 1 + len(tones)
+    rigid, on_joints = {}, {}
+    for source, given in loads.items():
+        wrench = np.zeros((6, count), dtype=complex)
+        joint = np.zeros((joints, JOINT_COMPONENTS, count), dtype=complex)
+        if given.rigid is not None:
+            held = min(orders, given.rigid.shape[-1])
+            wrench[:, :held] = given.rigid[:, :held]
+        if given.joints is not None:
+            held = min(orders, given.joints.shape[-1])
+            joint[..., :held] = given.joints[..., :held]
+        for number, (maker, tone) in enumerate(tones, orders):
+            if maker == source:
+                wrench[:, number], joint[..., number] = tone.rigid, tone.joints
+        rigid[source], on_joints[source] = wrench, joint
+    frequency = [*(shaft_hz * np.arange(orders)), *(tone.frequency_hz for _, tone in tones)]
+    names = (
+        *(f"order {order}" for order in range(orders)),
+        *(f"{source}: {tone.name}" for source, tone in tones),
+    )
+    return Lines(names, np.array(frequency), rigid, on_joints)
+
+
+def total_torque_n_m(loads: Iterable[Loads], highest: int) -> Complex:
+    """Torque that the shaft needs for all sources that say so, shape (highest order + 1,)."""
+    total = np.zeros(highest + 1, dtype=complex)
+    for source in loads:
+        if source.shaft_torque_n_m is not None:
+            total += source.shaft_torque_n_m
+    return total

@@ -1,0 +1,30 @@
+"""What is not known: ranges of values, and how many sets of values are drawn from them."""
+
+from pydantic import Field
+
+from ..base.parameters import Parameters
+
+
+class Range(Parameters):
+    """Range of one value of the machine, in SI."""
+
+    table: str
+    field: str
+    lowest: float
+    highest: float
+
+
+class Uncertainty(Parameters):
+    """Random sets of values."""
+
+    random_samples: int = Field(default=24, ge=4, le=1000)
+    seed: int = Field(default=6, ge=0, lt=2**63)
+
+
+class MeasuredModes(Parameters):
+    """Modes of the shell from a universal file (dataset 55), in place of the computed ones."""
+
+    file: str = Field(min_length=1)
+    """In a study relative to the study's folder; places are about the centre of mass, z up."""
+    file_unit_m: float | None = Field(default=None, gt=0.0, le=1.0)
+    """Length of the unit of the places; none where the file itself tells it (dataset 164)."""

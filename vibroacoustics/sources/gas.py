@@ -1,0 +1,69 @@
+"""Gas forces of a scroll as a source."""
+
+from collections.abc import Mapping
+from typing import ClassVar, Final
+
+from ..base.parameters import Parameters
+from ..base.registry import register
+from ..mechanics.capabilities import Capability, OldhamRing
+from ..mechanics.loads import Loads
+from ..mechanics.rotation import uniform_crank_angle
+from ..orders import order_spectrum
+from ..parameters.machine import Machine
+from ..parameters.source import Case, Shared, Source
+from .joint_loads import gas_loads
+from .scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
+from .scroll_gas.parameters import ScrollGas, ScrollWraps
+
+GAS_SAMPLES: Final = 8192
+"""Crank angles a revolution: the step of the force where a pocket opens makes an error of the
+step over the samples, below 1 % of the order at 4 kHz."""
+
+ORBIT_TOLERANCE: Final = 0.01
+
+
+@register
+class ScrollGasForces(Source):
+    """Pressure in the pockets, on fixed scroll and bearing housing."""
+
+    kind: ClassVar[str] = "scroll-gas"
+    position: ClassVar[float] = 1.0
+    label: ClassVar[str] = "gas forces"
+    tables: ClassVar[Mapping[str, type[Parameters]]] = {"wraps": ScrollWraps, "gas": ScrollGas}
+    drawn: ClassVar[frozenset[tuple[str, str]]] = frozenset(
+        {("gas", "polytropic_index"), ("gas", "equalisation_angle_rad")}
+    )
+    needs: ClassVar[type[Capability]] = OldhamRing
+    drives_shell: ClassVar[bool] = True
+
+    @classmethod
+    def why_not(cls, machine: Machine) -> str | None:
+        """A table is missing, or the wraps orbit at another radius than the machine."""
+        ring = machine.capability(OldhamRing)
+        reason = super().why_not(machine)
+        if reason or ring is None:
+            return reason
+        wraps = machine.table(ScrollWraps).orbit_radius_m
+        if abs(ring.stroke_m - wraps) <= ORBIT_TOLERANCE * wraps:
+            return None
+        return (
+            f"the machine's wraps orbit at {1e3 * wraps:.4g} mm, its "
+            f"kinematics.orbit_radius_mm = {1e3 * ring.stroke_m:.4g} mm: must agree within 1 %"
+        )
+
+    def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
+        """Orders of the gas forces on the joints, and the torque that the shaft needs."""
+        cycle, highest = gas_cycle(case.machine, case.shared), case.maximum_order
+        return Loads(
+            joints=order_spectrum(gas_loads(cycle), highest),
+            shaft_torque_n_m=order_spectrum(cycle.torque_n_m, highest),
+        )
+
+
+def gas_cycle(machine: Machine, shared: Shared) -> ScrollGasCycle:
+    """One revolution of the machine's gas, over GAS_SAMPLES crank angles."""
+    wraps, gas = machine.table(ScrollWraps), machine.table(ScrollGas)
+    return shared(
+        ("gas cycle", wraps, gas),
+        lambda: scroll_gas_cycle(wraps, gas, uniform_crank_angle(GAS_SAMPLES)),
+    )

@@ -1,0 +1,106 @@
+"""The motor's torque as two sources: its answer to the load's ripple, and its own pulsation."""
+
+from collections.abc import Mapping
+from typing import ClassVar, Final
+
+import numpy as np
+
+from ..base.parameters import Parameters
+from ..base.registry import register
+from ..errors import ParameterError
+from ..mechanics.loads import (
+    Complex,
+    Loads,
+    Tone,
+    total_torque_n_m,
+)
+from ..parameters.source import Case, Source
+from .induction_motor.parameters import CapacitorMotor, TurningRotor
+from .induction_motor.torque_lines import TorqueLine, TorqueLines, torque_lines
+from .joint_loads import stator_loads
+
+TWICE_LINE: Final = "2 x line"
+TWICE_LINE_FIGURE: Final = "foot_force_2x_line_n"
+LOWEST_LINE_HZ: Final = 10.0
+"""Sidebands below are no sound."""
+_GROW_WITH_FREQUENCY: Final = (
+    "line_voltage_v",
+    "main_leakage_ohm",
+    "auxiliary_leakage_ohm",
+    "magnetising_ohm",
+    "rotor_leakage_ohm",
+)
+
+
+class _MotorTorque(Source):
+    tables: ClassVar[Mapping[str, type[Parameters]]] = {
+        "motor": CapacitorMotor,
+        "rotor": TurningRotor,
+    }
+    drawn: ClassVar[frozenset[tuple[str, str]]] = frozenset({("motor", "capacitance_f")})
+    drives_shell: ClassVar[bool] = True
+
+
+@register
+class TorqueRipple(_MotorTorque):
+    """Orders of the load's torque on stator and machine."""
+
+    kind: ClassVar[str] = "torque-ripple"
+    position: ClassVar[float] = 3.0
+    label: ClassVar[str] = "torque ripple on the stator"
+
+    def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
+        """Torque on the stator and roll moment of the rotor's swing, by order."""
+        joints, roll = stator_loads(_balance(case, before).shaft)
+        return Loads(
+            rigid=_about_z(np.pad(roll, (1, 0))), joints=np.pad(joints, ((0, 0), (0, 0), (1, 0)))
+        )
+
+
+@register
+class MotorPulsation(_MotorTorque):
+    """Torque at twice the line frequency and its sidebands, which are no orders."""
+
+    kind: ClassVar[str] = "motor-pulsation"
+    position: ClassVar[float] = 4.0
+    label: ClassVar[str] = "motor at twice the line frequency"
+    labels: ClassVar[Mapping[str, str]] = {
+        TWICE_LINE_FIGURE: "Largest foot force at twice the line frequency (motor, not 2×)"
+    }
+
+    def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
+        """Tones from LOWEST_LINE_HZ to the highest frequency."""
+        balance = _balance(case, before)
+        kept = [
+            line
+            for line in (*balance.line, *balance.sidebands)
+            if LOWEST_LINE_HZ <= line.frequency_hz <= case.maximum_frequency_hz
+        ]
+        return Loads(tones=tuple(map(_tone, kept)))
+
+
+def _tone(line: TorqueLine) -> Tone:
+    joints, roll = stator_loads([line])
+    figure = TWICE_LINE_FIGURE if line.name == TWICE_LINE else None
+    return Tone(line.name, line.frequency_hz, _about_z(roll)[:, 0], joints[..., 0], figure)
+
+
+def _about_z(moment: Complex) -> Complex:
+    """Wrenches (6, line) that are moments about z alone, N m."""
+    still = np.zeros_like(moment)
+    return np.stack([still, still, still, still, still, moment])
+
+
+def _balance(case: Case, before: Mapping[str, Loads]) -> TorqueLines:
+    """Torque balance with the motor on the supply of this speed, at the same flux."""
+    if case.supply_frequency_hz is None:
+        raise ParameterError("operation.supply_frequency_hz: is missing; the motor needs it")
+    rated, rotor = case.machine.table(CapacitorMotor), case.machine.table(TurningRotor)
+    ratio = case.supply_frequency_hz / rated.line_frequency_hz
+    grown = {name: ratio * getattr(rated, name) for name in _GROW_WITH_FREQUENCY}
+    motor = rated.model_copy(update={"line_frequency_hz": case.supply_frequency_hz, **grown})
+    torque = total_torque_n_m(before.values(), case.maximum_order)
+    return case.shared(
+        ("torque lines", motor, rotor, torque.tobytes()),
+        lambda: torque_lines(motor, rotor.inertia_kg_m2, list(torque)),
+    )

@@ -1,0 +1,98 @@
+"""From the loads of all sources in one case to sound pressure at the receivers."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..mechanics.loads import Complex, Lines, Noise
+from ..mechanics.rotation import Array
+from ..parameters.shell_structure import ShellVariation
+from .mounts import RigidBodyOnMounts
+from .path import ShellPath, pressure_per_load
+from .suspended_block import SuspendedBlock
+
+PressurePerVelocity = Callable[[Array], Complex]
+"""Of frequencies in Hz, shape (frequency,), to shape (receiver, motion, frequency), Pa s/m."""
+
+
+@dataclass(frozen=True)
+class BendingShell:
+    """The elastic shell with one set of values.
+
+    Attributes
+    ----------
+    path : modes and joints
+    pressure_per_velocity : of the modes
+    loss_factor_ratio : of the shell
+    variation : how the real shell differs
+    """
+
+    path: ShellPath
+    pressure_per_velocity: PressurePerVelocity
+    loss_factor_ratio: float
+    variation: ShellVariation
+    _known: dict[bytes, Complex] = field(default_factory=dict, repr=False)
+
+    def per_load(self, frequency_hz: Array) -> Complex:
+        """Pressure per load on a joint, (receiver, joint, component, frequency).
+
+        Kept, as cases share their frequencies.
+        """
+        key = frequency_hz.tobytes()
+        if key not in self._known:
+            self._known[key] = pressure_per_load(
+                self.path,
+                self.pressure_per_velocity(frequency_hz),
+                frequency_hz,
+                self.loss_factor_ratio,
+                self.variation,
+            )
+        return self._known[key]
+
+
+@dataclass(frozen=True)
+class SoundPath:
+    """All ways from loads to the receivers, with one set of values.
+
+    Attributes
+    ----------
+    rigid : pressure per velocity of the six rigid motions
+    shell : the elastic shell; none where it is rigid
+    """
+
+    rigid: PressurePerVelocity
+    shell: BendingShell | None
+
+    def pressure(
+        self, body: RigidBodyOnMounts | SuspendedBlock, lines: Lines
+    ) -> Mapping[str, Complex]:
+        """Pressure at the lines by source, complex peaks, shape (receiver, line), Pa.
+
+        What the sources' wrenches over crank angle do is not in it.
+        """
+        return {source: self._of_source(body, lines, source) for source in lines.rigid}
+
+    def _of_source(
+        self, body: RigidBodyOnMounts | SuspendedBlock, lines: Lines, source: str
+    ) -> Complex:
+        frequency, wrench, joints = lines.frequency_hz, lines.rigid[source], lines.joints[source]
+        pressure = np.zeros((1, frequency.size), dtype=complex)
+        if wrench.any():
+            velocity = body.velocity(wrench.T, frequency)
+            pressure = pressure + np.einsum("rdf,fd->rf", self.rigid(frequency), velocity)
+        if self.shell is not None and joints.any():
+            per_load = self.shell.per_load(frequency)
+            pressure = pressure + np.einsum("rjcf,jcf->rf", per_load, joints, optimize=True)
+        return pressure
+
+    def noise_power(self, noise: Noise) -> Array:
+        """Mean square of the pressure that a random load makes, (receiver, frequency), Pa²."""
+        if self.shell is None:
+            raise ValueError("a random load on a joint needs an elastic shell")
+        frequency = noise.frequency_hz
+        per_load = self.shell.per_load(frequency)[:, noise.joint][:, noise.components]
+        density = np.einsum(
+            "rif,ijf,rjf->rf", per_load.conj(), noise.density, per_load, optimize=True
+        ).real
+        return np.asarray(density * (frequency[1] - frequency[0]))

@@ -1,0 +1,1 @@
+"""What is not known: ranges, and draws of values from them."""
