@@ -12,7 +12,7 @@ from ..mechanics.added import Added
 from ..mechanics.capabilities import Capability
 from ..mechanics.loads import Loads
 from ..mechanics.moving_parts import Revolution
-from ..units import shaft_frequency_hz
+from ..units import orders_below, shaft_frequency_hz
 from .machine import Machine
 
 Result = TypeVar("Result")
@@ -64,7 +64,7 @@ class Case:
     @property
     def maximum_order(self) -> int:
         """Highest order up to the highest frequency."""
-        return int(self.maximum_frequency_hz / self.shaft_frequency_hz + 1e-9)
+        return orders_below(self.maximum_frequency_hz, self.speed_rpm)
 
 
 class Source(KindOfParameters):
