@@ -29,7 +29,9 @@ def text_of(study: Path, speeds: int) -> str:
 
 def measure(file: Path, folder: Path) -> str:
     """Run the study in this process: one line of the table."""
-    from vibroacoustics import loading, pipeline, storage
+    from vibroacoustics import pipeline
+    from vibroacoustics.results import storage
+    from vibroacoustics.study import loading
 
     study = loading.load_study(file)
     pipeline.radiate(study)

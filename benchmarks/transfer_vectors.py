@@ -17,12 +17,12 @@ from typing import Final
 
 import numpy as np
 
+from vibroacoustics.base.vocabulary import RIGID_BODY_DOFS
 from vibroacoustics.radiation.arrays import no_progress
 from vibroacoustics.radiation.bodies import cylinder
 from vibroacoustics.radiation.machine_side import MachineSide, in_threads, near_fields
 from vibroacoustics.radiation.patterns import rigid_body
 from vibroacoustics.radiation.scene import Scene
-from vibroacoustics.schema import RIGID_BODY_DOFS
 
 FOLDER: Final = Path(__file__).parent
 RESULTS: Final = FOLDER.parent / "tests" / "oracles" / "boundary_elements" / "results.csv"

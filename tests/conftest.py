@@ -5,8 +5,8 @@ from collections.abc import Iterator
 import pytest
 from support import PIPELINES
 
-from vibroacoustics.loading import load_study
-from vibroacoustics.parameters.study import Study
+from vibroacoustics.study.loading import load_study
+from vibroacoustics.study.study import Study
 
 
 @pytest.fixture(autouse=True, scope="session")

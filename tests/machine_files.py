@@ -6,8 +6,8 @@ from typing import Any, TypeVar
 from support import ROOT
 
 from vibroacoustics.base.parameters import Parameters
-from vibroacoustics.loading import _read_toml, _Reader
-from vibroacoustics.validation import validated
+from vibroacoustics.study.loading import _read_toml, _Reader
+from vibroacoustics.study.wording import validated
 
 Model = TypeVar("Model", bound=Parameters)
 

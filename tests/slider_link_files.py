@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 from support import PIPELINES, ROOT
 
-from vibroacoustics.loading import load_study
 from vibroacoustics.mechanisms.slider_link.machine import SliderLinkMachine
+from vibroacoustics.study.loading import load_study
 
 MACHINE_FILE = ROOT / "data" / "machines" / "dagilis_slider_link.toml"
 STUDY = PIPELINES / "dagilis_slider_link.toml"

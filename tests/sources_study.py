@@ -5,13 +5,13 @@ import xarray as xr
 from support import ROOT, made_up_transfer_vectors
 
 from vibroacoustics import pipeline
+from vibroacoustics.base.vocabulary import REFERENCE_OPTION, stamp
+from vibroacoustics.machine.shell_structure import JOINTS
+from vibroacoustics.machine.source import Case
 from vibroacoustics.mechanics.loads import Lines, Loads, lines_of
-from vibroacoustics.parameters.shell_structure import JOINTS
-from vibroacoustics.parameters.source import Case
-from vibroacoustics.parameters.study import Study
 from vibroacoustics.pipeline.cases import cases_of
 from vibroacoustics.pipeline.shell import shell_path
-from vibroacoustics.schema import REFERENCE_OPTION, stamp
+from vibroacoustics.study.study import Study
 from vibroacoustics.transfer.path import ShellPath
 
 SOURCES_STUDY = ROOT / "tests" / "studies" / "sources_made_up.toml"

@@ -14,27 +14,24 @@ from unittest.mock import patch
 import numpy as np
 import xarray as xr
 
-from vibroacoustics import cli, pipeline
-from vibroacoustics.loading import load_study
+from vibroacoustics import pipeline
+from vibroacoustics.base.arrays import Array
+from vibroacoustics.base.vocabulary import RIGID_BODY_DOFS, stamp
+from vibroacoustics.commands import cli
 from vibroacoustics.mechanics.added import Added
-from vibroacoustics.mechanics.moving_parts import (
-    Array,
-    MovingPart,
-    Revolution,
-    wrench,
-)
+from vibroacoustics.mechanics.moving_parts import MovingPart, Revolution, wrench
 from vibroacoustics.mechanics.rotation import Rotation, constant_rotation
 from vibroacoustics.mechanisms.oldham_scroll.ring import oldham_ring
 from vibroacoustics.mechanisms.oldham_scroll.rotating_set import rotating_set
 from vibroacoustics.orders import order_spectrum
-from vibroacoustics.parameters.study import Study
 from vibroacoustics.radiation.arrays import Progress, no_progress
 from vibroacoustics.radiation.bodies import Body
 from vibroacoustics.radiation.box import Box, BoxField, closed_box
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.patterns import Pattern
 from vibroacoustics.radiation.surface_points import SurfacePoints, surface_points
-from vibroacoustics.schema import RIGID_BODY_DOFS, stamp
+from vibroacoustics.study.loading import load_study
+from vibroacoustics.study.study import Study
 
 ROOT = Path(__file__).parents[1]
 PIPELINES = ROOT / "pipelines"

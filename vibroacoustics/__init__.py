@@ -15,20 +15,20 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .base.plugin_file import load_plugin
     from .base.registry import register
-    from .comparison import compare
-    from .loading import load_study
-    from .measurements import label_recording, read_recording
+    from .commands.outputs import write_report
+    from .machine.machine import Machine
+    from .machine.option import Option
+    from .machine.source import Case, Source
     from .mechanics.added import Added
     from .mechanics.loads import Loads
     from .mechanics.moving_parts import MovingPart, Revolution, Wrench
-    from .outputs import write_report
-    from .parameters.criterion import Criterion
-    from .parameters.machine import Machine
-    from .parameters.option import Option
-    from .parameters.source import Case, Source
     from .pipeline import analyse_orders, run
+    from .recordings import label_recording, read_recording
+    from .results.order_comparison import compare
+    from .results.storage import open_results
     from .scoring import score
-    from .storage import open_results
+    from .study.criterion import Criterion
+    from .study.loading import load_study
 
 __all__ = [
     "Added",
@@ -56,26 +56,26 @@ __all__ = [
 
 _HOME = {
     "Added": "mechanics.added",
-    "Case": "parameters.source",
-    "Criterion": "parameters.criterion",
+    "Case": "machine.source",
+    "Criterion": "study.criterion",
     "Loads": "mechanics.loads",
-    "Machine": "parameters.machine",
+    "Machine": "machine.machine",
     "MovingPart": "mechanics.moving_parts",
-    "Option": "parameters.option",
+    "Option": "machine.option",
     "Revolution": "mechanics.moving_parts",
-    "Source": "parameters.source",
+    "Source": "machine.source",
     "Wrench": "mechanics.moving_parts",
     "analyse_orders": "pipeline",
-    "compare": "comparison",
-    "label_recording": "measurements",
+    "compare": "results.order_comparison",
+    "label_recording": "recordings",
     "load_plugin": "base.plugin_file",
-    "load_study": "loading",
-    "open_results": "storage",
-    "read_recording": "measurements",
+    "load_study": "study.loading",
+    "open_results": "results.storage",
+    "read_recording": "recordings",
     "register": "base.registry",
     "run": "pipeline",
     "score": "scoring",
-    "write_report": "outputs",
+    "write_report": "commands.outputs",
 }
 
 

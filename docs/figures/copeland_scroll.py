@@ -7,8 +7,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Annulus, Circle, Polygon, Rectangle
 
-from vibroacoustics.loading import load_study
 from vibroacoustics.sources.scroll_gas.parameters import ScrollWraps
+from vibroacoustics.study.loading import load_study
 
 HERE = Path(__file__).parent
 ANGLE = np.deg2rad(50.0)

@@ -12,9 +12,9 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Circle, FancyBboxPatch, Rectangle
 
-from vibroacoustics.loading import load_machine
 from vibroacoustics.mechanisms.hermetic.pin import COORDINATES, crank_point, rod_motion
 from vibroacoustics.mechanisms.hermetic.shaft import node_positions_m
+from vibroacoustics.study.loading import load_machine
 
 FIGURE = Path(__file__).with_suffix(".svg")
 MACHINE = Path(__file__).parents[2] / "data" / "machines" / "estupinan_hermetic.toml"

@@ -6,8 +6,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Arc, Circle, Rectangle
 
-from vibroacoustics.loading import load_machine
 from vibroacoustics.mechanisms.reciprocating.slider_crank import design_at_bore, motion
+from vibroacoustics.study.loading import load_machine
 
 HERE = Path(__file__).parent
 ANGLE = np.deg2rad(50.0)

@@ -8,9 +8,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Circle, Ellipse, Rectangle
 
-from vibroacoustics.loading import load_machine
 from vibroacoustics.mechanisms.slider_link.machine import SliderLinkMachine
 from vibroacoustics.mechanisms.slider_link.piston import engaged_length
+from vibroacoustics.study.loading import load_machine
 
 HERE: Final = Path(__file__).parent
 ANGLE: Final = np.deg2rad(55.0)

@@ -10,10 +10,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from vibroacoustics.loading import load_machine
 from vibroacoustics.mechanisms.minicrank.cycle import steady_minicrank_cycle
 from vibroacoustics.mechanisms.minicrank.four_bar import four_bar_motion
 from vibroacoustics.mechanisms.minicrank.links import Links
+from vibroacoustics.study.loading import load_machine
 
 HERE = Path(__file__).resolve().parent
 MACHINE = HERE.parent.parent / "data" / "machines" / "zhao_minicrank.toml"

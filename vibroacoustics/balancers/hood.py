@@ -6,10 +6,10 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from ..base.registry import register
+from ..machine.machine import Machine
+from ..machine.option import Option
 from ..mechanics.added import Added, InsertionLoss
 from ..mechanics.moving_parts import Revolution
-from ..parameters.machine import Machine
-from ..parameters.option import Option
 
 
 @register

@@ -3,10 +3,10 @@
 from typing import ClassVar
 
 from ..base.registry import register
+from ..machine.machine import Machine
+from ..machine.option import Option
 from ..mechanics.added import Added
 from ..mechanics.moving_parts import Revolution
-from ..parameters.machine import Machine
-from ..parameters.option import Option
 
 
 @register

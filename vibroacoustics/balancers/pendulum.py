@@ -7,15 +7,15 @@ import numpy as np
 from pydantic import Field
 
 from ..base import rounding
+from ..base.errors import ParameterError
 from ..base.registry import register
-from ..errors import ParameterError
+from ..base.units import shaft_frequency_hz
+from ..machine.machine import Machine
+from ..machine.option import Figures, Option
 from ..mechanics.added import Added, RingForce
 from ..mechanics.capabilities import Capability, OldhamRing
 from ..mechanics.moving_parts import MovingPart, Revolution, path, wrench
 from ..mechanics.pendulum import Drive, multiplier, periodic_state, settle, swing
-from ..parameters.machine import Machine
-from ..parameters.option import Figures, Option
-from ..units import shaft_frequency_hz
 
 
 @register

@@ -5,10 +5,10 @@ from typing import ClassVar
 from pydantic import Field
 
 from ..base.registry import register
+from ..machine.machine import AnyMachine, Machine
+from ..machine.option import Option
 from ..mechanics.added import Added
 from ..mechanics.moving_parts import Revolution
-from ..parameters.machine import AnyMachine, Machine
-from ..parameters.option import Option
 
 
 @register

@@ -7,12 +7,12 @@ from pydantic import Field
 
 from ..base import rounding
 from ..base.registry import register
+from ..base.units import shaft_frequency_hz
+from ..machine.machine import Machine
+from ..machine.option import Figures, Option
 from ..mechanics.added import Added, RingForce
 from ..mechanics.capabilities import Capability, OldhamRing
 from ..mechanics.moving_parts import Revolution
-from ..parameters.machine import Machine
-from ..parameters.option import Figures, Option
-from ..units import shaft_frequency_hz
 
 
 @register

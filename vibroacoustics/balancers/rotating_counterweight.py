@@ -5,11 +5,11 @@ from typing import ClassVar
 from pydantic import Field
 
 from ..base.registry import register
+from ..machine.machine import Machine
+from ..machine.option import Option
 from ..mechanics.added import Added
 from ..mechanics.capabilities import Capability, Slider
 from ..mechanics.moving_parts import Revolution, circling
-from ..parameters.machine import Machine
-from ..parameters.option import Option
 
 
 @register

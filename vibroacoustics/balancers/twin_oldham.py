@@ -7,11 +7,11 @@ import numpy as np
 from pydantic import Field
 
 from ..base.registry import register
+from ..machine.machine import Machine
+from ..machine.option import Option
 from ..mechanics.added import Added, FurtherRing
 from ..mechanics.capabilities import Capability, OldhamRing
 from ..mechanics.moving_parts import MovingPart, Revolution, path
-from ..parameters.machine import Machine
-from ..parameters.option import Option
 
 
 @register

@@ -15,7 +15,7 @@ from pydantic import (
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
-from ..errors import ParameterError
+from .errors import ParameterError
 from .registry import Registry
 
 
@@ -23,7 +23,7 @@ class Parameters(BaseModel):
     """A frozen, strictly validated set of parameters in SI units.
 
     Unknown keys, wrong types, NaN and infinity are refused. Field names carry the SI unit;
-    files may use any unit that `vibroacoustics.units` knows, as the suffix of the key.
+    files may use any unit that `vibroacoustics.base.units` knows, as the suffix of the key.
     """
 
     model_config = ConfigDict(

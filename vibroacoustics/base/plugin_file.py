@@ -4,7 +4,7 @@ import sys
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
-from ..errors import PluginError, VibroacousticsError
+from .errors import PluginError, VibroacousticsError
 
 
 def load_plugin(path: str | Path) -> None:

@@ -14,7 +14,7 @@ from pathlib import Path
 from pkgutil import iter_modules
 from typing import Any, Final, Generic, NamedTuple, TypeVar
 
-from ..errors import ParameterError, PluginError
+from .errors import ParameterError, PluginError
 from .hashing import sha256
 
 Thing = TypeVar("Thing")

@@ -1,14 +1,14 @@
 """Levels: weightings, sums, bands, filter bank, time weighting, levels of recordings."""
 
-from .bands import Band, band_mean_square, bands_between, measurable_bands
-from .by_source import NoisePower, SourceSound, filled_thirds, source_sound
-from .decibel import (
+from ..base.decibel import (
     SILENCE_DB,
     energy_difference,
     energy_sum,
     mean_square_level,
     sound_pressure_level,
 )
+from .bands import Band, band_mean_square, bands_between, measurable_bands
+from .by_source import NoisePower, SourceSound, filled_thirds, source_sound
 from .filter_bank import band_filter, band_signal, class_1_limits_db
 from .labelled import Places, draw_variables, level, level_variables
 from .signal_levels import (

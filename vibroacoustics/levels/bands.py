@@ -5,12 +5,10 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import fft
 
-from ..errors import ParameterError
-
-Real = NDArray[np.float64]
+from ..base.arrays import Array
+from ..base.errors import ParameterError
 
 OCTAVE_RATIO: Final = 10.0**0.3
 """G (equation 1)."""
@@ -94,7 +92,7 @@ def check_measurable(bands: Iterable[Band], sample_rate_hz: float) -> None:
             )
 
 
-def band_mean_square(signal: Real, sample_rate_hz: float, bands: Sequence[Band]) -> Real:
+def band_mean_square(signal: Array, sample_rate_hz: float, bands: Sequence[Band]) -> Array:
     """Mean square of a signal in bands, from the lines of one Fourier transform of all of it.
 
     A line stands for the interval of its width around it; where a band edge cuts it, its energy
@@ -127,7 +125,7 @@ def band_mean_square(signal: Real, sample_rate_hz: float, bands: Sequence[Band])
     width = np.diff(below, append=0.5 * sample_rate_hz)
     cumulative = np.insert(np.cumsum(energy, axis=-1), 0, 0.0, axis=-1)
 
-    def up_to(frequency_hz: Real) -> Real:
+    def up_to(frequency_hz: Array) -> Array:
         line = np.searchsorted(below, frequency_hz, side="right") - 1
         share = (frequency_hz - below[line]) / width[line]
         return np.asarray(cumulative[..., line] + share * energy[..., line])

@@ -5,13 +5,10 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..base.arrays import Array, ComplexArray
 from .bands import Band, bands_between
 from .weighting import WEIGHTING
-
-Real = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 LOWEST_BAND_HZ: Final = 20.0
 
@@ -28,8 +25,8 @@ class NoisePower:
     """
 
     source: int
-    frequency_hz: Real
-    power: Real
+    frequency_hz: Array
+    power: Array
 
 
 @dataclass(frozen=True)
@@ -44,12 +41,12 @@ class SourceSound:
         Pa²; where lines of two sources cancel a part can be negative. The sum is the total
     """
 
-    band: Real
-    alone: Real
-    part: Real
+    band: Array
+    alone: Array
+    part: Array
 
     @property
-    def total(self) -> Real:
+    def total(self) -> Array:
         """Mean square of all sources together by weighting, shape (weighting, receiver), Pa²."""
         return np.asarray(self.part.sum(axis=1))
 
@@ -61,8 +58,8 @@ def filled_thirds(maximum_frequency_hz: float) -> tuple[Band, ...]:
 
 
 def source_sound(
-    pressure: Complex,
-    frequency_hz: Real,
+    pressure: ComplexArray,
+    frequency_hz: Array,
     noise: Sequence[NoisePower],
     bands: Sequence[Band],
     weightings: Sequence[str] = ("A",),
@@ -91,12 +88,12 @@ def source_sound(
     return SourceSound(band, weighted, part)
 
 
-def _power(weighting: str, frequency_hz: Real) -> Real:
+def _power(weighting: str, frequency_hz: Array) -> Array:
     """Factor of a weighting on mean squares."""
     return np.asarray(10.0 ** (WEIGHTING[weighting](frequency_hz) / 10.0))
 
 
-def _membership(frequency_hz: Real, bands: Sequence[Band]) -> Real:
+def _membership(frequency_hz: Array, bands: Sequence[Band]) -> Array:
     """1 where a frequency lies in a band, shape (frequency, band)."""
     edges = np.array([(band.lower_hz, band.upper_hz) for band in bands])
     within = (frequency_hz[:, None] >= edges[:, 0]) & (frequency_hz[:, None] < edges[:, 1])

@@ -9,12 +9,10 @@ from typing import Final
 
 import numpy as np
 import scipy  # loads its subpackages when they are needed
-from numpy.typing import NDArray
 
-from ..errors import ParameterError
+from ..base.arrays import Array
+from ..base.errors import ParameterError
 from .bands import OCTAVE_RATIO, Band, check_measurable
-
-Real = NDArray[np.float64]
 
 FILTER_ORDER: Final = 4
 """Of the Butterworth low-pass behind each band-pass. With order 3 the bilinear transform lifts the
@@ -30,7 +28,7 @@ _STOP_POWER: Final = (1 / 2, 1.0, 2.0, 3.0, 4.0)
 _STOP_LEAST_DB: Final = (1.2, 16.6, 40.5, 60.0, 70.0)
 
 
-def class_1_limits_db(frequency_ratio: Real, bands_per_octave: int) -> tuple[Real, Real]:
+def class_1_limits_db(frequency_ratio: Array, bands_per_octave: int) -> tuple[Array, Array]:
     """Least and greatest relative attenuation of a class 1 filter (5.10 and Table 1), dB.
 
     Between the breakpoints the limits are linear over the logarithm of the frequency. A filter of
@@ -56,13 +54,13 @@ def class_1_limits_db(frequency_ratio: Real, bands_per_octave: int) -> tuple[Rea
     return least, greatest
 
 
-def _breakpoints(power: tuple[float, ...], bands_per_octave: int) -> Real:
+def _breakpoints(power: tuple[float, ...], bands_per_octave: int) -> Array:
     """Logarithms of the breakpoints above the mid-band frequency."""
     squeeze = (OCTAVE_RATIO ** (0.5 / bands_per_octave) - 1.0) / (OCTAVE_RATIO**0.5 - 1.0)
     return np.asarray(np.log1p(squeeze * (OCTAVE_RATIO ** np.array(power) - 1.0)))
 
 
-def band_filter(band: Band, sample_rate_hz: float) -> Real:
+def band_filter(band: Band, sample_rate_hz: float) -> Array:
     """Second-order sections of a band's Butterworth filter, -3 dB at the band edges.
 
     No band is decimated: in double precision, rounding at the full rate is 7e-12 of what comes
@@ -89,7 +87,7 @@ def band_filter(band: Band, sample_rate_hz: float) -> Real:
     return np.asarray(sections)
 
 
-def band_signal(signal: Real, sample_rate_hz: float, band: Band) -> Real:
+def band_signal(signal: Array, sample_rate_hz: float, band: Band) -> Array:
     """What a band's filter lets through of a signal, from rest.
 
     Parameters

@@ -5,16 +5,20 @@ from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from ..constants import REFERENCE_PRESSURE_PA
-from ..schema import REFERENCE_OPTION, WEIGHTINGS, check, stamp
+from ..base.arrays import Array, ComplexArray
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.decibel import mean_square_level, sound_pressure_level
+from ..base.vocabulary import (
+    REFERENCE_OPTION,
+    WEIGHTINGS,
+    check,
+    stamp,
+)
 from .bands import Band
 from .by_source import SourceSound
-from .decibel import mean_square_level, sound_pressure_level
 from .weighting import WEIGHTING
 
-Real = NDArray[np.float64]
 At = tuple[float, str]
 """Speed in rpm and option."""
 
@@ -35,12 +39,12 @@ class Places:
     receivers: Sequence[str]
     bands: Sequence[Band]
 
-    def gathered(self, sound: Mapping[At, SourceSound], part: str) -> Real:
+    def gathered(self, sound: Mapping[At, SourceSound], part: str) -> Array:
         """A part of the sound of all cases, shape (speed, option, ...)."""
         return np.array([[getattr(sound[s, o], part) for o in self.options] for s in self.speeds])
 
 
-def level(mean_square: Real) -> Real:
+def level(mean_square: Array) -> Array:
     """Level of mean squares of pressure, dB re 20 µPa."""
     return mean_square_level(mean_square, REFERENCE_PRESSURE_PA)
 
@@ -49,9 +53,9 @@ def level_variables(
     places: Places,
     sound: Mapping[At, SourceSound],
     weightings: Sequence[str],
-    line_pressure: NDArray[np.complex128],
+    line_pressure: ComplexArray,
     order_frequency: xr.DataArray,
-    remainder: Real,
+    remainder: Array,
 ) -> xr.Dataset:
     """Levels with the values as given.
 
@@ -109,8 +113,8 @@ def level_variables(
 def draw_variables(
     places: Places,
     sounds: Sequence[Mapping[At, SourceSound]],
-    remainder: Real,
-    left: Real,
+    remainder: Array,
+    left: Array,
 ) -> xr.Dataset:
     """A-weighted levels of every draw.
 
@@ -144,7 +148,7 @@ def draw_variables(
     return check(xr.Dataset(arrays))
 
 
-def _order_level(pressure: NDArray[np.complex128], frequency: Real) -> Real:
+def _order_level(pressure: ComplexArray, frequency: Array) -> Array:
     """Levels of the orders, (speed, option, receiver, order, weighting)."""
     unweighted = sound_pressure_level(pressure)
     hertz = frequency[:, None, None, :]

@@ -7,20 +7,18 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..constants import REFERENCE_PRESSURE_PA
-from ..errors import ParameterError
+from ..base.arrays import Array
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.decibel import mean_square_level
+from ..base.errors import ParameterError
 from .bands import Band, band_mean_square
-from .decibel import mean_square_level
 from .time_weighting import (
     FAST_TIME_CONSTANT_S,
     SLOW_TIME_CONSTANT_S,
     time_weighted_mean_square,
 )
 from .weighting import weighted_signal
-
-Real = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -34,9 +32,9 @@ class RecordedLevels:
     slow_maximum_db : greatest Slow-weighted level
     """
 
-    equivalent_db: Real
-    fast_maximum_db: Real
-    slow_maximum_db: Real
+    equivalent_db: Array
+    fast_maximum_db: Array
+    slow_maximum_db: Array
 
 
 def level_reference(unit: str, reference: float | None = None) -> float:
@@ -55,13 +53,13 @@ def level_reference(unit: str, reference: float | None = None) -> float:
     return value
 
 
-def equivalent_level(signal: Real, reference: float) -> Real:
+def equivalent_level(signal: Array, reference: float) -> Array:
     """Leq = 10 lg(mean x² / x_0²) over the last axis, dB."""
     return mean_square_level(np.mean(np.square(signal, dtype=float), axis=-1), reference)
 
 
 def recorded_levels(
-    signal: Real, sample_rate_hz: float, reference: float, weighting: str
+    signal: Array, sample_rate_hz: float, reference: float, weighting: str
 ) -> RecordedLevels:
     """Equivalent level and greatest Fast and Slow levels of a recording.
 
@@ -85,8 +83,8 @@ def recorded_levels(
 
 
 def band_levels(
-    signal: Real, sample_rate_hz: float, bands: Sequence[Band], reference: float, weighting: str
-) -> Real:
+    signal: Array, sample_rate_hz: float, bands: Sequence[Band], reference: float, weighting: str
+) -> Array:
     """Levels in bands from the Fourier transform of all of the recording, dB.
 
     Parameters

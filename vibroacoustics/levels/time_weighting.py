@@ -4,15 +4,16 @@ from typing import Final
 
 import numpy as np
 import scipy  # loads its subpackages when they are needed
-from numpy.typing import NDArray
 
-Real = NDArray[np.float64]
+from ..base.arrays import Array
 
 FAST_TIME_CONSTANT_S: Final = 0.125
 SLOW_TIME_CONSTANT_S: Final = 1.0
 
 
-def time_weighted_mean_square(signal: Real, sample_rate_hz: float, time_constant_s: float) -> Real:
+def time_weighted_mean_square(
+    signal: Array, sample_rate_hz: float, time_constant_s: float
+) -> Array:
     """(1/τ) ∫ x²(ξ) exp(-(t - ξ)/τ) dξ up to each sample.
 
     Exact for a square that stays constant from sample to sample. Before the recording there was

@@ -4,13 +4,11 @@ from collections.abc import Callable
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import fft
 
-from ..errors import ParameterError
-from .decibel import SILENCE_DB
-
-Real = NDArray[np.float64]
+from ..base.arrays import Array
+from ..base.decibel import SILENCE_DB
+from ..base.errors import ParameterError
 
 # Pole frequencies of the A and C weightings, Hz (IEC 61672-1:2013, Annex E, from f_r = 1 kHz,
 # f_L = 10^1.5 Hz, f_H = 10^3.9 Hz, f_A = 10^2.45 Hz, D = 1/√2).
@@ -24,29 +22,29 @@ _RINGING_S: Final = 0.25
 1e-14. (The kink at half the sample rate leaves 1e-8, of that frequency.)"""
 
 
-def a_weighting(frequency_hz: Real | float) -> Real:
+def a_weighting(frequency_hz: Array | float) -> Array:
     """A-weighting in dB at exact frequencies (IEC 61672-1:2013, equation E.6)."""
     return _in_db(_a_gain, frequency_hz)
 
 
-def c_weighting(frequency_hz: Real | float) -> Real:
+def c_weighting(frequency_hz: Array | float) -> Array:
     """C-weighting in dB at exact frequencies (IEC 61672-1:2013, equation E.1)."""
     return _in_db(_c_gain, frequency_hz)
 
 
-def z_weighting(frequency_hz: Real | float) -> Real:
+def z_weighting(frequency_hz: Array | float) -> Array:
     """No weighting: 0 dB at every frequency."""
     return np.zeros_like(np.asarray(frequency_hz, dtype=float))
 
 
-WEIGHTING: Final[dict[str, Callable[[Real | float], Real]]] = {
+WEIGHTING: Final[dict[str, Callable[[Array | float], Array]]] = {
     "Z": z_weighting,
     "A": a_weighting,
     "C": c_weighting,
 }
 
 
-def weighted_signal(signal: Real, sample_rate_hz: float, weighting: str) -> Real:
+def weighted_signal(signal: Array, sample_rate_hz: float, weighting: str) -> Array:
     """Signal with its spectrum weighted, by magnitude only: no phase, no delay.
 
     The level of every tone is right at its exact frequency up to half the sample rate, where a
@@ -78,17 +76,17 @@ def weighted_signal(signal: Real, sample_rate_hz: float, weighting: str) -> Real
     return np.asarray(fft.irfft(gain * fft.rfft(signal, length), length)[..., :samples])
 
 
-def _a_gain(frequency: Real) -> Real:
+def _a_gain(frequency: Array) -> Array:
     square = frequency**2
     return np.asarray(_c_gain(frequency) * square / np.sqrt((square + _F2**2) * (square + _F3**2)))
 
 
-def _c_gain(frequency: Real) -> Real:
+def _c_gain(frequency: Array) -> Array:
     square = frequency**2
     return np.asarray(_F4**2 * square / ((square + _F1**2) * (square + _F4**2)))
 
 
-def _in_db(gain: Callable[[Real], Real], frequency_hz: Real | float) -> Real:
+def _in_db(gain: Callable[[Array], Array], frequency_hz: Array | float) -> Array:
     """Gain relative to 1 kHz in dB; SILENCE_DB where nothing passes (0 Hz)."""
     relative = gain(np.asarray(frequency_hz, dtype=float)) / gain(np.asarray(1000.0))
     return np.asarray(20.0 * np.log10(np.maximum(relative, 10.0 ** (SILENCE_DB / 20.0))))

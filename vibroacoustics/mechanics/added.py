@@ -5,7 +5,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .moving_parts import Array, MovingPart
+from ..base.arrays import Array
+from .moving_parts import MovingPart
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,8 @@ from typing import Final
 import numpy as np
 from scipy.linalg import eigh
 
-from ..errors import ParameterError
-from .moving_parts import Array
+from ..base.arrays import Array
+from ..base.errors import ParameterError
 
 NODE_FREEDOMS: Final = 4
 X_PLANE: Final = np.eye(8)[[0, 3, 4, 7]]

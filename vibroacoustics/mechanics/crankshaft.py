@@ -7,9 +7,10 @@ from typing import Final
 import numpy as np
 from scipy.optimize import brentq
 
-from ..errors import ParameterError, SolverError
+from ..base.arrays import Array
+from ..base.errors import ParameterError, SolverError
 from .moving_parts import Revolution, Wrench
-from .rotation import Array, Rotation
+from .rotation import Rotation
 
 ITERATIONS: Final = 200
 SPEED_TOLERANCE: Final = 1e-13

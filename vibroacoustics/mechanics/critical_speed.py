@@ -7,9 +7,9 @@ from typing import Final
 import numpy as np
 from scipy.linalg import eigh
 
-from ..constants import STANDARD_GRAVITY_M_PER_S2
+from ..base.arrays import Array
+from ..base.constants import STANDARD_GRAVITY_M_PER_S2
 from .beam_rotor import NODE_FREEDOMS, RotorMatrices, Section, assemble, with_disc
-from .moving_parts import Array
 from .scroll_shaft import ScrollShaft
 
 ELEMENT_LENGTH_M: Final = 0.01

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .moving_parts import Array
+from ..base.arrays import Array
 
 
 class IdealValveCycle(NamedTuple):

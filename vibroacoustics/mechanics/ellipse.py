@@ -1,10 +1,11 @@
 """The ellipse that the tip of a vector draws at one order."""
 
 import numpy as np
-from numpy.typing import NDArray
+
+from ..base.arrays import Array, ComplexArray
 
 
-def semi_major_axis(phasor: NDArray[np.complex128], axis: int) -> NDArray[np.float64]:
+def semi_major_axis(phasor: ComplexArray, axis: int) -> Array:
     """Largest magnitude that Re{X e^{jωt}} reaches in a period, peak.
 
     a² = (|X|² + |X·X|) / 2 with X·X = Σ X_i² (the vector of a linear oscillation has

@@ -4,11 +4,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
-from .moving_parts import Array, Wrench
-
-Complex = NDArray[np.complex128]
+from ..base.arrays import Array, ComplexArray
+from .moving_parts import Wrench
 
 JOINT_COMPONENTS = 4
 """Force along x, y, z and moment about z, on each joint of the shell."""
@@ -30,8 +28,8 @@ class Tone:
 
     name: str
     frequency_hz: float
-    rigid: Complex
-    joints: Complex
+    rigid: ComplexArray
+    joints: ComplexArray
     figure: str | None = None
 
 
@@ -50,7 +48,7 @@ class Noise:
     joint: int
     components: tuple[int, ...]
     frequency_hz: Array
-    density: Complex
+    density: ComplexArray
 
 
 @dataclass(frozen=True)
@@ -69,11 +67,11 @@ class Loads:
     """
 
     wrenches: Mapping[str, Wrench] = field(default_factory=dict)
-    rigid: Complex | None = None
-    joints: Complex | None = None
+    rigid: ComplexArray | None = None
+    joints: ComplexArray | None = None
     tones: tuple[Tone, ...] = ()
     noise: tuple[Noise, ...] = ()
-    shaft_torque_n_m: Complex | None = None
+    shaft_torque_n_m: ComplexArray | None = None
     figures: Mapping[str, float] = field(default_factory=dict)
 
 
@@ -91,8 +89,8 @@ class Lines:
 
     names: tuple[str, ...]
     frequency_hz: Array
-    rigid: Mapping[str, Complex]
-    joints: Mapping[str, Complex]
+    rigid: Mapping[str, ComplexArray]
+    joints: Mapping[str, ComplexArray]
 
 
 def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int, joints: int) -> Lines:
@@ -129,7 +127,7 @@ def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int, joints: 
     return Lines(names, np.array(frequency), rigid, on_joints)
 
 
-def total_torque_n_m(loads: Iterable[Loads], highest: int) -> Complex:
+def total_torque_n_m(loads: Iterable[Loads], highest: int) -> ComplexArray:
     """Torque that the shaft needs for all sources that say so, shape (highest order + 1,)."""
     total = np.zeros(highest + 1, dtype=complex)
     for source in loads:

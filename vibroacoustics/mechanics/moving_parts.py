@@ -10,12 +10,10 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..base.arrays import Array
 from .capabilities import UPRIGHT, CrankFrame
 from .rotation import Rotation
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

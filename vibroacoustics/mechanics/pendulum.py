@@ -5,13 +5,11 @@ from functools import cache
 from math import pi, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..constants import STANDARD_GRAVITY_M_PER_S2
-from ..errors import SolverError
+from ..base.arrays import Array
+from ..base.constants import STANDARD_GRAVITY_M_PER_S2
+from ..base.errors import SolverError
 from .pendulum_steps import states_at
-
-Array = NDArray[np.float64]
 
 SETTLING_REVOLUTIONS = 300
 SETTLING_ROUNDS = 4

@@ -9,10 +9,9 @@ from typing import Final
 
 import numba
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import DOP853
 
-Array = NDArray[np.float64]
+from ..base.arrays import Array
 
 STAGES: Final = int(DOP853.n_stages)
 NODES: Final = np.array(DOP853.C[:STAGES], dtype=float)

@@ -3,11 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..units import shaft_frequency_hz
-
-Array = NDArray[np.float64]
+from ..base.arrays import Array
+from ..base.units import shaft_frequency_hz
 
 
 @dataclass(frozen=True)

@@ -13,13 +13,11 @@ from typing import Final
 
 import numpy as np
 import scipy.fft
-from numpy.typing import NDArray
 
-from ..errors import ParameterError
+from ..base.arrays import Array
+from ..base.errors import ParameterError
 from .crank_motion import CrankMotion
 from .low_pass import LowPass, add_samples, kaiser_low_pass
-
-Array = NDArray[np.float64]
 
 ATTENUATION_DB: Final = 100.0
 """Of everything that could alias; the gain up to the maximum order is as near to 1: 1e-5."""

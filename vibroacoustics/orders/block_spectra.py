@@ -7,11 +7,9 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from ..errors import ParameterError
+from ..base.arrays import Array, ComplexArray
+from ..base.errors import ParameterError
 from .fourier import real_transform
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 _CHUNK_SAMPLES: Final = 2**18
 """Windowed at once in each thread: 2 MB, and 2 MB of their spectra."""

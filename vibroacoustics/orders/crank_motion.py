@@ -3,12 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly
 
-from ..errors import ParameterError
-
-Array = NDArray[np.float64]
+from ..base.arrays import Array
+from ..base.errors import ParameterError
 
 
 @dataclass(frozen=True)

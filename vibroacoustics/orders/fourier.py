@@ -3,7 +3,8 @@
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
+
+from ..base.arrays import Array, ComplexArray
 
 try:
     import pyfftw
@@ -14,7 +15,7 @@ from scipy import fft as scipy_fft
 FFT_ENGINE: Final = "scipy.fft" if pyfftw is None else "pyFFTW"
 
 
-def real_transform(signal: NDArray[np.float64]) -> NDArray[np.complex128]:
+def real_transform(signal: Array) -> ComplexArray:
     """Real-to-complex transform along the last axis."""
     if pyfftw is None:
         return np.asarray(scipy_fft.rfft(signal, axis=-1))

@@ -3,16 +3,13 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..errors import ParameterError
+from ..base.arrays import Array, ComplexArray
+from ..base.errors import ParameterError
 from .angular import check_finite, known_samples
 from .block_spectra import block_spectra, block_starts, check_positive
 from .crank_motion import CrankMotion
 from .windows import window_by_name
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)

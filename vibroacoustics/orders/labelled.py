@@ -3,10 +3,10 @@
 import numpy as np
 import xarray as xr
 
+from ..base.units import shaft_frequency_hz
+from ..base.vocabulary import check, stamp
 from ..mechanics.ellipse import semi_major_axis
-from ..parameters.study import Study
-from ..schema import check, stamp
-from ..units import shaft_frequency_hz
+from ..study.study import Study
 from .spectrum import order_spectra
 
 

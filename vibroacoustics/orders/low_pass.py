@@ -5,9 +5,8 @@ from typing import Final
 
 import numba
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ..base.arrays import Array
 
 _PHASES: Final = 512
 """Tabulated positions between two outputs. Linear interpolation errs by at most h'' / (8 · 512²):

@@ -6,12 +6,10 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..errors import ParameterError
+from ..base.arrays import Array, ComplexArray
+from ..base.errors import ParameterError
 from .order_map import OrderMap
-
-Array = NDArray[np.float64]
 
 _SAME_LINE = 1e-9
 """Orders this near to a line or a band's edge, relative to the line spacing, lie on it."""
@@ -90,7 +88,7 @@ def order_cut(
     )
 
 
-def order_lines(spectra: OrderMap, orders: Sequence[float] | Array) -> NDArray[np.complex128]:
+def order_lines(spectra: OrderMap, orders: Sequence[float] | Array) -> ComplexArray:
     """Complex peak amplitude of orders that lie on a line of the map, shape (..., block, order).
 
     Raises
@@ -109,7 +107,7 @@ def order_lines(spectra: OrderMap, orders: Sequence[float] | Array) -> NDArray[n
     return spectra.amplitude[..., whole]
 
 
-def _band_power(amplitude: NDArray[np.complex128]) -> Array:
+def _band_power(amplitude: ComplexArray) -> Array:
     return np.asarray(np.sum(np.abs(amplitude) ** 2, axis=-1) / 2.0)
 
 

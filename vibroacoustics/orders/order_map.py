@@ -7,13 +7,11 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from ..errors import ParameterError
+from ..base.arrays import Array, ComplexArray
+from ..base.errors import ParameterError
 from .angular import AngularSignal
 from .block_spectra import block_spectra, block_starts, check_positive
 from .windows import Window, window_by_name
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)

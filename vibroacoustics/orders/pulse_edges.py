@@ -4,11 +4,9 @@ from typing import Final, Literal
 
 import numba
 import numpy as np
-from numpy.typing import NDArray
 
-from ..errors import ParameterError
-
-Array = NDArray[np.float64]
+from ..base.arrays import Array
+from ..base.errors import ParameterError
 
 _HYSTERESIS: Final = 0.4
 """Of the swing: noise has to cross the middle 40 % to make a pulse, and a pulse of two or three

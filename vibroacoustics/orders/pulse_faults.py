@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 
-from ..errors import ParameterError
+from ..base.arrays import Array
+from ..base.errors import ParameterError
 
-Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 _HALF_WINDOW: Final = 10

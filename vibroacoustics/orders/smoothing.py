@@ -4,11 +4,10 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import BSpline, CubicSpline, PPoly
 from scipy.linalg import solveh_banded
 
-Array = NDArray[np.float64]
+from ..base.arrays import Array
 
 _INFLATION: Final = 1.4
 """Of the degrees of freedom in the criterion: without it, it chooses far too many now and then (Kim

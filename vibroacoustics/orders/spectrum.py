@@ -1,8 +1,8 @@
 """Order spectrum of a signal over whole revolutions of the shaft."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..base.arrays import Array, ComplexArray
 from ..mechanics.rotation import crank_time_s
 from .angular import whole_revolutions
 from .fourier import real_transform
@@ -10,9 +10,7 @@ from .order_cut import order_lines
 from .order_map import order_map
 
 
-def order_spectrum(
-    signal: NDArray[np.float64], maximum_order: int, revolutions: int = 1
-) -> NDArray[np.complex128]:
+def order_spectrum(signal: Array, maximum_order: int, revolutions: int = 1) -> ComplexArray:
     """Complex peak amplitude of each shaft order, x(θ) = Re Σ X_k exp(jkθ).
 
     X_0 = (1/N) Σ x and X_k = (2/N) Σ x exp(-jkθ): the one-sided Fourier series. One block of the
@@ -46,8 +44,8 @@ def order_spectrum(
 
 
 def order_spectrum_at_speed(
-    signal: NDArray[np.float64], speed_rad_per_s: NDArray[np.float64], maximum_order: int
-) -> NDArray[np.complex128]:
+    signal: Array, speed_rad_per_s: Array, maximum_order: int
+) -> ComplexArray:
     """Complex peak amplitude of each multiple of the shaft frequency, x(t) = Re Σ X_k exp(jkωt).
 
     X_k = (2/T) ∫ x exp(-jkωt) dt over a revolution in which the speed varies, with dt = dθ/θ̇ and
@@ -73,9 +71,7 @@ def order_spectrum_at_speed(
     return np.asarray(signal @ kernel.T)
 
 
-def order_spectra(
-    signal: NDArray[np.float64], speed_rad_per_s: NDArray[np.float64], maximum_order: int
-) -> NDArray[np.complex128]:
+def order_spectra(signal: Array, speed_rad_per_s: Array, maximum_order: int) -> ComplexArray:
     """`order_spectrum_at_speed` of many cases, those of constant speed at once.
 
     Parameters

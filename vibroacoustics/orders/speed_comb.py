@@ -8,7 +8,7 @@ from scipy.fft import rfft
 from scipy.ndimage import map_coordinates, median_filter
 from scipy.sparse import csr_array
 
-Array = NDArray[np.float64]
+from ..base.arrays import Array
 
 _NOISE_LEVEL: Final = 0.5963473623231941
 """Mean of ln(1 + p) for the power p of white noise, exponentially distributed: e E1(1)."""

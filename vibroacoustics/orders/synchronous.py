@@ -8,14 +8,12 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
-from ..errors import ParameterError
+from ..base.arrays import Array, ComplexArray
+from ..base.errors import ParameterError
 from .angular import AngularSignal
 from .fourier import real_transform
 from .low_pass import LowPass, kaiser_low_pass
 from .order_cut import warn_of_neighbours
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 ENVELOPE_ATTENUATION_DB: Final = 80.0
 """Of an order a bandwidth away; modulation within the pass band keeps its size to 1e-4."""

@@ -4,15 +4,13 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
-from ..errors import ParameterError
+from ..base.arrays import Array
+from ..base.errors import ParameterError
 from .crank_motion import CrankMotion, from_angle, from_curve
 from .pulse_faults import PulseFault, number_pulses
 from .smoothing import smooth_curve
-
-Array = NDArray[np.float64]
 
 _POINTS_PER_S: Final = 20
 """Of a recorded speed: it holds nothing faster than the 10 Hz that drives are controlled at."""

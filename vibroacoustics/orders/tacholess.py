@@ -11,12 +11,11 @@ from numpy.typing import NDArray
 from scipy.fft import next_fast_len
 from scipy.interpolate import PPoly
 
-from ..errors import ParameterError
+from ..base.arrays import Array
+from ..base.errors import ParameterError
 from .crank_motion import CrankMotion, from_curve
 from .smoothing import smooth_curve
 from .speed_comb import comb_scores, frame_levels, refine
-
-Array = NDArray[np.float64]
 
 _REVOLUTIONS: Final = 8
 """In a frame at the lowest speed: the lines of its orders lie four Hann half-widths apart."""

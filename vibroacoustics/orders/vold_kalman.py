@@ -18,10 +18,10 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import LinAlgError, cho_solve_banded, cholesky_banded
 
-from ..errors import ParameterError, SolverError
+from ..base.arrays import Array, ComplexArray
+from ..base.errors import ParameterError, SolverError
 from .vold_kalman_equations import (
     SUPPORT,
     Track,
@@ -33,8 +33,6 @@ from .vold_kalman_equations import (
 
 __all__ = ["Track", "TrackedOrders", "vold_kalman"]
 
-Real = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 KNOTS_PER_BANDWIDTH: Final = 8
 """Knots per second over the bandwidth. The splines pass on less than (1/16)^4, -96 dB, of what
@@ -60,14 +58,14 @@ class TrackedOrders:
         close to be told apart; about 1 or 2 where they are apart
     """
 
-    time_s: Real
-    envelope: Complex
+    time_s: Array
+    envelope: ComplexArray
     sample_rate_hz: float
     noise_gain: float
 
 
 def vold_kalman(
-    signal: Real,
+    signal: Array,
     sample_rate_hz: float,
     tracks: Sequence[Track],
     bandwidth_hz: float,
@@ -121,8 +119,8 @@ def vold_kalman(
 
 
 def _factorise(
-    band: Real, tracks: Sequence[Track], time: Real, bandwidth_hz: float
-) -> tuple[Real, float]:
+    band: Array, tracks: Sequence[Track], time: Array, bandwidth_hz: float
+) -> tuple[Array, float]:
     """Cholesky factor and the noise gain, 1/√ of the smallest eigenvalue."""
     try:
         factor = cholesky_banded(band, lower=True)
@@ -140,7 +138,7 @@ def _factorise(
 
 
 def _too_close(
-    tracks: Sequence[Track], time: Real, bandwidth_hz: float, share: Real
+    tracks: Sequence[Track], time: Array, bandwidth_hz: float, share: Array
 ) -> SolverError:
     """Name the orders, and the time, of which the equations know least: (spline, track) shares."""
     when = time[np.clip(np.argmax(np.sum(share, axis=1)) - 1, 0, time.size - 1)]
@@ -157,7 +155,7 @@ def _too_close(
 
 
 def _check(
-    signal: Real, sample_rate_hz: float, tracks: Sequence[Track], bandwidth_hz: float, poles: int
+    signal: Array, sample_rate_hz: float, tracks: Sequence[Track], bandwidth_hz: float, poles: int
 ) -> None:
     """Refuse what no recording has."""
     if poles not in (1, 2, 3):
@@ -194,7 +192,7 @@ def _common_span(
 
 
 def _check_frequencies(
-    tracks: Sequence[Track], time: Real, sample_rate_hz: float, bandwidth_hz: float
+    tracks: Sequence[Track], time: Array, sample_rate_hz: float, bandwidth_hz: float
 ) -> None:
     """Every order stays a bandwidth away from 0 Hz and from half the sample rate."""
     highest = 0.5 * sample_rate_hz - bandwidth_hz

@@ -10,11 +10,9 @@ from math import comb
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..base.arrays import Array
 from .crank_motion import CrankMotion
-
-Real = NDArray[np.float64]
 
 SUPPORT: Final = 4
 """Cubic B-splines that overlap at a time."""
@@ -43,7 +41,7 @@ def weight_squared(bandwidth_hz: float, sample_rate_hz: float, poles: int) -> fl
     return float((np.sqrt(2.0) - 1.0) / step ** (2 * poles))
 
 
-def structural_equations(splines: int, unknowns: int, weight: float, poles: int) -> Real:
+def structural_equations(splines: int, unknowns: int, weight: float, poles: int) -> Array:
     """Weighted squares of the p-th differences, lower band of the normal equations."""
     band = np.zeros((SUPPORT * unknowns, splines * unknowns))
     difference = [(-1) ** i * comb(poles, i) for i in range(poles + 1)]
@@ -56,8 +54,8 @@ def structural_equations(splines: int, unknowns: int, weight: float, poles: int)
 
 
 def data_pieces(
-    channels: Real, tracks: Sequence[Track], first: int, sample_rate_hz: float, step: int
-) -> Iterator[tuple[int, Real, Real]]:
+    channels: Array, tracks: Sequence[Track], first: int, sample_rate_hz: float, step: int
+) -> Iterator[tuple[int, Array, Array]]:
     """First knot, design matrices (knot, spline and unknown, sample) and samples, piece by piece.
 
     Of one unknown pair, Re{X exp(jΘ)} = Re X cos Θ - Im X sin Θ.
@@ -81,7 +79,7 @@ def data_pieces(
         yield begin // step, design, samples.reshape(-1, knots, step).transpose(1, 2, 0)
 
 
-def _cubic_splines(step: int) -> Real:
+def _cubic_splines(step: int) -> Array:
     """The four uniform cubic B-splines between two knots, shape (4, step)."""
     w = np.arange(step) / step
     after = 1.0 + 3.0 * w * (1.0 + w - w**2)
@@ -89,7 +87,13 @@ def _cubic_splines(step: int) -> Real:
 
 
 def add_data_equations(
-    band: Real, right: Real, start: int, unknowns: int, design: Real, samples: Real, scale: float
+    band: Array,
+    right: Array,
+    start: int,
+    unknowns: int,
+    design: Array,
+    samples: Array,
+    scale: float,
 ) -> None:
     """Add a piece to the lower band of the normal equations and to their right-hand sides."""
     knots, rows, step = design.shape

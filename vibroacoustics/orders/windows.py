@@ -5,9 +5,9 @@ from typing import Final
 
 import numpy as np
 import scipy  # loads its subpackages when they are needed
-from numpy.typing import NDArray
 
-from ..errors import ParameterError
+from ..base.arrays import Array
+from ..base.errors import ParameterError
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Window:
         """Width of the main lobe from zero to zero, lines."""
         return 2.0 * len(self.cosines)
 
-    def samples(self, length: int) -> NDArray[np.float64]:
+    def samples(self, length: int) -> Array:
         """The window over `length` samples, mean 1."""
         return np.asarray(
             scipy.signal.windows.general_cosine(length, np.asarray(self.cosines), sym=False)

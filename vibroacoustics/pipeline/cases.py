@@ -4,14 +4,14 @@ from collections.abc import Mapping
 from dataclasses import replace
 from itertools import product
 
-from ..errors import ParameterError
+from ..base.errors import ParameterError
+from ..base.vocabulary import REFERENCE_OPTION
+from ..machine.source import Case, Shared, Source
 from ..mechanics.added import Added
 from ..mechanics.loads import Loads
 from ..mechanics.moving_parts import Revolution
-from ..parameters.source import Case, Shared, Source
-from ..parameters.study import Study
-from ..schema import REFERENCE_OPTION
 from ..sources.moving_parts import MovingParts
+from ..study.study import Study
 from ..uncertainty.draws import Draw, with_draw
 from .progress import Progress
 

@@ -7,13 +7,18 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
+from ..base.vocabulary import (
+    AXES,
+    REFERENCE_OPTION,
+    check,
+    stamp,
+)
+from ..machine.option import Option
+from ..machine.source import Case
 from ..mechanics.loads import Loads
 from ..mechanics.rotation import uniform_crank_angle
 from ..orders.labelled import order_variables
-from ..parameters.option import Option
-from ..parameters.source import Case
-from ..parameters.study import Study
-from ..schema import AXES, REFERENCE_OPTION, check, stamp
+from ..study.study import Study
 from ..transfer import largest_foot_force_n, on_mounts
 from ..transfer.labelled import housing_variables
 from .cases import At, cases_of, loads_of

@@ -6,14 +6,22 @@ from typing import Any, Final
 import numpy as np
 import xarray as xr
 
-from .. import levels, provenance, radiation, sound_power, storage
+from .. import levels, radiation
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.errors import ParameterError
 from ..base.hashing import canonical_json
-from ..constants import REFERENCE_PRESSURE_PA
-from ..errors import ParameterError
-from ..parameters.sound_power import SoundPowerSettings
-from ..parameters.study import Study
-from ..schema import VARIABLES, WEIGHTINGS, check, label_coordinates, stamp
-from ..units import shaft_frequency_hz
+from ..base.units import shaft_frequency_hz
+from ..base.vocabulary import (
+    VARIABLES,
+    WEIGHTINGS,
+    check,
+    label_coordinates,
+    stamp,
+)
+from ..levels import sound_power
+from ..results import provenance, storage
+from ..study.sound_power import SoundPowerSettings
+from ..study.study import Study
 from .progress import Progress
 from .shell import shell_path
 

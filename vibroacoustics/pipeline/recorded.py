@@ -5,18 +5,22 @@ from typing import Any, Final
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from .. import levels, orders, provenance
+from .. import levels, orders
+from ..base.arrays import Array, ComplexArray, IndexArray
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.errors import VibroacousticsError
 from ..base.hashing import canonical_json
-from ..constants import REFERENCE_PRESSURE_PA
-from ..errors import VibroacousticsError
-from ..parameters.order_analysis import OrderAnalysis
-from ..schema import WEIGHTINGS, check, label_coordinates, stamp
+from ..base.vocabulary import (
+    WEIGHTINGS,
+    check,
+    label_coordinates,
+    stamp,
+)
+from ..results import provenance
+from ..study.order_analysis import OrderAnalysis
 from .progress import Progress
 from .recorded_speed import RecordedSpeed, channels_without_speed, recorded_speed
-
-Array = NDArray[np.float64]
 
 STEADY_RATIO: Final = 0.02
 """A speed that stays within this share of its mean makes one operating point."""
@@ -80,7 +84,7 @@ def _source(recording: xr.Dataset) -> str:
 def _order_variables(
     signal: xr.DataArray,
     spectra: orders.OrderMap,
-    phasors: NDArray[np.complex128],
+    phasors: ComplexArray,
     settings: OrderAnalysis,
 ) -> xr.Dataset:
     """Orders of every block and at every operating point, and the mean spectrum."""
@@ -120,9 +124,7 @@ def _order_variables(
     )
 
 
-def operating_points(
-    block_speed_rpm: Array, speed_step_rpm: float
-) -> tuple[Array, NDArray[np.intp]]:
+def operating_points(block_speed_rpm: Array, speed_step_rpm: float) -> tuple[Array, IndexArray]:
     """Speeds (point,) that the blocks belong to, rpm, and the point of each block (block,).
 
     A steady speed is one point, at its mean; a run-up has one at every multiple of the step to
@@ -137,8 +139,8 @@ def operating_points(
 
 
 def _at_points(
-    lines: NDArray[np.complex128], rms: Array, point: NDArray[np.intp], number: int
-) -> tuple[NDArray[np.complex128], Array, Array]:
+    lines: ComplexArray, rms: Array, point: IndexArray, number: int
+) -> tuple[ComplexArray, Array, Array]:
     """Coherent mean, root mean power and coherence, (channel, point, order), of the blocks."""
     member = np.equal.outer(np.arange(number), point).astype(float)
     share = member / member.sum(axis=1, keepdims=True)

@@ -9,10 +9,10 @@ import numpy as np
 import xarray as xr
 
 from .. import orders
-from ..errors import ParameterError
-from ..parameters.order_analysis import NominalSpeed, SpeedChannel, TacholessSpeed
-from ..schema import NO_ANGLE_ZERO
-from ..units import shaft_frequency_hz
+from ..base.errors import ParameterError
+from ..base.units import shaft_frequency_hz
+from ..base.vocabulary import NO_ANGLE_ZERO
+from ..study.order_analysis import NominalSpeed, SpeedChannel, TacholessSpeed
 
 SpeedSource = SpeedChannel | NominalSpeed | TacholessSpeed
 

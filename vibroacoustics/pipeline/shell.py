@@ -1,9 +1,9 @@
 """The elastic shell of a study: computed modes, or measured ones from a file."""
 
-from .. import measurements
-from ..parameters.shell_structure import ShellStructure, ShellVariation
-from ..parameters.study import Study
-from ..parameters.uncertainty import MeasuredModes
+from .. import recordings
+from ..machine.shell_structure import ShellStructure, ShellVariation
+from ..study.study import Study
+from ..study.uncertainty import MeasuredModes
 from ..transfer.path import ShellPath, computed_path, measured_path
 from ..transfer.shell_modes import SampledMode
 
@@ -26,7 +26,7 @@ def shell_path(study: Study) -> ShellPath | None:
 
 def _measured(settings: MeasuredModes) -> tuple[SampledMode, ...]:
     """Modes of a universal file."""
-    found = measurements.read_modes(settings.file, file_unit_m=settings.file_unit_m)
+    found = recordings.read_modes(settings.file, file_unit_m=settings.file_unit_m)
     rows = zip(found.frequency_hz, found.modal_mass_kg, found.shape, strict=True)
     return tuple(
         SampledMode(f"measured_{number:02d}", float(hertz), float(mass), found.nodes_m, shape)

@@ -10,16 +10,21 @@ import numpy as np
 import xarray as xr
 
 from .. import levels, radiation
-from ..constants import REFERENCE_PRESSURE_PA
-from ..errors import ParameterError, SolverError
+from ..base.arrays import Array, ComplexArray
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.errors import ParameterError, SolverError
+from ..base.vocabulary import (
+    REFERENCE_OPTION,
+    WEIGHTINGS,
+    check,
+    stamp,
+)
 from ..levels.by_source import NoisePower, SourceSound, source_sound
-from ..mechanics.loads import Complex, Lines, Loads, lines_of
-from ..mechanics.rotation import Array
-from ..parameters.shell_structure import JOINTS, ShellStructure, ShellVariation
-from ..parameters.source import Case
-from ..parameters.study import Study
+from ..machine.shell_structure import JOINTS, ShellStructure, ShellVariation
+from ..machine.source import Case
+from ..mechanics.loads import Lines, Loads, lines_of
 from ..radiation.machine_side import processors
-from ..schema import REFERENCE_OPTION, WEIGHTINGS, check, stamp
+from ..study.study import Study
 from ..transfer import on_mounts
 from ..transfer.path import ShellPath
 from ..transfer.sound_path import BendingShell, PressurePerVelocity, SoundPath
@@ -45,7 +50,7 @@ class CaseSound:
     """
 
     lines: Lines
-    pressure: Complex
+    pressure: ComplexArray
     by_source: SourceSound
 
 
@@ -66,7 +71,7 @@ class Listener:
     rigid: PressurePerVelocity
     modes: PressurePerVelocity
     path: ShellPath | None
-    wrench_pressure: Mapping[At, Mapping[str, Complex]]
+    wrench_pressure: Mapping[At, Mapping[str, ComplexArray]]
     bands: tuple[levels.Band, ...]
 
     def hear(
@@ -103,7 +108,7 @@ class Listener:
         return self._quieted(at[1], lines, pressure, noise)
 
     def _quieted(
-        self, option: str, lines: Lines, pressure: Complex, noise: list[NoisePower]
+        self, option: str, lines: Lines, pressure: ComplexArray, noise: list[NoisePower]
     ) -> CaseSound:
         """With what the option takes off the airborne sound."""
         loss = self.study.options[option].insertion_loss()
@@ -297,7 +302,7 @@ def _listener(study: Study, motion: Motion, catalogue: Motion, path: ShellPath |
 def pressure_per_velocity(vectors: xr.DataArray) -> PressurePerVelocity:
     """Transfer vectors at any frequencies."""
 
-    def at(frequency_hz: Array) -> Complex:
+    def at(frequency_hz: Array) -> ComplexArray:
         lines = xr.DataArray(frequency_hz, dims="line")
         return np.asarray(radiation.interpolate_transfer_vector(vectors, lines).values)
 
@@ -308,7 +313,7 @@ def _of_modes(results: xr.Dataset) -> PressurePerVelocity:
     return pressure_per_velocity(results["pattern_transfer_vector"].rename(pattern="dof"))
 
 
-def _silent(frequency_hz: Array) -> Complex:
+def _silent(frequency_hz: Array) -> ComplexArray:
     raise SolverError("the shell has no modes")
 
 
@@ -322,7 +327,7 @@ def wrench_pressure(results: xr.Dataset, name: str) -> xr.DataArray:
 
 def _wrench_pressure(
     results: xr.Dataset, of_wrench: Mapping[str, str]
-) -> dict[At, dict[str, Complex]]:
+) -> dict[At, dict[str, ComplexArray]]:
     """Pressure of the wrenches over crank angle, by case and source of sound."""
     dims = ("speed", "option", "source", "receiver", "order")
     pressure = wrench_pressure(results, "transfer_vector").transpose(*dims).values

@@ -7,9 +7,9 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from ..errors import ParameterError
-from ..parameters.study import Study
-from ..schema import COORDINATES, VARIABLES, WEIGHTINGS
+from ..base.errors import ParameterError
+from ..base.vocabulary import COORDINATES, VARIABLES, WEIGHTINGS
+from ..study.study import Study
 from .progress import Progress
 
 SPEEDS_IN_BLOCK: Final = 50

@@ -8,16 +8,17 @@ import numpy as np
 import xarray as xr
 
 from .. import levels
-from ..constants import REFERENCE_PRESSURE_PA
-from ..errors import ParameterError
+from ..base.arrays import Array
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.errors import ParameterError
+from ..base.units import shaft_frequency_hz
+from ..base.vocabulary import AXES, check, stamp
+from ..machine.machine import Machine
+from ..machine.source import Shared
+from ..machine.stopping import Stopping
 from ..mechanics.moving_parts import MovingPart
-from ..mechanics.rotation import Array, uniform_crank_angle
+from ..mechanics.rotation import uniform_crank_angle
 from ..orders import angular_resample, from_angle, order_map
-from ..parameters.machine import Machine
-from ..parameters.run_down import Stopping
-from ..parameters.source import Shared
-from ..parameters.study import Study
-from ..schema import AXES, check, stamp
 from ..sources.gas import gas_cycle
 from ..stopping.coasting import RunDown, run_down
 from ..stopping.event import (
@@ -27,9 +28,9 @@ from ..stopping.event import (
     StoppingEvent,
     stopping_event,
 )
+from ..study.study import Study
 from ..transfer import RigidBodyOnMounts, SuspendedBlock
 from ..transfer.transient import LOAD_SAMPLES, RESULT_SAMPLES
-from ..units import shaft_frequency_hz
 from .sound import pressure_per_velocity
 
 SHIFTED: Final = ("orbiting_scroll", "brake", "oldham")

@@ -8,10 +8,10 @@ from typing import Final
 import xarray as xr
 
 from .. import levels, scoring
+from ..base.errors import ParameterError
 from ..base.hashing import canonical_json
-from ..errors import ParameterError
-from ..parameters.study import Study
-from ..schema import check, label_coordinates, stamp
+from ..base.vocabulary import check, label_coordinates, stamp
+from ..study.study import Study
 from ..transfer import on_mounts
 from .motion import motion_of
 from .progress import Progress
@@ -37,7 +37,7 @@ def run(
 
     Returns
     -------
-    one dataset with all variables of `schema.VARIABLES`
+    one dataset with all variables of `vocabulary.VARIABLES`
 
     Raises
     ------

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ..mechanics.rotation import Array
-from ..parameters.study import Study
+from ..base.arrays import Array
+from ..study.study import Study
 from .cases import sources_of
 from .motion import Motion
 

@@ -15,8 +15,8 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import ParameterError
-from ..parameters.sound_power import (
+from ..base.errors import ParameterError
+from ..study.sound_power import (
     HEMISPHERES,
     DirectivitySettings,
     MapSettings,

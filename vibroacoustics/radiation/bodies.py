@@ -6,7 +6,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from ..errors import ParameterError
+from ..base.errors import ParameterError
 from .arrays import Array, IndexArray
 
 _SECTIONS: Final = 128

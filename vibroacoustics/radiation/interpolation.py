@@ -3,8 +3,8 @@
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from ..constants import SPEED_OF_SOUND_M_PER_S
-from ..errors import ParameterError
+from ..base.constants import SPEED_OF_SOUND_M_PER_S
+from ..base.errors import ParameterError
 from .arrays import Array, ComplexArray
 
 

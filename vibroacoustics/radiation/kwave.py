@@ -21,8 +21,8 @@ from typing import Any, Final, Protocol
 
 import numpy as np
 
-from ..constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
-from ..errors import SolverError
+from ..base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from ..base.errors import SolverError
 from .arrays import Array
 from .room_grid import PML_ALPHA, PML_NODES, RoomGrid
 from .spectral_step import AxisOperators, PressureSource, SpectralStep

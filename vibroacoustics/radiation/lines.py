@@ -5,7 +5,7 @@ from typing import Any, Final
 import numba
 import numpy as np
 
-from ..errors import ParameterError
+from ..base.errors import ParameterError
 from .arrays import Array, IndexArray
 from .bodies import Body
 

@@ -10,7 +10,7 @@ import numpy as np
 import psutil
 from numpy.typing import NDArray
 
-from ..errors import ParameterError
+from ..base.errors import ParameterError
 from .arrays import Array, ComplexArray, Progress
 from .box import BoxField
 from .exact import box_green

@@ -21,8 +21,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ..constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
-from ..errors import SolverError
+from ..base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from ..base.errors import SolverError
 from .arrays import Array, ComplexArray, IndexArray, Progress, no_progress
 from .bodies import Body
 from .box import Box, BoxField, closed_box, open_sides

@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ..constants import SPEED_OF_SOUND_M_PER_S
+from ..base.constants import SPEED_OF_SOUND_M_PER_S
 from .arrays import Array
 from .bodies import Body
 from .box import Side, open_sides

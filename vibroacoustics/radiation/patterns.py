@@ -7,8 +7,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import ParameterError
-from ..schema import RIGID_BODY_DOFS
+from ..base.errors import ParameterError
+from ..base.vocabulary import RIGID_BODY_DOFS
 from .arrays import Array
 from .bodies import Body
 from .surface_points import SurfacePoints

@@ -15,8 +15,8 @@ from typing import Final
 import numpy as np
 import psutil
 
-from ..constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
-from ..errors import ParameterError, SolverError
+from ..base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from ..base.errors import ParameterError, SolverError
 from . import kwave
 from .arrays import Array, Progress, no_progress
 from .band_limited import STENCIL_NODES

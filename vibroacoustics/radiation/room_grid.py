@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from ..constants import SPEED_OF_SOUND_M_PER_S
+from ..base.constants import SPEED_OF_SOUND_M_PER_S
 from .arrays import Array
 from .band_limited import STENCIL_NODES
 from .box import Box

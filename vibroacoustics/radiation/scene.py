@@ -9,12 +9,17 @@ from typing import Final
 
 import numpy as np
 
-from ..errors import ParameterError
-from ..parameters.body import BoxBody, MeshBody, RadiatingBody, SphereBody
-from ..parameters.radiation import RadiationSettings
-from ..parameters.receivers import Receiver
-from ..parameters.shell import Shell
-from ..parameters.surroundings import Cabinet, Opening, PanelSide
+from ..base.errors import ParameterError
+from ..machine.shell import Shell
+from ..study.body import (
+    BoxBody,
+    MeshBody,
+    RadiatingBody,
+    SphereBody,
+)
+from ..study.radiation import RadiationSettings
+from ..study.receivers import Receiver
+from ..study.surroundings import Cabinet, Opening, PanelSide
 from .arrays import Array
 from .bodies import Body, block, cylinder, join_bodies, read_mesh, sphere
 from .mirrors import Mirror

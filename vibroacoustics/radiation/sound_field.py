@@ -9,9 +9,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..errors import ParameterError
-from ..parameters.sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
-from ..schema import RIGID_BODY_DOFS, stamp
+from ..base.errors import ParameterError
+from ..base.vocabulary import RIGID_BODY_DOFS, stamp
+from ..study.sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
 from .arrangements import (
     check_outside,
     directivity_angles,

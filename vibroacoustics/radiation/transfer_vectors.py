@@ -10,13 +10,13 @@ import numpy as np
 import psutil
 import xarray as xr
 
-from ..constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
-from ..errors import ParameterError
-from ..parameters.body import MeshBody
-from ..parameters.radiation import RadiationSettings
-from ..parameters.receivers import Receiver
-from ..parameters.shell import Shell
-from ..schema import RIGID_BODY_DOFS, check, stamp
+from ..base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from ..base.errors import ParameterError
+from ..base.vocabulary import RIGID_BODY_DOFS, check, stamp
+from ..machine.shell import Shell
+from ..study.body import MeshBody
+from ..study.radiation import RadiationSettings
+from ..study.receivers import Receiver
 from . import room_grid
 from .arrangements import check_outside
 from .arrays import Array, ComplexArray, Progress, no_progress

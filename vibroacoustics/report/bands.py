@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
-from ..schema import REFERENCE_OPTION
+from ..base.vocabulary import REFERENCE_OPTION
 from .study import has_draws
 
 

@@ -6,10 +6,10 @@ from itertools import product
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ..base import rounding
-from ..schema import REFERENCE_OPTION
+from ..base.arrays import Array
+from ..base.vocabulary import REFERENCE_OPTION
 from .columns import COLUMNS, Column
 from .kept_columns import columns_of
 from .study import (
@@ -94,7 +94,7 @@ def _tables(
 
 def _cell(
     results: xr.Dataset,
-    numbers: dict[str, NDArray[np.float64]],
+    numbers: dict[str, Array],
     column: Column,
     option: int,
     speed: int,

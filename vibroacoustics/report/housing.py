@@ -4,9 +4,9 @@ from typing import Final
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ..base import rounding
+from ..base.arrays import Array
 from . import labels
 from .study import first_order_hz, options, parameters, speeds
 from .tables import Table
@@ -74,7 +74,7 @@ def block_table(results: xr.Dataset) -> Table | None:
     return Table(caption, ("Option", *(f"At {speed:g} rpm" for speed in speeds(results))), rows)
 
 
-def _spring_displacement_mm(results: xr.Dataset, option: str) -> NDArray[np.float64]:
+def _spring_displacement_mm(results: xr.Dataset, option: str) -> Array:
     """At the spring that moves most, peak over a revolution, shape (speed,)."""
     study = parameters(results)
     inside = study["options"][option].get("machine", study["machine"])["suspension"]

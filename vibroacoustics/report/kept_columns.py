@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
-from ..schema import stamp
+from ..base.vocabulary import stamp
 from . import left_out
 from .columns import COLUMNS, Column, Write
 from .study import few_speeds

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Final
 
-from ..units import split_key
+from ..base.units import split_key
 
 _MORE_UNITS: Final = {"nm": "N m", "db": "dB", "w": "W"}
 

@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
-from ..schema import REFERENCE_OPTION
+from ..base.vocabulary import REFERENCE_OPTION
 from . import labels
 from .study import balancers, speeds, words
 from .tables import Table

@@ -9,7 +9,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.rounding import NOTHING
-from ..schema import NO_ANGLE_ZERO
+from ..base.vocabulary import NO_ANGLE_ZERO
 from .tables import Table, to_csv, to_text
 
 _MOST_SPEEDS: Final = 6

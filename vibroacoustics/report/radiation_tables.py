@@ -6,7 +6,8 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
-from .figures.unit_levels import Real, names, silent_dofs, unit_level_db
+from ..base.arrays import Array
+from .figures.unit_levels import names, silent_dofs, unit_level_db
 from .tables import Table, to_text
 
 TABLE_FREQUENCIES_HZ: Final = (50.0, 100.0, 250.0, 500.0, 1000.0, 2000.0)
@@ -42,7 +43,7 @@ def _level_table(radiated: xr.Dataset, nearest: list[int], head: tuple[str, ...]
     return Table(caption, ("Microphone", "dof", *head, *last), tuple(rows), frozenset({0, 1}))
 
 
-def _error_db(field: xr.DataArray, error: xr.DataArray) -> Real:
+def _error_db(field: xr.DataArray, error: xr.DataArray) -> Array:
     """Median over the frequencies of 20 lg(1 + error/|T|), (receiver, dof); NaN if silent."""
     size = np.abs(field.values)
     ordered = error.transpose(*field.dims).values

@@ -5,10 +5,10 @@ from typing import Final
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ..base import rounding
-from ..schema import REFERENCE_OPTION
+from ..base.arrays import Array
+from ..base.vocabulary import REFERENCE_OPTION
 from .comparison import column
 from .study import catalogue_receiver
 
@@ -61,11 +61,11 @@ class Shift:
     """A quantity at every speed, without a balancer and with one."""
 
     quantity: Quantity
-    before: NDArray[np.float64]
-    after: NDArray[np.float64]
+    before: Array
+    after: Array
 
     @property
-    def gain_db(self) -> NDArray[np.float64]:
+    def gain_db(self) -> Array:
         """Change at every speed in dB; values below the floor count as the floor."""
         floor = self.quantity.floor
         before, after = np.maximum(self.before, floor), np.maximum(self.after, floor)

@@ -4,9 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ..base import rounding
+from ..base.arrays import Array
 from .bands import Band, band_words, bands_by_speed
 from .shifts import HEARD_DB, TOLERANCE_DB
 from .study import balancers, catalogue_receiver, many_speeds, overall_noise, speeds
@@ -120,7 +120,7 @@ def _impacts(results: xr.Dataset, option: str) -> list[str]:
     return texts
 
 
-def key_figure(results: xr.Dataset, option: str, name: str) -> NDArray[np.float64]:
+def key_figure(results: xr.Dataset, option: str, name: str) -> Array:
     """A figure of the sources at every speed; NaN where the option has none."""
     figures = results["reported_figure"]
     if name not in figures["figure"].values:

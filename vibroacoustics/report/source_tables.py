@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
-from ..schema import REFERENCE_OPTION
+from ..base.vocabulary import REFERENCE_OPTION
 from . import labels
 from .bands import QUANTILES, Band, band, band_words, energy_share, percent, quantiles
 from .comparison import column

@@ -5,7 +5,7 @@ from typing import Final
 import xarray as xr
 
 from ..base import rounding
-from ..schema import REFERENCE_OPTION
+from ..base.vocabulary import REFERENCE_OPTION
 from . import labels
 from .bands import Band, band, band_words, draws, energy_share, percent
 from .study import (

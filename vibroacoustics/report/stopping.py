@@ -4,15 +4,13 @@ from typing import Final
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ..base import rounding
-from ..schema import REFERENCE_OPTION
+from ..base.arrays import Array
+from ..base.vocabulary import REFERENCE_OPTION
 from .source_words import LINE_FIGURE
 from .study import parameters, speeds
 from .tables import Table
-
-Real = NDArray[np.float64]
 
 
 def sentences(results: xr.Dataset) -> tuple[str, ...]:
@@ -34,7 +32,7 @@ def _resultant(vector: xr.DataArray) -> xr.DataArray:
     return vector.reduce(np.linalg.norm, "axis")
 
 
-def _greatest(over_time: xr.DataArray) -> tuple[Real, Real]:
+def _greatest(over_time: xr.DataArray) -> tuple[Array, Array]:
     """Before switch-off and from then on, shape (speed,)."""
     time = over_time["stopping_time"]
     parts = (over_time.where(own).max("stopping_time") for own in (time < 0.0, time >= 0.0))

@@ -5,10 +5,10 @@ from typing import Any, Final
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from ..schema import REFERENCE_OPTION
-from ..units import shaft_frequency_hz
+from ..base.arrays import Array
+from ..base.units import shaft_frequency_hz
+from ..base.vocabulary import REFERENCE_OPTION
 
 MOST_SPEEDS: Final = 6
 """Speeds that get a table, a panel or a curve of their own."""
@@ -65,7 +65,7 @@ def has_draws(results: xr.Dataset) -> bool:
     return "draw_weight" in results
 
 
-def first_order_hz(results: xr.Dataset) -> NDArray[np.float64]:
+def first_order_hz(results: xr.Dataset) -> Array:
     """Frequency of the 1x line at each speed, Hz."""
     return np.array([shaft_frequency_hz(speed) for speed in speeds(results)])
 

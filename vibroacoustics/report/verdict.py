@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
-from ..schema import REFERENCE_OPTION
+from ..base.vocabulary import REFERENCE_OPTION
 from . import labels
 from .comparison import column, comparison
 from .option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, OptionVerdict, option_verdicts

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
-from ..parameters.scoring import Given
-from ..schema import check, stamp
+from ..base.vocabulary import check, stamp
+from ..study.scoring import Given
 
 
 def given_values(given: Given, options: Sequence[str]) -> xr.Dataset:

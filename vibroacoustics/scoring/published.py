@@ -3,8 +3,8 @@
 import numpy as np
 import xarray as xr
 
-from ..parameters.scoring import PublishedTable
-from ..schema import check, stamp
+from ..base.vocabulary import check, stamp
+from ..study.scoring import PublishedTable
 
 
 def published_table(table: PublishedTable) -> xr.Dataset:

@@ -4,12 +4,11 @@ from collections.abc import Callable
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
-Real = NDArray[np.float64]
+from ..base.arrays import Array
 
 
-def utilities(values: Real, best: Real, worst: Real) -> Real:
+def utilities(values: Array, best: Array, worst: Array) -> Array:
     """Utility of each option and criterion: 1 at `best`, 0 at `worst`, linear, within 0 to 1.
 
     The scale does not depend on the options at hand: adding one cannot reorder the others.
@@ -17,12 +16,12 @@ def utilities(values: Real, best: Real, worst: Real) -> Real:
     return np.clip((worst - values) / (worst - best), 0.0, 1.0)
 
 
-def weighted_sum(utility: Real, shares: Real) -> Real:
+def weighted_sum(utility: Array, shares: Array) -> Array:
     """Sum of the utilities times their weights."""
     return utility @ shares
 
 
-def topsis(utility: Real, shares: Real) -> Real:
+def topsis(utility: Array, shares: Array) -> Array:
     """Closeness to the ideal option (Hwang & Yoon 1981): d⁻ / (d⁺ + d⁻)."""
     to_ideal = np.linalg.norm((1.0 - utility) * shares, axis=1)
     to_worst = np.linalg.norm(utility * shares, axis=1)
@@ -30,13 +29,13 @@ def topsis(utility: Real, shares: Real) -> Real:
     return np.where(total > 0.0, to_worst / np.where(total > 0.0, total, 1.0), 1.0)
 
 
-METHODS: Final[dict[str, Callable[[Real, Real], Real]]] = {
+METHODS: Final[dict[str, Callable[[Array, Array], Array]]] = {
     "weighted_sum": weighted_sum,
     "topsis": topsis,
 }
 
 
-def first_place_share(utility: Real, random_weightings: int, seed: int) -> Real:
+def first_place_share(utility: Array, random_weightings: int, seed: int) -> Array:
     """Share of uniformly random weightings in which each option has the best weighted sum.
 
     Options that tie for the first place share it.

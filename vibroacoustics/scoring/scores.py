@@ -5,9 +5,9 @@ import json
 import numpy as np
 import xarray as xr
 
-from ..errors import ParameterError
-from ..parameters.scoring import Scoring
-from ..schema import check, stamp
+from ..base.errors import ParameterError
+from ..base.vocabulary import check, stamp
+from ..study.scoring import Scoring
 from .ranking import METHODS, first_place_share, utilities
 from .values import scored_criteria
 

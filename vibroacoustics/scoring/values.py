@@ -4,12 +4,12 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from ..errors import ParameterError
-from ..parameters.criterion import CRITERIA
-from ..parameters.scoring import CriterionScale, Scoring
-from ..units import split_key
+from ..base.arrays import Array
+from ..base.errors import ParameterError
+from ..base.units import split_key
+from ..study.criterion import CRITERIA
+from ..study.scoring import CriterionScale, Scoring
 
 
 class Scored(NamedTuple):
@@ -24,7 +24,7 @@ class Scored(NamedTuple):
     name: str
     label: str
     unit: str
-    values: NDArray[np.float64]
+    values: Array
 
 
 def scored_criteria(results: xr.Dataset, settings: Scoring) -> list[Scored]:

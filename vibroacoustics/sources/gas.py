@@ -5,12 +5,12 @@ from typing import ClassVar, Final
 
 from ..base.parameters import Parameters
 from ..base.registry import register
+from ..machine.machine import Machine
+from ..machine.source import Case, Shared, Source
 from ..mechanics.capabilities import Capability, OldhamRing
 from ..mechanics.loads import Loads
 from ..mechanics.rotation import uniform_crank_angle
 from ..orders import order_spectrum
-from ..parameters.machine import Machine
-from ..parameters.source import Case, Shared, Source
 from .joint_loads import gas_loads
 from .scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
 from .scroll_gas.parameters import ScrollGas, ScrollWraps

@@ -4,9 +4,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..mechanics.loads import JOINT_COMPONENTS, Complex
-from ..mechanics.moving_parts import Array
-from ..parameters.shell_structure import BEARING_HOUSING, FIXED_SCROLL, JOINTS, STATOR
+from ..base.arrays import Array, ComplexArray
+from ..machine.shell_structure import (
+    BEARING_HOUSING,
+    FIXED_SCROLL,
+    JOINTS,
+    STATOR,
+)
+from ..mechanics.loads import JOINT_COMPONENTS
 from .induction_motor.torque_lines import TorqueLine
 from .oldham_keys.rattle import KeyForces
 from .scroll_gas.cycle import ScrollGasCycle
@@ -70,7 +75,7 @@ def key_torque_n_m(forces: KeyForces, stroke_m: float) -> Array:
     return np.asarray(stroke_m * (along_x * np.sin(angle) - along_y * np.cos(angle)))
 
 
-def stator_loads(lines: Sequence[TorqueLine]) -> tuple[Complex, Complex]:
+def stator_loads(lines: Sequence[TorqueLine]) -> tuple[ComplexArray, ComplexArray]:
     """Torque of the motor on the stator, and the roll moment on the whole machine, by line.
 
     Returns

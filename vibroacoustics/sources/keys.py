@@ -7,20 +7,15 @@ from typing import ClassVar, Final
 import numpy as np
 from pydantic import Field
 
+from ..base.arrays import Array, ComplexArray
 from ..base.parameters import Parameters
 from ..base.registry import register
+from ..machine.shell_structure import BEARING_HOUSING, JOINTS, STATOR
+from ..machine.source import Case, Source
 from ..mechanics.added import FurtherRing, RingForce
 from ..mechanics.capabilities import Capability, OldhamRing
-from ..mechanics.loads import (
-    JOINT_COMPONENTS,
-    Complex,
-    Loads,
-    Noise,
-)
-from ..mechanics.rotation import Array
+from ..mechanics.loads import JOINT_COMPONENTS, Loads, Noise
 from ..orders import order_spectrum
-from ..parameters.shell_structure import BEARING_HOUSING, JOINTS, STATOR
-from ..parameters.source import Case, Source
 from .gas import gas_cycle
 from .joint_loads import key_loads, key_torque_n_m
 from .oldham_keys.contact_loss import contact_loss_speed_rpm
@@ -45,7 +40,7 @@ class _Ring:
     hung_n: Array
 
 
-_Spectra = tuple[Complex, Complex, Noise]
+_Spectra = tuple[ComplexArray, ComplexArray, Noise]
 """Orders of the load on the joints and of the shaft's torque, and the load's noise."""
 
 

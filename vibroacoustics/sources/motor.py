@@ -5,16 +5,12 @@ from typing import ClassVar, Final
 
 import numpy as np
 
+from ..base.arrays import ComplexArray
+from ..base.errors import ParameterError
 from ..base.parameters import Parameters
 from ..base.registry import register
-from ..errors import ParameterError
-from ..mechanics.loads import (
-    Complex,
-    Loads,
-    Tone,
-    total_torque_n_m,
-)
-from ..parameters.source import Case, Source
+from ..machine.source import Case, Source
+from ..mechanics.loads import Loads, Tone, total_torque_n_m
 from .induction_motor.parameters import CapacitorMotor, TurningRotor
 from .induction_motor.torque_lines import TorqueLine, TorqueLines, torque_lines
 from .joint_loads import stator_loads
@@ -85,7 +81,7 @@ def _tone(line: TorqueLine) -> Tone:
     return Tone(line.name, line.frequency_hz, _about_z(roll)[:, 0], joints[..., 0], figure)
 
 
-def _about_z(moment: Complex) -> Complex:
+def _about_z(moment: ComplexArray) -> ComplexArray:
     """Wrenches (6, line) that are moments about z alone, N m."""
     still = np.zeros_like(moment)
     return np.stack([still, still, still, still, still, moment])

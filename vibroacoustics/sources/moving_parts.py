@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from typing import ClassVar
 
+from ..machine.source import Case, Source
 from ..mechanics.loads import Loads
 from ..mechanics.moving_parts import wrench
-from ..parameters.source import Case, Source
 
 
 class MovingParts(Source):

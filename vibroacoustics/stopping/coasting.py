@@ -8,9 +8,10 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
-from ..errors import ParameterError, SolverError
-from ..mechanics.moving_parts import Array, MovingPart
-from ..parameters.run_down import Stopping
+from ..base.arrays import Array
+from ..base.errors import ParameterError, SolverError
+from ..machine.stopping import Stopping
+from ..mechanics.moving_parts import MovingPart
 from .paths import inertia_over_angle, wrench_along
 from .shift import Shift, brake_shift
 

@@ -8,10 +8,9 @@ import numpy as np
 from scipy import fft
 
 from .. import levels
-from ..constants import REFERENCE_PRESSURE_PA
-from ..errors import ParameterError
-from ..mechanics.loads import Complex
-from ..mechanics.rotation import Array
+from ..base.arrays import Array, ComplexArray
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.errors import ParameterError
 from ..transfer import RigidBodyOnMounts, SuspendedBlock
 from ..transfer.transient import LOAD_SAMPLES, Transient, transient
 from .coasting import RunDown
@@ -71,7 +70,7 @@ def stopping_event(
     run: RunDown,
     clock: Clock,
     body: RigidBodyOnMounts | SuspendedBlock,
-    pressure_per_velocity: Callable[[Array], Complex],
+    pressure_per_velocity: Callable[[Array], ComplexArray],
 ) -> StoppingEvent:
     """Forces of a run-down and what they do to feet and microphones.
 
@@ -112,7 +111,7 @@ def _response(
     course: Array,
     clock: Clock,
     body: RigidBodyOnMounts | SuspendedBlock,
-    pressure_per_velocity: Callable[[Array], Complex],
+    pressure_per_velocity: Callable[[Array], ComplexArray],
 ) -> Transient:
     """To a load that is faded in and followed by rest until the mounts have rung out."""
     rate = LOAD_SAMPLES * clock.rate_hz

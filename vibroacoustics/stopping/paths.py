@@ -5,7 +5,8 @@ from typing import Final
 
 import numpy as np
 
-from ..mechanics.moving_parts import Array, MovingPart
+from ..base.arrays import Array
+from ..mechanics.moving_parts import MovingPart
 
 NO_HARMONIC: Final = 1e-13
 """A harmonic this much smaller than the largest is rounding."""

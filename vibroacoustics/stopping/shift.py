@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..mechanics.moving_parts import Array
+from ..base.arrays import Array
 
 
 class Shift(NamedTuple):

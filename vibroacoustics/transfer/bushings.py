@@ -4,17 +4,15 @@ from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..errors import ParameterError
-
-Real = NDArray[np.float64]
+from ..base.arrays import Array
+from ..base.errors import ParameterError
 
 SYMMETRY: Final = 1e-9
 """Asymmetry and negative part of a matrix, relative to its largest entry, that pass as rounding."""
 
 
-def _free() -> Real:
+def _free() -> Array:
     return np.zeros((6, 6))
 
 
@@ -32,8 +30,8 @@ class RigidBody:
 
     name: str
     mass_kg: float
-    inertia_kg_m2: Real
-    centre_of_mass_m: Real
+    inertia_kg_m2: Array
+    centre_of_mass_m: Array
 
     def __post_init__(self) -> None:
         _check_shape(self.inertia_kg_m2, (3, 3), f"body {self.name}: inertia_kg_m2")
@@ -74,11 +72,11 @@ class Bushing:
     name: str
     body: str
     other_body: str | None
-    position_m: Real
-    stiffness: Real
-    damping: Real = field(default_factory=_free)
+    position_m: Array
+    stiffness: Array
+    damping: Array = field(default_factory=_free)
     loss_factor_ratio: float = 0.0
-    axes: Real = field(default_factory=lambda: np.eye(3))
+    axes: Array = field(default_factory=lambda: np.eye(3))
 
     def __post_init__(self) -> None:
         where = f"bushing {self.name}"
@@ -100,13 +98,13 @@ class Bushing:
                 f"{where}: loss_factor_ratio = {self.loss_factor_ratio:g}: allowed 0 to 1"
             )
 
-    def in_frame(self, matrix: Real) -> Real:
+    def in_frame(self, matrix: Array) -> Array:
         """A matrix in the bushing's own axes, in those of the frame, shape (6, 6)."""
         turn = np.kron(np.eye(2), self.axes)
         return np.asarray(turn @ matrix @ turn.T)
 
 
-def motion_at(point_m: Real, centre_m: Real) -> Real:
+def motion_at(point_m: Array, centre_m: Array) -> Array:
     """Displacement and rotation at a point per unit motion of the centre, shape (6, 6).
 
     Small motion: u = t + r x (p - c).
@@ -120,11 +118,11 @@ def motion_at(point_m: Real, centre_m: Real) -> Real:
     return motion
 
 
-def _check_shape(matrix: Real, shape: tuple[int, ...], what: str) -> None:
+def _check_shape(matrix: Array, shape: tuple[int, ...], what: str) -> None:
     if np.shape(matrix) != shape or not np.all(np.isfinite(matrix)):
         raise ParameterError(f"{what}: must be finite and of shape {shape}, got {np.shape(matrix)}")
 
 
-def _check_symmetric(matrix: Real, what: str) -> None:
+def _check_symmetric(matrix: Array, what: str) -> None:
     if np.max(np.abs(matrix - matrix.T)) > SYMMETRY * np.max(np.abs(matrix)):
         raise ParameterError(f"{what}: must be symmetric")

@@ -6,13 +6,11 @@ from functools import cached_property
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from ..errors import ParameterError, SolverError
-from .bushings import Bushing, Real, RigidBody, motion_at
-
-Complex = NDArray[np.complex128]
+from ..base.arrays import Array, ComplexArray
+from ..base.errors import ParameterError, SolverError
+from .bushings import Bushing, RigidBody, motion_at
 
 FREE: Final = 1e-12
 """A squared natural frequency below this part of the highest one is that of a free motion."""
@@ -52,7 +50,7 @@ class Isolation:
                 raise ParameterError(f"bushing {bushing.name}: joins {ends[0]} to itself")
 
     @cached_property
-    def mass_matrix(self) -> Real:
+    def mass_matrix(self) -> Array:
         """Shape (6 bodies, 6 bodies), kg and kg m²."""
         matrix = np.zeros((6 * len(self.bodies), 6 * len(self.bodies)))
         for number, body in enumerate(self.bodies):
@@ -62,7 +60,7 @@ class Isolation:
         return matrix
 
     @cached_property
-    def bushing_motion(self) -> Real:
+    def bushing_motion(self) -> Array:
         """Motion of body against other body at each bushing, shape (bushing, 6, 6 bodies)."""
         places = {body.name: number for number, body in enumerate(self.bodies)}
         motion = np.zeros((len(self.bushings), 6, 6 * len(self.bodies)))
@@ -77,21 +75,21 @@ class Isolation:
         return motion
 
     @cached_property
-    def stiffness_matrix(self) -> Real:
+    def stiffness_matrix(self) -> Array:
         """Real part, shape (6 bodies, 6 bodies), N/m, N and N m: Σ Gᵀ k G."""
         return self._assembled(self._bushing_stiffness)
 
     @cached_property
-    def structural_damping_matrix(self) -> Real:
+    def structural_damping_matrix(self) -> Array:
         """Imaginary part of the stiffness above frequency zero: Σ η Gᵀ k G."""
         return self._assembled(self._bushing_loss)
 
     @cached_property
-    def damping_matrix(self) -> Real:
+    def damping_matrix(self) -> Array:
         """Viscous, shape (6 bodies, 6 bodies), N s/m, N s and N m s: Σ Gᵀ c G."""
         return self._assembled(self._bushing_damping)
 
-    def natural_modes(self) -> tuple[Real, Real]:
+    def natural_modes(self) -> tuple[Array, Array]:
         """Undamped natural frequencies (mode,) in Hz, mass-normalised shapes (mode, body, 6).
 
         A body that nothing holds has frequencies zero.
@@ -100,7 +98,7 @@ class Isolation:
         squares[squares < FREE * squares[-1]] = 0.0
         return np.sqrt(squares) / (2.0 * np.pi), shapes.T.reshape(-1, len(self.bodies), 6)
 
-    def displacement(self, load: Complex, frequency_hz: Real | float) -> Complex:
+    def displacement(self, load: ComplexArray, frequency_hz: Array | float) -> ComplexArray:
         """Motion of each body, shape (..., body, 6), m and rad, complex peak.
 
         Solves (K + jKη + jωC - ω²M) X = F. At frequency zero the stiffness is real.
@@ -128,7 +126,7 @@ class Isolation:
             ) from None
         return np.asarray(motion[..., 0].reshape(*motion.shape[:-2], len(self.bodies), 6))
 
-    def velocity(self, load: Complex, frequency_hz: Real | float) -> Complex:
+    def velocity(self, load: ComplexArray, frequency_hz: Array | float) -> ComplexArray:
         """Velocity of each body, shape (..., body, 6), m/s and rad/s, complex peak.
 
         Parameters
@@ -139,7 +137,7 @@ class Isolation:
         speed = 2j * np.pi * np.asarray(frequency_hz, dtype=float)[..., None, None]
         return np.asarray(speed * self.displacement(load, frequency_hz))
 
-    def bushing_force(self, load: Complex, frequency_hz: Real | float) -> Complex:
+    def bushing_force(self, load: ComplexArray, frequency_hz: Array | float) -> ComplexArray:
         """Force and moment of the body on the other one or the ground, shape (..., bushing, 6).
 
         At the bushing's point, in the axes of the frame, N and N m, complex peak.
@@ -159,7 +157,7 @@ class Isolation:
         dynamic = dynamic + 1j * omega * self._bushing_damping
         return np.asarray(np.einsum("...bij,...bj->...bi", dynamic, relative))
 
-    def _dynamic_stiffness(self, frequency: Real) -> Complex:
+    def _dynamic_stiffness(self, frequency: Array) -> ComplexArray:
         omega = 2.0 * np.pi * frequency[..., None, None]
         structural = np.where(omega > 0.0, 1j, 0.0) * self.structural_damping_matrix
         viscous = 1j * omega * self.damping_matrix
@@ -168,23 +166,23 @@ class Isolation:
         )
 
     @cached_property
-    def _bushing_stiffness(self) -> Real:
+    def _bushing_stiffness(self) -> Array:
         return self._stacked([b.in_frame(b.stiffness) for b in self.bushings])
 
     @cached_property
-    def _bushing_loss(self) -> Real:
+    def _bushing_loss(self) -> Array:
         return self._stacked([b.loss_factor_ratio * b.in_frame(b.stiffness) for b in self.bushings])
 
     @cached_property
-    def _bushing_damping(self) -> Real:
+    def _bushing_damping(self) -> Array:
         return self._stacked([b.in_frame(b.damping) for b in self.bushings])
 
     @staticmethod
-    def _stacked(matrices: list[Real]) -> Real:
+    def _stacked(matrices: list[Array]) -> Array:
         """Shape (bushing, 6, 6), also without any bushing."""
         return np.array(matrices).reshape(-1, 6, 6)
 
-    def _assembled(self, matrices: Real) -> Real:
+    def _assembled(self, matrices: Array) -> Array:
         motion = self.bushing_motion
         return np.asarray(np.einsum("bki,bkl,blj->ij", motion, matrices, motion, optimize=True))
 

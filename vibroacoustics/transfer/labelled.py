@@ -4,12 +4,17 @@ from typing import Final
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from ..base.arrays import Array, ComplexArray
+from ..base.vocabulary import (
+    AXES,
+    REFERENCE_OPTION,
+    RIGID_BODY_DOFS,
+    check,
+    stamp,
+)
 from ..mechanics.ellipse import semi_major_axis
-from ..mechanics.moving_parts import Array
-from ..parameters.study import Study
-from ..schema import AXES, REFERENCE_OPTION, RIGID_BODY_DOFS, check, stamp
+from ..study.study import Study
 from .machine import on_mounts
 from .mounts import FOOT_NAMES, RigidBodyOnMounts
 from .suspended_block import SuspendedBlock
@@ -27,9 +32,9 @@ def housing_variables(study: Study, results: xr.Dataset) -> xr.Dataset:
     loads = np.concatenate([part.values for part in parts], axis=-1)
     frequency = results["order_frequency"].values[:, None, :]
 
-    def response(name: str) -> NDArray[np.complex128]:
+    def response(name: str) -> ComplexArray:
         """Of each option's own body, shape (speed, option, source, order, ...)."""
-        moved: dict[int, NDArray[np.complex128]] = {}
+        moved: dict[int, ComplexArray] = {}
         for body in dict.fromkeys(bodies):
             rows = [row for row, other in enumerate(bodies) if other == body]
             moved.update(zip(rows, getattr(body, name)(loads[rows], frequency), strict=True))
@@ -85,7 +90,7 @@ def housing_variables(study: Study, results: xr.Dataset) -> xr.Dataset:
 _WRENCH: Final = ("force_order", "moment_order")
 
 
-def _transmissibility(body: RigidBodyOnMounts | SuspendedBlock) -> NDArray[np.complex128]:
+def _transmissibility(body: RigidBodyOnMounts | SuspendedBlock) -> ComplexArray:
     """Sum of the foot forces along an axis per force along it, shape (axis, frequency)."""
     unit = np.eye(6)[:3].astype(complex)
     force = body.foot_force(unit[:, None, :], MOUNT_FREQUENCY_HZ[None, :])

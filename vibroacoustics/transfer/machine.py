@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from ..machine.machine import Machine
 from ..mechanics.loads import Tone
-from ..parameters.machine import Machine
 from .mounts import RigidBodyOnMounts
 from .suspended_block import SuspendedBlock
 

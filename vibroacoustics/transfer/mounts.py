@@ -5,17 +5,14 @@ from functools import cached_property
 from typing import ClassVar, Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from ..parameters.housing import Housing
-from ..parameters.mounts import Mounts
+from ..base.arrays import Array, ComplexArray
+from ..machine.housing import Housing
+from ..machine.mounts import Mounts
 
 FOOT_NAMES: Final = ("front_left", "front_right", "rear_left", "rear_right")
 """Front is +x, left is +y."""
-
-Real = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
@@ -39,12 +36,12 @@ class RigidBodyOnMounts:
     bodies: ClassVar[tuple[str, ...]] = ("machine",)
 
     @cached_property
-    def foot_position(self) -> Real:
+    def foot_position(self) -> Array:
         """Grommets in the order of FOOT_NAMES, shape (4, 3), m from the centre of mass."""
         return corners(self.mounts.pitch_m, self.foot_height_m)
 
     @cached_property
-    def mass_matrix(self) -> Real:
+    def mass_matrix(self) -> Array:
         """Shape (6, 6), kg and kg m²."""
         body = self.housing
         return np.diag(
@@ -53,29 +50,29 @@ class RigidBodyOnMounts:
         )
 
     @cached_property
-    def foot_stiffness(self) -> Real:
+    def foot_stiffness(self) -> Array:
         """Stiffness of one grommet along x, y, z, N/m."""
         lateral = self.mounts.lateral_stiffness_n_per_m
         return np.array([lateral, lateral, self.mounts.vertical_stiffness_n_per_m])
 
     @cached_property
-    def foot_motion(self) -> Real:
+    def foot_motion(self) -> Array:
         """Displacement of each foot per unit motion of the body, shape (4, 3, 6): u = t + r x p."""
         identity = np.broadcast_to(np.eye(3), (4, 3, 3))
         return np.concatenate([identity, -np.array([_cross(p) for p in self.foot_position])], 2)
 
     @cached_property
-    def stiffness_matrix(self) -> Real:
+    def stiffness_matrix(self) -> Array:
         """Shape (6, 6), N/m, N and N m: Σ over the feet of Gᵀ k G."""
         motion = self.foot_motion
         return np.asarray(np.einsum("fai,a,faj->ij", motion, self.foot_stiffness, motion))
 
-    def natural_modes(self) -> tuple[Real, Real]:
+    def natural_modes(self) -> tuple[Array, Array]:
         """Undamped natural frequencies (6,) in Hz and mass-normalised shapes (mode, dof)."""
         squares, shapes = eigh(self.stiffness_matrix, self.mass_matrix)
         return np.sqrt(squares) / (2.0 * np.pi), shapes.T
 
-    def receptance(self, frequency_hz: Real) -> Complex:
+    def receptance(self, frequency_hz: Array) -> ComplexArray:
         """Displacement per generalised force, shape (..., 6, 6): (K(1+jη) - ω²M)⁻¹.
 
         The loss factor is structural, of the same stiffness at every frequency above zero; at
@@ -93,7 +90,7 @@ class RigidBodyOnMounts:
         )
         return np.asarray(np.linalg.inv(dynamic))
 
-    def velocity(self, load: Complex, frequency_hz: Real) -> Complex:
+    def velocity(self, load: ComplexArray, frequency_hz: Array) -> ComplexArray:
         """Velocity of the centre of mass, shape (..., 6), m/s and rad/s, complex peak.
 
         Parameters
@@ -104,7 +101,7 @@ class RigidBodyOnMounts:
         speed = 2j * np.pi * np.asarray(frequency_hz, dtype=float)[..., None]
         return np.asarray(speed * self._displacement(load, frequency_hz))
 
-    def foot_force(self, load: Complex, frequency_hz: Real) -> Complex:
+    def foot_force(self, load: ComplexArray, frequency_hz: Array) -> ComplexArray:
         """Force of the machine on the floor at each foot, shape (..., foot, axis), N."""
         frequency = np.asarray(frequency_hz, dtype=float)
         loss = np.where(frequency > 0.0, self.mounts.loss_factor_ratio, 0.0)
@@ -112,11 +109,11 @@ class RigidBodyOnMounts:
         foot = np.einsum("fai,...i->...fa", self.foot_motion, displacement)
         return np.asarray(foot * self.foot_stiffness * (1.0 + 1j * loss)[..., None, None])
 
-    def _displacement(self, load: Complex, frequency_hz: Real) -> Complex:
+    def _displacement(self, load: ComplexArray, frequency_hz: Array) -> ComplexArray:
         return np.asarray(np.einsum("...ij,...j->...i", self.receptance(frequency_hz), load))
 
 
-def corners(pitch_m: float, height_m: float) -> Real:
+def corners(pitch_m: float, height_m: float) -> Array:
     """Corners of a square in the order of FOOT_NAMES, shape (4, 3), m."""
     half = pitch_m / 2.0
     return np.array(
@@ -124,7 +121,7 @@ def corners(pitch_m: float, height_m: float) -> Real:
     )
 
 
-def _cross(vector: Real) -> Real:
+def _cross(vector: Array) -> Array:
     """Matrix of the cross product: _cross(a) @ b = a x b."""
     x, y, z = vector
     return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

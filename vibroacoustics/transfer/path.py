@@ -7,10 +7,9 @@ from typing import Final
 
 import numpy as np
 
-from ..mechanics.loads import Complex
-from ..mechanics.rotation import Array
-from ..parameters.shell import Shell
-from ..parameters.shell_structure import JOINTS, ShellStructure, ShellVariation
+from ..base.arrays import Array, ComplexArray
+from ..machine.shell import Shell
+from ..machine.shell_structure import JOINTS, ShellStructure, ShellVariation
 from .shell_modes import (
     JointLoads,
     SampledMode,
@@ -84,11 +83,11 @@ def measured_path(
 
 def pressure_per_load(
     path: ShellPath,
-    pressure_per_velocity: Complex,
+    pressure_per_velocity: ComplexArray,
     frequency_hz: Array,
     loss_factor_ratio: float,
     variation: ShellVariation,
-) -> Complex:
+) -> ComplexArray:
     """Pressure per unit load on a joint, shape (receiver, joint, component, frequency).
 
     Σ over the modes of transfer vector, velocity per force and force per load.

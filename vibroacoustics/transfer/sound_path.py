@@ -5,14 +5,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..mechanics.loads import Complex, Lines, Noise
-from ..mechanics.rotation import Array
-from ..parameters.shell_structure import ShellVariation
+from ..base.arrays import Array, ComplexArray
+from ..machine.shell_structure import ShellVariation
+from ..mechanics.loads import Lines, Noise
 from .mounts import RigidBodyOnMounts
 from .path import ShellPath, pressure_per_load
 from .suspended_block import SuspendedBlock
 
-PressurePerVelocity = Callable[[Array], Complex]
+PressurePerVelocity = Callable[[Array], ComplexArray]
 """Of frequencies in Hz, shape (frequency,), to shape (receiver, motion, frequency), Pa s/m."""
 
 
@@ -32,9 +32,9 @@ class BendingShell:
     pressure_per_velocity: PressurePerVelocity
     loss_factor_ratio: float
     variation: ShellVariation
-    _known: dict[bytes, Complex] = field(default_factory=dict, repr=False)
+    _known: dict[bytes, ComplexArray] = field(default_factory=dict, repr=False)
 
-    def per_load(self, frequency_hz: Array) -> Complex:
+    def per_load(self, frequency_hz: Array) -> ComplexArray:
         """Pressure per load on a joint, (receiver, joint, component, frequency).
 
         Kept, as cases share their frequencies.
@@ -66,7 +66,7 @@ class SoundPath:
 
     def pressure(
         self, body: RigidBodyOnMounts | SuspendedBlock, lines: Lines
-    ) -> Mapping[str, Complex]:
+    ) -> Mapping[str, ComplexArray]:
         """Pressure at the lines by source, complex peaks, shape (receiver, line), Pa.
 
         What the sources' wrenches over crank angle do is not in it.
@@ -75,7 +75,7 @@ class SoundPath:
 
     def _of_source(
         self, body: RigidBodyOnMounts | SuspendedBlock, lines: Lines, source: str
-    ) -> Complex:
+    ) -> ComplexArray:
         frequency, wrench, joints = lines.frequency_hz, lines.rigid[source], lines.joints[source]
         pressure = np.zeros((1, frequency.size), dtype=complex)
         if wrench.any():

@@ -6,11 +6,12 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..parameters.housing import Housing
-from ..parameters.mounts import Mounts
-from ..parameters.suspension import DischargeTube, Suspension
-from .bushings import Bushing, Real, RigidBody
-from .isolation import Complex, Isolation
+from ..base.arrays import Array, ComplexArray
+from ..machine.housing import Housing
+from ..machine.mounts import Mounts
+from ..machine.suspension import DischargeTube, Suspension
+from .bushings import Bushing, RigidBody
+from .isolation import Isolation
 from .mounts import FOOT_NAMES, corners
 from .tube import tube_stiffness
 
@@ -40,7 +41,7 @@ class SuspendedBlock:
     bodies: ClassVar[tuple[str, ...]] = (SHELL, BLOCK)
 
     @cached_property
-    def foot_position(self) -> Real:
+    def foot_position(self) -> Array:
         """Grommets in the order of FOOT_NAMES, shape (4, 3), m from the shell's centre of mass."""
         return corners(self.mounts.pitch_m, self.foot_height_m)
 
@@ -62,11 +63,11 @@ class SuspendedBlock:
         )
         return Isolation(bodies, tuple(bushings))
 
-    def natural_modes(self) -> tuple[Real, Real]:
+    def natural_modes(self) -> tuple[Array, Array]:
         """Undamped natural frequencies (12,) in Hz, mass-normalised shapes (mode, body, dof)."""
         return self.isolation.natural_modes()
 
-    def velocity(self, load: Complex, frequency_hz: Real) -> Complex:
+    def velocity(self, load: ComplexArray, frequency_hz: Array) -> ComplexArray:
         """Velocity of the shell's centre of mass, shape (..., 6), m/s and rad/s, complex peak.
 
         Parameters
@@ -76,27 +77,27 @@ class SuspendedBlock:
         """
         return self.isolation.velocity(_on_block(load), frequency_hz)[..., 0, :]
 
-    def block_velocity(self, load: Complex, frequency_hz: Real) -> Complex:
+    def block_velocity(self, load: ComplexArray, frequency_hz: Array) -> ComplexArray:
         """Velocity of the block's centre of mass, as `velocity`."""
         return self.isolation.velocity(_on_block(load), frequency_hz)[..., 1, :]
 
-    def foot_force(self, load: Complex, frequency_hz: Real) -> Complex:
+    def foot_force(self, load: ComplexArray, frequency_hz: Array) -> ComplexArray:
         """Force of the machine on the floor at each foot, shape (..., foot, axis), N."""
         forces = self.isolation.bushing_force(_on_block(load), frequency_hz)
         return forces[..., : len(FOOT_NAMES), :3]
 
 
-def _on_block(load: Complex) -> Complex:
+def _on_block(load: ComplexArray) -> ComplexArray:
     return np.stack([np.zeros_like(load), load], axis=-2)
 
 
-def _rigid_body(name: str, body: Housing, centre_of_mass_m: Real) -> RigidBody:
+def _rigid_body(name: str, body: Housing, centre_of_mass_m: Array) -> RigidBody:
     moments = (body.inertia_xx_kg_m2, body.inertia_yy_kg_m2, body.inertia_zz_kg_m2)
     return RigidBody(name, body.mass_kg, np.diag(moments), centre_of_mass_m)
 
 
 def _corner_bushings(
-    name: str, mounts: Mounts, places: Real, ends: tuple[str, str | None]
+    name: str, mounts: Mounts, places: Array, ends: tuple[str, str | None]
 ) -> list[Bushing]:
     lateral, vertical = mounts.lateral_stiffness_n_per_m, mounts.vertical_stiffness_n_per_m
     stiffness = np.diag([lateral, lateral, vertical, 0.0, 0.0, 0.0])
@@ -107,7 +108,7 @@ def _corner_bushings(
     ]
 
 
-def _tube_bushing(tube: DischargeTube, block_centre_m: Real) -> Bushing:
+def _tube_bushing(tube: DischargeTube, block_centre_m: Array) -> Bushing:
     points = block_centre_m + np.array([tube.x_m, tube.y_m, tube.z_m]).T
     stiffness = tube_stiffness(
         points,

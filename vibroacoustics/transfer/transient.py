@@ -7,8 +7,7 @@ from typing import Final
 import numpy as np
 from scipy import fft
 
-from ..mechanics.loads import Complex
-from ..mechanics.rotation import Array
+from ..base.arrays import Array, ComplexArray
 from . import RigidBodyOnMounts, SuspendedBlock
 
 LOAD_SAMPLES: Final = 2
@@ -36,7 +35,7 @@ def transient(
     body: RigidBodyOnMounts | SuspendedBlock,
     load: Array,
     load_rate_hz: float,
-    pressure_per_velocity: Callable[[Array], Complex],
+    pressure_per_velocity: Callable[[Array], ComplexArray],
 ) -> Transient:
     """Response to a load over time by Fourier transform of the whole event.
 
@@ -60,7 +59,7 @@ def transient(
     frequency = frequency[frequency <= highest_hz]
     spectrum = fft.rfft(load)[:, : frequency.size].T
 
-    def over_time(lines: Complex) -> Array:
+    def over_time(lines: ComplexArray) -> Array:
         return np.asarray(fft.irfft(lines, times // LOAD_SAMPLES) / LOAD_SAMPLES)
 
     velocity = body.velocity(spectrum, frequency)

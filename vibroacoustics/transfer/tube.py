@@ -4,17 +4,18 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..errors import ParameterError
-from .bushings import Real, motion_at
+from ..base.arrays import Array
+from ..base.errors import ParameterError
+from .bushings import motion_at
 
 
 def tube_stiffness(
-    path_m: Real,
+    path_m: Array,
     outer_diameter_m: float,
     inner_diameter_m: float,
     youngs_modulus_pa: float,
     poisson_ratio: float,
-) -> Real:
+) -> Array:
     """Stiffness of a clamped tube at the end of its path, shape (6, 6), N/m, N and N m.
 
     Unit-load method (Castigliano): the flexibilities of straight pieces in tension, torsion and
@@ -67,8 +68,8 @@ def _check_tube(
 
 
 def _piece_flexibility(
-    start: Real, end: Real, reference: Real, rigidity: Real, poisson_ratio: float
-) -> Real:
+    start: Array, end: Array, reference: Array, rigidity: Array, poisson_ratio: float
+) -> Array:
     """Flexibility of one straight piece, moved to the reference point, shape (6, 6)."""
     length = float(np.linalg.norm(end - start))
     if length == 0.0:

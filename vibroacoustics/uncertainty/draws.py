@@ -5,9 +5,9 @@ from typing import Final
 
 import scipy  # loads its subpackages when they are needed
 
-from ..mechanics.rotation import Array
-from ..parameters.machine import Machine
-from ..parameters.uncertainty import Range, Uncertainty
+from ..base.arrays import Array
+from ..machine.machine import Machine
+from ..study.uncertainty import Range, Uncertainty
 
 WIDE_RATIO: Final = 3.0
 """A range wider than this is drawn evenly over its logarithm."""

@@ -5,9 +5,9 @@ from typing import Final
 
 import numpy as np
 
-from ...errors import ParameterError, SolverError
-from ...mechanics.moving_parts import Array
-from ...units import shaft_frequency_hz
+from ...base.arrays import Array
+from ...base.errors import ParameterError, SolverError
+from ...base.units import shaft_frequency_hz
 from .film_force import FilmForce, positive_film_force
 from .gas import valve_angles
 from .machine import HermeticCompressor

@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from ...mechanics.moving_parts import Array
+from ...base.arrays import Array
 from .journal_bearing import Values, sommerfeld_angle
 from .machine import JournalBearing
 

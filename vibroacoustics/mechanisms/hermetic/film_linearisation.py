@@ -6,9 +6,9 @@ from typing import Final
 import numpy as np
 from scipy.optimize import brentq
 
-from ...errors import ParameterError
+from ...base.arrays import Array
+from ...base.errors import ParameterError
 from ...mechanics.beam_rotor import RotorMatrices
-from ...mechanics.moving_parts import Array
 from .film_force import COMPLEX_STEP, positive_film_force
 from .journal_bearing import short_bearing_force
 from .machine import JournalBearing

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...constants import STANDARD_GRAVITY_M_PER_S2 as GRAVITY
+from ...base.constants import STANDARD_GRAVITY_M_PER_S2 as GRAVITY
 from .journal_bearing import Values
 from .machine import HermeticCompressor
 from .pin import COORDINATES, PointMotion, RodMotion, crank_point, rod_motion

@@ -4,8 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from ...base.arrays import Array
 from ...mechanics.cylinder_gas import IdealValveCycle
-from ...mechanics.moving_parts import Array
 from .machine import HermeticCompressor
 
 

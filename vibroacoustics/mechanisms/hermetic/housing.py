@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from ...base.arrays import Array
 from ...mechanics.beam_rotor import NODE_FREEDOMS
-from ...mechanics.moving_parts import Array, Wrench, path
+from ...mechanics.moving_parts import Wrench, path
 from .results import motion_of
 from .shaft import ShaftEquations, node_positions_m
 

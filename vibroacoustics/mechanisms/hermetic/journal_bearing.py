@@ -9,8 +9,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import ParameterError
-from ...mechanics.moving_parts import Array
+from ...base.arrays import Array
+from ...base.errors import ParameterError
 from .machine import JournalBearing
 
 Values = NDArray[Any]

@@ -6,6 +6,7 @@ from pydantic import Field, model_validator
 
 from ...base.parameters import Parameters
 from ...base.registry import register
+from ...machine.machine import Machine
 from ...mechanics.capabilities import (
     HEIGHT,
     BalancePlanes,
@@ -15,7 +16,6 @@ from ...mechanics.capabilities import (
 )
 from ...mechanics.cylinder import CylinderGas
 from ...mechanics.moving_parts import Revolution
-from ...parameters.machine import Machine
 
 Case = Literal["I", "II", "III"]
 """Crank held, crank free in x and y in one bearing, flexible shaft in two bearings."""

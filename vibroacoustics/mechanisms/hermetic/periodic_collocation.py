@@ -9,8 +9,8 @@ from typing import Final
 
 import numpy as np
 
-from ...errors import SolverError
-from ...mechanics.moving_parts import Array
+from ...base.arrays import Array
+from ...base.errors import SolverError
 
 Slope = Callable[[Array, Array], tuple[Array, Array]]
 """Slopes (points, states) and their tangents (points, states, states) at angles and states."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...errors import ParameterError
+from ...base.errors import ParameterError
 from .journal_bearing import Values
 from .machine import Rod
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...constants import STANDARD_GRAVITY_M_PER_S2
-from ...mechanics.moving_parts import Array
+from ...base.arrays import Array
+from ...base.constants import STANDARD_GRAVITY_M_PER_S2
 from .forces import MechanismMotion, mechanism_motion
 from .gas import gas_force_n
 from .journal_bearing import film_coordinates, highest_pressure_pa

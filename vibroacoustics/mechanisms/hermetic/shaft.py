@@ -9,6 +9,7 @@ from typing import Final
 
 import numpy as np
 
+from ...base.arrays import Array
 from ...mechanics.beam_rotor import (
     NODE_FREEDOMS,
     RotorMatrices,
@@ -16,7 +17,6 @@ from ...mechanics.beam_rotor import (
     assemble,
     with_disc,
 )
-from ...mechanics.moving_parts import Array
 from .film_force import COMPLEX_STEP, FilmForce
 from .forces import added_mass, mechanism_motion
 from .gas import gas_force_n

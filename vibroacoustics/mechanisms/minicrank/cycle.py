@@ -6,12 +6,12 @@ from typing import Final
 
 import numpy as np
 
-from ...constants import STANDARD_GRAVITY_M_PER_S2
-from ...errors import ParameterError
+from ...base.arrays import Array
+from ...base.constants import STANDARD_GRAVITY_M_PER_S2
+from ...base.errors import ParameterError
+from ...base.units import shaft_frequency_hz
 from ...mechanics.crankshaft import DrivenRotation, reduced_inertia, steady_rotation
-from ...mechanics.moving_parts import Array
 from ...mechanics.rotation import uniform_crank_angle
-from ...units import shaft_frequency_hz
 from .four_bar import FourBarMotion, four_bar_motion, three_minicranks_motion
 from .links import FourBar, Links
 from .machine import Masses, MiniCrankMachine, ScrollLoads

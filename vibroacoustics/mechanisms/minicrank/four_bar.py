@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...errors import ParameterError
-from ...mechanics.moving_parts import Array
+from ...base.arrays import Array
+from ...base.errors import ParameterError
 from .links import Links, closing_margins, why_open
 
 

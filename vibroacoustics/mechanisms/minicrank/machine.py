@@ -7,9 +7,9 @@ from pydantic import Field
 
 from ...base.parameters import Parameters
 from ...base.registry import register
+from ...machine.machine import Machine
 from ...mechanics.capabilities import HEIGHT, BalancePlanes, CrankFrame
 from ...mechanics.moving_parts import Revolution
-from ...parameters.machine import Machine
 from .links import FourBar
 
 MASS = Field(gt=0.0, le=1e3)

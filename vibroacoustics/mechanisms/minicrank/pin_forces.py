@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from ...constants import STANDARD_GRAVITY_M_PER_S2
-from ...errors import ParameterError
+from ...base.arrays import Array
+from ...base.constants import STANDARD_GRAVITY_M_PER_S2
+from ...base.errors import ParameterError
 from ...mechanics.crankshaft import acceleration_of
-from ...mechanics.moving_parts import Array
 from ...mechanics.rotation import Rotation
 from .cycle import ScrollLoad, weight_moment
 from .four_bar import FourBarMotion

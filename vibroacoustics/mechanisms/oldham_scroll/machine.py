@@ -4,8 +4,12 @@ from typing import ClassVar, Final
 
 from pydantic import Field
 
+from ...base.arrays import Array
 from ...base.parameters import Parameters
 from ...base.registry import register
+from ...machine.machine import PART_MASS, Machine
+from ...machine.shell_structure import ShellStructure, ShellVariation
+from ...machine.stopping import Stopping
 from ...mechanics.capabilities import (
     HEIGHT,
     UPRIGHT,
@@ -14,11 +18,8 @@ from ...mechanics.capabilities import (
     OldhamRing,
     Slider,
 )
-from ...mechanics.moving_parts import Array, MovingPart, Revolution
+from ...mechanics.moving_parts import MovingPart, Revolution
 from ...mechanics.scroll_shaft import ScrollShaft
-from ...parameters.machine import PART_MASS, Machine
-from ...parameters.run_down import Stopping
-from ...parameters.shell_structure import ShellStructure, ShellVariation
 from ...sources.induction_motor.parameters import CapacitorMotor, TurningRotor
 from ...sources.oldham_keys.parameters import OldhamKeys
 from ...sources.scroll_gas.parameters import ScrollGas, ScrollWraps

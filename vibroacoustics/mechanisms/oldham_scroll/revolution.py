@@ -1,11 +1,7 @@
 """The scroll with an Oldham coupling: ring and rotating set at constant speed."""
 
-from ...mechanics.moving_parts import (
-    Array,
-    MovingPart,
-    Revolution,
-    wrenches_of_parts,
-)
+from ...base.arrays import Array
+from ...mechanics.moving_parts import MovingPart, Revolution, wrenches_of_parts
 from ...mechanics.rotation import constant_rotation
 from .machine import OldhamScroll
 from .ring import oldham_ring

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from ...mechanics.moving_parts import Array, MovingPart, path
+from ...base.arrays import Array
+from ...mechanics.moving_parts import MovingPart, path
 from .machine import OldhamScroll
 
 

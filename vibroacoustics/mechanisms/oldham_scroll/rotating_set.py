@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from ...mechanics.moving_parts import Array, MovingPart, circling
+from ...base.arrays import Array
+from ...mechanics.moving_parts import MovingPart, circling
 from .machine import OldhamScroll
 
 

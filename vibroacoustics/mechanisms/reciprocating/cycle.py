@@ -7,11 +7,11 @@ from typing import Final
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from ...errors import ParameterError, SolverError
+from ...base.arrays import Array
+from ...base.errors import ParameterError, SolverError
+from ...base.units import shaft_frequency_hz
 from ...mechanics.crankshaft import DrivenRotation, reduced_inertia, steady_rotation
-from ...mechanics.moving_parts import Array
 from ...mechanics.rotation import Rotation, uniform_crank_angle
-from ...units import shaft_frequency_hz
 from .gas import cylinder_pressure
 from .machine import ReciprocatingMachine, SlidingPairs
 from .slider_crank import (

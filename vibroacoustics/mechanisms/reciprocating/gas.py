@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from ...mechanics.cylinder_gas import IdealValveCycle
-from ...mechanics.moving_parts import Array
 from .machine import CylinderGas
 
 

@@ -7,6 +7,7 @@ from pydantic import Field, model_validator
 
 from ...base.parameters import Parameters
 from ...base.registry import register
+from ...machine.machine import Machine
 from ...mechanics.capabilities import (
     HEIGHT,
     BalancePlanes,
@@ -15,7 +16,6 @@ from ...mechanics.capabilities import (
     Slider,
 )
 from ...mechanics.moving_parts import Revolution
-from ...parameters.machine import Machine
 
 LENGTH = Field(gt=0.0, le=10.0)
 MASS = Field(gt=0.0, le=1e4)

@@ -4,14 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...errors import ParameterError
+from ...base.arrays import Array
+from ...base.errors import ParameterError
 from ...mechanics.crankshaft import acceleration_of, planar
-from ...mechanics.moving_parts import (
-    Array,
-    MovingPart,
-    Wrench,
-    path,
-)
+from ...mechanics.moving_parts import MovingPart, Wrench, path
 from ...mechanics.rotation import Rotation
 from .machine import PistonAndRod
 

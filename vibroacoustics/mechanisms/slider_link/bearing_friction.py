@@ -4,8 +4,8 @@ from typing import Final
 
 import numpy as np
 
-from ...errors import ParameterError
-from ...mechanics.moving_parts import Array
+from ...base.arrays import Array
+from ...base.errors import ParameterError
 from .machine import JournalBearing, ThrustBearing
 
 HALVINGS: Final = 60

@@ -5,9 +5,9 @@ from typing import Final
 
 import numpy as np
 
-from ...constants import STANDARD_GRAVITY_M_PER_S2
-from ...errors import SolverError
-from ...mechanics.moving_parts import Array
+from ...base.arrays import Array
+from ...base.constants import STANDARD_GRAVITY_M_PER_S2
+from ...base.errors import SolverError
 from .bearing_friction import journal_friction_moment, thrust_friction_moment
 from .gas import gas_force
 from .machine import SliderLinkMachine

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from ...base.arrays import Array
 from ...mechanics.cylinder import CylinderGas
 from ...mechanics.cylinder_gas import IdealValveCycle
-from ...mechanics.moving_parts import Array
 from .machine import SliderLink
 
 

@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from ...mechanics.moving_parts import Array
+from ...base.arrays import Array
 
 NODES: Final = 4
 """Nodes of one panel: exact for a polynomial of degree 7 over it, of degree 3 inside it."""

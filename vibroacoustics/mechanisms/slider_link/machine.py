@@ -12,12 +12,12 @@ from pydantic import Field, model_validator
 
 from ...base.parameters import Parameters
 from ...base.registry import register
+from ...base.units import shaft_frequency_hz
+from ...machine.machine import PART_MASS, Machine
+from ...machine.suspension import Suspension
 from ...mechanics.capabilities import BalancePlanes, Capability, CrankFrame, Slider
 from ...mechanics.cylinder import CylinderGas
 from ...mechanics.moving_parts import Revolution
-from ...parameters.machine import PART_MASS, Machine
-from ...parameters.suspension import Suspension
-from ...units import shaft_frequency_hz
 
 LENGTH = Field(gt=0.0, le=0.5)
 OFFSET = Field(ge=-0.05, le=0.05)

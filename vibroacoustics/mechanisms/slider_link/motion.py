@@ -5,8 +5,8 @@ from typing import Final
 
 import numpy as np
 
-from ...errors import ParameterError, SolverError
-from ...mechanics.moving_parts import Array
+from ...base.arrays import Array
+from ...base.errors import ParameterError, SolverError
 from .crankshaft import CrankForces, settled
 from .gas import valve_angles
 from .gauss_panels import GaussPanels

@@ -11,8 +11,8 @@ from typing import Final
 
 import numpy as np
 
-from ...errors import ParameterError
-from ...mechanics.moving_parts import Array
+from ...base.arrays import Array
+from ...base.errors import ParameterError
 from .machine import SliderLink
 
 SIDES: Final = np.array(list(product((1.0, -1.0), repeat=3)))

@@ -3,10 +3,10 @@
 from math import gcd, pi
 from typing import Final
 
+from ...base.units import shaft_frequency_hz
 from ...mechanics.crankshaft import every
 from ...mechanics.moving_parts import Revolution
 from ...mechanics.rotation import Rotation
-from ...units import shaft_frequency_hz
 from .machine import SliderLinkMachine
 from .motion import steady_motion
 from .unbalance import unbalance

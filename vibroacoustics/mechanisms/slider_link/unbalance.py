@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from ...mechanics.moving_parts import Array, Wrench
-from ...parameters.housing import Housing
+from ...base.arrays import Array
+from ...machine.housing import Housing
+from ...mechanics.moving_parts import Wrench
 from .crankshaft import CrankForces
 from .machine import SliderLinkMachine
 from .piston import CrankState, engaged_length

@@ -10,12 +10,12 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ...base import rounding
+from ...base.arrays import Array
 from .style import COLOURS, Picture, plain, render
 from .unit_levels import (
     COLOUR_MAP,
     DEPTH_DB,
     WIDE_INCH,
-    Real,
     colour_edges,
     dof_title,
     names,
@@ -52,7 +52,7 @@ def directivity_figure(radiated: xr.Dataset) -> Picture:
 
 
 def directivity_balloons(
-    levels: dict[str, Real], polar_angle: Real, azimuth: Real, frequency_hz: float
+    levels: dict[str, Array], polar_angle: Array, azimuth: Array, frequency_hz: float
 ) -> bytes:
     """PNG with a row per title: balloon, vertical cuts, horizontal cut.
 
@@ -80,7 +80,7 @@ def directivity_balloons(
     return render(WIDE_INCH, 2.5 * rows + 0.4, paint)
 
 
-def _balloon(figure: Figure, axes: Any, level: Real, polar_angle: Real, azimuth: Real) -> None:
+def _balloon(figure: Figure, axes: Any, level: Array, polar_angle: Array, azimuth: Array) -> None:
     closed_level = np.concatenate([level, level[:, :1]], axis=1)
     closed_azimuth = np.append(azimuth, azimuth[0] + 2.0 * np.pi)
     radius = np.clip(closed_level - level.max() + DEPTH_DB, 0.0, None)
@@ -109,7 +109,7 @@ def _balloon(figure: Figure, axes: Any, level: Real, polar_angle: Real, azimuth:
     bar.ax.xaxis.set_major_locator(MaxNLocator(5, integer=True))
 
 
-def _vertical_cuts(axes: Any, level: Real, polar_angle: Real, azimuth: Real, top: float) -> None:
+def _vertical_cuts(axes: Any, level: Array, polar_angle: Array, azimuth: Array, top: float) -> None:
     """The planes x-z and y-z, drawn with z up."""
     for name, start, colour, dash in (("xz", 0.0, COLOURS[3], "-"), ("yz", 0.5, COLOURS[1], "--")):
         near = _column(azimuth, start * np.pi)
@@ -127,7 +127,9 @@ def _vertical_cuts(axes: Any, level: Real, polar_angle: Real, azimuth: Real, top
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, -0.16), ncols=2, frameon=False)
 
 
-def _horizontal_cut(axes: Any, level: Real, polar_angle: Real, azimuth: Real, top: float) -> None:
+def _horizontal_cut(
+    axes: Any, level: Array, polar_angle: Array, azimuth: Array, top: float
+) -> None:
     """The cone nearest to the horizon, seen from above, x to the right."""
     row = int(np.argmin(np.abs(polar_angle - np.pi / 2.0)))
     angle, curve = np.append(azimuth, azimuth[0]), np.append(level[row], level[row, 0])
@@ -145,5 +147,5 @@ def _decibel_rings(axes: Any, top: float) -> None:
     axes.tick_params(axis="x", labelsize=7.5, pad=-1.0)
 
 
-def _column(azimuth: Real, wanted: float) -> int:
+def _column(azimuth: Array, wanted: float) -> int:
     return int(np.argmin(np.abs(np.exp(1j * azimuth) - np.exp(1j * wanted))))

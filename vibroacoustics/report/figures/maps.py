@@ -11,14 +11,14 @@ from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from ...schema import REFERENCE_OPTION
+from ...base.arrays import Array
+from ...base.vocabulary import REFERENCE_OPTION
 from ..study import few_speeds
 from .style import Picture, plain, render
 from .unit_levels import (
     COLOUR_MAP,
     DEPTH_DB,
     WIDE_INCH,
-    Real,
     colour_edges,
     dof_title,
     names,
@@ -32,8 +32,8 @@ from .unit_levels import (
 class Plane(NamedTuple):
     """Points of a map, (row, column) each, m, and what its axes are called."""
 
-    horizontal: Real
-    vertical: Real
+    horizontal: Array
+    vertical: Array
     horizontal_label: str
     vertical_label: str
 
@@ -77,7 +77,7 @@ def line_map_figures(results: xr.Dataset) -> list[Picture]:
     ]
 
 
-def level_maps(panels: dict[str, Real], plane: Plane, silent: Sequence[str]) -> bytes:
+def level_maps(panels: dict[str, Array], plane: Plane, silent: Sequence[str]) -> bytes:
     """PNG of level maps, three in a row; the panels of a row share one scale of colours.
 
     Parameters
@@ -116,7 +116,7 @@ def level_maps(panels: dict[str, Real], plane: Plane, silent: Sequence[str]) -> 
 
 
 def _map_panel(
-    axes: Axes, level: Real, plane: Plane, edges: Real, title: str, silent: bool
+    axes: Axes, level: Array, plane: Plane, edges: Array, title: str, silent: bool
 ) -> None:
     axes.set_title(plain(title), loc="left")
     axes.set_aspect("equal")
@@ -137,7 +137,7 @@ def _map_panel(
         axes.contour(*where, blank, levels=[0.02], colors="black", linewidths=0.9)
 
 
-def _contours(edges: Real) -> Real:
+def _contours(edges: Array) -> Array:
     """Round levels inside the scale: few enough to be labelled."""
     span = edges[-1] - edges[0]
     step = next((step for step in (10.0, 5.0, 2.0) if span >= 2.5 * step), 1.0)
@@ -145,7 +145,7 @@ def _contours(edges: Real) -> Real:
     return np.asarray(np.arange(first, edges[-1] - 1e-9, step))
 
 
-def _colour_bar(figure: Figure, axes: list[Any], edges: Real) -> None:
+def _colour_bar(figure: Figure, axes: list[Any], edges: Array) -> None:
     bar = figure.colorbar(
         ScalarMappable(BoundaryNorm(edges, 256), COLOUR_MAP), ax=axes, pad=0.02, aspect=18
     )

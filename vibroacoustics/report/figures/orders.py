@@ -6,9 +6,9 @@ from typing import Final
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
 from ...base import rounding
+from ...base.arrays import Array
 from ..study import catalogue_receiver, few_speeds, options, speeds
 from .style import COLOURS, MARKERS, Picture, draw, legend_below, logarithmic_ticks, wrap
 
@@ -71,7 +71,7 @@ def _dots(values: xr.DataArray, label: str, lowest: float, logarithmic: bool) ->
     return draw(len(shafts), height, paint, sharex=True)
 
 
-def _dot_panel(axes: Axes, per_option: NDArray[np.float64], orders: list[int]) -> None:
+def _dot_panel(axes: Axes, per_option: Array, orders: list[int]) -> None:
     rows = np.arange(len(per_option))
     for index, order in enumerate(orders):
         axes.plot(

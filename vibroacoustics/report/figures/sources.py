@@ -6,9 +6,9 @@ from typing import Final
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
-from ...schema import REFERENCE_OPTION
+from ...base.arrays import Array
+from ...base.vocabulary import REFERENCE_OPTION
 from ..shifts import HEARD_DB
 from ..source_words import quoted_speed, source_name
 from ..study import balancers, catalogue_receiver, few_speeds, has_sources, speeds
@@ -94,8 +94,8 @@ def _options(results: xr.Dataset, changing: list[str]) -> Picture:
 
 def _curves(
     axes: Axes,
-    band_hz: NDArray[np.float64],
-    curves: Sequence[NDArray[np.float64]],
+    band_hz: Array,
+    curves: Sequence[Array],
     names: list[str],
 ) -> None:
     for number, (curve, name, look) in enumerate(

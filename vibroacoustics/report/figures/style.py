@@ -7,14 +7,14 @@ from itertools import cycle, islice
 from typing import Any, Final, NamedTuple
 
 import matplotlib
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import LogLocator, MaxNLocator
-from numpy.typing import NDArray
 from pydantic import Base64Bytes
+
+from ...base.arrays import Array
 
 WIDTH_INCH: Final = 4.6
 DOTS_PER_INCH: Final = 160
@@ -103,7 +103,7 @@ def line_looks(count: int) -> list[dict[str, Any]]:
     ]
 
 
-def frequency_ticks(axes: Axes, frequency_hz: NDArray[np.float64]) -> None:
+def frequency_ticks(axes: Axes, frequency_hz: Array) -> None:
     """Ticks at 1, 2, 5, 10 … Hz within the range, as plain numbers; no minor ticks."""
     ticks = [digit * 10**power for power in range(6) for digit in (1, 2, 5)]
     shown = [tick for tick in ticks if frequency_hz.min() <= tick <= frequency_hz.max()]

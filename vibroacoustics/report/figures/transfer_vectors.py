@@ -8,11 +8,10 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ...base.arrays import Array, ComplexArray
 from .style import Picture, frequency_ticks, line_looks, render, wrap
 from .unit_levels import (
     WIDE_INCH,
-    Complex,
-    Real,
     dof_title,
     names,
     rows_of,
@@ -69,7 +68,7 @@ def transfer_vector_figure(radiated: xr.Dataset) -> Picture:
 
 
 def _level_panel(
-    axes: Axes, frequency: Real, field: Complex, error: Real | None, receivers: Sequence[str]
+    axes: Axes, frequency: Array, field: ComplexArray, error: Array | None, receivers: Sequence[str]
 ) -> None:
     """Curves of one degree of freedom, (receiver, frequency)."""
     looks = line_looks(len(receivers))

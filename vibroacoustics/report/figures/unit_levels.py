@@ -6,13 +6,10 @@ from typing import Final
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
-from ...constants import REFERENCE_PRESSURE_PA
+from ...base.arrays import Array, ComplexArray
+from ...base.constants import REFERENCE_PRESSURE_PA
 from ..labels import DOF_WORDS
-
-Real = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 WIDE_INCH: Final = 8.0
 """1280 pixels: these figures have panels side by side."""
@@ -25,7 +22,7 @@ UNIT_VELOCITY: Final = 1e-3
 """1 mm/s or 1 mrad/s, root mean square."""
 
 
-def unit_level_db(pressure_per_velocity: Complex | Real) -> Real:
+def unit_level_db(pressure_per_velocity: ComplexArray | Array) -> Array:
     """Level at 1 mm/s or 1 mrad/s, dB re 20 µPa; both root mean squares, so no factor of √2."""
     ratio = UNIT_VELOCITY * np.abs(pressure_per_velocity) / REFERENCE_PRESSURE_PA
     return np.asarray(20.0 * np.log10(np.maximum(ratio, 1e-15)))
@@ -52,7 +49,7 @@ def rows_of(items: Sequence[object], columns: int) -> int:
     return max(1, -(-len(items) // columns))
 
 
-def silent_dofs(field: Complex, dofs: Sequence[str]) -> list[str]:
+def silent_dofs(field: ComplexArray, dofs: Sequence[str]) -> list[str]:
     """Those far below the loudest of the same unit; field (dof, ...)."""
     size = np.nanmax(np.abs(field).reshape(len(dofs), -1), axis=1)
     silent = []
@@ -68,7 +65,7 @@ def write_silent(axes: Axes) -> None:
     axes.text(0.5, 0.5, "no sound here", transform=axes.transAxes, ha="center", va="center")
 
 
-def colour_edges(highest_db: float, lowest_db: float) -> Real:
+def colour_edges(highest_db: float, lowest_db: float) -> Array:
     """Edges of bands of 1 or 2 dB, whole multiples, from the loudest down to at most DEPTH_DB."""
     lowest_db = max(lowest_db, highest_db - DEPTH_DB)
     step = 1.0 if highest_db - lowest_db <= DEPTH_DB / 2.0 else 2.0

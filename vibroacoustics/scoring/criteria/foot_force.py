@@ -3,7 +3,7 @@
 import xarray as xr
 
 from ...base.registry import register
-from ...parameters.criterion import Criterion
+from ...study.criterion import Criterion
 
 
 @register

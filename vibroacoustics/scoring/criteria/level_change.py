@@ -4,8 +4,8 @@ import numpy as np
 import xarray as xr
 
 from ...base.registry import register
-from ...parameters.criterion import Criterion
-from ...schema import REFERENCE_OPTION
+from ...base.vocabulary import REFERENCE_OPTION
+from ...study.criterion import Criterion
 
 
 @register

@@ -6,8 +6,8 @@ import numpy as np
 import xarray as xr
 
 from ...base.registry import register
-from ...parameters.criterion import Criterion
-from ...schema import REFERENCE_OPTION
+from ...base.vocabulary import REFERENCE_OPTION
+from ...study.criterion import Criterion
 
 SMALLEST_RATIO: Final = 1e-6
 """Below -120 dB is rounding."""

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ...errors import ParameterError
-from ...mechanics.moving_parts import Array
+from ...base.arrays import Array
+from ...base.errors import ParameterError
 from .parameters import KlossMotor
 
 

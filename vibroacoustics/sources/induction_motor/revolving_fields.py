@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
-from ...errors import ParameterError
+from ...base.errors import ParameterError
 from .parameters import CapacitorMotor
 
 LARGEST_RUNNING_SLIP: Final = 0.5

@@ -8,12 +8,9 @@ flux linkages of main, auxiliary, rotor d and rotor q, and the capacitor's volta
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...mechanics.moving_parts import Array
+from ...base.arrays import Array, ComplexArray
 from .parameters import CapacitorMotor
-
-ComplexArray = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)

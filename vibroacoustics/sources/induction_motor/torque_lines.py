@@ -5,16 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...mechanics.moving_parts import Array
+from ...base.arrays import Array, ComplexArray
 from .parameters import CapacitorMotor
 from .revolving_fields import OperatingPoint, point_at_torque
-from .speed_response import (
-    ComplexArray,
-    SpeedResponse,
-    TwoAxisMotor,
-    speed_response,
-    two_axis_motor,
-)
+from .speed_response import SpeedResponse, TwoAxisMotor, speed_response, two_axis_motor
 
 
 @dataclass(frozen=True)

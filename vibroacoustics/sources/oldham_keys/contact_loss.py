@@ -7,7 +7,7 @@ the orbit radius, M_z = F_t r/2, the stroke cancels: m ω² = F_t/(2R).
 
 import numpy as np
 
-from ...mechanics.moving_parts import Array
+from ...base.arrays import Array
 from ...mechanics.rotation import uniform_crank_angle
 from .parameters import OldhamKeys
 

@@ -10,7 +10,7 @@ from typing import Final, NamedTuple
 import numba
 import numpy as np
 
-from ...mechanics.moving_parts import Array
+from ...base.arrays import Array
 from .contact import contact_force
 
 KEYS: Final = 4

@@ -5,7 +5,7 @@ from typing import Final, NamedTuple
 import numba
 import numpy as np
 
-from ...mechanics.moving_parts import Array
+from ...base.arrays import Array
 from .equations import (
     APPROACH,
     COORDINATES,

@@ -6,9 +6,9 @@ from typing import Final
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from ...errors import ParameterError, SolverError
-from ...mechanics.moving_parts import Array
-from ...units import shaft_frequency_hz
+from ...base.arrays import Array
+from ...base.errors import ParameterError, SolverError
+from ...base.units import shaft_frequency_hz
 from .contact import CONTACT_LAWS
 from .equations import COORDINATES, Coupling
 from .integration import integrate

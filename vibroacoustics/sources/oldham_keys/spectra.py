@@ -2,12 +2,9 @@
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
-from numpy.typing import NDArray
 
-from ...errors import ParameterError
-from ...mechanics.moving_parts import Array
-
-ComplexArray = NDArray[np.complex128]
+from ...base.arrays import Array, ComplexArray
+from ...base.errors import ParameterError
 
 
 def split_periodic(force_n: Array, revolutions: int) -> tuple[Array, Array]:

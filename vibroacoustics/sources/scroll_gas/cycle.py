@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...mechanics.moving_parts import Array, path
+from ...base.arrays import Array
+from ...mechanics.moving_parts import path
 from .parameters import ScrollGas, ScrollWraps
 from .pockets import area_inside, contact_angle, contact_count
 from .pressures import pocket_pressure

@@ -7,7 +7,7 @@ It falls by the crank angle, and the next contact inwards lies a turn further in
 
 import numpy as np
 
-from ...mechanics.moving_parts import Array
+from ...base.arrays import Array
 from .parameters import ScrollWraps
 
 

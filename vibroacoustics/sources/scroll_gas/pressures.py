@@ -4,7 +4,7 @@ from typing import Final
 
 import numpy as np
 
-from ...mechanics.moving_parts import Array
+from ...base.arrays import Array
 from .parameters import ScrollGas, ScrollWraps
 from .pockets import built_in_volume_ratio, displacement_m3, pocket_volume
 

@@ -4,12 +4,8 @@ from itertools import pairwise
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...mechanics.moving_parts import Array
-
-Points = NDArray[np.complex128]
-Indices = NDArray[np.intp]
+from ...base.arrays import Array, ComplexArray, IndexArray
 
 BASE_RADIUS_M: Final = 0.00215
 """R."""
@@ -63,13 +59,13 @@ def _tangential_angle() -> Array:
     return np.asarray(np.radians(np.arange(60.0, 1081.0)))
 
 
-def _spiral() -> Points:
+def _spiral() -> ComplexArray:
     """x1 + j y1."""
     t = _tangential_angle()
     return np.asarray(BASE_RADIUS_M * (np.exp(-1j * t) * (1.0 + 1j * t)))
 
 
-def _contacts(fixed: Points, orbiting: Points) -> tuple[Indices, Indices]:
+def _contacts(fixed: ComplexArray, orbiting: ComplexArray) -> tuple[IndexArray, IndexArray]:
     """V: indices of the points that touch, ordered along the fixed spiral."""
     apart = fixed[:, None] - orbiting[None, :]
     close = np.maximum(np.abs(apart.real), np.abs(apart.imag)) <= CONTACT_TOLERANCE_M
@@ -78,7 +74,7 @@ def _contacts(fixed: Points, orbiting: Points) -> tuple[Indices, Indices]:
 
 
 def _pressures_bar(
-    fixed: Points, orbiting: Points, at_fixed: Indices, at_orbiting: Indices
+    fixed: ComplexArray, orbiting: ComplexArray, at_fixed: IndexArray, at_orbiting: IndexArray
 ) -> Array:
     """Pmax, P of each gap from its area, Po: one more than there are segments."""
     shifts = HALF_TURN * np.sign(at_orbiting - at_fixed)
@@ -88,7 +84,9 @@ def _pressures_bar(
     return np.array([LARGEST_PRESSURE_BAR, *inside, STANDSTILL_PRESSURE_BAR])
 
 
-def _area_m2(fixed: Points, orbiting: Points, first: int, last: int, shift: int) -> float:
+def _area_m2(
+    fixed: ComplexArray, orbiting: ComplexArray, first: int, last: int, shift: int
+) -> float:
     """S: widths of a gap times the steps of the middle between its two sides."""
     at = np.arange(first, last + 1)
     width = np.abs(fixed[at] - orbiting[at + shift])
@@ -96,7 +94,7 @@ def _area_m2(fixed: Points, orbiting: Points, first: int, last: int, shift: int)
     return float(np.sum((step * width[1:])[1:]))  # the first step is left out, as printed
 
 
-def _length_m(fixed: Points, first: int, last: int) -> float:
+def _length_m(fixed: ComplexArray, first: int, last: int) -> float:
     """L1: sum of l1 over both ends of a segment."""
     square = np.abs(fixed[first : last + 2]) ** 2
     return float(np.sum(np.sqrt(np.abs(np.diff(square)))))

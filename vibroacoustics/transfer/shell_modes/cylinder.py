@@ -4,16 +4,14 @@ Leissa, Vibration of Shells, NASA SP-288 (1973), section 2.3.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...parameters.shell_structure import ShellStructure
-
-Real = NDArray[np.float64]
+from ...base.arrays import Array
+from ...machine.shell_structure import ShellStructure
 
 
 def fluegge_matrix(
     circumferential_order: int, axial_wave_number: float, thickness_ratio: float, poisson: float
-) -> Real:
+) -> Array:
     """Stiffness of Flügge's shell theory for u, v, w, dimensionless, shape (3, 3).
 
     Leissa (1973), section 2.1: the operator of Donnell and Mushtari plus k times Flügge's, for
@@ -41,7 +39,7 @@ def fluegge_matrix(
 
 def donnell_matrix(
     circumferential_order: int, axial_wave_number: float, thickness_ratio: float, poisson: float
-) -> Real:
+) -> Array:
     """As `fluegge_matrix`, of Donnell's and Mushtari's theory, Leissa (1973), section 2.1.
 
     It leaves out what bends a nearly straight wall: frequencies of low n come out too high.
@@ -71,7 +69,7 @@ def diaphragm_frequencies_hz(
     span_m: float,
     circumferential_order: int,
     axial_half_waves: int,
-) -> Real:
+) -> Array:
     """Natural frequencies by Flügge's theory, shape (3,): the roots of its cubic in ω².
 
     For n > 0 the first is the bending mode of the wall, the others stretch it along and around.
@@ -96,7 +94,7 @@ def donnell_frequencies_hz(
     span_m: float,
     circumferential_order: int,
     axial_half_waves: int,
-) -> Real:
+) -> Array:
     """As `diaphragm_frequencies_hz`, by the theory of Donnell and Mushtari."""
     wave = axial_half_waves * np.pi * radius_m / span_m
     thickness_ratio = structure.thickness_m**2 / (12.0 * radius_m**2)
@@ -104,7 +102,7 @@ def donnell_frequencies_hz(
     return _frequencies_hz(matrix, structure, radius_m)
 
 
-def _frequencies_hz(matrix: Real, structure: ShellStructure, radius_m: float) -> Real:
+def _frequencies_hz(matrix: Array, structure: ShellStructure, radius_m: float) -> Array:
     modulus = structure.youngs_modulus_pa / (1.0 - structure.poisson_ratio**2)
     speed = np.sqrt(modulus / structure.density_kg_per_m3)
     return np.asarray(np.sqrt(np.linalg.eigvalsh(matrix)) * speed / (2.0 * np.pi * radius_m))

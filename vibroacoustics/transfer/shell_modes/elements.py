@@ -8,8 +8,9 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from ...parameters.shell_structure import ShellStructure
-from .meridian import Index, Meridian, Real
+from ...base.arrays import Array, IndexArray
+from ...machine.shell_structure import ShellStructure
+from .meridian import Meridian
 
 NODE_FREEDOMS: Final = 4
 """Radial, axial and circumferential displacement, and rotation β = -dw/ds."""
@@ -35,9 +36,9 @@ _HERMITE: Final[Polynomials] = (
 class Shapes(NamedTuple):
     """u, v, w or one of their derivatives in s per amplitude, each (point, 12)."""
 
-    along: Real
-    around: Real
-    normal: Real
+    along: Array
+    around: Array
+    normal: Array
 
 
 def freedom_count(meridian: Meridian) -> int:
@@ -45,7 +46,7 @@ def freedom_count(meridian: Meridian) -> int:
     return NODE_FREEDOMS * (meridian.elements + 1) + _INNER * meridian.elements
 
 
-def element_freedoms(meridian: Meridian) -> Index:
+def element_freedoms(meridian: Meridian) -> IndexArray:
     """Places of each element's twelve amplitudes among all, shape (element, 12)."""
     first = np.arange(meridian.elements)[:, None]
     nodes = NODE_FREEDOMS * first + np.arange(2 * NODE_FREEDOMS)
@@ -53,7 +54,7 @@ def element_freedoms(meridian: Meridian) -> Index:
     return np.asarray(np.concatenate([nodes, inner], axis=1))
 
 
-def shapes(meridian: Meridian, element: Index, place: Real, derivative: int = 0) -> Shapes:
+def shapes(meridian: Meridian, element: IndexArray, place: Array, derivative: int = 0) -> Shapes:
     """Displacements u along the meridian, v around and w outwards per amplitude.
 
     Parameters
@@ -83,20 +84,20 @@ def shapes(meridian: Meridian, element: Index, place: Real, derivative: int = 0)
     return Shapes(along, around, normal)
 
 
-def _polynomials(coefficients: Polynomials, place: Real, derivative: int) -> Real:
+def _polynomials(coefficients: Polynomials, place: Array, derivative: int) -> Array:
     """Derivatives in the element's coordinate of polynomials, shape (point, polynomial)."""
     series = [np.polynomial.Polynomial(c).deriv(derivative) for c in coefficients]
     return np.stack([polynomial(place) for polynomial in series], axis=1)
 
 
-def displacement_shapes(meridian: Meridian, element: Index, place: Real) -> Real:
+def displacement_shapes(meridian: Meridian, element: IndexArray, place: Array) -> Array:
     """Radial, axial and circumferential displacement per amplitude, shape (point, 3, 12)."""
     along, around, normal = shapes(meridian, element, place)
     radial, axial = meridian.tangents[element].T[:, :, None]
     return np.stack([radial * along + axial * normal, axial * along - radial * normal, around], 1)
 
 
-def strains(meridian: Meridian, element: Index, place: Real, order: int) -> Real:
+def strains(meridian: Meridian, element: IndexArray, place: Array, order: int) -> Array:
     """Strains and changes of curvature per amplitude, shape (point, 6, 12).
 
     ε_s, ε_θ, γ, κ_s, κ_θ, 2 κ_sθ of Sanders (1959) on a cone, for u and w with cos nθ and v with
@@ -131,7 +132,7 @@ def strains(meridian: Meridian, element: Index, place: Real, order: int) -> Real
     )
 
 
-def matrices(meridian: Meridian, structure: ShellStructure, order: int) -> tuple[Real, Real]:
+def matrices(meridian: Meridian, structure: ShellStructure, order: int) -> tuple[Array, Array]:
     """Stiffness and mass of the free shell, both (freedom, freedom), N/m and kg and the like.
 
     Parameters
@@ -153,22 +154,22 @@ def matrices(meridian: Meridian, structure: ShellStructure, order: int) -> tuple
     return _assembled(meridian, stiffness), _assembled(meridian, mass)
 
 
-def _radius(meridian: Meridian, element: Index, place: Real) -> Real:
+def _radius(meridian: Meridian, element: IndexArray, place: Array) -> Array:
     start, end = meridian.nodes[element, 0], meridian.nodes[element + 1, 0]
     return np.asarray(0.5 * ((1.0 - place) * start + (1.0 + place) * end))
 
 
-def _elasticity(structure: ShellStructure) -> Real:
+def _elasticity(structure: ShellStructure) -> Array:
     """Forces and moments per unit length per strain and change of curvature, shape (6, 6)."""
     thickness, poisson = structure.thickness_m, structure.poisson_ratio
-    plane: Real = np.array(
+    plane: Array = np.array(
         [[1.0, poisson, 0.0], [poisson, 1.0, 0.0], [0.0, 0.0, (1.0 - poisson) / 2.0]]
     )
     stretching = structure.youngs_modulus_pa * thickness / (1.0 - poisson**2)
     return np.asarray(stretching * np.kron(np.diag([1.0, thickness**2 / 12.0]), plane))
 
 
-def _assembled(meridian: Meridian, at_points: Real) -> Real:
+def _assembled(meridian: Meridian, at_points: Array) -> Array:
     """Sum of the matrices (point, 12, 12) of all Gauss points."""
     by_element = at_points.reshape(meridian.elements, _GAUSS, 12, 12).sum(axis=1)
     at = element_freedoms(meridian)

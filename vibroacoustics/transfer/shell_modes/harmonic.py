@@ -8,7 +8,8 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve, eigh
 from scipy.sparse import identity
 
-from ...parameters.shell_structure import ShellStructure
+from ...base.arrays import Array, IndexArray
+from ...machine.shell_structure import ShellStructure
 from .elements import (
     AXIAL,
     CIRCUMFERENTIAL,
@@ -18,7 +19,7 @@ from .elements import (
     freedom_count,
     matrices,
 )
-from .meridian import Index, Meridian, Real
+from .meridian import Meridian
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ class Harmonic:
     order: int
 
     @cached_property
-    def kept(self) -> Index:
+    def kept(self) -> IndexArray:
         """Amplitudes that are free to move.
 
         On the axis the displacement has one value from all sides. Where the section is kept
@@ -58,14 +59,14 @@ class Harmonic:
         return [NODE_FREEDOMS * end for end in ends if self.meridian.nodes[end, 0] == 0.0]
 
     @cached_property
-    def free_matrices(self) -> tuple[Real, Real]:
+    def free_matrices(self) -> tuple[Array, Array]:
         """Stiffness and mass of the free amplitudes."""
         whole = matrices(self.meridian, self.structure, self.order)
         stiffness, mass = (self.reduction.T @ matrix @ self.reduction for matrix in whole)
         return stiffness, mass
 
     @cached_property
-    def rigid_motions(self) -> Real:
+    def rigid_motions(self) -> Array:
         """Free amplitudes of motions without strain, mass-normalised, shape (free, 0 to 2).
 
         Order 0: along z, about z. Order 1: along x or y and about y or x. The rigid body on its
@@ -86,7 +87,7 @@ class Harmonic:
         gram = free.T @ self.free_matrices[1] @ free
         return np.asarray(np.linalg.solve(np.linalg.cholesky(gram), free.T).T)
 
-    def modes(self, maximum_frequency_hz: float) -> tuple[Real, Real]:
+    def modes(self, maximum_frequency_hz: float) -> tuple[Array, Array]:
         """Natural frequencies (mode,) in Hz and mass-normalised amplitudes (freedom, mode).
 
         Rigid motions are moved out of the way, to four times the highest frequency.
@@ -100,7 +101,7 @@ class Harmonic:
         squares, shapes = eigh(stiffness, self.free_matrices[1], subset_by_value=(-np.inf, limit))
         return np.sqrt(squares) / (2.0 * np.pi), np.asarray(self.reduction @ shapes)
 
-    def elastic_flexibility(self, load: Real, frequency_hz: float) -> Real:
+    def elastic_flexibility(self, load: Array, frequency_hz: float) -> Array:
         """Static elastic amplitudes (freedom, load) under loads on the amplitudes (freedom, load).
 
         The resultant of a load is met by the inertia of the accelerating rigid shell, which leaves
@@ -117,7 +118,7 @@ class Harmonic:
         moved -= self.rigid_motions @ (self.rigid_motions.T @ reduced) / shift
         return np.asarray(self.reduction @ moved)
 
-    def _held_stiffness(self, shift: float) -> Real:
+    def _held_stiffness(self, shift: float) -> Array:
         """K + s M R Rᵀ M: the rigid motions get the eigenvalue s, the elastic modes keep theirs."""
         stiffness, mass = self.free_matrices
         momentum = mass @ self.rigid_motions

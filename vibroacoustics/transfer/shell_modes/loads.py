@@ -5,10 +5,11 @@ from typing import Final, Protocol
 
 import numpy as np
 
-from ...errors import ParameterError
-from ...parameters.shell_structure import Joint
+from ...base.arrays import Array, IndexArray
+from ...base.errors import ParameterError
+from ...machine.shell_structure import Joint
 from .elements import displacement_shapes, element_freedoms, freedom_count
-from .meridian import Index, Meridian, Real
+from .meridian import Meridian
 from .modes import Around
 
 JOINT_LOADS: Final = ("fx", "fy", "fz", "mz")
@@ -22,7 +23,7 @@ _SPREAD_POINTS: Final = 32
 class Load(Protocol):
     """Unit loads, or unit responses: what a load drives is what a response there picks up."""
 
-    def generalised(self, meridian: Meridian, around: Around) -> Real:
+    def generalised(self, meridian: Meridian, around: Around) -> Array:
         """Force on each amplitude of a motion around the axis, shape (freedom, load)."""
 
 
@@ -36,10 +37,10 @@ class PointForces:
     directions : unit vectors, shape (load, 3)
     """
 
-    points: Real
-    directions: Real
+    points: Array
+    directions: Array
 
-    def generalised(self, meridian: Meridian, around: Around) -> Real:
+    def generalised(self, meridian: Meridian, around: Around) -> Array:
         """As of any `Load`."""
         angle = np.arctan2(self.points[:, 1], self.points[:, 0])
         place = np.stack([np.hypot(self.points[:, 0], self.points[:, 1]), self.points[:, 2]], 1)
@@ -67,7 +68,7 @@ class JointLoads:
 
     joint: Joint
 
-    def generalised(self, meridian: Meridian, around: Around) -> Real:
+    def generalised(self, meridian: Meridian, around: Around) -> Array:
         """As of any `Load`.
 
         Raises
@@ -84,7 +85,7 @@ class JointLoads:
         np.add.at(total, freedoms, np.einsum("p,pia,il->pal", weights, shapes, parts))
         return total
 
-    def _heights(self, meridian: Meridian) -> tuple[Real, Real]:
+    def _heights(self, meridian: Meridian) -> tuple[Array, Array]:
         low, high = meridian.wall_heights_m
         middle, band = self.joint.height_m, self.joint.band_m
         if middle - band / 2.0 < low or middle + band / 2.0 > high:
@@ -94,7 +95,7 @@ class JointLoads:
             )
         return _mean_points(middle, band, _BAND_POINTS)
 
-    def _mean_parts(self, around: Around) -> Real:
+    def _mean_parts(self, around: Around) -> Array:
         """Means over the welds of the radial, axial and circumferential part, shape (3, load).
 
         x̂ = r̂ cos θ - θ̂ sin θ and ŷ = r̂ sin θ + θ̂ cos θ, times the factors of `Around`.
@@ -125,13 +126,13 @@ class JointLoads:
         return complex(np.exp(1j * order * joint.first_angle_rad) * spread)
 
 
-def _interpolation(meridian: Meridian, place: Real) -> tuple[Index, Real]:
+def _interpolation(meridian: Meridian, place: Array) -> tuple[IndexArray, Array]:
     """Freedoms (point, 12) that move places (point, 2), and by how much, (point, 3, 12)."""
     element, along = meridian.locate(place)
     return element_freedoms(meridian)[element], displacement_shapes(meridian, element, along)
 
 
-def _mean_points(middle: float, width: float, count: int) -> tuple[Real, Real]:
+def _mean_points(middle: float, width: float, count: int) -> tuple[Array, Array]:
     """Places around a middle and their weights in the mean over a width."""
     if width == 0.0:
         return np.array([middle]), np.ones(1)
@@ -139,7 +140,7 @@ def _mean_points(middle: float, width: float, count: int) -> tuple[Real, Real]:
     return middle + width / 2.0 * place, weight / 2.0
 
 
-def joint_forces(joint: Joint, radius_m: float) -> tuple[Real, Real]:
+def joint_forces(joint: Joint, radius_m: float) -> tuple[Array, Array]:
     """The unit loads `JOINT_LOADS` as forces at points: for modes that are no `ShellMode`.
 
     Parameters

@@ -6,15 +6,12 @@ from itertools import pairwise
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from ...errors import ParameterError
-from ...parameters.shell import Shell
-from ...parameters.shell_structure import ShellStructure
-
-Real = NDArray[np.float64]
-Index = NDArray[np.intp]
+from ...base.arrays import Array, IndexArray
+from ...base.errors import ParameterError
+from ...machine.shell import Shell
+from ...machine.shell_structure import ShellStructure
 
 ELEMENTS_PER_WAVELENGTH: Final = 10.0
 """Of bending waves. Cubic shapes err by (k h)⁴ / 1440 of a frequency, 1e-4."""
@@ -34,7 +31,7 @@ class Meridian:
     round_nodes : nodes at which the section is kept round
     """
 
-    nodes: Real
+    nodes: Array
     round_nodes: tuple[int, ...] = ()
 
     @property
@@ -42,12 +39,12 @@ class Meridian:
         return int(self.nodes.shape[0]) - 1
 
     @cached_property
-    def lengths(self) -> Real:
+    def lengths(self) -> Array:
         """Length of each element, m."""
         return np.asarray(np.linalg.norm(np.diff(self.nodes, axis=0), axis=1))
 
     @cached_property
-    def tangents(self) -> Real:
+    def tangents(self) -> Array:
         """Unit vectors (radius, height) along the elements; (t_z, -t_r) points outwards."""
         return np.asarray(np.diff(self.nodes, axis=0) / self.lengths[:, None])
 
@@ -61,7 +58,7 @@ class Meridian:
         wall = self.nodes[self.nodes[:, 0] >= self.wall_radius_m * (1.0 - 1e-9), 1]
         return float(wall.min()), float(wall.max())
 
-    def locate(self, place: Real) -> tuple[Index, Real]:
+    def locate(self, place: Array) -> tuple[IndexArray, Array]:
         """Element next to each place (point, 2) near the surface, and -1 to 1 along it.
 
         Of the two elements at the nearest node the closer one.
@@ -144,7 +141,7 @@ def _span_ends(structure: ShellStructure, lower: float, upper: float) -> tuple[f
     return middle - structure.span_m / 2.0, middle + structure.span_m / 2.0
 
 
-def _divided(corners: Real, step: float) -> Real:
+def _divided(corners: Array, step: float) -> Array:
     """Coordinates from the first to the last corner, evenly divided between corners."""
     parts = [
         np.linspace(a, b, max(_LEAST_ELEMENTS, int(np.ceil((b - a) / step))) + 1)[1:]
@@ -153,7 +150,7 @@ def _divided(corners: Real, step: float) -> Real:
     return np.concatenate([corners[:1], *parts])
 
 
-def _cap(radius: float, dome: float, step: float) -> Real:
+def _cap(radius: float, dome: float, step: float) -> Array:
     """Radius and rise above the wall's end, from the middle to the edge, shape (node, 2)."""
     fine = np.linspace(0.0, np.pi / 2.0, 2001)
     outline = np.stack([radius * np.sin(fine), dome * np.cos(fine)], axis=1)

@@ -1,16 +1,13 @@
 """Response of the elastic shell to forces, by modal sum and a residual for the other modes."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.arrays import Array, ComplexArray
 from .loads import Load
-from .meridian import Real
 from .modes import ElasticShell
 
-Complex = NDArray[np.complex128]
 
-
-def modal_forces(shell: ElasticShell, load: Load) -> Real:
+def modal_forces(shell: ElasticShell, load: Load) -> Array:
     """Generalised force of each mode per unit load, shape (mode, load): 1 for a force, 1/m for a
     moment.
 
@@ -30,8 +27,8 @@ def modal_forces(shell: ElasticShell, load: Load) -> Real:
 
 
 def velocity_per_force(
-    natural_hz: Real, modal_mass_kg: Real, loss_factor_ratio: float, frequency_hz: Real
-) -> Complex:
+    natural_hz: Array, modal_mass_kg: Array, loss_factor_ratio: float, frequency_hz: Array
+) -> ComplexArray:
     """Velocity amplitude of each mode per generalised force, shape (mode, frequency), m/(N s).
 
     jω / (m (ω_r² (1 + jη) - ω²)).
@@ -47,7 +44,7 @@ def velocity_per_force(
     return np.asarray(1j * omega / (modal_mass_kg[:, None] * (lossy - omega**2)))
 
 
-def modal_mobility(shell: ElasticShell, frequency_hz: Real) -> Complex:
+def modal_mobility(shell: ElasticShell, frequency_hz: Array) -> ComplexArray:
     """`velocity_per_force` of a shell's modes, shape (mode, frequency).
 
     Parameters
@@ -60,7 +57,7 @@ def modal_mobility(shell: ElasticShell, frequency_hz: Real) -> Complex:
     return velocity_per_force(natural, mass, shell.structure.loss_factor_ratio, frequency_hz)
 
 
-def static_flexibility(shell: ElasticShell, response: Load, load: Load) -> Real:
+def static_flexibility(shell: ElasticShell, response: Load, load: Load) -> Array:
     """Elastic displacement under unit loads, solved directly, shape (response, load), m/N.
 
     Of all orders around that have a mode; the rigid motion is left out.
@@ -71,7 +68,7 @@ def static_flexibility(shell: ElasticShell, response: Load, load: Load) -> Real:
     response : where and along what the displacement counts
     load : unit loads
     """
-    total: Real = np.zeros(())
+    total: Array = np.zeros(())
     for harmonic in shell.harmonics:
         for around in shell.arounds(harmonic.order):
             given = load.generalised(shell.meridian, around)
@@ -80,7 +77,7 @@ def static_flexibility(shell: ElasticShell, response: Load, load: Load) -> Real:
     return total
 
 
-def residual_flexibility(shell: ElasticShell, response: Load, load: Load) -> Real:
+def residual_flexibility(shell: ElasticShell, response: Load, load: Load) -> Array:
     """What the modes leave of the static flexibility, shape (response, load), m/N.
 
     Parameters
@@ -96,7 +93,7 @@ def residual_flexibility(shell: ElasticShell, response: Load, load: Load) -> Rea
     return np.asarray(static_flexibility(shell, response, load) - modal)
 
 
-def mobility(shell: ElasticShell, response: Load, load: Load, frequency_hz: Real) -> Complex:
+def mobility(shell: ElasticShell, response: Load, load: Load, frequency_hz: Array) -> ComplexArray:
     """Velocity per unit load, shape (response, load, frequency), m/(N s) for forces.
 
     Modal sum, and the modes above the highest frequency by their stiffness.

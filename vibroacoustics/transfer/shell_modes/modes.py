@@ -6,9 +6,10 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from ...errors import ParameterError
-from ...parameters.shell import Shell
-from ...parameters.shell_structure import ShellStructure
+from ...base.arrays import Array
+from ...base.errors import ParameterError
+from ...machine.shell import Shell
+from ...machine.shell_structure import ShellStructure
 from .elements import (
     CIRCUMFERENTIAL,
     NODE_FREEDOMS,
@@ -17,7 +18,7 @@ from .elements import (
     element_freedoms,
 )
 from .harmonic import Harmonic
-from .meridian import Meridian, Real, closed_meridian
+from .meridian import Meridian, closed_meridian
 
 MAXIMUM_ORDER: Final = 64
 """Most waves around the circumference that are looked for."""
@@ -37,11 +38,11 @@ class Around(NamedTuple):
         """Part of a mode's name."""
         return "all" if self.order == 0 else "sin" if self.angle_rad > 0.0 else "cos"
 
-    def radial(self, angle: Real) -> Real:
+    def radial(self, angle: Array) -> Array:
         """Factor cos n(θ - θ₀) of the radial and axial displacement."""
         return np.cos(self.order * (angle - self.angle_rad))
 
-    def around(self, angle: Real) -> Real:
+    def around(self, angle: Array) -> Array:
         """Factor sin n(θ - θ₀) of the circumferential displacement; 1 for n = 0."""
         return np.sin(self.order * (angle - self.angle_rad)) if self.order else np.ones_like(angle)
 
@@ -65,9 +66,9 @@ class ShellMode:
     frequency_hz: float
     modal_mass_kg: float
     meridian: Meridian
-    shape: Real
+    shape: Array
 
-    def velocity(self, points: Real) -> Real:
+    def velocity(self, points: Array) -> Array:
         """Velocity vectors of surface points per unit of the mode's velocity, shape (point, 3).
 
         Parameters
@@ -87,12 +88,12 @@ class ShellMode:
             [radial * cosine - around * sine, radial * sine + around * cosine, axial], 1
         )
 
-    def normal_velocity(self, points: Real, normals: Real) -> Real:
+    def normal_velocity(self, points: Array, normals: Array) -> Array:
         """Velocity along unit normals (point, 3), shape (point,)."""
         return np.asarray(np.einsum("pi,pi->p", self.velocity(points), normals))
 
     @cached_property
-    def _cubics(self) -> Real:
+    def _cubics(self) -> Array:
         """Displacement along each element, radial, axial and around, (element, 3, power)."""
         count = self.meridian.elements
         element, place = np.repeat(np.arange(count), 4), np.tile(_FOUR_PLACES, count)
@@ -176,7 +177,7 @@ class ElasticShell:
         return float(factor * gyration * speed / (2.0 * np.pi * self.meridian.wall_radius_m**2))
 
 
-def _largest_displacement(meridian: Meridian, shapes: Real) -> Real:
+def _largest_displacement(meridian: Meridian, shapes: Array) -> Array:
     """Largest displacement over the nodes, with the sign of its largest part, shape (mode,)."""
     count, modes = meridian.elements + 1, shapes.shape[1]
     nodes = shapes[: NODE_FREEDOMS * count].reshape(count, NODE_FREEDOMS, modes)[:, :ROTATION]

@@ -7,10 +7,10 @@ from typing import Any, Final
 import numpy as np
 from scipy.interpolate import RBFInterpolator
 
-from ...errors import ParameterError
-from ...parameters.shell_structure import Joint
+from ...base.arrays import Array
+from ...base.errors import ParameterError
+from ...machine.shell_structure import Joint
 from .loads import joint_forces
-from .meridian import Real
 
 _NEIGHBOURS: Final = 12
 """Nodes that a point is interpolated between."""
@@ -32,8 +32,8 @@ class SampledMode:
     name: str
     frequency_hz: float
     modal_mass_kg: float
-    nodes_m: Real
-    shape: Real
+    nodes_m: Array
+    shape: Array
 
     def __post_init__(self) -> None:
         nodes = np.asarray(self.nodes_m)
@@ -45,7 +45,7 @@ class SampledMode:
         if np.unique(nodes, axis=0).shape != nodes.shape:
             raise ParameterError(f"mode {self.name}: two nodes have the same place")
 
-    def velocity(self, points: Real) -> Real:
+    def velocity(self, points: Array) -> Array:
         """Velocity vectors of surface points per unit of the mode's velocity, shape (point, 3).
 
         Between the nodes by radial basis functions |r|, which are exact at the nodes.
@@ -56,7 +56,7 @@ class SampledMode:
         """
         return np.asarray(self._interpolator(points))
 
-    def modal_forces(self, joint: Joint, radius_m: float) -> Real:
+    def modal_forces(self, joint: Joint, radius_m: float) -> Array:
         """Generalised force per unit load `JOINT_LOADS` of a joint, shape (load,).
 
         Parameters

@@ -1,0 +1,458 @@
+"""The report on small synthetic results: tables, verdict, escaping, self-containment."""
+
+import csv
+import io
+import json
+import re
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from vibroacoustics.base.rounding import (
+    level,
+    level_change,
+    signed,
+    significant,
+    span,
+)
+from vibroacoustics.base.vocabulary import (
+    AXES,
+    RIGID_BODY_DOFS,
+    WEIGHTINGS,
+    check,
+    stamp,
+)
+from vibroacoustics.report import comparison_text, render
+from vibroacoustics.report.assumptions import records_table
+from vibroacoustics.report.comparison import comparison, comparison_csv, comparison_tables
+from vibroacoustics.report.figures.scores import contributions
+from vibroacoustics.report.housing import isolation_sentence, shape_words
+from vibroacoustics.report.option_verdict import option_verdict
+from vibroacoustics.report.scores import published_table, scores_csv, wrong_sums
+from vibroacoustics.report.verdict import extremes_table, headline, reasons
+
+COLUMNS = (
+    "option,speed_rpm,receiver,force_1x_n,force_2x_n,moment_1x_nm,foot_force_1x_n,level_1x_db,"
+    "level_2x_db,level_1x_dba,level_modelled_dba,level_total_dba,change_1x_db,change_modelled_dba,"
+    "change_total_dba"
+)
+PUBLISHED_DBA = 56.0
+HOUSING = {
+    "mass_kg": 35.0,
+    "inertia_xx_kg_m2": 0.57,
+    "inertia_yy_kg_m2": 0.57,
+    "inertia_zz_kg_m2": 0.12,
+}
+
+
+def make_results(
+    factors: dict[str, float],
+    speeds: Sequence[float] = (2900.0, 3500.0),
+    receivers: Sequence[str] = ("front_1m", "side_1m"),
+    published: bool = True,
+    facts: dict[str, dict[str, float]] | None = None,
+    published_dba: float = PUBLISHED_DBA,
+) -> xr.Dataset:
+    """Results in which an option multiplies all forces and sounds of `none` by its factor."""
+    options = list(factors)
+    gain = np.array(list(factors.values()))[None, :]
+    speed = np.array(speeds)[:, None]
+    force = 45.3 * (speed / 2900.0) ** 2 * gain  # speed, option
+    coords = {"speed": list(speeds), "option": options}
+    parts = [
+        _mechanics(coords, force),
+        _mounts(),
+        _sound(coords, force, list(receivers), published_dba),
+        _facts(coords, facts or {}),
+        _scores(options, gain[0]),
+        _published() if published else xr.Dataset(),
+    ]
+    results = xr.merge([check(part) for part in parts], join="exact")
+    results.attrs = _attributes(options, list(receivers), published_dba)
+    return results
+
+
+def _mechanics(coords: dict[str, Any], force: np.ndarray) -> xr.Dataset:
+    orders = np.arange(5)
+    first = (orders == 1).astype(float)
+    angle = 2.0 * np.pi * np.arange(64) / 64
+    wave = np.zeros((*force.shape, 1, 3, 64))
+    wave[:, :, 0, 0] = force[..., None] * np.cos(angle)
+    feet = {"foot": ["left", "right"]}
+    foot = force[..., None, None] * np.array([0.01, 0.005])[:, None] * first
+    spread = {**coords, "order": orders}
+    source = {"source": ["oldham"], "axis": list(AXES), "crank_angle": angle}
+    return xr.Dataset(
+        {
+            "force": stamp("force", wave, {**coords, **source}),
+            "force_amplitude": stamp("force_amplitude", force[..., None] * first, spread),
+            "moment_amplitude": stamp("moment_amplitude", 0.11 * force[..., None] * first, spread),
+            "foot_force_amplitude": stamp("foot_force_amplitude", foot, {**spread, **feet}),
+        }
+    )
+
+
+def _mounts() -> xr.Dataset:
+    shapes = np.diag(1.0 / np.sqrt([35.0, 35.0, 35.0, 0.57, 0.57, 0.12]))
+    modes = {"mode": [f"mode_{number}" for number in range(1, 7)]}
+    frequency = np.geomspace(1.0, 200.0, 20)
+    response = np.tile(1.0 / (1.0 - (frequency / 12.0) ** 2 + 0.1j), (3, 1))
+    axes = {"axis": list(AXES), "mount_frequency": frequency}
+    return xr.Dataset(
+        {
+            "natural_frequency": stamp("natural_frequency", np.linspace(4.0, 17.5, 6), modes),
+            "mode_shape": stamp(
+                "mode_shape",
+                shapes[:, None, :],
+                {**modes, "body": ["machine"], "dof": list(RIGID_BODY_DOFS)},
+            ),
+            "mount_transmissibility": stamp("mount_transmissibility", response, axes),
+        }
+    )
+
+
+def _sound(
+    coords: dict[str, Any], force: np.ndarray, receivers: list[str], published_dba: float
+) -> xr.Dataset:
+    orders = np.arange(5)
+    line = 12.0 + 20.0 * np.log10(np.maximum(force, 1e-12))
+    levels = np.full((*force.shape, len(receivers), 5, 3), -250.0)
+    levels[..., 1, 0] = line[..., None]
+    levels[..., 1, 1:] = line[..., None, None] - 30.0
+    modelled = levels[..., 1, :]
+    total = 10.0 * np.log10(10.0 ** (modelled[..., 1] / 10.0) + 10.0 ** (published_dba / 10.0))
+    at = {**coords, "receiver": receivers}
+    weighted = {**at, "weighting": list(WEIGHTINGS)}
+    by_source = {**coords, "sound_source": ["moving_parts"], "receiver": receivers}
+    frequency = np.array([25.0, 50.0, 100.0])
+    transfer = np.ones((len(receivers), 6, 3)) * frequency * (1.0 + 0.5j)
+    field = {"receiver": receivers, "dof": list(RIGID_BODY_DOFS), "frequency": frequency}
+    gap = {"receiver": receivers, "frequency": frequency}
+    spectra = {
+        name: stamp(name, transfer, field)
+        for name in ("transfer_vector", "transfer_vector_closed_form")
+    }
+    spectra["transfer_vector_error"] = stamp(
+        "transfer_vector_error", 0.01 * np.abs(transfer), field
+    )
+    changes = {
+        name: stamp(name, values - values[:, [0]], at)
+        for name, values in {
+            "change_1x": levels[..., 1, 0],
+            "change_modelled": modelled[..., 1],
+            "change_total": total,
+        }.items()
+    }
+    return xr.Dataset(
+        {
+            **spectra,
+            **changes,
+            "order_level": stamp("order_level", levels, {**weighted, "order": orders}),
+            "level_modelled": stamp("level_modelled", modelled, weighted),
+            "level_total": stamp("level_total", total, at),
+            "level_remainder": stamp("level_remainder", published_dba),
+            "source_level": stamp("source_level", modelled[:, :, None, :, 1], by_source),
+            "line_difference": stamp("line_difference", np.full(total.shape, -0.02), at),
+            "green_difference": stamp("green_difference", np.full((len(receivers), 3), -0.07), gap),
+        }
+    )
+
+
+def _facts(coords: dict[str, Any], facts: dict[str, dict[str, float]]) -> xr.Dataset:
+    names = ["added_mass_kg", *sorted({fact for own in facts.values() for fact in own})]
+    values = np.full((len(coords["speed"]), len(coords["option"]), len(names)), np.nan)
+    values[..., 0] = 0.0
+    for option, own in facts.items():
+        for fact, value in own.items():
+            values[:, coords["option"].index(option), names.index(fact)] = value
+    return xr.Dataset(
+        {"reported_figure": stamp("reported_figure", values, {**coords, "figure": names})}
+    )
+
+
+def _scores(options: list[str], gain: np.ndarray) -> xr.Dataset:
+    option = {"option": options}
+    criterion = {
+        "criterion": ["foot_force_1x_n"],
+        "criterion_label": ("criterion", ["Foot force"]),
+        "criterion_unit": ("criterion", ["N"]),
+    }
+    by_method = {**option, "scoring_method": ["weighted_sum"]}
+    utility = np.clip((4.0 - gain) / 4.0, 0.0, 1.0)
+    rank = 1.0 + (utility[:, None] < utility[None, :]).sum(axis=1)
+    first = (rank == 1.0) / (rank == 1.0).sum()
+    return xr.Dataset(
+        {
+            "criterion_value": stamp("criterion_value", gain[:, None], {**option, **criterion}),
+            "weight": stamp("weight", [1.0], criterion),
+            "criterion_best": stamp("criterion_best", [0.0], criterion),
+            "criterion_worst": stamp("criterion_worst", [4.0], criterion),
+            "score": stamp("score", utility[:, None], by_method),
+            "rank": stamp("rank", rank[:, None], by_method),
+            "first_place_share": stamp("first_place_share", first, option),
+        }
+    )
+
+
+def _published() -> xr.Dataset:
+    option = {"published_option": ["Pendulum", "Eccentric"]}
+    scores = {**option, "published_criterion": ["Fatigue", "Aspect"]}
+    return xr.Dataset(
+        {
+            "published_score": stamp(
+                "published_score", [[1.0, 2.0], [3.0, 3.0]], scores, source="T"
+            ),
+            "published_sum": stamp("published_sum", [3.0, 9.0], option, source="T"),
+            "recomputed_sum": stamp("recomputed_sum", [3.0, 6.0], option),
+        }
+    )
+
+
+def _attributes(options: list[str], receivers: list[str], published_dba: float) -> dict[str, str]:
+    record = {"file": "m.toml", "value": "1", "unit": "kg", "lowest": None, "highest": None}
+    noise = {"level_dba": published_dba, "speed_rpm": 2900.0, "distance_m": 1.0}
+    parameters = {
+        "title": "A study",
+        "source_file": "study.toml",
+        "catalogue_receiver": receivers[0],
+        "receivers": {name: {"x_m": 1.0, "y_m": 0.0, "height_m": 0.2} for name in receivers},
+        "options": {},
+        "machine": {
+            "name": "Machine",
+            "kind": "oldham-scroll",
+            "housing": HOUSING,
+            "overall_noise": noise,
+            "errata": [],
+        },
+        "radiation": {"surroundings": "hard-floor"},
+        "scoring": {"random_weightings": 100, "published": {"source": "T"}},
+        "records": [
+            {**record, "field": "measured", "source": "thesis"},
+            {**record, "field": "guessed", "source": "assumed", "lowest": 0.5, "highest": 2.0},
+        ],
+    }
+    words = {
+        "axes": "x, y and z",
+        "orders": "Orders are multiples of the mean shaft frequency.",
+        "leaves_out": [],
+        "labels": {},
+        "sources": {},
+        "source_figures": [],
+        "shell_bends": False,
+        "sentences": {option: [] for option in options},
+    }
+    return {
+        "title": "A study",
+        "created_utc": "2026-01-01T00:00:00Z",
+        "parameters": json.dumps(parameters),
+        "words": json.dumps(words),
+        "package_versions": json.dumps({"numpy": "2.2"}),
+        "radiation": "{}",
+    }
+
+
+@pytest.fixture(scope="module")
+def results() -> xr.Dataset:
+    return make_results({"none": 1.0, "louder": 1.8, "halved": 0.5, "idle": 1.0, "perfect": 0.0})
+
+
+@pytest.fixture(scope="module")
+def files(results: xr.Dataset) -> dict[str, bytes]:
+    return render(results)
+
+
+def test_comparison_csv_has_the_columns_and_one_row_per_option_speed_and_receiver(
+    results: xr.Dataset,
+) -> None:
+    lines = comparison_csv(results).decode().splitlines()
+    assert lines[0] == f"{COLUMNS},level_modelled_db,level_modelled_dbc"
+    assert len(lines) == 1 + 5 * 2 * 2
+
+
+def test_comparison_csv_equals_the_dataset(results: xr.Dataset) -> None:
+    compared = comparison(results)
+    rows = list(csv.DictReader(io.StringIO(comparison_csv(results).decode())))
+    for row in rows:
+        own = compared.sel(
+            option=row["option"], speed=float(row["speed_rpm"]), receiver=row["receiver"]
+        )
+        for name in COLUMNS.split(",")[3:]:
+            assert float(row[name]) == pytest.approx(float(own[name]), rel=1e-8, abs=1e-300)
+    louder = next(row for row in rows if row["option"] == "louder" and row["speed_rpm"] == "2900")
+    assert float(louder["force_1x_n"]) == pytest.approx(1.8 * 45.3)
+    assert float(louder["foot_force_1x_n"]) == pytest.approx(0.01 * 1.8 * 45.3)
+    assert float(louder["change_1x_db"]) == pytest.approx(20.0 * np.log10(1.8))
+
+
+def test_scores_csv_repeats_scores_and_ranks(results: xr.Dataset) -> None:
+    rows = list(csv.DictReader(io.StringIO(scores_csv(results).decode())))
+    assert [row["option"] for row in rows] == [str(name) for name in results["option"].values]
+    assert [float(row["score_weighted_sum"]) for row in rows] == pytest.approx(
+        results["score"].values[:, 0]
+    )
+    assert {"rank_weighted_sum", "first_place_share"} <= rows[0].keys()
+
+
+def test_silence_is_never_shown_as_a_number(results: xr.Dataset, files: dict[str, bytes]) -> None:
+    cells = [
+        cell
+        for table in comparison_tables(results, "front_1m")
+        for row in table.rows
+        for cell in row
+    ]
+    assert "< −40" in cells
+    assert "silent" in cells
+    for name in ("report.html", "comparison.md"):
+        assert not re.search(r"[−-]\d{3}\.\d", files[name].decode())
+
+
+@pytest.mark.parametrize(
+    ("factor", "judgement", "words"),
+    [
+        (1.8, "worse", "the force grows by 80 %"),
+        (3.0, "worse", "the force grows 3.00-fold"),
+        (0.5, "better", "the force falls by 50 %"),
+        (0.0, "better", "the force vanishes"),
+        (1.0, "no change", "stay the same"),
+    ],
+)
+def test_the_verdict_follows_the_sign(factor: float, judgement: str, words: str) -> None:
+    own = option_verdict(make_results({"none": 1.0, "it": factor}), "it")
+    assert own.judgement == judgement
+    assert words in " ".join(own.sentences)
+
+
+def test_options_that_worsen_are_named_so(results: xr.Dataset) -> None:
+    texts = " ".join(reasons(results))
+    assert "Worse than no balancer: louder." in texts
+    assert "Without any effect on force, feet and sound: idle." in texts
+    better = " ".join(reasons(make_results({"none": 1.0, "halved": 0.5})))
+    assert "Worse" not in better
+    assert "No option makes" in better
+
+
+def test_a_line_that_rises_elsewhere_makes_the_verdict_mixed() -> None:
+    results = make_results({"none": 1.0, "halved": 0.5})
+    results["order_level"].loc[{"option": "halved", "receiver": "side_1m", "order": 1}] += 12.0
+    own = option_verdict(results, "halved")
+    assert own.judgement == "mixed"
+    assert own.worse_in == ("1× line at side_1m",)
+    assert "at side_1m it rises by 6.0 dB" in " ".join(own.sentences)
+
+
+def test_the_headline_says_whether_the_total_moves() -> None:
+    factors = {"none": 1.0, "louder": 4.0}
+    assert "nobody can hear" in headline(make_results(factors))
+    assert "which can be heard" in headline(make_results(factors, published_dba=22.0))
+    assert "not at all" in headline(make_results({"none": 1.0, "idle": 1.0}))
+    assert "no balancing option" in headline(make_results({"none": 1.0}))
+
+
+def test_what_an_option_says_of_itself_is_in_its_verdict() -> None:
+    results = make_results({"none": 1.0, "swing": 1.8, "calm": 1.1})
+    words = json.loads(results.attrs["words"])
+    words["sentences"]["swing"] = ["Hanging is unstable."]
+    results.attrs["words"] = json.dumps(words)
+    assert "Hanging is unstable." in option_verdict(results, "swing").sentences
+    assert "Hanging is unstable." not in option_verdict(results, "calm").sentences
+
+
+def test_best_and_worst_are_found(results: xr.Dataset) -> None:
+    table = extremes_table(results)
+    assert table is not None
+    force = table.rows[0]
+    assert force[2].endswith(": perfect")
+    assert force[3].endswith(": louder")
+
+
+def test_published_sums_are_checked(results: xr.Dataset) -> None:
+    assert wrong_sums(results) == ["Eccentric"]
+    table = published_table(results)
+    assert table is not None
+    assert table.rows[0][-3:] == ("3", "3", "adds up")
+    assert table.rows[1][-3:] == ("9", "6", "does not add up")
+
+
+def test_contributions_add_up_to_the_weighted_sum(results: xr.Dataset) -> None:
+    added = contributions(results).sum("criterion").values
+    assert added == pytest.approx(results["score"].sel({"scoring_method": "weighted_sum"}).values)
+
+
+def test_assumed_inputs_come_first(results: xr.Dataset) -> None:
+    rows = records_table(results).rows
+    assert [row[0] for row in rows] == ["guessed", "measured"]
+    assert rows[0][3] == "0.5 to 2"
+
+
+def test_modes_are_named_by_their_energy(results: xr.Dataset) -> None:
+    assert shape_words(results, "mode_1") == "moves along x 100 %"
+    assert shape_words(results, "mode_6") == "turns about z 100 %"
+    assert "the mounts isolate" in isolation_sentence(results)
+    slow = make_results({"none": 1.0}, speeds=(600.0,))
+    assert "can meet a resonance" in isolation_sentence(slow)
+
+
+def test_the_page_is_self_contained(files: dict[str, bytes]) -> None:
+    page = files["report.html"].decode()
+    addresses = re.findall(r"""(?:src|href)\s*=\s*["']([^"']*)["']""", page)
+    assert addresses
+    assert all(address.startswith(("data:", "#")) for address in addresses)
+    assert "<script" not in page
+    assert "@import" not in page
+    assert "url(" not in page
+
+
+def test_every_figure_is_on_the_page_with_its_text(files: dict[str, bytes]) -> None:
+    page = files["report.html"].decode()
+    pictures = [name for name in files if name.startswith("figures/")]
+    assert page.count("<img ") == len(pictures)
+    assert len(re.findall(r'<img [^>]*alt="[^"]{20,}"', page)) == len(pictures)
+    assert all(files[name].startswith(b"\x89PNG") for name in pictures)
+
+
+def test_names_are_escaped() -> None:
+    evil = "<script>alert(1)</script>$x|y"
+    page = render(make_results({"none": 1.0, evil: 1.5}, receivers=("a/<b>",)))
+    assert "<script" not in page["report.html"].decode()
+    assert "&lt;script&gt;" in page["report.html"].decode()
+    assert "<script" not in page["comparison.md"].decode()
+    assert "figures/transfer_a_b_.png" in page
+
+
+def test_the_report_is_the_same_twice(results: xr.Dataset, files: dict[str, bytes]) -> None:
+    assert render(results) == files
+
+
+def test_a_single_option_speed_and_microphone_without_published_table() -> None:
+    results = make_results({"none": 1.0}, speeds=(2900.0,), receivers=("only",), published=False)
+    files = render(results)
+    assert "no balancing option" in files["report.html"].decode()
+    assert len(files["comparison.csv"].decode().splitlines()) == 2
+    assert "Published scores" not in files["report.html"].decode()
+
+
+def test_terminal_table_is_narrow_and_ascii(results: xr.Dataset) -> None:
+    long = make_results({"none": 1.0, "an-option-with-a-very-long-name-indeed": 1.8})
+    for own in (results, long):
+        text = comparison_text(own)
+        assert text.isascii()
+        assert max(len(line) for line in text.splitlines()) <= 110
+    assert comparison_text(results).count("perfect") == 2
+
+
+def test_rounding() -> None:
+    assert significant(45.2576) == "45.3"
+    assert significant(119.59) == "120"
+    assert significant(-0.4872) == "−0.487"
+    assert significant(1e-14) == "0"
+    assert significant(float("nan")) == "–"
+    assert signed(-0.0004, 3) == "0.000"
+    assert signed(0.0006, 3) == "+0.001"
+    assert signed(-1.55) == "−1.6"
+    assert level(-213.4) == "< −40"
+    assert level_change(-300.0, -250.0, 40.0) == "silent"
+    assert level_change(300.0, 40.0, -250.0) == "–"
+    assert span([1.0, 1.01], signed) == "+1.0"

@@ -1,0 +1,235 @@
+"""A stranger's section and column: shown, kept in the results, made again without the plug-in."""
+
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import xarray as xr
+from support import ROOT
+from test_report import make_results
+
+from vibroacoustics.base.errors import PluginError
+from vibroacoustics.base.plugin_file import load_plugin
+from vibroacoustics.base.registry import Registry
+from vibroacoustics.commands import outputs
+from vibroacoustics.report import comparison_text, keep, render
+from vibroacoustics.report.columns import COLUMNS
+from vibroacoustics.report.sections import SECTIONS
+from vibroacoustics.results import storage
+from vibroacoustics.results.provenance import SCHEMA_VERSION
+
+SECTION = """
+from vibroacoustics.base.registry import register
+from vibroacoustics.report.blocks import Bullets, Details, Pictures, Text
+from vibroacoustics.report.figures.style import Picture, draw
+from vibroacoustics.report.sections import Section
+from vibroacoustics.report.tables import Table
+
+
+def blocks(results):
+    rows = tuple((str(name), "42") for name in results["option"].values)
+    png = draw(1, 1.0, lambda panels: panels[0].plot([0, 1]), 0)
+    return [
+        Text("A µ <b>stranger</b> says so.", "note"),
+        Bullets(("one|two",)),
+        Table("Prices", ("Option", "Price"), rows),
+        Details("More", (Pictures((Picture("../prices", "Prices as a line", "Prices.", png),)),)),
+    ]
+
+
+register(Section("prices", "What it costs", blocks, position=25.0))
+"""
+COLUMN = """
+from vibroacoustics.base.registry import register
+from vibroacoustics.report.columns import Column
+
+register(
+    Column(
+        "force_3x_n",
+        lambda results: results["force_amplitude"].sel(order=1) / 3.0,
+        "Force 3×, N",
+        "3x N",
+        lambda value, results: f"about {value:.0f}",
+    )
+)
+"""
+BARE = "from vibroacoustics.base.registry import register\n"
+
+
+def _copy(registry: Registry, monkeypatch: pytest.MonkeyPatch) -> None:
+    list(registry)
+    for name in ("_things", "_origins"):
+        monkeypatch.setattr(registry, name, dict(getattr(registry, name)))
+
+
+@pytest.fixture
+def registries(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Registries that are as before after the test."""
+    for registry in (SECTIONS, COLUMNS):
+        _copy(registry, monkeypatch)
+
+
+@pytest.fixture
+def results() -> xr.Dataset:
+    made = make_results({"none": 1.0, "louder": 1.8})
+    return made.assign_attrs(schema_version=SCHEMA_VERSION)
+
+
+def plugin(folder: Path, content: str, name: str = "mine.py") -> None:
+    """Load a plug-in of this content."""
+    file = folder / name
+    file.write_text(content)
+    load_plugin(file)
+
+
+def test_section_and_column_are_shown_and_made_again_without_the_plugin(
+    results: xr.Dataset,
+    tmp_path: Path,
+    registries: None,
+) -> None:
+    plugin(tmp_path, SECTION, "prices.py")
+    plugin(tmp_path, COLUMN, "thirds.py")
+    outputs.write_all(results, tmp_path / "run")
+    page = (tmp_path / "run" / "report.html").read_text()
+    assert page.index('id="comparison"') < page.index('id="prices"') < page.index('id="orders"')
+    assert '<a href="#prices">What it costs</a>' in page
+    assert "A µ &lt;b&gt;stranger&lt;/b&gt; says so." in page
+    assert "about 15" in page  # 45.3 N / 3
+    assert "about 15" in comparison_text(results)
+    csv = (tmp_path / "run" / "comparison.csv").read_text().splitlines()
+    assert csv[0].endswith(",level_modelled_dbc,force_3x_n")
+    assert csv[1].endswith(",15.1")
+    origins = json.loads(storage.open_results(tmp_path / "run" / "results.nc").attrs["plugins"])
+    assert origins["section prices"]["file"] == "prices.py"
+    assert len(origins["column force_3x_n"]["sha256"]) == 64
+    _made_again_is_the_same(tmp_path)
+
+
+def _made_again_is_the_same(folder: Path) -> None:
+    """In a process that knows no plug-in."""
+    again = [sys.executable, "-m", "vibroacoustics", "report", folder / "run" / "results.nc"]
+    subprocess.run([*again, "--out", folder / "again"], check=True)
+    files = sorted(path for path in (folder / "again").rglob("*.*") if path.is_file())
+    assert (folder / "again" / "figures" / "_prices.png") in files
+    for path in files:
+        assert (
+            path.read_bytes() == (folder / "run" / path.relative_to(folder / "again")).read_bytes()
+        )
+
+
+@pytest.mark.parametrize(
+    ("blocks", "words"),
+    [
+        ("lambda results: [Text(results['nothing'].item())]", "KeyError"),
+        ("lambda results: ['plain text']", "ValidationError"),
+        ("lambda results: [Text(3)]", "ValidationError"),
+    ],
+)
+def test_section_that_fails_is_named_in_one_line(
+    results: xr.Dataset, tmp_path: Path, registries: None, blocks: str, words: str
+) -> None:
+    imports = "from vibroacoustics.report.blocks import Text\n"
+    section = "from vibroacoustics.report.sections import Section\n"
+    plugin(tmp_path, f"{BARE}{imports}{section}register(Section('odd', 'Odd', {blocks}))\n")
+    page = render(results)["report.html"].decode()
+    assert f"section odd is left out: {words}" in page
+    assert "<h2>Provenance</h2>" in page
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ("lambda results: results['nothing']", "KeyError"),
+        ("lambda results: results['order_level']", "dimensions are"),
+    ],
+)
+def test_column_that_fails_is_named_in_one_line(
+    results: xr.Dataset, tmp_path: Path, registries: None, values: str, words: str
+) -> None:
+    column = "from vibroacoustics.report.columns import Column\n"
+    plugin(tmp_path, f"{BARE}{column}register(Column('odd_n', {values}, 'Odd'))\n")
+    files = render(results)
+    (line,) = [
+        line for line in files["comparison.md"].decode().splitlines() if "is left out:" in line
+    ]
+    assert words in line
+    assert "odd_n" not in files["comparison.csv"].decode()
+
+
+def test_what_was_not_kept_is_named(results: xr.Dataset) -> None:
+    origin = {"file": "mine.py", "version": "", "sha256": "0"}
+    results.attrs["plugins"] = json.dumps({"section odd": origin, "column odd_n": origin})
+    page = render(results)["report.html"].decode()
+    assert "section odd is left out: mine.py is not loaded" in page
+    assert "column odd_n is left out: mine.py is not loaded" in page
+
+
+def test_section_that_does_not_apply_is_not_missed(
+    results: xr.Dataset, tmp_path: Path, registries: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    section = "from vibroacoustics.report.sections import Section\n"
+    arguments = "'odd', 'Odd', lambda results: [], lambda results: False"
+    plugin(tmp_path, f"{BARE}{section}register(Section({arguments}))\n")
+    results.attrs["plugins"] = json.dumps({"section odd": {"file": "mine.py"}})
+    kept = keep(results)
+    monkeypatch.setattr(SECTIONS, "_things", dict(SECTIONS._things))
+    del SECTIONS._things["odd"]
+    monkeypatch.setattr(SECTIONS, "_origins", {})
+    assert "is left out:" not in render(kept)["report.html"].decode()
+
+
+def test_kept_columns_and_sections_outlive_a_second_run(
+    results: xr.Dataset, tmp_path: Path, registries: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    plugin(tmp_path, COLUMN)
+    first = keep(results)
+    del COLUMNS._things["force_3x_n"], COLUMNS._origins["force_3x_n"]
+    storage.write_results(keep(first), tmp_path / "results.nc")
+    again = storage.open_results(tmp_path / "results.nc")
+    assert render(again)["comparison.csv"] == render(first)["comparison.csv"]
+    assert "about 15" in comparison_text(again)
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (
+            "from vibroacoustics.report.sections import Section\n"
+            "register(Section('scores', 'Mine', lambda results: []))\n",
+            "section scores: is built in",
+        ),
+        (
+            "from vibroacoustics.report.columns import Column\n"
+            "register(Column('force_1x_n', lambda results: results['force']))\n",
+            "column force_1x_n: is built in",
+        ),
+    ],
+)
+def test_name_of_a_built_in_one_is_refused(
+    tmp_path: Path, registries: None, content: str, message: str
+) -> None:
+    with pytest.raises(PluginError, match=message):
+        plugin(tmp_path, f"{BARE}{content}")
+
+
+def test_example_of_the_page_works(results: xr.Dataset, tmp_path: Path, registries: None) -> None:
+    page = (ROOT / "docs" / "report.md").read_text(encoding="utf-8")
+    (example,) = re.findall(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    plugin(tmp_path, example)
+    files = render(results)
+    assert "| louder | 119 |" in files["comparison.md"].decode()  # 1.8 x 45.3 (3500/2900)²
+    assert "Moment 2×, N m" in files["report.html"].decode()
+    assert files["comparison.csv"].decode().splitlines()[0].endswith(",moment_2x_nm")
+
+
+def test_report_takes_a_plugin_that_the_run_did_not_have(
+    results: xr.Dataset, tmp_path: Path
+) -> None:
+    storage.write_results(results, tmp_path / "results.nc")
+    (tmp_path / "prices.py").write_text(SECTION)
+    words = ["report", tmp_path / "results.nc", "--plugin", tmp_path / "prices.py"]
+    subprocess.run([sys.executable, "-m", "vibroacoustics", *words], check=True)
+    assert "What it costs" in (tmp_path / "report.html").read_text()

@@ -1,0 +1,369 @@
+"""The report where gas, keys and motor are modelled: bands, shares, options that rattle."""
+
+import csv
+import io
+import json
+import re
+
+import numpy as np
+import pytest
+import xarray as xr
+from test_report import PUBLISHED_DBA, make_results
+
+from vibroacoustics.base.vocabulary import WEIGHTINGS, check, stamp
+from vibroacoustics.report import comparison_text, render
+from vibroacoustics.report.assumptions import not_modelled, remainder_sentence
+from vibroacoustics.report.bands import Band, percent
+from vibroacoustics.report.option_verdict import option_verdict
+from vibroacoustics.report.source_changes import changes_sentence, source_change
+from vibroacoustics.report.source_tables import change_tables, figures_table, source_tables
+from vibroacoustics.report.source_words import (
+    carrier_sentence,
+    certainty_sentences,
+    shares_sentence,
+)
+from vibroacoustics.report.verdict import extremes_table, headline, reasons
+from vibroacoustics.sources.gas import ScrollGasForces
+from vibroacoustics.sources.keys import OldhamKeyForces
+from vibroacoustics.sources.motor import MotorPulsation
+from vibroacoustics.sources.moving_parts import MovingParts
+
+FIGURES = ["key_impacts_per_revolution", "key_force_peak_n", "foot_force_2x_line_n"]
+SOURCES = ["moving_parts", "gas", "keys", "motor"]
+BANDS_HZ = [50.0, 100.0, 1000.0, 2000.0]
+SPREAD_DB = np.array([-4.0, 0.0, 3.0])
+"""Of every source but the moving parts, over the draws."""
+OF_DRAW = [0, 0, 0, 1, 1, 1, 1, 1, 2, 2, 2]
+"""Spread of each draw: the quantiles at 10, 50 and 90 % of eleven are the second, sixth, tenth."""
+
+
+def energy(*levels_db: float) -> float:
+    """Sum of levels, dB."""
+    return float(10.0 * np.log10(np.sum(10.0 ** (np.array(levels_db) / 10.0))))
+
+
+def with_sources(
+    keys_dba: dict[str, float],
+    gas_dba: float = 50.0,
+    assumed_above_db: float = 0.0,
+    left_out: int = 0,
+) -> xr.Dataset:
+    """Results whose options change the level of the keys only; the middle is as given.
+
+    At the assumed values gas and keys lie higher by `assumed_above_db`.
+    """
+    factors = {name: 0.5 if name == "rattles" else 1.0 for name in keys_dba}
+    results = make_results(factors, receivers=("front_1m",))
+    speeds = [float(speed) for speed in results["speed"].values]
+    drawn = np.zeros((3, 2, len(keys_dba), 4, 1))
+    for number, keys in enumerate(keys_dba.values()):
+        levels = np.array([7.0, gas_dba, keys, -120.0])
+        spread = SPREAD_DB[:, None] * np.array([0.0, 1.0, 1.0, 1.0])
+        drawn[:, :, number, :, 0] = (levels + spread)[:, None]
+    assumed = drawn[1] + assumed_above_db * np.array([0.0, 1.0, 1.0, 0.0])[:, None]
+    drawn = drawn[OF_DRAW + [2] * left_out]
+    weight = np.repeat([1.0, 0.0], [len(OF_DRAW), left_out])
+    made = _levels(speeds, list(keys_dba), drawn, assumed, weight)
+    kept = results.drop_dims(["sound_source", "figure"]).drop_vars(
+        set(made.data_vars), errors="ignore"
+    )
+    results = kept.merge(made, join="exact").assign_attrs(results.attrs)
+    parameters = json.loads(results.attrs["parameters"])
+    parameters["ranges"] = [
+        {"table": "gas", "field": "polytropic_index"},
+        {"table": "variation", "field": "mobility_change_db"},
+    ]
+    parameters["operation"] = {"supply_frequency_hz": [50.0, 60.0]}
+    parameters["radiation"]["maximum_frequency_hz"] = 4000.0
+    record = {**parameters["records"][1], "field": "gas.polytropic_index"}
+    parameters["records"].append(record)
+    results.attrs["parameters"] = json.dumps(parameters)
+    words = json.loads(results.attrs["words"])
+    words["source_figures"] = FIGURES
+    words["shell_bends"] = True
+    words["labels"] = dict(OldhamKeyForces.labels)
+    words["sources"] = {
+        "moving_parts": MovingParts.label,
+        "gas": ScrollGasForces.label,
+        "keys": OldhamKeyForces.label,
+        "motor": MotorPulsation.label,
+    }
+    results.attrs["words"] = json.dumps(words)
+    return results
+
+
+def _levels(
+    speeds: list[float],
+    options: list[str],
+    drawn: np.ndarray,
+    assumed: np.ndarray,
+    weight: np.ndarray,
+) -> xr.Dataset:
+    place = {"speed": speeds, "option": options, "receiver": ["front_1m"]}
+    by_source = {**place, "sound_source": SOURCES}
+    draws = {"draw": np.arange(1, weight.size + 1)}
+    power, own = 10.0 ** (drawn / 10.0), 10.0 ** (assumed / 10.0)
+    band = np.stack([assumed - 40.0, assumed - 30.0, assumed, assumed - 10.0], axis=-1)
+    arrays = {
+        "source_level": stamp("source_level", assumed, by_source),
+        "source_share": stamp("source_share", own / own.sum(axis=-2, keepdims=True), by_source),
+        "source_level_by_draw": stamp("source_level_by_draw", drawn, {**draws, **by_source}),
+        "draw_weight": stamp("draw_weight", weight, draws),
+        "source_band_level": stamp("source_band_level", band, {**by_source, "band": BANDS_HZ}),
+    }
+    published = 10.0 ** (PUBLISHED_DBA / 10.0)
+    rest = published - power.sum(axis=-2)[:, :1, :1]
+    left = np.maximum(published - own.sum(axis=-2)[:1, :1], 0.0)
+    modelled, total = own.sum(axis=-2), own.sum(axis=-2) + left
+    for name, many, single in (
+        ("modelled", power.sum(axis=-2), modelled),
+        ("total", power.sum(axis=-2) + rest, total),
+    ):
+        drawn_level, level = 10.0 * np.log10(many), 10.0 * np.log10(single)
+        arrays[f"level_{name}_by_draw"] = stamp(
+            f"level_{name}_by_draw", drawn_level, {**draws, **place}
+        )
+        arrays[f"change_{name}"] = stamp(f"change_{name}", level - level[:, :1], place)
+    weighted = {**place, "weighting": list(WEIGHTINGS)}
+    of_all = np.stack([10.0 * np.log10(modelled)] * 3, axis=-1)
+    arrays["level_modelled"] = stamp("level_modelled", of_all, weighted)
+    arrays["level_total"] = stamp("level_total", 10.0 * np.log10(total), place)
+    remainder = 10.0 * np.log10(rest[:, 0, 0, 0])
+    arrays["level_remainder_by_draw"] = stamp("level_remainder_by_draw", remainder, draws)
+    arrays["level_remainder"] = stamp(
+        "level_remainder", 10.0 * np.log10(np.maximum(left, 1e-30)).item()
+    )
+    figures = np.zeros((2, len(options), len(FIGURES) + 1))
+    figures[..., 1:3] = [70.0, 0.2]
+    if "rattles" in options:
+        figures[:, options.index("rattles"), 0] = 12.0
+    arrays["reported_figure"] = stamp(
+        "reported_figure",
+        figures,
+        {"speed": speeds, "option": options, "figure": [*FIGURES, "added_mass_kg"]},
+    )
+    return check(xr.Dataset(arrays))
+
+
+@pytest.fixture(scope="module")
+def results() -> xr.Dataset:
+    return with_sources({"none": 40.0, "rattles": 62.0, "idle": 40.0}, left_out=16)
+
+
+@pytest.fixture(scope="module")
+def files(results: xr.Dataset) -> dict[str, bytes]:
+    return render(results)
+
+
+def test_the_headline_names_the_loudest_source_with_its_band(results: xr.Dataset) -> None:
+    text = headline(results).replace("\u00a0", " ")
+    assert text == carrier_sentence(results).replace("\u00a0", " ")
+    assert "is: gas forces, 50.0 dB(A)" in text
+    assert "(10 to 90 % quantiles 46.0 to 53.0)" in text
+    # 10^((50 − 56)/10) = 0.251, 10^((46 − 56)/10) = 0.100, 10^((53 − 56)/10) = 0.501
+    assert "25 % (10 % to 50 %)" in text
+    assert "of the energy of 56 dB(A)" in text
+
+
+def test_a_louder_source_takes_the_headline() -> None:
+    assert "is: Oldham keys, 52.0 dB(A)" in headline(with_sources({"none": 52.0}, gas_dba=45.0))
+
+
+def test_shares_of_sources_and_remainder_add_up(results: xr.Dataset) -> None:
+    text = shares_sentence(results).replace("\u00a0", " ")
+    # At the middle: gas 25.1 %, keys 2.5 %, the rest 72.4 % of the energy of 56 dB(A).
+    assert "gas forces 25 % (10 % to 50 %)" in text
+    assert "Oldham keys 2.5 % (1.0 % to 5.0 %)" in text
+    assert "moving parts (orders of the rigid machine) < 0.01 %" in text
+    assert "together 28 % (11 % to 55 %)" in text
+    assert "the rest, 72 % (45 % to 89 %)" in text
+
+
+def test_the_report_says_how_sure_the_ranking_is(results: xr.Dataset) -> None:
+    sure = " ".join(certainty_sentences(results))
+    assert "do not overlap (3.0 dB apart)" in sure
+    assert "16 of 27 draws are left out" in sure
+    assert "tends to be too loud" in sure
+    assert "1 of 1 values of these tables are assumed" in sure
+    close = " ".join(certainty_sentences(with_sources({"none": 48.0})))
+    assert "overlap (46.0 to 53.0 and 44.0 to 51.0 dB(A)): which is the louder is not sure" in close
+    assert "11 draws, none of which exceeds 56 dB(A)" in close
+
+
+def test_the_highest_frequency_is_told(results: xr.Dataset) -> None:
+    assert "up to 4000 Hz" in " ".join(certainty_sentences(results))
+
+
+def test_assumed_values_outside_of_the_band_are_told() -> None:
+    outside = " ".join(certainty_sentences(with_sources({"none": 40.0}, assumed_above_db=5.0)))
+    assert "gas forces alone reach 55.0 dB(A), above the band" in outside
+    inside = " ".join(certainty_sentences(with_sources({"none": 40.0})))
+    assert "the band: its share" not in inside
+
+
+def test_the_line_of_the_motor_is_never_called_2x(results: xr.Dataset) -> None:
+    text = certainty_sentences(results)[-1]
+    assert "100 Hz beside 2× at 96.7 Hz (2900 rpm), 120 Hz beside 2× at 116.7 Hz" in text
+    assert "0.200 N" in text
+    assert "Motor at twice the line frequency" in [row[0] for row in source_tables(results)[0].rows]
+
+
+def test_an_option_that_rattles_is_not_better(results: xr.Dataset) -> None:
+    own = option_verdict(results, "rattles")
+    assert own.judgement == "mixed"
+    assert own.worse_in == ("sound of all sources",)
+    text = " ".join(own.sentences)
+    assert "The ring's keys strike 12.0 times a revolution, with up to 70.0 N" in text
+    assert "0.001 dB" not in text
+    idle = option_verdict(results, "idle")
+    assert idle.judgement == "no change"
+    assert "modelled level stay" not in idle.sentences[0]
+
+
+def test_without_sources_the_same_option_is_better() -> None:
+    assert option_verdict(make_results({"none": 1.0, "rattles": 0.5}), "rattles").judgement == (
+        "better"
+    )
+
+
+def test_a_band_on_both_sides_of_zero_judges_nothing() -> None:
+    results = with_sources({"none": 40.0, "idle": 40.0})
+    for name in ("level_modelled_by_draw", "level_total_by_draw"):
+        results[name].loc[{"option": "idle"}] += xr.DataArray(
+            np.array([-0.3, 0.0, 0.2])[OF_DRAW], dims="draw", coords={"draw": results["draw"]}
+        )
+    assert not source_change(results, "idle").worsens
+    assert not source_change(results, "idle").improves
+    assert option_verdict(results, "idle").judgement == "no change"
+    assert "No option changes the total of 56 dB(A) by more than 0.3 dB" in changes_sentence(
+        results
+    )
+
+
+def test_the_reasons_name_what_becomes_louder(results: xr.Dataset) -> None:
+    first = reasons(results)[0]
+    whole = [
+        energy(gas, 62.0 + spread, rest) - PUBLISHED_DBA
+        for spread in (SPREAD_DB[0], SPREAD_DB[2])
+        for gas in (50.0 + spread,)
+        for rest in (_remainder(spread),)
+    ]
+    assert f"louder with rattles (+{whole[0]:.1f} to +{whole[1]:.1f} dB)" in first
+    assert "No other option changes" in first
+    assert "16 of 27 draws are left out" in " ".join(reasons(results))
+
+
+def _remainder(spread_db: float) -> float:
+    modelled = energy(50.0 + spread_db, 40.0 + spread_db)
+    return float(10.0 * np.log10(10.0 ** (PUBLISHED_DBA / 10.0) - 10.0 ** (modelled / 10.0)))
+
+
+def test_total_and_modelled_level_hold_all_sources(
+    results: xr.Dataset, files: dict[str, bytes]
+) -> None:
+    rows = list(csv.DictReader(io.StringIO(files["comparison.csv"].decode())))
+    row = next(row for row in rows if (row["option"], row["speed_rpm"]) == ("rattles", "2900"))
+    # 7 dB(A) of the moving parts are 2e-6 of the energy.
+    modelled = energy(50.0, 62.0)
+    assert float(row["level_modelled_dba"]) == pytest.approx(modelled, abs=1e-4)
+    assert float(row["level_total_dba"]) == pytest.approx(
+        energy(modelled, _remainder(0.0)), abs=1e-4
+    )
+    assert float(row["change_total_dba"]) == pytest.approx(float(row["change_total_50_percent_db"]))
+    assert float(row["change_total_10_percent_db"]) < float(row["change_total_90_percent_db"])
+    assert "level_modelled_dbc" in row
+    assert f"{float(row['change_total_dba']):+.1f}" in comparison_text(results)
+
+
+def test_sources_csv_equals_the_dataset(results: xr.Dataset, files: dict[str, bytes]) -> None:
+    rows = list(csv.DictReader(io.StringIO(files["sources.csv"].decode())))
+    assert len(rows) == 3 * 2 * 1 * 4
+    for row in rows:
+        at = {
+            "option": row["option"],
+            "speed": float(row["speed_rpm"]),
+            "receiver": row["receiver"],
+            "sound_source": row["source"],
+        }
+        own = results.sel(at)
+        assert float(row["level_dba"]) == pytest.approx(float(own["source_level"]), rel=1e-8)
+        assert float(row["share_of_modelled_energy"]) == pytest.approx(
+            float(own["source_share"]), rel=1e-8
+        )
+        assert float(row["level_90_percent_dba"]) == pytest.approx(
+            float(own["source_level_by_draw"][9]), rel=1e-8
+        )
+
+
+def test_tables_rank_the_sources_and_quote_56_at_its_speed_only(results: xr.Dataset) -> None:
+    at_2900, at_3500 = source_tables(results)
+    assert [row[0] for row in at_2900.rows][:3] == [
+        "Gas forces",
+        "Oldham keys",
+        "Moving parts (orders of the rigid machine)",
+    ]
+    assert len(at_2900.head) == len(at_2900.rows[0]) == 6
+    assert len(at_3500.head) == len(at_3500.rows[0]) == 4
+    assert "no overall level is published" in at_3500.caption
+    assert at_2900.rows[-1][:3] == ("Whole machine", "56.0", "56.0")
+
+
+def test_option_tables_have_line_sources_and_total(results: xr.Dataset) -> None:
+    table = change_tables(results)[0]
+    rattles = dict(zip(table.head, table.rows[1], strict=False))
+    assert rattles["Option"] == "rattles"
+    assert rattles["Δ 1× line, dB"] == "−6.0"
+    assert rattles["Key impacts per revolution"] == "12.0"
+    # Both lie by the same spread above the reference: the change has no band.
+    assert table.rows[1][3] == f"+{energy(50.0, 62.0) - energy(50.0, 40.0):.1f}"
+
+
+def test_figures_of_options_are_told_where_they_differ(results: xr.Dataset) -> None:
+    rows = [row[:2] for row in figures_table(results).rows]
+    assert ("rattles", "Impacts of the keys per revolution") in rows
+    assert not [row for row in rows if row[0] == "idle"]
+
+
+def test_what_is_not_modelled_follows_the_study(results: xr.Dataset) -> None:
+    inside, outside = (
+        " ".join(not_modelled(own)) for own in (results, make_results({"none": 1.0}))
+    )
+    assert "The shell is rigid" in outside
+    assert "The shell is rigid" not in inside
+    for word in ("bearings", "flanks", "oil", "pipes", "floor"):
+        assert word in inside
+    rest = np.sort(results["level_remainder_by_draw"].values[: len(OF_DRAW)])
+    assert f"{rest[1]:.1f} to {rest[9]:.1f} dB(A)" in remainder_sentence(results)
+
+
+def test_no_option_is_best_by_a_rounding_error(results: xr.Dataset) -> None:
+    table = extremes_table(results)
+    assert table is not None
+    assert table.rows[-1][2] == "none lower by 0.05 dB"
+
+
+def test_the_section_is_there_only_with_sources(files: dict[str, bytes]) -> None:
+    page = files["report.html"].decode()
+    without = render(make_results({"none": 1.0, "halved": 0.5}))
+    assert "What carries the level" in page
+    assert "What carries the level" not in without["report.html"].decode()
+    assert "sources.csv" not in without
+    # Each figure with its text, the one of the options too: `rattles` raises 1 kHz by 11.7 dB.
+    assert len(re.findall(r'<img [^>]*alt="Third-octave levels[^"]{20,}"', page)) == 2
+    assert "{{" not in page
+    assert "nan" not in re.sub(r"data:image[^\"]*", "", page).lower().split()
+
+
+def test_a_study_of_none_alone_has_sources_and_no_changes() -> None:
+    files = render(with_sources({"none": 40.0}))
+    page = files["report.html"].decode()
+    assert "What the options do to all sources" not in page
+    assert "figures/sources_options.png" not in files
+
+
+def test_bands_and_shares_in_words() -> None:
+    own = Band(44.7, 48.9, 51.2)
+    assert own.whole(lambda value: f"{value:.1f}") == "48.9 (44.7 to 51.2)"
+    assert Band(6.9, 6.9, 6.9).whole(lambda value: f"{value:.1f}") == "6.9"
+    texts = [percent(share).replace("\u00a0", " ") for share in (0.2, 0.0123, -0.05, 1e-6, np.nan)]
+    assert texts == ["20 %", "1.2 %", "−5.0 %", "< 0.01 %", "–"]

@@ -1,0 +1,227 @@
+"""Strangers' things, one file each outside the package: from the command line to the report."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from support import ROOT, TINY, assert_refused
+
+from vibroacoustics.results.storage import open_results
+
+STRANGERS = ROOT / "tests" / "strangers"
+OPTION = """
+[options.counter-shaft]
+kind = "counter-shaft"
+mass_g = { value = 10.0, source = "a test" }
+radius_mm = { value = 20.0, source = "a test" }
+
+[receivers."""
+CRITERION = """[scoring.criteria]
+force_2x_n = { weight = 1.0, best = 0.0, worst = 1.0 }
+"""
+SOURCE = """
+[sources.table]
+kind = "force-table"
+force_n = [1000.0, 0.0, -1000.0, 0.0]
+
+[radiation]
+"""
+ENTRY_POINTS = """[vibroacoustics.options]
+counter-shaft = counter_shaft:CounterShaft
+[vibroacoustics.sources]
+force-table = force_table:ForceTable
+[vibroacoustics.criteria]
+force_2x_n = second_order:SecondForce
+[vibroacoustics.machines]
+lone-rotor = lone_rotor:LoneRotor
+"""
+
+
+def command(cache: Path, *words: object, path: Path | None = None):
+    """The command line in a process of its own, with installed packages of a folder."""
+    searched = os.pathsep.join(filter(None, [str(path or ""), os.environ.get("PYTHONPATH", "")]))
+    return subprocess.run(
+        [sys.executable, "-m", "vibroacoustics", *map(str, words)],
+        capture_output=True,
+        text=True,
+        env={**os.environ, "XDG_CACHE_HOME": str(cache), "PYTHONPATH": searched},
+        check=False,
+        timeout=300,
+    )
+
+
+def plugins(*names: str) -> list[object]:
+    return [word for name in names for word in ("--plugin", STRANGERS / f"{name}.py")]
+
+
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory) -> Path:
+    return tmp_path_factory.mktemp("cache")
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory) -> Path:
+    """The tiny study with a stranger's balancer and criterion, on its coarsest settings."""
+    text = TINY.read_text().replace("../../data", str(ROOT / "data"))
+    text = text.replace("[receivers.", OPTION.lstrip("\n"), 1)
+    text = text.replace("[scoring.criteria]\n", CRITERION)
+    text = text.replace("[radiation]\n", f'{SOURCE}room_solver = "closed-form"\n')
+    file = tmp_path_factory.mktemp("study") / "study.toml"
+    file.write_text(text)
+    return file
+
+
+@pytest.fixture(scope="module")
+def finished(study, cache, tmp_path_factory) -> Path:
+    out = tmp_path_factory.mktemp("out")
+    named = plugins("counter_shaft", "second_order", "force_table")
+    outcome = command(cache, "run", study, "--out", out, *named)
+    assert outcome.returncode == 0, outcome.stderr
+    return out
+
+
+def test_balancer_and_criterion_are_in_force_level_score_and_report(finished):
+    results = open_results(finished / "results.nc")
+    force = results["force_order"].sel(option="counter-shaft", source="balancer", order=1)
+    size = 0.01 * 0.02 * (2.0 * np.pi * 2900.0 / 60.0) ** 2
+    # x = -r cos θ, y = r sin θ: both components are of one size, 1e-12 is rounding.
+    np.testing.assert_allclose(abs(force.values.squeeze()[:2]), size, rtol=1e-12)
+    assert np.isfinite(results["level_total"].sel(option="counter-shaft")).all()
+    assert "force_2x_n" in results["criterion"].values
+    page = (finished / "report.html").read_text()
+    for words in (
+        "Its gears cost 2.5 W.",
+        "The gears of the second shaft run without noise.",
+        "Power lost in the gears",
+        "Largest force at twice the speed",
+    ):
+        assert words in page
+    assert "counter-shaft" in (finished / "comparison.csv").read_text()
+    assert "force_2x_n" in (finished / "scores.csv").read_text()
+
+
+def test_source_is_in_force_level_and_report(finished):
+    """A cosine of 1 kN through four points: the first order alone."""
+    results = open_results(finished / "results.nc")
+    force = results["force_order"].sel(source="table", option="none", speed=2900.0)
+    assert abs(force.sel(axis="x", order=1).item()) == pytest.approx(1e3, rel=1e-12)
+    assert np.max(np.abs(force.sel(order=[2, 3, 5]))) < 1e-9
+    alone = results["source_level"].sel(sound_source="table", option="none", receiver="front_1m")
+    assert 0.0 < alone.item() < results["level_total"].sel(option="none").item()
+    page = (finished / "report.html").read_text()
+    assert "Force of the table" in page
+    assert "Largest force of the table" in page
+
+
+def test_hashes_of_the_files_are_in_the_results(finished):
+    kept = json.loads(open_results(finished / "results.nc").attrs["plugins"])
+    assert kept["kind of option counter-shaft"]["file"] == "counter_shaft.py"
+    assert all(re.fullmatch("[0-9a-f]{64}", own["sha256"]) for own in kept.values())
+
+
+def test_the_report_is_made_again_without_the_files(finished, cache, tmp_path):
+    outcome = command(cache, "report", finished / "results.nc", "--out", tmp_path)
+    assert outcome.returncode == 0, outcome.stderr
+    assert (tmp_path / "report.html").read_bytes() == (finished / "report.html").read_bytes()
+
+
+def test_without_the_files_the_study_is_refused(study, cache, tmp_path):
+    outcome = command(cache, "run", study, "--out", tmp_path)
+    assert_refused(outcome, "options.counter-shaft.kind = counter-shaft: unknown", "allowed")
+    named = plugins("counter_shaft", "force_table")
+    assert_refused(command(cache, "run", study, "--out", tmp_path, *named), "force_2x_n", "unknown")
+    named = plugins("counter_shaft", "second_order")
+    outcome = command(cache, "run", study, "--out", tmp_path, *named)
+    assert_refused(outcome, "sources.table.kind = force-table: unknown; allowed")
+    assert not any(tmp_path.iterdir())
+
+
+def test_refusal_names_key_unit_and_bounds(study, cache, tmp_path):
+    wrong = tmp_path / "wrong.toml"
+    wrong.write_text(study.read_text().replace("mass_g = { value = 10.0", "mass_g = { value = 2e3"))
+    named = plugins("counter_shaft", "second_order", "force_table")
+    outcome = command(cache, "run", wrong, "--out", tmp_path / "out", *named)
+    assert_refused(outcome, "options.counter-shaft.mass_g = 2000.0 g", "above 0 to 1000 g")
+
+
+def test_a_name_that_is_built_in_is_refused(study, cache, tmp_path):
+    clash = tmp_path / "clash.py"
+    text = (STRANGERS / "counter_shaft.py").read_text()
+    clash.write_text(text.replace('"counter-shaft"', '"lanchester"'))
+    outcome = command(cache, "run", study, "--plugin", clash)
+    assert_refused(outcome, "clash.py: kind of option lanchester: is built in")
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory) -> Path:
+    """A folder of installed packages that holds the strangers with their entry points."""
+    folder = tmp_path_factory.mktemp("site")
+    for file in STRANGERS.glob("*.py"):
+        text = file.read_text().replace("@vibroacoustics.register\n", "")
+        (folder / file.name).write_text(text)
+    information = folder / "strangers-1.2.dist-info"
+    information.mkdir()
+    (information / "METADATA").write_text("Metadata-Version: 2.1\nName: strangers\nVersion: 1.2\n")
+    (information / "entry_points.txt").write_text(ENTRY_POINTS)
+    return folder
+
+
+def test_installed_packages_need_no_word_on_the_command_line(study, cache, installed, tmp_path):
+    outcome = command(cache, "run", study, "--out", tmp_path, path=installed)
+    assert outcome.returncode == 0, outcome.stderr
+    kept = json.loads(open_results(tmp_path / "results.nc").attrs["plugins"])
+    assert kept["kind of option counter-shaft"]["version"] == "1.2"
+
+
+def rotor_study(folder: Path) -> Path:
+    """A study of a stranger's machine: the Copeland's housing with a lone rotor in it."""
+    machine = (ROOT / "data" / "machines" / "copeland_zp41k3e.toml").read_text()
+    tables = re.split(r"(?m)^(?=\[)", machine)
+    kept = [
+        table
+        for table in tables[1:]
+        if re.match(r"\[(housing|mounts|shell|overall_noise)\b", table)
+    ]
+    unbalance = (
+        'unbalance_mass_g = { value = 5.0, source = "a test" }\n'
+        'unbalance_radius_mm = { value = 20.0, source = "a test" }\n'
+    )
+    (folder / "rotor.toml").write_text(
+        f'name = "A lone rotor"\nkind = "lone-rotor"\n{unbalance}\n{"".join(kept)}'
+    )
+    text = TINY.read_text().replace("../../data/machines/copeland_zp41k3e.toml", "rotor.toml")
+    text = re.sub(r"(?s)\[options\.counterweight-half\].*?\n\n", "", text)
+    text = text.replace("[radiation]\n", '[radiation]\nroom_solver = "closed-form"\n')
+    (folder / "study.toml").write_text(text)
+    return folder / "study.toml"
+
+
+def test_a_kind_of_machine_runs_to_the_report(cache, tmp_path):
+    study = rotor_study(tmp_path)
+    named = plugins("lone_rotor")
+    outcome = command(cache, "run", study, "--out", tmp_path / "out", *named)
+    assert outcome.returncode == 0, outcome.stderr
+    results = open_results(tmp_path / "out" / "results.nc")
+    size = 0.005 * 0.02 * (2.0 * np.pi * 2900.0 / 60.0) ** 2
+    assert results["force_amplitude"].sel(order=1).item() == pytest.approx(size, rel=1e-12)
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert "The rotor&#39;s bearings are left out." in page
+    again = tmp_path / "again"
+    shutil.copytree(tmp_path / "out", again)
+    assert command(cache, "report", again / "results.nc").returncode == 0
+    refused = command(cache, "run", study, "--out", tmp_path / "no")
+    assert_refused(refused, "machine.kind = lone-rotor: unknown")
+
+
+def test_a_ring_option_is_refused_on_a_strangers_machine(cache, tmp_path):
+    study = rotor_study(tmp_path)
+    ring = '[options.damped]\nkind = "ring-damping"\ndamping_ns_per_m = 5.0\n\n[receivers.'
+    study.write_text(study.read_text().replace("[receivers.", ring, 1))
+    outcome = command(cache, "run", study, *plugins("lone_rotor"))
+    assert_refused(outcome, "options.damped.kind = ring-damping: needs an Oldham ring; the machine")

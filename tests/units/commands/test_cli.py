@@ -1,0 +1,218 @@
+"""The command line as a user meets it: exit codes, one-line errors, files, speed of --help."""
+
+import csv
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from support import ROOT, assert_refused, command
+
+SMALL = ROOT / "tests" / "studies" / "small.toml"
+CSV_COLUMNS = (
+    "option,speed_rpm,receiver,force_1x_n,force_2x_n,moment_1x_nm,foot_force_1x_n,level_1x_db,"
+    "level_2x_db,level_1x_dba,level_modelled_dba,level_total_dba,change_1x_db,"
+    "change_modelled_dba,change_total_dba"
+)
+
+
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("cache")
+
+
+@pytest.fixture(scope="module")
+def finished(cache: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of one run of the small study."""
+    out = tmp_path_factory.mktemp("run") / "out"
+    outcome = command("run", SMALL, "--out", out, cache=cache)
+    assert outcome.returncode == 0, outcome.stderr
+    assert f"report: {out / 'report.html'}" in outcome.stdout
+    assert outcome.stderr == ""  # no progress bar where stderr is no terminal
+    return out
+
+
+@pytest.mark.slow
+def test_run_writes_everything(finished: Path) -> None:
+    names = {path.name for path in finished.iterdir()}
+    assert {
+        "results.nc",
+        "results.nc.sha256",
+        "report.html",
+        "comparison.csv",
+        "comparison.md",
+        "scores.csv",
+    } <= names
+    assert not [name for name in names if name.startswith(".")]
+    rows = (finished / "comparison.csv").read_text().splitlines()
+    assert rows[0].startswith(CSV_COLUMNS)
+    assert len(rows) - 1 == 8 * 2 * 4  # options, speeds, receivers
+
+
+@pytest.mark.slow
+def test_radiation_alone(tmp_path: Path) -> None:
+    study = ROOT / "tests" / "studies" / "field.toml"
+    outcome = command("radiation", study, "--out", tmp_path / "out", cache=tmp_path / "cache")
+    assert outcome.returncode == 0, outcome.stderr
+    assert "front_1m" in outcome.stdout
+    assert "iso3744-hemisphere-10, S = 6.28 m²" in outcome.stdout
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {
+        "transfer_vectors.nc",
+        "transfer_vectors.nc.sha256",
+        "transfer_vectors.png",
+        "map.png",
+        "directivity.png",
+    }
+
+
+@pytest.mark.slow
+def test_level_of_the_line_is_that_of_fine_grids(finished: Path) -> None:
+    """44.2 dB at 12.5 mm cells (reports/showcase); 35 mm cells err by about (35/12.5)² x 0.02 dB
+    for motion along x, and by 0.4 dB for the rocking that adds a tenth (docs/radiation.md)."""
+    with (finished / "comparison.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    line = {
+        (row["option"], row["speed_rpm"], row["receiver"]): float(row["level_1x_db"])
+        for row in rows
+    }
+    assert line["none", "2900", "front_1m"] == pytest.approx(44.2, abs=0.3)
+    assert line["none", "3500", "front_1m"] == pytest.approx(48.4, abs=0.3)
+
+
+@pytest.mark.slow
+def test_second_run_takes_the_cache(finished: Path, cache: Path, tmp_path: Path) -> None:
+    again = command("run", SMALL, "--out", tmp_path, cache=cache)
+    assert again.returncode == 0
+    first = (finished / "comparison.csv").read_bytes()
+    assert (tmp_path / "comparison.csv").read_bytes() == first
+    assert len(list((cache / "vibroacoustics").glob("*.nc"))) == 1
+
+
+@pytest.mark.slow
+def test_report_is_rebuilt_without_kwave(finished: Path, cache: Path, tmp_path: Path) -> None:
+    blocker = (
+        "import sys; sys.modules['kwave'] = None; sys.argv[0] = 'vibroacoustics';"
+        "from vibroacoustics.commands.cli import main; main()"
+    )
+    outcome = subprocess.run(
+        [sys.executable, "-c", blocker, "report", finished / "results.nc", "--out", tmp_path],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert outcome.returncode == 0, outcome.stderr
+    assert (tmp_path / "report.html").read_bytes() == (finished / "report.html").read_bytes()
+
+
+@pytest.mark.slow
+def test_score_prints_the_ranking(finished: Path, cache: Path) -> None:
+    stored = command("score", finished / "results.nc", cache=cache)
+    given = command("score", finished / "results.nc", "--scoring", SMALL, cache=cache)
+    assert stored.returncode == 0
+    assert stored.stdout == given.stdout
+    assert stored.stdout.splitlines()[1].split()[0] == "1"
+
+
+@pytest.mark.slow
+def test_damaged_results_are_refused(finished: Path, cache: Path, tmp_path: Path) -> None:
+    content = bytearray((finished / "results.nc").read_bytes())
+    content[len(content) // 2] ^= 0xFF
+    (tmp_path / "results.nc").write_bytes(content)
+    (tmp_path / "results.nc.sha256").write_bytes((finished / "results.nc.sha256").read_bytes())
+    assert_refused(command("report", tmp_path / "results.nc", cache=cache), "hash")
+    assert not (tmp_path / "report.html").exists()
+
+
+def test_doctor(cache: Path) -> None:
+    outcome = command("doctor", cache=cache)
+    assert outcome.returncode == 0, outcome.stderr
+    for word in ("vibroacoustics", "memory", "fft", "k-wave: solver loads", "cache", str(cache)):
+        assert word in outcome.stdout
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("maximum_order = 16", "maximum_ordr = 16", ["operation.maximum_ordr", "unknown key"]),
+        ("maximum_order = 16", 'maximum_order = "16"', ["operation.maximum_order = '16'"]),
+        ("maximum_order = 16", "maximum_order = nan", ["operation.maximum_order = nan"]),
+        ("maximum_order = 16", "speed_rpm = [0.0, 2900.0]", ["speed_rpm = 0 rpm", "60"]),
+        (
+            "[operation]",
+            '[machine.override.oldham]\nmass_kg = { value = -1.0, source = "test" }\n[operation]',
+            ["oldham.mass_kg = -1.0 kg", "allowed above 0"],
+        ),
+        (
+            "[operation]",
+            "[machine.override.kinematics]\n"
+            'orbit_radius_m = { value = 6.75, source = "test" }\n[operation]',
+            ["orbit_radius_m = 6.75 m", "allowed from 0.0001 to 0.05 m"],
+        ),
+        (
+            "[operation]",
+            '[options.magic]\nkind = "magic"\n[operation]',
+            ["options.magic.kind = magic: unknown", "spring-mass,"],
+        ),
+        (
+            "[operation]",
+            '[options.spring-mass]\nstiffness_n_per_mm = { value = 9.0, source = "test" }\n'
+            "[operation]",
+            ["options.spring-mass: stiffness_n_per_mm = 9 N/mm", "allowed below 4.883"],
+        ),
+        (
+            "near_field_spacing_mm = 35.0",
+            "[receivers.far]\nx_mm = 19000.0\ny_mm = 19000.0\nheight_mm = 19000.0\n"
+            "[radiation]\nnear_field_spacing_mm = 2.0\n",
+            None,
+        ),
+    ],
+)
+def test_bad_studies(
+    old: str, new: str, words: list[str] | None, cache: Path, tmp_path: Path
+) -> None:
+    """One clear line, exit code 2, no traceback, nothing written."""
+    text = SMALL.read_text().replace("../../pipelines", str(ROOT / "pipelines"))
+    if words is None:  # a room of 19 m at the finest spacing: larger than any memory
+        text = text.replace("[radiation]\n", "").replace("room_spacing_mm = 60.0", "")
+        new += "room_spacing_mm = 5.0\n"
+        words = ["room_spacing_mm", "GiB"]
+    study = tmp_path / "bad.toml"
+    study.write_text(text.replace(old, new))
+    outcome = command("run", study, "--out", tmp_path / "out", cache=cache)
+    assert_refused(outcome, "bad.toml", *words)
+    assert not (tmp_path / "out").exists()
+
+
+def test_output_that_cannot_be_written(cache: Path, tmp_path: Path) -> None:
+    """Refused before anything is computed."""
+    (tmp_path / "file").write_text("")
+    outcome = command("run", SMALL, "--out", tmp_path / "file" / "out", cache=cache)
+    assert_refused(outcome, "file/out", "cannot be written")
+
+
+@pytest.mark.slow
+def test_cache_file_is_no_result(finished: Path, cache: Path) -> None:
+    """A file of the cache has a hash and is netCDF, but no run."""
+    (cached,) = (cache / "vibroacoustics").glob("*.nc")
+    for name in ("report", "score"):
+        assert_refused(command(name, cached, cache=cache), cached.name, "schema_version")
+
+
+def test_missing_study(cache: Path, tmp_path: Path) -> None:
+    assert_refused(command("run", tmp_path / "none.toml", cache=cache), "none.toml", "no such file")
+
+
+def test_help_is_fast(cache: Path) -> None:
+    """Not a timing test: `--help` must not load what takes the time."""
+    heavy = "{'numpy', 'xarray', 'scipy', 'matplotlib', 'kwave', 'pydantic'}"
+    script = (
+        "import sys; sys.argv = ['vibroacoustics', '--help']\n"
+        "from vibroacoustics.commands.cli import main\n"
+        "try:\n    main()\nexcept SystemExit:\n    pass\n"
+        f"loaded = {heavy} & set(sys.modules)\n"
+        "sys.exit(f'loaded {loaded}' if loaded else 0)"
+    )
+    outcome = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=False
+    )
+    assert outcome.returncode == 0, outcome.stderr

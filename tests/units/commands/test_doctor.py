@@ -1,0 +1,33 @@
+"""What `doctor` tells of an installation."""
+
+from importlib.metadata import PackageNotFoundError, version
+
+import pytest
+
+from vibroacoustics.commands import doctor
+from vibroacoustics.results import provenance
+
+
+@pytest.mark.parametrize(
+    ("missing", "told"),
+    [
+        ((), "recordings: every format can be read"),
+        (("pyuff",), "recordings: no pyuff; for UFF and TDMS pip install vibroacoustics[io]"),
+        (
+            ("pyuff", "nptdms"),
+            "recordings: no pyuff and nptdms; for UFF and TDMS pip install vibroacoustics[io]",
+        ),
+    ],
+)
+def test_the_extra_for_recordings(monkeypatch, missing, told):
+    def installed(name: str) -> str:
+        if name in missing:
+            raise PackageNotFoundError(name)
+        return version(name) if name not in provenance.READERS else "1.0"
+
+    monkeypatch.setattr(provenance, "version", installed)
+    lines = list(doctor.findings())
+    assert told in lines
+    for name in missing:
+        assert f"{name} not installed" in lines
+    assert any(line.startswith("h5py ") for line in lines)

@@ -1,0 +1,171 @@
+"""Speed from the signal alone, against known run-ups in noise."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.orders.tacholess import tacholess_motion
+
+SAMPLE_RATE_HZ = 6400.0
+LIMITS_HZ = (15.0, 70.0)
+
+FALLING = {order: 1.0 / order for order in range(1, 7)}
+SECOND_STRONGEST = {1: 0.3, 2: 1.0, 3: 0.2, 4: 0.8, 6: 0.3}
+RICH = dict.fromkeys(range(1, 31), 1.0)
+TWO = {1: 1.0, 2: 0.3}
+
+
+def run_up(time_s):
+    return 20.0 + 2.0 * time_s
+
+
+def swing(time_s):
+    return run_up(time_s) * (1.0 + 0.02 * np.sin(2.0 * np.pi * 0.2 * time_s))
+
+
+def run_down(time_s):
+    return 60.0 * np.exp(-time_s / 20.0)
+
+
+def steady(time_s):
+    return np.full_like(time_s, 48.7)
+
+
+def sound(speed, orders, ratio_db, duration_s=20.0, seed=0):
+    """Orders of a shaft in white noise; the ratio is that of their powers over the whole band."""
+    rng = np.random.default_rng(seed)
+    time_s = np.arange(int(duration_s * SAMPLE_RATE_HZ)) / SAMPLE_RATE_HZ
+    angle = 2.0 * np.pi * np.cumsum(speed(time_s)) / SAMPLE_RATE_HZ
+    signal = sum(
+        amplitude * np.cos(order * angle + rng.uniform(0.0, 2.0 * np.pi))
+        for order, amplitude in orders.items()
+    )
+    noise = rng.standard_normal(time_s.size)
+    return signal / np.std(signal) * 10.0 ** (ratio_db / 20.0) + noise
+
+
+def speed_error(motion, speed):
+    """Relative, root mean square over the whole motion."""
+    at = np.linspace(motion.start_s, motion.end_s, 2001)
+    return np.sqrt(np.mean((motion.frequency_hz(at) / speed(at) - 1.0) ** 2))
+
+
+@pytest.mark.parametrize("ratio_db", [20.0, 0.0, -10.0])
+@pytest.mark.parametrize("orders", [FALLING, SECOND_STRONGEST, RICH, TWO])
+@pytest.mark.parametrize("speed", [run_up, swing, run_down, steady])
+def test_speed_in_noise(speed, orders, ratio_db):
+    """Below 0.5 % rms, down to -10 dB; a wrong order would be off by a third or more."""
+    result = tacholess_motion(sound(speed, orders, ratio_db), SAMPLE_RATE_HZ, *LIMITS_HZ)
+    assert speed_error(result.motion, speed) < 5e-3
+    assert np.all((result.confidence >= 0.0) & (result.confidence <= 1.0))
+
+
+def test_run_up_fourfold_in_five_seconds():
+    """Frames of one second, in which the speed changes by up to half; spectra are straightened."""
+    speed = lambda t: 10.0 + 6.0 * t  # noqa: E731
+    signal = sound(speed, FALLING, 0.0, duration_s=5.0)
+    result = tacholess_motion(signal, SAMPLE_RATE_HZ, 8.0, 50.0)
+    assert speed_error(result.motion, speed) < 5e-3
+
+
+def test_orders_of_a_machine_whose_first_is_silent():
+    """Orders 4, 8 and 12 alone: four times the speed for one who does not know the machine."""
+    signal = sound(run_up, {4: 1.0, 8: 0.7, 12: 0.4}, 0.0)
+    told = tacholess_motion(signal, SAMPLE_RATE_HZ, 18.0, 65.0, orders=(4, 8, 12))
+    assert speed_error(told.motion, run_up) < 5e-3
+    wide = tacholess_motion(signal, SAMPLE_RATE_HZ, 70.0, 260.0)
+    assert speed_error(wide.motion, lambda t: 4.0 * run_up(t)) < 5e-3
+
+
+def test_a_line_that_does_not_belong_to_the_shaft():
+    """Mains hum of four times the amplitude of the strongest order, crossed by three orders."""
+    signal = sound(run_up, FALLING, 0.0)  # its first order has 1.16
+    time_s = np.arange(signal.size) / SAMPLE_RATE_HZ
+    signal += 4.6 * np.cos(2.0 * np.pi * 50.0 * time_s)
+    result = tacholess_motion(signal, SAMPLE_RATE_HZ, *LIMITS_HZ)
+    assert speed_error(result.motion, run_up) < 5e-3
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_confidence_tells_noise_from_a_shaft(seed):
+    """Noise prefers no speed: its path is worse than the best rival more often than not."""
+    noise = np.random.default_rng(seed).standard_normal(128000)
+    of_noise = tacholess_motion(noise, SAMPLE_RATE_HZ, *LIMITS_HZ).confidence
+    assert of_noise.mean() < 0.5
+    for orders in (FALLING, SECOND_STRONGEST, RICH):
+        for ratio_db, least in ((0.0, 0.8), (10.0, 0.95)):
+            signal = sound(run_up, orders, ratio_db, seed=seed)
+            result = tacholess_motion(signal, SAMPLE_RATE_HZ, *LIMITS_HZ)
+            assert result.confidence.mean() > least
+
+
+def test_confidence_falls_where_the_machine_is_silent():
+    signal = sound(run_up, FALLING, 10.0)
+    silent = slice(8 * 6400, 12 * 6400)
+    signal[silent] = np.random.default_rng(1).standard_normal(4 * 6400)
+    result = tacholess_motion(signal, SAMPLE_RATE_HZ, *LIMITS_HZ)
+    inside = (result.time_s > 8.5) & (result.time_s < 11.5)
+    outside = (result.time_s < 7.5) | (result.time_s > 12.5)
+    assert result.confidence[inside].mean() < 0.5
+    assert result.confidence[outside].mean() > 0.9
+
+
+def test_the_unit_of_the_signal_does_not_matter():
+    signal = sound(run_up, FALLING, 0.0)
+    of_one = tacholess_motion(signal, SAMPLE_RATE_HZ, *LIMITS_HZ)
+    of_many = tacholess_motion(1024.0 * signal, SAMPLE_RATE_HZ, *LIMITS_HZ)
+    np.testing.assert_allclose(of_many.confidence, of_one.confidence, atol=1e-9)
+    at = of_one.time_s[1:-1]
+    np.testing.assert_allclose(of_many.motion.angle_rad(at), of_one.motion.angle_rad(at), rtol=1e-9)
+
+
+def test_motion_reaches_from_the_first_frame_to_the_last():
+    result = tacholess_motion(sound(run_up, RICH, 0.0), SAMPLE_RATE_HZ, *LIMITS_HZ)
+    motion = result.motion
+    assert (motion.start_s, motion.end_s) == (result.time_s[0], result.time_s[-1])
+    assert motion.angle_rad(motion.start_s) == 0.0
+    assert motion.start_s == pytest.approx(0.5 * 8.0 / 15.0, rel=0.02)
+
+
+NOISE = np.random.default_rng(0).standard_normal(12800)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ((np.zeros(0), 6400.0, 15.0, 70.0), "0 samples, all the same; no speed is in them"),
+        ((np.ones(12800), 6400.0, 15.0, 70.0), "12800 samples, all the same"),
+        ((np.ones((2, 9)), 6400.0, 15.0, 70.0), "finite samples of one channel"),
+        ((np.array([0.0, np.nan]), 6400.0, 15.0, 70.0), "finite samples of one channel"),
+        ((NOISE, 6400.0, 0.0, 70.0), "minimum_frequency_hz = 0 Hz"),
+        ((NOISE, 6400.0, 70.0, 15.0), "must rise from above zero"),
+        ((NOISE, 6400.0, 15.0, 4000.0), "order 1 is not below half the sample rate of 6400 Hz"),
+        ((NOISE, 6400.0, 15.0, 70.0, (0.0, 1.0)), r"orders = \[0\.0, 1\.0\]: must rise"),
+        ((NOISE, 6400.0, 15.0, 70.0, ()), r"orders = \[\]: must rise"),
+        ((NOISE, 6400.0, 5.0, 70.0), "2 s are too short for a speed from 5 Hz; needs 4.8 s"),
+    ],
+)
+def test_refusals(arguments, words):
+    with pytest.raises(ParameterError, match=words) as caught:
+        tacholess_motion(*arguments)
+    assert len(str(caught.value).splitlines()) == 1
+
+
+@settings(deadline=None, max_examples=50)
+@given(
+    arrays(
+        np.float64,
+        st.integers(0, 400),
+        elements=st.floats(width=32) | st.floats(-1e3, 1e3),
+    )
+)
+def test_any_signal_gives_a_rising_motion_or_one_clear_line(signal):
+    try:
+        motion = tacholess_motion(signal, 1000.0, 100.0, 300.0).motion
+    except ParameterError:
+        pass
+    else:
+        assert np.all(motion.frequency_hz(np.linspace(motion.start_s, motion.end_s, 99)) > 0.0)

@@ -1,0 +1,721 @@
+"""Sources in a study: balance of their loads, sums, draws, contraction, bad input."""
+
+import dataclasses
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import pyuff
+from sources_study import (
+    SOURCES_STUDY,
+    all_lines,
+    case_of,
+    made_up_modes,
+    path_of,
+    run_made_up,
+    with_tables,
+)
+from support import ROOT, assert_refused, command_here
+
+from vibroacoustics import levels
+from vibroacoustics.base.constants import REFERENCE_PRESSURE_PA
+from vibroacoustics.base.errors import ParameterError, SolverError
+from vibroacoustics.levels.by_source import NoisePower, SourceSound, filled_thirds, source_sound
+from vibroacoustics.machine.shell_structure import (
+    BEARING_HOUSING,
+    DRAWN_OF_SHELL,
+    FIXED_SCROLL,
+    JOINTS,
+    STATOR,
+)
+from vibroacoustics.mechanics.added import RingForce
+from vibroacoustics.mechanics.loads import Noise
+from vibroacoustics.pipeline.cases import loads_of
+from vibroacoustics.pipeline.sound import pressure_per_velocity, wrench_pressure
+from vibroacoustics.radiation.scene import machine_body
+from vibroacoustics.sources.joint_loads import key_torque_n_m
+from vibroacoustics.sources.keys import KEY_COMPONENTS, OldhamKeyForces
+from vibroacoustics.sources.oldham_keys.rattle import steady_key_forces
+from vibroacoustics.sources.oldham_keys.spectra import spectral_density
+from vibroacoustics.study.loading import load_study
+from vibroacoustics.study.uncertainty import MeasuredModes, Range
+from vibroacoustics.transfer import RigidBodyOnMounts
+from vibroacoustics.transfer.path import pressure_per_load
+from vibroacoustics.transfer.shell_modes import elastic_shell
+from vibroacoustics.transfer.sound_path import SoundPath
+from vibroacoustics.uncertainty.draws import latin_hypercube, with_draw
+
+TEXT = SOURCES_STUDY.read_text(encoding="utf-8")
+MACHINE_TEXT = (ROOT / "data" / "machines" / "copeland_zp41k3e.toml").read_text("utf-8")
+SUMS = 1e-10
+"""Relative rounding of sums of some hundred products, in different order."""
+
+
+@pytest.fixture(scope="module")
+def study():
+    return load_study(SOURCES_STUDY)
+
+
+@pytest.fixture(scope="module")
+def results(study):
+    return run_made_up(study)
+
+
+def loads_with(study, option):
+    return loads_of(study, case_of(study, option))
+
+
+def lines_with(study, option):
+    case = case_of(study, option)
+    return all_lines(case, loads_of(study, case))
+
+
+@pytest.fixture
+def pressed_by(monkeypatch):
+    """Sets the gas moment on the scroll, over uniform crank angles."""
+
+    def set_moment(moment_n_m):
+        cycle = SimpleNamespace(self_rotation_moment_n_m=moment_n_m)
+        monkeypatch.setattr("vibroacoustics.sources.keys.gas_cycle", lambda *_: cycle)
+
+    return set_moment
+
+
+# --- balance of the loads ------------------------------------------------------------------------
+
+
+def test_gas_pulls_at_the_two_joints_with_equal_and_opposite_forces(study):
+    load = loads_with(study, "none")["gas"].joints
+    assert np.all(load[FIXED_SCROLL, :3] == -load[BEARING_HOUSING, :3])
+    assert np.all(load[STATOR] == 0.0)
+    assert np.min(np.abs(load[FIXED_SCROLL, :3, 1])) > 10.0
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.1])
+@pytest.mark.parametrize("option", ["none", "damping"])
+def test_moments_about_the_shaft_add_up_to_the_rotors_momentum(study, option, friction):
+    """Gas, keys and stator together leave the machine -d/dt of the rotor's momentum: all else
+    that turns does so steadily, and the ring slides through the shaft's axis.
+
+    What is left is the swing of ring and scroll within the flexing of the contacts: a turn of at
+    most their range of depth, on both keys of a pair, over the radius of the keys.
+    """
+    study = with_tables(study, keys={"friction_ratio": friction, "clearance_m": 2e-6})
+    keys, case = study.machine.keys, case_of(study, option)
+    loads = loads_of(study, case)
+    lines, figures = all_lines(case, loads), loads["keys"].figures
+    assert figures["key_impacts_per_revolution"] == 0.0
+    order = np.arange(1, 9)
+    moment = sum(joints[:, 3].sum(axis=0) for joints in lines.joints.values())
+    momentum = sum(rigid[5] for rigid in lines.rigid.values())
+    depth = (figures["key_force_peak_n"] / keys.contact_stiffness_n_per_m1p5) ** (2.0 / 3.0)
+    turn = 2.0 * depth / keys.radius_m
+    inertia = keys.scroll_inertia_kg_m2 + keys.ring_inertia_kg_m2
+    # Order k of what rises and falls twice by `turn`, its variation being V, is V/(π k) at most.
+    omega = 2.0 * np.pi * lines.frequency_hz[order]
+    allowed = inertia * omega**2 * 4.0 * turn / (np.pi * order)
+    assert np.all(np.abs(moment[order] - momentum[order]) < allowed)
+    # The ring's own share, which the shaft bears at twice the speed, is well above that.
+    speed = omega[0] * study.machine.kinematics.orbit_radius_m
+    assert 0.5 * study.machine.oldham.mass_kg * speed**2 > 3.0 * allowed[1]
+
+
+def test_work_of_the_shaft_on_the_keys_is_that_of_their_friction(study):
+    """Force along each slot times the speed of sliding, ω r cos θ and ω r sin θ.
+
+    Ring and scroll stray from it by the flexing of the contacts, 1 µm of 3.5 mm at most; the loss
+    in films and contacts is of second order of that.
+    """
+    machine = study.machine
+    stroke, (speed,) = machine.kinematics.orbit_radius_m, study.operation.speed_rpm
+    forces = steady_key_forces(
+        machine.keys, machine.oldham.mass_kg, stroke, speed, np.array([5.12]), np.zeros(1), 2
+    )
+    along_scroll = forces.friction_n[:2].sum(axis=0) * np.cos(forces.crank_angle)
+    along_housing = forces.friction_n[2:].sum(axis=0) * np.sin(forces.crank_angle)
+    torque = key_torque_n_m(forces, stroke).mean()
+    friction = stroke * float(np.mean(along_scroll + along_housing))
+    assert friction > 0.01
+    assert torque == pytest.approx(friction, rel=1e-3)
+
+
+def test_keys_push_the_machine_with_the_rings_inertia(study):
+    """-m a at order 1, whatever damps the ring against the housing, and nothing with a twin.
+
+    The contacts flex by 1 µm of the stroke of 3.5 mm, friction along y turns it by as little.
+    """
+    omega = 2.0 * np.pi * 2900.0 / 60.0
+    inertia = study.machine.oldham.mass_kg * study.machine.kinematics.orbit_radius_m * omega**2
+    push = {}
+    for option in ("none", "damping", "twin-oldham"):
+        load = loads_with(study, option)["keys"].joints
+        push[option] = load[:, 0, 1]
+        assert np.all(load[FIXED_SCROLL] == 0.0)
+        assert np.any(load[STATOR] != 0.0) == (option == "twin-oldham")
+    for option in ("none", "damping"):
+        assert push[option][BEARING_HOUSING] == pytest.approx(inertia, rel=2e-3), option
+    assert push["twin-oldham"][BEARING_HOUSING] == push["none"][BEARING_HOUSING]
+    assert abs(push["twin-oldham"].sum()) < 0.02 * inertia  # its keys rattle within 15 µm
+
+
+def test_twin_is_the_ring_turned_by_half_a_turn(study, pressed_by):
+    """Its noise too: what couples a force with the moment changes its sign."""
+    pressed_by(np.zeros(1))
+    both = OldhamKeyForces(revolutions=4).loads(case_of(study, "twin-oldham"), {})
+    first, second = both.noise
+    assert (first.joint, second.joint) == (BEARING_HOUSING, STATOR)
+    half_turn = np.array([-1.0, -1.0, 1.0])
+    turned = half_turn[:, None, None] * first.density * half_turn[None, :, None]
+    # The ring's force over 256 angles and the twin's of one value are the same zero.
+    assert second.density == pytest.approx(turned, rel=1e-12, abs=1e-12)
+    assert np.abs(first.density[0, 2]).max() > 0.0
+    sign = np.array([-1.0, -1.0, 1.0, 1.0])[:, None]
+    load = both.joints
+    assert load[STATOR] == pytest.approx(sign * load[BEARING_HOUSING], rel=1e-12)
+
+
+def test_hanging_pendulum_lowers_the_speed_of_contact_loss(study, pressed_by):
+    """5809 to 4308 rpm at rated load without friction, closed form (oldham_keys.csv).
+
+    The moment is that of the gas at the derived orbit radius, so the stroke is too. 4308 holds for
+    bobs at rest at the angle at which they settle; theirs moves by a per cent.
+    """
+    study = with_tables(
+        study, keys={"friction_ratio": 0.0}, kinematics={"orbit_radius_m": 3.461e-3}
+    )
+    case = case_of(study)
+    pressed_by(np.array([2959.0 * 3.461e-3 / 2.0]))
+    omega = 2.0 * np.pi * case.shaft_frequency_hz
+    angle = 2.0 * np.pi * np.arange(256) / 256
+    # test_literature: the ring with its pendulums pushes 81.8 N where the bare one pushes 45.26 N.
+    mass = study.machine.oldham.mass_kg
+    bobs = (81.8 / 45.26 - 1.0) * mass * 3.461e-3 * omega**2 * np.cos(angle)
+    lost = [
+        OldhamKeyForces(revolutions=1)
+        .loads(dataclasses.replace(case, added=dataclasses.replace(case.added, on_ring=hung)), {})
+        .figures["key_contact_lost_above_rpm"]
+        for hung in (None, RingForce(bobs))
+    ]
+    assert lost[0] == pytest.approx(5809.0, rel=1e-3)
+    assert lost[1] == pytest.approx(4308.0, rel=0.01)
+
+
+def test_lines_of_the_motor_and_orders_of_the_shaft_never_share_a_place(study):
+    """Even at 3000 rpm, where twice 50 Hz is the frequency of order 2: the phases are unrelated."""
+    operation = study.operation.model_copy(update={"speed_rpm": (3000.0,)})
+    case = case_of(study.model_copy(update={"operation": operation}))
+    lines = all_lines(case, loads_of(study, case))
+    orders = case.maximum_order + 1
+    assert lines.names[2] == "order 2"
+    twice = lines.names.index("motor: 2 x line")
+    assert twice >= orders
+    assert lines.frequency_hz[twice] == 100.0
+    assert lines.frequency_hz[2] == 100.0
+    for source in study.sources:
+        joints, rigid = lines.joints[source], lines.rigid[source]
+        filled = np.any(joints != 0.0, axis=(0, 1)) | np.any(rigid != 0.0, axis=0)
+        own = filled[orders:] if source != "motor" else filled[:orders]
+        assert not np.any(own), source
+        assert np.any(filled), source
+    assert len(lines.names) == len(set(lines.names)) == lines.frequency_hz.size
+
+
+# --- contraction ---------------------------------------------------------------------------------
+
+
+def mode_pressures(results, frequency):
+    vectors = results["pattern_transfer_vector"].rename(pattern="dof")
+    return pressure_per_velocity(vectors)(frequency)
+
+
+def gain_of(study):
+    return 10.0 ** (study.machine.variation.mobility_change_db / 20.0)
+
+
+def pressure_by_loops(results, study, lines):
+    """Complex peaks at (receiver, line) of all sources, one mode, joint and load after another."""
+    path, structure = path_of(study), study.machine.structure
+    frequency = lines.frequency_hz
+    vectors = gain_of(study) * mode_pressures(results, frequency)
+    assert study.machine.variation.frequency_factor_ratio == 1.0
+    pressure = {}
+    for source in study.sources:
+        load, wrench = lines.joints[source], lines.rigid[source]
+        assert np.all(wrench[:5] == 0.0)
+        total = np.zeros((vectors.shape[0], frequency.size), dtype=complex)
+        for mode, shape in enumerate(path.modes):
+            force = np.zeros(frequency.size, dtype=complex)
+            for joint in range(len(JOINTS)):
+                for component in range(4):
+                    share = path.joint_forces[mode, joint, component]
+                    force += share * load[joint, component]
+            omega, own = 2.0 * np.pi * frequency, 2.0 * np.pi * shape.frequency_hz
+            stiffness = own**2 * (1.0 + 1j * structure.loss_factor_ratio)
+            velocity = 1j * omega * force / (shape.modal_mass_kg * (stiffness - omega**2))
+            total += vectors[:, mode] * velocity
+        pressure[source] = total + roll(results, study.machine, wrench[5], frequency)
+    return pressure
+
+
+def roll(results, machine, moment, frequency):
+    """Sound of the machine's turn about z on its mounts, at four corners of a square."""
+    arm, mounts = machine.mounts.pitch_m / np.sqrt(2.0), machine.mounts
+    stiffness = 4.0 * mounts.lateral_stiffness_n_per_m * arm**2
+    omega = 2.0 * np.pi * frequency
+    lossy = stiffness * (1.0 + 1j * mounts.loss_factor_ratio * (frequency > 0.0))
+    speed = 1j * omega * moment / (lossy - omega**2 * machine.housing.inertia_zz_kg_m2)
+    return pressure_per_velocity(results["transfer_vector"])(frequency)[:, 5] * speed
+
+
+def test_levels_are_those_of_a_contraction_by_loops(results, study):
+    for option in ("none", "twin-oldham"):
+        case = case_of(study, option)
+        loads = loads_of(study, case)
+        lines = all_lines(case, loads)
+        pressure = pressure_by_loops(results, study, lines)
+        moving = wrench_pressure(results, "transfer_vector").sel(speed=2900.0, option=option)
+        rigid = np.zeros_like(pressure["gas"])
+        moving = moving.sum("source").transpose("receiver", "order").values
+        rigid[:, : moving.shape[1]] = moving
+        pressure["moving_parts"] = rigid
+        audible = lines.frequency_hz > 0.0
+        weight = np.zeros(audible.size)
+        weight[audible] = 10.0 ** (levels.WEIGHTING["A"](lines.frequency_hz[audible]) / 10.0)
+        noise = noise_by_loops(results, study, loads["keys"])
+        square = 0.5 * np.abs(sum(pressure.values())) ** 2 @ weight + noise
+        found = results["level_modelled"].sel(speed=2900.0, option=option, weighting="A").values
+        assert found == pytest.approx(decibel(square), abs=10.0 * SUMS)
+        for source, peaks in pressure.items():
+            at = {"speed": 2900.0, "option": option, "sound_source": source}
+            own = 0.5 * np.abs(peaks) ** 2 @ weight + (noise if source == "keys" else 0.0)
+            assert results["source_level"].sel(at).values == pytest.approx(
+                decibel(own), abs=10.0 * SUMS
+            ), source
+            named = results["pressure_line"].sel(at).sel(line=list(lines.names)).values
+            assert named == pytest.approx(peaks, rel=SUMS, abs=SUMS * np.abs(peaks).max()), source
+
+
+def noise_by_loops(results, study, keys):
+    """A-weighted mean square at the receivers of the keys' noise."""
+    path, machine, total = path_of(study), study.machine, 0.0
+    for part in keys.noise:
+        assert part.components == KEY_COMPONENTS
+        way = pressure_per_load(
+            path,
+            mode_pressures(results, part.frequency_hz),
+            part.frequency_hz,
+            machine.structure.loss_factor_ratio,
+            machine.variation,
+        )[:, part.joint]
+        step = part.frequency_hz[1] - part.frequency_hz[0]
+        for line in range(1, part.frequency_hz.size):
+            weight = 10.0 ** (levels.WEIGHTING["A"](part.frequency_hz[line]) / 10.0)
+            heard = way[:, list(KEY_COMPONENTS), line]
+            power = [(h.conj() @ part.density[..., line] @ h).real for h in heard]
+            total = total + weight * step * np.array(power)
+    return total
+
+
+def test_noise_keeps_the_phases_between_its_forces():
+    """Force along y a quarter period behind that along x, on a way with j times its pressure.
+
+    Both arrive in step: peaks of 1 + 1 Pa, a mean square of 2 Pa². Turned round they cancel. The
+    tone falls on a line of the window, whose own sidelines hold the rest of the power.
+    """
+    rate, tone = 1000.0, 100.0
+    phase = 2.0 * np.pi * tone * np.arange(4000) / rate
+    forces = np.stack([np.cos(phase), np.sin(phase), np.zeros(4000)])
+    frequency, density = spectral_density(forces, rate, 1000)
+    noise = Noise(BEARING_HOUSING, KEY_COMPONENTS, frequency, density)
+    for way, expected in ((1.0j, 2.0), (-1.0j, 0.0)):
+        per_load = np.zeros((1, len(JOINTS), 4, frequency.size), dtype=complex)
+        per_load[0, BEARING_HOUSING] = np.array([1.0, way, 0.0, 0.0])[:, None]
+        shell = SimpleNamespace(per_load=lambda _, per_load=per_load: per_load)
+        power = SoundPath(lambda _: np.zeros((1, 6, 1)), shell).noise_power(noise)
+        sound = source_sound(
+            np.zeros((1, 1, 1), dtype=complex),
+            np.zeros(1),
+            [NoisePower(0, frequency, power)],
+            filled_thirds(400.0),
+        )
+        assert sound.band.sum() == pytest.approx(expected, abs=1e-12)
+        weight = 10.0 ** (levels.WEIGHTING["A"](tone) / 10.0)
+        # The sidelines, 1 Hz off with a sixth of the power each, are weighted as they lie.
+        assert sound.total[0, 0] == pytest.approx(expected * weight, rel=1e-3, abs=1e-12)
+
+
+def decibel(square):
+    return 10.0 * np.log10(square / REFERENCE_PRESSURE_PA**2)
+
+
+def test_shares_add_up_to_one_and_bands_hold_the_lines(results):
+    assert results["source_share"].sum("sound_source").values == pytest.approx(1.0, abs=SUMS)
+    assert np.abs(results["source_share"]).max() < 10.0  # parts that cancel stay small here
+    assert np.all(results["band"] <= 1000.0)  # that of 1250 Hz is not filled up to 1200 Hz
+
+
+def test_bands_are_whole():
+    assert [band.nominal_hz for band in filled_thirds(4000.0)][-1] == 3150.0
+    assert [band.nominal_hz for band in filled_thirds(4500.0)][-1] == 4000.0
+    assert filled_thirds(4000.0)[0].nominal_hz == 20.0
+
+
+def test_pair_of_forces_on_one_joint_drives_nothing(study):
+    """Gas forces with the fixed scroll held where the bearing housing is."""
+    held = {"fixed_scroll": study.machine.structure.bearing_housing}
+    path = path_of(with_tables(study, structure=held))
+    pair = path.joint_forces[:, FIXED_SCROLL] - path.joint_forces[:, BEARING_HOUSING]
+    assert np.all(pair == 0.0)
+    apart = path_of(study).joint_forces
+    assert np.abs(apart[:, FIXED_SCROLL] - apart[:, BEARING_HOUSING]).max() > 0.1
+
+
+@pytest.fixture(scope="module")
+def without(tmp_path_factory):
+    """Results of the study without sources."""
+    start, stop = TEXT.index("[sources.gas]"), TEXT.index("[radiation]")
+    bare = load_text(tmp_path_factory.mktemp("bare"), TEXT[:start] + TEXT[stop:])
+    assert bare.sources == {}
+    return run_made_up(bare)
+
+
+def test_rigid_machine_is_moved_by_momentum_alone(study, without):
+    """With modes that do not sound, gas and keys are silent and the rest is the rigid machine's.
+
+    That modes have no share in the rigid motions is tested in test_shell_modes.
+    """
+    silent = run_made_up(study, gain=0.0)
+    assert silent["source_level"].sel(sound_source=["gas", "keys"]).max() == levels.SILENCE_DB
+    moving = silent["source_level"].sel(sound_source="moving_parts").values
+    rigid = without["level_modelled"].sel(weighting="A").values
+    assert moving == pytest.approx(rigid, abs=10.0 * SUMS)
+    lines = lines_with(study, "none")
+    assert np.all(lines.rigid["gas"] == 0.0)
+    assert np.all(lines.rigid["keys"] == 0.0)
+
+
+def test_modes_reach_the_highest_frequency_in_every_draw(study):
+    """Where natural frequencies are lowered to 0.8, modes up to 1.25 times it come below it."""
+    highest = study.radiation.maximum_frequency_hz
+    draws = latin_hypercube(study.ranges, study.uncertainty)
+    lowest = min(draw["variation", "frequency_factor_ratio"] for draw in draws)
+    every = elastic_shell(study.machine.shell, study.machine.structure, highest / lowest).modes
+    assert {mode.name for mode in every} <= {mode.name for mode in path_of(study).modes}
+
+
+def test_body_on_mounts_turns_about_z_alone_under_a_moment_about_z(study):
+    """So that its other motions need no transfer vector here."""
+    machine = study.machine
+    height = -machine.shell.centre_of_mass_height_m
+    body = RigidBodyOnMounts(machine.housing, machine.mounts, height)
+    moment = np.zeros((1, 6), dtype=complex)
+    moment[0, 5] = 1.0
+    velocity = body.velocity(moment, np.array([100.0]))[0]
+    assert np.abs(velocity[:5]).max() < 1e-15 * abs(velocity[5]) / machine.mounts.pitch_m
+
+
+def test_sources_do_not_change_the_moving_parts(results, without):
+    """What a study without sources says of forces, motion and their sound, bit for bit."""
+    heard = {"pressure_line", "order_level", "level_modelled", "level_total", "level_remainder"}
+    heard |= {"source_level", "source_share", "source_band_level", "reported_figure"}
+    heard |= {"change_1x", "change_modelled", "change_total", "criterion_value", "score", "rank"}
+    heard |= {"first_place_share"}
+    same = set(without.data_vars) - heard
+    assert {"force", "force_order", "velocity_order", "foot_force_order", "mode_shape"} <= same
+    for name in same:
+        np.testing.assert_array_equal(without[name].values, results[name].values, err_msg=name)
+    for name in ("source_level", "source_band_level", "pressure_line"):
+        moving = without[name].sel(sound_source="moving_parts")
+        among = results[name].sel(sound_source="moving_parts")
+        if "line" in moving.dims:
+            among = among.sel(line=moving["line"])
+        np.testing.assert_allclose(among.values, moving.values, rtol=SUMS, err_msg=name)
+    figures = without["reported_figure"]
+    among = results["reported_figure"].sel(figure=figures["figure"])
+    np.testing.assert_array_equal(among.values, figures.values)
+
+
+# --- draws ---------------------------------------------------------------------------------------
+
+
+def test_hypercube_takes_every_stratum_of_every_range_once(study):
+    settings = study.uncertainty.model_copy(update={"random_samples": 12})
+    drawn = latin_hypercube(study.ranges, settings)
+    of_sources = {pair for source in study.sources.values() for pair in source.drawn}
+    named = [(limits.table, limits.field) for limits in study.ranges]
+    assert set(named) == of_sources | DRAWN_OF_SHELL
+    assert len(named) == len(set(named))
+    for limits in study.ranges:
+        values = np.array([draw[limits.table, limits.field] for draw in drawn])
+        low, high = limits.lowest, limits.highest
+        wide = low > 0.0 and high / low > 3.0
+        share = np.log(values / low) / np.log(high / low) if wide else (values - low) / (high - low)
+        assert sorted(np.floor(12.0 * share).astype(int)) == list(range(12)), limits
+
+
+def test_hypercube_is_reproducible_and_follows_its_seed(study):
+    one, same = (latin_hypercube(study.ranges, study.uncertainty) for _ in range(2))
+    other = latin_hypercube(study.ranges, study.uncertainty.model_copy(update={"seed": 7}))
+    assert one == same
+    assert one != other
+
+
+def test_draw_changes_nothing_but_what_is_not_known(study):
+    base = study.machine
+    for draw in latin_hypercube(study.ranges, study.uncertainty):
+        drawn = back = with_draw(base, base, draw)
+        for limits in study.ranges:
+            table = getattr(back, limits.table)
+            value = getattr(getattr(base, limits.table), limits.field)
+            assert getattr(table, limits.field) == draw[limits.table, limits.field]
+            table = table.model_copy(update={limits.field: value})
+            back = back.model_copy(update={limits.table: table})
+        assert drawn != base
+        assert back == base
+
+
+def test_draw_leaves_what_an_option_has_changed(study):
+    """A redesign that sets the clearance keeps it in every draw."""
+    changed = with_tables(study, keys={"clearance_m": 1e-6}).machine
+    draw = {("keys", "clearance_m"): 2e-5, ("keys", "friction_ratio"): 0.03}
+    drawn = with_draw(changed, study.machine, draw)
+    assert (drawn.keys.clearance_m, drawn.keys.friction_ratio) == (1e-6, 0.03)
+
+
+def test_wide_ranges_are_drawn_over_their_logarithm(study):
+    """Half of the draws lie below the geometric mean, not below the arithmetic one."""
+    name = "contact_stiffness_n_per_m1p5"
+    limits = Range(table="keys", field=name, lowest=1e9, highest=1e11)
+    settings = study.uncertainty.model_copy(update={"random_samples": 10})
+    stiffness = [draw["keys", name] for draw in latin_hypercube((limits,), settings)]
+    assert np.count_nonzero(np.array(stiffness) < 1e10) == 5
+
+
+def run_with_draws(study, monkeypatch, squares):
+    """Results with draws whose gas alone has given A-weighted mean squares."""
+    receivers, bands = len(study.receivers), len(filled_thirds(1200.0))
+    gas = np.zeros(1 + len(study.sources))
+    gas[1] = 1.0
+    sounds = [
+        {
+            (2900.0, option): SourceSound(
+                np.tile(square * gas[:, None, None], (1, receivers, bands)),
+                np.tile(square * gas[:, None], (1, receivers)),
+                np.tile(square * gas[:, None], (3, 1, receivers)),
+            )
+            for option in study.options
+        }
+        for square in squares
+    ]
+    monkeypatch.setattr("vibroacoustics.pipeline.sound.sound_of_draws", lambda *_: sounds)
+    settings = study.uncertainty.model_copy(update={"random_samples": len(squares)})
+    return run_made_up(study.model_copy(update={"uncertainty": settings}))
+
+
+def test_draws_above_the_published_level_have_no_weight(study, monkeypatch):
+    published = study.machine.overall_noise.level_dba
+    overall = REFERENCE_PRESSURE_PA**2 * 10.0 ** (published / 10.0)
+    quiet, loud = overall * np.array([0.1, 0.2, 0.3, 0.4]), [1.01 * overall, 9.0 * overall]
+    found = run_with_draws(study, monkeypatch, [*quiet, *loud])
+    assert found["draw_weight"].values.tolist() == [1.0] * 4 + [0.0] * 2
+    gas = found["source_level_by_draw"].sel(option="none", sound_source="gas", receiver="front_1m")
+    assert gas.values[:, 0] == pytest.approx(decibel(np.array([*quiet, *loud])), abs=1e-9)
+    # With the remainder every draw that is kept meets the overall level at its microphone.
+    whole = found["level_total_by_draw"].sel(option="none", receiver="front_1m").values
+    assert whole[:4] == pytest.approx(published, abs=1e-9)
+    rest = found["level_remainder_by_draw"].values
+    assert rest[:4] == pytest.approx(decibel(overall - quiet), abs=1e-9)
+    assert np.all(rest[4:] == levels.SILENCE_DB)
+
+
+def test_too_few_quiet_draws_are_one_line(study, monkeypatch):
+    with pytest.raises(SolverError) as failure:
+        run_with_draws(study, monkeypatch, [1e-6, 1e-6, 1.0, 1.0])
+    message = str(failure.value)
+    assert "only 2 of 4 draws are below the published level, 3 are needed" in message
+    assert len(message.splitlines()) == 1
+
+
+def test_same_study_gives_the_same_numbers(study, results):
+    """Draws run side by side in threads; their order and numbers do not depend on that."""
+    again = run_made_up(study)
+    for name in ("level_modelled_by_draw", "source_level", "reported_figure", "drawn_value"):
+        np.testing.assert_array_equal(again[name].values, results[name].values)
+
+
+# --- bad input -----------------------------------------------------------------------------------
+
+
+def load_text(folder, text, machine=MACHINE_TEXT):
+    """A study and its machine, in a folder."""
+    (folder / "machine.toml").write_text(machine, encoding="utf-8")
+    text = text.replace("../../data/machines/copeland_zp41k3e.toml", "machine.toml")
+    (folder / "study.toml").write_text(text.replace("../../data", str(ROOT / "data")))
+    return load_study(folder / "study.toml")
+
+
+def refused(folder, old, new, words, of_machine=False):
+    text = MACHINE_TEXT if of_machine else TEXT
+    assert text.count(old) == 1, old
+    changed = text.replace(old, new)
+    with pytest.raises(ParameterError) as refusal:
+        load_text(folder, *((TEXT, changed) if of_machine else (changed,)))
+    message = str(refusal.value)
+    assert len(message.splitlines()) == 1
+    for word in words:
+        assert word in message, message
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("= [50.0]", "= [50.0, 60.0]", ["operation", "supply_frequency_hz: 2 values for 1 speeds"]),
+        ("= [50.0]", "= [-50.0]", ["supply_frequency_hz = -50 Hz", "1 to 1000 Hz"]),
+        ("= [50.0]", "= [650.0]", ["maximum_frequency_hz = 1200 Hz", "frequency is 1300 Hz"]),
+        ("random_samples = 4", "random_samples = 3", ["uncertainty.random_samples = 3", "from 4"]),
+        ("random_samples = 4", "doubts = []", ["uncertainty.doubts", "unknown key"]),
+        ("random_samples = 4", "draws = 4", ["uncertainty.draws", "unknown key"]),
+        ("[operation]", "[ranges]\n[operation]", ["ranges", "unknown key"]),
+        ("revolutions = 2", "revolutions = 0", ["sources.keys.revolutions = 0", "from 1 to"]),
+        ("revolutions = 2", "turns = 2", ["sources.keys.turns", "unknown key"]),
+        ('"scroll-gas"', '"gas"', ["sources.gas", "kind = gas", "scroll-gas"]),
+        ("[sources.motor]", "[sources.moving_parts]", ["sources.moving_parts", "always there"]),
+        (
+            "[operation]",
+            '[machine.override.kinematics]\norbit_radius_mm = { value = 6.75, source = "thesis" }\n'
+            "[operation]",
+            ["sources.gas", "wraps orbit at 3.461 mm", "6.75 mm", "within 1 %"],
+        ),
+        (
+            "[receivers.front_1m]",
+            '[options.wide]\nkind = "redesign"\n[options.wide.change.kinematics]\n'
+            'orbit_radius_mm = { value = 5.0, source = "test" }\n[receivers.front_1m]',
+            ["options.wide.change", "wraps orbit at 3.461 mm", "5 mm"],
+        ),
+    ],
+)
+def test_bad_settings_are_refused(tmp_path, old, new, words):
+    refused(tmp_path, old, new, words)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("value = 1.1558,", "value = 0.9,", ["machine.toml", "polytropic_index = 0.9"]),
+        ("range = [1.03, 1.16]", "range = [0.9, 1.16]", ["gas.polytropic_index = 0.9", "above 1"]),
+        ("at low speed\", range = [0.4, 0.9]", "at low speed\", range = [0.4, 1.5]",
+         ["restitution_ratio = 1.5", "to 1"]),
+        ("value = 15.0, source = \"assumed: on each", "value = 0.1, source = \"assumed: on each",
+         ["clearance_um = 0.1", "outside its own range"]),
+        ("[rotor]", "[rotors]", ["rotors", "unknown key"]),
+        ("turns = {", "windings = {", ["wraps", "turns"]),
+    ],
+)  # fmt: skip
+def test_bad_values_of_the_sources_are_refused(tmp_path, old, new, words):
+    refused(tmp_path, old, new, words, of_machine=True)
+
+
+def test_machine_without_a_table_cannot_have_its_source(tmp_path):
+    start, stop = MACHINE_TEXT.index("[rotor]"), MACHINE_TEXT.index("[structure]")
+    with pytest.raises(ParameterError, match=r"sources\.torque_ripple.*needs .* table rotor"):
+        load_text(tmp_path, TEXT, MACHINE_TEXT[:start] + MACHINE_TEXT[stop:])
+
+
+def test_motor_needs_its_supply(tmp_path):
+    without = load_text(tmp_path, TEXT.replace("supply_frequency_hz = [50.0]", ""))
+    with pytest.raises(ParameterError, match=r"operation\.supply_frequency_hz: is missing"):
+        run_made_up(without)
+
+
+def test_sources_on_another_machine_are_refused_by_the_command(tmp_path):
+    """One line, exit code 2."""
+    study = tmp_path / "study.toml"
+    other = (ROOT / "pipelines" / "mayekawa_wbhe.toml").read_text(encoding="utf-8")
+    sources = TEXT[TEXT.index("[sources.gas]") : TEXT.index("[radiation]")]
+    text = other.replace("../data", str(ROOT / "data")) + sources
+    study.write_text(text, encoding="utf-8")
+    outcome = command_here("run", study, "--out", tmp_path / "out")
+    assert_refused(outcome, "sources.gas", "needs an Oldham ring")
+
+
+def test_made_up_modes_are_those_of_the_shell(study):
+    """The helper of these tests hands over as many modes as there are."""
+    assert made_up_modes(study).sizes["pattern"] == len(path_of(study).modes) > 4
+
+
+def test_measured_modes_take_the_place_of_the_computed_ones(study, tmp_path):
+    """Computed modes written to a universal file and read back drive and sound the same.
+
+    Between nodes 10 mm apart a mode is interpolated linearly: with n = 2 to 4 around, an arc of
+    10 mm of 83 mm radius sags by (4 · 0.12)²/8 = 3 % at most, with the sign of the motion.
+    """
+    path = path_of(study)
+    modes = path.modes[:6]
+    assert all(mode.around.order <= 4 for mode in modes)
+    body = machine_body(study.machine.shell, study.radiation.body)
+    angle, height = np.meshgrid(np.arange(0.0, 2 * np.pi, 0.12), np.arange(-0.18, 0.22, 0.01))
+    radius = study.machine.shell.radius_m
+    wall = np.stack([radius * np.cos(angle), radius * np.sin(angle), height], -1).reshape(-1, 3)
+    nodes = np.unique(np.concatenate([wall, body.vertices]).round(6), axis=0)
+    numbers = np.arange(1, len(nodes) + 1)
+    sets = [written_nodes(numbers, nodes)]
+    sets += [written_mode(number, mode, numbers, nodes) for number, mode in enumerate(modes, 1)]
+    file = tmp_path / "modes.uff"
+    pyuff.UFF(str(file)).write_sets(sets, "overwrite")
+    settings = MeasuredModes(file=str(file), file_unit_m=1.0)
+    measured = path_of(study.model_copy(update={"shell_modes": settings}))
+    assert measured.natural_hz == pytest.approx(path.natural_hz[:6], rel=1e-5)
+    assert measured.modal_mass_kg == pytest.approx(path.modal_mass_kg[:6], rel=1e-5)
+    largest = np.abs(path.joint_forces[:6, :, :3]).max()
+    assert measured.joint_forces[:, :, :3] == pytest.approx(
+        path.joint_forces[:6, :, :3], abs=0.03 * largest
+    )
+    at = wall[::37] * (1.0 - 1e-9)
+    for mode, read in zip(modes, measured.modes, strict=True):
+        assert read.velocity(at) == pytest.approx(mode.velocity(at), abs=0.03)
+
+
+def written_nodes(numbers, nodes):
+    zeros = np.zeros(len(numbers), int)
+    return pyuff.prepare_15(
+        node_nums=numbers, def_cs=zeros, disp_cs=zeros, color=zeros + 1,
+        x=nodes[:, 0], y=nodes[:, 1], z=nodes[:, 2],
+    )  # fmt: skip
+
+
+def written_mode(number, mode, numbers, nodes):
+    moved = mode.velocity(nodes)
+    return pyuff.prepare_55(
+        model_type=1, id1="shell", analysis_type=2, data_ch=2, spec_data_type=8, data_type=2,
+        n_data_per_node=3, load_case=1, mode_n=number, freq=mode.frequency_hz,
+        modal_m=mode.modal_mass_kg, modal_damp_vis=0.0, modal_damp_his=0.0, node_nums=numbers,
+        r1=moved[:, 0], r2=moved[:, 1], r3=moved[:, 2],
+    )  # fmt: skip
+
+
+# --- over speed ----------------------------------------------------------------------------------
+
+
+def at_speeds_of(study, speeds, supplies):
+    """The study at other speeds, with as many orders as the highest frequency holds."""
+    change = {
+        "speed_rpm": speeds,
+        "supply_frequency_hz": supplies,
+        "maximum_order": None,
+        "stopping": False,
+    }
+    operation = study.operation.model_copy(update=change)
+    return study.model_copy(update={"operation": operation})
+
+
+def test_a_speed_alone_and_in_a_list_agree_with_all_sources(study):
+    """Fewer orders fit below the highest frequency at 3500 rpm: 20, and 24 at 2900 rpm."""
+    both = run_made_up(at_speeds_of(study, (3500.0, 2900.0), (60.0, 50.0)))
+    alone = run_made_up(at_speeds_of(study, (2900.0,), (50.0,)))
+    assert both.sizes["order"] == alone.sizes["order"] == 25
+    for name in ("level_modelled", "level_total", "source_level", "level_total_by_draw"):
+        same = both[name].sel(speed=2900.0)
+        np.testing.assert_allclose(same, alone[name].sel(speed=2900.0), rtol=1e-9, err_msg=name)
+    lines = both["pressure_line"].sel(speed=3500.0).isel(line=slice(21, 25))
+    assert not lines.values.any()
+    assert np.all(np.isnan(both["tone_frequency"].sel(speed=3500.0)[21:25]))

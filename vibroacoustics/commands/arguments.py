@@ -1,0 +1,99 @@
+"""What the command line's words mean, checked."""
+
+import sys
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+from ..base.errors import ParameterError
+from ..study.order_analysis import (
+    NominalSpeed,
+    OrderAnalysis,
+    SpeedChannel,
+    TacholessSpeed,
+)
+
+
+def order_analysis(
+    speed: str | None,
+    pulses: int,
+    index: str | None,
+    rpm: float | None,
+    tacholess: tuple[float, float] | None,
+    orders: str,
+    maximum_order: float,
+    resolution: float,
+    speed_step: float,
+    with_map: bool,
+) -> OrderAnalysis:
+    """Settings of an analysis from the options of `orders`.
+
+    Raises
+    ------
+    ParameterError
+        The speed comes from nowhere or from two places, or the orders are no numbers.
+    """
+    given = [rpm is not None, tacholess is not None, speed is not None and tacholess is None]
+    if sum(given) != 1:
+        raise ParameterError(
+            "speed: give one of --speed CHANNEL, --rpm NUMBER and --tacholess LOWEST HIGHEST"
+        )
+    if (index is not None or pulses != 1) and (rpm is not None or tacholess is not None):
+        raise ParameterError("--index, --pulses: belong to a tacho, --speed CHANNEL")
+    source: SpeedChannel | NominalSpeed | TacholessSpeed
+    if tacholess is not None:
+        source = TacholessSpeed(speed, *tacholess)
+    elif rpm is not None:
+        source = NominalSpeed(rpm)
+    else:
+        source = SpeedChannel(str(speed), pulses, index)
+    return OrderAnalysis(source, _orders(orders), maximum_order, resolution, speed_step, with_map)
+
+
+def _orders(text: str) -> tuple[float, ...]:
+    return tuple(sorted(_number("--orders", part) for part in text.split(",")))
+
+
+def assignments(option: str, texts: Sequence[str] | None) -> dict[str, str]:
+    """`NAME=VALUE` of every text; the last `=` parts name and value.
+
+    Raises
+    ------
+    ParameterError
+        A text has no `=`, or a name comes twice.
+    """
+    found: dict[str, str] = {}
+    for text in texts or ():
+        name, equals, value = text.rpartition("=")
+        if not equals or not name or not value or name in found:
+            raise ParameterError(f"{option} {text!r}: must be NAME=VALUE, each name once")
+        found[name] = value
+    return found
+
+
+def numbers(option: str, texts: Sequence[str] | None) -> dict[str, float]:
+    """`NAME=NUMBER` of every text.
+
+    Raises
+    ------
+    ParameterError
+        See `assignments`; or a value is no number.
+    """
+    return {name: _number(option, value) for name, value in assignments(option, texts).items()}
+
+
+def _number(option: str, text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise ParameterError(f"{option}: {text!r} is no number") from None
+
+
+@contextmanager
+def warnings_in_one_line() -> Iterator[None]:
+    """Tell each warning as one line on stderr."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", UserWarning)
+        yield
+    for warning in caught:
+        print(f"warning: {' '.join(str(warning.message).split())}", file=sys.stderr)

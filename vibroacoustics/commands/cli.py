@@ -1,0 +1,282 @@
+"""The command line: run, radiation, orders, compare, report, score, doctor.
+
+Heavy imports wait until a command needs them.
+"""
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..base.errors import VibroacousticsError
+
+INPUT_ERROR = 2
+
+app = typer.Typer(
+    help="From mechanism to microphone: forces, feet and sound of a compressor.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+)
+
+StudyFile = Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study to run.")]
+Plugins = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--plugin",
+        metavar="FILE.py",
+        help="Python file with options, sources, machines, … of yours; it is run.",
+    ),
+]
+ResultsFile = Annotated[Path, typer.Argument(metavar="RESULTS.nc", help="Results of a run.")]
+
+
+def main() -> None:
+    """Run the command line; an input error is one line on stderr and exit code 2."""
+    try:
+        app()
+    except VibroacousticsError as error:
+        print(f"error: {' '.join(str(error).split())}", file=sys.stderr)
+        sys.exit(INPUT_ERROR)
+    except MemoryError as error:
+        print(f"error: not enough memory: {error}", file=sys.stderr)
+        sys.exit(INPUT_ERROR)
+
+
+@app.command("run")
+def run_command(
+    study_file: StudyFile,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE STUDY."),
+    ] = None,
+    plugin: Plugins = None,
+) -> None:
+    """Run a study and write results.nc, report.html, tables and figures."""
+    from .. import pipeline, report
+    from ..study import loading
+    from . import outputs
+
+    _load(plugin)
+    folder = out or Path("reports") / study_file.stem
+    study = loading.load_study(study_file)
+    outputs.check_folder(folder)
+    with _progress_bar() as progress:
+        results = pipeline.run(study, progress)
+    written = outputs.write_all(results, folder)
+    typer.echo(report.comparison_text(results))
+    typer.echo(f"report: {written}")
+
+
+@app.command("radiation")
+def radiation_command(
+    study_file: StudyFile,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE STUDY."),
+    ] = None,
+    plugin: Plugins = None,
+) -> None:
+    """Compute the housing's radiation alone: transfer vectors, map, directivity, sound power."""
+    from .. import pipeline, report
+    from ..study import loading
+    from . import outputs
+
+    _load(plugin)
+    folder = out or Path("reports") / study_file.stem
+    study = loading.load_study(study_file)
+    outputs.check_folder(folder)
+    with _progress_bar() as progress:
+        radiated = pipeline.radiate(study, progress)
+    written = outputs.write_radiation(radiated, folder)
+    typer.echo(report.radiation_text(radiated))
+    typer.echo(f"transfer vectors: {written}")
+
+
+@app.command("orders")
+def orders_command(
+    recording_file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording.")],
+    speed: Annotated[
+        str | None,
+        typer.Option(
+            help="Channel of the tacho, or of the speed in rpm; with --tacholess, of the signal."
+        ),
+    ] = None,
+    pulses: Annotated[int, typer.Option(help="Pulses of the tacho per revolution.")] = 1,
+    index: Annotated[
+        str | None, typer.Option(help="Channel with one pulse a revolution: crank angle zero.")
+    ] = None,
+    rpm: Annotated[float | None, typer.Option(help="Nominal speed, instead of a channel.")] = None,
+    tacholess: Annotated[
+        tuple[float, float] | None,
+        typer.Option(metavar="LOWEST HIGHEST", help="Find the speed in the signal, rpm."),
+    ] = None,
+    orders: Annotated[str, typer.Option(help="Orders wanted, with commas.")] = "1,2,3,4",
+    maximum_order: Annotated[float, typer.Option(help="Highest order of spectra and map.")] = 20.0,
+    resolution: Annotated[float, typer.Option(help="Coarsest resolution, orders.")] = 0.25,
+    speed_step: Annotated[float, typer.Option(help="Of a run-up's operating points, rpm.")] = 100.0,
+    with_map: Annotated[bool, typer.Option("--map", help="Keep and draw the order map.")] = False,
+    unit: Annotated[
+        list[str] | None, typer.Option(metavar="CHANNEL=UNIT", help="Where the file states none.")
+    ] = None,
+    calibration: Annotated[
+        list[str] | None,
+        typer.Option(metavar="CHANNEL=FACTOR", help="Unit per unit stored in the file."),
+    ] = None,
+    channels: Annotated[str | None, typer.Option(help="Channels to read, with commas.")] = None,
+    sample_rate: Annotated[
+        float | None, typer.Option(help="Actual sample rate, Hz, instead of the file's.")
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE FILE."),
+    ] = None,
+) -> None:
+    """Find the orders of a recording: netCDF, CSV, figures and a table."""
+    from .. import pipeline, recordings, report
+    from . import arguments, outputs
+
+    settings = arguments.order_analysis(
+        speed, pulses, index, rpm, tacholess, orders, maximum_order, resolution, speed_step,
+        with_map,
+    )  # fmt: skip
+    folder = out or Path("reports") / recording_file.stem
+    outputs.check_folder(folder)
+    recording = recordings.read_recording(
+        recording_file,
+        units=arguments.assignments("--unit", unit),
+        calibration=arguments.numbers("--calibration", calibration),
+        channels=None if channels is None else channels.split(","),
+        sample_rate_hz=sample_rate,
+    )
+    with _progress_bar() as progress, arguments.warnings_in_one_line():
+        results = pipeline.analyse_orders(recording, settings, progress)
+        written = outputs.write_orders(results, folder)
+    typer.echo(report.orders_text(results))
+    typer.echo(f"orders: {written}")
+
+
+@app.command("compare")
+def compare_command(
+    first: Annotated[Path, typer.Argument(metavar="A.nc", help="Results of `run` or `orders`.")],
+    second: Annotated[Path, typer.Argument(metavar="B.nc", help="Results to compare with.")],
+    pair: Annotated[
+        list[str] | None,
+        typer.Option(metavar="CHANNEL_OF_A=CHANNEL_OF_B", help="Default: channels of one name."),
+    ] = None,
+    option: Annotated[str, typer.Option(help="Balancing option of a study.")] = "none",
+    tacho_angle: Annotated[
+        float, typer.Option(help="Crank angle of A where B's tacho gives its pulse, degrees.")
+    ] = 0.0,
+    out: Annotated[
+        Path | None, typer.Option("--out", help="Folder of the results; default: that of B.")
+    ] = None,
+) -> None:
+    """Compare two results order by order, in level and phase."""
+    from math import radians
+
+    from .. import report
+    from ..results import order_comparison
+    from . import arguments, outputs
+
+    folder = out or second.parent
+    outputs.check_folder(folder)
+    compared = order_comparison.compare(
+        outputs.open_orders(first),
+        outputs.open_orders(second),
+        arguments.assignments("--pair", pair),
+        option,
+        radians(tacho_angle),
+    )
+    written = outputs.write_comparison(compared, folder)
+    typer.echo(report.comparison_of_orders_text(compared))
+    typer.echo(f"compared orders: {written}")
+
+
+@app.command("report")
+def report_command(
+    results_file: ResultsFile,
+    out: Annotated[
+        Path | None, typer.Option("--out", help="Folder of the report; default: that of the file.")
+    ] = None,
+    plugin: Plugins = None,
+) -> None:
+    """Write the report of results again, without computing anything."""
+    from . import outputs
+
+    _load(plugin)
+    results = outputs.open_run(results_file)
+    typer.echo(f"report: {outputs.write_report(results, out or results_file.parent)}")
+
+
+@app.command("score")
+def score_command(
+    results_file: ResultsFile,
+    scoring_of: Annotated[
+        Path | None,
+        typer.Option("--scoring", metavar="STUDY.toml", help="Take scales and weights from here."),
+    ] = None,
+    plugin: Plugins = None,
+) -> None:
+    """Score the options again and print the ranking."""
+    from .. import scoring
+    from ..study import loading
+    from . import outputs
+
+    _load(plugin)
+    results = outputs.open_run(results_file)
+    settings = loading.load_study(scoring_of).scoring if scoring_of else None
+    typer.echo(scoring.ranking_text(scoring.score(results, settings)))
+
+
+@app.command("doctor")
+def doctor_command() -> None:
+    """Tell versions, memory, FFT, k-Wave and cache, without a network."""
+    from . import doctor
+
+    for line in doctor.findings():
+        typer.echo(line)
+
+
+def _load(plugins: list[Path] | None) -> None:
+    """Take in the files that the user names."""
+    from ..base.plugin_file import load_plugin
+
+    for file in plugins or ():
+        load_plugin(file)
+
+
+@contextmanager
+def _progress_bar() -> Iterator[Callable[[str, int, int], None]]:
+    """A bar with remaining time on stderr; silent where stderr is no terminal."""
+    from rich.console import Console
+    from rich.progress import (
+        BarColumn,
+        Progress,
+        TaskID,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
+
+    console = Console(stderr=True)
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TimeElapsedColumn(),
+        TextColumn("ETA"),
+        TimeRemainingColumn(),
+    )
+    tasks: dict[str, TaskID] = {}
+    with Progress(*columns, console=console, disable=not console.is_terminal) as bar:
+
+        def advance(description: str, done: int, total: int) -> None:
+            if description not in tasks:
+                tasks[description] = bar.add_task(description, total=total)
+            bar.update(tasks[description], completed=done, total=total)
+
+        yield advance

@@ -1,0 +1,60 @@
+"""What this installation is made of and whether it can do the main job. No network."""
+
+import platform
+from collections.abc import Iterator
+
+import numpy as np
+import psutil
+
+from ..base.errors import VibroacousticsError
+from ..orders import FFT_ENGINE, order_spectrum
+from ..results import provenance, storage
+
+
+def findings() -> Iterator[str]:
+    """One line per finding."""
+    yield f"vibroacoustics {provenance.software_version()} ({provenance.git_revision()})"
+    yield f"python {platform.python_version()} on {platform.system()} {platform.machine()}"
+    for name, version in provenance.package_versions().items():
+        yield f"{name} {version}"
+    memory = psutil.virtual_memory()
+    yield f"memory: {memory.available / 2**30:.1f} of {memory.total / 2**30:.1f} GiB available"
+    yield f"cores: {psutil.cpu_count()}"
+    yield f"fft: {_fft()}"
+    yield f"k-wave: {_kwave()}"
+    yield f"recordings: {_recordings()}"
+    yield f"cache: {_cache()}"
+
+
+def _fft() -> str:
+    """Engine of the order spectrum and the error of a known tone."""
+    angle = 2.0 * np.pi * np.arange(256) / 256
+    error = abs(order_spectrum(np.cos(3.0 * angle), 10)[3] - 1.0)
+    return f"{FFT_ENGINE}, error of a unit tone {error:.0e}"
+
+
+def _kwave() -> str:
+    """Whether k-Wave's solver loads, without running its package's import-time download."""
+    from ..radiation import kwave
+
+    try:
+        kwave.check_kwave()
+    except VibroacousticsError as error:
+        return f"not usable: {error}"
+    return "solver loads, without a network"
+
+
+def _recordings() -> str:
+    """Whether the extra `io` is there."""
+    versions = provenance.package_versions()
+    missing = [name for name in provenance.READERS if versions[name] == provenance.NOT_INSTALLED]
+    if missing:
+        return f"no {' and '.join(missing)}; for UFF and TDMS pip install vibroacoustics[io]"
+    return "every format can be read"
+
+
+def _cache() -> str:
+    folder = storage.cache_folder()
+    files = list(folder.glob("*.nc"))
+    size = sum(file.stat().st_size for file in files)
+    return f"{folder}, {len(files)} results, {size / 2**20:.1f} MiB"

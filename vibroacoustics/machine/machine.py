@@ -1,0 +1,145 @@
+"""What every machine has: mass, mounts, shell, noise, the errors of its source document.
+
+Heights are those of the machine's frame: z up, zero at the centre of mass at rest.
+"""
+
+from collections.abc import Mapping
+from typing import Annotated, ClassVar, Final, TypeVar
+
+from pydantic import Field, SerializeAsAny
+
+from ..base.arrays import Array
+from ..base.errors import ParameterError
+from ..base.parameters import AnyOf, KindOfParameters, Parameters
+from ..base.registry import Registry
+from ..mechanics.capabilities import UPRIGHT, Capability, CrankFrame
+from ..mechanics.moving_parts import MovingPart, Revolution
+from .housing import Housing
+from .mounts import Mounts
+from .shell import Shell
+from .suspension import Suspension
+
+PART_MASS = Field(gt=0.0, le=100.0)
+
+
+class OverallNoise(Parameters):
+    """The A-weighted sound pressure level of the whole machine, from a catalogue or assumed."""
+
+    level_dba: float = Field(ge=0.0, le=140.0)
+    speed_rpm: float = Field(ge=60.0, le=60000.0)
+    distance_m: float = Field(ge=0.1, le=20.0)
+
+
+class Erratum(Parameters):
+    """An error in the source document: what is printed, what is right."""
+
+    item: str
+    printed: str
+    finding: str
+
+
+C = TypeVar("C", bound=Capability)
+T = TypeVar("T", bound=Parameters)
+
+
+class Machine(KindOfParameters):
+    """A kind of machine: its parameters, its steady revolution, and the words that fit it only.
+
+    A further kind is a folder of `mechanisms` whose class is registered; it edits no other file.
+    """
+
+    name: str = Field(min_length=1)
+    housing: Housing
+    """What moves on the mounts as one rigid body; moving parts included, a suspended block not."""
+    mounts: Mounts
+    shell: Shell
+    overall_noise: OverallNoise
+    suspension: Suspension | None = None
+    """Springs between the block with the mechanism and the shell; none where both are one."""
+    errata: tuple[Erratum, ...] = ()
+
+    axes: ClassVar[str] = "x, y and z"
+    """What x, y and z are on this machine."""
+    orders: ClassVar[str] = "Orders are multiples of the mean shaft frequency in time."
+    """Where the orders of the force come from."""
+    labels: ClassVar[Mapping[str, str]] = {}
+    """Plain words for its reported figures, where the name does not say it."""
+
+    def revolution(self, speed_rpm: float, samples: int) -> Revolution:
+        """One steady revolution: force and moment of the moving parts by source.
+
+        Parameters
+        ----------
+        speed_rpm : mean over time
+        samples : uniform crank angles
+
+        Raises
+        ------
+        ParameterError, SolverError
+            The machine cannot run so.
+        """
+        raise NotImplementedError
+
+    def moving_parts(self, crank_angle: Array) -> tuple[MovingPart, ...]:
+        """Moving parts whose path is given by the crank angle alone; none where it is not.
+
+        Parameters
+        ----------
+        crank_angle : shape (samples,), rad
+        """
+        return ()
+
+    def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
+        """What the model of this kind leaves out, a sentence or two each."""
+        return ()
+
+    @property
+    def crank_frame(self) -> CrankFrame:
+        """Axes of stroke and shaft."""
+        return UPRIGHT
+
+    @property
+    def capabilities(self) -> tuple[Capability, ...]:
+        """What options can work on."""
+        return ()
+
+    def capability(self, needed: type[C]) -> C | None:
+        """The part of a type that options can work on; none where the machine has none."""
+        return next((part for part in self.capabilities if isinstance(part, needed)), None)
+
+    def table(self, wanted: type[T]) -> T:
+        """The machine's table of a type.
+
+        Raises
+        ------
+        ParameterError
+            The machine has none.
+        """
+        for name in type(self).model_fields:
+            table = getattr(self, name)
+            if isinstance(table, wanted):
+                return table
+        raise ParameterError(f"machine {self.name}: has no table of {wanted.__name__}")
+
+    def has_table(self, wanted: type[Parameters]) -> bool:
+        """Whether the machine has a table of a type."""
+        return any(isinstance(getattr(self, name), wanted) for name in type(self).model_fields)
+
+    def require(self, needed: type[C]) -> C:
+        """The part of a type that options can work on.
+
+        Raises
+        ------
+        ParameterError
+            The machine has none.
+        """
+        part = self.capability(needed)
+        if part is None:
+            raise ParameterError(f"needs {needed.words}; the machine is {self.kind}")
+        return part
+
+
+MACHINES: Final[Registry[type[Machine]]] = Registry(
+    "kind of machine", Machine, "kind", "mechanisms", "vibroacoustics.machines"
+)
+AnyMachine = Annotated[SerializeAsAny[Machine], AnyOf(MACHINES)]

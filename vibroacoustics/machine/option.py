@@ -1,0 +1,69 @@
+"""A balancing option: what its file says, what it does to the machine, and its words."""
+
+from collections.abc import Mapping
+from typing import Annotated, ClassVar, Final
+
+from pydantic import SerializeAsAny
+
+from ..base.arrays import Array
+from ..base.parameters import AnyOf, KindOfParameters
+from ..base.registry import Registry
+from ..mechanics.added import Added, InsertionLoss
+from ..mechanics.capabilities import Capability
+from ..mechanics.moving_parts import Revolution
+from .machine import Machine
+
+Figures = Mapping[str, Array]
+"""Reported figures of an option by name, over the speeds at which it has them."""
+
+
+class Option(KindOfParameters):
+    """One way of balancing or quieting a machine.
+
+    A further one is one file of `balancers`, or of a stranger, whose class is registered: others
+    ask what it adds, never which one it is.
+    """
+
+    needs: ClassVar[type[Capability] | None] = None
+    """What a machine must have for it."""
+    changes_machine: ClassVar[bool] = False
+    """Whether its table `change` gives values of the machine, filled in as the field `machine`."""
+    labels: ClassVar[Mapping[str, str]] = {}
+    """Plain words for its reported figures, where the name does not say it."""
+
+    def applied_to(self, machine: Machine) -> Machine:
+        """The machine as the option leaves it: itself, but for a redesign."""
+        return machine
+
+    def added(self, machine: Machine, revolution: Revolution) -> Added:
+        """What the option adds, among it the figure `added_mass_kg`.
+
+        Parameters
+        ----------
+        machine : as the option leaves it
+        revolution : of it
+
+        Raises
+        ------
+        ParameterError, SolverError
+            It cannot be built so, or finds no steady motion.
+        """
+        raise NotImplementedError
+
+    def insertion_loss(self) -> InsertionLoss | None:
+        """What it takes off the airborne sound; none where nothing."""
+        return None
+
+    def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
+        """What its model leaves out, a sentence or two each."""
+        return ()
+
+    def sentences(self, figures: Figures) -> tuple[str, ...]:
+        """What its reported figures mean, for the report."""
+        return ()
+
+
+OPTIONS: Final[Registry[type[Option]]] = Registry(
+    "kind of option", Option, "kind", "balancers", "vibroacoustics.options"
+)
+AnyOption = Annotated[SerializeAsAny[Option], AnyOf(OPTIONS)]

@@ -1,0 +1,118 @@
+"""A source: who drives the machine, with what it needs of the machine's tables."""
+
+from collections.abc import Callable, Hashable, Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Any, ClassVar, Final, TypeVar
+
+from pydantic import SerializeAsAny
+
+from ..base.parameters import AnyOf, KindOfParameters, Parameters
+from ..base.registry import Registry
+from ..base.units import orders_below, shaft_frequency_hz
+from ..mechanics.added import Added
+from ..mechanics.capabilities import Capability
+from ..mechanics.loads import Loads
+from ..mechanics.moving_parts import Revolution
+from .machine import Machine
+
+Result = TypeVar("Result")
+
+
+@dataclass(frozen=True)
+class Shared:
+    """Results that the cases of one draw share, each computed once."""
+
+    _known: dict[Hashable, Any] = field(default_factory=dict, repr=False)
+
+    def __call__(self, key: Hashable, compute: Callable[[], Result]) -> Result:
+        """The result of a key, computed where it is not known yet."""
+        if key not in self._known:
+            self._known[key] = compute()
+        result: Result = self._known[key]
+        return result
+
+
+@dataclass(frozen=True)
+class Case:
+    """One speed and option, with one set of values.
+
+    Attributes
+    ----------
+    machine : as the option leaves it, with the values of a draw
+    added : by the option
+    revolution : steady, of the machine as given
+    supply_frequency_hz : of the motor; none where the study does not say it
+    maximum_frequency_hz : lines and noise up to here
+    shared : with the other cases of the draw
+    """
+
+    machine: Machine
+    added: Added
+    revolution: Revolution
+    supply_frequency_hz: float | None
+    maximum_frequency_hz: float
+    shared: Shared = field(default_factory=Shared)
+
+    @property
+    def speed_rpm(self) -> float:
+        return self.revolution.speed_rpm
+
+    @property
+    def shaft_frequency_hz(self) -> float:
+        return shaft_frequency_hz(self.revolution.speed_rpm)
+
+    @property
+    def maximum_order(self) -> int:
+        """Highest order up to the highest frequency."""
+        return orders_below(self.maximum_frequency_hz, self.speed_rpm)
+
+
+class Source(KindOfParameters):
+    """Who drives the machine: what a study's table says of it, its loads and its words.
+
+    A further one is one folder of `sources`, or a file of a stranger, whose class is registered.
+    """
+
+    tables: ClassVar[Mapping[str, type[Parameters]]] = {}
+    """Tables of the machine that it reads."""
+    drawn: ClassVar[frozenset[tuple[str, str]]] = frozenset()
+    """Values of these that are drawn from their range, by table and field."""
+    needs: ClassVar[type[Capability] | None] = None
+    """What a machine must have for it beside the tables."""
+    drives_shell: ClassVar[bool] = False
+    """Whether it loads the joints of an elastic shell."""
+    label: ClassVar[str] = ""
+    """Plain words for it; its name in the study where there are none."""
+    labels: ClassVar[Mapping[str, str]] = {}
+    """Plain words for its reported figures, where the name does not say it."""
+
+    @classmethod
+    def why_not(cls, machine: Machine) -> str | None:
+        """Why a machine cannot have this source; None where it can."""
+        if cls.needs is not None and machine.capability(cls.needs) is None:
+            return f"needs {cls.needs.words}; the machine is {machine.kind}"
+        for name, table in cls.tables.items():
+            if not machine.has_table(table):
+                return f"needs the machine's table {name}, which its file does not have"
+        return None
+
+    def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
+        """What the source does in one case.
+
+        Parameters
+        ----------
+        case : speed, machine, option
+        before : loads of the sources of lower position, by name
+
+        Raises
+        ------
+        ParameterError, SolverError
+            The source cannot act so.
+        """
+        raise NotImplementedError
+
+
+SOURCES: Final[Registry[type[Source]]] = Registry(
+    "kind of source", Source, "kind", "sources", "vibroacoustics.sources"
+)
+AnySource = Annotated[SerializeAsAny[Source], AnyOf(SOURCES)]

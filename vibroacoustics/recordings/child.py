@@ -1,0 +1,143 @@
+"""The process that reads one file: its memory and time are limited, and it may crash.
+
+Parsers of binary formats ask for whatever a header claims, and the HDF5 library can crash on a
+damaged file. So every file is read here, never in the process of the user.
+
+On standard output: one line of JSON, then the samples as float64, channel after channel.
+"""
+
+import hashlib
+import json
+import os
+import resource
+import sys
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any, BinaryIO, Final
+
+import numpy as np
+
+from ..base.errors import ParameterError, StorageError, VibroacousticsError
+from . import csv_table, hdf5, mat, tdms, uff, uff_modes, wav
+from .recorded import MAXIMUM_READING_BYTES, MINIMUM_SAMPLES, Recorded, Request, check_size
+
+READERS: Final[dict[str, Callable[[Request], Recorded]]] = {
+    ".wav": wav.read,
+    ".mat": mat.read,
+    ".csv": csv_table.read,
+    ".txt": csv_table.read,
+    ".h5": hdf5.read,
+    ".hdf5": hdf5.read,
+    ".nc": hdf5.read,
+    ".uff": uff.read,
+    ".unv": uff.read,
+    ".tdms": tdms.read,
+}
+"""Reader by the suffix of the file's name."""
+MAXIMUM_CPU_S: Final = 600
+PIECE: Final = 2**17
+"""Samples that are handed over at a time, 1 MiB."""
+
+
+def answer(request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
+    """Header and channels of a file, or the error that the user shall see.
+
+    Parameters
+    ----------
+    request : what to read
+    """
+    try:
+        header, rows = (uff_modes.read if request.modes else _recording)(request)
+        with request.path.open("rb") as file:
+            digest = hashlib.file_digest(file, "sha256").hexdigest()
+    except VibroacousticsError as error:
+        return {"error": type(error).__name__, "message": str(error)}, ()
+    except MemoryError:
+        return _refusal(
+            f"needs more than the {MAXIMUM_READING_BYTES / 2**30:g} GiB of memory that reading "
+            "may take: choose fewer channels or a shorter part"
+        ), ()
+    except ModuleNotFoundError as error:
+        return _refusal(f"needs {error.name}: pip install vibroacoustics[io]"), ()
+    except Exception as error:  # on a damaged file a parser may raise anything
+        return _refusal(f"is damaged or not of this format: {type(error).__name__}: {error}"), ()
+    return {**header, "sha256": digest}, rows
+
+
+def _recording(request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
+    """Header and channels of a recording."""
+    found = _checked(READERS[request.path.suffix.lower()](request))
+    header = {
+        "names": list(found.names),
+        "units": list(found.units),
+        "samples": len(found.samples[0]),
+        "sample_rate_hz": float(found.sample_rate_hz),
+        "start_time": found.start_time,
+        "full_scale": found.full_scale,
+    }
+    return header, found.samples
+
+
+def _refusal(message: str) -> dict[str, Any]:
+    return {"error": StorageError.__name__, "message": message}
+
+
+def _checked(found: Recorded) -> Recorded:
+    """The recording if its channels have a form that can be handed over."""
+    if not found.samples:
+        raise ParameterError("no channel is chosen")
+    for name, samples in zip(found.names, found.samples, strict=True):
+        if samples.ndim != 1 or samples.dtype.kind not in "iuf":
+            raise StorageError(f"channel {name!r}: its samples are no real numbers")
+        if len(samples) < MINIMUM_SAMPLES:
+            raise ParameterError(
+                f"channel {name!r}: has {len(samples)} samples; at least {MINIMUM_SAMPLES} needed"
+            )
+        if len(samples) != len(found.samples[0]):
+            raise ParameterError(
+                f"channel {name!r}: has {len(samples)} samples, {found.names[0]!r} "
+                f"{len(found.samples[0])}: choose channels of the same length"
+            )
+    check_size(len(found.samples), len(found.samples[0]))
+    return found
+
+
+def main() -> None:
+    """Read the file that the arguments name and write it to standard output."""
+    _limit(resource.RLIMIT_AS, MAXIMUM_READING_BYTES)
+    _limit(resource.RLIMIT_CPU, MAXIMUM_CPU_S)
+    _limit(resource.RLIMIT_CORE, 0)
+    output = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
+    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # a parser that prints does no harm
+    asked = json.loads(sys.argv[1])
+    channels = asked["channels"]
+    _write(
+        output,
+        Request(
+            Path(asked["path"]),
+            None if channels is None else tuple(channels),
+            asked["sample_rate_hz"],
+            asked.get("modes", False),
+        ),
+    )
+
+
+def _limit(kind: int, amount: int) -> None:
+    """Lower a limit of this process; one that is already lower stays."""
+    _, hard = resource.getrlimit(kind)
+    allowed = amount if hard == resource.RLIM_INFINITY else min(amount, hard)
+    resource.setrlimit(kind, (allowed, hard))
+
+
+def _write(output: BinaryIO, request: Request) -> None:
+    header, channels = answer(request)
+    with output:
+        output.write(json.dumps(header).encode() + b"\n")
+        for samples in channels:
+            for start in range(0, len(samples), PIECE):
+                piece = np.ascontiguousarray(samples[start : start + PIECE], dtype=float)
+                output.write(piece.data.cast("B"))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,59 @@
+"""Recordings out, for other tools: CSV and WAV as bytes."""
+
+import csv
+import io
+
+import numpy as np
+import xarray as xr
+from scipy.io import wavfile
+
+from ..base.errors import ParameterError
+
+
+def csv_bytes(recording: xr.Dataset) -> bytes:
+    """A table with the header `time [s],name [unit],…`; `read_recording` reads it back exactly.
+
+    Parameters
+    ----------
+    recording : as from `read_recording` or `label_recording`
+    """
+    channels = recording["signal"]
+    units = channels["channel_unit"].values
+    header = [
+        f"{' '.join(str(name).split())} [{unit}]"
+        for name, unit in zip(channels["channel"].values, units, strict=True)
+    ]
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerow(["time [s]", *header])
+    table = np.vstack([channels["time"].values, channels.values]).T
+    for row in table:  # repr is the shortest text that is read back bit by bit
+        text.write(",".join(map(repr, row.tolist())) + "\n")
+    return text.getvalue().encode()
+
+
+def wav_bytes(recording: xr.Dataset) -> bytes:
+    """A WAV file of 64-bit floats that are the SI values themselves.
+
+    A WAV file states neither units nor channel names: `read_recording` needs `units` again.
+
+    Parameters
+    ----------
+    recording : as from `read_recording` or `label_recording`
+
+    Raises
+    ------
+    ParameterError
+        The sample rate is no whole number of Hz, which a WAV file cannot state, or the recording
+        is too long for one.
+    """
+    rate = float(recording.attrs["sample_rate_hz"])
+    if not rate.is_integer():
+        raise ParameterError(
+            f"sample_rate_hz = {rate!r} Hz: a WAV file states whole Hz only; write CSV or netCDF"
+        )
+    content = io.BytesIO()
+    try:
+        wavfile.write(content, int(rate), recording["signal"].values.T)
+    except ValueError as error:
+        raise ParameterError(f"recording cannot be written as WAV: {error}") from None
+    return content.getvalue()

@@ -1,0 +1,106 @@
+"""HDF5 and netCDF: datasets with the attributes `units` and `sample_rate_hz`, or our own form."""
+
+from collections.abc import Mapping
+from functools import partial
+from typing import Any, Final
+
+import numpy as np
+
+from ..base.errors import StorageError
+from .named_arrays import NamedArray, as_text, recorded
+from .recorded import MAXIMUM_READING_BYTES, Recorded, Request, check_size
+
+MAXIMUM_DATASETS: Final = 10_000
+_CLASSIC: Final = b"CDF"
+
+
+def read(request: Request) -> Recorded:
+    """Vectors and tables of numbers anywhere in an HDF5 or netCDF file.
+
+    Raises
+    ------
+    ParameterError
+        There is no channel, no sample rate, or the channels differ in length.
+    StorageError
+        The file is damaged or claims more samples than the cap allows.
+    """
+    with request.path.open("rb") as file:
+        is_classic = file.read(3) == _CLASSIC
+    return _read_classic(request) if is_classic else _read_hdf5(request)
+
+
+def _read_hdf5(request: Request) -> Recorded:
+    import h5py
+
+    with h5py.File(request.path, "r") as file:
+        arrays = [named_dataset(name, found) for name, found in datasets(file)]
+        return recorded(arrays, _plain(file.attrs), request)
+
+
+def datasets(file: Any) -> list[tuple[str, Any]]:
+    """Path and dataset of all that an HDF5 file holds itself; links to others are not followed."""
+    found: list[tuple[str, Any]] = []
+
+    def collect(name: str, item: Any) -> None:
+        if len(found) == MAXIMUM_DATASETS:
+            raise StorageError(f"holds more than {MAXIMUM_DATASETS} datasets")
+        if hasattr(item, "shape"):
+            found.append((name, item))
+
+    file.visititems(collect)
+    return found
+
+
+def named_dataset(name: str, dataset: Any) -> NamedArray:
+    """An HDF5 dataset, whose values are read only if it is stored in full in this file.
+
+    A dataset may claim any shape and store nothing of it: what is not stored would be read as its
+    fill value. One that is stored elsewhere would make the file read another.
+    """
+    shape = tuple(int(side) for side in dataset.shape or ())
+
+    def load() -> Any:
+        check_size(0, int(np.prod(shape, dtype=float)))
+        if dataset.external or dataset.is_virtual:
+            raise StorageError(f"dataset {name!r} is stored in another file: copy it into this one")
+        if dataset.chunks is None and dataset.size and not dataset.id.get_storage_size():
+            raise StorageError(f"dataset {name!r} claims {shape} values and stores none")
+        if dataset.chunks is not None:
+            _check_chunks(name, dataset)
+        return dataset[()]
+
+    return NamedArray(name, shape, dataset.dtype.kind in "iuf", load, _plain(dataset.attrs))
+
+
+def _check_chunks(name: str, dataset: Any) -> None:
+    sides = zip(dataset.shape, dataset.chunks, strict=True)
+    needed = int(np.prod([-(-side // chunk) for side, chunk in sides], dtype=float))
+    stored = dataset.id.get_num_chunks()
+    if stored < needed:
+        raise StorageError(f"dataset {name!r} is incomplete: {stored} of {needed} chunks stored")
+    if np.prod(dataset.chunks, dtype=float) * dataset.dtype.itemsize > MAXIMUM_READING_BYTES:
+        raise StorageError(f"dataset {name!r} has chunks of {dataset.chunks}: too large")
+
+
+def _plain(attributes: Any) -> Mapping[str, Any]:
+    """The attributes that we know; others may be of types that cannot be read."""
+    wanted = ("units", "unit", "sample_rate_hz", "sample_rate", "fs", "Fs", "start_time")
+    return {name: attributes[name] for name in wanted if name in attributes}
+
+
+def _read_classic(request: Request) -> Recorded:
+    """Netcdf up to version 3, which is no HDF5; the file is mapped, so nothing is allocated."""
+    from scipy.io import netcdf_file
+
+    with netcdf_file(request.path, "r", mmap=True, maskandscale=False) as file:
+        arrays = [
+            NamedArray(
+                as_text(name),
+                tuple(variable.data.shape),
+                variable.data.dtype.kind in "iuf",
+                partial(np.array, variable.data),
+                variable._attributes,
+            )
+            for name, variable in file.variables.items()
+        ]
+        return recorded(arrays, file._attributes, request)

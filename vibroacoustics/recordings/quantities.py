@@ -1,0 +1,104 @@
+"""Units that a channel may have. A unit that is not in this list is refused, never guessed."""
+
+import re
+from math import pi
+from typing import Final, NamedTuple
+
+from ..base.constants import STANDARD_GRAVITY_M_PER_S2
+from ..base.errors import ParameterError
+
+
+class Quantity(NamedTuple):
+    """What a channel measures: kind, SI unit of its samples in our form, factor to that unit."""
+
+    kind: str
+    unit: str
+    factor: float
+
+
+QUANTITIES: Final[dict[str, Quantity]] = {
+    "Pa": Quantity("sound pressure", "Pa", 1.0),
+    "mPa": Quantity("sound pressure", "Pa", 1e-3),
+    "µPa": Quantity("sound pressure", "Pa", 1e-6),
+    "m/s²": Quantity("acceleration", "m/s²", 1.0),
+    "mm/s²": Quantity("acceleration", "m/s²", 1e-3),
+    "g": Quantity("acceleration", "m/s²", STANDARD_GRAVITY_M_PER_S2),
+    "m/s": Quantity("velocity", "m/s", 1.0),
+    "mm/s": Quantity("velocity", "m/s", 1e-3),
+    "m": Quantity("displacement", "m", 1.0),
+    "mm": Quantity("displacement", "m", 1e-3),
+    "µm": Quantity("displacement", "m", 1e-6),
+    "N": Quantity("force", "N", 1.0),
+    "kN": Quantity("force", "N", 1e3),
+    "N m": Quantity("moment", "N m", 1.0),
+    "V": Quantity("voltage", "V", 1.0),
+    "mV": Quantity("voltage", "V", 1e-3),
+    "A": Quantity("current", "A", 1.0),
+    "mA": Quantity("current", "A", 1e-3),
+    "rpm": Quantity("speed", "rpm", 1.0),  # the label of a speed, as in units.py
+    "rad/s": Quantity("angular velocity", "rad/s", 1.0),
+    "rad": Quantity("angle", "rad", 1.0),
+    "°": Quantity("angle", "rad", pi / 180.0),
+    "1": Quantity("number", "1", 1.0),
+}
+
+TIME_UNITS: Final = {"s": 1.0, "ms": 1e-3, "µs": 1e-6, "us": 1e-6}
+"""Units of a time axis and their factors to s."""
+
+_SIGNS: Final = str.maketrans(
+    {"²": "2", "⁻": "-", "¹": "1", "μ": "µ", "·": " ", "*": " ", "^": None}
+)
+"""Signs that files write in several ways; `μ` is the Greek letter, `µ` the micro sign."""
+
+_SPELLINGS: Final[dict[str, str]] = {
+    **{unit.translate(_SIGNS): unit for unit in QUANTITIES},
+    **dict.fromkeys(("m s-2", "m/s/s", "m/(s2)"), "m/s²"),
+    "mm s-2": "mm/s²",
+    "m s-1": "m/s",
+    "mm s-1": "mm/s",
+    "uPa": "µPa",
+    "um": "µm",
+    "Nm": "N m",
+    **dict.fromkeys(("RPM", "1/min", "r/min", "min-1"), "rpm"),
+    "rad s-1": "rad/s",
+    **dict.fromkeys(("deg", "degree", "degrees"), "°"),
+    "-": "1",
+}
+
+
+def quantity(unit: str) -> Quantity:
+    """What a unit in a file or from a user means.
+
+    Parameters
+    ----------
+    unit : a unit of QUANTITIES, or another spelling of it: `m/s2`, `m/s^2`, `m s-2` for `m/s²`
+
+    Raises
+    ------
+    ParameterError
+        The unit is not in the list.
+    """
+    known = find_quantity(unit)
+    if known is None:
+        raise ParameterError(f"unit {unit!r} is unknown; known are {', '.join(QUANTITIES)}")
+    return known
+
+
+def find_quantity(unit: str) -> Quantity | None:
+    """What a unit means, or None where it is not in the list."""
+    plain = " ".join(unit.replace("**", "^").translate(_SIGNS).split())
+    return QUANTITIES[_SPELLINGS[plain]] if plain in _SPELLINGS else None
+
+
+def time_factor(unit: str) -> float:
+    """Factor to s of the unit of a time axis; `s since DATE` is s.
+
+    Raises
+    ------
+    ParameterError
+        The unit is not in the list.
+    """
+    plain = re.sub(r"seconds?", "s", unit.split(" since ", maxsplit=1)[0])
+    if plain not in TIME_UNITS:
+        raise ParameterError(f"time has the unit {unit!r}; allowed are {', '.join(TIME_UNITS)}")
+    return TIME_UNITS[plain]

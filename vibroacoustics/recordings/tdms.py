@@ -1,0 +1,81 @@
+"""TDMS of National Instruments, through npTDMS."""
+
+from typing import Any
+
+from ..base.errors import ParameterError, StorageError
+from .recorded import Recorded, Request, check_size, listed
+
+INCREMENT, START, UNIT = "wf_increment", "wf_start_time", "unit_string"
+"""Waveform properties of a channel: sampling interval in s, start, unit."""
+
+
+def read(request: Request) -> Recorded:
+    """Channels of numbers; `group/channel` where the file has several groups.
+
+    Raises
+    ------
+    ParameterError
+        There is no channel, or the chosen ones differ in length or rate.
+    StorageError
+        The file is truncated or too large.
+    """
+    from nptdms import TdmsFile
+
+    with TdmsFile.open(request.path) as file:
+        _check_whole(file)
+        found = [channel for group in file.groups() for channel in group.channels()]
+        found = [channel for channel in found if channel.dtype.kind in "iuf" and len(channel)]
+        has_groups = len({channel.group_name for channel in found}) > 1
+        names = [f"{c.group_name}/{c.name}" if has_groups else c.name for c in found]
+        chosen = request.chosen(names)
+        if not chosen:
+            raise ParameterError("holds no channel of numbers")
+        names, channels = [names[c] for c in chosen], [found[c] for c in chosen]
+        rate = _check_alike(names, channels, request)
+        _check_claims(channels, request)
+        return Recorded(
+            names=names,
+            units=[str(channel.properties.get(UNIT, "")) for channel in channels],
+            samples=[channel[:] for channel in channels],
+            sample_rate_hz=rate,
+            start_time=str(channels[0].properties.get(START, "")),
+        )
+
+
+def _check_whole(file: Any) -> None:
+    """npTDMS reads what there is of the last segment; half a recording is refused here."""
+    status = file.file_status
+    lengths = (status.channel_statuses or {}).values()
+    if status.incomplete_final_segment or any(
+        length.read_length != length.expected_length for length in lengths
+    ):
+        raise StorageError("is truncated: its last segment holds less than it claims")
+
+
+def _check_alike(names: list[str], channels: list[Any], request: Request) -> float:
+    """The sample rate that the channels share; they share their length too."""
+    told, kinds = [], set()
+    for name, channel in zip(names, channels, strict=True):
+        rate = request.sample_rate_hz or _rate_hz(name, channel)
+        kinds.add((len(channel), rate))
+        told.append(f"{name} {len(channel)} samples at {rate:.9g} Hz")
+    if len(kinds) > 1:
+        raise ParameterError(f"channels differ ({listed(told)}): choose some that are alike")
+    return kinds.pop()[1]
+
+
+def _rate_hz(name: str, channel: Any) -> float:
+    increment = channel.properties.get(INCREMENT)
+    if increment is None:
+        raise ParameterError(f"channel {name!r}: has no {INCREMENT}: give sample_rate_hz")
+    if not float(increment) > 0.0:
+        raise ParameterError(f"channel {name!r}: {INCREMENT} is {increment} s, must be above zero")
+    return 1.0 / float(increment)
+
+
+def _check_claims(channels: list[Any], request: Request) -> None:
+    """Refuse more samples than the file has bytes, before anything is allocated."""
+    samples = len(channels[0])
+    check_size(len(channels), samples)
+    if samples > request.path.stat().st_size:
+        raise StorageError(f"claims {samples} samples, more than the file has bytes")

@@ -1,0 +1,277 @@
+"""Orders of one result against those of another: simulated, recorded, or one of each."""
+
+from collections.abc import Mapping
+from itertools import product
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ..base.arrays import Array, ComplexArray
+from ..base.errors import ParameterError
+from ..base.vocabulary import (
+    NO_ANGLE_ZERO,
+    REFERENCE_OPTION,
+    check,
+    label_coordinates,
+    stamp,
+)
+from .provenance import software_attributes
+
+SPEED_TOLERANCE: Final = 0.02
+"""Speeds of the two results that differ by less than this share are the same operating point."""
+NEGLIGIBLE: Final = 1e-9
+"""Of the largest order of the same unit in a result: below, a simulated order is rounding (spectra
+of accelerations are good to about 1e-11), and no recorder has a range of 180 dB."""
+_ORDER_TOLERANCE: Final = 1e-6
+
+
+def compare(
+    first: xr.Dataset,
+    second: xr.Dataset,
+    pairs: Mapping[str, str] | None = None,
+    option: str = REFERENCE_OPTION,
+    tacho_angle_rad: float = 0.0,
+) -> xr.Dataset:
+    """Order by order, in level and phase, at the speeds that both results have.
+
+    Parameters
+    ----------
+    first, second : results of `run` or of `analyse_orders`
+    pairs : channel of the second for each channel of the first; without it, those of one name
+    option : the balancing option of a study that is compared
+    tacho_angle_rad : crank angle of the first result at which the second's tacho gives its pulse
+
+    Returns
+    -------
+    `channel_order` of the first, `compared_order` of the second turned to the first's crank angle,
+    `order_difference` (dB) and `order_phase_difference` (rad, within ±π), each (channel, speed,
+    order), not a number where one of the two has no such order (`NEGLIGIBLE`); no phase difference
+    at all where one has no mark on the shaft as its angle zero, whose peaks then are √2 times the
+    RMS in the orders' bands. `channel_order_coherence` is the
+    lower of the two; coordinates `compared_speed` and `compared_channel`.
+
+    Raises
+    ------
+    ParameterError
+        The results have no channel, unit, order or speed in common, or the angle is not finite.
+    """
+    if not np.isfinite(tacho_angle_rad):
+        raise ParameterError(f"tacho_angle = {tacho_angle_rad:g}: must be a finite angle")
+    ours, theirs = (channel_orders(result, option) for result in (first, second))
+    names = _pairs(ours, theirs, pairs)
+    order = _common_orders(ours, theirs)
+    speeds = _common_speeds(ours, theirs)
+    here = {"channel": list(names), "speed": speeds[:, 0], "order": order}
+    there = {"channel": list(names.values()), "speed": speeds[:, 1], "order": order}
+    reference, other = _at(ours, here), _at(theirs, there)
+    turned = other * np.exp(-1j * order * tacho_angle_rad)
+    known = ~(_negligible(ours, here) | _negligible(theirs, there))
+    with np.errstate(divide="ignore", invalid="ignore"):  # of what is not known
+        level = 20.0 * np.log10(np.abs(turned) / np.abs(reference))
+    has_phase = known & (NO_ANGLE_ZERO not in (_angle_zero(first), _angle_zero(second)))
+    values = {
+        "channel_order": reference,
+        "compared_order": turned,
+        "order_difference": np.where(known, level, np.nan),
+        "order_phase_difference": np.where(has_phase, _phase(turned, reference), np.nan),
+        "channel_order_coherence": np.minimum(_coherence(first, here), _coherence(second, there)),
+    }
+    compared = xr.Dataset(
+        {name: stamp(name, value, here) for name, value in values.items()},
+        coords={
+            "compared_speed": ("speed", speeds[:, 1]),
+            "channel_unit": ("channel", [_units(ours)[name] for name in names]),
+            "compared_channel": ("channel", there["channel"]),
+        },
+    )
+    compared.attrs = _attributes(first, second, option, tacho_angle_rad)
+    return check(label_coordinates(compared))
+
+
+def channel_orders(result: xr.Dataset, option: str = REFERENCE_OPTION) -> xr.DataArray:
+    """Complex peaks (channel, speed, order) of a result with `channel_unit`.
+
+    A study's channels are named by what they are and where: `pressure NAME`, `force x`,
+    `moment x`, `foot force NAME x`; `velocity tx` and `acceleration tx` of the centre of mass.
+
+    Raises
+    ------
+    ParameterError
+        The result holds no orders, or not that option.
+    """
+    if "channel_order" in result:
+        return _recorded(result)
+    if "force_order" not in result:
+        raise ParameterError(f"{_title(result)}: holds no orders; give results of run or orders")
+    options = [str(name) for name in result["option"].values]
+    if option not in options:
+        raise ParameterError(f"option {option!r}: is none of {', '.join(options)}")
+    chosen = result.sel(option=option)
+    parts = [_named(_by_order(chosen, variable), word, unit) for variable, word, unit in _SIMULATED]
+    velocity = chosen["velocity_order"].sum("source")
+    translation = velocity.sel(dof=[name for name in velocity["dof"].values if name[0] == "t"])
+    parts.append(_named(translation, "velocity", "m/s"))
+    pulsation = 2j * np.pi * result["order_frequency"]
+    parts.append(_named(translation * pulsation, "acceleration", "m/s²"))
+    return xr.concat(parts, "channel")
+
+
+def _recorded(result: xr.Dataset) -> xr.DataArray:
+    """Coherent means of a recording; without a mark on the shaft, peaks from the RMS in the bands.
+
+    There the angle drifts against the orders, and their coherent means are too low.
+    """
+    if _angle_zero(result) != NO_ANGLE_ZERO:
+        return result["channel_order"]
+    rms = result["channel_order_rms"]
+    return rms.copy(data=np.sqrt(2.0) * rms.values.astype(complex)).rename("channel_order")
+
+
+_SIMULATED: Final = (
+    ("pressure_line", "pressure", "Pa"),
+    ("force_order", "force", "N"),
+    ("moment_order", "moment", "N m"),
+    ("foot_force_order", "foot force", "N"),
+)
+
+
+def _by_order(study: xr.Dataset, variable: str) -> xr.DataArray:
+    """A variable by shaft order, of all that makes it."""
+    values = study[variable]
+    if "line" not in values.dims:
+        return values.sum("source")
+    lines = values.isel(line=slice(0, study.sizes["order"])).sum("sound_source")  # orders first
+    plain = lines.drop_vars(("line", "line_order", "tone_frequency"))
+    return plain.rename(line="order").assign_coords(order=study["order"])
+
+
+def _named(values: xr.DataArray, word: str, unit: str) -> xr.DataArray:
+    """Values (speed, ..., order) as channels (channel, speed, order)."""
+    places = [dim for dim in values.dims if dim not in ("speed", "order")]
+    names = [" ".join([word, *at]) for at in product(*(values[dim].values for dim in places))]
+    flat = values.transpose(*places, "speed", "order").values
+    coords = {
+        "channel": names,
+        "speed": values["speed"].values,
+        "order": values["order"].values,
+        "channel_unit": ("channel", [unit] * len(names)),
+    }
+    return stamp("channel_order", flat.reshape(len(names), *flat.shape[-2:]), coords)
+
+
+def _pairs(
+    ours: xr.DataArray, theirs: xr.DataArray, pairs: Mapping[str, str] | None
+) -> dict[str, str]:
+    """Channel of the second by that of the first, both there and of one unit."""
+    units, other_units = (_units(result) for result in (ours, theirs))
+    chosen = dict(pairs) if pairs else {name: name for name in units if name in other_units}
+    if not chosen:
+        raise ParameterError(
+            f"no channel has the same name in both: {_listed(units)} against "
+            f"{_listed(other_units)}; pair them"
+        )
+    for name, other in chosen.items():
+        for wanted, there in ((name, units), (other, other_units)):
+            if wanted not in there:
+                raise ParameterError(
+                    f"pair {name}={other}: no channel {wanted!r}; there are {_listed(there)}"
+                )
+        if units[name] != other_units[other]:
+            raise ParameterError(
+                f"pair {name}={other}: units differ, {units[name]} and {other_units[other]}"
+            )
+    return chosen
+
+
+def _units(result: xr.DataArray) -> dict[str, str]:
+    names, units = (map(str, result[name].values) for name in ("channel", "channel_unit"))
+    return dict(zip(names, units, strict=True))
+
+
+def _listed(units: Mapping[str, str]) -> str:
+    return ", ".join(f"{name} [{unit}]" for name, unit in units.items())
+
+
+def _common_orders(ours: xr.DataArray, theirs: xr.DataArray) -> Array:
+    """Orders that both have, without order 0."""
+    order, other = (np.asarray(result["order"].values, dtype=float) for result in (ours, theirs))
+    there = np.abs(order[:, None] - other).min(axis=1) < _ORDER_TOLERANCE
+    common: Array = order[there & (order > 0.0)]
+    if not common.size:
+        raise ParameterError(
+            f"no order in common: {', '.join(map('{:g}'.format, order))} against "
+            f"{', '.join(map('{:g}'.format, other))}"
+        )
+    return common
+
+
+def _common_speeds(ours: xr.DataArray, theirs: xr.DataArray) -> Array:
+    """Pairs of speeds (pair, 2) within the tolerance, each the nearest to the other."""
+    speed, other = (np.asarray(result["speed"].values, dtype=float) for result in (ours, theirs))
+    distance = np.abs(speed[:, None] - other)
+    nearest = distance.argmin(axis=1)
+    mutual = distance.argmin(axis=0)[nearest] == np.arange(speed.size)
+    near = distance[np.arange(speed.size), nearest] <= SPEED_TOLERANCE * speed
+    found: Array = np.stack([speed, other[nearest]], axis=1)[near & mutual]
+    if not found.size:
+        raise ParameterError(
+            f"no speed in common within {100 * SPEED_TOLERANCE:g} %: "
+            f"{', '.join(map('{:.0f}'.format, speed))} against "
+            f"{', '.join(map('{:.0f}'.format, other))} rpm"
+        )
+    return found
+
+
+def _at(result: xr.DataArray, place: Mapping[str, Any]) -> NDArray[Any]:
+    """Values (channel, speed, order) at channels, speeds and orders that the result has."""
+    chosen = result.sel(channel=place["channel"], speed=place["speed"])
+    chosen = chosen.sel(order=place["order"], method="nearest", tolerance=_ORDER_TOLERANCE)
+    return np.asarray(chosen.transpose("channel", "speed", "order").values)
+
+
+def _negligible(result: xr.DataArray, place: Mapping[str, Any]) -> NDArray[np.bool_]:
+    """Where an order is nothing beside the largest with its unit; order 0 does not count."""
+    size = abs(result.where(result["order"] > 0.0, 0.0))
+    largest = size.max(("speed", "order")).groupby("channel_unit").max()
+    own = largest.sel(channel_unit=result["channel_unit"]).drop_vars("channel_unit")
+    least = _at(NEGLIGIBLE * own.broadcast_like(size), place)
+    return np.asarray(_at(size, place) <= least)
+
+
+def _phase(values: ComplexArray, reference: ComplexArray) -> Array:
+    """Phase of the values against the reference, within ±π; 0 exactly for equal ones."""
+    difference = np.angle(values) - np.angle(reference)
+    return np.asarray(difference - 2.0 * np.pi * np.rint(difference / (2.0 * np.pi)))
+
+
+def _coherence(result: xr.Dataset, place: Mapping[str, Any]) -> Array:
+    """Coherence of a recording's orders; 1 for simulated ones."""
+    if "channel_order_coherence" not in result:
+        return np.ones([len(labels) for labels in place.values()])
+    return _at(result["channel_order_coherence"], place)
+
+
+def _angle_zero(result: xr.Dataset) -> str:
+    return str(result.attrs.get("angle_zero", "that of the mechanism"))
+
+
+def _title(result: xr.Dataset) -> str:
+    return str(result.attrs.get("source_file", result.attrs.get("title", "result")))
+
+
+def _attributes(
+    first: xr.Dataset, second: xr.Dataset, option: str, tacho_angle_rad: float
+) -> dict[str, Any]:
+    names = f"A: {_title(first)}", f"B: {_title(second)}"
+    return {
+        **software_attributes(f"compare {names[0]} with {names[1]}"),
+        "title": f"Orders of {names[1]} against {names[0]}",
+        "first": names[0],
+        "second": names[1],
+        "first_angle_zero": _angle_zero(first),
+        "second_angle_zero": _angle_zero(second),
+        "option": option,
+        "tacho_angle_rad": tacho_angle_rad,
+    }

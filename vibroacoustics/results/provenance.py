@@ -1,0 +1,97 @@
+"""Where a result comes from: software, versions, parameters, time."""
+
+import subprocess
+from datetime import UTC, datetime
+from functools import cache
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any, Final
+
+from ..base.hashing import canonical_json, sha256
+from ..base.registry import plugins
+from ..study.study import Study
+
+SCHEMA_VERSION: Final = "2"
+RECORDING_SCHEMA_VERSION: Final = "1"
+"""Of orders of a recording and of compared orders."""
+NOT_INSTALLED: Final = "not installed"
+READERS: Final = ("pyuff", "nptdms")
+"""The extra `io`."""
+PACKAGES: Final = (
+    "numpy",
+    "scipy",
+    "pyfftw",
+    "xarray",
+    "netCDF4",
+    "h5py",
+    "k-wave-python",
+    "pydantic",
+    *READERS,
+)
+
+
+def attributes(study: Study) -> dict[str, Any]:
+    """Global attributes of a result: everything that is needed to make it again."""
+    parameters = canonical_json(study.parameters())
+    return {
+        **software_attributes(f"run {study.source_file}"),
+        "title": study.title,
+        "references": "see the sources in the attribute parameters",
+        "parameters": parameters,
+        "parameters_sha256": sha256(parameters.encode()),
+        "plugins": canonical_json(plugins()),
+        "random_seed": study.scoring.seed,
+    }
+
+
+def software_attributes(command: str, schema_version: str = SCHEMA_VERSION) -> dict[str, Any]:
+    """Global attributes of any result: what made it, and when."""
+    return {
+        "Conventions": "CF-1.11",
+        "history": f"{_now()} vibroacoustics {software_version()}: {command}",
+        "source": f"vibroacoustics {software_version()}",
+        "schema_version": schema_version,
+        "software_version": software_version(),
+        "git_revision": git_revision(),
+        "package_versions": canonical_json(package_versions()),
+        "created_utc": _now(),
+        "phasor_convention": "x(t) = Re{X exp(+j w t)}, X is a complex peak",
+    }
+
+
+def software_version() -> str:
+    """Version of this package."""
+    return version("vibroacoustics")
+
+
+def package_versions() -> dict[str, str]:
+    """Installed versions of the packages that make the numbers."""
+    return {name: _version(name) for name in PACKAGES}
+
+
+@cache
+def git_revision() -> str:
+    """Revision of the source tree, or `unknown` where this file is not tracked by one."""
+    try:
+        _git("ls-files", "--error-unmatch", Path(__file__).name)
+        return _git("describe", "--always", "--dirty", "--abbrev=12")
+    except (OSError, subprocess.SubprocessError):
+        return "unknown"
+
+
+def _git(*arguments: str) -> str:
+    command = ["git", "-C", str(Path(__file__).resolve().parent), *arguments]
+    return subprocess.run(  # noqa: S603 - fixed command
+        command, capture_output=True, text=True, timeout=5, check=True
+    ).stdout.strip()
+
+
+def _version(name: str) -> str:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return NOT_INSTALLED
+
+
+def _now() -> str:
+    return datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")

@@ -1,0 +1,76 @@
+"""How a recording's orders are to be found."""
+
+from dataclasses import dataclass
+
+from ..base.errors import ParameterError
+
+
+@dataclass(frozen=True)
+class SpeedChannel:
+    """A channel tells the speed: in rpm where that is its unit, else by pulses."""
+
+    channel: str
+    pulses_per_revolution: int = 1
+    index_channel: str | None = None
+    """A channel with one pulse a revolution, at which the crank angle is zero."""
+
+
+@dataclass(frozen=True)
+class NominalSpeed:
+    """The speed is told, and taken to be even."""
+
+    speed_rpm: float
+
+    def __post_init__(self) -> None:
+        _check_positive("speed_rpm", self.speed_rpm, "rpm")
+
+
+@dataclass(frozen=True)
+class TacholessSpeed:
+    """The speed is found from the orders in a channel."""
+
+    channel: str | None
+    """None: the recording's only channel."""
+    minimum_rpm: float
+    maximum_rpm: float
+
+    def __post_init__(self) -> None:
+        _check_positive("minimum_rpm", self.minimum_rpm, "rpm")
+        _check_positive("maximum_rpm", self.maximum_rpm, "rpm")
+        if not self.minimum_rpm < self.maximum_rpm:
+            raise ParameterError(
+                f"minimum_rpm = {self.minimum_rpm:g} rpm: must be below maximum_rpm = "
+                f"{self.maximum_rpm:g} rpm"
+            )
+
+
+@dataclass(frozen=True)
+class OrderAnalysis:
+    """Settings of one analysis."""
+
+    speed: SpeedChannel | NominalSpeed | TacholessSpeed
+    orders: tuple[float, ...] = (1.0, 2.0, 3.0, 4.0)
+    """Rising."""
+    maximum_order: float = 20.0
+    """Of spectra and map."""
+    resolution_order: float = 0.25
+    """Coarsest noise bandwidth of a line, orders."""
+    speed_step_rpm: float = 100.0
+    """Of the operating points of a run-up."""
+    with_map: bool = False
+    """Keep the order map of every block."""
+
+    def __post_init__(self) -> None:
+        for order in self.orders:
+            _check_positive("orders", order, "")
+        if not self.orders or sorted(set(self.orders)) != list(self.orders):
+            raise ParameterError(f"orders = {self.orders}: must be at least one, and rise")
+        _check_positive("maximum_order", self.maximum_order, "")
+        _check_positive("resolution_order", self.resolution_order, "")
+        _check_positive("speed_step_rpm", self.speed_step_rpm, "rpm")
+
+
+def _check_positive(name: str, value: float, unit: str) -> None:
+    if not 0.0 < value < float("inf"):
+        shown = f"{value:g} {unit}".rstrip()
+        raise ParameterError(f"{name} = {shown}: must be a number above 0")

@@ -1,0 +1,50 @@
+"""Settings of the radiation step: body, surroundings, grids, frequencies."""
+
+from typing import Literal
+
+from pydantic import Field, model_validator
+
+from ..base.constants import SPEED_OF_SOUND_M_PER_S
+from ..base.parameters import Parameters
+from .body import RadiatingBody, ShellBody
+from .surroundings import Surroundings
+
+
+class RadiationSettings(Parameters):
+    """Grid spacings and frequency range of the near field and of the room."""
+
+    body: RadiatingBody = ShellBody()
+    surroundings: Surroundings = Surroundings()
+    room_solver: Literal["k-wave", "closed-form"] = "k-wave"
+    """How sound travels from the box to the receivers; the closed form is for very many."""
+    near_field_spacing_m: float = Field(default=0.006, ge=0.002, le=0.05)
+    """Cell size of the finer cut-cell grid around the body; the coarser one has 1.5 times it."""
+    room_spacing_m: float = Field(default=0.024, ge=0.005, le=0.1)
+    """Largest node spacing of the k-Wave grid; it shrinks to fit the walls."""
+    maximum_frequency_hz: float = Field(default=4000.0, ge=50.0, le=10000.0)
+    frequency_step_hz: float = Field(default=25.0, ge=1.0, le=100.0)
+    """Spacing of the frequencies at which the transfer vectors are tabulated."""
+
+    @model_validator(mode="after")
+    def _grids_resolve_the_wave(self) -> "RadiationSettings":
+        shortest_wave_m = SPEED_OF_SOUND_M_PER_S / self.maximum_frequency_hz
+        for name, nodes in (("near_field_spacing_m", 8.0), ("room_spacing_m", 3.5)):
+            largest = shortest_wave_m / nodes
+            if getattr(self, name) > largest:
+                raise ValueError(
+                    f"{name.removesuffix('_m')}_mm = {1e3 * getattr(self, name):g} mm: fewer than "
+                    f"{nodes:g} nodes per wavelength at maximum_frequency_hz = "
+                    f"{self.maximum_frequency_hz:g} Hz; allowed up to {1e3 * largest:.4g} mm"
+                )
+        return self
+
+    @model_validator(mode="after")
+    def _panels_are_tight(self) -> "RadiationSettings":
+        cabinet, least = self.surroundings.cabinet, 1.5 * self.near_field_spacing_m
+        if cabinet is not None and cabinet.panel_thickness_m < least * (1.0 - 1e-9):
+            raise ValueError(
+                f"surroundings.cabinet.panel_thickness_mm = {1e3 * cabinet.panel_thickness_m:g} mm:"
+                f" thinner than a cell of the coarser grid, {1e3 * least:g} mm, and sound would "
+                "leak through; take thicker panels or a smaller near_field_spacing_mm"
+            )
+        return self
