@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from support import MACHINE_FILE, PIPELINES, ROOT
 
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.study.loading import MAXIMUM_FILE_BYTES, load_study
+from vibroacoustics.study.loading import load_study
+from vibroacoustics.study.toml_files import MAXIMUM_FILE_BYTES
 
 THESIS = (PIPELINES / "copeland_thesis.toml").read_text(encoding="utf-8")
 MACHINE = MACHINE_FILE.read_text(encoding="utf-8")

@@ -1,0 +1,112 @@
+"""A machine file, with the values that a study or a redesign replaces."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ..base.errors import ParameterError
+from ..base.units import si_key
+from ..machine.machine import MACHINES, Machine
+from ..machine.option import OPTIONS
+from .kinds import of_kind
+from .reader import Reader
+from .study import ParameterRecord
+from .toml_files import leaves, read_toml
+from .wording import validated
+
+
+def read_machine(
+    path: Path, changes: Mapping[tuple[str, ...], Any], study: Reader
+) -> tuple[Machine, Reader]:
+    """The machine of the file with the study's changes; every value of it needs a source.
+
+    Parameters
+    ----------
+    path : machine file
+    changes : tables of values that replace the machine's, one after the other, by their place in
+        the study
+    study : reader of the study
+    """
+    content = read_toml(path)
+    reader = Reader(path, {}, sources_required=True)
+    reader.origin = dict.fromkeys(leaves(content), path)
+    for prefix, change in changes.items():
+        _apply(content, prefix, change, reader, study)
+    model, values = of_kind(MACHINES, reader.to_si(content, ()), f"{path}: machine")
+    return validated(model, values, reader), reader
+
+
+def change_of(option: str) -> tuple[str, ...]:
+    """Keys of the table with which an option changes the machine."""
+    return ("options", option, "change")
+
+
+def take_changes(content: Mapping[str, Any], path: Path) -> list[tuple[str, dict[str, Any]]]:
+    """Take the table `change` out of each option that changes values of the machine."""
+    options = content.get("options")
+    found = []
+    for name, option in (options if isinstance(options, dict) else {}).items():
+        kind = option.get("kind") if isinstance(option, dict) else None
+        if not isinstance(kind, str) or kind not in OPTIONS or not OPTIONS[kind].changes_machine:
+            continue
+        if "machine" in option:  # filled in here, not by a file
+            raise ParameterError(f"{path}: options.{name}.machine: unknown key")
+        if "change" not in option:
+            raise ParameterError(f"{path}: options.{name}.change: is missing")
+        found.append((name, option.pop("change")))
+    return found
+
+
+def read_redesign(
+    path: Path, changes: Mapping[tuple[str, ...], Any], study: Reader
+) -> tuple[Machine, list[ParameterRecord]]:
+    """The changed machine, and the records of the change, which is the last one."""
+    machine, reader = read_machine(path, changes, study)
+    prefix = list(changes)[-1]
+    changed = {".".join(keys) for keys in leaves(changes[prefix])}
+    dotted = ".".join(prefix)
+    return machine, [
+        record.model_copy(update={"field": f"{dotted}.{record.field}"})
+        for record in reader.records
+        if record.field in changed
+    ]
+
+
+def _apply(
+    content: dict[str, Any],
+    prefix: tuple[str, ...],
+    change: Any,
+    reader: Reader,
+    study: Reader,
+) -> None:
+    """Replace values of a machine's content by those of a table of the study."""
+    where = ".".join(prefix)
+    if not isinstance(change, dict):
+        raise ParameterError(f"{study.path}: {where}: must be a table")
+    replaced = set()
+    for keys in leaves(change):
+        quantity = (*keys[:-1], si_key(keys[-1])[0])
+        if quantity in replaced:
+            raise ParameterError(
+                f"{study.path}: {where}.{'.'.join(keys)}: given twice, in two units"
+            )
+        replaced.add(quantity)
+        value = change
+        for key in keys:
+            value = value[key]
+        _override(content, keys, value, f"{study.path}: {where}.{'.'.join(keys)}")
+        reader.origin[keys] = study.origin.get((*prefix, *keys), study.path)
+        reader.overridden[keys] = prefix
+
+
+def _override(content: dict[str, Any], keys: tuple[str, ...], value: Any, where: str) -> None:
+    """Replace one existing value; a key in another unit of the same quantity replaces it too."""
+    table: Any = content
+    for key in keys[:-1]:
+        table = table.get(key) if isinstance(table, dict) else None
+    named = table if isinstance(table, dict) else {}
+    same = [key for key in named if si_key(key)[0] == si_key(keys[-1])[0]]
+    if not same:
+        raise ParameterError(f"{where}: the machine has no such value")
+    del named[same[0]]
+    named[keys[-1]] = value

@@ -1,0 +1,120 @@
+"""Values of one file in SI, with the record of where each comes from."""
+
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Final
+
+from ..base.errors import ParameterError
+from ..base.units import si_key, split_key
+from .study import ParameterRecord
+from .toml_files import is_quantity
+
+QUANTITY_KEYS: Final = {"value", "source", "range"}
+
+
+class Reader:
+    """Turns the values of one file to SI and keeps the record of where each comes from."""
+
+    def __init__(
+        self, path: Path, origin: dict[tuple[str, ...], Path], sources_required: bool = False
+    ) -> None:
+        self.path = path
+        self.origin = origin
+        self.sources_required = sources_required
+        self.overridden: dict[tuple[str, ...], tuple[str, ...]] = {}
+        self.records: list[ParameterRecord] = []
+        self.file_keys: dict[tuple[str, ...], tuple[str, Any]] = {}
+
+    def to_si(self, content: Mapping[str, Any], prefix: tuple[str, ...]) -> dict[str, Any]:
+        """Bare values in SI, by field, of a table under the keys of a prefix."""
+        result: dict[str, Any] = {}
+        for key, value in content.items():
+            keys = (*prefix, key)
+            if isinstance(value, dict) and not is_quantity(value):
+                result[key] = self.to_si(value, keys)
+                continue
+            name, factor = si_key(key)
+            if name in result:
+                raise ParameterError(f"{self.place(keys)}: given twice, in two units")
+            number = self.number(keys, value)
+            self.file_keys[(*prefix, name)] = (key, number)
+            result[name] = _scale(number, factor)
+        return result
+
+    def file(self, keys: tuple[str, ...]) -> Path:
+        """The file that gives the value of these keys."""
+        return self.origin.get(keys, self.path)
+
+    def place(self, keys: tuple[str, ...]) -> str:
+        """File and dotted key as written; a changed machine value stands in the study."""
+        prefix = self.overridden.get(keys, ())
+        dotted = ".".join((*prefix, *keys))
+        return f"{self.file(keys)}: {dotted}" if dotted else f"{self.file(keys)}"
+
+    def number(self, keys: tuple[str, ...], value: Any, unit: str = "") -> Any:
+        """The bare value of a leaf; records its source and checks it against its own range.
+
+        Parameters
+        ----------
+        keys : of the leaf
+        value : number, or table with value, source and range
+        unit : where the key's suffix tells none
+        """
+        where = self.place(keys)
+        if not is_quantity(value):
+            if self.sources_required and is_number(value):
+                raise ParameterError(f"{where} = {value}: needs a source: {{ value, source }}")
+            return tuple(value) if isinstance(value, list) else value
+        unknown = set(value) - QUANTITY_KEYS
+        if unknown:
+            raise ParameterError(f"{where}: unknown key {sorted(unknown)[0]}")
+        source = value.get("source")
+        if not isinstance(source, str) or not source.strip():
+            raise ParameterError(f"{where}: source is missing")
+        number = value["value"]
+        suffix = split_key(keys[-1])[1]
+        symbol = unit or (suffix.symbol if suffix else "")
+        lowest, highest = _limits(where, value.get("range"))
+        if source.startswith("assumed") and lowest is None:
+            raise ParameterError(f"{where}: an assumed value needs a range")
+        if lowest is not None and is_number(number) and not lowest <= number <= highest:
+            raise ParameterError(
+                f"{where} = {number:g} {symbol}: outside its own range {lowest:g} to {highest:g}"
+            )
+        self.records.append(
+            ParameterRecord(
+                file=self.file(keys).name,
+                field=".".join(keys),
+                value=f"{number:g}" if is_number(number) else str(number),
+                unit=symbol,
+                source=source,
+                lowest=lowest,
+                highest=highest,
+            )
+        )
+        return tuple(number) if isinstance(number, list) else number
+
+
+def _limits(where: str, given: Any) -> tuple[float, float] | tuple[None, None]:
+    if given is None:
+        return None, None
+    if not isinstance(given, list) or len(given) != 2 or not all(map(is_number, given)):
+        raise ParameterError(f"{where}: range must be two numbers [lowest, highest]")
+    return float(given[0]), float(given[1])
+
+
+def is_number(value: Any) -> bool:
+    """A finite number that a float can hold; TOML's integers have no limit."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return False
+    return abs(value) <= sys.float_info.max
+
+
+def _scale(value: Any, factor: float) -> Any:
+    """Convert a number or a list of numbers; leave everything else to the validation."""
+    if isinstance(value, tuple):
+        return tuple(_scale(item, factor) for item in value)
+    if factor == 1.0 or not is_number(value):
+        return value
+    return value * factor

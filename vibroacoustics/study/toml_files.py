@@ -1,0 +1,93 @@
+"""TOML files as plain tables: reading, extension of one study by another, origin of values."""
+
+import os
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Final
+
+from ..base.errors import ParameterError
+from ..base.units import si_key
+
+MAXIMUM_FILE_BYTES: Final = 1_000_000
+MAXIMUM_DEPTH: Final = 16
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """Content of a TOML file, refused in one line where it cannot be read."""
+    try:
+        if path.stat().st_size > MAXIMUM_FILE_BYTES:
+            raise ParameterError(f"{path}: larger than {MAXIMUM_FILE_BYTES} bytes")
+        content = tomllib.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise ParameterError(f"{path}: no such file") from None
+    except OSError as error:
+        raise ParameterError(f"{path}: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise ParameterError(f"{path}: is not UTF-8 text") from None
+    except (ValueError, RecursionError) as error:  # TOMLDecodeError is a ValueError
+        raise ParameterError(f"{path}: is not valid TOML: {error}") from None
+    if _deeper_than(content, MAXIMUM_DEPTH):
+        raise ParameterError(f"{path}: tables are nested deeper than {MAXIMUM_DEPTH} levels")
+    return content
+
+
+def _deeper_than(content: Mapping[str, Any], depth: int) -> bool:
+    tables = (value for value in content.values() if isinstance(value, dict))
+    return depth == 0 or any(_deeper_than(table, depth - 1) for table in tables)
+
+
+def read_with_base(path: Path) -> tuple[dict[str, Any], dict[tuple[str, ...], Path]]:
+    """Merge a study over the one it extends; also tell the file that each value comes from."""
+    content = read_toml(path)
+    base_name = content.pop("extends", None)
+    origin = dict.fromkeys(leaves(content), path)
+    if base_name is None:
+        return content, origin
+    if not isinstance(base_name, str):
+        raise ParameterError(f"{path}: extends = {base_name!r}: must be a file name")
+    base_path = beside(path, base_name)
+    base = read_toml(base_path)
+    if "extends" in base:
+        raise ParameterError(f"{base_path}: extends: a study that is extended must stand alone")
+    base_origin = dict.fromkeys(leaves(base), base_path)
+    return _merge(base, content), base_origin | origin
+
+
+def beside(file: Path, name: str) -> Path:
+    """A file named relative to the folder of another."""
+    return Path(os.path.normpath(file.parent / name))
+
+
+def _merge(base: dict[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
+    given = {si_key(key)[0] for key, value in over.items() if not is_table(value)}
+    merged = {  # a value in another unit of the same quantity is replaced too
+        key: value
+        for key, value in base.items()
+        if key in over or is_table(value) or si_key(key)[0] not in given
+    }
+    for key, value in over.items():
+        nested = isinstance(value, dict) and isinstance(merged.get(key), dict)
+        merged[key] = _merge(merged[key], value) if nested and not is_quantity(value) else value
+    return merged
+
+
+def is_quantity(value: Any) -> bool:
+    """Whether a value is a table of value, source and range."""
+    return isinstance(value, dict) and "value" in value
+
+
+def is_table(value: Any) -> bool:
+    """Whether a value is a table of further values."""
+    return isinstance(value, dict) and not is_quantity(value)
+
+
+def leaves(content: Mapping[str, Any], prefix: tuple[str, ...] = ()) -> list[tuple[str, ...]]:
+    """Key paths of all values; a quantity table is one value."""
+    found: list[tuple[str, ...]] = []
+    for key, value in content.items():
+        if isinstance(value, dict) and not is_quantity(value):
+            found += leaves(value, (*prefix, key))
+        else:
+            found.append((*prefix, key))
+    return found
