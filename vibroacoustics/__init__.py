@@ -6,7 +6,8 @@ The public functions take or return one `xarray.Dataset`, so that a notebook nee
 
 A file of a stranger that adds a criterion, a balancing option, a source or a kind of machine
 derives from `Criterion`, `Option`, `Source` or `Machine`, gives its class to `register`, and uses
-`Added`, `Case`, `Loads`, `MovingPart`, `Revolution`, `Wrench`; `load_plugin` takes it in.
+`Added`, `Case`, `Loads`, `MovingPart`, `Revolution`, `Wrench`; one that adds a variable, a
+coordinate or a unit makes a `Variable`, `Coordinate` or `Unit`. `load_plugin` takes it in.
 """
 
 from importlib import import_module
@@ -15,6 +16,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .base.plugin_file import load_plugin
     from .base.registry import register
+    from .base.units import Unit
+    from .base.vocabulary import Coordinate, Variable, check, stamp
     from .commands.outputs import write_report
     from .machine.machine import Machine
     from .machine.option import Option
@@ -33,6 +36,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Added",
     "Case",
+    "Coordinate",
     "Criterion",
     "Loads",
     "Machine",
@@ -40,8 +44,11 @@ __all__ = [
     "Option",
     "Revolution",
     "Source",
+    "Unit",
+    "Variable",
     "Wrench",
     "analyse_orders",
+    "check",
     "compare",
     "label_recording",
     "load_plugin",
@@ -51,12 +58,14 @@ __all__ = [
     "register",
     "run",
     "score",
+    "stamp",
     "write_report",
 ]
 
 _HOME = {
     "Added": "mechanics.added",
     "Case": "machine.source",
+    "Coordinate": "base.vocabulary",
     "Criterion": "study.criterion",
     "Loads": "mechanics.loads",
     "Machine": "machine.machine",
@@ -64,8 +73,11 @@ _HOME = {
     "Option": "machine.option",
     "Revolution": "mechanics.moving_parts",
     "Source": "machine.source",
+    "Unit": "base.units",
+    "Variable": "base.vocabulary",
     "Wrench": "mechanics.moving_parts",
     "analyse_orders": "pipeline",
+    "check": "base.vocabulary",
     "compare": "results.order_comparison",
     "label_recording": "recordings",
     "load_plugin": "base.plugin_file",
@@ -75,6 +87,7 @@ _HOME = {
     "register": "base.registry",
     "run": "pipeline",
     "score": "scoring",
+    "stamp": "base.vocabulary",
     "write_report": "commands.outputs",
 }
 

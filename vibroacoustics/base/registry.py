@@ -1,4 +1,4 @@
-"""Named things that others can add to: options, machines, criteria, sections, columns.
+"""Named things that others can add to: options, machines, criteria, sections, variables, units, …
 
 Built-in things are the modules of the registry's folder: they are imported when a name is first
 looked up, so that a new file edits no other. A stranger's thing comes from an installed package
@@ -96,6 +96,16 @@ class Registry(Generic[Thing]):
         """Things, in the order of the names."""
         return (self._things[name] for name in self)
 
+    def get(self, name: str) -> Thing | None:
+        """The thing of a name; None where there is none."""
+        self._fill()
+        return self._things.get(name)
+
+    def meant(self, name: str, further: Iterable[str] = ()) -> str:
+        """`, did you mean …?` of the name that comes closest; empty where none is close."""
+        close = get_close_matches(name, [*self, *further], n=1)
+        return f", did you mean {close[0]}?" if close else ""
+
     def unknown(self, name: str, further: Iterable[str] = ()) -> str:
         """What a refusal of a name says: names that come close, or all that there are.
 
@@ -105,9 +115,7 @@ class Registry(Generic[Thing]):
         further : names that are allowed beside those of the registry
         """
         allowed = [*self, *sorted(further)]
-        close = get_close_matches(name, allowed, n=1)
-        meant = f", did you mean {close[0]}?" if close else ";"
-        return f"unknown{meant} allowed {', '.join(allowed)}"
+        return f"unknown{self.meant(name, allowed) or ';'} allowed {', '.join(allowed)}"
 
     def origin(self, name: str) -> Origin | None:
         """Where a thing comes from; None for a built-in one."""
@@ -186,7 +194,7 @@ def _loaded(point: metadata.EntryPoint) -> Any:
 
 
 def register(thing: Thing) -> Thing:
-    """Take an option, machine, criterion, section or column in; also a decorator of its class.
+    """Take a thing in, of whichever registry; also a decorator of its class.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Words of machine and options, kept with the results: a report needs neither to be there."""
+"""Words of machine, options and units, kept with the results: a report needs none to be there."""
 
 from typing import Any
 
@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
+from ..base.units import UNITS
 from ..study.study import Study
 from .cases import sources_of
 from .motion import Motion
@@ -38,6 +39,7 @@ def words(study: Study, motion: Motion, results: xr.Dataset) -> dict[str, Any]:
         "labels": labels,
         "shell_bends": study.drives_shell,
         "source_figures": _source_figures(motion),
+        "units": {suffix: UNITS[suffix].symbol for suffix in UNITS.origins()},
         "sources": {name: own.label for name, own in sources_of(study).items() if own.label},
         "sentences": {
             name: list(option.sentences(_figures(results, name))) for name, option in options

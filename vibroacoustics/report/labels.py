@@ -1,10 +1,11 @@
 """Names and units in plain words for the vocabulary's coded labels."""
 
 from collections.abc import Mapping
-from typing import Final
+from typing import Any, Final
 
 from ..base.units import split_key
 
+_NO_WORDS: Final[Mapping[str, Any]] = {}
 _MORE_UNITS: Final = {"nm": "N m", "db": "dB", "w": "W"}
 
 DOF_WORDS: Final = {
@@ -23,29 +24,38 @@ _NAMES: Final = {
 }
 
 
-def name(label: str, of_study: Mapping[str, str] | None = None) -> str:
+def name(label: str, of_study: Mapping[str, Any] = _NO_WORDS) -> str:
     """Plain words for a label such as `added_mass_kg`, without its unit.
 
     Parameters
     ----------
     label : name with its unit
-    of_study : further words, of machine and options
+    of_study : words that the results keep, with `labels` of machine and options
     """
     return (
-        (of_study or {}).get(label)
+        of_study.get("labels", {}).get(label)
         or _NAMES.get(label)
-        or _split(label)[0].replace("_", " ").capitalize()
+        or _split(label, of_study)[0].replace("_", " ").capitalize()
     )
 
 
-def unit(label: str) -> str:
-    """Unit in the suffix of a label; empty where it has none."""
-    return _split(label)[1]
+def unit(label: str, of_study: Mapping[str, Any] = _NO_WORDS) -> str:
+    """Unit in the suffix of a label; empty where it has none.
+
+    Parameters
+    ----------
+    label : name with its unit
+    of_study : words that the results keep, with strangers' `units`
+    """
+    return _split(label, of_study)[1]
 
 
-def _split(label: str) -> tuple[str, str]:
-    stem, _, suffix = label.rpartition("_")
-    if stem and suffix in _MORE_UNITS:
-        return stem, _MORE_UNITS[suffix]
+def _split(label: str, of_study: Mapping[str, Any]) -> tuple[str, str]:
+    units = _MORE_UNITS | of_study.get("units", {})
+    parts = label.split("_")
+    for start in range(1, len(parts)):
+        symbol = units.get("_".join(parts[start:]))
+        if symbol is not None:
+            return "_".join(parts[:start]), symbol
     known, found = split_key(label)
     return known, found.symbol if found else ""

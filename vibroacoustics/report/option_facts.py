@@ -13,15 +13,14 @@ from .tables import Table
 def facts_table(results: xr.Dataset) -> Table | None:
     """One row per figure of the machine or an option, one column per speed; None without any."""
     known = words(results)
-    of_study = known["labels"]
     facts = results["reported_figure"].transpose("option", "figure", "speed")
     kept = [name not in known["source_figures"] for name in facts["figure"].values]
     facts = facts.isel(figure=kept)
     rows = tuple(
         (
             option,
-            labels.name(str(fact), of_study),
-            labels.unit(str(fact)) or "1",
+            labels.name(str(fact), known),
+            labels.unit(str(fact), known) or "1",
             *(rounding.significant(value) for value in values),
         )
         for option in [REFERENCE_OPTION, *balancers(results)]

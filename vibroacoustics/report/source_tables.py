@@ -49,14 +49,17 @@ def change_tables(results: xr.Dataset) -> list[Table]:
 
 def figures_table(results: xr.Dataset) -> Table:
     """Figures of the sources, and those of options that differ from no balancer."""
-    known = words(results)["source_figures"]
-    names = [str(name) for name in results["reported_figure"]["figure"].values if name in known]
+    known = words(results)
+    of_sources = known["source_figures"]
+    names = [
+        str(name) for name in results["reported_figure"]["figure"].values if name in of_sources
+    ]
     cells = {
         (option, name): tuple(map(rounding.significant, key_figure(results, option, name)))
         for option, name in product([REFERENCE_OPTION, *balancers(results)], names)
     }
     rows = tuple(
-        (option, labels.name(name, words(results)["labels"]), labels.unit(name) or "1", *values)
+        (option, labels.name(name, known), labels.unit(name, known) or "1", *values)
         for (option, name), values in cells.items()
         if set(values) != {rounding.NOTHING}
         and (option == REFERENCE_OPTION or values != cells[REFERENCE_OPTION, name])

@@ -4,12 +4,16 @@ import math
 
 import pytest
 
+from vibroacoustics.base.errors import PluginError
+from vibroacoustics.base.registry import register
 from vibroacoustics.base.units import (
     UNITS,
+    Unit,
     shaft_frequency_hz,
     si_key,
     split_key,
 )
+from vibroacoustics.report import labels
 
 
 @pytest.mark.parametrize(
@@ -49,6 +53,42 @@ def test_every_unit_leads_to_an_si_unit_of_factor_one():
         assert UNITS[unit.si_suffix].factor == 1.0
 
 
+def test_a_strangers_unit_is_shown_from_the_words_that_are_kept():
+    kept = {"labels": {"heat_btu": "Heat"}, "units": {"btu": "BTU"}}
+    assert labels.name("lost_heat_btu", kept) == "Lost heat"
+    assert labels.unit("lost_heat_btu", kept) == "BTU"
+    assert labels.name("heat_btu", kept) == "Heat"
+    assert labels.unit("lost_heat_btu") == ""
+
+
 def test_rpm_is_revolutions_per_minute():
     """Not the 314 Hz that a unit library makes of 3000 rpm by way of rad/s."""
     assert shaft_frequency_hz(3000.0) == 50.0
+
+
+@pytest.fixture
+def _registry(monkeypatch):
+    list(UNITS)
+    for name in ("_things", "_origins"):
+        monkeypatch.setattr(UNITS, name, dict(getattr(UNITS, name)))
+
+
+@pytest.mark.usefixtures("_registry")
+def test_a_strangers_unit():
+    register(Unit("inch", "in", "m", 0.0254))
+    assert si_key("stroke_inch") == ("stroke_m", 0.0254)
+    with pytest.raises(PluginError, match="unit mm: is built in"):
+        register(Unit("mm", "mm", "m", 2e-3))
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        (("Inch", "in", "m", 0.0254), "unit 'Inch': must be small letters"),
+        (("inch", "in", "m", 0.0), "unit inch: factor = 0.0: must be above zero"),
+        (("k", "K", "k", 2.0), "unit k: factor = 2.0: is 1 for an SI unit"),
+    ],
+)
+def test_malformed_unit_is_refused(values, message):
+    with pytest.raises(PluginError, match=message):
+        Unit(*values)

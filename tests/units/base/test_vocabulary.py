@@ -4,10 +4,13 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from vibroacoustics.base.errors import SchemaError
+from vibroacoustics.base.errors import PluginError, SchemaError
+from vibroacoustics.base.registry import register
 from vibroacoustics.base.vocabulary import (
     COORDINATES,
     VARIABLES,
+    Coordinate,
+    Variable,
     check,
     label_coordinates,
     stamp,
@@ -105,7 +108,47 @@ def test_every_dim_of_the_vocabulary_is_a_coordinate_of_it():
 
 
 def test_every_variable_is_described():
-    for name, variable in (VARIABLES | COORDINATES).items():
+    for name, variable in (*VARIABLES.items(), *COORDINATES.items()):
         assert variable.long_name, name
         assert variable.long_name.isascii(), name  # netCDF attributes are read by Octave
         assert variable.units.isascii(), name
+
+
+@pytest.fixture
+def _registries(monkeypatch):
+    for registry in (VARIABLES, COORDINATES):
+        list(registry)
+        for name in ("_things", "_origins"):
+            monkeypatch.setattr(registry, name, dict(getattr(registry, name)))
+
+
+@pytest.mark.usefixtures("_registries")
+def test_a_strangers_variable_and_coordinate():
+    register(Coordinate("loudness_band", ("loudness_band",), "Bark", "critical band"))
+    register(Variable("loudness", ("loudness_band",), "sone Bark-1", "specific loudness"))
+    coords = {"loudness_band": [0.5, 1.5]}
+    dataset = check(xr.Dataset({"loudness": stamp("loudness", [1.0, 2.0], coords)}))
+    assert label_coordinates(dataset)["loudness_band"].attrs["units"] == "Bark"
+    assert VARIABLES.origin("loudness").file == "test_vocabulary.py"
+    with pytest.raises(SchemaError, match=r"variable loudnes is not .*, did you mean loudness\?"):
+        stamp("loudnes", [1.0, 2.0])
+
+
+@pytest.mark.usefixtures("_registries")
+@pytest.mark.parametrize("noun", ["variable force", "coordinate speed"])
+def test_name_of_a_built_in_one_is_refused(noun):
+    kind = {"variable": Variable, "coordinate": Coordinate}[noun.split()[0]]
+    with pytest.raises(PluginError, match=f"{noun}: is built in"):
+        register(kind(noun.split()[1], ("speed",), "N", "mine"))
+
+
+@pytest.mark.parametrize(
+    ("dims", "units", "message"),
+    [
+        ("speed", "N", "loudness: dims = 'speed': must be a tuple of names"),
+        (("speed",), "m/s²", "loudness: 'm/s²': must be text in ASCII"),
+    ],
+)
+def test_malformed_variable_is_refused(dims, units, message):
+    with pytest.raises(SchemaError, match=message):
+        Variable("loudness", dims, units, "mine")

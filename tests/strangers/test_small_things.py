@@ -1,0 +1,87 @@
+"""Strangers' sections, columns, variables and units: by file, and as installed packages."""
+
+import re
+from pathlib import Path
+
+import pytest
+from support import ROOT, TINY, assert_refused, tiny_run
+from test_strangers import STRANGERS, command, plugins
+
+from vibroacoustics.results.storage import write_results
+
+ENTRY_POINTS = """[vibroacoustics.sections]
+floor_force = floor_force:SECTION
+[vibroacoustics.columns]
+force_3x_n = third_force:COLUMN
+[vibroacoustics.variables]
+floor_force = floor_force:FLOOR_FORCE
+[vibroacoustics.coordinates]
+side = floor_force:SIDE
+[vibroacoustics.units]
+inch = inches:INCH
+"""
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory) -> Path:
+    """A folder of installed packages: the files, which register nothing, and entry points."""
+    folder = tmp_path_factory.mktemp("site")
+    for name in ("floor_force", "third_force", "inches"):
+        text = (STRANGERS / f"{name}.py").read_text()
+        plain = re.sub(r"(?m)^@?vibroacoustics\.register.*\n", "", text)
+        (folder / f"{name}.py").write_text(plain)
+    information = folder / "strangers-1.2.dist-info"
+    information.mkdir()
+    (information / "METADATA").write_text("Metadata-Version: 2.1\nName: strangers\nVersion: 1.2\n")
+    (information / "entry_points.txt").write_text(ENTRY_POINTS)
+    return folder
+
+
+@pytest.fixture(params=["by file", "installed"])
+def stranger(request, installed, tmp_path):
+    """The command line with the strangers' things."""
+
+    def run(*words: object, names: tuple[str, ...]):
+        if request.param == "installed":
+            return command(tmp_path, *words, path=installed)
+        return command(tmp_path, *words, *plugins(*names))
+
+    return run
+
+
+@pytest.fixture(scope="module")
+def results_file(tmp_path_factory) -> Path:
+    return write_results(tiny_run(), tmp_path_factory.mktemp("results") / "results.nc")
+
+
+def test_section_column_and_variable_are_shown(stranger, results_file, tmp_path):
+    names = ("floor_force", "third_force")
+    outcome = stranger("report", results_file, "--out", tmp_path / "out", names=names)
+    assert outcome.returncode == 0, outcome.stderr
+    page = (tmp_path / "out" / "comparison.md").read_text()
+    assert "is left out:" not in page
+    assert "What the floor gets" in page
+    assert "largest force of a side" in page
+    assert "Force 3×, N" in page
+    csv = (tmp_path / "out" / "comparison.csv").read_text().splitlines()
+    assert csv[0].endswith(",force_3x_n")
+
+
+def test_unit_is_read_and_told(stranger, tmp_path):
+    text = TINY.read_text().replace("../../data", str(ROOT / "data"))
+    option = """[options.weight]
+kind = "counterweight"
+mass_g = { value = 10.0, source = "a test" }
+radius_inch = { value = 400.0, source = "a test" }
+angle_deg = { value = 0.0, source = "a test" }
+height_mm = { value = 0.0, source = "a test" }
+
+[receivers."""
+    study = tmp_path / "study.toml"
+    study.write_text(text.replace("[receivers.", option, 1))
+    without = command(tmp_path, "run", study)
+    assert_refused(without, "options.weight.radius_m: is missing")
+    outcome = stranger("run", study, names=("inches",))
+    assert_refused(
+        outcome, "options.weight.radius_inch = 400.0 in: out of range", "above 0 to 19.685 in"
+    )

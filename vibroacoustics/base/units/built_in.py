@@ -1,0 +1,50 @@
+"""The units that every study may use: one line each."""
+
+from ..registry import register
+from . import Unit
+
+for _unit in (
+    Unit("um", "µm", "m", 1e-6),
+    Unit("mm", "mm", "m", 1e-3),
+    Unit("cm", "cm", "m", 1e-2),
+    Unit("m", "m", "m", 1.0),
+    Unit("m2", "m²", "m2", 1.0),
+    Unit("cm3", "cm³", "m3", 1e-6),
+    Unit("m3", "m³", "m3", 1.0),
+    Unit("g", "g", "kg", 1e-3),
+    Unit("kg", "kg", "kg", 1.0),
+    Unit("kg_m2", "kg m²", "kg_m2", 1.0),
+    Unit("n", "N", "n", 1.0),
+    Unit("n_per_mm", "N/mm", "n_per_m", 1e3),
+    Unit("n_per_m", "N/m", "n_per_m", 1.0),
+    Unit("ns_per_m", "N s/m", "ns_per_m", 1.0),
+    Unit("n_per_m1p5", "N/m^1.5", "n_per_m1p5", 1.0),  # of a Hertz contact
+    Unit("mm_per_s", "mm/s", "m_per_s", 1e-3),
+    Unit("m_per_s", "m/s", "m_per_s", 1.0),
+    Unit("bar", "bar", "pa", 1e5),
+    Unit("gpa", "GPa", "pa", 1e9),
+    Unit("mpa", "MPa", "pa", 1e6),
+    Unit("pa", "Pa", "pa", 1.0),
+    Unit("pa_s", "Pa s", "pa_s", 1.0),
+    Unit("deg", "°", "rad", 0.017453292519943295),
+    Unit("rad", "rad", "rad", 1.0),
+    Unit("rad_per_s", "rad/s", "rad_per_s", 1.0),
+    Unit("ms", "ms", "s", 1e-3),
+    Unit("s", "s", "s", 1.0),
+    Unit("hz", "Hz", "hz", 1.0),
+    Unit("khz", "kHz", "hz", 1e3),
+    Unit("v", "V", "v", 1.0),
+    Unit("ohm", "Ω", "ohm", 1.0),
+    Unit("uf", "µF", "f", 1e-6),
+    Unit("f", "F", "f", 1.0),
+    Unit("kg_per_m3", "kg/m³", "kg_per_m3", 1.0),
+    Unit("n_m", "N m", "n_m", 1.0),
+    Unit("n_m_s", "N m s", "n_m_s", 1.0),
+    Unit("rpm", "rpm", "rpm", 1.0),  # the label of a speed; see shaft_frequency_hz
+    Unit("db", "dB", "db", 1.0),
+    Unit("dba", "dB(A)", "dba", 1.0),
+    Unit("eur", "€", "eur", 1.0),
+    Unit("percent", "%", "ratio", 1e-2),
+    Unit("ratio", "", "ratio", 1.0),
+):
+    register(_unit)

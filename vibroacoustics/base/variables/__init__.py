@@ -1,0 +1,1 @@
+"""The built-in variables of results and their coordinates, by subject."""
