@@ -10,6 +10,7 @@ from .. import levels, radiation
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.errors import ParameterError
 from ..base.hashing import canonical_json
+from ..base.progress import Progress
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import (
     VARIABLES,
@@ -22,7 +23,6 @@ from ..levels import sound_power
 from ..results import provenance, storage
 from ..study.sound_power import SoundPowerSettings
 from ..study.study import Study
-from .progress import Progress
 from .shell import shell_path
 
 Radiation = Callable[[Study, Progress, Sequence[radiation.SurfaceMotion]], tuple[xr.Dataset, bool]]

@@ -13,6 +13,7 @@ from .. import levels, radiation
 from ..base.arrays import Array, ComplexArray
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.errors import ParameterError, SolverError
+from ..base.progress import Progress
 from ..base.vocabulary import (
     REFERENCE_OPTION,
     WEIGHTINGS,
@@ -31,7 +32,6 @@ from ..transfer.sound_path import BendingShell, PressurePerVelocity, SoundPath
 from ..uncertainty.draws import AS_GIVEN, Draw, latin_hypercube, with_draw
 from .cases import At, loads_of, with_values
 from .motion import Motion, at_speeds, motion_of
-from .progress import Progress
 from .radiating import even_losses_db, within
 
 A_FIRST = tuple(sorted(WEIGHTINGS, key=lambda name: name != "A"))

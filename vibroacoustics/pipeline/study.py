@@ -10,11 +10,11 @@ import xarray as xr
 from .. import levels, scoring
 from ..base.errors import ParameterError
 from ..base.hashing import canonical_json
+from ..base.progress import Progress
 from ..base.vocabulary import check, label_coordinates, stamp
 from ..study.study import Study
 from ..transfer import on_mounts
 from .motion import motion_of
-from .progress import Progress
 from .radiating import Radiation, airborne_factor, attributes, sound_field, transfer_vectors
 from .shell import shell_path
 from .sound import levels_of, wrench_pressure

@@ -10,6 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ..base.errors import ParameterError
+from ..base.progress import Progress
 from ..base.vocabulary import RIGID_BODY_DOFS, stamp
 from ..study.sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
 from .arrangements import (
@@ -20,7 +21,7 @@ from .arrangements import (
     reference_box,
     sound_power_points,
 )
-from .arrays import Array, ComplexArray, Progress
+from .arrays import Array, ComplexArray
 from .machine_side import MachineSide, in_threads, outside
 from .scene import Scene
 

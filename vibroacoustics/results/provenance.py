@@ -1,14 +1,18 @@
 """Where a result comes from: software, versions, parameters, time."""
 
 import subprocess
+from dataclasses import asdict
 from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, Final
 
+import xarray as xr
+
 from ..base.hashing import canonical_json, sha256
 from ..base.registry import plugins
+from ..study.order_analysis import OrderAnalysis
 from ..study.study import Study
 
 SCHEMA_VERSION: Final = "2"
@@ -42,6 +46,25 @@ def attributes(study: Study) -> dict[str, Any]:
         "plugins": canonical_json(plugins()),
         "random_seed": study.scoring.seed,
     }
+
+
+def recording_attributes(recording: xr.Dataset, settings: OrderAnalysis) -> dict[str, Any]:
+    """Global attributes of the orders of a recording: its file and the settings."""
+    name = recording_name(recording)
+    kept = ("source_sha256", "start_time", "sample_rate_hz")
+    parameters = asdict(settings) | {"orders": [float(order) for order in settings.orders]}
+    return {
+        **software_attributes(f"orders of {name}", RECORDING_SCHEMA_VERSION),
+        "title": f"Orders of {name}",
+        "source_file": name,
+        **{key: recording.attrs[key] for key in kept if key in recording.attrs},
+        "analysis": canonical_json(parameters),
+    }
+
+
+def recording_name(recording: xr.Dataset) -> str:
+    """File of a recording, or `recording` where it is from none."""
+    return str(recording.attrs.get("source_file", "recording"))
 
 
 def software_attributes(command: str, schema_version: str = SCHEMA_VERSION) -> dict[str, Any]:
