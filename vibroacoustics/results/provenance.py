@@ -10,6 +10,7 @@ from typing import Any, Final
 
 import xarray as xr
 
+from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.hashing import canonical_json, sha256
 from ..base.registry import plugins
 from ..study.order_analysis import OrderAnalysis
@@ -45,6 +46,23 @@ def attributes(study: Study) -> dict[str, Any]:
         "parameters_sha256": sha256(parameters.encode()),
         "plugins": canonical_json(plugins()),
         "random_seed": study.scoring.seed,
+    }
+
+
+def radiation_attributes(study: Study, radiated: xr.Dataset, was_cached: bool) -> dict[str, Any]:
+    """The same, and where the transfer vectors come from.
+
+    Parameters
+    ----------
+    study : of the result
+    radiated : the transfer vectors
+    was_cached : whether they were read, not computed
+    """
+    return {
+        **attributes(study),
+        "reference_pressure_pa": REFERENCE_PRESSURE_PA,
+        "transfer_vectors": "from the cache" if was_cached else "computed in this run",
+        "radiation": canonical_json(radiated.attrs),
     }
 
 
