@@ -16,6 +16,7 @@ import xarray as xr
 
 from vibroacoustics import pipeline
 from vibroacoustics.base.arrays import Array
+from vibroacoustics.base.progress import Progress, no_progress
 from vibroacoustics.base.vocabulary import RIGID_BODY_DOFS, stamp
 from vibroacoustics.commands import cli
 from vibroacoustics.mechanics.added import Added
@@ -24,7 +25,6 @@ from vibroacoustics.mechanics.rotation import Rotation, constant_rotation
 from vibroacoustics.mechanisms.oldham_scroll.ring import oldham_ring
 from vibroacoustics.mechanisms.oldham_scroll.rotating_set import rotating_set
 from vibroacoustics.orders import order_spectrum
-from vibroacoustics.radiation.arrays import Progress, no_progress
 from vibroacoustics.radiation.bodies import Body
 from vibroacoustics.radiation.box import Box, BoxField, closed_box
 from vibroacoustics.radiation.near_field import NearField

@@ -14,6 +14,7 @@ from scipy.special import iv
 from support import CRANK_ANGLE, balancing, turning, wrench_orders
 
 from vibroacoustics.balancers.spring_mass import sprung_mass_response, tuned_mass
+from vibroacoustics.base.progress import no_progress
 from vibroacoustics.levels import a_weighting, sound_pressure_level
 from vibroacoustics.mechanics.moving_parts import (
     MovingPart,
@@ -22,7 +23,6 @@ from vibroacoustics.mechanics.moving_parts import (
     wrench,
 )
 from vibroacoustics.orders import fourier, order_spectrum
-from vibroacoustics.radiation.arrays import no_progress
 from vibroacoustics.radiation.bodies import cylinder
 from vibroacoustics.radiation.machine_side import MachineSide, near_fields
 from vibroacoustics.radiation.patterns import Pattern, rigid_body

@@ -19,7 +19,7 @@ from vibroacoustics.base.vocabulary import (
     stamp,
 )
 from vibroacoustics.commands import cli, outputs
-from vibroacoustics.pipeline.radiating import unit_sound_power
+from vibroacoustics.levels.sound_field import unit_sound_power
 from vibroacoustics.radiation.arrangements import (
     directivity_angles,
     directivity_points,

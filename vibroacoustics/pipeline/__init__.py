@@ -1,7 +1,7 @@
 """The jobs: sole owner of the order of stages."""
 
 from .radiating import radiate
-from .recorded import analyse_orders
+from .recording import analyse_orders
 from .study import run
 
 __all__ = ["analyse_orders", "radiate", "run"]

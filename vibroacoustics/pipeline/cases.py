@@ -5,6 +5,7 @@ from dataclasses import replace
 from itertools import product
 
 from ..base.errors import ParameterError
+from ..base.progress import Progress
 from ..base.vocabulary import REFERENCE_OPTION
 from ..machine.source import Case, Shared, Source
 from ..mechanics.added import Added
@@ -13,7 +14,6 @@ from ..mechanics.moving_parts import Revolution
 from ..sources.moving_parts import MovingParts
 from ..study.study import Study
 from ..uncertainty.draws import Draw, with_draw
-from .progress import Progress
 
 At = tuple[float, str]
 """Speed in rpm and option."""

@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
+from ..base.progress import Progress
 from ..base.vocabulary import (
     AXES,
     REFERENCE_OPTION,
@@ -22,7 +23,6 @@ from ..study.study import Study
 from ..transfer import largest_foot_force_n, on_mounts
 from ..transfer.labelled import housing_variables
 from .cases import At, cases_of, loads_of
-from .progress import Progress
 from .speed_blocks import TIME_SERIES, blocks, check_size, gathered
 
 _TURNING: Final = ("speed", "option", "crank_angle")

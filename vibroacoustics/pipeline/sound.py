@@ -9,10 +9,11 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from .. import levels, radiation
+from .. import levels
 from ..base.arrays import Array, ComplexArray
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.errors import ParameterError, SolverError
+from ..base.progress import Progress
 from ..base.vocabulary import (
     REFERENCE_OPTION,
     WEIGHTINGS,
@@ -20,10 +21,16 @@ from ..base.vocabulary import (
     stamp,
 )
 from ..levels.by_source import NoisePower, SourceSound, source_sound
+from ..levels.insertion_loss import remaining_share
 from ..machine.shell_structure import JOINTS, ShellStructure, ShellVariation
 from ..machine.source import Case
 from ..mechanics.loads import Lines, Loads, lines_of
 from ..radiation.machine_side import processors
+from ..radiation.pressure import (
+    pressure_per_shell_velocity,
+    pressure_per_velocity,
+    wrench_pressure,
+)
 from ..study.study import Study
 from ..transfer import on_mounts
 from ..transfer.path import ShellPath
@@ -31,8 +38,6 @@ from ..transfer.sound_path import BendingShell, PressurePerVelocity, SoundPath
 from ..uncertainty.draws import AS_GIVEN, Draw, latin_hypercube, with_draw
 from .cases import At, loads_of, with_values
 from .motion import Motion, at_speeds, motion_of
-from .progress import Progress
-from .radiating import even_losses_db, within
 
 A_FIRST = tuple(sorted(WEIGHTINGS, key=lambda name: name != "A"))
 """Weightings of the totals."""
@@ -168,7 +173,7 @@ def levels_of(
     draws = latin_hypercube(study.ranges, study.uncertainty)
     sounds = sound_of_draws(listener, cases, draws, progress)
     places = _places(study, motion.results, given, listener.bands)
-    left = 10.0 ** (-np.array(list(even_losses_db(study).values())) / 10.0)
+    left = remaining_share(study.options)
     by_source = {at: own.by_source for at, own in given.items()}
     rest = _remainder(study, by_source, places, bool(draws))
     pressure = _line_pressure(study, places, given)
@@ -289,7 +294,7 @@ def _listener(study: Study, motion: Motion, catalogue: Motion, path: ShellPath |
     return Listener(
         study,
         pressure_per_velocity(results["transfer_vector"]),
-        _of_modes(results) if path else _silent,
+        pressure_per_shell_velocity(results) if path else _silent,
         path,
         {
             **_wrench_pressure(at_catalogue, catalogue.of_wrench),
@@ -299,30 +304,8 @@ def _listener(study: Study, motion: Motion, catalogue: Motion, path: ShellPath |
     )
 
 
-def pressure_per_velocity(vectors: xr.DataArray) -> PressurePerVelocity:
-    """Transfer vectors at any frequencies."""
-
-    def at(frequency_hz: Array) -> ComplexArray:
-        lines = xr.DataArray(frequency_hz, dims="line")
-        return np.asarray(radiation.interpolate_transfer_vector(vectors, lines).values)
-
-    return at
-
-
-def _of_modes(results: xr.Dataset) -> PressurePerVelocity:
-    return pressure_per_velocity(results["pattern_transfer_vector"].rename(pattern="dof"))
-
-
 def _silent(frequency_hz: Array) -> ComplexArray:
     raise SolverError("the shell has no modes")
-
-
-def wrench_pressure(results: xr.Dataset, name: str) -> xr.DataArray:
-    """Pressure of every wrench at every order by the transfer vectors of a name."""
-    tabulated = results[name]
-    vectors = radiation.interpolate_transfer_vector(tabulated, within(results, tabulated))
-    pressure: xr.DataArray = xr.dot(results["velocity_order"], vectors, dim="dof")
-    return pressure
 
 
 def _wrench_pressure(

@@ -8,9 +8,9 @@ import numpy as np
 import xarray as xr
 
 from ..base.errors import ParameterError
+from ..base.progress import Progress
 from ..base.vocabulary import COORDINATES, VARIABLES, WEIGHTINGS
 from ..study.study import Study
-from .progress import Progress
 
 SPEEDS_IN_BLOCK: Final = 50
 MOST_BYTES: Final = 2**31

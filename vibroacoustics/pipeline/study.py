@@ -3,28 +3,27 @@
 study -> moving parts -> orders -> transfer -> radiation -> levels -> scores, one dataset.
 """
 
-from typing import Final
-
 import xarray as xr
 
-from .. import levels, scoring
+from .. import scoring
 from ..base.errors import ParameterError
 from ..base.hashing import canonical_json
-from ..base.vocabulary import check, label_coordinates, stamp
+from ..base.progress import Progress, no_progress
+from ..base.vocabulary import check, label_coordinates
+from ..results import provenance
+from ..stopping.labelled import stopping_variables
 from ..study.study import Study
 from ..transfer import on_mounts
 from .motion import motion_of
-from .progress import Progress
-from .radiating import Radiation, airborne_factor, attributes, sound_field, transfer_vectors
+from .radiating import Radiation, line_difference, sound_field, transfer_vectors
 from .shell import shell_path
-from .sound import levels_of, wrench_pressure
-from .stopping import stopping_sound
+from .sound import levels_of
 from .words import words
 
 
 def run(
     study: Study,
-    progress: Progress = lambda *_: None,
+    progress: Progress = no_progress,
     radiation: Radiation = transfer_vectors,
 ) -> xr.Dataset:
     """Carry a study from the machine's parameters to the scores of its options.
@@ -56,34 +55,15 @@ def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
     radiated, was_cached = radiation(study, progress, () if path is None else path.modes)
     results = motion.results.merge(radiated)
     results = results.merge(sound_field(study, results))
-    results = results.merge(_line_difference(study, results))
+    results = results.merge(line_difference(study, results))
     results = results.merge(levels_of(study, motion.with_results(results), path, progress))
     if study.operation.stopping:
         body = on_mounts(study.machine)
-        results = results.merge(stopping_sound(study, study.machine, body, results))
+        results = results.merge(stopping_variables(study, study.machine, body, results))
     results = results.merge(_scores(study, results))
-    results.attrs = attributes(study, radiated, was_cached)
+    results.attrs = provenance.radiation_attributes(study, radiated, was_cached)
     results.attrs["words"] = canonical_json(words(study, motion, results))
     return check(label_coordinates(results))
-
-
-def _line_difference(study: Study, results: xr.Dataset) -> xr.Dataset:
-    """1x level with k-Wave's Green's function against the closed form; empty without k-Wave."""
-    if "transfer_vector_closed_form" not in results:
-        return xr.Dataset()
-    first = results.sel(order=1)
-    left = airborne_factor(study, results).sel(order=1)
-    both = [
-        levels.sound_pressure_level(
-            (left * wrench_pressure(first, name)).sum("source").transpose(*_CHANGE).values
-        )
-        for name in ("transfer_vector", "transfer_vector_closed_form")
-    ]
-    at = {name: results[name] for name in _CHANGE}
-    return check(xr.Dataset({"line_difference": stamp("line_difference", both[0] - both[1], at)}))
-
-
-_CHANGE: Final = ("speed", "option", "receiver")
 
 
 def _scores(study: Study, results: xr.Dataset) -> xr.Dataset:

@@ -11,7 +11,8 @@ import psutil
 from numpy.typing import NDArray
 
 from ..base.errors import ParameterError
-from .arrays import Array, ComplexArray, Progress
+from ..base.progress import Progress
+from .arrays import Array, ComplexArray
 from .box import BoxField
 from .exact import box_green
 from .join import join

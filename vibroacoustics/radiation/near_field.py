@@ -23,7 +23,8 @@ from numpy.typing import NDArray
 
 from ..base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from ..base.errors import SolverError
-from .arrays import Array, ComplexArray, IndexArray, Progress, no_progress
+from ..base.progress import Progress, no_progress
+from .arrays import Array, ComplexArray, IndexArray
 from .bodies import Body
 from .box import Box, BoxField, closed_box, open_sides
 from .cut_cells import GEOMETRY_BYTES_PER_CELL, CutCells, cut_cells

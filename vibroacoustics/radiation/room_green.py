@@ -17,8 +17,9 @@ import psutil
 
 from ..base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from ..base.errors import ParameterError, SolverError
+from ..base.progress import Progress, no_progress
 from . import kwave
-from .arrays import Array, Progress, no_progress
+from .arrays import Array
 from .band_limited import STENCIL_NODES
 from .box import Box, BoxField
 from .exact import box_green

@@ -10,8 +10,11 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ..base.errors import ParameterError
+from ..base.progress import Progress
+from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import RIGID_BODY_DOFS, stamp
 from ..study.sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
+from ..study.study import Study
 from .arrangements import (
     check_outside,
     directivity_angles,
@@ -20,7 +23,7 @@ from .arrangements import (
     reference_box,
     sound_power_points,
 )
-from .arrays import Array, ComplexArray, Progress
+from .arrays import Array, ComplexArray
 from .machine_side import MachineSide, in_threads, outside
 from .scene import Scene
 
@@ -36,6 +39,13 @@ class SoundField:
     directivity: DirectivitySettings | None = None
     line_frequency_hz: tuple[float, ...] = ()
     """Frequencies of map and directivity."""
+
+    @classmethod
+    def of_study(cls, study: Study) -> "SoundField":
+        """What a study asks for; map and directivity at the first order of its speeds."""
+        drawn = study.map is not None or study.directivity is not None
+        lines = tuple(map(shaft_frequency_hz, study.operation.speed_rpm)) if drawn else ()
+        return cls(study.sound_power, study.map, study.directivity, lines)
 
     def key_material(self) -> dict[str, Any]:
         """Plain data to be hashed."""

@@ -12,6 +12,7 @@ import xarray as xr
 
 from ..base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from ..base.errors import ParameterError
+from ..base.progress import Progress, no_progress
 from ..base.vocabulary import RIGID_BODY_DOFS, check, stamp
 from ..machine.shell import Shell
 from ..study.body import MeshBody
@@ -19,7 +20,7 @@ from ..study.radiation import RadiationSettings
 from ..study.receivers import Receiver
 from . import room_grid
 from .arrangements import check_outside
-from .arrays import Array, ComplexArray, Progress, no_progress
+from .arrays import Array, ComplexArray
 from .box import Box, BoxField
 from .interpolation import interpolate
 from .kwave import kwave_version

@@ -1,14 +1,19 @@
 """Where a result comes from: software, versions, parameters, time."""
 
 import subprocess
+from dataclasses import asdict
 from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, Final
 
+import xarray as xr
+
+from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.hashing import canonical_json, sha256
 from ..base.registry import plugins
+from ..study.order_analysis import OrderAnalysis
 from ..study.study import Study
 
 SCHEMA_VERSION: Final = "2"
@@ -42,6 +47,42 @@ def attributes(study: Study) -> dict[str, Any]:
         "plugins": canonical_json(plugins()),
         "random_seed": study.scoring.seed,
     }
+
+
+def radiation_attributes(study: Study, radiated: xr.Dataset, was_cached: bool) -> dict[str, Any]:
+    """The same, and where the transfer vectors come from.
+
+    Parameters
+    ----------
+    study : of the result
+    radiated : the transfer vectors
+    was_cached : whether they were read, not computed
+    """
+    return {
+        **attributes(study),
+        "reference_pressure_pa": REFERENCE_PRESSURE_PA,
+        "transfer_vectors": "from the cache" if was_cached else "computed in this run",
+        "radiation": canonical_json(radiated.attrs),
+    }
+
+
+def recording_attributes(recording: xr.Dataset, settings: OrderAnalysis) -> dict[str, Any]:
+    """Global attributes of the orders of a recording: its file and the settings."""
+    name = recording_name(recording)
+    kept = ("source_sha256", "start_time", "sample_rate_hz")
+    parameters = asdict(settings) | {"orders": [float(order) for order in settings.orders]}
+    return {
+        **software_attributes(f"orders of {name}", RECORDING_SCHEMA_VERSION),
+        "title": f"Orders of {name}",
+        "source_file": name,
+        **{key: recording.attrs[key] for key in kept if key in recording.attrs},
+        "analysis": canonical_json(parameters),
+    }
+
+
+def recording_name(recording: xr.Dataset) -> str:
+    """File of a recording, or `recording` where it is from none."""
+    return str(recording.attrs.get("source_file", "recording"))
 
 
 def software_attributes(command: str, schema_version: str = SCHEMA_VERSION) -> dict[str, Any]:

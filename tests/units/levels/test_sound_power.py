@@ -7,6 +7,7 @@ from support import PIPELINES
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.vocabulary import stamp
+from vibroacoustics.levels.sound_field import unit_sound_power
 from vibroacoustics.levels.sound_power import (
     background_correction_db,
     box_area_m2,
@@ -17,7 +18,6 @@ from vibroacoustics.levels.sound_power import (
     stand_corrections_db,
     surface_area_m2,
 )
-from vibroacoustics.pipeline.radiating import unit_sound_power
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
 

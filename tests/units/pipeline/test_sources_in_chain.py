@@ -31,7 +31,7 @@ from vibroacoustics.machine.shell_structure import (
 from vibroacoustics.mechanics.added import RingForce
 from vibroacoustics.mechanics.loads import Noise
 from vibroacoustics.pipeline.cases import loads_of
-from vibroacoustics.pipeline.sound import pressure_per_velocity, wrench_pressure
+from vibroacoustics.radiation.pressure import pressure_per_velocity, wrench_pressure
 from vibroacoustics.radiation.scene import machine_body
 from vibroacoustics.sources.joint_loads import key_torque_n_m
 from vibroacoustics.sources.keys import KEY_COMPONENTS, OldhamKeyForces

@@ -7,8 +7,8 @@ import pytest
 from support import PEAK_MEMORY, in_child, radiated
 
 from vibroacoustics.base.errors import ParameterError, SolverError
+from vibroacoustics.base.progress import no_progress
 from vibroacoustics.radiation import near_field
-from vibroacoustics.radiation.arrays import no_progress
 from vibroacoustics.radiation.bodies import Body, cylinder, join_bodies, sphere
 from vibroacoustics.radiation.box import BoxField
 from vibroacoustics.radiation.exact import box_green, sphere_pressure
@@ -240,7 +240,7 @@ def test_predicted_memory_is_what_it_takes(spacing_m, frequencies, patterns):
         os.sched_setaffinity(0, {{min(os.sched_getaffinity(0))}})
         import numpy as np
         from vibroacoustics.radiation import near_field
-        from vibroacoustics.radiation.arrays import no_progress
+        from vibroacoustics.base.progress import no_progress
         from vibroacoustics.radiation.bodies import cylinder
         from vibroacoustics.radiation.machine_side import MachineSide, memory_bytes, near_fields
         from vibroacoustics.radiation.mirrors import floor

@@ -7,8 +7,8 @@ import pytest
 import xarray as xr
 
 from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.base.progress import no_progress
 from vibroacoustics.machine.shell import Shell
-from vibroacoustics.radiation.arrays import no_progress
 from vibroacoustics.radiation.exact import sphere_pressure
 from vibroacoustics.radiation.interpolation import interpolate
 from vibroacoustics.radiation.machine_side import MachineSide, near_fields

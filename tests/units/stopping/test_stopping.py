@@ -13,10 +13,11 @@ from vibroacoustics.machine.housing import Housing
 from vibroacoustics.machine.mounts import Mounts
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.mechanisms.oldham_scroll.revolution import scroll_parts
-from vibroacoustics.pipeline.stopping import MAP_REVOLUTIONS, stopping_sound
 from vibroacoustics.report import render
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.stopping import forces_table, sentences
+from vibroacoustics.stopping.labelled import stopping_variables
+from vibroacoustics.stopping.orders import MAP_REVOLUTIONS
 from vibroacoustics.stopping.paths import inertia_over_angle
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.study import Study
@@ -62,7 +63,7 @@ def stopped(study: Study, **values: float) -> xr.Dataset:
     """The stage alone, with other values of stopping."""
     stopping = study.machine.stopping.model_copy(update=values)
     machine = study.machine.model_copy(update={"stopping": stopping})
-    return stopping_sound(study, machine, body(study), made_up(study))
+    return stopping_variables(study, machine, body(study), made_up(study))
 
 
 def body(study: Study) -> RigidBodyOnMounts:

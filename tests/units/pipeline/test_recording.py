@@ -11,7 +11,7 @@ from support import tiny_run
 from vibroacoustics import analyse_orders, label_recording, read_recording
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.orders import OrderResolutionWarning
-from vibroacoustics.pipeline.recorded_speed import UncertainSpeedWarning
+from vibroacoustics.orders.recorded_speed import UncertainSpeedWarning
 from vibroacoustics.recordings import csv_bytes, wav_bytes
 from vibroacoustics.results import storage
 from vibroacoustics.study.order_analysis import (

@@ -1,18 +1,22 @@
-"""Crank angle of a recording: from a tacho, a speed channel, a told speed or the signal itself."""
+"""Crank angle of a recording: from a tacho, a speed channel, a given speed or the signal."""
 
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import xarray as xr
 
-from .. import orders
 from ..base.errors import ParameterError
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import NO_ANGLE_ZERO
 from ..study.order_analysis import NominalSpeed, SpeedChannel, TacholessSpeed
+from .crank_motion import CrankMotion, constant_speed
+from .pulse_edges import pulse_times
+from .pulse_faults import PulseFault
+from .tacho import rpm_motion, tacho_motion
+from .tacholess import tacholess_motion
 
 SpeedSource = SpeedChannel | NominalSpeed | TacholessSpeed
 
@@ -21,21 +25,30 @@ _LEAST_CONFIDENCE: Final = 0.5
 
 
 class UncertainSpeedWarning(UserWarning):
-    """The speed that was found in a signal need not be that of the shaft."""
+    """The speed that a signal gives need not be that of the shaft."""
 
 
 @dataclass(frozen=True)
 class RecordedSpeed:
-    """Crank motion of a recording and what there is to tell about it."""
+    """Crank motion of a recording and where it comes from."""
 
-    motion: orders.CrankMotion
+    motion: CrankMotion
     source: str
     """Where the speed comes from, in words."""
     angle_zero: str = NO_ANGLE_ZERO
     """The mark on the shaft at which the crank angle is zero."""
-    faults: tuple[orders.PulseFault, ...] = ()
+    faults: tuple[PulseFault, ...] = ()
     quality: Mapping[str, float] = field(default_factory=dict)
     """`jitter` of a tacho in periods, or mean `confidence` without one."""
+
+    def attributes(self) -> dict[str, Any]:
+        """What the results say of the speed."""
+        return {
+            "speed_source": self.source,
+            "angle_zero": self.angle_zero,
+            **self.quality,
+            "tacho_faults": len(self.faults),
+        }
 
 
 def recorded_speed(recording: xr.Dataset, speed: SpeedSource) -> RecordedSpeed:
@@ -49,19 +62,19 @@ def recorded_speed(recording: xr.Dataset, speed: SpeedSource) -> RecordedSpeed:
     Warns
     -----
     UncertainSpeedWarning
-        Other speeds explain the signal as well as the one that was found.
+        Other speeds explain the signal as well as the one that was tracked.
     """
     signal = recording["signal"]
     rate_hz = float(recording.attrs["sample_rate_hz"])
     if isinstance(speed, NominalSpeed):
         end_s = (signal.sizes["time"] - 1) / rate_hz
-        motion = orders.constant_speed(shaft_frequency_hz(speed.speed_rpm), 0.0, end_s)
+        motion = constant_speed(shaft_frequency_hz(speed.speed_rpm), 0.0, end_s)
         return RecordedSpeed(motion, f"nominal {speed.speed_rpm:g} rpm")
     if isinstance(speed, TacholessSpeed):
         return _from_signal(_channel(signal, speed.channel), rate_hz, speed)
     channel = _channel(signal, speed.channel)
     if channel["channel_unit"].item() == "rpm":
-        motion = orders.rpm_motion(channel.values, rate_hz)
+        motion = rpm_motion(channel.values, rate_hz)
         return RecordedSpeed(motion, f"channel {speed.channel}, rpm")
     return _from_pulses(signal, rate_hz, speed)
 
@@ -87,13 +100,13 @@ def channels_without_speed(signal: xr.DataArray, speed: SpeedSource) -> xr.DataA
 
 
 def _from_signal(channel: xr.DataArray, rate_hz: float, speed: TacholessSpeed) -> RecordedSpeed:
-    found = orders.tacholess_motion(
+    tracked = tacholess_motion(
         channel.values,
         rate_hz,
         shaft_frequency_hz(speed.minimum_rpm),
         shaft_frequency_hz(speed.maximum_rpm),
     )
-    confidence = float(np.mean(found.confidence))
+    confidence = float(np.mean(tracked.confidence))
     if confidence < _LEAST_CONFIDENCE:
         warnings.warn(
             f"the speed found is uncertain: mean confidence {confidence:.2f} of 1, as in noise; "
@@ -105,23 +118,25 @@ def _from_signal(channel: xr.DataArray, rate_hz: float, speed: TacholessSpeed) -
         f"from the signal, within {speed.minimum_rpm:g} to {speed.maximum_rpm:g} rpm; "
         f"mean confidence {confidence:.2f} of 1"
     )
-    return RecordedSpeed(found.motion, source, quality={"confidence": confidence})
+    return RecordedSpeed(tracked.motion, source, quality={"confidence": confidence})
 
 
 def _from_pulses(signal: xr.DataArray, rate_hz: float, speed: SpeedChannel) -> RecordedSpeed:
     index = None
     angle_zero = f"pulse of {speed.channel}" if speed.pulses_per_revolution == 1 else NO_ANGLE_ZERO
     if speed.index_channel is not None:
-        index = orders.pulse_times(_channel(signal, speed.index_channel).values, rate_hz)
+        index = pulse_times(_channel(signal, speed.index_channel).values, rate_hz)
         angle_zero = f"pulse of {speed.index_channel}"
-    pulses = orders.pulse_times(_channel(signal, speed.channel).values, rate_hz)
-    found = orders.tacho_motion(pulses, speed.pulses_per_revolution, index)
+    pulses = pulse_times(_channel(signal, speed.channel).values, rate_hz)
+    tracked = tacho_motion(pulses, speed.pulses_per_revolution, index)
     number = speed.pulses_per_revolution
     source = (
         f"tacho {speed.channel}, {number} pulse{'s' if number > 1 else ''} a revolution, "
-        f"jitter {100.0 * found.jitter:.2g} % of a period"
+        f"jitter {100.0 * tracked.jitter:.2g} % of a period"
     )
-    return RecordedSpeed(found.motion, source, angle_zero, found.faults, {"jitter": found.jitter})
+    return RecordedSpeed(
+        tracked.motion, source, angle_zero, tracked.faults, {"jitter": tracked.jitter}
+    )
 
 
 def _channel(signal: xr.DataArray, name: str | None) -> xr.DataArray:

@@ -1,0 +1,64 @@
+"""Run-downs of one machine without a balancer, from any speed."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ..base.arrays import Array
+from ..base.units import shaft_frequency_hz
+from ..machine.machine import Machine
+from ..machine.source import Shared
+from ..machine.stopping import Stopping
+from ..mechanics.moving_parts import MovingPart
+from ..mechanics.rotation import uniform_crank_angle
+from ..sources.gas import gas_cycle
+from .coasting import RunDown, run_down
+
+SHIFTED: Final = ("orbiting_scroll", "brake", "oldham")
+"""The set that the brake lets turn against pin and counterweights (thesis 6.4)."""
+PATH_SAMPLES: Final = 256
+"""Of the moving parts' paths, which are circles and a line."""
+
+
+@dataclass(frozen=True)
+class Stops:
+    """Run-downs of one machine.
+
+    Attributes
+    ----------
+    stopping : inertia, drag, shift
+    parts : moving parts over a revolution
+    gas_torque_n_m : against the rotation over a revolution, shape (samples,)
+    """
+
+    stopping: Stopping
+    parts: Sequence[MovingPart]
+    gas_torque_n_m: Array
+
+    @classmethod
+    def of(cls, machine: Machine) -> "Stops":
+        """Of a machine with gas and a table of stopping."""
+        gas = gas_cycle(machine, Shared())
+        parts = machine.moving_parts(uniform_crank_angle(PATH_SAMPLES))
+        return cls(machine.table(Stopping), parts, gas.torque_n_m)
+
+    def run_down(self, speed_rpm: float, rate_hz: float, steady_revolutions: int) -> RunDown:
+        """From a speed to rest.
+
+        Parameters
+        ----------
+        speed_rpm : before switch-off
+        rate_hz : samples of the result
+        steady_revolutions : before switch-off, at constant speed
+        """
+        return run_down(
+            self.stopping,
+            self.parts,
+            SHIFTED,
+            self.gas_torque_n_m,
+            2.0 * np.pi * shaft_frequency_hz(speed_rpm),
+            rate_hz,
+            steady_revolutions,
+        )
