@@ -24,19 +24,19 @@ from vibroacoustics.results.provenance import SCHEMA_VERSION
 SECTION = """
 from vibroacoustics.base.registry import register
 from vibroacoustics.report.blocks import Bullets, Details, Pictures, Text
-from vibroacoustics.report.figures.style import Picture, draw
+from vibroacoustics.report.figures.style import Picture, draw, png
 from vibroacoustics.report.sections import Section
 from vibroacoustics.report.tables import Table
 
 
 def blocks(results):
     rows = tuple((str(name), "42") for name in results["option"].values)
-    png = draw(1, 1.0, lambda panels: panels[0].plot([0, 1]), 0)
+    image = png(draw(1, 1.0, lambda axes: axes[0].plot([0, 1]), 0))
     return [
         Text("A µ <b>stranger</b> says so.", "note"),
         Bullets(("one|two",)),
         Table("Prices", ("Option", "Price"), rows),
-        Details("More", (Pictures((Picture("../prices", "Prices as a line", "Prices.", png),)),)),
+        Details("More", (Pictures((Picture("../prices", "Prices as a line", "Prices.", image),)),)),
     ]
 
 

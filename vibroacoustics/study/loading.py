@@ -1,6 +1,7 @@
 """TOML to a validated `Study`. Every refusal is one line: file, field, value, unit, range."""
 
 from collections.abc import Mapping
+from copy import deepcopy
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from .published_table import read_published_table
 from .ranges import drawn_values, is_used, ranges_of, tables_used
 from .reader import Reader
 from .study import Study
-from .toml_files import beside, read_with_base
+from .toml_files import Written, beside, read_with_base
 from .wording import validated
 
 
@@ -32,9 +33,19 @@ def load_study(path: str | Path) -> Study:
     ParameterError
         Anything is missing, unknown, of the wrong type or outside its allowed range.
     """
-    path = Path(path)
-    content, origin = read_with_base(path)
-    reader = Reader(path, origin)
+    return study_of(read_with_base(Path(path)))
+
+
+def study_of(written: Written) -> Study:
+    """The study that a file's tables say; see `load_study`.
+
+    Raises
+    ------
+    ParameterError
+        As `load_study`.
+    """
+    path, content = written.path, deepcopy(written.content)
+    reader = Reader(path, written.origin)
     machine_file, overrides = _machine_table(content, reader)
     changes: dict[tuple[str, ...], Any] = {("machine", "override"): overrides}
     machine, machine_reader = read_machine(machine_file, changes, reader)
@@ -60,7 +71,7 @@ def load_study(path: str | Path) -> Study:
     machine_records = [record for record in machine_records if is_used(record, machine, used)]
     content["records"] = (*machine_records, *reader.records)
     content["ranges"] = ranges_of(machine, machine_records, drawn_values(content), machine_reader)
-    return validated(Study, content, reader)
+    return validated(Study, content, reader).remember(written)
 
 
 def load_machine(path: str | Path) -> Machine:

@@ -1,9 +1,11 @@
 """A study: one machine, its operating points, options, microphones and scoring."""
 
+from collections.abc import Mapping
 from typing import Any, Final
 
 from pydantic import Field, field_validator, model_validator
 
+from ..base.errors import ParameterError
 from ..base.parameters import Parameters
 from ..base.units import orders_below, shaft_frequency_hz
 from ..base.vocabulary import REFERENCE_OPTION
@@ -17,6 +19,7 @@ from .receivers import Receiver
 from .scoring import Scoring, check_given, check_scales
 from .sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
 from .speeds import MOST_SPEEDS, speed_range
+from .toml_files import Written
 from .uncertainty import MeasuredModes, Range, Uncertainty
 
 MOST_SPEEDS_WITH_TIME_SERIES: Final = 100
@@ -87,6 +90,21 @@ class ParameterRecord(Parameters):
 
 
 class Study(Parameters):
+    """One machine, its operating points, options, microphones and scoring: what `run` computes.
+
+    From `load_study`; frozen, in SI units, with the unit in the name of each value.
+
+    Examples
+    --------
+    >>> study = va.load_study("pipelines/copeland_thesis.toml")
+    >>> study.operation.speed_rpm
+    (2900.0, 3500.0)
+    >>> study.replace({"operation.speed_rpm": [2900.0]}).operation.speed_rpm
+    (2900.0,)
+    """
+
+    __slots__ = ("_written",)
+
     title: str = Field(min_length=1)
     machine: AnyMachine
     operation: Operation
@@ -223,6 +241,50 @@ class Study(Parameters):
                     f"options.{name}.change.{table}: all options radiate from one shell and share "
                     "one overall noise; make a study of its own"
                 )
+
+    def replace(self, values: Mapping[str, Any]) -> "Study":
+        """The study with other values, validated as a study file is validated.
+
+        Parameters
+        ----------
+        values : value by dotted key, as a study file writes it: with the unit in the key, which
+            need not be the one of the file; a table in place of a value is merged into the study's;
+            None takes a value or a table out. `machine.` leads to the machine's values: a number,
+            or `{"value": …, "source": …, "range": […]}`
+
+        Raises
+        ------
+        ParameterError
+            As `load_study`; or the study was not read from a file, or changed by `model_copy`.
+
+        Examples
+        --------
+        >>> study = va.load_study("pipelines/copeland_thesis.toml")
+        >>> changed = study.replace({
+        ...     "operation.speed_rpm": [2900.0],
+        ...     "options.pendulum-side.length_mm": 30.0,
+        ...     "options.twin-oldham": None,
+        ...     "machine.mounts.vertical_stiffness_n_per_mm": 40.0,
+        ... })
+        >>> changed.options["pendulum-side"].length_m
+        0.03
+        >>> study.replace({"operation.speed_rpm": [10.0]})
+        Traceback (most recent call last):
+            ...
+        vibroacoustics.base.errors.ParameterError: ...speed_rpm = 10 rpm: allowed 60 to 60000 rpm
+        """
+        from .loading import study_of
+        from .replacing import replaced
+
+        written = getattr(self, "_written", None)
+        if written is None:
+            raise ParameterError("study: was not read by load_study; load it, then replace values")
+        return study_of(replaced(written, values))
+
+    def remember(self, written: Written) -> "Study":
+        """The study itself, which remembers what its file says; copies do not."""
+        object.__setattr__(self, "_written", written)
+        return self
 
     def parameters(self) -> dict[str, Any]:
         """All parameters as plain JSON values."""

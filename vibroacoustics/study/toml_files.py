@@ -4,13 +4,28 @@ import os
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from ..base.errors import ParameterError
 from ..base.units import si_key
 
 MAXIMUM_FILE_BYTES: Final = 1_000_000
 MAXIMUM_DEPTH: Final = 16
+
+
+class Written(NamedTuple):
+    """What a study's file says, with that of the study it extends.
+
+    Attributes
+    ----------
+    path : of the file
+    content : its tables
+    origin : file that each value comes from, by its keys
+    """
+
+    path: Path
+    content: dict[str, Any]
+    origin: dict[tuple[str, ...], Path]
 
 
 def read_toml(path: Path) -> dict[str, Any]:
@@ -37,13 +52,13 @@ def _deeper_than(content: Mapping[str, Any], depth: int) -> bool:
     return depth == 0 or any(_deeper_than(table, depth - 1) for table in tables)
 
 
-def read_with_base(path: Path) -> tuple[dict[str, Any], dict[tuple[str, ...], Path]]:
+def read_with_base(path: Path) -> Written:
     """Merge a study over the one it extends; also tell the file that each value comes from."""
     content = read_toml(path)
     base_name = content.pop("extends", None)
     origin = dict.fromkeys(leaves(content), path)
     if base_name is None:
-        return content, origin
+        return Written(path, content, origin)
     if not isinstance(base_name, str):
         raise ParameterError(f"{path}: extends = {base_name!r}: must be a file name")
     base_path = beside(path, base_name)
@@ -51,7 +66,7 @@ def read_with_base(path: Path) -> tuple[dict[str, Any], dict[tuple[str, ...], Pa
     if "extends" in base:
         raise ParameterError(f"{base_path}: extends: a study that is extended must stand alone")
     base_origin = dict.fromkeys(leaves(base), base_path)
-    return _merge(base, content), base_origin | origin
+    return Written(path, merge(base, content), base_origin | origin)
 
 
 def beside(file: Path, name: str) -> Path:
@@ -59,7 +74,8 @@ def beside(file: Path, name: str) -> Path:
     return Path(os.path.normpath(file.parent / name))
 
 
-def _merge(base: dict[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
+def merge(base: Mapping[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
+    """Tables with the values of others in place of their own."""
     given = {si_key(key)[0] for key, value in over.items() if not is_table(value)}
     merged = {  # a value in another unit of the same quantity is replaced too
         key: value
@@ -68,7 +84,7 @@ def _merge(base: dict[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
     }
     for key, value in over.items():
         nested = isinstance(value, dict) and isinstance(merged.get(key), dict)
-        merged[key] = _merge(merged[key], value) if nested and not is_quantity(value) else value
+        merged[key] = merge(merged[key], value) if nested and not is_quantity(value) else value
     return merged
 
 

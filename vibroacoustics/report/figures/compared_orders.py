@@ -6,13 +6,16 @@ from typing import Final
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
+from .needs import chosen, needs
 from .style import (
     COLOURS,
     Picture,
     draw,
     legend_below,
     numbered_file_name,
+    png,
     shortened,
     whole_number_ticks,
 )
@@ -28,17 +31,37 @@ def compared_order_figures(compared: xr.Dataset) -> list[Picture]:
     Channels without an order that both results have are left out.
     """
     return [
-        _picture(compared.sel(channel=name), numbered_file_name(number, str(name)))
+        _picture(compared, str(name), numbered_file_name(number, str(name)))
         for number, name in enumerate(compared["channel"].values, 1)
         if np.isfinite(compared["order_difference"].sel(channel=name)).any()
     ]
 
 
-def _picture(own: xr.Dataset, name: str) -> Picture:
+@needs("order_difference", "compared_order", from_="`compare`")
+def compared_orders(compared: xr.Dataset, channel: str | None = None) -> Figure:
+    """Orders of a channel in both results, peak: a panel a speed or, of a run-up, an order.
+
+    Parameters
+    ----------
+    compared : of `compare`; needs `channel_order` and `compared_order`
+        (channel, speed, order), in the channel's unit
+    channel : one of the dataset's channels; default: the first
+
+    Raises
+    ------
+    ParameterError
+        The dataset holds none, or there is no such channel.
+
+    Examples
+    --------
+    >>> compared = va.open_results("compared_orders.nc")
+    >>> va.plot.compared_orders(compared).savefig("compared_orders.png")
+    """
+    own = compared.sel(channel=chosen(compared, "channel", channel))
     by_speed = own.sizes["speed"] <= _MOST_PANELS
     across, within = ("speed", "order") if by_speed else ("order", "speed")
     places = own[across].values[:_MOST_PANELS]
-    channel = str(own["channel"].item())
+    title = shortened(str(own["channel"].item()))
     labels = (own.attrs["first"], own.attrs["second"])
     size = xr.concat([abs(own["channel_order"]), abs(own["compared_order"])], "result")
     largest = float(size.max())
@@ -58,7 +81,7 @@ def _picture(own: xr.Dataset, name: str) -> Picture:
                     markersize=width, fillstyle="none",
                 )  # fmt: skip
             where = f"{place:.0f} rpm" if by_speed else f"order {place:g}"
-            axes.set_title(f"{shortened(channel)}, {where}", loc="left")
+            axes.set_title(f"{title}, {where}", loc="left")
             axes.set_ylim(bottom, top)
             axes.set_ylabel(f"Peak, {own['channel_unit'].item()}")
         panels[-1].set_xlabel("Shaft order" if by_speed else "Speed, rpm")
@@ -67,9 +90,14 @@ def _picture(own: xr.Dataset, name: str) -> Picture:
             whole_number_ticks(panels[-1])
         legend_below(panels[0], 1)
 
+    return draw(len(places), 2.2, paint, legend_rows=2, sharex=True)
+
+
+def _picture(compared: xr.Dataset, channel: str, name: str) -> Picture:
+    labels = (compared.attrs["first"], compared.attrs["second"])
     return Picture(
         f"compared_{name}",
         f"Orders of {channel} in both results.",
         f"{channel}: {labels[0]} (circles) and {labels[1]} (crosses).",
-        draw(len(places), 2.2, paint, legend_rows=2, sharex=True),
+        png(compared_orders(compared, channel)),
     )

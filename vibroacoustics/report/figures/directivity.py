@@ -11,7 +11,8 @@ from matplotlib.ticker import MaxNLocator
 
 from ...base import rounding
 from ...base.arrays import Array
-from .style import COLOURS, Picture, plain, render
+from .needs import needs
+from .style import COLOURS, Picture, plain, png, render
 from .unit_levels import (
     COLOUR_MAP,
     DEPTH_DB,
@@ -26,17 +27,53 @@ from .unit_levels import (
 RING_STEP_DB: Final = 20.0
 
 
-def directivity_figure(radiated: xr.Dataset) -> Picture:
-    """Balloon and two cuts of each degree of freedom that radiates, at the highest frequency."""
-    field = radiated["directivity_transfer_vector"].isel(line_frequency=-1)
-    field = field.transpose("dof", "polar_angle", "azimuth")
+@needs(
+    "directivity_transfer_vector",
+    from_="`radiate` of a study with a table radiation.directivity",
+)
+def directivity(radiated: xr.Dataset) -> Figure:
+    """Balloon and two cuts of each motion that radiates, dB at 1 mm/s or 1 mrad/s.
+
+    At the highest 1x line.
+
+    Parameters
+    ----------
+    radiated : of `radiate`; needs `directivity_transfer_vector`
+        (polar_angle, azimuth, dof, line_frequency), Pa s/m
+
+    Raises
+    ------
+    ParameterError
+        The dataset holds none.
+
+    Examples
+    --------
+    >>> radiated = va.open_results("transfer_vectors.nc")
+    >>> va.plot.directivity(radiated).savefig("directivity.png")
+    """
+    field, silent = _around(radiated)
     dofs, frequency = names(field, "dof"), float(field["line_frequency"])
-    silent = silent_dofs(field.values, dofs)
     balloons = {
         dof_title(dof): unit_level_db(field.values[index])
         for index, dof in enumerate(dofs)
         if dof not in silent
     }
+    return directivity_balloons(
+        balloons, field["polar_angle"].values, field["azimuth"].values, frequency
+    )
+
+
+def _around(radiated: xr.Dataset) -> tuple[xr.DataArray, list[str]]:
+    """Field (dof, polar_angle, azimuth) at the highest frequency, and the silent motions."""
+    field = radiated["directivity_transfer_vector"].isel(line_frequency=-1)
+    field = field.transpose("dof", "polar_angle", "azimuth")
+    return field, silent_dofs(field.values, names(field, "dof"))
+
+
+def directivity_figure(radiated: xr.Dataset) -> Picture:
+    """Balloon and two cuts of each degree of freedom that radiates, at the highest frequency."""
+    field, silent = _around(radiated)
+    frequency = float(field["line_frequency"])
     left_out = f" Silent and left out: {', '.join(silent)}." if silent else ""
     return Picture(
         "directivity",
@@ -45,16 +82,14 @@ def directivity_figure(radiated: xr.Dataset) -> Picture:
         f"Level around the machine at {frequency:.1f} Hz when the housing moves at 1 mm/s or turns "
         "at 1 mrad/s (root mean square) in one degree of freedom. Balloon: the radius falls to "
         f"zero {DEPTH_DB:g} dB below the loudest.{left_out}",
-        directivity_balloons(
-            balloons, field["polar_angle"].values, field["azimuth"].values, frequency
-        ),
+        png(directivity(radiated)),
     )
 
 
 def directivity_balloons(
     levels: dict[str, Array], polar_angle: Array, azimuth: Array, frequency_hz: float
-) -> bytes:
-    """PNG with a row per title: balloon, vertical cuts, horizontal cut.
+) -> Figure:
+    """A row per title: balloon, vertical cuts, horizontal cut.
 
     Parameters
     ----------

@@ -5,17 +5,34 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from ..study import options, speeds, words
-from .style import Picture, draw, legend_below, line_looks, wrap
+from .needs import chosen, needs
+from .style import Picture, draw, legend_below, line_looks, png, wrap
 
 
-def force_figures(results: xr.Dataset) -> list[Picture]:
-    """Force along each axis over the crank angle, at the highest speed; none where not kept."""
-    if "force" not in results:
-        return []
-    speed = max(speeds(results))
-    total = results["force"].sel(speed=speed).sum("source").transpose("axis", "option", ...)
+@needs("force", from_="`run` (above 100 speeds with operation.keep_time_series)")
+def force_over_revolution(results: xr.Dataset, speed_rpm: float | None = None) -> Figure:
+    """Force on the housing over crank angle: a panel an axis, a line an option.
+
+    Parameters
+    ----------
+    results : of `run`; needs `force` (speed, option, source, axis, crank_angle), N
+    speed_rpm : one of the results' speeds; default: the highest
+
+    Raises
+    ------
+    ParameterError
+        The results hold no force, or not this speed.
+
+    Examples
+    --------
+    >>> results = va.open_results("results.nc")
+    >>> va.plot.force_over_revolution(results).savefig("force.png")
+    """
+    speed = max(speeds(results)) if speed_rpm is None else chosen(results, "speed", speed_rpm)
+    total = _total(results, speed)
     degrees = np.rad2deg(results["crank_angle"].values)
     names = options(results)
     looks = line_looks(len(names))
@@ -30,8 +47,15 @@ def force_figures(results: xr.Dataset) -> list[Picture]:
         panels[-1].set_xlabel("Crank angle, degrees")
         legend_below(panels[0])
 
-    png = draw(total.sizes["axis"], 1.8, paint, (len(names) + 1) // 2, sharex=True, sharey=True)
-    peak = float(abs(total).max())
+    return draw(total.sizes["axis"], 1.8, paint, (len(names) + 1) // 2, sharex=True, sharey=True)
+
+
+def force_figures(results: xr.Dataset) -> list[Picture]:
+    """Force along each axis over the crank angle, at the highest speed; none where not kept."""
+    if "force" not in results:
+        return []
+    speed = max(speeds(results))
+    peak = float(abs(_total(results, speed)).max())
     return [
         Picture(
             "force_over_revolution",
@@ -40,6 +64,12 @@ def force_figures(results: xr.Dataset) -> list[Picture]:
             f"Resultant force on the housing over one revolution at {speed:g} rpm, along "
             f"{words(results)['axes']}. All three on one scale; "
             "lines that coincide are dashed differently.",
-            png,
+            png(force_over_revolution(results)),
         )
     ]
+
+
+def _total(results: xr.Dataset, speed_rpm: float) -> xr.DataArray:
+    """Force of all sources together, (axis, option, crank_angle), N."""
+    total = results["force"].sel(speed=speed_rpm).sum("source")
+    return total.transpose("axis", "option", ...)

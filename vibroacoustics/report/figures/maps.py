@@ -14,7 +14,8 @@ from matplotlib.ticker import MaxNLocator
 from ...base.arrays import Array
 from ...base.vocabulary import REFERENCE_OPTION
 from ..study import few_speeds
-from .style import Picture, plain, render
+from .needs import needs
+from .style import Picture, plain, png, render
 from .unit_levels import (
     COLOUR_MAP,
     DEPTH_DB,
@@ -38,16 +39,36 @@ class Plane(NamedTuple):
     vertical_label: str
 
 
-def map_figure(radiated: xr.Dataset) -> Picture:
-    """Level on the map per degree of freedom at unit velocity, at the highest line frequency."""
+@needs("map_transfer_vector", from_="`radiate` of a study with a table radiation.map")
+def unit_level_map(radiated: xr.Dataset) -> Figure:
+    """Level on a plane at 1 mm/s or 1 mrad/s, dB, at the highest 1x line: a panel a motion.
+
+    Parameters
+    ----------
+    radiated : of `radiate`; needs `map_transfer_vector`
+        (map_row, map_column, dof, line_frequency), Pa s/m
+
+    Raises
+    ------
+    ParameterError
+        The dataset holds none.
+
+    Examples
+    --------
+    >>> radiated = va.open_results("transfer_vectors.nc")
+    >>> va.plot.unit_level_map(radiated).savefig("unit_level_map.png")
+    """
     field = radiated["map_transfer_vector"].isel(line_frequency=-1)
     field = field.transpose("dof", "map_row", "map_column")
     dofs = names(field, "dof")
-    frequency = float(field["line_frequency"])
-    plane = _plane(radiated)
     silent = silent_dofs(field.values, dofs)
     panels = {dof_title(dof): unit_level_db(field.values[i]) for i, dof in enumerate(dofs)}
-    quiet = [dof_title(dof) for dof in silent]
+    return level_maps(panels, _plane(radiated), [dof_title(dof) for dof in silent])
+
+
+def map_figure(radiated: xr.Dataset) -> Picture:
+    """Level on the map per degree of freedom at unit velocity, at the highest line frequency."""
+    frequency = float(radiated["line_frequency"][-1])
     return Picture(
         "map",
         f"Sound pressure level on a plane at {frequency:.1f} Hz for motion in each degree of "
@@ -56,29 +77,50 @@ def map_figure(radiated: xr.Dataset) -> Picture:
         "1 mrad/s (root mean square) in one degree of freedom; coordinates from the centre "
         f"of mass. Blank: the box around the machine. Darkest: {DEPTH_DB:g} dB and more below the "
         "loudest of the row.",
-        level_maps(panels, plane, quiet),
+        png(unit_level_map(radiated)),
     )
+
+
+@needs("map_level", from_="`run` of a study with a table radiation.map")
+def line_map(results: xr.Dataset) -> Figure:
+    """Level of the 1x line without a balancer on a plane, dB: a panel a speed (six at most).
+
+    Parameters
+    ----------
+    results : of `run`; needs `map_level` (speed, option, map_row, map_column), dB
+
+    Raises
+    ------
+    ParameterError
+        The dataset holds none.
+
+    Examples
+    --------
+    >>> results = va.open_results("results.nc")
+    >>> va.plot.line_map(results).savefig("line_map.png")
+    """
+    level = few_speeds(results)["map_level"].sel(option=REFERENCE_OPTION)
+    panels = {f"{speed:g} rpm": level.sel(speed=speed).values for speed in level["speed"].values}
+    return level_maps(panels, _plane(results), [])
 
 
 def line_map_figures(results: xr.Dataset) -> list[Picture]:
     """Level of the 1x line of option `none` on the map, by speed shown; nothing without a map."""
     if "map_level" not in results:
         return []
-    level = few_speeds(results)["map_level"].sel(option=REFERENCE_OPTION)
-    panels = {f"{speed:g} rpm": level.sel(speed=speed).values for speed in level["speed"].values}
     return [
         Picture(
             "line_map",
             "Sound pressure level of the 1x line on a plane, one panel a speed.",
             "Level of the 1x line on the plane, option none, by speed; coordinates from the centre "
             "of mass. Blank: the box around the machine, and what lies behind a wall.",
-            level_maps(panels, _plane(results), []),
+            png(line_map(results)),
         )
     ]
 
 
-def level_maps(panels: dict[str, Array], plane: Plane, silent: Sequence[str]) -> bytes:
-    """PNG of level maps, three in a row; the panels of a row share one scale of colours.
+def level_maps(panels: dict[str, Array], plane: Plane, silent: Sequence[str]) -> Figure:
+    """Level maps, three in a row; the panels of a row share one scale of colours.
 
     Parameters
     ----------

@@ -4,15 +4,33 @@ from collections.abc import Sequence
 
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from ...base import rounding
 from ..study import first_order_hz, many_speeds
 from .first_order import mark_first_order
-from .style import COLOURS, Picture, draw, frequency_ticks, legend_below
+from .needs import needs
+from .style import COLOURS, Picture, draw, frequency_ticks, legend_below, png
 
 
-def mount_figures(results: xr.Dataset) -> list[Picture]:
-    """Transmissibility along each axis, with the 1x line marked at every speed."""
+@needs("mount_transmissibility")
+def mount_transmissibility(results: xr.Dataset) -> Figure:
+    """Sum of the foot forces per force over frequency, with 1x marked at every speed.
+
+    Parameters
+    ----------
+    results : of `run`; needs `mount_transmissibility` (axis, mount_frequency), 1
+
+    Raises
+    ------
+    ParameterError
+        The results hold no transmissibility.
+
+    Examples
+    --------
+    >>> results = va.open_results("results.nc")
+    >>> va.plot.mount_transmissibility(results).savefig("mounts.png")
+    """
     transmitted = abs(results["mount_transmissibility"])
 
     def paint(panels: Sequence[Axes]) -> None:
@@ -28,6 +46,11 @@ def mount_figures(results: xr.Dataset) -> list[Picture]:
         frequency_ticks(axes, transmitted["mount_frequency"].values)
         legend_below(axes)
 
+    return draw(1, 3.0, paint, 2)
+
+
+def mount_figures(results: xr.Dataset) -> list[Picture]:
+    """Transmissibility along each axis, with the 1x line marked at every speed."""
     return [
         Picture(
             "mount_transmissibility",
@@ -35,7 +58,7 @@ def mount_figures(results: xr.Dataset) -> list[Picture]:
             "the natural frequencies and falling above them.",
             "Sum of the foot forces per force at the centre of mass, along the same axis. "
             f"Below 1 the mounts isolate. 1× lies at {_first_order(results)}.",
-            draw(1, 3.0, paint, 2),
+            png(mount_transmissibility(results)),
         )
     ]
 

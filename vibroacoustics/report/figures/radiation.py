@@ -6,11 +6,13 @@ from typing import Final
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from ...base import rounding
 from ..comparison import comparison
 from ..study import catalogue_receiver, few_speeds, has_sources, options, speeds
 from .first_order import first_order_marks, mark_first_order
+from .needs import chosen, needs
 from .style import (
     COLOURS,
     Picture,
@@ -19,6 +21,7 @@ from .style import (
     frequency_ticks,
     legend_below,
     line_looks,
+    png,
     wrap,
 )
 
@@ -35,12 +38,32 @@ def transfer_figures(results: xr.Dataset) -> list[Picture]:
     return [*pictures, _difference(results)] if "green_difference" in results else pictures
 
 
-def level_figures(results: xr.Dataset) -> list[Picture]:
-    """Where line, modelled level and total lie, for every option and speed."""
-    receiver = catalogue_receiver(results)
-    compared = comparison(results).sel(receiver=receiver)
+@needs("level_total", "level_modelled", "order_level")
+def levels(results: xr.Dataset, receiver: str | None = None) -> Figure:
+    """A-weighted levels of the 1x line, of all that is modelled and of the whole machine, dB(A).
+
+    A row an option, a panel a speed (six at most).
+
+    Parameters
+    ----------
+    results : of `run`; needs `level_total`, `level_modelled` (speed, option, receiver, …) and
+        `order_level`, dB
+    receiver : one of the results' microphones; default: that of the catalogue's noise
+
+    Raises
+    ------
+    ParameterError
+        The results hold none, or there is no such receiver.
+
+    Examples
+    --------
+    >>> results = va.open_results("results.nc")
+    >>> va.plot.levels(results).savefig("levels.png")
+    """
+    at = chosen(results, "receiver", receiver or catalogue_receiver(results))
+    compared = comparison(results).sel(receiver=at)
     names, shown_speeds = options(results), speeds(few_speeds(results))
-    what = "sources" if has_sources(results) else "orders"
+    what = _modelled(results)
     kinds = {
         "level_1x_dba": ("1× line", "o", 6, COLOURS[3]),
         "level_modelled_dba": (f"all modelled {what}", "|", 13, COLOURS[1]),
@@ -60,6 +83,14 @@ def level_figures(results: xr.Dataset) -> list[Picture]:
         panels[-1].set_xlabel("A-weighted level, dB(A) re 20 µPa")
         legend_below(panels[0], 3)
 
+    return draw(len(shown_speeds), 0.7 + 0.26 * len(names), paint, sharex=True)
+
+
+def level_figures(results: xr.Dataset) -> list[Picture]:
+    """Where line, modelled level and total lie, for every option and speed."""
+    receiver = catalogue_receiver(results)
+    compared = comparison(results).sel(receiver=receiver)
+    what = _modelled(results)
     total = compared["level_total_dba"]
     return [
         Picture(
@@ -71,12 +102,37 @@ def level_figures(results: xr.Dataset) -> list[Picture]:
             if float(compared["level_modelled_dba"].max()) < float(total.min()) - 10.0
             else f"A-weighted levels at {receiver}: 1× line, all modelled {what} and the total"
             f"{', at the assumed values' if has_sources(results) else ''}.",
-            draw(len(shown_speeds), 0.7 + 0.26 * len(names), paint, sharex=True),
+            png(levels(results)),
         )
     ]
 
 
-def _transfer(results: xr.Dataset, receiver: str) -> Picture:
+def _modelled(results: xr.Dataset) -> str:
+    return "sources" if has_sources(results) else "orders"
+
+
+@needs("transfer_vector")
+def transfer(results: xr.Dataset, receiver: str | None = None) -> Figure:
+    """Sound pressure per velocity of the housing over frequency, Pa per m/s and per rad/s.
+
+    Black dots: the closed form of the image sources, where k-Wave ran.
+
+    Parameters
+    ----------
+    results : of `run`; needs `transfer_vector` (receiver, dof, frequency), Pa s/m
+    receiver : one of the results' microphones; default: that of the catalogue's noise
+
+    Raises
+    ------
+    ParameterError
+        The results hold none, or there is no such receiver.
+
+    Examples
+    --------
+    >>> results = va.open_results("results.nc")
+    >>> va.plot.transfer(results).savefig("transfer.png")
+    """
+    receiver = chosen(results, "receiver", receiver or catalogue_receiver(results))
     simulated = abs(results["transfer_vector"].sel(receiver=receiver))
     compared = "transfer_vector_closed_form" in results
     closed = (
@@ -91,6 +147,11 @@ def _transfer(results: xr.Dataset, receiver: str) -> Picture:
             mark_first_order(axes, results, "#888888")
         panels[-1].set_xlabel("Frequency, Hz")
 
+    return draw(2, 2.5, paint, 0, sharex=True)
+
+
+def _transfer(results: xr.Dataset, receiver: str) -> Picture:
+    compared = "transfer_vector_closed_form" in results
     greens = (
         ": coloured lines with k-Wave's Green's function, black dots with the closed form"
         if compared
@@ -105,7 +166,7 @@ def _transfer(results: xr.Dataset, receiver: str) -> Picture:
         "rx, ry, rz: rotation about them; motions that do not radiate there are left out. "
         f"{first_order_marks(results)}: 1× at the speeds of the study. Other microphones: in "
         "results.nc.",
-        draw(2, 2.5, paint, 0, sharex=True),
+        png(transfer(results)),
     )
 
 
@@ -126,7 +187,24 @@ def _transfer_panel(
     frequency_ticks(axes, simulated["frequency"].values)
 
 
-def _difference(results: xr.Dataset) -> Picture:
+@needs("green_difference", from_="`run` of a study whose room k-Wave computes")
+def green_difference(results: xr.Dataset) -> Figure:
+    """k-Wave's Green's function against the closed form over frequency, dB, at every microphone.
+
+    Parameters
+    ----------
+    results : of `run`; needs `green_difference` (receiver, frequency), dB
+
+    Raises
+    ------
+    ParameterError
+        The results hold none.
+
+    Examples
+    --------
+    >>> results = va.open_results("results.nc")
+    >>> va.plot.green_difference(results).savefig("green_difference.png")
+    """
     gap = results["green_difference"].transpose("receiver", "frequency")
     names = [str(name) for name in gap["receiver"].values]
 
@@ -139,10 +217,15 @@ def _difference(results: xr.Dataset) -> Picture:
         axes.set_ylabel("k-Wave − closed form, dB")
         legend_below(axes)
 
+    return draw(1, 2.4, paint, (len(names) + 1) // 2)
+
+
+def _difference(results: xr.Dataset) -> Picture:
+    gap = results["green_difference"]
     return Picture(
         "green_difference",
         "Difference between k-Wave's Green's function and the closed form against frequency, at "
         f"every microphone; at most {float(abs(gap).max()):.2f} dB.",
         "k-Wave's Green's function against the closed form, level difference at every microphone.",
-        draw(1, 2.4, paint, (len(names) + 1) // 2),
+        png(green_difference(results)),
     )

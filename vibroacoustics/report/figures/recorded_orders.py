@@ -6,13 +6,16 @@ from typing import Final
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
+from .needs import chosen, needs
 from .style import (
     Picture,
     draw,
     legend_below,
     line_looks,
     numbered_file_name,
+    png,
     shortened,
     whole_number_ticks,
 )
@@ -24,17 +27,25 @@ _QUIETEST: Final = 1e-5
 
 def recorded_order_figures(results: xr.Dataset) -> list[Picture]:
     """For each channel: mean spectrum, orders over speed in a run-up, and map if there is one."""
-    is_run_up = results.sizes["speed"] > 1
     pictures = []
-    for number, channel in enumerate(results["channel"].values, 1):
-        own = results.sel(channel=channel)
-        name = numbered_file_name(number, str(channel))
-        pictures.append(_spectrum(own, str(channel), name))
-        if is_run_up:
-            pictures.append(_over_speed(own, str(channel), name))
+    for number, channel in enumerate(map(str, results["channel"].values), 1):
+        name = numbered_file_name(number, channel)
+        pictures.append(_spectrum_picture(results, channel, name))
+        if _is_run_up(results):
+            pictures.append(_over_speed_picture(results, channel, name))
         if "order_map" in results:
-            pictures.append(_map(own, str(channel), name, is_run_up))
+            pictures.append(_map_picture(results, channel, name))
     return pictures
+
+
+def _is_run_up(results: xr.Dataset) -> bool:
+    return results.sizes["speed"] > 1
+
+
+def _of_channel(orders: xr.Dataset, channel: str | None) -> tuple[xr.Dataset, str]:
+    """One channel and its name as a title."""
+    name = chosen(orders, "channel", channel)
+    return orders.sel(channel=name), shortened(str(name))
 
 
 def _unit(own: xr.Dataset) -> str:
@@ -54,7 +65,27 @@ def _logarithmic(axes: Axes, shown: xr.DataArray) -> None:
         axes.set_ylim(bottom=max(0.5 * float(shown.min()), _QUIETEST * highest), top=2.0 * highest)
 
 
-def _spectrum(own: xr.Dataset, channel: str, name: str) -> Picture:
+@needs("mean_order_spectrum", from_="`analyse_orders`")
+def order_spectrum(orders: xr.Dataset, channel: str | None = None) -> Figure:
+    """Mean order spectrum of a channel: root mean square of each line.
+
+    Parameters
+    ----------
+    orders : of `analyse_orders`; needs `mean_order_spectrum` (channel, map_order), in
+        the channel's unit
+    channel : one of the dataset's channels; default: the first
+
+    Raises
+    ------
+    ParameterError
+        The dataset holds none, or there is no such channel.
+
+    Examples
+    --------
+    >>> orders = va.open_results("orders.nc")
+    >>> va.plot.order_spectrum(orders).savefig("order_spectrum.png")
+    """
+    own, title = _of_channel(orders, channel)
     spectrum = _without_offset(own["mean_order_spectrum"], own)
 
     def paint(panels: Sequence[Axes]) -> None:
@@ -64,39 +95,89 @@ def _spectrum(own: xr.Dataset, channel: str, name: str) -> Picture:
         whole_number_ticks(axes)
         axes.set_xlabel("Shaft order")
         axes.set_ylabel(f"RMS of a line, {_unit(own)}")
-        axes.set_title(shortened(channel), loc="left")
+        axes.set_title(title, loc="left")
 
+    return draw(1, 2.6, paint, 0)
+
+
+def _spectrum_picture(results: xr.Dataset, channel: str, name: str) -> Picture:
+    highest = float(results["map_order"][-1])
     return Picture(
         f"spectrum_{name}",
-        f"Mean order spectrum of {channel}, to order {float(spectrum['map_order'][-1]):g}.",
+        f"Mean order spectrum of {channel}, to order {highest:g}.",
         f"Mean order spectrum of {channel}: root of the mean power over the blocks.",
-        draw(1, 2.6, paint, 0),
+        png(order_spectrum(results, channel)),
     )
 
 
-def _over_speed(own: xr.Dataset, channel: str, name: str) -> Picture:
+@needs("block_order_rms", from_="`analyse_orders`")
+def orders_over_speed(orders: xr.Dataset, channel: str | None = None) -> Figure:
+    """Order cuts of a channel over the speed, block by block: a line an order.
+
+    Parameters
+    ----------
+    orders : of `analyse_orders`; needs `block_order_rms` (channel, block, order), root
+        mean square in the channel's unit
+    channel : one of the dataset's channels; default: the first
+
+    Raises
+    ------
+    ParameterError
+        The dataset holds none, or there is no such channel.
+
+    Examples
+    --------
+    >>> orders = va.open_results("orders.nc")
+    >>> va.plot.orders_over_speed(orders).savefig("orders_over_speed.png")
+    """
+    own, title = _of_channel(orders, channel)
     cuts = own["block_order_rms"].sortby("block_speed")
-    orders = cuts["order"].values
+    numbers = cuts["order"].values
 
     def paint(panels: Sequence[Axes]) -> None:
         (axes,) = panels
-        for order, look in zip(orders, line_looks(orders.size), strict=True):
+        for order, look in zip(numbers, line_looks(numbers.size), strict=True):
             axes.plot(cuts["block_speed"], cuts.sel(order=order), label=f"{order:g}×", **look)
         _logarithmic(axes, cuts)
         axes.set_xlabel("Speed, rpm")
         axes.set_ylabel(f"RMS in the order's band, {_unit(own)}")
-        axes.set_title(shortened(channel), loc="left")
+        axes.set_title(title, loc="left")
         legend_below(axes, 4)
 
+    return draw(1, 2.6, paint, -(-numbers.size // 4))
+
+
+def _over_speed_picture(results: xr.Dataset, channel: str, name: str) -> Picture:
     return Picture(
         f"orders_{name}",
         f"Orders of {channel} over the speed.",
         f"Orders of {channel} over the speed, block by block.",
-        draw(1, 2.6, paint, -(-orders.size // 4)),
+        png(orders_over_speed(results, channel)),
     )
 
 
-def _map(own: xr.Dataset, channel: str, name: str, is_run_up: bool) -> Picture:
+@needs("order_map", from_="`analyse_orders(..., with_map=True)`, command `orders --map`")
+def order_map(orders: xr.Dataset, channel: str | None = None) -> Figure:
+    """Order spectra of a channel over the speed of a run-up or else the time, dB re 1 unit peak.
+
+    Parameters
+    ----------
+    orders : of `analyse_orders`; needs `order_map` (channel, block, map_order), in the
+        channel's unit
+    channel : one of the dataset's channels; default: the first
+
+    Raises
+    ------
+    ParameterError
+        The dataset holds none, or there is no such channel.
+
+    Examples
+    --------
+    >>> orders = va.open_results("orders.nc")
+    >>> va.plot.order_map(orders).savefig("order_map.png")
+    """
+    own, title = _of_channel(orders, channel)
+    is_run_up = _is_run_up(orders)
     spectra = _without_offset(own["order_map"].transpose("block", "map_order"), own)
     spectra = spectra.sortby("block_speed") if is_run_up else spectra
     level = 20.0 * np.log10(np.maximum(np.abs(spectra.values), np.finfo(float).tiny))
@@ -120,11 +201,15 @@ def _map(own: xr.Dataset, channel: str, name: str, is_run_up: bool) -> Picture:
         whole_number_ticks(axes)
         axes.set_xlabel("Shaft order")
         axes.set_ylabel("Speed, rpm" if is_run_up else "Time, s")
-        axes.set_title(shortened(channel), loc="left")
+        axes.set_title(title, loc="left")
 
+    return draw(1, 3.4, paint, 0)
+
+
+def _map_picture(results: xr.Dataset, channel: str, name: str) -> Picture:
     return Picture(
         f"map_{name}",
         f"Order map of {channel}.",
         f"Order map of {channel}: peak amplitude of each line, {_MAP_RANGE_DB:g} dB shown.",
-        draw(1, 3.4, paint, 0),
+        png(order_map(results, channel)),
     )

@@ -5,13 +5,31 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from ..study import options
-from .style import COLOURS, Picture, draw, legend_below, wrap
+from .needs import needs
+from .style import COLOURS, Picture, draw, legend_below, png, wrap
 
 
-def score_figures(results: xr.Dataset) -> list[Picture]:
-    """Weighted utilities that add up to the weighted sum, a bar per option."""
+@needs("criterion_value", "weight")
+def scores(results: xr.Dataset) -> Figure:
+    """Weighted utilities that add up to each option's score, 0 worst to 1 best: a bar an option.
+
+    Parameters
+    ----------
+    results : of `run`; needs `criterion_value` (option, criterion), with scales and weights
+
+    Raises
+    ------
+    ParameterError
+        The results hold none.
+
+    Examples
+    --------
+    >>> results = va.open_results("results.nc")
+    >>> va.plot.scores(results).savefig("scores.png")
+    """
     parts = contributions(results)
     names = options(results)
 
@@ -29,7 +47,11 @@ def score_figures(results: xr.Dataset) -> list[Picture]:
         axes.set_xlabel("Score by weighted sum, 0 worst to 1 best")
         legend_below(axes, 1)
 
-    height = 0.8 + 0.26 * len(names)
+    return draw(1, 0.8 + 0.26 * len(names), paint, parts.sizes["criterion"] + 1)
+
+
+def score_figures(results: xr.Dataset) -> list[Picture]:
+    """Weighted utilities that add up to the weighted sum, a bar per option."""
     return [
         Picture(
             "scores",
@@ -37,7 +59,7 @@ def score_figures(results: xr.Dataset) -> list[Picture]:
             "table of scores.",
             "Weighted sum of the utilities: the longer a part, the better the option is by that "
             "criterion.",
-            draw(1, height, paint, parts.sizes["criterion"] + 1),
+            png(scores(results)),
         )
     ]
 

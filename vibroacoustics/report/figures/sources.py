@@ -6,13 +6,15 @@ from typing import Final
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from ...base.arrays import Array
 from ...base.vocabulary import REFERENCE_OPTION
 from ..shifts import HEARD_DB
 from ..source_words import quoted_speed, source_name
 from ..study import balancers, catalogue_receiver, few_speeds, has_sources, speeds
-from .style import MARKERS, Picture, draw, frequency_ticks, legend_below, line_looks, wrap
+from .needs import needs
+from .style import MARKERS, Picture, draw, frequency_ticks, legend_below, line_looks, png, wrap
 
 QUIETEST_DB: Final = -10.0
 """Levels below are not drawn."""
@@ -31,19 +33,28 @@ def source_figures(results: xr.Dataset) -> list[Picture]:
     return [*pictures, _options(results, changing)] if changing else pictures
 
 
-def _sources(results: xr.Dataset) -> Picture:
-    receiver, speed = catalogue_receiver(results), quoted_speed(results)
-    spectra = results["source_band_level"].sel(
-        option=REFERENCE_OPTION, speed=speed, receiver=receiver
-    )
-    shown = [
-        str(source)
-        for source in spectra["sound_source"].values
-        if spectra.sel(sound_source=source).max() > QUIETEST_DB
-    ]
-    silent = [
-        source_name(results, str(s)) for s in spectra["sound_source"].values if str(s) not in shown
-    ]
+@needs("source_band_level")
+def source_third_octaves(results: xr.Dataset) -> Figure:
+    """Third-octave levels of each source alone without a balancer, dB, unweighted.
+
+    At the microphone and the speed of the catalogue's noise.
+
+    Parameters
+    ----------
+    results : of `run`; needs `source_band_level` (speed, option, sound_source, receiver, band), dB
+
+    Raises
+    ------
+    ParameterError
+        The results hold none.
+
+    Examples
+    --------
+    >>> results = va.open_results("results.nc")
+    >>> va.plot.source_third_octaves(results).savefig("source_third_octaves.png")
+    """
+    spectra = _spectra(results)
+    shown = _loud(spectra)
 
     def paint(panels: Sequence[Axes]) -> None:
         (axes,) = panels
@@ -54,6 +65,34 @@ def _sources(results: xr.Dataset) -> Picture:
         axes.set_ylabel("Level, dB re 20 µPa, unweighted")
         legend_below(axes, 1)
 
+    return draw(1, 3.0, paint, len(shown))
+
+
+def _spectra(results: xr.Dataset) -> xr.DataArray:
+    """Levels without a balancer at the quoted speed, (sound_source, band), dB."""
+    return results["source_band_level"].sel(
+        option=REFERENCE_OPTION,
+        receiver=catalogue_receiver(results),
+        speed=quoted_speed(results),
+    )
+
+
+def _loud(spectra: xr.DataArray) -> list[str]:
+    """Sources that are drawn."""
+    return [
+        str(source)
+        for source in spectra["sound_source"].values
+        if spectra.sel(sound_source=source).max() > QUIETEST_DB
+    ]
+
+
+def _sources(results: xr.Dataset) -> Picture:
+    receiver, speed = catalogue_receiver(results), quoted_speed(results)
+    spectra = _spectra(results)
+    shown = _loud(spectra)
+    silent = [
+        source_name(results, str(s)) for s in spectra["sound_source"].values if str(s) not in shown
+    ]
     below = (
         f" Not drawn, everywhere below {QUIETEST_DB:g} dB: {', '.join(silent)}." if silent else ""
     )
@@ -63,13 +102,32 @@ def _sources(results: xr.Dataset) -> Picture:
         f"20 Hz to {spectra['band'].values[-1]:g} Hz.",
         f"Each source alone at {receiver}, {speed:g} rpm, without a balancer; values as assumed, "
         f"no weighting.{below.replace('-', '−')}",
-        draw(1, 3.0, paint, len(shown)),
+        png(source_third_octaves(results)),
     )
 
 
-def _options(results: xr.Dataset, changing: list[str]) -> Picture:
-    receiver = catalogue_receiver(results)
-    names = [REFERENCE_OPTION, *changing]
+@needs("source_band_level")
+def option_third_octaves(results: xr.Dataset) -> Figure:
+    """Third-octave levels of all sources but the moving parts, dB.
+
+    A panel a speed (six at most), a line an option. Of the options
+    those are drawn that change a loud band by more than can be heard, and `none`.
+
+    Parameters
+    ----------
+    results : of `run`; needs `source_band_level` (speed, option, sound_source, receiver, band), dB
+
+    Raises
+    ------
+    ParameterError
+        The results hold none.
+
+    Examples
+    --------
+    >>> results = va.open_results("results.nc")
+    >>> va.plot.option_third_octaves(results).savefig("option_third_octaves.png")
+    """
+    names = [REFERENCE_OPTION, *_changing_options(results)]
     shown = few_speeds(results)
     level = _inner_level(shown)
 
@@ -82,13 +140,18 @@ def _options(results: xr.Dataset, changing: list[str]) -> Picture:
         panels[-1].set_xlabel("Third-octave band, Hz")
         legend_below(panels[0], 2)
 
+    return draw(len(speeds(shown)), 2.4, paint, (len(names) + 1) // 2, sharex=True)
+
+
+def _options(results: xr.Dataset, changing: list[str]) -> Picture:
+    receiver, names = catalogue_receiver(results), [REFERENCE_OPTION, *changing]
     return Picture(
         "sources_options",
         f"Third-octave levels of all sources together at {receiver} for {', '.join(names)}.",
         f"Gas, keys and motor together (energies added) at {receiver}, values as assumed, no "
         f"weighting: options that change a band within {WITHIN_DB:g} dB of the loudest by more "
         f"than {HEARD_DB:g} dB. The 1× line is not in it.",
-        draw(len(speeds(shown)), 2.4, paint, (len(names) + 1) // 2, sharex=True),
+        png(option_third_octaves(results)),
     )
 
 

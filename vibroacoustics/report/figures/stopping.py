@@ -6,10 +6,12 @@ from typing import Final
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from ..stopping import force_and_moments
-from ..study import catalogue_receiver, speeds
-from .style import Picture, draw, legend_below, line_looks, shortened, whole_number_ticks
+from ..study import catalogue_receiver, few_speeds, speeds
+from .needs import needs
+from .style import Picture, draw, legend_below, line_looks, png, shortened, whole_number_ticks
 
 MAP_RANGE_DB: Final = 60.0
 LEVEL_RANGE_DB: Final = 40.0
@@ -21,8 +23,27 @@ def stopping_figures(results: xr.Dataset) -> list[Picture]:
     return [make(results) for name, make in makers.items() if name in results]
 
 
-def _course(results: xr.Dataset) -> Picture:
-    receiver = catalogue_receiver(results)
+@needs("stopping_force", from_="`run` of a study with operation.stopping")
+def stopping(results: xr.Dataset) -> Figure:
+    """The stop over time: speed, rpm, force, N, moments, N m, and Fast level, dB(A).
+
+    A line a speed (six at most); the level is that at the catalogue's microphone.
+
+    Parameters
+    ----------
+    results : of `run`; needs `stopping_force` (speed, axis, stopping_time), N, and its like
+
+    Raises
+    ------
+    ParameterError
+        The results hold none.
+
+    Examples
+    --------
+    >>> results = va.open_results("results.nc")
+    >>> va.plot.stopping(results).savefig("stopping.png")
+    """
+    results, receiver = few_speeds(results), catalogue_receiver(results)
     force, tilting, roll = force_and_moments(results)
     level = results["stopping_fast_level"].sel(receiver=receiver)
     curves = {
@@ -46,17 +67,39 @@ def _course(results: xr.Dataset) -> Picture:
         panels[-1].set_xlabel("Time from switch-off, ms")
         legend_below(panels[0], 4)
 
+    return draw(len(curves), 1.55, paint, -(-len(names) // 4), sharex=True)
+
+
+def _course(results: xr.Dataset) -> Picture:
+    receiver = catalogue_receiver(results)
     return Picture(
         "stopping",
         f"Speed, force, moments and A-weighted Fast level at {receiver} over the time around "
         "switch-off; the largest values are in the tables.",
         f"Switch-off at 0 ms: speed of the shaft, resultant force and moments on the housing, "
         f"A-weighted Fast level at {shortened(receiver)}.",
-        draw(len(curves), 1.55, paint, -(-len(names) // 4), sharex=True),
+        png(stopping(results)),
     )
 
 
-def _map(results: xr.Dataset) -> Picture:
+@needs("stopping_order_map", from_="`run` of a study with operation.stopping")
+def stopping_order_map(results: xr.Dataset) -> Figure:
+    """Force along x by shaft order over the falling speed of a stop without gas load, dB re 1 N.
+
+    Parameters
+    ----------
+    results : of `run`; needs `stopping_order_map` (axis, stopping_block, map_order), N
+
+    Raises
+    ------
+    ParameterError
+        The results hold none.
+
+    Examples
+    --------
+    >>> results = va.open_results("results.nc")
+    >>> va.plot.stopping_order_map(results).savefig("stopping_order_map.png")
+    """
     along_x = results["stopping_order_map"].sel(axis="x").transpose("stopping_block", "map_order")
     level = 20.0 * np.log10(np.maximum(along_x.values, np.finfo(float).tiny))
     top = float(level.max())
@@ -80,10 +123,14 @@ def _map(results: xr.Dataset) -> Picture:
         axes.set_xlabel("Shaft order")
         axes.set_ylabel("Speed, rpm")
 
+    return draw(1, 2.8, paint, 0)
+
+
+def _map(results: xr.Dataset) -> Picture:
     return Picture(
         "stopping_order_map",
         "Order map of the force along x over the falling speed of a stop without gas load.",
         "Force along x on the housing by shaft order, over the falling speed of a stop without gas "
         "load.",
-        draw(1, 2.8, paint, 0),
+        png(stopping_order_map(results)),
     )

@@ -9,7 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base.arrays import Array, ComplexArray
-from .style import Picture, frequency_ticks, line_looks, render, wrap
+from .needs import needs
+from .style import Picture, frequency_ticks, line_looks, png, render, wrap
 from .unit_levels import (
     WIDE_INCH,
     dof_title,
@@ -24,8 +25,26 @@ CURVE_DEPTH_DB: Final = 100.0
 """Curves are cut off this far below the loudest of their panel."""
 
 
-def transfer_vector_figure(radiated: xr.Dataset) -> Picture:
-    """Level over frequency, a panel per degree of freedom, the estimated error as a band."""
+@needs("transfer_vector", from_="`radiate` and `run`")
+def transfer_vectors(radiated: xr.Dataset) -> Figure:
+    """Level at every microphone over frequency at 1 mm/s or 1 mrad/s, dB: a panel a motion.
+
+    The estimated error of the grids is drawn as a band.
+
+    Parameters
+    ----------
+    radiated : of `radiate` or `run`; needs `transfer_vector` (receiver, dof, frequency), Pa s/m
+
+    Raises
+    ------
+    ParameterError
+        The dataset holds none.
+
+    Examples
+    --------
+    >>> radiated = va.open_results("transfer_vectors.nc")
+    >>> va.plot.transfer_vectors(radiated).savefig("transfer_vectors.png")
+    """
     field = radiated["transfer_vector"].transpose("dof", "receiver", "frequency")
     error = radiated.get("transfer_vector_error")
     band = None if error is None else error.transpose("dof", "receiver", "frequency").values
@@ -56,14 +75,23 @@ def transfer_vector_figure(radiated: xr.Dataset) -> Picture:
             handles, labels = loudest.get_legend_handles_labels()
             figure.legend(handles, labels, loc="outside lower center", ncols=4, frameon=False)
 
-    shaded = "" if band is None else " Band: plus and minus the estimated error of the grids."
+    return render(WIDE_INCH, 2.1 * rows_of(dofs, 2) + 0.3 * rows_of(receivers, 4) + 0.2, paint)
+
+
+def transfer_vector_figure(radiated: xr.Dataset) -> Picture:
+    """Level over frequency, a panel per degree of freedom, the estimated error as a band."""
+    shaded = (
+        ""
+        if "transfer_vector_error" not in radiated
+        else " Band: plus and minus the estimated error of the grids."
+    )
     return Picture(
         "transfer_vectors",
         "Sound pressure level at every microphone per unit velocity of the housing against "
         "frequency, a panel per degree of freedom.",
         "Level at every microphone when the housing moves at 1 mm/s or turns at 1 mrad/s (root "
         f"mean square) in one degree of freedom.{shaded}",
-        render(WIDE_INCH, 2.1 * rows_of(dofs, 2) + 0.3 * rows_of(receivers, 4) + 0.2, paint),
+        png(transfer_vectors(radiated)),
     )
 
 

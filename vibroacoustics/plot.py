@@ -1,0 +1,56 @@
+"""Figures of results: each function takes a dataset and returns a matplotlib Figure.
+
+The report draws its pictures with the same functions. A notebook shows what they return;
+`figure.savefig("name.png")` writes it.
+
+Of `run`: `force_over_revolution`, `force_orders`, `foot_force_orders`, `level_orders`,
+`mount_transmissibility`, `transfer`, `green_difference`, `levels`, `line_map`, `scores`,
+`source_third_octaves`, `option_third_octaves`, `stopping`, `stopping_order_map`.
+
+Of `radiate`: `transfer_vectors`, `unit_level_map`, `directivity`.
+
+Of `analyse_orders`: `order_spectrum`, `orders_over_speed`, `order_map`.
+
+Of `compare`: `compared_orders`.
+"""
+
+from .report.figures.compared_orders import compared_orders
+from .report.figures.directivity import directivity
+from .report.figures.forces import force_over_revolution
+from .report.figures.maps import line_map, unit_level_map
+from .report.figures.mounts import mount_transmissibility
+from .report.figures.orders import foot_force_orders, force_orders, level_orders
+from .report.figures.radiation import green_difference, levels, transfer
+from .report.figures.recorded_orders import order_map, order_spectrum, orders_over_speed
+from .report.figures.scores import scores
+from .report.figures.sources import option_third_octaves, source_third_octaves
+from .report.figures.stopping import stopping, stopping_order_map
+from .report.figures.transfer_vectors import transfer_vectors
+
+__all__ = [
+    "compared_orders",
+    "directivity",
+    "foot_force_orders",
+    "force_orders",
+    "force_over_revolution",
+    "green_difference",
+    "level_orders",
+    "levels",
+    "line_map",
+    "mount_transmissibility",
+    "option_third_octaves",
+    "order_map",
+    "order_spectrum",
+    "orders_over_speed",
+    "scores",
+    "source_third_octaves",
+    "stopping",
+    "stopping_order_map",
+    "transfer",
+    "transfer_vectors",
+    "unit_level_map",
+]
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -1,0 +1,56 @@
+"""What a figure needs of the dataset that it is drawn from."""
+
+from collections.abc import Callable
+from functools import wraps
+from typing import Any, TypeVar, cast
+
+import xarray as xr
+from matplotlib.figure import Figure
+
+from ...base.errors import ParameterError
+from ...base.vocabulary import VARIABLES
+
+Maker = TypeVar("Maker", bound=Callable[..., Figure])
+
+
+def needs(*variables: str, from_: str = "`run`") -> Callable[[Maker], Maker]:
+    """Refuse, in one line, a dataset without the variables that a figure is drawn from.
+
+    Parameters
+    ----------
+    variables : names of the vocabulary
+    from_ : what gives results that have them
+    """
+
+    def guarded(make: Maker) -> Maker:
+        @wraps(make)
+        def checked(results: xr.Dataset, *args: Any, **kwargs: Any) -> Figure:
+            for name in variables:
+                if name not in results:
+                    raise ParameterError(
+                        f"plot.{make.__name__}: these results hold no {name} "
+                        f"({VARIABLES[name].long_name}); it comes from {from_}"
+                    )
+            return make(results, *args, **kwargs)
+
+        return cast(Maker, checked)
+
+    return guarded
+
+
+def chosen(results: xr.Dataset, dimension: str, value: Any) -> Any:
+    """A label of a dimension; where none is given, the first.
+
+    Raises
+    ------
+    ParameterError
+        The results have no such label.
+    """
+    labels = results[dimension].values.tolist()
+    if value is None:
+        return labels[0]
+    if value not in labels:
+        raise ParameterError(
+            f"{dimension} = {value}: not in these results; there are {', '.join(map(str, labels))}"
+        )
+    return value
