@@ -8,9 +8,9 @@ from ..base.decibel import (
     sound_pressure_level,
 )
 from .bands import Band, band_mean_square, bands_between, measurable_bands
-from .by_source import NoisePower, SourceSound, filled_thirds, source_sound
+from .by_source import SourceSound, filled_thirds, source_sound
 from .filter_bank import band_filter, band_signal, class_1_limits_db
-from .labelled import Places, draw_variables, level, level_variables
+from .labelled import draw_variables, level, level_variables
 from .signal_levels import (
     RecordedLevels,
     band_levels,
@@ -31,8 +31,6 @@ __all__ = [
     "SLOW_TIME_CONSTANT_S",
     "WEIGHTING",
     "Band",
-    "NoisePower",
-    "Places",
     "RecordedLevels",
     "SourceSound",
     "a_weighting",

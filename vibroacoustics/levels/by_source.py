@@ -7,26 +7,14 @@ from typing import Final
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
+from ..base.vocabulary import WEIGHTINGS
+from ..mechanics.received_sound import NoisePower, ReceivedSound
 from .bands import Band, bands_between
 from .weighting import WEIGHTING
 
 LOWEST_BAND_HZ: Final = 20.0
-
-
-@dataclass(frozen=True)
-class NoisePower:
-    """Mean square of a source's noise at the receivers by frequency.
-
-    Attributes
-    ----------
-    source : index of the source
-    frequency_hz : shape (frequency,)
-    power : shape (receiver, frequency), Pa²
-    """
-
-    source: int
-    frequency_hz: Array
-    power: Array
+A_FIRST: Final = tuple(sorted(WEIGHTINGS, key=lambda name: name != "A"))
+"""Weightings of the totals of a study."""
 
 
 @dataclass(frozen=True)
@@ -57,6 +45,12 @@ def filled_thirds(maximum_frequency_hz: float) -> tuple[Band, ...]:
     return tuple(band for band in bands if band.upper_hz <= maximum_frequency_hz)
 
 
+def sound_by_source(received: ReceivedSound, bands: Sequence[Band]) -> SourceSound:
+    """Mean squares of one case, with totals by all weightings, A first."""
+    hertz = received.lines.frequency_hz
+    return source_sound(received.pressure, hertz, received.noise, bands, A_FIRST)
+
+
 def source_sound(
     pressure: ComplexArray,
     frequency_hz: Array,
@@ -80,11 +74,11 @@ def source_sound(
     weight = np.stack([_power(name, frequency_hz) * audible for name in weightings])
     band = alone @ _membership(frequency_hz, bands)
     weighted, part = alone @ weight[0], np.moveaxis(shared @ weight.T, -1, 0)
-    for own in noise:
-        band[own.source] += own.power @ _membership(own.frequency_hz, bands)
-        loud = np.stack([own.power @ _power(name, own.frequency_hz) for name in weightings])
-        weighted[own.source] += loud[0]
-        part[:, own.source] += loud
+    for random in noise:
+        band[random.source] += random.power @ _membership(random.frequency_hz, bands)
+        loud = np.stack([random.power @ _power(name, random.frequency_hz) for name in weightings])
+        weighted[random.source] += loud[0]
+        part[:, random.source] += loud
     return SourceSound(band, weighted, part)
 
 

@@ -1,7 +1,7 @@
-"""Levels of a study at the receivers: by source, of all modelled sources, of the whole machine."""
+"""Levels of a study at the receivers: by source, of all modelled sources, of the machine."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -9,39 +9,11 @@ import xarray as xr
 from ..base.arrays import Array, ComplexArray
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level, sound_pressure_level
-from ..base.vocabulary import (
-    REFERENCE_OPTION,
-    WEIGHTINGS,
-    check,
-    stamp,
-)
-from .bands import Band
-from .by_source import SourceSound
+from ..base.vocabulary import REFERENCE_OPTION, WEIGHTINGS, check, stamp
+from ..machine.source import CaseKey
+from .axes import LevelAxes
+from .by_source import A_FIRST, SourceSound
 from .weighting import WEIGHTING
-
-At = tuple[float, str]
-"""Speed in rpm and option."""
-
-
-@dataclass(frozen=True)
-class Places:
-    """Names along the axes of the levels.
-
-    Attributes
-    ----------
-    speeds, options, sources, receivers : in the order of the arrays
-    bands : third octaves
-    """
-
-    speeds: Sequence[float]
-    options: Sequence[str]
-    sources: Sequence[str]
-    receivers: Sequence[str]
-    bands: Sequence[Band]
-
-    def gathered(self, sound: Mapping[At, SourceSound], part: str) -> Array:
-        """A part of the sound of all cases, shape (speed, option, ...)."""
-        return np.array([[getattr(sound[s, o], part) for o in self.options] for s in self.speeds])
 
 
 def level(mean_square: Array) -> Array:
@@ -50,71 +22,75 @@ def level(mean_square: Array) -> Array:
 
 
 def level_variables(
-    places: Places,
-    sound: Mapping[At, SourceSound],
-    weightings: Sequence[str],
-    line_pressure: ComplexArray,
+    axes: LevelAxes,
+    sound: Mapping[CaseKey, SourceSound],
+    pressure_line: xr.DataArray,
     order_frequency: xr.DataArray,
-    remainder: Array,
+    remainder: float,
+    remaining_share: Array,
 ) -> xr.Dataset:
     """Levels with the values as given.
 
     Parameters
     ----------
-    places : axes
-    sound : of every case
-    weightings : of its totals
-    line_pressure : of all sources together at the orders, (speed, option, receiver, order), Pa
+    axes : of the levels
+    sound : of every case, with totals by the weightings A_FIRST
+    pressure_line : of every source, orders first, complex peaks, Pa
     order_frequency : (speed, order), Hz
-    remainder : mean square that the model does not explain, by option, Pa²; the first is bare
+    remainder : mean square that the model does not explain, Pa²
+    remaining_share : what each option leaves of it, shape (option,)
     """
-    by_case = {"speed": list(places.speeds), "option": list(places.options)}
-    by_receiver = {**by_case, "receiver": list(places.receivers)}
-    by_source = {
-        **by_case,
-        "sound_source": list(places.sources),
-        "receiver": list(places.receivers),
-    }
-    part = places.gathered(sound, "part")
+    part = axes.gathered(sound, "part")
     totals = part.sum(axis=3)  # (speed, option, weighting, receiver)
-    a_total = totals[:, :, weightings.index("A")]
-    modelled = np.stack(
-        [level(totals[:, :, weightings.index(name)]) for name in WEIGHTINGS], axis=-1
-    )
-    order_level = _order_level(line_pressure, order_frequency.values)
-    total = level(a_total + remainder[:, None])
-    shares = part[:, :, weightings.index("A")]
-    whole = np.where(a_total > 0.0, a_total, 1.0)[:, :, None]
-    reference = list(places.options).index(REFERENCE_OPTION)
+    a_total = totals[:, :, A_FIRST.index("A")]
+    modelled = [level(totals[:, :, A_FIRST.index(name)]) for name in WEIGHTINGS]
+    total = level(a_total + (remainder * remaining_share)[:, None])
+    orders = pressure_line.values[..., : order_frequency.sizes["order"]].sum(axis=2)
+    order_level = _order_level(orders, order_frequency.values)
     changes = {
         "change_1x": order_level[..., 1, WEIGHTINGS.index("Z")],
         "change_modelled": level(a_total),
         "change_total": total,
     }
-    weighted = {**by_receiver, "weighting": list(WEIGHTINGS)}
+    weighted = {**axes.by_receiver, "weighting": list(WEIGHTINGS)}
     ordered = {**weighted, "order": order_frequency["order"].values}
-    bands = {**by_source, "band": [band.nominal_hz for band in places.bands]}
+    reference = list(axes.options).index(REFERENCE_OPTION)
+    rest = level(np.asarray(remainder * remaining_share[reference]))
     arrays = {
         "order_level": stamp("order_level", order_level, ordered),
-        "level_modelled": stamp("level_modelled", modelled, weighted),
-        "level_total": stamp("level_total", total, by_receiver),
-        "level_remainder": stamp("level_remainder", level(remainder[reference])),
-        "source_level": stamp("source_level", level(places.gathered(sound, "alone")), by_source),
-        "source_share": stamp("source_share", shares / whole, by_source),
-        "source_band_level": stamp(
-            "source_band_level", level(places.gathered(sound, "band")), bands
-        ),
+        "level_modelled": stamp("level_modelled", np.stack(modelled, axis=-1), weighted),
+        "level_total": stamp("level_total", total, axes.by_receiver),
+        "level_remainder": stamp("level_remainder", rest),
+        **_of_sources(axes, sound),
+        **{
+            name: stamp(name, values - values[:, [reference]], axes.by_receiver)
+            for name, values in changes.items()
+        },
     }
-    for name, values in changes.items():
-        arrays[name] = stamp(name, values - values[:, [reference]], by_receiver)
     return check(xr.Dataset(arrays))
 
 
+def _of_sources(axes: LevelAxes, sound: Mapping[CaseKey, SourceSound]) -> dict[str, xr.DataArray]:
+    """A-weighted level, share of the modelled total and third octaves of each source."""
+    shares = axes.gathered(sound, "part")[:, :, A_FIRST.index("A")]
+    total = shares.sum(axis=2, keepdims=True)
+    bands = {**axes.by_source, "band": [band.nominal_hz for band in axes.bands]}
+    values = {
+        "source_level": level(axes.gathered(sound, "alone")),
+        "source_share": shares / np.where(total > 0.0, total, 1.0),
+        "source_band_level": level(axes.gathered(sound, "band")),
+    }
+    coords = {"source_band_level": bands}
+    return {
+        name: stamp(name, array, coords.get(name, axes.by_source)) for name, array in values.items()
+    }
+
+
 def draw_variables(
-    places: Places,
-    sounds: Sequence[Mapping[At, SourceSound]],
+    axes: LevelAxes,
+    sounds: Sequence[Mapping[CaseKey, SourceSound]],
     remainder: Array,
-    left: Array,
+    remaining_share: Array,
 ) -> xr.Dataset:
     """A-weighted levels of every draw.
 
@@ -122,30 +98,25 @@ def draw_variables(
 
     Parameters
     ----------
-    places : axes
+    axes : of the levels
     sounds : of every case, by draw
     remainder : mean square that each draw leaves unexplained, shape (draw,), Pa²
-    left : share of it that each option leaves, shape (option,)
+    remaining_share : what each option leaves of it, shape (option,)
     """
-    draws = {"draw": np.arange(1, len(sounds) + 1)}
-    by_receiver = {
-        **draws,
-        "speed": list(places.speeds),
-        "option": list(places.options),
-        "receiver": list(places.receivers),
+    draws: dict[str, Any] = {"draw": np.arange(1, len(sounds) + 1)}
+    by_receiver = {**draws, **axes.by_receiver}
+    alone = np.array([axes.gathered(sound, "alone") for sound in sounds])
+    modelled = np.array([axes.gathered(sound, "part")[:, :, 0].sum(axis=2) for sound in sounds])
+    total = modelled + remainder[:, None, None, None] * remaining_share[:, None]
+    arrays: dict[str, tuple[Array, dict[str, Any]]] = {
+        "source_level_by_draw": (level(alone), {**draws, **axes.by_source}),
+        "level_modelled_by_draw": (level(modelled), by_receiver),
+        "level_total_by_draw": (level(total), by_receiver),
+        "level_remainder_by_draw": (level(remainder), draws),
+        "draw_weight": ((remainder > 0.0).astype(float), draws),
     }
-    by_source = {**by_receiver, "sound_source": list(places.sources)}
-    alone = np.array([places.gathered(sound, "alone") for sound in sounds])
-    total = np.array([places.gathered(sound, "part")[:, :, 0].sum(axis=2) for sound in sounds])
-    whole = total + remainder[:, None, None, None] * left[:, None]
-    arrays = {
-        "source_level_by_draw": stamp("source_level_by_draw", level(alone), by_source),
-        "level_modelled_by_draw": stamp("level_modelled_by_draw", level(total), by_receiver),
-        "level_total_by_draw": stamp("level_total_by_draw", level(whole), by_receiver),
-        "level_remainder_by_draw": stamp("level_remainder_by_draw", level(remainder), draws),
-        "draw_weight": stamp("draw_weight", (remainder > 0.0).astype(float), draws),
-    }
-    return check(xr.Dataset(arrays))
+    labelled = {name: stamp(name, values, coords) for name, (values, coords) in arrays.items()}
+    return check(xr.Dataset(labelled))
 
 
 def _order_level(pressure: ComplexArray, frequency: Array) -> Array:

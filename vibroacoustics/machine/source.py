@@ -67,6 +67,10 @@ class Case:
         return orders_below(self.maximum_frequency_hz, self.speed_rpm)
 
 
+CaseKey = tuple[float, str]
+"""Speed in rpm and option of a case."""
+
+
 class Source(KindOfParameters):
     """Who drives the machine: what a study's table says of it, its loads and its words.
 

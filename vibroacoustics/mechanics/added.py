@@ -80,6 +80,10 @@ class InsertionLoss:
         """Pressure with it over pressure without it at each frequency."""
         return np.asarray(10.0 ** (-self.at(frequency_hz) / 20.0))
 
+    def power_factor(self, frequency_hz: Array) -> Array:
+        """Mean square with it over mean square without it at each frequency."""
+        return np.asarray(10.0 ** (-self.at(frequency_hz) / 10.0))
+
     @property
     def even_db(self) -> float:
         """Loss of sound whose energy is spread evenly over the bands, dB."""

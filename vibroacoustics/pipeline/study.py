@@ -11,6 +11,7 @@ from ..base.hashing import canonical_json
 from ..base.progress import Progress, no_progress
 from ..base.vocabulary import check, label_coordinates
 from ..results import provenance
+from ..results.words import words
 from ..stopping.labelled import stopping_variables
 from ..study.study import Study
 from ..transfer import on_mounts
@@ -18,7 +19,6 @@ from .motion import motion_of
 from .radiating import Radiation, line_difference, sound_field, transfer_vectors
 from .shell import shell_path
 from .sound import levels_of
-from .words import words
 
 
 def run(
@@ -31,7 +31,7 @@ def run(
     Parameters
     ----------
     study : from `load_study`
-    progress : told of the advance of long work
+    progress : called with the advance of long work
     radiation : gives the transfer vectors: the package's, measured ones or a second method's
 
     Returns
@@ -62,7 +62,7 @@ def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
         results = results.merge(stopping_variables(study, study.machine, body, results))
     results = results.merge(_scores(study, results))
     results.attrs = provenance.radiation_attributes(study, radiated, was_cached)
-    results.attrs["words"] = canonical_json(words(study, motion, results))
+    results.attrs["words"] = canonical_json(words(study, motion.loads, results))
     return check(label_coordinates(results))
 
 

@@ -12,7 +12,8 @@ from vibroacoustics import pipeline
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.commands import outputs
 from vibroacoustics.levels import SILENCE_DB
-from vibroacoustics.pipeline import motion, speed_blocks
+from vibroacoustics.pipeline import motion
+from vibroacoustics.results import size, speed_blocks
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.speeds import speed_range
 from vibroacoustics.study.study import Study
@@ -250,13 +251,13 @@ def test_result_above_2_gib_is_refused_before_the_second_speed(tmp_path, monkeyp
         tmp_path,
         "speed_rpm = { start = 1000.0, stop = 1999.0, step = 1.0 }\ncrank_angle_samples = 512",
     )
-    forces = motion._forces
+    forces = motion.force_variables
 
     def counted(part, *others):
         motions.append(part.operation.speed_rpm)
         return forces(part, *others)
 
-    monkeypatch.setattr(motion, "_forces", counted)
+    monkeypatch.setattr(motion, "force_variables", counted)
     with pytest.raises(ParameterError, match=r"1000 speeds takes .* GiB; allowed 2 GiB"):
         pipeline.run(study, lambda task, *_: told.append(task))
     assert motions == [(1000.0,)]
@@ -268,4 +269,4 @@ def test_size_told_is_that_of_the_result(tmp_path, many):
     by_speed = sum(array.nbytes for array in many.data_vars.values() if "speed" in array.dims)
     first = many.drop_vars(["pressure_line", "order_level", "level_modelled", "level_total"])
     # The changes and the coordinates are left out of the estimate, a part in a thousand.
-    assert speed_blocks.result_bytes(study, first) == pytest.approx(by_speed, rel=2e-3)
+    assert size.result_bytes(study, first) == pytest.approx(by_speed, rel=2e-3)

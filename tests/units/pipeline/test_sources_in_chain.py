@@ -20,7 +20,7 @@ from support import ROOT, assert_refused, command_here
 from vibroacoustics import levels
 from vibroacoustics.base.constants import REFERENCE_PRESSURE_PA
 from vibroacoustics.base.errors import ParameterError, SolverError
-from vibroacoustics.levels.by_source import NoisePower, SourceSound, filled_thirds, source_sound
+from vibroacoustics.levels.by_source import SourceSound, filled_thirds, source_sound
 from vibroacoustics.machine.shell_structure import (
     BEARING_HOUSING,
     DRAWN_OF_SHELL,
@@ -30,9 +30,10 @@ from vibroacoustics.machine.shell_structure import (
 )
 from vibroacoustics.mechanics.added import RingForce
 from vibroacoustics.mechanics.loads import Noise
-from vibroacoustics.pipeline.cases import loads_of
+from vibroacoustics.mechanics.received_sound import NoisePower
 from vibroacoustics.radiation.pressure import pressure_per_velocity, wrench_pressure
 from vibroacoustics.radiation.scene import machine_body
+from vibroacoustics.sources.cases import loads_of
 from vibroacoustics.sources.joint_loads import key_torque_n_m
 from vibroacoustics.sources.keys import KEY_COMPONENTS, OldhamKeyForces
 from vibroacoustics.sources.oldham_keys.rattle import steady_key_forces

@@ -1,5 +1,6 @@
 """Words of machine, options and units, kept with the results: a report needs none to be there."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -7,18 +8,21 @@ import xarray as xr
 
 from ..base.arrays import Array
 from ..base.units import UNITS
+from ..machine.source import CaseKey
+from ..mechanics.loads import Loads
+from ..sources.cases import sources_of
 from ..study.study import Study
-from .cases import sources_of
-from .motion import Motion
 
 
-def words(study: Study, motion: Motion, results: xr.Dataset) -> dict[str, Any]:
+def words(
+    study: Study, loads: Mapping[CaseKey, Mapping[str, Loads]], results: xr.Dataset
+) -> dict[str, Any]:
     """What machine and options say of themselves, as JSON values.
 
     Parameters
     ----------
     study : with machine and options
-    motion : with the loads of the sources
+    loads : of all sources in each case
     results : with their reported figures
     """
     inner_sources = bool(study.sources)
@@ -38,19 +42,22 @@ def words(study: Study, motion: Motion, results: xr.Dataset) -> dict[str, Any]:
         "leaves_out": list(dict.fromkeys(left_out)),
         "labels": labels,
         "shell_bends": study.drives_shell,
-        "source_figures": _source_figures(motion),
         "units": {suffix: UNITS[suffix].symbol for suffix in UNITS.origins()},
-        "sources": {name: own.label for name, own in sources_of(study).items() if own.label},
+        "source_figures": _source_figures(loads),
+        "sources": {
+            name: source.label for name, source in sources_of(study).items() if source.label
+        },
         "sentences": {
             name: list(option.sentences(_figures(results, name))) for name, option in options
         },
     }
 
 
-def _source_figures(motion: Motion) -> list[str]:
+def _source_figures(loads: Mapping[CaseKey, Mapping[str, Loads]]) -> list[str]:
     """Names of the figures that sources report."""
-    loads = (load for case in motion.loads.values() for load in case.values())
-    return sorted({name for load in loads for name in load.figures})
+    return sorted(
+        {name for case in loads.values() for load in case.values() for name in load.figures}
+    )
 
 
 def _figures(results: xr.Dataset, option: str) -> dict[str, Array]:

@@ -3,53 +3,48 @@
 from collections.abc import Mapping
 from dataclasses import replace
 from itertools import product
+from typing import Final
 
 from ..base.errors import ParameterError
 from ..base.progress import Progress
 from ..base.vocabulary import REFERENCE_OPTION
-from ..machine.source import Case, Shared, Source
+from ..machine.machine import Machine
+from ..machine.source import Case, CaseKey, Source
 from ..mechanics.added import Added
 from ..mechanics.loads import Loads
 from ..mechanics.moving_parts import Revolution
-from ..sources.moving_parts import MovingParts
 from ..study.study import Study
-from ..uncertainty.draws import Draw, with_draw
+from .moving_parts import MovingParts
 
-At = tuple[float, str]
-"""Speed in rpm and option."""
-
-MOVING_PARTS = "moving_parts"
+MOVING_PARTS: Final = "moving_parts"
 """Name of the source that every study has."""
 
 
-def cases_of(study: Study, progress: Progress) -> dict[At, Case]:
+def cases_of(study: Study, progress: Progress) -> dict[CaseKey, Case]:
     """Every speed with every option, with the values as given."""
     operation = study.operation
     supplies = operation.supply_frequency_hz or (None,) * len(operation.speed_rpm)
-    cases: dict[At, Case] = {}
-    places = list(product(zip(operation.speed_rpm, supplies, strict=True), study.options))
-    for number, ((speed, supply), name) in enumerate(places):
-        option = study.options[name]
-        machine = option.applied_to(study.machine)
+    points = list(product(zip(operation.speed_rpm, supplies, strict=True), study.options))
+    cases: dict[CaseKey, Case] = {}
+    for number, ((speed, supply), name) in enumerate(points):
+        machine = study.options[name].applied_to(study.machine)
         shared = cases.get((speed, REFERENCE_OPTION)) if machine is study.machine else None
-        turned, added = _turned(study, name, speed, shared)
+        revolution, added = _revolution(study, name, machine, speed, shared)
         cases[speed, name] = Case(
-            machine, added, turned, supply, study.radiation.maximum_frequency_hz
+            machine, added, revolution, supply, study.radiation.maximum_frequency_hz
         )
-        progress("forces", number + 1, len(places))
+        progress("forces", number + 1, len(points))
     return cases
 
 
-def _turned(
-    study: Study, name: str, speed_rpm: float, shared: Case | None
+def _revolution(
+    study: Study, name: str, machine: Machine, speed_rpm: float, shared: Case | None
 ) -> tuple[Revolution, Added]:
     """Steady revolution with an option, the reference's where it has one, and what it adds."""
-    option = study.options[name]
-    machine = option.applied_to(study.machine)
     samples = study.operation.crank_angle_samples
     try:
-        turned = machine.revolution(speed_rpm, samples) if shared is None else shared.revolution
-        return turned, option.added(machine, turned)
+        steady = machine.revolution(speed_rpm, samples) if shared is None else shared.revolution
+        return steady, study.options[name].added(machine, steady)
     except ParameterError as error:
         raise ParameterError(f"options.{name}: {error}") from None
 
@@ -77,10 +72,16 @@ def loads_of(study: Study, case: Case) -> dict[str, Loads]:
     return loads
 
 
-def with_values(cases: Mapping[At, Case], study: Study, draw: Draw) -> dict[At, Case]:
-    """The cases with drawn values, and results of their own to share."""
-    shared = Shared()
-    return {
-        at: replace(case, machine=with_draw(case.machine, study.machine, draw), shared=shared)
-        for at, case in cases.items()
-    }
+def sources_of_wrenches(loads: Mapping[str, Loads]) -> dict[str, str]:
+    """Source of each wrench, by the wrench's name."""
+    return {wrench: source for source, load in loads.items() for wrench in load.wrenches}
+
+
+def without_time_series(case: Case, loads: Mapping[str, Loads]) -> tuple[Case, dict[str, Loads]]:
+    """Case and loads without wrenches and paths over crank angle, which the results hold."""
+    bare = replace(
+        case,
+        revolution=replace(case.revolution, wrenches={}),
+        added=replace(case.added, parts=()),
+    )
+    return bare, {name: replace(load, wrenches={}) for name, load in loads.items()}

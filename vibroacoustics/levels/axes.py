@@ -1,0 +1,46 @@
+"""Axes of the levels of a study."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..base.arrays import Array
+from ..machine.source import CaseKey
+from .bands import Band
+from .by_source import SourceSound
+
+
+@dataclass(frozen=True)
+class LevelAxes:
+    """Names along the axes of the levels.
+
+    Attributes
+    ----------
+    speeds, options, sources, receivers : in the order of the arrays
+    bands : third octaves
+    """
+
+    speeds: Sequence[float]
+    options: Sequence[str]
+    sources: Sequence[str]
+    receivers: Sequence[str]
+    bands: Sequence[Band]
+
+    def gathered(self, sound: Mapping[CaseKey, SourceSound], part: str) -> Array:
+        """A part of the sound of all cases, shape (speed, option, ...)."""
+        return np.array([[getattr(sound[s, o], part) for o in self.options] for s in self.speeds])
+
+    @property
+    def by_receiver(self) -> dict[str, list[float] | list[str]]:
+        """Coordinates of levels of all sources together."""
+        return {
+            "speed": list(self.speeds),
+            "option": list(self.options),
+            "receiver": list(self.receivers),
+        }
+
+    @property
+    def by_source(self) -> dict[str, list[float] | list[str]]:
+        """Coordinates of levels of each source."""
+        return {**self.by_receiver, "sound_source": list(self.sources)}

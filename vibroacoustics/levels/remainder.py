@@ -1,0 +1,68 @@
+"""What the sources leave unexplained of the machine's published level."""
+
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+import numpy as np
+
+from ..base.arrays import Array
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.decibel import mean_square_level
+from ..base.errors import ParameterError, SolverError
+from ..base.vocabulary import REFERENCE_OPTION
+from ..machine.source import CaseKey
+from ..study.study import Study
+from .axes import LevelAxes
+from .by_source import SourceSound
+
+LEAST_DRAWS: Final = 3
+"""Draws that must be left for a band."""
+
+
+def remainder(
+    study: Study, axes: LevelAxes, sound: Mapping[CaseKey, SourceSound], may_be_none: bool
+) -> float:
+    """Mean square that the model leaves of the published level at its microphone and speed, Pa².
+
+    Parameters
+    ----------
+    study : with the published level
+    axes : with its receiver
+    sound : of the reference option at its speed, and of other cases
+    may_be_none : whether none is left where the model alone is louder, as in a draw
+
+    Raises
+    ------
+    ParameterError
+        The model alone is louder.
+    """
+    published = study.machine.overall_noise
+    receiver = list(axes.receivers).index(study.catalogue_receiver)
+    alone = sound[published.speed_rpm, REFERENCE_OPTION].total[0, receiver]
+    rest = REFERENCE_PRESSURE_PA**2 * 10.0 ** (published.level_dba / 10.0) - alone
+    if rest <= 0.0 and not may_be_none:
+        level = mean_square_level(alone, REFERENCE_PRESSURE_PA)
+        raise ParameterError(
+            f"machine: overall_noise.level_dba = {published.level_dba:g} dB(A): the model alone "
+            f"gives {level:.1f} dB(A) at {study.catalogue_receiver}"
+        )
+    return float(max(rest, 0.0))
+
+
+def remainder_by_draw(
+    study: Study, axes: LevelAxes, sounds: Sequence[Mapping[CaseKey, SourceSound]]
+) -> Array:
+    """The same of every draw; zero where its model alone is louder, shape (draw,), Pa².
+
+    Raises
+    ------
+    SolverError
+        Nearly all draws are louder.
+    """
+    rests = np.array([remainder(study, axes, sound, may_be_none=True) for sound in sounds])
+    if np.count_nonzero(rests) < LEAST_DRAWS:
+        raise SolverError(
+            f"uncertainty.random_samples: only {np.count_nonzero(rests)} of {rests.size} draws are "
+            f"below the published level, {LEAST_DRAWS} are needed; draw more, or look at the ranges"
+        )
+    return rests

@@ -1,0 +1,50 @@
+"""Sound of all sources at the receivers in one case, before any weighting."""
+
+from dataclasses import dataclass, replace
+
+from ..base.arrays import Array, ComplexArray
+from .added import InsertionLoss
+from .loads import Lines
+
+
+@dataclass(frozen=True)
+class NoisePower:
+    """Mean square of a source's noise at the receivers by frequency.
+
+    Attributes
+    ----------
+    source : index of the source
+    frequency_hz : shape (frequency,)
+    power : shape (receiver, frequency), Pa²
+    """
+
+    source: int
+    frequency_hz: Array
+    power: Array
+
+
+@dataclass(frozen=True)
+class ReceivedSound:
+    """Lines and noise at the receivers.
+
+    Attributes
+    ----------
+    lines : of all sources
+    pressure : complex peaks at the lines, shape (source, receiver, line), Pa
+    noise : of the sources that have some
+    """
+
+    lines: Lines
+    pressure: ComplexArray
+    noise: tuple[NoisePower, ...]
+
+    def behind(self, loss: InsertionLoss | None) -> "ReceivedSound":
+        """What an insertion loss leaves of it."""
+        if loss is None:
+            return self
+        noise = [
+            replace(part, power=part.power * loss.power_factor(part.frequency_hz))
+            for part in self.noise
+        ]
+        pressure = self.pressure * loss.amplitude_factor(self.lines.frequency_hz)
+        return ReceivedSound(self.lines, pressure, tuple(noise))

@@ -1,0 +1,117 @@
+"""From the loads of every case to its sound at the receivers."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import ComplexArray
+from ..machine.machine import Machine
+from ..machine.shell_structure import JOINTS, ShellStructure, ShellVariation
+from ..machine.source import Case, CaseKey
+from ..mechanics.loads import Lines, Loads, lines_of
+from ..mechanics.received_sound import NoisePower, ReceivedSound
+from ..study.study import Study
+from .machine import on_mounts
+from .path import ShellPath
+from .sound_path import BendingShell, PressurePerVelocity, SoundPath
+
+BySource = Mapping[str, ComplexArray]
+
+
+@dataclass(frozen=True)
+class Transmission:
+    """What turns loads into sound, whatever values are drawn.
+
+    Attributes
+    ----------
+    study : options, highest frequency and order
+    rigid : pressure per velocity of the rigid motions
+    modes : of the shell's modes; none where no source drives it
+    shell : its modes and joints; none where no source drives it
+    wrench_pressure : of the wrenches over crank angle, by case and source, (receiver, order), Pa
+    """
+
+    study: Study
+    rigid: PressurePerVelocity
+    modes: PressurePerVelocity | None
+    shell: ShellPath | None
+    wrench_pressure: Mapping[CaseKey, BySource]
+
+    def received(
+        self,
+        cases: Mapping[CaseKey, Case],
+        loads: Mapping[CaseKey, Mapping[str, Loads]],
+        machine: Machine,
+    ) -> dict[CaseKey, ReceivedSound]:
+        """Sound of every case behind its option's insertion loss.
+
+        Parameters
+        ----------
+        cases : speeds and options
+        loads : of all sources in each
+        machine : of the study, whose shell has the values of a draw
+        """
+        path = SoundPath(self.rigid, self._bending_shell(machine))
+        return {
+            key: self._of_case(case, loads[key], self.wrench_pressure[key], path).behind(
+                self.study.options[key[1]].insertion_loss()
+            )
+            for key, case in cases.items()
+        }
+
+    def _bending_shell(self, machine: Machine) -> BendingShell | None:
+        if self.shell is None or self.modes is None:
+            return None
+        loss = machine.table(ShellStructure).loss_factor_ratio
+        return BendingShell(self.shell, self.modes, loss, machine.table(ShellVariation))
+
+    def _of_case(
+        self, case: Case, loads: Mapping[str, Loads], of_wrenches: BySource, path: SoundPath
+    ) -> ReceivedSound:
+        receivers, tabulated = next(iter(of_wrenches.values())).shape
+        orders = min(tabulated, self.study.highest_order(case.speed_rpm) + 1)  # silent beyond
+        lines = self._lines(case, loads, orders)
+        pressure = np.zeros((len(loads), receivers, lines.frequency_hz.size), dtype=complex)
+        for number, of_source in enumerate(path.pressure(on_mounts(case.machine), lines).values()):
+            pressure[number] += of_source
+        for number, source in enumerate(loads):
+            if source in of_wrenches:
+                pressure[number, :, :orders] += of_wrenches[source][:, :orders]
+        noise = [
+            NoisePower(number, part.frequency_hz, path.noise_power(part))
+            for number, load in enumerate(loads.values())
+            for part in load.noise
+        ]
+        return ReceivedSound(lines, pressure, tuple(noise))
+
+    def _lines(self, case: Case, loads: Mapping[str, Loads], orders: int) -> Lines:
+        """With as many orders as the wrenches have; on a shell up to the highest frequency."""
+        highest = orders - 1
+        if self.study.drives_shell:
+            highest = max(highest, case.maximum_order)
+        return lines_of(loads, case.shaft_frequency_hz, highest, len(JOINTS))
+
+
+def by_case_and_source(
+    pressure: xr.DataArray, source_of_wrench: Mapping[str, str]
+) -> dict[CaseKey, BySource]:
+    """Pressure of the wrenches, shape (receiver, order), summed over those of one source.
+
+    Parameters
+    ----------
+    pressure : of every wrench, which the dimension source names, Pa
+    source_of_wrench : by the wrench's name
+    """
+    dims = ("speed", "option", "source", "receiver", "order")
+    values = pressure.transpose(*dims).values
+    sources = np.array([source_of_wrench[str(name)] for name in pressure["source"].values])
+    rows = {source: np.flatnonzero(sources == source) for source in dict.fromkeys(sources.tolist())}
+    return {
+        (float(speed), str(option)): {
+            source: values[s, o, row].sum(axis=0) for source, row in rows.items()
+        }
+        for s, speed in enumerate(pressure["speed"].values)
+        for o, option in enumerate(pressure["option"].values)
+    }
