@@ -14,3 +14,129 @@ from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.hashing import canonical_json, sha256
 from ..base.registry import plugins
 from ..recordings.reader import READERS
+from ..study.order_analysis import OrderAnalysis
+from ..study.study import Study
+
+SCHEMA_VERSION: Final = "2"
+RECORDING_SCHEMA_VERSION: Final = "1"
+"""Of orders of a recording and of compared orders."""
+NOT_INSTALLED: Final = "not installed"
+PACKAGES: Final = (
+    "numpy",
+    "scipy",
+    "pyfftw",
+    "xarray",
+    "netCDF4",
+    "h5py",
+    "k-wave-python",
+    "pydantic",
+)
+
+
+def attributes(study: Study) -> dict[str, Any]:
+    """Global attributes of a result: everything that is needed to make it again."""
+    parameters = canonical_json(study.parameters())
+    return {
+        **software_attributes(f"run {study.source_file}"),
+        "title": study.title,
+        "references": "see the sources in the attribute parameters",
+        "parameters": parameters,
+        "parameters_sha256": sha256(parameters.encode()),
+        "random_seed": study.scoring.seed,
+    }
+
+
+def radiation_attributes(study: Study, radiated: xr.Dataset, was_cached: bool) -> dict[str, Any]:
+    """The same, and where the transfer vectors come from.
+
+    Parameters
+    ----------
+    study : of the result
+    radiated : the transfer vectors
+    was_cached : whether they were read, not computed
+    """
+    return {
+        **attributes(study),
+        "reference_pressure_pa": REFERENCE_PRESSURE_PA,
+        "transfer_vectors": "from the cache" if was_cached else "computed in this run",
+        "radiation": canonical_json(radiated.attrs),
+    }
+
+
+def recording_attributes(recording: xr.Dataset, settings: OrderAnalysis) -> dict[str, Any]:
+    """Global attributes of the orders of a recording: its file and the settings."""
+    name = recording_name(recording)
+    kept = ("source_sha256", "start_time", "sample_rate_hz")
+    parameters = asdict(settings) | {"orders": [float(order) for order in settings.orders]}
+    return {
+        **software_attributes(f"orders of {name}", RECORDING_SCHEMA_VERSION),
+        "title": f"Orders of {name}",
+        "source_file": name,
+        **{key: recording.attrs[key] for key in kept if key in recording.attrs},
+        "analysis": canonical_json(parameters),
+    }
+
+
+def recording_name(recording: xr.Dataset) -> str:
+    """File of a recording, or `recording` where it is from none."""
+    return str(recording.attrs.get("source_file", "recording"))
+
+
+def software_attributes(command: str, schema_version: str = SCHEMA_VERSION) -> dict[str, Any]:
+    """Global attributes of any result: what made it, and when."""
+    return {
+        "Conventions": "CF-1.11",
+        "history": f"{_now()} vibroacoustics {software_version()}: {command}",
+        "source": f"vibroacoustics {software_version()}",
+        "schema_version": schema_version,
+        "software_version": software_version(),
+        "git_revision": git_revision(),
+        "plugins": canonical_json(plugins()),
+        "package_versions": canonical_json(package_versions()),
+        "created_utc": _now(),
+        "phasor_convention": "x(t) = Re{X exp(+j w t)}, X is a complex peak",
+    }
+
+
+def software_version() -> str:
+    """Version of this package."""
+    return version("vibroacoustics")
+
+
+def package_versions() -> dict[str, str]:
+    """Installed versions of the packages that make the numbers, those of readers among them."""
+    further = (reader.package for reader in READERS.values() if reader.package)
+    return {name: _version(name) for name in (*PACKAGES, *further)}
+
+
+def is_missing(package: str) -> bool:
+    """Whether a package, of a name that is not empty, is not installed."""
+    return bool(package) and _version(package) == NOT_INSTALLED
+
+
+@cache
+def git_revision() -> str:
+    """Revision of the source tree, or `unknown` where this file is not tracked by one."""
+    try:
+        _git("ls-files", "--error-unmatch", Path(__file__).name)
+        return _git("describe", "--always", "--dirty", "--abbrev=12")
+    except (OSError, subprocess.SubprocessError):
+        return "unknown"
+
+
+def _git(*arguments: str) -> str:
+    command = ["git", "-C", str(Path(__file__).resolve().parent), *arguments]
+    return subprocess.run(  # noqa: S603 - fixed command
+        command, capture_output=True, text=True, timeout=5, check=True
+    ).stdout.strip()
+
+
+def _version(name: str) -> str:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return NOT_INSTALLED
+
+
+def _now() -> str:
+    return datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
