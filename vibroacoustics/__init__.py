@@ -7,7 +7,8 @@ The public functions take or return one `xarray.Dataset`, so that a notebook nee
 A file of a stranger that adds a criterion, a balancing option, a source or a kind of machine
 derives from `Criterion`, `Option`, `Source` or `Machine`, gives its class to `register`, and uses
 `Added`, `Case`, `Loads`, `MovingPart`, `Revolution`, `Wrench`; one that adds a variable, a
-coordinate or a unit makes a `Variable`, `Coordinate` or `Unit`. `load_plugin` takes it in.
+coordinate or a unit makes a `Variable`, `Coordinate` or `Unit`; one that reads a format of
+recordings makes a `Reader`, which gets a `Request` and gives `Recorded`. `load_plugin` takes it in.
 """
 
 from importlib import import_module
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
     from .mechanics.moving_parts import MovingPart, Revolution, Wrench
     from .pipeline import analyse_orders, run
     from .recordings import label_recording, read_recording
+    from .recordings.reader import Reader
+    from .recordings.recorded import Recorded, Request
     from .results.order_comparison import compare
     from .results.storage import open_results
     from .scoring import score
@@ -42,6 +45,9 @@ __all__ = [
     "Machine",
     "MovingPart",
     "Option",
+    "Reader",
+    "Recorded",
+    "Request",
     "Revolution",
     "Source",
     "Unit",
@@ -71,6 +77,9 @@ _HOME = {
     "Machine": "machine.machine",
     "MovingPart": "mechanics.moving_parts",
     "Option": "machine.option",
+    "Reader": "recordings.reader",
+    "Recorded": "recordings.recorded",
+    "Request": "recordings.recorded",
     "Revolution": "mechanics.moving_parts",
     "Source": "machine.source",
     "Unit": "base.units",

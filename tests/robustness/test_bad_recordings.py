@@ -17,8 +17,9 @@ from nptdms import ChannelObject, TdmsWriter
 from support import ROOT
 
 from vibroacoustics.base.errors import ParameterError, StorageError, VibroacousticsError
-from vibroacoustics.recordings import child, label_recording, wav_bytes
+from vibroacoustics.recordings import label_recording, wav_bytes
 from vibroacoustics.recordings import read_recording as read
+from vibroacoustics.recordings.reader import readers_by_suffix
 from vibroacoustics.recordings.reading import _end_of
 from vibroacoustics.recordings.recorded import (
     MAXIMUM_READING_BYTES,
@@ -72,7 +73,7 @@ def test_files_that_are_none(tmp_path):
 
 def test_wrong_content(tmp_path):
     content = b"\x00\xffthis is no recording\n" * 40
-    paths = [write(tmp_path / f"a{suffix}", content) for suffix in sorted(child.READERS)]
+    paths = [write(tmp_path / f"a{suffix}", content) for suffix in sorted(readers_by_suffix())]
     for path, header in zip(paths, answers(paths), strict=True):
         assert header["error"] == "StorageError", path
         assert header["message"], path
@@ -342,8 +343,9 @@ def test_memory_of_a_recording_stays_within_the_cap(tmp_path):
 AS_CHILD = """
 import sys, numpy
 from vibroacoustics.recordings import child
+from vibroacoustics.recordings.reader import Reader
 def read(request): {body}
-child.READERS[".wav"] = read
+child.readers_by_suffix = lambda: {{".wav": Reader("wav", (".wav",), "WAV", read)}}
 child.MAXIMUM_CPU_S = 1
 sys.argv[1] = '{{"path": "a.wav", "channels": null, "sample_rate_hz": null}}'
 child.main()
@@ -456,7 +458,7 @@ def test_truncated_and_damaged(tmp_path, name):
 def answered(path: Path) -> None:
     """Our own parsers in this process: an error of ours, or channels of one length."""
     with suppress(VibroacousticsError):
-        found = child.READERS[path.suffix](Request(path))
+        found = readers_by_suffix()[path.suffix].read(Request(path))
         assert len({len(samples) for samples in found.samples}) == 1
 
 
@@ -482,7 +484,7 @@ CHUNKS = st.tuples(
 @given(kind=st.sampled_from([b"RIFF", b"RIFX", b"RF64"]), chunks=st.lists(CHUNKS, max_size=5))
 def test_any_chunks_as_wave(tmp_path_factory, kind, chunks):
     """The walk through the chunks never fails in another way, whatever they claim."""
-    from vibroacoustics.recordings.wav import _check_chunks
+    from vibroacoustics.recordings.readers.wav import _check_chunks
 
     body = b"".join(name + size.to_bytes(4, "little") + rest for name, size, rest in chunks)
     path = write(tmp_path_factory.getbasetemp() / "any.wav", kind + b"\0\0\0\0WAVE" + body)

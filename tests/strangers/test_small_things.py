@@ -1,13 +1,15 @@
-"""Strangers' sections, columns, variables and units: by file, and as installed packages."""
+"""Strangers' sections, columns, variables, units, readers: by file and as installed packages."""
 
+import json
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 from support import ROOT, TINY, assert_refused, tiny_run
 from test_strangers import STRANGERS, command, plugins
 
-from vibroacoustics.results.storage import write_results
+from vibroacoustics.results.storage import open_results, write_results
 
 ENTRY_POINTS = """[vibroacoustics.sections]
 floor_force = floor_force:SECTION
@@ -19,6 +21,8 @@ floor_force = floor_force:FLOOR_FORCE
 side = floor_force:SIDE
 [vibroacoustics.units]
 inch = inches:INCH
+[vibroacoustics.readers]
+plain-bytes = plain_bytes:READER
 """
 
 
@@ -26,7 +30,7 @@ inch = inches:INCH
 def installed(tmp_path_factory) -> Path:
     """A folder of installed packages: the files, which register nothing, and entry points."""
     folder = tmp_path_factory.mktemp("site")
-    for name in ("floor_force", "third_force", "inches"):
+    for name in ("floor_force", "third_force", "inches", "plain_bytes"):
         text = (STRANGERS / f"{name}.py").read_text()
         plain = re.sub(r"(?m)^@?vibroacoustics\.register.*\n", "", text)
         (folder / f"{name}.py").write_text(plain)
@@ -85,3 +89,38 @@ height_mm = { value = 0.0, source = "a test" }
     assert_refused(
         outcome, "options.weight.radius_inch = 400.0 in: out of range", "above 0 to 19.685 in"
     )
+
+
+ANALYSIS = ("--rpm", "3000", "--maximum-order", "5")
+
+
+def plain_recording(folder: Path) -> Path:
+    """A sine of 50 Hz and 0.5 V, in the stranger's format."""
+    sine = 64.0 * np.sin(2.0 * np.pi * 50.0 * np.arange(4000) / 1000.0 + 0.1)
+    (folder / "sine.plain").write_bytes(np.round(sine).astype(np.int8).tobytes())
+    return folder / "sine.plain"
+
+
+def test_reader_reads_in_the_child(stranger, tmp_path):
+    words = ("orders", plain_recording(tmp_path), *ANALYSIS, "--out", tmp_path / "out")
+    assert_refused(command(tmp_path, *words), "format '.plain' is unknown; known are .csv")
+    outcome = stranger(*words, names=("plain_bytes",))
+    assert outcome.returncode == 0, outcome.stderr
+    results = open_results(tmp_path / "out" / "orders.nc")
+    assert results["channel"].values.tolist() == ["plain"]
+    first = results["channel_order_rms"].sel(order=1).item()
+    assert first == pytest.approx(0.5 / np.sqrt(2.0), rel=1e-2)
+    origin = json.loads(results.attrs["plugins"])["reader plain-bytes"]
+    assert origin["file"] == "plain_bytes.py"
+
+
+def test_missing_package_of_a_reader_is_named(stranger, tmp_path):
+    (tmp_path / "bad.plain").write_bytes(bytes(100))
+    outcome = stranger("orders", tmp_path / "bad.plain", "--rpm", "3000", names=("plain_bytes",))
+    assert_refused(outcome, "needs no_such_module: pip install plain-bytes-of-pip")
+
+
+def test_doctor_lists_an_installed_reader(installed, tmp_path):
+    outcome = command(tmp_path, "doctor", path=installed)
+    needs = "recordings: plain bytes: needs plain-bytes-of-pip: pip install plain-bytes-of-pip"
+    assert needs in outcome.stdout

@@ -3,8 +3,17 @@
 import sys
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
+from typing import Final
 
 from .errors import PluginError, VibroacousticsError
+
+_FILES: Final[dict[str, Path]] = {}
+"""By the name of the module that each became."""
+
+
+def plugin_file(module: str) -> Path | None:
+    """File that a module was loaded from by `load_plugin`; None for another module."""
+    return _FILES.get(module)
 
 
 def load_plugin(path: str | Path) -> None:
@@ -32,6 +41,7 @@ def load_plugin(path: str | Path) -> None:
     sys.modules[name] = module  # its classes are looked up there
     try:
         spec.loader.exec_module(module)
+        _FILES[name] = file
     except VibroacousticsError:
         del sys.modules[name]
         raise

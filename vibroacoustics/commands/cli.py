@@ -29,7 +29,7 @@ Plugins = Annotated[
     typer.Option(
         "--plugin",
         metavar="FILE.py",
-        help="Python file with options, sources, machines, … of yours; it is run.",
+        help="Python file with options, sources, machines, readers, … of yours; it is run.",
     ),
 ]
 ResultsFile = Annotated[Path, typer.Argument(metavar="RESULTS.nc", help="Results of a run.")]
@@ -135,6 +135,7 @@ def orders_command(
         Path | None,
         typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE FILE."),
     ] = None,
+    plugin: Plugins = None,
 ) -> None:
     """Find the orders of a recording: netCDF, CSV, figures and a table."""
     from .. import pipeline, recordings, report
@@ -144,6 +145,7 @@ def orders_command(
         speed, pulses, index, rpm, tacholess, orders, maximum_order, resolution, speed_step,
         with_map,
     )  # fmt: skip
+    _load(plugin)
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
     recording = recordings.read_recording(

@@ -8,6 +8,7 @@ import psutil
 
 from ..base.errors import VibroacousticsError
 from ..orders import FFT_ENGINE, order_spectrum
+from ..recordings.reader import READERS, needed
 from ..results import provenance, storage
 
 
@@ -22,7 +23,7 @@ def findings() -> Iterator[str]:
     yield f"cores: {psutil.cpu_count()}"
     yield f"fft: {_fft()}"
     yield f"k-wave: {_kwave()}"
-    yield f"recordings: {_recordings()}"
+    yield from (f"recordings: {line}" for line in _recordings())
     yield f"cache: {_cache()}"
 
 
@@ -44,13 +45,15 @@ def _kwave() -> str:
     return "solver loads, without a network"
 
 
-def _recordings() -> str:
-    """Whether the extra `io` is there."""
-    versions = provenance.package_versions()
-    missing = [name for name in provenance.READERS if versions[name] == provenance.NOT_INSTALLED]
-    if missing:
-        return f"no {' and '.join(missing)}; for UFF and TDMS pip install vibroacoustics[io]"
-    return "every format can be read"
+def _recordings() -> Iterator[str]:
+    """The formats that can be read, and what each other one needs."""
+    readable = []
+    for reader in READERS.values():
+        if provenance.is_missing(reader.package):
+            yield f"{reader.words}: {needed(reader, reader.package)}"
+        else:
+            readable.append(f"{reader.words} ({' '.join(reader.suffixes)})")
+    yield f"{', '.join(readable)} can be read"
 
 
 def _cache() -> str:

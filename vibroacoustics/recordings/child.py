@@ -11,42 +11,34 @@ import json
 import os
 import resource
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, BinaryIO, Final
 
 import numpy as np
 
 from ..base.errors import ParameterError, StorageError, VibroacousticsError
-from . import csv_table, hdf5, mat, tdms, uff, uff_modes, wav
+from ..base.plugin_file import load_plugin
+from . import uff_modes
+from .reader import Reader, needed, readers_by_suffix
 from .recorded import MAXIMUM_READING_BYTES, MINIMUM_SAMPLES, Recorded, Request, check_size
 
-READERS: Final[dict[str, Callable[[Request], Recorded]]] = {
-    ".wav": wav.read,
-    ".mat": mat.read,
-    ".csv": csv_table.read,
-    ".txt": csv_table.read,
-    ".h5": hdf5.read,
-    ".hdf5": hdf5.read,
-    ".nc": hdf5.read,
-    ".uff": uff.read,
-    ".unv": uff.read,
-    ".tdms": tdms.read,
-}
-"""Reader by the suffix of the file's name."""
 MAXIMUM_CPU_S: Final = 600
 PIECE: Final = 2**17
 """Samples that are handed over at a time, 1 MiB."""
 
 
-def answer(request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
+def answer(request: Request, plugin: str | None = None) -> tuple[dict[str, Any], Iterable[Any]]:
     """Header and channels of a file, or the error that the user shall see.
 
     Parameters
     ----------
     request : what to read
+    plugin : file of the user that brings the reader
     """
     try:
+        if plugin is not None:
+            load_plugin(plugin)
         header, rows = (uff_modes.read if request.modes else _recording)(request)
         with request.path.open("rb") as file:
             digest = hashlib.file_digest(file, "sha256").hexdigest()
@@ -58,15 +50,26 @@ def answer(request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
             "may take: choose fewer channels or a shorter part"
         ), ()
     except ModuleNotFoundError as error:
-        return _refusal(f"needs {error.name}: pip install vibroacoustics[io]"), ()
+        return _refusal(needed(_reader(request), str(error.name))), ()
     except Exception as error:  # on a damaged file a parser may raise anything
         return _refusal(f"is damaged or not of this format: {type(error).__name__}: {error}"), ()
     return {**header, "sha256": digest}, rows
 
 
+def _reader(request: Request) -> Reader:
+    suffix = request.path.suffix.lower()
+    readers = readers_by_suffix()
+    if suffix not in readers:
+        raise ParameterError(
+            f"format {suffix!r}: its reader is not known to the process that reads: put it into a "
+            "file for load_plugin, or install it"
+        )
+    return readers[suffix]
+
+
 def _recording(request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
     """Header and channels of a recording."""
-    found = _checked(READERS[request.path.suffix.lower()](request))
+    found = _checked(_reader(request).read(request))
     header = {
         "names": list(found.names),
         "units": list(found.units),
@@ -111,15 +114,13 @@ def main() -> None:
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # a parser that prints does no harm
     asked = json.loads(sys.argv[1])
     channels = asked["channels"]
-    _write(
-        output,
-        Request(
-            Path(asked["path"]),
-            None if channels is None else tuple(channels),
-            asked["sample_rate_hz"],
-            asked.get("modes", False),
-        ),
+    request = Request(
+        Path(asked["path"]),
+        None if channels is None else tuple(channels),
+        asked["sample_rate_hz"],
+        asked.get("modes", False),
     )
+    _write(output, *answer(request, asked.get("plugin")))
 
 
 def _limit(kind: int, amount: int) -> None:
@@ -129,8 +130,7 @@ def _limit(kind: int, amount: int) -> None:
     resource.setrlimit(kind, (allowed, hard))
 
 
-def _write(output: BinaryIO, request: Request) -> None:
-    header, channels = answer(request)
+def _write(output: BinaryIO, header: dict[str, Any], channels: Iterable[Any]) -> None:
     with output:
         output.write(json.dumps(header).encode() + b"\n")
         for samples in channels:

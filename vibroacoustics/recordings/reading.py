@@ -14,12 +14,13 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
-from ..base.errors import ParameterError, StorageError, VibroacousticsError
-from .child import MAXIMUM_CPU_S, READERS
+from ..base.errors import ParameterError, PluginError, StorageError, VibroacousticsError
+from .child import MAXIMUM_CPU_S
+from .reader import readers_by_suffix
 from .recorded import MAXIMUM_READING_BYTES, check_rate, listed
 from .recording import label_in_place
 
-_ERRORS: Final = {error.__name__: error for error in (ParameterError, StorageError)}
+_ERRORS: Final = {error.__name__: error for error in (ParameterError, PluginError, StorageError)}
 
 
 def read_recording(
@@ -36,7 +37,7 @@ def read_recording(
 
     Parameters
     ----------
-    path : WAV, MAT, CSV, HDF5, netCDF, UFF or TDMS file
+    path : WAV, MAT, CSV, HDF5, netCDF, UFF or TDMS file, or one that a plug-in reads
     units : unit by channel; it overrides the file's, and is needed where the file states none
     calibration : factor by channel, the channel's unit per unit stored in the file
     channels : names of the channels to read; default: all
@@ -58,7 +59,9 @@ def read_recording(
     """
     path = Path(path)
     try:
-        check_file(path, list(READERS))
+        readers = readers_by_suffix()
+        check_file(path, list(readers))
+        plugin = readers[path.suffix.lower()].plugin
         if sample_rate_hz is not None:
             check_rate(sample_rate_hz)
         header, stored = read_in_child(
@@ -66,6 +69,7 @@ def read_recording(
                 "path": str(path),
                 "channels": None if channels is None else list(channels),
                 "sample_rate_hz": None if sample_rate_hz is None else float(sample_rate_hz),
+                "plugin": None if plugin is None else str(plugin),
             }
         )
         recording = label_in_place(

@@ -13,6 +13,7 @@ import xarray as xr
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.hashing import canonical_json, sha256
 from ..base.registry import plugins
+from ..recordings.reader import READERS
 from ..study.order_analysis import OrderAnalysis
 from ..study.study import Study
 
@@ -20,8 +21,6 @@ SCHEMA_VERSION: Final = "2"
 RECORDING_SCHEMA_VERSION: Final = "1"
 """Of orders of a recording and of compared orders."""
 NOT_INSTALLED: Final = "not installed"
-READERS: Final = ("pyuff", "nptdms")
-"""The extra `io`."""
 PACKAGES: Final = (
     "numpy",
     "scipy",
@@ -31,7 +30,6 @@ PACKAGES: Final = (
     "h5py",
     "k-wave-python",
     "pydantic",
-    *READERS,
 )
 
 
@@ -44,7 +42,6 @@ def attributes(study: Study) -> dict[str, Any]:
         "references": "see the sources in the attribute parameters",
         "parameters": parameters,
         "parameters_sha256": sha256(parameters.encode()),
-        "plugins": canonical_json(plugins()),
         "random_seed": study.scoring.seed,
     }
 
@@ -94,6 +91,7 @@ def software_attributes(command: str, schema_version: str = SCHEMA_VERSION) -> d
         "schema_version": schema_version,
         "software_version": software_version(),
         "git_revision": git_revision(),
+        "plugins": canonical_json(plugins()),
         "package_versions": canonical_json(package_versions()),
         "created_utc": _now(),
         "phasor_convention": "x(t) = Re{X exp(+j w t)}, X is a complex peak",
@@ -106,8 +104,14 @@ def software_version() -> str:
 
 
 def package_versions() -> dict[str, str]:
-    """Installed versions of the packages that make the numbers."""
-    return {name: _version(name) for name in PACKAGES}
+    """Installed versions of the packages that make the numbers, those of readers among them."""
+    further = (reader.package for reader in READERS.values() if reader.package)
+    return {name: _version(name) for name in (*PACKAGES, *further)}
+
+
+def is_missing(package: str) -> bool:
+    """Whether a package, of a name that is not empty, is not installed."""
+    return bool(package) and _version(package) == NOT_INSTALLED
 
 
 @cache

@@ -11,19 +11,20 @@ from vibroacoustics.results import provenance
 @pytest.mark.parametrize(
     ("missing", "told"),
     [
-        ((), "recordings: every format can be read"),
-        (("pyuff",), "recordings: no pyuff; for UFF and TDMS pip install vibroacoustics[io]"),
         (
-            ("pyuff", "nptdms"),
-            "recordings: no pyuff and nptdms; for UFF and TDMS pip install vibroacoustics[io]",
+            (),
+            "recordings: CSV (.csv .txt), HDF5 and netCDF (.h5 .hdf5 .nc), MAT (.mat), "
+            "TDMS (.tdms), UFF (.uff .unv), WAV (.wav) can be read",
         ),
+        (("pyuff",), "recordings: UFF: needs pyuff: pip install vibroacoustics[io]"),
+        (("pyuff", "nptdms"), "recordings: TDMS: needs nptdms: pip install vibroacoustics[io]"),
     ],
 )
 def test_the_extra_for_recordings(monkeypatch, missing, told):
     def installed(name: str) -> str:
         if name in missing:
             raise PackageNotFoundError(name)
-        return version(name) if name not in provenance.READERS else "1.0"
+        return version(name) if name not in ("pyuff", "nptdms") else "1.0"
 
     monkeypatch.setattr(provenance, "version", installed)
     lines = list(doctor.findings())

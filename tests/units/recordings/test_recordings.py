@@ -20,12 +20,12 @@ from vibroacoustics.base import vocabulary
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.recordings import (
     csv_bytes,
-    csv_table,
     label_recording,
     read_recording,
     wav_bytes,
 )
 from vibroacoustics.recordings.quantities import QUANTITIES, find_quantity, quantity
+from vibroacoustics.recordings.readers import csv_table
 from vibroacoustics.recordings.recorded import Request, even_rate_hz
 from vibroacoustics.results import storage
 

@@ -6,9 +6,11 @@ from typing import Any, Final
 
 import numpy as np
 
-from ..base.errors import StorageError
-from .named_arrays import NamedArray, as_text, recorded
-from .recorded import MAXIMUM_READING_BYTES, Recorded, Request, check_size
+from ...base.errors import StorageError
+from ...base.registry import register
+from ..named_arrays import NamedArray, as_text, recorded
+from ..reader import Reader
+from ..recorded import MAXIMUM_READING_BYTES, Recorded, Request, check_size
 
 MAXIMUM_DATASETS: Final = 10_000
 _CLASSIC: Final = b"CDF"
@@ -104,3 +106,6 @@ def _read_classic(request: Request) -> Recorded:
             for name, variable in file.variables.items()
         ]
         return recorded(arrays, file._attributes, request)
+
+
+register(Reader("hdf5", (".h5", ".hdf5", ".nc"), "HDF5 and netCDF", read))

@@ -5,8 +5,10 @@ import re
 from collections.abc import Mapping
 from typing import Any, Final
 
-from ..base.errors import ParameterError, StorageError
-from .recorded import Recorded, Request, check_size, even_rate_hz, numbered
+from ...base.errors import ParameterError, StorageError
+from ...base.registry import register
+from ..reader import Reader
+from ..recorded import Recorded, Request, check_size, even_rate_hz, numbered
 
 TIME_RESPONSE: Final = 1
 """Function type in record 6, field 1."""
@@ -108,3 +110,6 @@ def _rate_hz(found: Mapping[str, Any], request: Request) -> float:
     if request.sample_rate_hz is None and not found["abscissa_inc"] > 0.0:
         raise ParameterError(f"abscissa increment {found['abscissa_inc']} s: must be above zero")
     return request.sample_rate_hz or 1.0 / found["abscissa_inc"]
+
+
+register(Reader("uff", (".uff", ".unv"), "UFF", read, package="pyuff"))

@@ -11,9 +11,11 @@ from typing import BinaryIO, Final
 
 import numpy as np
 
-from ..base.errors import ParameterError, StorageError
-from .quantities import TIME_UNITS, find_quantity, time_factor
-from .recorded import Recorded, Request, Samples, check_size, even_rate_hz
+from ...base.errors import ParameterError, StorageError
+from ...base.registry import register
+from ..quantities import TIME_UNITS, find_quantity, time_factor
+from ..reader import Reader
+from ..recorded import Recorded, Request, Samples, check_size, even_rate_hz
 
 MAXIMUM_LINE_BYTES: Final = 2**16
 MAXIMUM_HEAD_LINES: Final = 200
@@ -157,3 +159,6 @@ def _read_numbers(path: Path, head: _Head) -> Samples:
         except ValueError as error:
             reason = str(error).split("; use `")[0]
             raise StorageError(f"below its {head.lines} header lines: {reason}") from None
+
+
+register(Reader("csv", (".csv", ".txt"), "CSV", read))

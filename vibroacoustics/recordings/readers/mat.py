@@ -3,10 +3,12 @@
 from functools import partial
 from typing import Any, Final
 
-from ..base.errors import ParameterError
+from ...base.errors import ParameterError
+from ...base.registry import register
+from ..named_arrays import NamedArray, as_text, recorded
+from ..reader import Reader
+from ..recorded import Recorded, Request, listed
 from .hdf5 import datasets, named_dataset
-from .named_arrays import NamedArray, as_text, recorded
-from .recorded import Recorded, Request, listed
 
 _HDF5_MARK: Final = b"\x89HDF\r\n\x1a\n"
 _HDF5_OFFSET: Final = 512  # a MATLAB header stands before it
@@ -67,3 +69,6 @@ def _check_numbers(arrays: list[NamedArray], variables: list[str]) -> None:
             f"holds no vector of numbers; its variables: {listed(variables)}; "
             "save the channels as plain vectors"
         )
+
+
+register(Reader("mat", (".mat",), "MAT", read))

@@ -2,8 +2,10 @@
 
 from typing import Any
 
-from ..base.errors import ParameterError, StorageError
-from .recorded import Recorded, Request, check_size, listed
+from ...base.errors import ParameterError, StorageError
+from ...base.registry import register
+from ..reader import Reader
+from ..recorded import Recorded, Request, check_size, listed
 
 INCREMENT, START, UNIT = "wf_increment", "wf_start_time", "unit_string"
 """Waveform properties of a channel: sampling interval in s, start, unit."""
@@ -79,3 +81,6 @@ def _check_claims(channels: list[Any], request: Request) -> None:
     check_size(len(channels), samples)
     if samples > request.path.stat().st_size:
         raise StorageError(f"claims {samples} samples, more than the file has bytes")
+
+
+register(Reader("tdms", (".tdms",), "TDMS", read, package="nptdms"))

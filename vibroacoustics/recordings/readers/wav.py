@@ -6,8 +6,10 @@ from typing import BinaryIO, Final
 
 import numpy as np
 
-from ..base.errors import StorageError
-from .recorded import Recorded, Request, Samples, check_size
+from ...base.errors import StorageError
+from ...base.registry import register
+from ..reader import Reader
+from ..recorded import Recorded, Request, Samples, check_size
 
 _BYTE_ORDER: Final = {b"RIFF": "<", b"RIFX": ">", b"RF64": "<"}
 
@@ -83,3 +85,6 @@ def _check_data(block: bytes, order: str, size: int) -> None:
     if channels == 0 or frame_bytes < channels:
         raise StorageError(f"claims {channels} channels in {frame_bytes} bytes a sample")
     check_size(channels, size // frame_bytes)
+
+
+register(Reader("wav", (".wav",), "WAV", read))

@@ -1,0 +1,53 @@
+"""Readers as things that others can add to; what a stranger's does, tests/strangers."""
+
+import re
+
+import pytest
+from support import ROOT
+
+from vibroacoustics.base.errors import ParameterError, PluginError
+from vibroacoustics.base.registry import register
+from vibroacoustics.recordings import read_recording
+from vibroacoustics.recordings.reader import READERS, Reader, readers_by_suffix
+
+
+@pytest.fixture(autouse=True)
+def _registry(monkeypatch):
+    list(READERS)
+    for name in ("_things", "_origins"):
+        monkeypatch.setattr(READERS, name, dict(getattr(READERS, name)))
+
+
+def nothing(request):
+    """Never called."""
+    raise NotImplementedError
+
+
+def test_a_suffix_that_is_taken_is_refused():
+    register(Reader("better", (".wav",), "WAV", nothing))
+    with pytest.raises(PluginError, match=r"reader better: files .wav are read by wav already"):
+        readers_by_suffix()
+
+
+def test_a_name_that_is_built_in_is_refused():
+    with pytest.raises(PluginError, match="reader wav: is built in"):
+        register(Reader("wav", (".wave",), "WAV", nothing))
+
+
+@pytest.mark.parametrize("suffixes", [".mine", (), ("mine",), (".Mine",)])
+def test_malformed_suffixes_are_refused(suffixes):
+    with pytest.raises(PluginError, match="reader mine: suffix"):
+        Reader("mine", suffixes, "mine", nothing)
+
+
+def test_a_reader_of_this_session_alone_is_refused(tmp_path):
+    register(Reader("mine", (".mine",), "mine", nothing))
+    (tmp_path / "a.mine").write_bytes(b"x")
+    with pytest.raises(ParameterError, match="put it into a file for load_plugin, or install it"):
+        read_recording(tmp_path / "a.mine")
+
+
+def test_every_format_is_on_its_page():
+    page = (ROOT / "docs" / "recordings.md").read_text(encoding="utf-8")
+    listed = set(re.findall(r"`(\.\w+)`", "".join(re.findall(r"(?m)^\| `\..*?\|", page))))
+    assert listed == set(readers_by_suffix())

@@ -1,0 +1,77 @@
+"""Readers of recordings: one a format, by the suffix of the file's name."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from ..base.errors import PluginError
+from ..base.plugin_file import plugin_file
+from ..base.registry import Registry
+from .recorded import Recorded, Request
+
+
+@dataclass(frozen=True)
+class Reader:
+    """One format of recordings.
+
+    Attributes
+    ----------
+    name : of the format, short
+    suffixes : of the files' names, small letters with the dot
+    words : what the format is called
+    read : channels of a file; runs in a process of its own, of limited memory and time
+    package : further package that `read` imports, as pip calls it; empty where none
+    """
+
+    name: str
+    suffixes: tuple[str, ...]
+    words: str
+    read: Callable[[Request], Recorded]
+    package: str = ""
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.suffixes, tuple) or not self.suffixes:
+            raise PluginError(f"reader {self.name}: suffixes = {self.suffixes!r}: must be a tuple")
+        for suffix in self.suffixes:
+            if not suffix.startswith(".") or suffix != suffix.lower():
+                raise PluginError(
+                    f"reader {self.name}: suffix {suffix!r}: must be a dot and small letters"
+                )
+
+    @property
+    def plugin(self) -> Path | None:
+        """File of the user that brings it; none where it is built in or installed."""
+        return plugin_file(getattr(self.read, "__module__", ""))
+
+
+READERS: Final[Registry[Reader]] = Registry(
+    "reader", Reader, "name", "recordings.readers", "vibroacoustics.readers"
+)
+
+
+def readers_by_suffix() -> dict[str, Reader]:
+    """Every reader by each of its suffixes.
+
+    Raises
+    ------
+    PluginError
+        Two readers claim one suffix.
+    """
+    readers: dict[str, Reader] = {}
+    for reader in sorted(READERS.values(), key=lambda own: READERS.origin(own.name) is not None):
+        for suffix in reader.suffixes:
+            other = readers.setdefault(suffix, reader)
+            if other is not reader:
+                raise PluginError(
+                    f"reader {reader.name}: files {suffix} are read by {other.name} already; "
+                    "choose another suffix"
+                )
+    return readers
+
+
+def needed(reader: Reader, module: str) -> str:
+    """What to install where a reader misses a module."""
+    if READERS.origin(reader.name) is None:
+        return f"needs {module}: pip install vibroacoustics[io]"
+    return f"needs {module}: pip install {reader.package or module}"

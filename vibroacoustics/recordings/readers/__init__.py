@@ -1,0 +1,1 @@
+"""Readers of recordings that come with the package: one file a format."""
