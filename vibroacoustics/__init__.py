@@ -1,108 +1,226 @@
 """From mechanism to microphone: what a compressor's moving parts do to its feet and to the ear.
 
-The public functions take or return one `xarray.Dataset`, so that a notebook needs no files:
-`load_study`, `run`, `open_results`, `score`, `write_report`; `read_recording`, `label_recording`,
-`analyse_orders`, `compare`.
+    >>> import vibroacoustics as va
 
-A file of a stranger that adds a criterion, a balancing option, a source or a kind of machine
-derives from `Criterion`, `Option`, `Source` or `Machine`, gives its class to `register`, and uses
-`Added`, `Case`, `Loads`, `MovingPart`, `Revolution`, `Wrench`; one that adds a variable, a
-coordinate or a unit makes a `Variable`, `Coordinate` or `Unit`; one that reads a format of
-recordings makes a `Reader`, which gets a `Request` and gives `Recorded`. `load_plugin` takes it in.
+**Studies.**
+`load_study(path)` reads a study; `study.replace({...})` changes values of it.
+`run(study)` carries it from the machine's parameters to levels and scores, one `xarray.Dataset`.
+`radiate(study)` computes the housing's radiation alone.
+`given_radiation(...)` makes measured transfer vectors what `run` takes.
+`score(results)` scores and ranks the options again.
+`write_report(results, folder)` writes the report with tables and figures.
+`open_results(path)` reads results from a file.
+
+**Recordings.**
+`read_recording(path)` reads a recording of any format.
+`label_recording(...)` labels samples as one.
+`export_recording(recording, path)` writes it as CSV, WAV or netCDF.
+`read_modes(path)` reads measured modes of a structure.
+`analyse_orders(recording, OrderAnalysis(...))` finds orders and levels.
+`track_orders(recording, ...)` follows orders over time (Vold-Kalman).
+`speed_frequency_map(recording, ...)` gives spectra over speed and frequency (Campbell).
+`compare(first, second)` compares orders of two results in level and phase.
+`SpeedChannel`, `NominalSpeed`, `TacholessSpeed` say where the speed comes from.
+
+**Figures and arrays.**
+`plot` has every figure as a function that returns a matplotlib Figure.
+`orders` and `levels` have the steps of an analysis as functions of arrays.
+
+**Things of your own.**
+`register(thing)` and `load_plugin(path)` take them in: a class derived from `Option`, `Machine`,
+`Source` or `Criterion`, or a `Section` or `Column` of the report, whose content `blocks` make.
+`Added`, `Case`, `Loads`, `MovingPart`, `Revolution`, `Wrench`, `OldhamRing`, `Slider` are what
+these get and return; `circling`, `constant_rotation` and `wrenches_of_parts` make forces of moving
+masses. A `Variable`, `Coordinate` or `Unit` joins the vocabulary; `stamp` labels an array as a
+variable, `check` tests a dataset. A `Reader` reads a format of recordings: it gets a `Request` and
+gives `Recorded`.
+
+**Errors.** All derive from `VibroacousticsError`, each message is one line: `ParameterError`,
+`SolverError`, `StorageError`, `SchemaError`, `PluginError`.
 """
 
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from . import levels, orders, plot
+    from .base.errors import (
+        ParameterError,
+        PluginError,
+        SchemaError,
+        SolverError,
+        StorageError,
+        VibroacousticsError,
+    )
     from .base.plugin_file import load_plugin
     from .base.registry import register
     from .base.units import Unit
     from .base.vocabulary import Coordinate, Variable, check, stamp
+    from .commands.exporting import export_recording
     from .commands.outputs import write_report
     from .machine.machine import Machine
     from .machine.option import Option
     from .machine.source import Case, Source
     from .mechanics.added import Added
+    from .mechanics.capabilities import OldhamRing, Slider
     from .mechanics.loads import Loads
-    from .mechanics.moving_parts import MovingPart, Revolution, Wrench
-    from .pipeline import analyse_orders, run
-    from .recordings import label_recording, read_recording
+    from .mechanics.moving_parts import (
+        MovingPart,
+        Revolution,
+        Wrench,
+        circling,
+        wrenches_of_parts,
+    )
+    from .mechanics.rotation import constant_rotation
+    from .pipeline import (
+        analyse_orders,
+        given_radiation,
+        radiate,
+        run,
+        speed_frequency_map,
+        track_orders,
+    )
+    from .recordings import label_recording, read_modes, read_recording
     from .recordings.reader import Reader
     from .recordings.recorded import Recorded, Request
+    from .report import blocks
+    from .report.columns import Column
+    from .report.sections import Section
     from .results.order_comparison import compare
     from .results.storage import open_results
     from .scoring import score
     from .study.criterion import Criterion
     from .study.loading import load_study
+    from .study.order_analysis import NominalSpeed, OrderAnalysis, SpeedChannel, TacholessSpeed
+    from .study.study import Study
 
 __all__ = [
     "Added",
     "Case",
+    "Column",
     "Coordinate",
     "Criterion",
     "Loads",
     "Machine",
     "MovingPart",
+    "NominalSpeed",
+    "OldhamRing",
     "Option",
+    "OrderAnalysis",
+    "ParameterError",
+    "PluginError",
     "Reader",
     "Recorded",
     "Request",
     "Revolution",
+    "SchemaError",
+    "Section",
+    "Slider",
+    "SolverError",
     "Source",
+    "SpeedChannel",
+    "StorageError",
+    "Study",
+    "TacholessSpeed",
     "Unit",
     "Variable",
+    "VibroacousticsError",
     "Wrench",
     "analyse_orders",
+    "blocks",
     "check",
+    "circling",
     "compare",
+    "constant_rotation",
+    "export_recording",
+    "given_radiation",
     "label_recording",
+    "levels",
     "load_plugin",
     "load_study",
     "open_results",
+    "orders",
+    "plot",
+    "radiate",
+    "read_modes",
     "read_recording",
     "register",
     "run",
     "score",
+    "speed_frequency_map",
     "stamp",
+    "track_orders",
+    "wrenches_of_parts",
     "write_report",
 ]
 
 _HOME = {
     "Added": "mechanics.added",
     "Case": "machine.source",
+    "Column": "report.columns",
     "Coordinate": "base.vocabulary",
     "Criterion": "study.criterion",
     "Loads": "mechanics.loads",
     "Machine": "machine.machine",
     "MovingPart": "mechanics.moving_parts",
+    "NominalSpeed": "study.order_analysis",
+    "OldhamRing": "mechanics.capabilities",
     "Option": "machine.option",
     "Reader": "recordings.reader",
     "Recorded": "recordings.recorded",
     "Request": "recordings.recorded",
+    "OrderAnalysis": "study.order_analysis",
+    "ParameterError": "base.errors",
+    "PluginError": "base.errors",
     "Revolution": "mechanics.moving_parts",
+    "SchemaError": "base.errors",
+    "Section": "report.sections",
+    "Slider": "mechanics.capabilities",
+    "SolverError": "base.errors",
     "Source": "machine.source",
+    "SpeedChannel": "study.order_analysis",
+    "StorageError": "base.errors",
+    "Study": "study.study",
+    "TacholessSpeed": "study.order_analysis",
     "Unit": "base.units",
     "Variable": "base.vocabulary",
+    "VibroacousticsError": "base.errors",
     "Wrench": "mechanics.moving_parts",
     "analyse_orders": "pipeline",
     "check": "base.vocabulary",
+    "circling": "mechanics.moving_parts",
     "compare": "results.order_comparison",
+    "constant_rotation": "mechanics.rotation",
+    "export_recording": "commands.exporting",
+    "given_radiation": "pipeline",
     "label_recording": "recordings",
     "load_plugin": "base.plugin_file",
     "load_study": "study.loading",
     "open_results": "results.storage",
+    "radiate": "pipeline",
+    "read_modes": "recordings",
     "read_recording": "recordings",
     "register": "base.registry",
     "run": "pipeline",
     "score": "scoring",
+    "speed_frequency_map": "pipeline",
     "stamp": "base.vocabulary",
+    "track_orders": "pipeline",
+    "wrenches_of_parts": "mechanics.moving_parts",
     "write_report": "commands.outputs",
 }
+_MODULES = {"blocks": "report.blocks", "levels": "levels", "orders": "orders", "plot": "plot"}
 
 
 def __getattr__(name: str) -> Any:
-    """Import a public function when it is first asked for: `--help` must not load k-Wave."""
+    """Import a public name when it is first asked for: `--help` must not load k-Wave."""
+    if name in _MODULES:
+        return import_module(f"{__name__}.{_MODULES[name]}")
     if name not in _HOME:
         raise AttributeError(f"module {__name__} has no attribute {name}")
     return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    """The public names, loaded or not."""
+    return __all__

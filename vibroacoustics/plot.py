@@ -11,6 +11,9 @@ Of `radiate`: `transfer_vectors`, `unit_level_map`, `directivity`.
 
 Of `analyse_orders`: `order_spectrum`, `orders_over_speed`, `order_map`.
 
+Of `speed_frequency_map`: `speed_frequency_map`, `run_up_levels`. Of `track_orders`:
+`tracked_orders`.
+
 Of `compare`: `compared_orders`.
 """
 
@@ -21,6 +24,7 @@ from .report.figures.maps import line_map, unit_level_map
 from .report.figures.mounts import mount_transmissibility
 from .report.figures.orders import foot_force_orders, force_orders, level_orders
 from .report.figures.radiation import green_difference, levels, transfer
+from .report.figures.recorded_maps import run_up_levels, speed_frequency_map, tracked_orders
 from .report.figures.recorded_orders import order_map, order_spectrum, orders_over_speed
 from .report.figures.scores import scores
 from .report.figures.sources import option_third_octaves, source_third_octaves
@@ -42,10 +46,13 @@ __all__ = [
     "order_map",
     "order_spectrum",
     "orders_over_speed",
+    "run_up_levels",
     "scores",
     "source_third_octaves",
+    "speed_frequency_map",
     "stopping",
     "stopping_order_map",
+    "tracked_orders",
     "transfer",
     "transfer_vectors",
     "unit_level_map",

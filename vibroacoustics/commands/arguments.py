@@ -33,6 +33,25 @@ def order_analysis(
     ParameterError
         The speed comes from nowhere or from two places, or the orders are no numbers.
     """
+    source = speed_source(speed, pulses, index, rpm, tacholess)
+    numbers = order_numbers(orders)
+    return OrderAnalysis(source, numbers, maximum_order, resolution, speed_step, with_map)
+
+
+def speed_source(
+    speed: str | None,
+    pulses: int,
+    index: str | None,
+    rpm: float | None,
+    tacholess: tuple[float, float] | None,
+) -> SpeedChannel | NominalSpeed | TacholessSpeed:
+    """Where the speed of a recording comes from.
+
+    Raises
+    ------
+    ParameterError
+        From nowhere or from two places.
+    """
     given = [rpm is not None, tacholess is not None, speed is not None and tacholess is None]
     if sum(given) != 1:
         raise ParameterError(
@@ -40,17 +59,19 @@ def order_analysis(
         )
     if (index is not None or pulses != 1) and (rpm is not None or tacholess is not None):
         raise ParameterError("--index, --pulses: belong to a tacho, --speed CHANNEL")
-    source: SpeedChannel | NominalSpeed | TacholessSpeed
     if tacholess is not None:
-        source = TacholessSpeed(speed, *tacholess)
-    elif rpm is not None:
-        source = NominalSpeed(rpm)
-    else:
-        source = SpeedChannel(str(speed), pulses, index)
-    return OrderAnalysis(source, _orders(orders), maximum_order, resolution, speed_step, with_map)
+        return TacholessSpeed(speed, *tacholess)
+    return SpeedChannel(str(speed), pulses, index) if rpm is None else NominalSpeed(rpm)
 
 
-def _orders(text: str) -> tuple[float, ...]:
+def order_numbers(text: str) -> tuple[float, ...]:
+    """Orders, rising, from a text with commas.
+
+    Raises
+    ------
+    ParameterError
+        One of them is no number.
+    """
     return tuple(sorted(_number("--orders", part) for part in text.split(",")))
 
 

@@ -1,4 +1,4 @@
-"""The command line: run, radiation, orders, compare, report, score, doctor.
+"""The command line: run, radiation, orders, compare, report, score, doctor; for recordings others.
 
 Heavy imports wait until a command needs them.
 """
@@ -12,6 +12,7 @@ from typing import Annotated
 import typer
 
 from ..base.errors import VibroacousticsError
+from . import recording_commands
 
 INPUT_ERROR = 2
 
@@ -22,6 +23,8 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
+
+app.add_typer(recording_commands.commands)
 
 StudyFile = Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study to run.")]
 Plugins = Annotated[

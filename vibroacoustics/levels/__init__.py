@@ -8,6 +8,7 @@ from ..base.decibel import (
     sound_pressure_level,
 )
 from .bands import Band, band_mean_square, bands_between, measurable_bands
+from .block_levels import block_levels
 from .by_source import SourceSound, filled_thirds, source_sound
 from .filter_bank import band_filter, band_signal, class_1_limits_db
 from .labelled import draw_variables, level, level_variables
@@ -39,6 +40,7 @@ __all__ = [
     "band_mean_square",
     "band_signal",
     "bands_between",
+    "block_levels",
     "c_weighting",
     "class_1_limits_db",
     "draw_variables",

@@ -8,6 +8,7 @@ from ..base.hashing import canonical_json
 from ..base.registry import plugins
 from .comparison import comparison_csv, comparison_text
 from .figures.compared_orders import compared_order_figures
+from .figures.recorded_maps import speed_map_figures, tracked_order_figures
 from .figures.recorded_orders import recorded_order_figures
 from .html import html
 from .kept_columns import keep_columns
@@ -26,6 +27,7 @@ from .radiation_tables import radiation_text
 from .scores import scores_csv
 from .source_tables import sources_csv
 from .study import has_sources
+from .tracked_tables import tracked_csv, tracked_text
 
 __all__ = [
     "compared_order_figures",
@@ -40,6 +42,10 @@ __all__ = [
     "radiation_text",
     "recorded_order_figures",
     "render",
+    "speed_map_figures",
+    "tracked_csv",
+    "tracked_order_figures",
+    "tracked_text",
 ]
 
 

@@ -65,15 +65,25 @@ def radiation_attributes(study: Study, radiated: xr.Dataset, was_cached: bool) -
 
 def recording_attributes(recording: xr.Dataset, settings: OrderAnalysis) -> dict[str, Any]:
     """Global attributes of the orders of a recording: its file and the settings."""
+    parameters = asdict(settings) | {"orders": [float(order) for order in settings.orders]}
+    return {**of_recording(recording, "orders"), "analysis": canonical_json(parameters)}
+
+
+def of_recording(recording: xr.Dataset, what: str) -> dict[str, Any]:
+    """Global attributes of what is computed from a recording.
+
+    Parameters
+    ----------
+    recording : with its attributes
+    what : the result in plain words, lower case
+    """
     name = recording_name(recording)
     kept = ("source_sha256", "start_time", "sample_rate_hz")
-    parameters = asdict(settings) | {"orders": [float(order) for order in settings.orders]}
     return {
-        **software_attributes(f"orders of {name}", RECORDING_SCHEMA_VERSION),
-        "title": f"Orders of {name}",
+        **software_attributes(f"{what} of {name}", RECORDING_SCHEMA_VERSION),
+        "title": f"{what[0].upper()}{what[1:]} of {name}",
         "source_file": name,
         **{key: recording.attrs[key] for key in kept if key in recording.attrs},
-        "analysis": canonical_json(parameters),
     }
 
 

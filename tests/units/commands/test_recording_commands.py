@@ -1,0 +1,107 @@
+"""Commands for recordings: track, map, export."""
+
+import csv
+
+import numpy as np
+import pytest
+from support import assert_refused, command_here
+
+import vibroacoustics as va
+from vibroacoustics.base.errors import ParameterError
+
+RATE_HZ = 2048.0
+TIME_S = np.arange(int(6.0 * RATE_HZ)) / RATE_HZ
+SHAFT_HZ = 20.0 + 4.0 * TIME_S
+ANGLE = 2.0 * np.pi * (20.0 * TIME_S + 2.0 * TIME_S**2)
+PEAKS = {1.0: 1.0 + 0.2 * TIME_S, 3.0: 0.5 + 0.0 * TIME_S}
+
+
+@pytest.fixture(scope="module")
+def recording():
+    signal = sum(peak * np.cos(order * ANGLE + order) for order, peak in PEAKS.items())
+    return va.label_recording(
+        [signal, 0.02 * signal, 60.0 * SHAFT_HZ], RATE_HZ, ["ring", "front", "speed"],
+        ["m/s²", "Pa", "rpm"],
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def file(recording, tmp_path_factory):
+    return va.export_recording(recording, tmp_path_factory.mktemp("recordings") / "run_up.csv")
+
+
+def test_track_gives_the_envelopes(file, tmp_path):
+    outcome = command_here(
+        "track", file, "--speed", "speed", "--orders", "1,3", "--bandwidth", 2, "--out", tmp_path
+    )
+    assert outcome.returncode == 0, outcome.stderr
+    assert "bandwidth: 2 Hz, 2 poles" in outcome.stdout
+    tracked = va.open_results(tmp_path / "tracked_orders.nc")
+    found = tracked["tracked_order"].sel(channel="ring")
+    for order, peak in PEAKS.items():
+        wanted = np.interp(found["track_time"], TIME_S, peak) * np.exp(1j * order)
+        np.testing.assert_allclose(found.sel(order=order), wanted, atol=0.01)
+    speed = np.interp(tracked["track_time"], TIME_S, 60.0 * SHAFT_HZ)
+    np.testing.assert_allclose(tracked["track_speed"], speed, rtol=1e-4)
+    rows = list(csv.DictReader((tmp_path / "tracked_orders.csv").open(encoding="utf-8")))
+    assert len(rows) == 2 * 2 * tracked.sizes["track_time"]
+    assert rows[0]["channel"] == "ring"
+    assert (tmp_path / "tracked_1_ring.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_map_shows_orders_and_levels(file, tmp_path):
+    outcome = command_here(
+        "map", file, "--speed", "speed", "--resolution", 8, "--maximum-frequency", 300, "--out",
+        tmp_path,
+    )  # fmt: skip
+    assert outcome.returncode == 0, outcome.stderr
+    mapped = va.open_results(tmp_path / "speed_map.nc")
+    assert mapped["map_frequency"].max() <= 300.0
+    loudest = abs(mapped["speed_frequency_map"].sel(channel="ring")).idxmax("map_frequency")
+    step = float(mapped["map_frequency"][1])
+    assert np.all(abs(loudest - mapped["block_speed"] / 60.0) <= step)
+    # 0.02 Pa (1 + 0.2 t) and 0.01 Pa, peak: all in the level, lines above 300 Hz too
+    power = sum(np.interp(mapped["block_time"], TIME_S, peak) ** 2 for peak in PEAKS.values())
+    level = mapped["block_level"].sel(channel="front", weighting="Z")
+    np.testing.assert_allclose(level, 10.0 * np.log10(2e-4 * power / (20e-6) ** 2), atol=0.2)
+    assert mapped["block_level"].sel(channel="ring").isnull().all()
+    pictures = {file.name for file in tmp_path.glob("*.png")}
+    assert pictures == {"speed_map_1_ring.png", "speed_map_2_front.png", "levels_2_front.png"}
+
+
+@pytest.mark.parametrize("name", ["out.csv", "out.nc", "out.wav"])
+def test_export_is_read_back(file, recording, tmp_path, name):
+    outcome = command_here("export", file, "--out", tmp_path / name)
+    assert outcome.returncode == 0, outcome.stderr
+    names = {f"channel {number}" for number in (1, 2, 3)}
+    told = name.endswith(".wav") and {
+        "units": dict(zip(sorted(names), ["m/s²", "Pa", "rpm"], strict=True)),
+        "calibration": dict.fromkeys(names, 1.0),
+    }
+    again = va.read_recording(tmp_path / name, **(told or {}))
+    np.testing.assert_array_equal(again["signal"].values, recording["signal"].values)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("track", "--bandwidth", 2), "speed: give one of"),
+        (("track", "--bandwidth", 0, "--speed", "speed"), "bandwidth_hz = 0 Hz: must be above 0"),
+        (("track", "--bandwidth", 2, "--rpm", 1200, "--orders", "1,x"), "'x' is no number"),
+        (("track", "--bandwidth", 2, "--rpm", 1200, "--orders", "0"), "must be numbers above 0"),
+        (("track", "--bandwidth", 2, "--rpm", 1200, "--poles", 4), "poles = 4: must be 1, 2 or 3"),
+        (("map", "--speed", "speed", "--resolution", 0), "resolution_hz"),
+        (("map", "--speed", "speed", "--maximum-frequency", 0), "maximum_frequency_hz = 0 Hz"),
+        (("export", "--out", "x.mp3"), "x.mp3: ending '.mp3': must be .csv, .nc or .wav"),
+    ],
+)
+def test_bad_words_are_one_line(file, words, message, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert_refused(command_here(words[0], file, *words[1:]), message)
+    assert not list(tmp_path.rglob("*.nc"))
+
+
+def test_a_wav_file_needs_whole_hertz(tmp_path):
+    recording = va.label_recording([[0.0, 1.0]], 0.5, ["a"], ["V"])
+    with pytest.raises(ParameterError, match=r"x\.wav: sample_rate_hz"):
+        va.export_recording(recording, tmp_path / "x.wav")

@@ -1,0 +1,57 @@
+"""Recordings written for other tools."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Final
+
+import xarray as xr
+
+from ..base.errors import ParameterError
+from ..recordings import csv_bytes, wav_bytes
+from ..results import storage
+
+FORMATS: Final[dict[str, Callable[[xr.Dataset], bytes]]] = {".csv": csv_bytes, ".wav": wav_bytes}
+
+
+def export_recording(recording: xr.Dataset, path: str | Path) -> Path:
+    """Write a recording as CSV, WAV or netCDF, whole or not at all; `read_recording` reads it back.
+
+    Parameters
+    ----------
+    recording : from `read_recording` or `label_recording`
+    path : its ending chooses. `.csv`: header `time [s],name [unit],…`, read back bit by bit;
+        `.wav`: 64-bit floats that are the SI values, without units or names; `.nc`: the labelled
+        form itself
+
+    Returns
+    -------
+    path of the file
+
+    Raises
+    ------
+    ParameterError
+        The ending is another one, or a WAV file cannot hold the recording.
+    StorageError
+        The file cannot be written.
+
+    Examples
+    --------
+    >>> recording = va.label_recording([[0.0, 1.0, 0.0]], 8000.0, ["front"], ["Pa"])
+    >>> va.export_recording(recording, "front.wav").name
+    'front.wav'
+    >>> again = va.read_recording(
+    ...     "front.wav", units={"channel 1": "Pa"}, calibration={"channel 1": 1.0})
+    >>> again["signal"].values
+    array([[0., 1., 0.]])
+    """
+    suffix = Path(path).suffix.lower()
+    if suffix == ".nc":
+        return storage.write_results(recording, path)
+    if suffix not in FORMATS:
+        raise ParameterError(f"{path}: ending {suffix!r}: must be .csv, .nc or .wav")
+    try:
+        content = FORMATS[suffix](recording)
+    except ParameterError as error:
+        raise ParameterError(f"{path}: {error}") from None
+    storage.write_bytes(Path(path), content)
+    return Path(path)

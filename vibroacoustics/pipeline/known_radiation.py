@@ -1,0 +1,110 @@
+"""Transfer vectors that are known: measured ones, or those of a second method."""
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike
+
+from ..base.arrays import Array, ComplexArray
+from ..base.errors import ParameterError
+from ..base.vocabulary import RIGID_BODY_DOFS, stamp
+from ..study.study import Study
+from .radiating import Radiation
+
+
+def given_radiation(
+    transfer_vector: ArrayLike, frequency_hz: ArrayLike, shell_modes: ArrayLike | None = None
+) -> Radiation:
+    """Sound pressure per velocity of the housing, as `run` takes it in place of its own radiation.
+
+    Parameters
+    ----------
+    transfer_vector : complex, shape (receiver, 6, frequency), Pa per m/s along x, y, z and Pa per
+        rad/s about x, y, z, at the centre of mass; receivers in the order of the study
+    frequency_hz : rising, shape (frequency,), Hz; up to the study's highest frequency
+    shell_modes : complex, shape (receiver, mode, frequency), Pa per m/s of each mode of the shell;
+        for studies whose sources drive an elastic shell
+
+    Returns
+    -------
+    argument `radiation` of `run` and `radiate`
+
+    Raises
+    ------
+    ParameterError
+        Here, shapes or frequencies do not fit each other; in the run, they do not fit the study.
+
+    Examples
+    --------
+    >>> study = va.load_study("pipelines/copeland_thesis.toml")
+    >>> frequency = np.array([25.0, 2500.0])
+    >>> monopole = 0.01 * frequency * np.ones((len(study.receivers), 6, 1))  # made up
+    >>> results = va.run(
+    ...     study.replace({"operation.speed_rpm": [2900.0]}),
+    ...     radiation=va.given_radiation(monopole, frequency))
+    >>> results["level_total"].dims
+    ('speed', 'option', 'receiver')
+    """
+    frequency = np.asarray(frequency_hz, dtype=float)
+    if frequency.ndim != 1 or frequency.size < 2 or not np.all(np.diff(frequency) > 0.0):
+        raise ParameterError("frequency_hz: must be at least two numbers that rise")
+    of_housing = _checked("transfer_vector", transfer_vector, frequency)
+    if of_housing.shape[1] != len(RIGID_BODY_DOFS):
+        raise ParameterError(f"transfer_vector: has {of_housing.shape[1]} motions, must have 6")
+    of_modes = None if shell_modes is None else _checked("shell_modes", shell_modes, frequency)
+
+    def radiation(study: Study, _: object, motions: object = ()) -> tuple[xr.Dataset, bool]:
+        names = [motion.name for motion in motions]  # type: ignore[attr-defined]
+        return _labelled(study, names, frequency, of_housing, of_modes), False
+
+    return radiation
+
+
+def _checked(name: str, values: ArrayLike, frequency_hz: Array) -> ComplexArray:
+    array = np.asarray(values, dtype=complex)
+    if array.ndim != 3 or array.shape[2] != frequency_hz.size or not np.all(np.isfinite(array)):
+        raise ParameterError(
+            f"{name}: shape {array.shape}: must be finite, (receiver, motion, frequency) with "
+            f"{frequency_hz.size} frequencies"
+        )
+    return array
+
+
+def _labelled(
+    study: Study,
+    modes: list[str],
+    frequency_hz: Array,
+    of_housing: ComplexArray,
+    of_modes: ComplexArray | None,
+) -> xr.Dataset:
+    receivers = list(study.receivers)
+    for name, values in (("transfer_vector", of_housing), ("shell_modes", of_modes)):
+        if values is not None and len(values) != len(receivers):
+            raise ParameterError(
+                f"{name}: has {len(values)} receivers; the study has {', '.join(receivers)}"
+            )
+    if modes and (of_modes is None or of_modes.shape[1] != len(modes)):
+        count = 0 if of_modes is None else of_modes.shape[1]
+        raise ParameterError(f"shell_modes: has {count} modes; the shell has {len(modes)}")
+    highest = study.radiation.maximum_frequency_hz
+    if frequency_hz[-1] < highest * (1.0 - 1e-9):
+        raise ParameterError(
+            f"frequency_hz: ends at {frequency_hz[-1]:g} Hz; radiation.maximum_frequency_hz is "
+            f"{highest:g} Hz"
+        )
+    floor_m = study.machine.shell.floor_z_m
+    places = [(r.x_m, r.y_m, r.height_m + floor_m) for r in study.receivers.values()]
+    coords = {
+        "receiver": receivers,
+        "frequency": frequency_hz,
+        "distance": ("receiver", np.linalg.norm(places, axis=1)),
+    }
+    vectors = {
+        "transfer_vector": stamp(
+            "transfer_vector", of_housing, {**coords, "dof": list(RIGID_BODY_DOFS)}
+        )
+    }
+    if modes and of_modes is not None:
+        vectors["pattern_transfer_vector"] = stamp(
+            "pattern_transfer_vector", of_modes, {**coords, "pattern": modes}
+        )
+    return xr.Dataset(vectors, attrs={"method": "given"})
