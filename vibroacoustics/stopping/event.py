@@ -11,7 +11,7 @@ from .. import levels
 from ..base.arrays import Array, ComplexArray
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.errors import ParameterError
-from ..transfer import RigidBodyOnMounts, SuspendedBlock
+from ..transfer import MachineOnMounts
 from ..transfer.transient import LOAD_SAMPLES, Transient, transient
 from .coasting import RunDown
 
@@ -69,7 +69,7 @@ class StoppingEvent:
 def stopping_event(
     run: RunDown,
     clock: Clock,
-    body: RigidBodyOnMounts | SuspendedBlock,
+    body: MachineOnMounts,
     pressure_per_velocity: Callable[[Array], ComplexArray],
 ) -> StoppingEvent:
     """Forces of a run-down and what they do to feet and microphones.
@@ -110,7 +110,7 @@ def stopping_event(
 def _response(
     course: Array,
     clock: Clock,
-    body: RigidBodyOnMounts | SuspendedBlock,
+    body: MachineOnMounts,
     pressure_per_velocity: Callable[[Array], ComplexArray],
 ) -> Transient:
     """To a load that is faded in and followed by rest until the mounts have rung out."""

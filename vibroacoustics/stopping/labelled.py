@@ -14,7 +14,7 @@ from ..base.vocabulary import AXES, VARIABLES, check, stamp
 from ..machine.machine import Machine
 from ..radiation.pressure import pressure_per_velocity
 from ..study.study import Study
-from ..transfer import RigidBodyOnMounts, SuspendedBlock
+from ..transfer import MachineOnMounts
 from ..transfer.transient import LOAD_SAMPLES, RESULT_SAMPLES
 from .coasting import RunDown
 from .event import FADE_S, STEADY_S, Clock, StoppingEvent, stopping_event
@@ -32,7 +32,7 @@ SHOWN_AFTER_S: Final = 0.4
 def stopping_variables(
     study: Study,
     machine: Machine,
-    body: RigidBodyOnMounts | SuspendedBlock,
+    body: MachineOnMounts,
     results: xr.Dataset,
 ) -> xr.Dataset:
     """Run-down from each speed, without a balancer; force, moment, feet, sound, order map.

@@ -2,18 +2,15 @@
 
 from .bushings import Bushing, RigidBody
 from .isolation import Isolation
-from .machine import largest_foot_force_n, on_mounts
-from .mounts import FOOT_NAMES, RigidBodyOnMounts
-from .suspended_block import SuspendedBlock
+from .machine import FOOT_NAMES, MachineOnMounts, largest_foot_force_n, on_mounts
 from .tube import tube_stiffness
 
 __all__ = [
     "FOOT_NAMES",
     "Bushing",
     "Isolation",
+    "MachineOnMounts",
     "RigidBody",
-    "RigidBodyOnMounts",
-    "SuspendedBlock",
     "largest_foot_force_n",
     "on_mounts",
     "tube_stiffness",

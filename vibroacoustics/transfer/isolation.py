@@ -62,12 +62,12 @@ class Isolation:
     @cached_property
     def bushing_motion(self) -> Array:
         """Motion of body against other body at each bushing, shape (bushing, 6, 6 bodies)."""
-        places = {body.name: number for number, body in enumerate(self.bodies)}
+        numbers = {body.name: number for number, body in enumerate(self.bodies)}
         motion = np.zeros((len(self.bushings), 6, 6 * len(self.bodies)))
         for row, bushing in zip(motion, self.bushings, strict=True):
             for sign, name in ((1.0, bushing.body), (-1.0, bushing.other_body)):
                 if name is not None:
-                    number = places[name]
+                    number = numbers[name]
                     centre = self.bodies[number].centre_of_mass_m
                     row[:, 6 * number : 6 * number + 6] = sign * motion_at(
                         bushing.position_m, centre
@@ -98,15 +98,15 @@ class Isolation:
         squares[squares < FREE * squares[-1]] = 0.0
         return np.sqrt(squares) / (2.0 * np.pi), shapes.T.reshape(-1, len(self.bodies), 6)
 
-    def displacement(self, load: ComplexArray, frequency_hz: Array | float) -> ComplexArray:
-        """Motion of each body, shape (..., body, 6), m and rad, complex peak.
+    def receptance(self, frequency_hz: Array | float) -> ComplexArray:
+        """Motion per load, shape (..., 6 bodies, 6 bodies): (K + jKη + jωC - ω²M)⁻¹.
 
-        Solves (K + jKη + jωC - ω²M) X = F. At frequency zero the stiffness is real.
+        The loss factor is structural, the same at every frequency above zero; at frequency zero
+        there is no motion to lose energy and the stiffness is real.
 
         Parameters
         ----------
-        load : force and moment at each body's centre of mass, shape (..., body, 6), complex peak
-        frequency_hz : at least zero, broadcasts against load[..., 0, 0]
+        frequency_hz : at least zero, shape (...)
 
         Raises
         ------
@@ -116,54 +116,53 @@ class Isolation:
         frequency = np.asarray(frequency_hz, dtype=float)
         if np.any(frequency == 0.0) and self.natural_modes()[0][0] == 0.0:
             raise SolverError("frequency 0 Hz: a body can move freely, there is no static response")
-        load = np.asarray(load)
-        flat = load.reshape(*load.shape[:-2], -1, 1)
+        omega = 2.0 * np.pi * frequency[..., None, None]
+        dynamic = self.stiffness_matrix - omega**2 * self.mass_matrix + 1j * (
+            (omega > 0.0) * self.structural_damping_matrix + omega * self.damping_matrix
+        )  # fmt: skip
         try:
-            motion = np.linalg.solve(self._dynamic_stiffness(frequency), flat)
+            return np.asarray(np.linalg.inv(dynamic))
         except np.linalg.LinAlgError:
             raise SolverError(
                 "bushings: undamped motion at a natural frequency has no bound; give damping"
             ) from None
-        return np.asarray(motion[..., 0].reshape(*motion.shape[:-2], len(self.bodies), 6))
 
-    def velocity(self, load: ComplexArray, frequency_hz: Array | float) -> ComplexArray:
-        """Velocity of each body, shape (..., body, 6), m/s and rad/s, complex peak.
+    def displacement(self, load: ComplexArray, frequency_hz: Array | float) -> ComplexArray:
+        """Motion of each body, shape (..., body, 6), m and rad, complex peak.
 
         Parameters
         ----------
         load : force and moment at each body's centre of mass, shape (..., body, 6), complex peak
         frequency_hz : at least zero, broadcasts against load[..., 0, 0]
         """
-        speed = 2j * np.pi * np.asarray(frequency_hz, dtype=float)[..., None, None]
-        return np.asarray(speed * self.displacement(load, frequency_hz))
+        flat = np.reshape(load, (*np.shape(load)[:-2], -1))
+        motion = np.einsum("...ij,...j->...i", self.receptance(frequency_hz), flat)
+        return np.asarray(motion.reshape(*motion.shape[:-1], len(self.bodies), 6))
 
-    def bushing_force(self, load: ComplexArray, frequency_hz: Array | float) -> ComplexArray:
+    def bushing_force(
+        self, displacement: ComplexArray, frequency_hz: Array | float
+    ) -> ComplexArray:
         """Force and moment of the body on the other one or the ground, shape (..., bushing, 6).
 
         At the bushing's point, in the axes of the frame, N and N m, complex peak.
 
         Parameters
         ----------
-        load : force and moment at each body's centre of mass, shape (..., body, 6), complex peak
-        frequency_hz : at least zero, broadcasts against load[..., 0, 0]
+        displacement : of each body, shape (..., body, 6), m and rad, complex peak
+        frequency_hz : at least zero, broadcasts against displacement[..., 0, 0]
         """
-        frequency = np.asarray(frequency_hz, dtype=float)
-        motion = self.displacement(load, frequency)
-        flat = motion.reshape(*motion.shape[:-2], -1)
-        relative = np.einsum("bij,...j->...bi", self.bushing_motion, flat)
-        omega = 2.0 * np.pi * frequency[..., None, None, None]
-        stiffness, lost = self._bushing_stiffness, self._bushing_loss
-        dynamic = stiffness + np.where(omega > 0.0, 1j, 0.0) * lost
-        dynamic = dynamic + 1j * omega * self._bushing_damping
-        return np.asarray(np.einsum("...bij,...bj->...bi", dynamic, relative))
+        omega = 2.0 * np.pi * np.asarray(frequency_hz, dtype=float)[..., None, None]
+        flat = displacement.reshape(*displacement.shape[:-2], -1)
 
-    def _dynamic_stiffness(self, frequency: Array) -> ComplexArray:
-        omega = 2.0 * np.pi * frequency[..., None, None]
-        structural = np.where(omega > 0.0, 1j, 0.0) * self.structural_damping_matrix
-        viscous = 1j * omega * self.damping_matrix
-        return np.asarray(
-            self.stiffness_matrix + structural + viscous - omega**2 * self.mass_matrix
-        )
+        def force(matrices: Array) -> ComplexArray:
+            per_motion = (matrices @ self.bushing_motion).reshape(-1, flat.shape[-1])
+            return np.asarray(flat @ per_motion.T).reshape(*flat.shape[:-1], -1, 6)
+
+        total = force(self._bushing_stiffness)
+        for rate, matrices in ((omega > 0.0, self._bushing_loss), (omega, self._bushing_damping)):
+            if matrices.any():
+                total += 1j * rate * force(matrices)
+        return total
 
     @cached_property
     def _bushing_stiffness(self) -> Array:
@@ -184,7 +183,7 @@ class Isolation:
 
     def _assembled(self, matrices: Array) -> Array:
         motion = self.bushing_motion
-        return np.asarray(np.einsum("bki,bkl,blj->ij", motion, matrices, motion, optimize=True))
+        return np.asarray(np.einsum("bki,bkl,blj->ij", motion, matrices, motion))
 
 
 def _check_unique(what: str, names: Iterable[str]) -> None:

@@ -1,6 +1,6 @@
 """Motion of a study's machine on its mounts, labelled."""
 
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import xarray as xr
@@ -15,11 +15,13 @@ from ..base.vocabulary import (
 )
 from ..mechanics.ellipse import semi_major_axis
 from ..study.study import Study
-from .machine import on_mounts
-from .mounts import FOOT_NAMES, RigidBodyOnMounts
-from .suspended_block import SuspendedBlock
+from .machine import FOOT_NAMES, MachineOnMounts, Response, on_mounts
 
 MOUNT_FREQUENCY_HZ: Final[Array] = np.asarray(np.geomspace(1.0, 200.0, 400), dtype=np.float64)
+
+_WRENCH: Final = ("force_order", "moment_order")
+_FEET: Final = {"foot": list(FOOT_NAMES), "axis": list(AXES)}
+_DOFS: Final = {"dof": list(RIGID_BODY_DOFS)}
 
 
 def housing_variables(study: Study, results: xr.Dataset) -> xr.Dataset:
@@ -27,71 +29,66 @@ def housing_variables(study: Study, results: xr.Dataset) -> xr.Dataset:
 
     Every option moves on its own mounts; the natural modes are those of the machine as it is.
     """
-    bodies = [on_mounts(option.applied_to(study.machine)) for option in study.options.values()]
-    parts = [results[name].transpose("option", ..., "order", "axis") for name in _WRENCH]
-    loads = np.concatenate([part.values for part in parts], axis=-1)
-    frequency = results["order_frequency"].values[:, None, :]
-
-    def response(name: str) -> ComplexArray:
-        """Of each option's own body, shape (speed, option, source, order, ...)."""
-        moved: dict[int, ComplexArray] = {}
-        for body in dict.fromkeys(bodies):
-            rows = [row for row, other in enumerate(bodies) if other == body]
-            moved.update(zip(rows, getattr(body, name)(loads[rows], frequency), strict=True))
-        return np.stack([moved[row] for row in range(len(bodies))], axis=1)
-
-    body = bodies[list(study.options).index(REFERENCE_OPTION)]
-    foot_force = np.moveaxis(response("foot_force"), (-2, -1), (-3, -2))
-    frequencies, shapes = body.natural_modes()
+    machines = {
+        name: on_mounts(option.applied_to(study.machine)) for name, option in study.options.items()
+    }
+    reference = machines[REFERENCE_OPTION]
+    responses = _responses(list(machines.values()), results)
+    foot_force = np.stack([response.foot_force for response in responses], axis=1)
+    foot_force = np.moveaxis(foot_force, (-2, -1), (-3, -2))
+    total = semi_major_axis(foot_force.sum(axis=2), axis=3)
     coords = {name: results[name] for name in ("speed", "option", "source", "order")}
-    feet = {"foot": list(FOOT_NAMES), "axis": list(AXES)}
-    modes = [f"mode_{number}" for number in range(1, len(frequencies) + 1)]
-    ellipse = semi_major_axis(foot_force.sum(axis=2), axis=3)
-    motions = {"velocity_order": "velocity"}
-    if isinstance(body, SuspendedBlock):
-        motions["block_velocity_order"] = "block_velocity"
+    by_foot = {name: coords[name] for name in ("speed", "option", "order")}
+    velocities = {"velocity_order": [response.velocity for response in responses]}
+    if reference.suspension is not None:
+        velocities["block_velocity_order"] = [response.block_velocity for response in responses]
+    arrays: dict[str, tuple[Any, dict[str, Any]]] = {
+        name: (np.moveaxis(np.stack(velocity, axis=1), -1, -2), {**coords, **_DOFS})
+        for name, velocity in velocities.items()
+    }
+    arrays["foot_force_order"] = (foot_force, {**coords, **_FEET})
+    arrays["foot_force_amplitude"] = (total, {**by_foot, "foot": _FEET["foot"]})
+    arrays |= _of_mounts(reference)
     return check(
         xr.Dataset(
-            {
-                **{
-                    name: stamp(
-                        name,
-                        np.moveaxis(response(motion), -1, -2),
-                        {**coords, "dof": list(RIGID_BODY_DOFS)},
-                    )
-                    for name, motion in motions.items()
-                },
-                "foot_force_order": stamp("foot_force_order", foot_force, {**coords, **feet}),
-                "foot_force_amplitude": stamp(
-                    "foot_force_amplitude",
-                    ellipse,
-                    {
-                        **{name: coords[name] for name in ("speed", "option", "order")},
-                        "foot": feet["foot"],
-                    },
-                ),
-                "natural_frequency": stamp("natural_frequency", frequencies, {"mode": modes}),
-                "mode_shape": stamp(
-                    "mode_shape",
-                    shapes.reshape(len(modes), len(body.bodies), -1),
-                    {"mode": modes, "body": list(body.bodies), "dof": list(RIGID_BODY_DOFS)},
-                ),
-                "mount_transmissibility": stamp(
-                    "mount_transmissibility",
-                    _transmissibility(body),
-                    {"axis": list(AXES), "mount_frequency": MOUNT_FREQUENCY_HZ},
-                ),
-            },
-            coords={"foot_position": (("foot", "axis"), body.foot_position)},
+            {name: stamp(name, values, at) for name, (values, at) in arrays.items()},
+            coords={"foot_position": (("foot", "axis"), reference.foot_position)},
         )
     )
 
 
-_WRENCH: Final = ("force_order", "moment_order")
+def _responses(machines: list[MachineOnMounts], results: xr.Dataset) -> list[Response]:
+    """Of each option's machine, shapes (speed, source, order, ...).
+
+    Options on equal mounts are solved at once.
+    """
+    parts = [results[name].transpose("option", ..., "order", "axis") for name in _WRENCH]
+    loads = np.concatenate([part.values for part in parts], axis=-1)
+    frequency = results["order_frequency"].values[:, None, :]
+    by_row: dict[int, Response] = {}
+    for machine in dict.fromkeys(machines):
+        rows = [row for row, other in enumerate(machines) if other == machine]
+        by_row |= zip(rows, machine.response(loads[rows], frequency).unstacked(), strict=True)
+    return [by_row[row] for row in range(len(machines))]
 
 
-def _transmissibility(body: RigidBodyOnMounts | SuspendedBlock) -> ComplexArray:
+def _of_mounts(machine: MachineOnMounts) -> dict[str, tuple[Any, dict[str, Any]]]:
+    """Natural modes of a machine and what its mounts pass on, with coordinates."""
+    frequencies, shapes = machine.isolation.natural_modes()
+    mode = {"mode": [f"mode_{number}" for number in range(1, len(frequencies) + 1)]}
+    names = [body.name for body in machine.isolation.bodies]
+    return {
+        "natural_frequency": (frequencies, mode),
+        "mode_shape": (shapes, {**mode, "body": names, **_DOFS}),
+        "mount_transmissibility": (
+            _transmissibility(machine),
+            {"axis": list(AXES), "mount_frequency": MOUNT_FREQUENCY_HZ},
+        ),
+    }
+
+
+def _transmissibility(machine: MachineOnMounts) -> ComplexArray:
     """Sum of the foot forces along an axis per force along it, shape (axis, frequency)."""
     unit = np.eye(6)[:3].astype(complex)
-    force = body.foot_force(unit[:, None, :], MOUNT_FREQUENCY_HZ[None, :])
+    force = machine.response(unit[:, None, :], MOUNT_FREQUENCY_HZ[None, :]).foot_force
     return np.stack([force[axis, :, :, axis].sum(axis=-1) for axis in range(3)])

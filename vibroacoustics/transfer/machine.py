@@ -1,22 +1,176 @@
 """The machine on its mounts: one rigid body, or a block on springs in a shell."""
 
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Final
+
 import numpy as np
 
+from ..base.arrays import Array, ComplexArray
+from ..machine.housing import Housing
 from ..machine.machine import Machine
+from ..machine.mounts import Mounts
+from ..machine.suspension import DischargeTube, Suspension
 from ..mechanics.loads import Tone
-from .mounts import RigidBodyOnMounts
-from .suspended_block import SuspendedBlock
+from .bushings import Bushing, RigidBody
+from .isolation import Isolation
+from .tube import tube_stiffness
+
+MACHINE, SHELL, BLOCK = "machine", "shell", "block"
+FOOT_NAMES: Final = ("front_left", "front_right", "rear_left", "rear_right")
+"""Front is +x, left is +y."""
+KEPT_MACHINES: Final = 64
+"""Machines whose bushings are kept assembled: cases of a study share their mounts."""
 
 
-def on_mounts(machine: Machine) -> RigidBodyOnMounts | SuspendedBlock:
+@dataclass(frozen=True)
+class Response:
+    """What a load on the mechanism's body does, complex peaks.
+
+    Attributes
+    ----------
+    velocity : of the centre of mass of the body on the feet, which radiates; shape (..., 6), m/s
+        and rad/s
+    block_velocity : of the body with the mechanism, as `velocity`; the same without a suspension
+    foot_force : of the machine on the floor at each foot, shape (..., foot, axis), N
+    """
+
+    velocity: ComplexArray
+    block_velocity: ComplexArray
+    foot_force: ComplexArray
+
+    def unstacked(self) -> "list[Response]":
+        """Of each of the loads along the first axis."""
+        parts = (self.velocity, self.block_velocity, self.foot_force)
+        return [Response(*each) for each in zip(*parts, strict=True)]
+
+
+@dataclass(frozen=True)
+class MachineOnMounts:
+    """A machine on four grommets; the floor is taken as rigid.
+
+    With a suspension the grommets carry the shell, in it the block on four springs and the
+    discharge tube; the mechanism loads the block. Without one, both are the same body.
+
+    Attributes
+    ----------
+    housing : mass and principal moments of inertia of the body on the grommets
+    mounts : stiffness of one grommet, pitch, loss factor
+    foot_height_m : height of the grommets relative to that body's centre of mass
+    suspension : block, springs and tube
+    """
+
+    housing: Housing
+    mounts: Mounts
+    foot_height_m: float
+    suspension: Suspension | None = None
+
+    @cached_property
+    def foot_position(self) -> Array:
+        """Grommets in the order of FOOT_NAMES, shape (4, 3), m from the centre of mass."""
+        return _corners(self.mounts.pitch_m, self.foot_height_m)
+
+    @cached_property
+    def isolation(self) -> Isolation:
+        """Bodies, that on the feet first, and bushings, the feet first.
+
+        The frame's origin is the centre of mass of the body on the feet.
+        """
+        name = MACHINE if self.suspension is None else SHELL
+        bodies = [_rigid_body(name, self.housing, np.zeros(3))]
+        bushings = _corner_bushings("foot", self.mounts, self.foot_position, (name, None))
+        if self.suspension is not None:
+            bodies.append(_block(self.suspension))
+            bushings += _suspension_bushings(self.suspension)
+        return Isolation(tuple(bodies), tuple(bushings))
+
+    def response(self, load: ComplexArray, frequency_hz: Array | float) -> Response:
+        """Motion and foot forces under a load on the body with the mechanism.
+
+        Parameters
+        ----------
+        load : force and moment about that body's centre of mass, shape (..., 6), N and N m
+        frequency_hz : at least zero, broadcasts against load[..., 0]
+        """
+        isolation = self.isolation
+        loads = np.zeros((*np.shape(load)[:-1], len(isolation.bodies), 6), dtype=complex)
+        loads[..., -1, :] = load
+        motion = isolation.displacement(loads, frequency_hz)
+        force = isolation.bushing_force(motion, frequency_hz)
+        velocity = 2j * np.pi * np.asarray(frequency_hz, dtype=float)[..., None, None] * motion
+        return Response(
+            velocity[..., 0, :], velocity[..., -1, :], force[..., : len(FOOT_NAMES), :3]
+        )
+
+
+def on_mounts(machine: Machine) -> MachineOnMounts:
     """The bodies of a machine on mounts and springs."""
-    foot_height = -machine.shell.centre_of_mass_height_m
-    if machine.suspension is None:
-        return RigidBodyOnMounts(machine.housing, machine.mounts, foot_height)
-    return SuspendedBlock(machine.housing, machine.mounts, machine.suspension, foot_height)
+    foot_height_m = -machine.shell.centre_of_mass_height_m
+    return _kept(machine.housing, machine.mounts, foot_height_m, machine.suspension)
 
 
-def largest_foot_force_n(body: RigidBodyOnMounts | SuspendedBlock, tone: Tone) -> float:
+def largest_foot_force_n(body: MachineOnMounts, tone: Tone) -> float:
     """Largest force into a foot by a tone's wrench on the rigid machine, peak, N."""
-    force = body.foot_force(tone.rigid[None, :], np.array([tone.frequency_hz]))
+    force = body.response(tone.rigid, tone.frequency_hz).foot_force
     return float(np.max(np.linalg.norm(np.abs(force), axis=-1)))
+
+
+_kept = lru_cache(KEPT_MACHINES)(MachineOnMounts)
+
+
+def _corners(pitch_m: float, height_m: float) -> Array:
+    """Corners of a square in the order of FOOT_NAMES, shape (4, 3), m."""
+    half = pitch_m / 2.0
+    return np.array(
+        [(x, y, height_m) for x, y in ((half, half), (half, -half), (-half, half), (-half, -half))]
+    )
+
+
+def _centre(suspension: Suspension) -> Array:
+    """The block's centre of mass from the shell's, shape (3,), m."""
+    return np.array([0.0, 0.0, suspension.height_m])
+
+
+def _block(suspension: Suspension) -> RigidBody:
+    return _rigid_body(BLOCK, suspension.block, _centre(suspension))
+
+
+def _suspension_bushings(suspension: Suspension) -> list[Bushing]:
+    springs, centre = suspension.springs, _centre(suspension)
+    corners = centre + _corners(springs.pitch_m, suspension.springs_height_m)
+    bushings = _corner_bushings("spring", springs, corners, (BLOCK, SHELL))
+    if suspension.discharge_tube is not None:
+        bushings.append(_tube_bushing(suspension.discharge_tube, centre))
+    return bushings
+
+
+def _rigid_body(name: str, body: Housing, centre_of_mass_m: Array) -> RigidBody:
+    moments = (body.inertia_xx_kg_m2, body.inertia_yy_kg_m2, body.inertia_zz_kg_m2)
+    return RigidBody(name, body.mass_kg, np.diag(moments), centre_of_mass_m)
+
+
+def _corner_bushings(
+    name: str, mounts: Mounts, position_m: Array, ends: tuple[str, str | None]
+) -> list[Bushing]:
+    lateral, vertical = mounts.lateral_stiffness_n_per_m, mounts.vertical_stiffness_n_per_m
+    stiffness = np.diag([lateral, lateral, vertical, 0.0, 0.0, 0.0])
+    loss = mounts.loss_factor_ratio
+    return [
+        Bushing(f"{name}_{corner}", *ends, point, stiffness, loss_factor_ratio=loss)
+        for corner, point in zip(FOOT_NAMES, position_m, strict=True)
+    ]
+
+
+def _tube_bushing(tube: DischargeTube, block_centre_m: Array) -> Bushing:
+    points = block_centre_m + np.array([tube.x_m, tube.y_m, tube.z_m]).T
+    stiffness = tube_stiffness(
+        points,
+        tube.outer_diameter_m,
+        tube.inner_diameter_m,
+        tube.youngs_modulus_pa,
+        tube.poisson_ratio,
+    )
+    return Bushing(
+        "discharge_tube", BLOCK, SHELL, points[-1], stiffness,
+        loss_factor_ratio=tube.loss_factor_ratio,
+    )  # fmt: skip

@@ -8,9 +8,8 @@ import numpy as np
 from ..base.arrays import Array, ComplexArray
 from ..machine.shell_structure import ShellVariation
 from ..mechanics.loads import Lines, Noise
-from .mounts import RigidBodyOnMounts
+from .machine import MachineOnMounts
 from .path import ShellPath, pressure_per_load
-from .suspended_block import SuspendedBlock
 
 PressurePerVelocity = Callable[[Array], ComplexArray]
 """Of frequencies in Hz, shape (frequency,), to shape (receiver, motion, frequency), Pa s/m."""
@@ -64,22 +63,18 @@ class SoundPath:
     rigid: PressurePerVelocity
     shell: BendingShell | None
 
-    def pressure(
-        self, body: RigidBodyOnMounts | SuspendedBlock, lines: Lines
-    ) -> Mapping[str, ComplexArray]:
+    def pressure(self, body: MachineOnMounts, lines: Lines) -> Mapping[str, ComplexArray]:
         """Pressure at the lines by source, complex peaks, shape (receiver, line), Pa.
 
         What the sources' wrenches over crank angle do is not in it.
         """
         return {source: self._of_source(body, lines, source) for source in lines.rigid}
 
-    def _of_source(
-        self, body: RigidBodyOnMounts | SuspendedBlock, lines: Lines, source: str
-    ) -> ComplexArray:
+    def _of_source(self, body: MachineOnMounts, lines: Lines, source: str) -> ComplexArray:
         frequency, wrench, joints = lines.frequency_hz, lines.rigid[source], lines.joints[source]
         pressure = np.zeros((1, frequency.size), dtype=complex)
         if wrench.any():
-            velocity = body.velocity(wrench.T, frequency)
+            velocity = body.response(wrench.T, frequency).velocity
             pressure = pressure + np.einsum("rdf,fd->rf", self.rigid(frequency), velocity)
         if self.shell is not None and joints.any():
             per_load = self.shell.per_load(frequency)

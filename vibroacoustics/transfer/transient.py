@@ -8,7 +8,7 @@ import numpy as np
 from scipy import fft
 
 from ..base.arrays import Array, ComplexArray
-from . import RigidBodyOnMounts, SuspendedBlock
+from .machine import MachineOnMounts
 
 LOAD_SAMPLES: Final = 2
 """Samples of the load per sample of the result: a jump of the load aliases less."""
@@ -32,12 +32,12 @@ class Transient:
 
 
 def transient(
-    body: RigidBodyOnMounts | SuspendedBlock,
+    body: MachineOnMounts,
     load: Array,
     load_rate_hz: float,
     pressure_per_velocity: Callable[[Array], ComplexArray],
 ) -> Transient:
-    """Response to a load over time by Fourier transform of the whole event.
+    """Response to a load over time by Fourier transform of the event.
 
     The event counts as one period: it has to end with rest that lasts until the mounts' ringing
     has died out. Their structural loss (the same at every frequency above zero) has no causal
@@ -62,7 +62,7 @@ def transient(
     def over_time(lines: ComplexArray) -> Array:
         return np.asarray(fft.irfft(lines, times // LOAD_SAMPLES) / LOAD_SAMPLES)
 
-    velocity = body.velocity(spectrum, frequency)
-    pressure = np.einsum("rdf,fd->rf", pressure_per_velocity(frequency), velocity)
-    foot_force = np.moveaxis(body.foot_force(spectrum, frequency), 0, -1)
+    response = body.response(spectrum, frequency)
+    pressure = np.einsum("rdf,fd->rf", pressure_per_velocity(frequency), response.velocity)
+    foot_force = np.moveaxis(response.foot_force, 0, -1)
     return Transient(over_time(foot_force), over_time(pressure))

@@ -40,7 +40,7 @@ from vibroacoustics.sources.oldham_keys.rattle import steady_key_forces
 from vibroacoustics.sources.oldham_keys.spectra import spectral_density
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.uncertainty import MeasuredModes, Range
-from vibroacoustics.transfer import RigidBodyOnMounts
+from vibroacoustics.transfer import MachineOnMounts
 from vibroacoustics.transfer.path import pressure_per_load
 from vibroacoustics.transfer.shell_modes import elastic_shell
 from vibroacoustics.transfer.sound_path import SoundPath
@@ -408,10 +408,10 @@ def test_body_on_mounts_turns_about_z_alone_under_a_moment_about_z(study):
     """So that its other motions need no transfer vector here."""
     machine = study.machine
     height = -machine.shell.centre_of_mass_height_m
-    body = RigidBodyOnMounts(machine.housing, machine.mounts, height)
+    body = MachineOnMounts(machine.housing, machine.mounts, height)
     moment = np.zeros((1, 6), dtype=complex)
     moment[0, 5] = 1.0
-    velocity = body.velocity(moment, np.array([100.0]))[0]
+    velocity = body.response(moment, np.array([100.0])).velocity[0]
     assert np.abs(velocity[:5]).max() < 1e-15 * abs(velocity[5]) / machine.mounts.pitch_m
 
 

@@ -11,7 +11,7 @@ from vibroacoustics.machine.housing import Housing
 from vibroacoustics.mechanisms.slider_link.unbalance import free_acceleration
 from vibroacoustics.report.housing import block_table, modes_table
 from vibroacoustics.study.loading import load_machine, load_study
-from vibroacoustics.transfer import RigidBodyOnMounts, SuspendedBlock
+from vibroacoustics.transfer import MachineOnMounts, on_mounts
 
 MACHINE = load_machine(ROOT / "data" / "machines" / "dagilis_slider_link.toml")
 FOOT_HEIGHT_M = -0.08
@@ -21,18 +21,18 @@ ROUNDING = 1e-10
 """Rounding of a 12 x 12 solve: eps times a condition number of up to 1e5."""
 
 
-def suspended(tube: bool = True, **springs: float) -> SuspendedBlock:
+def suspended(tube: bool = True, **springs: float) -> MachineOnMounts:
     """The machine's block, with springs changed, with or without the discharge tube."""
     inside = MACHINE.suspension
     changed = {"springs": inside.springs.model_copy(update=springs)}
     if not tube:
         changed["discharge_tube"] = None
-    return SuspendedBlock(
-        MACHINE.housing, MACHINE.mounts, inside.model_copy(update=changed), FOOT_HEIGHT_M
+    return MachineOnMounts(
+        MACHINE.housing, MACHINE.mounts, FOOT_HEIGHT_M, inside.model_copy(update=changed)
     )
 
 
-def on_springs(stiffness_n_per_m: float) -> SuspendedBlock:
+def on_springs(stiffness_n_per_m: float) -> MachineOnMounts:
     """Without a tube, on springs of one stiffness in all directions."""
     return suspended(
         tube=False,
@@ -48,7 +48,7 @@ def relative(found: np.ndarray, expected: np.ndarray) -> float:
 # --- limits --------------------------------------------------------------------------------------
 
 
-def one_body() -> tuple[RigidBodyOnMounts, float]:
+def one_body() -> tuple[MachineOnMounts, float]:
     """Shell and block as one rigid body, and the height of its centre of mass over the shell's."""
     shell, block = MACHINE.housing, MACHINE.suspension.block
     mass = shell.mass_kg + block.mass_kg
@@ -61,7 +61,7 @@ def one_body() -> tuple[RigidBodyOnMounts, float]:
         inertia_yy_kg_m2=shell.inertia_yy_kg_m2 + block.inertia_yy_kg_m2 + tilting,
         inertia_zz_kg_m2=shell.inertia_zz_kg_m2 + block.inertia_zz_kg_m2,
     )
-    return RigidBodyOnMounts(body, MACHINE.mounts, FOOT_HEIGHT_M - height), above
+    return MachineOnMounts(body, MACHINE.mounts, FOOT_HEIGHT_M - height), above
 
 
 def test_stiff_springs_make_one_rigid_body():
@@ -70,9 +70,9 @@ def test_stiff_springs_make_one_rigid_body():
     load = LOAD.copy()
     load[3:] += np.cross([0.0, 0.0, above], LOAD[:3])
     for frequency in (5.0, 50.0):
-        expected = rigid.foot_force(load, frequency)
+        expected = rigid.response(load, frequency).foot_force
         apart = [
-            relative(on_springs(stiffness).foot_force(LOAD, frequency), expected)
+            relative(on_springs(stiffness).response(LOAD, frequency).foot_force, expected)
             for stiffness in (1e7, 1e8, 1e9)
         ]
         # The next term of the series is as small against the first as that against one.
@@ -82,11 +82,11 @@ def test_stiff_springs_make_one_rigid_body():
 
 def test_stiff_springs_leave_the_six_modes_of_one_body():
     rigid, _ = one_body()
-    modes = on_springs(1e9).natural_modes()[0]
+    modes = on_springs(1e9).isolation.natural_modes()[0]
     # The springs' share of a mode's energy is (f / f of the first mode against the springs)².
     slack = (modes[5] / modes[6]) ** 2
     assert slack < 1e-3
-    np.testing.assert_allclose(modes[:6], rigid.natural_modes()[0], rtol=slack)
+    np.testing.assert_allclose(modes[:6], rigid.isolation.natural_modes()[0], rtol=slack)
 
 
 def test_soft_springs_isolate():
@@ -98,8 +98,8 @@ def test_soft_springs_isolate():
     block = MACHINE.suspension.block
     free = free_acceleration(block, LOAD) / (2j * np.pi * 50.0)
     bodies = [on_springs(stiffness) for stiffness in (20.0, 200.0, 2000.0)]
-    feet = [np.linalg.norm(body.foot_force(LOAD, 50.0)) for body in bodies]
-    lacks = [relative(body.block_velocity(LOAD, 50.0), free) for body in bodies]
+    feet = [np.linalg.norm(body.response(LOAD, 50.0).foot_force) for body in bodies]
+    lacks = [relative(body.response(LOAD, 50.0).block_velocity, free) for body in bodies]
     for found in (feet, lacks):
         second = [found[number + 1] / found[number] - 10.0 for number in (0, 1)]
         assert abs(second[1]) < 1.0
@@ -116,7 +116,7 @@ def test_static_load_equals_the_foot_forces(tube):
     """Resultant and moment about the block's centre of mass."""
     body = suspended(tube)
     load = LOAD.real
-    force = body.foot_force(load.astype(complex), 0.0)
+    force = body.response(load.astype(complex), 0.0).foot_force
     place = body.foot_position - [0.0, 0.0, MACHINE.suspension.height_m]
     scale = np.max(np.abs(force))
     np.testing.assert_allclose(force.sum(axis=0), load[:3], atol=ROUNDING * scale)
@@ -127,7 +127,7 @@ def test_static_load_equals_the_foot_forces(tube):
 @pytest.mark.parametrize("frequency", [3.0, 7.0, 49.2, 300.0])
 def test_reciprocity_of_the_block(frequency):
     body = suspended()
-    mobility = np.array([body.block_velocity(unit, frequency) for unit in np.eye(6)])
+    mobility = np.array([body.response(unit, frequency).block_velocity for unit in np.eye(6)])
     np.testing.assert_allclose(mobility, mobility.T, atol=ROUNDING * np.max(np.abs(mobility)))
 
 
@@ -135,11 +135,10 @@ def test_reciprocity_of_the_block(frequency):
 def test_power_goes_into_the_loss_factors(frequency):
     """½ Re(F* v) = ω/2 Σ η δ* k δ over springs, feet and tube."""
     body = suspended()
-    put_in = 0.5 * np.real(np.vdot(LOAD, body.block_velocity(LOAD, frequency)))
+    response = body.response(LOAD, frequency)
+    put_in = 0.5 * np.real(np.vdot(LOAD, response.block_velocity))
     omega = 2.0 * np.pi * frequency
-    motion = np.concatenate(
-        [body.velocity(LOAD, frequency), body.block_velocity(LOAD, frequency)]
-    ) / (1j * omega)
+    motion = np.concatenate([response.velocity, response.block_velocity]) / (1j * omega)
     lost = 0.0
     for bushing, moved in zip(
         body.isolation.bushings, body.isolation.bushing_motion @ motion, strict=True
@@ -148,13 +147,13 @@ def test_power_goes_into_the_loss_factors(frequency):
         lost += 0.5 * omega * np.real(np.vdot(moved, stiffness @ moved))
     assert put_in > 0.0
     # Put in is a small difference of large in-phase parts: eps times a condition of 1e5 of them.
-    size = 0.5 * np.linalg.norm(LOAD) * np.linalg.norm(body.block_velocity(LOAD, frequency))
+    size = 0.5 * np.linalg.norm(LOAD) * np.linalg.norm(response.block_velocity)
     assert put_in == pytest.approx(lost, abs=ROUNDING * size)
 
 
 def test_tube_stiffens_the_suspension():
     """More stiffness lowers no natural frequency (Rayleigh); the tube holds the block a little."""
-    with_tube, without = (suspended(tube).natural_modes()[0] for tube in (True, False))
+    with_tube, without = (suspended(tube).isolation.natural_modes()[0] for tube in (True, False))
     assert np.all(with_tube >= without * (1.0 - ROUNDING))
     assert np.max(with_tube / without) > 1.001
 
@@ -170,12 +169,11 @@ def results():
 def test_each_redesign_moves_on_its_own_springs(results):
     study = load_study(STUDY)
     machine = study.options["softer-springs"].machine
-    softer = SuspendedBlock(
-        machine.housing, machine.mounts, machine.suspension, -machine.shell.centre_of_mass_height_m
-    )
+    softer = on_mounts(machine)
+    assert softer.suspension == machine.suspension
     own = results.isel(speed=0).sel(option="softer-springs").sum("source")
     load = np.concatenate([own["force_order"].values[:, 1], own["moment_order"].values[:, 1]])
-    expected = softer.foot_force(load, 2950.0 / 60.0)
+    expected = softer.response(load, 2950.0 / 60.0).foot_force
     found = own["foot_force_order"].sel(order=1).transpose("foot", "axis").values
     np.testing.assert_allclose(found, expected, atol=ROUNDING * np.max(np.abs(expected)))
     feet = results["foot_force_amplitude"].sel(order=1).max("foot")
