@@ -180,7 +180,7 @@ def test_radiation_command(radiated, monkeypatch, tmp_path):
     assert f"transfer vectors: {tmp_path / 'out' / 'transfer_vectors.nc'}" in outcome.output
     assert {path.name for path in (tmp_path / "out").iterdir()} == {
         "transfer_vectors.nc",
-        "transfer_vectors.nc.sha256",
+        "files.json",
         "transfer_vectors.png",
         "map.png",
         "directivity.png",

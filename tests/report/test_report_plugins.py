@@ -92,7 +92,7 @@ def test_section_and_column_are_shown_and_made_again_without_the_plugin(
 ) -> None:
     plugin(tmp_path, SECTION, "prices.py")
     plugin(tmp_path, COLUMN, "thirds.py")
-    outputs.write_all(results, tmp_path / "run")
+    outputs.write_report(results, tmp_path / "run")
     page = (tmp_path / "run" / "report.html").read_text()
     assert page.index('id="comparison"') < page.index('id="prices"') < page.index('id="orders"')
     assert '<a href="#prices">What it costs</a>' in page

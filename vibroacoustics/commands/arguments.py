@@ -1,9 +1,6 @@
 """What the command line's words mean, checked."""
 
-import sys
-import warnings
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 
 from ..base.errors import ParameterError
 from ..study.order_analysis import (
@@ -108,13 +105,3 @@ def _number(option: str, text: str) -> float:
         return float(text)
     except ValueError:
         raise ParameterError(f"{option}: {text!r} is no number") from None
-
-
-@contextmanager
-def warnings_in_one_line() -> Iterator[None]:
-    """Tell each warning as one line on stderr."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always", UserWarning)
-        yield
-    for warning in caught:
-        print(f"warning: {' '.join(str(warning.message).split())}", file=sys.stderr)

@@ -1,18 +1,18 @@
-"""The command line: run, radiation, orders, compare, report, score, doctor; for recordings others.
+"""The command line: run, radiation, orders, compare, report, score, cache, doctor and others.
 
 Heavy imports wait until a command needs them.
 """
 
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from ..base.errors import VibroacousticsError
-from . import recording_commands
+from . import messages, recording_commands
 
 INPUT_ERROR = 2
 
@@ -35,13 +35,17 @@ Plugins = Annotated[
         help="Python file with options, sources, machines, readers, … of yours; it is run.",
     ),
 ]
+NoCache = Annotated[
+    bool, typer.Option("--no-cache", help="Neither read nor write the cache of the radiation.")
+]
 ResultsFile = Annotated[Path, typer.Argument(metavar="RESULTS.nc", help="Results of a run.")]
 
 
 def main() -> None:
     """Run the command line; an input error is one line on stderr and exit code 2."""
     try:
-        app()
+        with messages.warnings_in_one_line():
+            app()
     except VibroacousticsError as error:
         print(f"error: {' '.join(str(error).split())}", file=sys.stderr)
         sys.exit(INPUT_ERROR)
@@ -58,6 +62,7 @@ def run_command(
         typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE STUDY."),
     ] = None,
     plugin: Plugins = None,
+    no_cache: NoCache = False,
 ) -> None:
     """Run a study and write results.nc, report.html, tables and figures."""
     from .. import pipeline, report
@@ -68,11 +73,12 @@ def run_command(
     folder = out or Path("reports") / study_file.stem
     study = loading.load_study(study_file)
     outputs.check_folder(folder)
-    with _progress_bar() as progress:
+    with _cache(no_cache), _progress_bar() as progress:
         results = pipeline.run(study, progress)
-    written = outputs.write_all(results, folder)
+    written = outputs.write_report(results, folder)
     typer.echo(report.comparison_text(results))
     typer.echo(f"report: {written}")
+    messages.warn(outputs.older_files(folder))
 
 
 @app.command("radiation")
@@ -83,6 +89,7 @@ def radiation_command(
         typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE STUDY."),
     ] = None,
     plugin: Plugins = None,
+    no_cache: NoCache = False,
 ) -> None:
     """Compute the housing's radiation alone: transfer vectors, map, directivity, sound power."""
     from .. import pipeline, report
@@ -93,7 +100,7 @@ def radiation_command(
     folder = out or Path("reports") / study_file.stem
     study = loading.load_study(study_file)
     outputs.check_folder(folder)
-    with _progress_bar() as progress:
+    with _cache(no_cache), _progress_bar() as progress:
         radiated = pipeline.radiate(study, progress)
     written = outputs.write_radiation(radiated, folder)
     typer.echo(report.radiation_text(radiated))
@@ -158,7 +165,7 @@ def orders_command(
         channels=None if channels is None else channels.split(","),
         sample_rate_hz=sample_rate,
     )
-    with _progress_bar() as progress, arguments.warnings_in_one_line():
+    with _progress_bar() as progress:
         results = pipeline.analyse_orders(recording, settings, progress)
         written = outputs.write_orders(results, folder)
     typer.echo(report.orders_text(results))
@@ -214,8 +221,9 @@ def report_command(
     from . import outputs
 
     _load(plugin)
-    results = outputs.open_run(results_file)
-    typer.echo(f"report: {outputs.write_report(results, out or results_file.parent)}")
+    folder = out or results_file.parent
+    typer.echo(f"report: {outputs.write_report_again(results_file, folder)}")
+    messages.warn(outputs.older_files(folder))
 
 
 @app.command("score")
@@ -229,22 +237,55 @@ def score_command(
 ) -> None:
     """Score the options again and print the ranking."""
     from .. import scoring
+    from ..results import manifest
     from ..study import loading
     from . import outputs
 
     _load(plugin)
-    results = outputs.open_run(results_file)
+    results, _ = outputs.open_run(results_file)
+    messages.warn(manifest.mixed(results_file.parent))
     settings = loading.load_study(scoring_of).scoring if scoring_of else None
     typer.echo(scoring.ranking_text(scoring.score(results, settings)))
 
 
+@app.command("cache")
+def cache_command(
+    clear: Annotated[bool, typer.Option("--clear", help="Remove all of it.")] = False,
+    limit: Annotated[
+        float | None,
+        typer.Option(
+            metavar="GB",
+            min=0.0,
+            max=1e6,
+            help="Largest size from now on; default: 2. Oldest use goes first.",
+        ),
+    ] = None,
+) -> None:
+    """List what is cached, the least recently used first; clear it or limit its size."""
+    from . import caching
+
+    for line in caching.lines(clear, limit):
+        typer.echo(line)
+
+
 @app.command("doctor")
-def doctor_command() -> None:
+def doctor_command(
+    folder: Annotated[
+        Path | None, typer.Argument(metavar="[FOLDER]", help="Check the results in it, too.")
+    ] = None,
+) -> None:
     """Tell versions, memory, FFT, k-Wave and cache, without a network."""
     from . import doctor
 
-    for line in doctor.findings():
+    for line in doctor.findings(folder):
         typer.echo(line)
+
+
+def _cache(unused: bool) -> AbstractContextManager[None]:
+    """The use of the cache that is asked for."""
+    from ..results import storage
+
+    return storage.without_cache() if unused else nullcontext()
 
 
 def _load(plugins: list[Path] | None) -> None:

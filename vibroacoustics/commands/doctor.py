@@ -2,18 +2,20 @@
 
 import platform
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 import psutil
 
-from ..base.errors import VibroacousticsError
+from ..base.errors import StorageError, VibroacousticsError
 from ..orders import FFT_ENGINE, order_spectrum
 from ..recordings.reader import READERS, needed
-from ..results import provenance, storage
+from ..results import cache, hashed, manifest, provenance
+from . import outputs
 
 
-def findings() -> Iterator[str]:
-    """One line per finding."""
+def findings(results: Path | None = None) -> Iterator[str]:
+    """One line per finding; of a folder with results too, if one is given."""
     yield f"vibroacoustics {provenance.software_version()} ({provenance.git_revision()})"
     yield f"python {platform.python_version()} on {platform.system()} {platform.machine()}"
     for name, version in provenance.package_versions().items():
@@ -25,6 +27,8 @@ def findings() -> Iterator[str]:
     yield f"k-wave: {_kwave()}"
     yield from (f"recordings: {line}" for line in _recordings())
     yield f"cache: {_cache()}"
+    if results is not None:
+        yield from _results(results)
 
 
 def _fft() -> str:
@@ -57,7 +61,25 @@ def _recordings() -> Iterator[str]:
 
 
 def _cache() -> str:
-    folder = storage.cache_folder()
-    files = list(folder.glob("*.nc"))
-    size = sum(file.stat().st_size for file in files)
-    return f"{folder}, {len(files)} results, {size / 2**20:.1f} MiB"
+    folder = cache.folder()
+    files = cache.entries(folder)
+    size, limit = sum(file.size_bytes for file in files), cache.limit_bytes(folder)
+    return f"{folder}, {len(files)} results, {size / 1e6:.1f} MB of at most {limit / 1e6:g} MB"
+
+
+def _results(folder: Path) -> Iterator[str]:
+    """Whether datasets are whole, and the files beside them are theirs."""
+    older = outputs.older_files(folder)
+    yield from (f"results: {line}" for line in older)
+    datasets = sorted(folder.glob("*.nc"))
+    if not datasets:
+        yield f"results: {folder}: none"
+    for path in datasets:
+        try:
+            hashed.read_checked(path)
+        except StorageError as error:
+            yield f"results: {error}"
+        else:
+            yield f"results: {path}: fits its hash"
+    if not older:
+        yield f"results: {folder}: {len(manifest.listed(folder))} files that belong together"

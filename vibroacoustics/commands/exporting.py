@@ -8,7 +8,7 @@ import xarray as xr
 
 from ..base.errors import ParameterError
 from ..recordings import csv_bytes, wav_bytes
-from ..results import storage
+from ..results import files, storage
 
 FORMATS: Final[dict[str, Callable[[xr.Dataset], bytes]]] = {".csv": csv_bytes, ".wav": wav_bytes}
 
@@ -53,5 +53,8 @@ def export_recording(recording: xr.Dataset, path: str | Path) -> Path:
         content = FORMATS[suffix](recording)
     except ParameterError as error:
         raise ParameterError(f"{path}: {error}") from None
-    storage.write_bytes(Path(path), content)
-    return Path(path)
+    file = Path(path)
+    with files.only_writer(file.parent) as staged:
+        files.write(staged / file.name, content)
+        files.replace_all(staged, file.parent)
+    return file

@@ -1,7 +1,7 @@
 """What a run leaves on disk: the dataset, the report, its tables and figures."""
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Final
 
@@ -10,7 +10,8 @@ import xarray as xr
 from .. import report
 from ..base.errors import StorageError
 from ..report.figures import Picture
-from ..results import storage
+from ..results import manifest, storage
+from ..results.files import write
 from ..results.provenance import RECORDING_SCHEMA_VERSION, SCHEMA_VERSION
 
 RESULTS_NAME: Final = "results.nc"
@@ -18,20 +19,29 @@ REPORT_NAME: Final = "report.html"
 TRANSFER_VECTORS_NAME: Final = "transfer_vectors.nc"
 ORDERS_NAME: Final = "orders.nc"
 COMPARISON_NAME: Final = "compared_orders.nc"
+REPORT_FILES: Final = (
+    REPORT_NAME,
+    "comparison.csv",
+    "comparison.md",
+    "scores.csv",
+    "sources.csv",
+    "figures/*.png",
+)
+"""What a report may consist of."""
 
 
-def open_run(path: str | Path) -> xr.Dataset:
-    """Results of a run, checked to be what a report and a score can be made of.
+def open_run(path: str | Path) -> tuple[xr.Dataset, str]:
+    """Results of a run with their hash, checked to be what a report and a score can be made of.
 
     Raises
     ------
     StorageError
         The file cannot be read, or holds something else, or another version of the vocabulary.
     """
-    results = open_orders(path)
+    results, digest = _open_of_this_version(path)
     if "criterion_value" not in results:
         raise StorageError(f"{path}: holds no run: {results.attrs.get('title', 'other results')}")
-    return results
+    return results, digest
 
 
 def open_orders(path: str | Path) -> xr.Dataset:
@@ -42,7 +52,11 @@ def open_orders(path: str | Path) -> xr.Dataset:
     StorageError
         The file cannot be read, or holds another version of the vocabulary.
     """
-    results = storage.open_results(path)
+    return _open_of_this_version(path)[0]
+
+
+def _open_of_this_version(path: str | Path) -> tuple[xr.Dataset, str]:
+    results, digest = storage.open_with_hash(path)
     version = results.attrs.get("schema_version")
     recorded = "channel_order" in results
     allowed = RECORDING_SCHEMA_VERSION if recorded else SCHEMA_VERSION
@@ -52,7 +66,7 @@ def open_orders(path: str | Path) -> xr.Dataset:
             f"{path}: schema_version = {version}: is no result of this version, {allowed}; make it "
             f"again: vibroacoustics {again}"
         )
-    return results
+    return results, digest
 
 
 def check_folder(folder: str | Path) -> None:
@@ -71,41 +85,58 @@ def check_folder(folder: str | Path) -> None:
 
 
 def write_report(results: xr.Dataset, folder: str | Path) -> Path:
-    """Write report, tables and figures, each whole or not at all.
+    """Write the dataset of a run with its report, tables and figures, together or not at all.
 
-    Everything is rendered before the first file is written, and the report itself comes last.
+    The dataset holds what sections and columns of plug-ins show, so that the report can be made
+    again without them.
+
+    Returns
+    -------
+    path of the report
+
+    Raises
+    ------
+    StorageError
+        The folder cannot be written; what was there before then stays.
+    """
+    kept = report.keep(results)
+    with manifest.replacing(Path(folder), RESULTS_NAME) as staged:
+        digest = storage.stage_results(kept, staged / RESULTS_NAME)
+        _stage(report.render(kept, digest), staged)
+    return Path(folder) / REPORT_NAME
+
+
+def write_report_again(results_file: Path, folder: Path) -> Path:
+    """Write the report of results that are on disk, its tables and figures, together or not at all.
 
     Returns
     -------
     path of the report
     """
-    files = report.render(results)
-    for name in sorted(files, key=lambda name: name == REPORT_NAME):
-        storage.write_bytes(Path(folder) / name, files[name])
-    return Path(folder) / REPORT_NAME
+    results, digest = open_run(results_file)
+    with manifest.replacing(folder, results_file.name, digest) as staged:
+        _stage(report.render(results, digest), staged)
+    return folder / REPORT_NAME
 
 
-def write_all(results: xr.Dataset, folder: str | Path) -> Path:
-    """Write the dataset and then the report; returns the path of the report.
-
-    The dataset holds what sections and columns of plug-ins show, so that the report can be made
-    again without them.
-    """
-    results = report.keep(results)
-    storage.write_results(results, Path(folder) / RESULTS_NAME)
-    return write_report(results, folder)
+def older_files(folder: Path) -> list[str]:
+    """Files of a report that are of another run or of nobody knows which, a line each."""
+    known = manifest.listed(folder)
+    present = {p.relative_to(folder).as_posix() for name in REPORT_FILES for p in folder.glob(name)}
+    return [
+        *manifest.mixed(folder),
+        *(f"{folder / name}: is not of these results" for name in sorted(present - known)),
+    ]
 
 
 def write_radiation(radiated: xr.Dataset, folder: str | Path) -> Path:
-    """Write transfer vectors and their figures, each whole or not at all; the dataset last.
-
-    Everything is rendered before the first file is written.
+    """Write transfer vectors and their figures, together or not at all.
 
     Returns
     -------
     path of the dataset
     """
-    return _write_analysis(radiated, folder, TRANSFER_VECTORS_NAME, {}, report.radiation_figures)
+    return write_analysis(radiated, folder, TRANSFER_VECTORS_NAME, {}, report.radiation_figures)
 
 
 def write_orders(results: xr.Dataset, folder: str | Path) -> Path:
@@ -113,24 +144,35 @@ def write_orders(results: xr.Dataset, folder: str | Path) -> Path:
     tables = {"orders.csv": report.orders_csv(results)}
     if "equivalent_level" in results:
         tables["levels.csv"] = report.levels_csv(results)
-    return _write_analysis(results, folder, ORDERS_NAME, tables, report.recorded_order_figures)
+    return write_analysis(results, folder, ORDERS_NAME, tables, report.recorded_order_figures)
 
 
 def write_comparison(compared: xr.Dataset, folder: str | Path) -> Path:
     """Write compared orders with their table and figures; see `write_radiation`."""
     table = {"compared_orders.csv": report.comparison_of_orders_csv(compared)}
-    return _write_analysis(compared, folder, COMPARISON_NAME, table, report.compared_order_figures)
+    return write_analysis(compared, folder, COMPARISON_NAME, table, report.compared_order_figures)
 
 
-def _write_analysis(
+def write_analysis(
     results: xr.Dataset,
     folder: str | Path,
     name: str,
-    tables: dict[str, bytes],
+    tables: Mapping[str, bytes],
     figures: Callable[[xr.Dataset], list[Picture]],
 ) -> Path:
-    """Write a dataset with what was drawn of it, each whole or not at all; the dataset last."""
-    files = tables | {f"{picture.name}.png": picture.png for picture in figures(results)}
-    for file, content in files.items():
-        storage.write_bytes(Path(folder) / file, content)
-    return storage.write_results(results, Path(folder) / name)
+    """Write a dataset with tables and what was drawn of it, together or not at all.
+
+    Returns
+    -------
+    path of the dataset
+    """
+    files = {**tables, **{f"{picture.name}.png": picture.png for picture in figures(results)}}
+    with manifest.replacing(Path(folder), name) as staged:
+        storage.stage_results(results, staged / name)
+        _stage(files, staged)
+    return Path(folder) / name
+
+
+def _stage(files: Mapping[str, bytes], staged: Path) -> None:
+    for name, content in files.items():
+        write(staged / name, content)

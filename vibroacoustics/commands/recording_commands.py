@@ -72,8 +72,7 @@ def track_command(
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
     recording = _read(recording_file, unit, calibration, channels, sample_rate)
-    with arguments.warnings_in_one_line():
-        tracked = pipeline.track_orders(recording, source, numbers, bandwidth, poles)
+    tracked = pipeline.track_orders(recording, source, numbers, bandwidth, poles)
     written = recorded_outputs.write_tracked(tracked, folder)
     typer.echo(report.tracked_text(tracked))
     typer.echo(f"tracked orders: {written}")
@@ -105,8 +104,7 @@ def map_command(
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
     recording = _read(recording_file, unit, calibration, channels, sample_rate)
-    with arguments.warnings_in_one_line():
-        mapped = pipeline.speed_frequency_map(recording, source, resolution, maximum_frequency)
+    mapped = pipeline.speed_frequency_map(recording, source, resolution, maximum_frequency)
     typer.echo(f"speed-frequency map: {recorded_outputs.write_speed_map(mapped, folder)}")
 
 

@@ -131,7 +131,11 @@ def read_in_child(request: Mapping[str, Any]) -> tuple[dict[str, Any], Array]:
             command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=messages
         ) as child,
     ):
-        handed_over = _receive(cast(io.BufferedReader, child.stdout))
+        try:
+            handed_over = _receive(cast(io.BufferedReader, child.stdout))
+        except BaseException:  # a signal: the child may have much to read yet
+            child.kill()
+            raise
         if handed_over is None:
             messages.seek(0)
             raise StorageError(_end_of(child.wait(), messages.read()))

@@ -49,16 +49,17 @@ __all__ = [
 ]
 
 
-def render(results: xr.Dataset) -> dict[str, bytes]:
+def render(results: xr.Dataset, results_sha256: str = "") -> dict[str, bytes]:
     """All files of the report, by name; `/` in a name stands for a folder.
 
     Parameters
     ----------
     results : dataset of a finished run, its attributes included
+    results_sha256 : hash of its file, which the page then names
     """
     page = page_of(results)
     return {
-        "report.html": html(page),
+        "report.html": html(page, results_sha256),
         "comparison.csv": comparison_csv(results),
         "comparison.md": markdown(page),
         "scores.csv": scores_csv(results),

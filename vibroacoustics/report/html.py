@@ -11,8 +11,11 @@ from .blocks import Text
 from .page import Page
 
 
-def html(page: Page) -> bytes:
-    """The page; all figures and the style are inside, nothing is loaded from elsewhere."""
+def html(page: Page, results_sha256: str = "") -> bytes:
+    """The page, with the hash of its results.
+
+    All figures and the style are inside, nothing is loaded from elsewhere.
+    """
     environment = Environment(
         loader=PackageLoader("vibroacoustics.report"),
         autoescape=True,
@@ -27,7 +30,7 @@ def html(page: Page) -> bytes:
     }
     style = resources.files(__package__).joinpath("templates/style.css").read_text("utf-8")
     template = environment.get_template("report.html.j2")
-    return template.render(page=page, style=style).encode()
+    return template.render(page=page, style=style, results_sha256=results_sha256).encode()
 
 
 def _linked(text: Text) -> Markup:

@@ -37,7 +37,7 @@ def test_run_writes_everything(finished: Path) -> None:
     names = {path.name for path in finished.iterdir()}
     assert {
         "results.nc",
-        "results.nc.sha256",
+        "files.json",
         "report.html",
         "comparison.csv",
         "comparison.md",
@@ -58,7 +58,7 @@ def test_radiation_alone(tmp_path: Path) -> None:
     assert "iso3744-hemisphere-10, S = 6.28 m²" in outcome.stdout
     assert {path.name for path in (tmp_path / "out").iterdir()} == {
         "transfer_vectors.nc",
-        "transfer_vectors.nc.sha256",
+        "files.json",
         "transfer_vectors.png",
         "map.png",
         "directivity.png",
@@ -118,7 +118,6 @@ def test_damaged_results_are_refused(finished: Path, cache: Path, tmp_path: Path
     content = bytearray((finished / "results.nc").read_bytes())
     content[len(content) // 2] ^= 0xFF
     (tmp_path / "results.nc").write_bytes(content)
-    (tmp_path / "results.nc.sha256").write_bytes((finished / "results.nc.sha256").read_bytes())
     assert_refused(command("report", tmp_path / "results.nc", cache=cache), "hash")
     assert not (tmp_path / "report.html").exists()
 

@@ -1,16 +1,21 @@
 """Results on disk: exact, whole or not at all, and reusable."""
 
 import os
+import subprocess
+import sys
+import textwrap
 from pathlib import Path
 
 import netCDF4
 import numpy as np
 import pytest
 import xarray as xr
+from support import in_child
 
 from vibroacoustics.base.errors import StorageError
+from vibroacoustics.base.hashing import sha256
 from vibroacoustics.base.vocabulary import stamp
-from vibroacoustics.results import storage
+from vibroacoustics.results import hashed, netcdf, storage
 
 
 @pytest.fixture
@@ -110,10 +115,32 @@ def test_folder_is_made(results, tmp_path):
     assert path.is_file()
 
 
-def test_hash_is_that_of_sha256sum(results, tmp_path):
+def test_last_line_is_the_hash_of_what_stands_before(results, tmp_path):
     path = storage.write_results(results, tmp_path / "results.nc")
-    line = (tmp_path / "results.nc.sha256").read_text()
-    assert line == f"{storage.sha256(path.read_bytes())}  results.nc\n"
+    content, line = path.read_bytes()[:-88], path.read_bytes()[-88:]
+    assert line == f"\nvibroacoustics sha256 {sha256(content)}\n".encode()
+    assert storage.open_with_hash(path)[1] == hashed.stored_hash(path) == sha256(content)
+    assert [item.name for item in tmp_path.iterdir()] == ["results.nc"]
+
+
+def test_files_of_earlier_versions_still_open(results, tmp_path):
+    """Their hash stood beside them; a new file takes it away."""
+    path = as_before(results, tmp_path / "results.nc")
+    xr.testing.assert_identical(storage.open_results(path), results)
+    assert hashed.stored_hash(path) == sha256(path.read_bytes())
+    changed = results.assign_attrs(title="another")
+    storage.write_results(changed, path)
+    xr.testing.assert_identical(storage.open_results(path), changed)
+    assert [item.name for item in tmp_path.iterdir()] == ["results.nc"]
+
+
+def as_before(results: xr.Dataset, path: Path) -> Path:
+    """Results as earlier versions wrote them: without a last line, the hash beside."""
+    storage.write_results(results, path)
+    content = path.read_bytes()[:-88]
+    path.write_bytes(content)
+    Path(f"{path}.sha256").write_text(f"{sha256(content)}  {path.name}\n")
+    return path
 
 
 # --- damage --------------------------------------------------------------------------------------
@@ -137,17 +164,25 @@ def test_truncated_file(results, tmp_path, share):
 
 
 def test_missing_hash(results, tmp_path):
-    path = storage.write_results(results, tmp_path / "results.nc")
+    path = as_before(results, tmp_path / "results.nc")
     Path(f"{path}.sha256").unlink()
-    with pytest.raises(StorageError, match=r"results\.nc\.sha256: no such file"):
+    with pytest.raises(StorageError, match=r"results\.nc: has no hash"):
         storage.open_results(path)
 
 
 @pytest.mark.parametrize("content", [b"", b"\xff\xfe\n", b"  \n"])
 def test_broken_hash(results, tmp_path, content):
-    path = storage.write_results(results, tmp_path / "results.nc")
+    path = as_before(results, tmp_path / "results.nc")
     Path(f"{path}.sha256").write_bytes(content)
     with pytest.raises(StorageError):
+        storage.open_results(path)
+
+
+def test_rewritten_by_another_program(results, tmp_path):
+    path = storage.write_results(results, tmp_path / "results.nc")
+    with netCDF4.Dataset(path, "a") as file:
+        file.title = "changed by hand, and made longer than it was before"
+    with pytest.raises(StorageError, match="hash"):
         storage.open_results(path)
 
 
@@ -161,8 +196,8 @@ def test_missing_file_and_folder(tmp_path):
 @pytest.mark.parametrize("content", [b"", b"no netCDF at all", b"\x89HDF\r\n\x1a\n" + b"\0" * 100])
 def test_file_of_another_kind(tmp_path, content):
     path = tmp_path / "results.nc"
-    storage.write_bytes(path, content)
-    storage.write_bytes(Path(f"{path}.sha256"), f"{storage.sha256(content)}  x\n".encode())
+    path.write_bytes(content)
+    hashed.append_hash(path)
     with pytest.raises(StorageError, match="no result file"):
         storage.open_results(path)
 
@@ -170,24 +205,51 @@ def test_file_of_another_kind(tmp_path, content):
 # --- whole or not at all -------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("step", ["fsync", "replace", "chmod"])
-def test_failure_leaves_the_old_file_and_nothing_else(tmp_path, monkeypatch, step):
-    path = tmp_path / "results.nc"
-    storage.write_bytes(path, b"old")
+def assert_only_the_old(results: xr.Dataset, folder: Path) -> None:
+    """The old results are whole and nothing else lies there."""
+    assert [item.name for item in folder.iterdir()] == ["results.nc"]
+    xr.testing.assert_identical(storage.open_results(folder / "results.nc"), results)
+
+
+@pytest.mark.parametrize("step", ["fsync", "replace"])
+def test_failure_leaves_the_old_results_and_nothing_else(results, tmp_path, monkeypatch, step):
+    path = storage.write_results(results, tmp_path / "results.nc")
 
     def fail(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(os, step, fail)
-    with pytest.raises(StorageError, match=r"results\.nc: cannot be written: No space left"):
-        storage.write_bytes(path, b"new and longer")
-    assert path.read_bytes() == b"old"
-    assert [item.name for item in tmp_path.iterdir()] == ["results.nc"]
+    with monkeypatch.context() as patch:
+        patch.setattr(os, step, fail)
+        with pytest.raises(StorageError, match=r"results\.nc: cannot be written: No space left"):
+            storage.write_results(results.assign_attrs(title="another"), path)
+    assert_only_the_old(results, tmp_path)
+
+
+@pytest.mark.parametrize("limit", [1000, 50_000, 120_000])
+def test_disk_that_fills_up(tmp_path, limit):
+    """The limit of a file's size stands for a full disk; netCDF meets it where it will."""
+    old = xr.Dataset({"level_remainder": stamp("level_remainder", 55.99)})
+    path = storage.write_results(old, tmp_path / "results.nc")
+    words = in_child(f"""
+        import resource
+        import numpy as np
+        import xarray as xr
+        from vibroacoustics.base.errors import StorageError
+        from vibroacoustics.results import storage
+        resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit}))
+        values = np.random.default_rng(1).standard_normal(20_000)
+        try:
+            storage.write_results(xr.Dataset({{"a": ("x", values)}}), {str(path)!r})
+        except StorageError as error:
+            print("cannot be written" in str(error))
+    """)
+    assert words == ["True"]
+    assert_only_the_old(old, tmp_path)
 
 
 def test_large_variables_come_back_like_small_ones(results, tmp_path, monkeypatch):
     small = storage.open_results(storage.write_results(results, tmp_path / "small.nc"))
-    monkeypatch.setattr(storage, "LARGE_BYTES", 8)
+    monkeypatch.setattr(netcdf, "LARGE_BYTES", 8)
     large = storage.open_results(storage.write_results(results, tmp_path / "large.nc"))
     xr.testing.assert_identical(large, small)
 
@@ -201,27 +263,23 @@ def test_full_disk_leaves_the_old_results_and_nothing_else(results, tmp_path, mo
     monkeypatch.setattr(xr.Dataset, "to_netcdf", fail)
     with pytest.raises(StorageError, match=r"results\.nc: cannot be written: NetCDF: HDF error"):
         storage.write_results(results.assign_attrs(title="another"), path)
-    xr.testing.assert_identical(storage.open_results(path), results)
-    assert {item.name for item in tmp_path.iterdir()} == {"results.nc", "results.nc.sha256"}
+    assert_only_the_old(results, tmp_path)
 
 
-def test_interrupt_leaves_the_old_file_and_nothing_else(tmp_path, monkeypatch):
-    path = tmp_path / "results.nc"
-    storage.write_bytes(path, b"old")
+def test_interrupt_leaves_the_old_results_and_nothing_else(results, tmp_path, monkeypatch):
+    path = storage.write_results(results, tmp_path / "results.nc")
 
     def interrupt(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(os, "replace", interrupt)
-    with pytest.raises(KeyboardInterrupt):
-        storage.write_bytes(path, b"new")
-    assert path.read_bytes() == b"old"
-    assert [item.name for item in tmp_path.iterdir()] == ["results.nc"]
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "replace", interrupt)
+        with pytest.raises(KeyboardInterrupt):
+            storage.write_results(results.assign_attrs(title="another"), path)
+    assert_only_the_old(results, tmp_path)
 
 
-def test_no_reader_ever_sees_a_part(tmp_path, monkeypatch):
-    """What takes the name is already synced and whole."""
-    path = tmp_path / "results.nc"
+def test_what_takes_the_name_is_synced_and_whole(results, tmp_path, monkeypatch):
     synced = []
     fsync, replace = os.fsync, os.replace
 
@@ -230,87 +288,55 @@ def test_no_reader_ever_sees_a_part(tmp_path, monkeypatch):
         fsync(descriptor)
 
     def watch_replace(temporary, target):
-        assert synced == [Path(temporary).stat().st_size] == [100_000]
-        assert Path(temporary).parent == path.parent
+        assert synced == [Path(temporary).stat().st_size]
+        assert hashed.stored_hash(Path(temporary)) is not None
         replace(temporary, target)
 
     monkeypatch.setattr(os, "fsync", watch_sync)
     monkeypatch.setattr(os, "replace", watch_replace)
-    storage.write_bytes(path, b"x" * 100_000)
+    storage.write_results(results, tmp_path / "results.nc")
     assert len(synced) == 2  # the folder too
 
 
-def test_killed_between_content_and_hash_counts_as_not_done(results, tmp_path, monkeypatch):
+def test_what_a_killed_writer_left_goes_with_the_next(results, tmp_path):
+    (tmp_path / ".writing" / "figures").mkdir(parents=True)
+    (tmp_path / ".writing" / "results.nc").write_bytes(b"a part")
+    (tmp_path / ".lock").write_bytes(b"")
+    storage.write_results(results, tmp_path / "results.nc")
+    assert_only_the_old(results, tmp_path)
+
+
+def test_readers_beside_a_writer_and_four_writers(results, tmp_path):
+    """No reader is refused, and in the end one of the writers' results lies there."""
     path = storage.write_results(results, tmp_path / "results.nc")
-    changed = results.assign_attrs(title="another")
-    other = storage.write_results(changed, tmp_path / "other.nc")
-    storage.write_bytes(path, other.read_bytes())  # and no new hash
-    with pytest.raises(StorageError, match="hash"):
+    script = """
+        import sys
+        from vibroacoustics.results import storage
+        path, title = sys.argv[1:]
+        results = storage.open_results(path)
+        for number in range(6):
+            storage.write_results(results.assign_attrs(title=title), path)
+    """
+    command = [sys.executable, "-W", "ignore", "-c", textwrap.dedent(script), path]
+    writers = [subprocess.Popen([*command, name], stderr=subprocess.PIPE) for name in "abcd"]
+    reads = 0
+    while any(writer.poll() is None for writer in writers):
         storage.open_results(path)
+        reads += 1
+    assert [writer.communicate()[1] for writer in writers] == [b""] * 4
+    assert reads > 10
+    assert storage.open_results(path).attrs["title"] in "abcd"
+    assert [item.name for item in tmp_path.iterdir()] == ["results.nc"]
 
 
 def test_folder_that_cannot_be_written(tmp_path):
     (tmp_path / "file").write_text("in the way")
     with pytest.raises(StorageError, match="cannot be written"):
-        storage.write_bytes(tmp_path / "file" / "results.nc", b"x")
+        storage.write_results(xr.Dataset(), tmp_path / "file" / "results.nc")
 
 
-# --- cache ---------------------------------------------------------------------------------------
-
-
-@pytest.fixture
-def cache(tmp_path, monkeypatch) -> Path:
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    return storage.cache_folder()
-
-
-def test_cache_is_in_the_folder_of_the_platform(cache, tmp_path):
-    assert cache == tmp_path / "vibroacoustics"
-
-
-def test_cache_hit_and_miss(results, cache):
-    calls = []
-
-    def compute():
-        calls.append(1)
-        return results
-
-    first, first_cached = storage.cached("kind", {"a": 1}, compute)
-    second, second_cached = storage.cached("kind", {"a": 1}, compute)
-    storage.cached("kind", {"a": 2}, compute)
-    storage.cached("other", {"a": 1}, compute)
-    assert (first_cached, second_cached, len(calls)) == (False, True, 3)
-    xr.testing.assert_identical(first, second)
-
-
-def test_address_does_not_depend_on_the_order_of_keys(results, cache):
-    storage.cached("kind", {"a": 1, "b": [2.0]}, lambda: results)
-    _, was_cached = storage.cached("kind", {"b": [2.0], "a": 1}, lambda: results)
-    assert was_cached
-
-
-def test_damaged_cache_is_computed_again(results, cache):
-    storage.cached("kind", {"a": 1}, lambda: results)
-    (file,) = cache.glob("*.nc")
-    os.truncate(file, 100)
-    again, was_cached = storage.cached("kind", {"a": 1}, lambda: results)
-    assert not was_cached
-    assert storage.cached("kind", {"a": 1}, lambda: results)[1]
-    xr.testing.assert_identical(again, results)
-
-
-def test_failed_computation_leaves_nothing_in_the_cache(results, cache):
-    def fail():
-        raise RuntimeError("diverged")
-
-    with pytest.raises(RuntimeError):
-        storage.cached("kind", {"a": 1}, fail)
-    assert not list(cache.glob("*.nc*[!k]"))  # nothing but the lock
-    assert storage.cached("kind", {"a": 1}, lambda: results)[1] is False
-
-
-def test_cache_that_cannot_be_written(results, tmp_path, monkeypatch):
-    (tmp_path / "file").write_text("in the way")
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
-    with pytest.raises(StorageError, match="cannot be written"):
-        storage.cached("kind", {"a": 1}, lambda: results)
+def test_a_folder_made_for_results_that_fail_goes_again(results, tmp_path, monkeypatch):
+    monkeypatch.setattr(xr.Dataset, "to_netcdf", lambda *_, **__: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        storage.write_results(results, tmp_path / "a" / "b" / "results.nc")
+    assert not list(tmp_path.iterdir())

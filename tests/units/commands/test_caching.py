@@ -1,0 +1,116 @@
+"""`vibroacoustics cache`, `--no-cache` and what `score`, `report` and `doctor` say of a folder."""
+
+from pathlib import Path
+
+import pytest
+import xarray as xr
+from support import TINY, assert_refused, command_here, tiny_run
+
+from vibroacoustics import open_results, write_report
+from vibroacoustics.results import cache, storage
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch) -> Path:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    return cache.folder()
+
+
+@pytest.fixture(scope="module")
+def results() -> xr.Dataset:
+    return tiny_run()
+
+
+def test_lists_limits_and_clears(folder, results):
+    for n in range(3):
+        storage.cached("kind", {"a": n}, lambda: results)
+    lines = command_here("cache").stdout.splitlines()
+    assert len(lines) == 4
+    assert lines[0].endswith(".nc")
+    assert f"{folder}: 3 results" in lines[3]
+    assert "of at most 2000 MB" in lines[3]
+    lines = command_here("cache", "--limit", "0.0005").stdout.splitlines()
+    assert lines[0].startswith("removed 2 results")
+    assert "1 results" in lines[-1]
+    assert "of at most 0.5 MB" in lines[-1]
+    lines = command_here("cache", "--clear").stdout.splitlines()
+    assert lines[0].startswith("removed 1 results")
+    assert not cache.entries(folder)
+
+
+def test_an_empty_cache_is_no_error(folder):
+    assert "0 results" in command_here("cache").stdout
+    assert "0 results" in command_here("cache", "--clear").stdout
+    assert not folder.exists()
+
+
+def test_bad_limits(folder, tmp_path, monkeypatch):
+    for limit in ("nan", "inf", "-1"):
+        assert command_here("cache", "--limit", limit).returncode == 2
+    (tmp_path / "file").write_text("in the way")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
+    assert_refused(command_here("cache", "--limit", "1"), "cannot be written")
+
+
+def test_no_cache(folder, tmp_path):
+    outcome = command_here("radiation", TINY, "--no-cache", "--out", tmp_path / "out")
+    assert (outcome.returncode, outcome.stderr) == (0, "")
+    assert not folder.exists()
+    assert (
+        open_results(tmp_path / "out" / "transfer_vectors.nc")
+        .attrs["transfer_vectors"]
+        .startswith("comp")
+    )
+
+
+def test_a_cache_that_cannot_be_written_costs_one_line(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("in the way")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
+    outcome = command_here("radiation", TINY, "--out", tmp_path / "out")
+    assert outcome.returncode == 0
+    (line,) = outcome.stderr.splitlines()
+    assert line.startswith("warning: cache ")
+    assert line.endswith("the run goes on without it")
+
+
+# --- files of one run ----------------------------------------------------------------------------
+
+
+def test_every_file_carries_the_hash_of_its_results(results, tmp_path):
+    write_report(results, tmp_path)
+    _, digest = storage.open_with_hash(tmp_path / "results.nc")
+    assert (
+        f'<meta name="results-sha256" content="{digest}">' in (tmp_path / "report.html").read_text()
+    )
+    outcome = command_here("doctor", tmp_path)
+    assert f"results: {tmp_path}/results.nc: fits its hash" in outcome.stdout
+    assert "files that belong together" in outcome.stdout
+
+
+def test_a_mixed_folder_is_named_and_mended(results, tmp_path):
+    write_report(results, tmp_path)
+    (tmp_path / "comparison.csv").write_text("of another run\n")
+    (tmp_path / "sources.csv").write_text("of a run long ago\n")
+    line = f"{tmp_path}/comparison.csv: is not that of results.nc"
+    assert command_here("score", tmp_path / "results.nc").stderr == f"warning: {line}\n"
+    assert f"results: {line}\n" in command_here("doctor", tmp_path).stdout
+    outcome = command_here("report", tmp_path / "results.nc")
+    left = f"{tmp_path}/sources.csv: is not of these results"
+    assert (outcome.returncode, outcome.stderr) == (0, f"warning: {left}\n")
+    assert command_here("score", tmp_path / "results.nc").stderr == ""
+
+
+def test_a_report_that_fails_leaves_the_older_run(results, tmp_path, monkeypatch):
+    write_report(results, tmp_path)
+    before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
+    monkeypatch.setattr("vibroacoustics.report.comparison_csv", lambda _: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        write_report(results.assign_attrs(title="another"), tmp_path)
+    assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == before
+
+
+def test_doctor_names_damaged_results(results, tmp_path):
+    path = storage.write_results(results, tmp_path / "results.nc")
+    path.write_bytes(path.read_bytes()[:-100])
+    assert f"results: {path}: has no hash" in command_here("doctor", tmp_path).stdout
+    assert f"results: {tmp_path}/none: none" in command_here("doctor", tmp_path / "none").stdout

@@ -1,0 +1,204 @@
+"""The cache is a help and never a condition: full, read-only, locked or damaged, a run goes on."""
+
+import os
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from test_lock import hold
+
+from vibroacoustics.results import cache, storage
+
+RESULTS = xr.Dataset(
+    {"a": ("x", np.random.default_rng(7).standard_normal(1000))}, attrs={"title": "test"}
+)
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch) -> Path:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    return cache.folder()
+
+
+def compute() -> xr.Dataset:
+    return RESULTS
+
+
+def never() -> xr.Dataset:
+    raise AssertionError("computed though it is there")
+
+
+def keep(material: int, age_s: float = 0.0) -> Path:
+    """An entry that was used so long ago."""
+    before = set(cache.folder().glob("*.nc"))
+    storage.cached("kind", {"a": material}, compute)
+    (path,) = set(cache.folder().glob("*.nc")) - before
+    os.utime(path, (time.time() - age_s,) * 2)
+    return path
+
+
+def test_folder_is_that_of_the_platform(folder, tmp_path):
+    assert folder == tmp_path / "vibroacoustics"
+
+
+def test_hit_and_miss(folder):
+    calls = []
+
+    def count():
+        calls.append(1)
+        return RESULTS
+
+    first, first_cached = storage.cached("kind", {"a": 1}, count)
+    second, second_cached = storage.cached("kind", {"a": 1}, count)
+    storage.cached("kind", {"a": 2}, count)
+    storage.cached("other", {"a": 1}, count)
+    assert (first_cached, second_cached, len(calls)) == (False, True, 3)
+    xr.testing.assert_identical(first, second)
+    assert {path.suffix for path in folder.iterdir()} == {".nc"}
+
+
+def test_address_does_not_depend_on_the_order_of_keys(folder):
+    storage.cached("kind", {"a": 1, "b": [2.0]}, compute)
+    assert storage.cached("kind", {"b": [2.0], "a": 1}, never)[1]
+
+
+def test_damaged_entry_is_computed_again(folder):
+    os.truncate(keep(1), 100)
+    again, was_cached = storage.cached("kind", {"a": 1}, compute)
+    assert not was_cached
+    assert storage.cached("kind", {"a": 1}, never)[1]
+    xr.testing.assert_identical(again, RESULTS)
+
+
+def test_failed_computation_leaves_nothing(folder):
+    def fail():
+        raise RuntimeError("diverged")
+
+    with pytest.raises(RuntimeError):
+        storage.cached("kind", {"a": 1}, fail)
+    assert not list(folder.iterdir())
+    assert storage.cached("kind", {"a": 1}, compute)[1] is False
+
+
+def test_without_the_cache_nothing_is_read_or_written(folder):
+    with storage.without_cache():
+        assert storage.cached("kind", {"a": 1}, compute)[1] is False
+    assert not folder.exists()
+    keep(1)
+    with storage.without_cache():
+        assert storage.cached("kind", {"a": 1}, compute)[1] is False
+    assert storage.cached("kind", {"a": 1}, never)[1]
+
+
+# --- a help, never a condition -------------------------------------------------------------------
+
+
+def test_folder_that_cannot_be_made(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("in the way")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
+    with pytest.warns(UserWarning, match=r"cannot be written: Not a directory.*goes on") as told:
+        assert storage.cached("kind", {"a": 1}, compute) == (RESULTS, False)
+    assert len(told) == 1
+
+
+def test_full_disk(folder, monkeypatch):
+    """Of what was computed nothing is lost."""
+
+    def fail(*_, **__):
+        raise RuntimeError("NetCDF: HDF error")
+
+    monkeypatch.setattr(xr.Dataset, "to_netcdf", fail)
+    with pytest.warns(UserWarning, match=r"cannot be written: NetCDF: HDF error; the run") as told:
+        assert storage.cached("kind", {"a": 1}, compute) == (RESULTS, False)
+    assert len(told) == 1
+    assert not list(folder.iterdir())
+
+
+def test_no_lock_can_be_made_but_the_result_is_there(folder, monkeypatch):
+    """As in a folder that may only be read."""
+    keep(1)
+
+    def refuse(*_):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr("vibroacoustics.results.lock.os.open", refuse)
+    monkeypatch.setattr(os, "utime", refuse)
+    assert storage.cached("kind", {"a": 1}, never)[1]
+
+
+def test_what_is_there_is_read_although_another_holds_the_lock(folder):
+    path = keep(1)
+    process = hold(cache.lock_of(path), 60)
+    try:
+        assert storage.cached("kind", {"a": 1}, never)[1]
+    finally:
+        process.kill()
+        process.wait()
+
+
+def test_who_computes_the_same_is_waited_for_and_named(folder):
+    path = keep(1)
+    path.unlink()
+    process = hold(cache.lock_of(path), 1.5)
+    with pytest.warns(UserWarning, match=rf"--no-cache.*waiting for process {process.pid} on"):
+        assert storage.cached("kind", {"a": 1}, compute)[1] is False
+    process.wait()
+
+
+# --- size and leftovers --------------------------------------------------------------------------
+
+
+def test_least_recently_used_go_first(folder):
+    oldest, middle, newest = (keep(n, age_s=100.0 * (3 - n)) for n in range(3))
+    assert [entry.path for entry in cache.entries(folder)] == [oldest, middle, newest]
+    storage.cached("kind", {"a": 0}, never)  # used again
+    cache.set_limit(folder, 2 * oldest.stat().st_size + 10)
+    assert [entry.path for entry in cache.tidy(folder)] == [middle]
+    assert {entry.path for entry in cache.entries(folder)} == {oldest, newest}
+
+
+def test_limit_is_kept_by_every_entry_that_comes(folder):
+    first = keep(0, age_s=100.0)
+    cache.set_limit(folder, round(2.5 * first.stat().st_size))
+    for n in range(1, 4):
+        keep(n, age_s=50.0 - n)
+    sizes = [entry.size_bytes for entry in cache.entries(folder)]
+    assert len(sizes) == 2
+    assert sum(sizes) <= cache.limit_bytes(folder)
+    assert not first.exists()
+
+
+def test_an_entry_above_the_limit_is_not_kept(folder):
+    folder.mkdir()
+    cache.set_limit(folder, 10)
+    assert storage.cached("kind", {"a": 1}, compute) == (RESULTS, False)
+    assert not cache.entries(folder)
+
+
+@pytest.mark.parametrize("text", ["", "many", "-5"])
+def test_limit_that_is_no_size(folder, text):
+    folder.mkdir()
+    (folder / cache.LIMIT_NAME).write_text(text)
+    assert cache.limit_bytes(folder) in (0, cache.DEFAULT_LIMIT_BYTES)
+
+
+def test_leftovers_of_the_dead_go_and_the_living_stay(folder):
+    keep(1)
+    (folder / "kind-dead.nc.lock").write_text("")
+    (folder / ".kind-dead.nc.writing").mkdir()
+    (folder / ".kind-dead.nc.writing" / "kind-dead.nc").write_text("a part")
+    (folder / ".kind-old.nc.x8gh21ab").write_text("a part, by an earlier version")
+    (folder / "kind-gone.nc.sha256").write_text("0  kind-gone.nc")
+    (folder / ".kind-busy.nc.writing").mkdir()
+    process = hold(folder / "kind-busy.nc.lock", 60)
+    try:
+        cache.tidy(folder)
+        names = {path.name for path in folder.iterdir() if path.suffix != ".nc"}
+        assert names == {".kind-busy.nc.writing", "kind-busy.nc.lock"}
+        assert len(cache.clear(folder)) == 1
+        assert {path.name for path in folder.iterdir()} == names
+    finally:
+        process.kill()
+        process.wait()

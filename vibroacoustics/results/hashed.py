@@ -1,0 +1,90 @@
+"""Files whose last line is the hash of what stands before it.
+
+So content and hash change in one step. HDF5 keeps its own length and does not read the line; what
+rewrites the file in place loses or breaks it, and that is seen.
+"""
+
+import hashlib
+import os
+import re
+from pathlib import Path
+from typing import Final, NamedTuple
+
+from ..base.errors import StorageError
+from ..base.hashing import sha256
+
+_LINE: Final = re.compile(rb"\nvibroacoustics sha256 ([0-9a-f]{64})\n")
+_LENGTH: Final = len(b"\nvibroacoustics sha256 \n") + 64
+
+
+class Checked(NamedTuple):
+    """Content of a file without its last line, and the hash of it."""
+
+    content: bytes
+    sha256: str
+
+
+def append_hash(path: Path) -> str:
+    """Hash of a file's content, which becomes its last line."""
+    with path.open("r+b") as file:
+        digest = hashlib.file_digest(file, "sha256").hexdigest()
+        file.seek(0, os.SEEK_END)
+        file.write(f"\nvibroacoustics sha256 {digest}\n".encode())
+    return digest
+
+
+def read_checked(path: Path) -> Checked:
+    """Content of a file that fits its hash.
+
+    Raises
+    ------
+    StorageError
+        The file is missing, has no hash, or does not match it.
+    """
+    beside = hash_beside(path)  # before the content: who replaces that takes this away afterwards
+    body, end = _read(path)
+    line = _LINE.fullmatch(end)
+    stored = line[1].decode() if line else beside
+    if stored is None:
+        raise StorageError(f"{path}: has no hash: it is damaged or no result; run the study again")
+    if line is None:
+        body += end
+    if sha256(body) != stored:
+        raise StorageError(f"{path}: content does not match its hash; run the study again")
+    return Checked(body, stored)
+
+
+def stored_hash(path: Path) -> str | None:
+    """Hash that stands in a file or, of earlier versions, beside it; None where there is none."""
+    try:
+        with path.open("rb") as file:
+            file.seek(-min(_LENGTH, os.fstat(file.fileno()).st_size), os.SEEK_END)
+            line = _LINE.fullmatch(file.read())
+    except OSError:
+        return None
+    return line[1].decode() if line else hash_beside(path)
+
+
+def hash_beside(path: Path) -> str | None:
+    """Hash in `NAME.sha256`, as earlier versions wrote it; None where there is none."""
+    try:
+        return hash_path(path).read_bytes().split(b" ")[0].decode("ascii", "replace")
+    except OSError:
+        return None
+
+
+def hash_path(path: Path) -> Path:
+    """File beside another where earlier versions wrote its hash."""
+    return path.with_name(path.name + ".sha256")
+
+
+def _read(path: Path) -> tuple[bytes, bytes]:
+    """Content and what may be its last line, apart."""
+    try:
+        with path.open("rb") as file:
+            body = file.read(max(os.fstat(file.fileno()).st_size - _LENGTH, 0))
+            return body, file.read()
+    except FileNotFoundError:
+        raise StorageError(f"{path}: no such file") from None
+    except OSError as error:
+        raise StorageError(f"{path}: cannot be read: {error.strerror}") from None

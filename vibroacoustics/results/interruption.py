@@ -1,0 +1,30 @@
+"""Short steps that a signal must not cut in two."""
+
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Final
+
+_HELD_BACK: Final = (signal.SIGINT, signal.SIGTERM, signal.SIGALRM)
+
+
+@contextmanager
+def uninterrupted() -> Iterator[None]:
+    """Hold signals back, and let them act afterwards; only the main thread ever gets them."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    came: list[int] = []
+    present = {number: signal.getsignal(number) for number in _HELD_BACK}
+    # None: a handler of a host program in C, which could not be put back
+    handlers = {number: handler for number, handler in present.items() if handler is not None}
+    for number in handlers:
+        signal.signal(number, lambda caught, _: came.append(caught))
+    try:
+        yield
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+        for caught in dict.fromkeys(came):
+            signal.raise_signal(caught)

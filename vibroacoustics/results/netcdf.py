@@ -1,0 +1,107 @@
+"""Datasets as netCDF4 that other programs can read: complex numbers as pairs, text as ASCII."""
+
+import errno
+from collections.abc import Hashable
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+
+from ..base.errors import StorageError
+
+LARGE_BYTES: Final = 20_000_000
+REAL_SUFFIX, IMAGINARY_SUFFIX = "_re", "_im"
+
+
+def write_netcdf(results: xr.Dataset, path: Path) -> None:
+    """Write a netCDF4 file; large variables one by one, as xarray copies all that it is given.
+
+    Complex variables are stored as pairs `NAME_re`, `NAME_im`, each with a checksum.
+
+    Raises
+    ------
+    OSError
+        It cannot be written.
+    """
+    split = _ascii_attributes(_split_complex(results))
+    large = [str(name) for name, array in split.data_vars.items() if array.nbytes > LARGE_BYTES]
+    parts = [split.drop_vars(large)]
+    parts += [split[[name]].drop_vars(list(split.coords), errors="ignore") for name in large]
+    try:
+        for number, part in enumerate(parts):
+            part.to_netcdf(
+                path,
+                mode="a" if number else "w",
+                engine="netcdf4",
+                format="NETCDF4",
+                encoding=_encoding(part),
+            )
+    except RuntimeError as error:  # netCDF's word for a full disk
+        raise OSError(errno.EIO, str(error)) from None
+
+
+def _encoding(part: xr.Dataset) -> dict[Hashable, dict[str, Any]]:
+    numbers = {"fletcher32": True, "zlib": True, "complevel": 4}
+    names = {"fletcher32": True, "dtype": "S1"}  # GNU Octave cannot read netCDF's strings
+    return {
+        name: numbers if variable.dtype.kind in "fiu" else names
+        for name, variable in part.variables.items()
+        if variable.ndim
+    }
+
+
+def from_bytes(content: bytes, path: Path) -> xr.Dataset:
+    """The dataset from the bytes of a netCDF4 file; complex pairs are joined again.
+
+    Raises
+    ------
+    StorageError
+        They are no netCDF.
+    """
+    try:
+        return _plain_text(_join_complex(xr.load_dataset(content, engine="netcdf4")))
+    except (OSError, ValueError) as error:
+        raise StorageError(f"{path}: is no result file: {error}") from None
+
+
+def _ascii_attributes(results: xr.Dataset) -> xr.Dataset:
+    """String attributes in ASCII, others escaped: not every reader knows netCDF's other strings."""
+    attributes = [results.attrs, *(results[name].attrs for name in results.variables)]
+    for attrs in attributes:
+        for name, value in attrs.items():
+            if isinstance(value, str) and not value.isascii():
+                attrs[name] = value.encode("ascii", "backslashreplace").decode()
+    return results
+
+
+def _split_complex(results: xr.Dataset) -> xr.Dataset:
+    split = results.copy()
+    for name, array in results.data_vars.items():
+        if np.iscomplexobj(array.data):
+            split = split.drop_vars(str(name))
+            split[f"{name}{REAL_SUFFIX}"] = array.real.assign_attrs(array.attrs)
+            split[f"{name}{IMAGINARY_SUFFIX}"] = array.imag.assign_attrs(array.attrs)
+    return split
+
+
+def _join_complex(split: xr.Dataset) -> xr.Dataset:
+    results = split.copy()
+    for name in map(str, split.data_vars):
+        stem = name.removesuffix(REAL_SUFFIX)
+        if stem == name or stem + IMAGINARY_SUFFIX not in split:
+            continue
+        real, imaginary = split[name], split[stem + IMAGINARY_SUFFIX]
+        results = results.drop_vars([name, stem + IMAGINARY_SUFFIX])
+        joined = np.empty(real.shape, dtype=complex)  # a sum would lose -0.0 and infinities
+        joined.real, joined.imag = real.values, imaginary.values
+        results[stem] = real.copy(data=joined)
+    return results
+
+
+def _plain_text(results: xr.Dataset) -> xr.Dataset:
+    """Text that was read as Python objects as arrays of `str`, as it was written."""
+    texts = [name for name, variable in results.variables.items() if variable.dtype == object]
+    return results.assign_coords(
+        {name: results[name].astype(str).assign_attrs(results[name].attrs) for name in texts}
+    )
