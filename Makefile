@@ -35,7 +35,7 @@ LOCK := uv pip compile pyproject.toml --universal --generate-hashes --no-header 
 	--no-emit-index-url --no-emit-find-links --quiet
 lock:
 	$(LOCK) -o requirements.lock
-	$(LOCK) --extra dev -o requirements-dev.lock
+	$(LOCK) --extra dev --extra docs -o requirements-dev.lock
 
 clean:
 	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache

@@ -1,0 +1,43 @@
+"""Runs Python files one after the other, each in its folder; prints what became of them as JSON.
+
+One process for all saves the seconds of imports, and keeps what pages register out of the tests.
+"""
+
+import json
+import os
+import runpy
+import sys
+import time
+import traceback
+import warnings
+from pathlib import Path
+
+
+def outcome(page: Path) -> dict[str, object]:
+    """Seconds, number of figures, and the error if there was one."""
+    import matplotlib.pyplot as plt
+
+    os.chdir(page.parent)
+    start, error = time.perf_counter(), ""
+    try:
+        runpy.run_path(str(page), run_name="__main__")
+    except Exception:
+        error = traceback.format_exc()
+    figures = len(plt.get_fignums())
+    plt.close("all")
+    return {"seconds": time.perf_counter() - start, "figures": figures, "error": error}
+
+
+def main() -> None:
+    """Pages are the arguments; what they print goes to stderr."""
+    warnings.simplefilter("error")
+    warnings.filterwarnings("ignore", category=ResourceWarning)
+    pages = [Path(word).resolve() for word in sys.argv[1:]]
+    sys.path.insert(0, str(pages[0].parent))
+    printed, sys.stdout = sys.stdout, sys.stderr
+    outcomes = {page.name: outcome(page) for page in pages}
+    print(json.dumps(outcomes), file=printed)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,65 @@
+"""Every page of the gallery runs, without a warning, draws, and asks for public names only."""
+
+import ast
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from support import ROOT
+
+import vibroacoustics
+
+GALLERY = ROOT / "docs" / "gallery"
+HELPERS = {"rough_radiation.py"}
+PAGES = sorted(page for page in GALLERY.glob("*.py") if page.name not in HELPERS)
+
+
+@pytest.fixture(scope="module")
+def outcomes() -> dict[str, dict[str, object]]:
+    done = subprocess.run(
+        [sys.executable, str(Path(__file__).with_name("run_pages.py")), *map(str, PAGES)],
+        capture_output=True,
+        text=True,
+        env={**os.environ, "MPLBACKEND": "Agg"},
+        check=False,
+        timeout=400,
+    )
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_page_runs_and_draws(page, outcomes):
+    outcome = outcomes[page.name]
+    assert not outcome["error"], outcome["error"]
+    assert outcome["figures"] >= 1
+
+
+def test_there_is_a_page_for_every_machine_and_job():
+    assert len(PAGES) >= 14
+    text = "".join(page.read_text() for page in GALLERY.glob("studies/*.toml"))
+    text += "".join((ROOT / "pipelines" / f"{name}.toml").read_text() for name in extended(text))
+    for machine in (ROOT / "data" / "machines").glob("*.toml"):
+        assert machine.name in text, machine.name
+
+
+def extended(text: str) -> list[str]:
+    """Studies of `pipelines` that the gallery's studies extend."""
+    return [line.split("/")[-1].removesuffix('.toml"') for line in text.splitlines()
+            if line.startswith("extends")]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "page", [*PAGES, GALLERY / "rough_radiation.py"], ids=lambda page: page.stem
+)
+def test_pages_use_public_names_only(page):
+    for node in ast.walk(ast.parse(page.read_text())):
+        if isinstance(node, ast.ImportFrom):
+            assert not (node.module or "").startswith("vibroacoustics"), node.module
+        if isinstance(node, ast.Import):
+            assert not any(name.name.startswith("vibroacoustics.") for name in node.names)
+        if isinstance(node, ast.Attribute) and ast.unparse(node.value) == "va":
+            assert node.attr in vibroacoustics.__all__, node.attr
