@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from ..base.registry import register
 from ..machine.machine import Machine
 from ..machine.option import Option
-from ..mechanics.added import Added, InsertionLoss
+from ..mechanics.added import Added, InsertionLoss, third_octave_number
 from ..mechanics.moving_parts import Revolution
 
 
@@ -31,7 +31,7 @@ class Hood(Option):
                 f"insertion_loss_db: {len(self.insertion_loss_db)} values for "
                 f"{len(self.band_hz)} bands in band_hz"
             )
-        numbers = np.rint(10.0 * np.log10(np.clip(self.band_hz, 1e-3, None)))
+        numbers = third_octave_number(np.asarray(self.band_hz))
         if min(self.band_hz) < 20.0 or max(self.band_hz) > 20e3 or np.any(np.diff(numbers) < 1):
             raise ValueError(
                 f"band_hz = {list(self.band_hz)} Hz: must rise by a third octave or more from "

@@ -1,6 +1,11 @@
-"""Levels in decibels: of tones, of mean squares, sums and differences."""
+"""Levels in decibels: of powers and amplitudes and back, of sums, means and differences.
 
-from typing import Final
+The only place with logarithms and powers of ten of levels. Arrays, numbers and labelled arrays are
+taken alike and come back as what they were.
+"""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Final, TypeVar, cast
 
 import numpy as np
 
@@ -8,15 +13,41 @@ from .arrays import Array, ComplexArray
 from .constants import REFERENCE_PRESSURE_PA
 from .errors import ParameterError
 
+if TYPE_CHECKING:
+    import xarray as xr
+
+Values = TypeVar("Values", float, Array, "xr.DataArray")
+
 SILENCE_DB: Final = -300.0
 """Level that stands for no sound at all: finite, so that tables and sums stay numbers."""
+
+
+def level_of_power(ratio: Values) -> Values:
+    """10 lg of a ratio of powers or mean squares, dB; SILENCE_DB at least."""
+    least = power_of_level(SILENCE_DB)
+    return cast(Values, 10.0 * np.log10(np.maximum(cast(Any, ratio), least)))
+
+
+def level_of_amplitude(ratio: Values) -> Values:
+    """20 lg of a ratio of amplitudes, at least zero, dB; SILENCE_DB at least."""
+    least = amplitude_of_level(SILENCE_DB)
+    return cast(Values, 20.0 * np.log10(np.maximum(cast(Any, ratio), least)))
+
+
+def power_of_level(level_db: Values) -> Values:
+    """Ratio of powers or mean squares that a level stands for: 10^(L/10)."""
+    return cast(Values, np.power(10.0, cast(Any, level_db) / 10.0))
+
+
+def amplitude_of_level(level_db: Values) -> Values:
+    """Ratio of amplitudes that a level stands for: 10^(L/20)."""
+    return cast(Values, np.power(10.0, cast(Any, level_db) / 20.0))
 
 
 def sound_pressure_level(pressure_peak_pa: ComplexArray | Array | float) -> Array:
     """Level of a tone from its (complex) peak pressure: 20 lg(|P| / √2 / 20 µPa), dB."""
     effective = np.abs(pressure_peak_pa) / np.sqrt(2.0)
-    floor = REFERENCE_PRESSURE_PA * 10.0 ** (SILENCE_DB / 20.0)
-    return np.asarray(20.0 * np.log10(np.maximum(effective, floor) / REFERENCE_PRESSURE_PA))
+    return np.asarray(level_of_amplitude(effective / REFERENCE_PRESSURE_PA))
 
 
 def mean_square_level(mean_square: Array | float, reference: float) -> Array:
@@ -29,14 +60,17 @@ def mean_square_level(mean_square: Array | float, reference: float) -> Array:
     """
     if not np.all(np.isfinite(mean_square)):
         raise ParameterError("signal: holds values that are not finite numbers")
-    relative = np.asarray(mean_square) / reference**2
-    return np.asarray(10.0 * np.log10(np.maximum(relative, 10.0 ** (SILENCE_DB / 10.0))))
+    return np.asarray(level_of_power(np.asarray(mean_square) / reference**2))
 
 
 def energy_sum(level_db: Array, axis: int | tuple[int, ...]) -> Array:
     """Level of the sum of incoherent sounds: 10 lg Σ 10^(L/10), dB."""
-    power = np.sum(10.0 ** (np.asarray(level_db) / 10.0), axis=axis)
-    return np.asarray(10.0 * np.log10(np.maximum(power, 10.0 ** (SILENCE_DB / 10.0))))
+    return np.asarray(level_of_power(np.sum(power_of_level(np.asarray(level_db)), axis=axis)))
+
+
+def energy_mean(level_db: Array | Sequence[float], axis: int = 0) -> Array:
+    """Level of the mean of powers: 10 lg(1/N Σ 10^(L/10)), dB."""
+    return np.asarray(level_of_power(np.mean(power_of_level(np.asarray(level_db)), axis=axis)))
 
 
 def energy_difference(total_db: float, part_db: float) -> float:
@@ -49,4 +83,4 @@ def energy_difference(total_db: float, part_db: float) -> float:
     """
     if part_db >= total_db:
         raise ValueError(f"part of {part_db:.2f} dB is not below the total of {total_db:.2f} dB")
-    return float(total_db + 10.0 * np.log10(1.0 - 10.0 ** ((part_db - total_db) / 10.0)))
+    return float(total_db + level_of_power(1.0 - power_of_level(part_db - total_db)))

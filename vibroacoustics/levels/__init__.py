@@ -3,6 +3,7 @@
 from ..base.decibel import (
     SILENCE_DB,
     energy_difference,
+    energy_mean,
     energy_sum,
     mean_square_level,
     sound_pressure_level,
@@ -45,6 +46,7 @@ __all__ = [
     "class_1_limits_db",
     "draw_variables",
     "energy_difference",
+    "energy_mean",
     "energy_sum",
     "equivalent_level",
     "filled_thirds",

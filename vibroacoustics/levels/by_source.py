@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
+from ..base.decibel import power_of_level
 from ..base.vocabulary import WEIGHTINGS
 from ..mechanics.received_sound import NoisePower, ReceivedSound
 from .bands import Band, bands_between
@@ -84,7 +85,7 @@ def source_sound(
 
 def _power(weighting: str, frequency_hz: Array) -> Array:
     """Factor of a weighting on mean squares."""
-    return np.asarray(10.0 ** (WEIGHTING[weighting](frequency_hz) / 10.0))
+    return power_of_level(WEIGHTING[weighting](frequency_hz))
 
 
 def _membership(frequency_hz: Array, bands: Sequence[Band]) -> Array:

@@ -11,6 +11,7 @@ import numpy as np
 import scipy  # loads its subpackages when they are needed
 
 from ..base.arrays import Array
+from ..base.decibel import level_of_amplitude
 from ..base.errors import ParameterError
 from .bands import OCTAVE_RATIO, Band, check_measurable
 
@@ -77,7 +78,7 @@ def band_filter(band: Band, sample_rate_hz: float) -> Array:
     ratio = np.asarray(np.geomspace(OCTAVE_RATIO**-5, OCTAVE_RATIO**5, 2001), dtype=np.float64)
     ratio = ratio[ratio * band.middle_hz < 0.5 * sample_rate_hz]
     response = scipy.signal.sosfreqz(sections, ratio * band.middle_hz, fs=sample_rate_hz)[1]
-    attenuation = -20.0 * np.log10(np.maximum(np.abs(response), 1e-15))
+    attenuation = -level_of_amplitude(np.abs(response))
     least, greatest = class_1_limits_db(ratio, band.bands_per_octave)
     if not np.all((least <= attenuation) & (attenuation <= greatest)):
         raise ParameterError(

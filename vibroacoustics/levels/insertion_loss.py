@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
+from ..base.decibel import power_of_level
 from ..machine.option import Option
 
 
@@ -35,4 +36,4 @@ def remaining_share(options: Mapping[str, Option]) -> Array:
     """
     losses = [option.insertion_loss() for option in options.values()]
     even_db = np.array([0.0 if loss is None else loss.even_db for loss in losses])
-    return np.asarray(10.0 ** (-even_db / 10.0))
+    return power_of_level(-even_db)

@@ -5,10 +5,10 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from ..base.decibel import energy_sum, sound_pressure_level
+from ..base.decibel import energy_mean, energy_sum, sound_pressure_level
 from ..base.vocabulary import VARIABLES, WEIGHTINGS, check, stamp
 from ..study.sound_power import SoundPowerSettings
-from .sound_power import energy_mean, sound_power_level, stand_corrections_db, surface_area_m2
+from .sound_power import sound_power_level, stand_corrections_db, surface_area_m2
 from .weighting import WEIGHTING
 
 UNIT_VELOCITY_PEAK: Final = np.sqrt(2.0) * 1e-3

@@ -5,12 +5,12 @@ the surface: near a small source at a low frequency, and where the sound passes 
 angle, the result is too high (docs/radiation.md tells by how much).
 """
 
-from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
 
 from ..base.arrays import Array
+from ..base.decibel import level_of_power, power_of_level
 from ..base.errors import ParameterError
 from ..study.sound_power import HEMISPHERES, MINIMUM_BACKGROUND_MARGIN_DB, SoundPowerSettings
 
@@ -20,11 +20,6 @@ NEGLIGIBLE_BACKGROUND_MARGIN_DB: Final = 15.0
 """Above it K1 is 0 (8.2.3)."""
 LARGEST_ENVIRONMENT_CORRECTION_DB: Final = 4.0
 """A test environment with a larger K2A does not qualify (4.3.2)."""
-
-
-def energy_mean(level_db: Array | Sequence[float], axis: int = 0) -> Array:
-    """Mean level over the microphone positions, 10 lg(1/N Σ 10^(0.1 L)), dB (equation 12)."""
-    return np.asarray(10.0 * np.log10(np.mean(10.0 ** (0.1 * np.asarray(level_db)), axis=axis)))
 
 
 def background_correction_db(margin_db: Array | float) -> Array:
@@ -41,7 +36,7 @@ def background_correction_db(margin_db: Array | float) -> Array:
     """
     margin = np.asarray(margin_db, dtype=float)
     limited = np.maximum(margin, MINIMUM_BACKGROUND_MARGIN_DB)
-    correction = -10.0 * np.log10(1.0 - 10.0 ** (-0.1 * limited))
+    correction = -level_of_power(1.0 - power_of_level(-limited))
     return np.where(margin > NEGLIGIBLE_BACKGROUND_MARGIN_DB, 0.0, correction)
 
 
@@ -53,9 +48,9 @@ def environment_correction_db(surface_m2: float, absorption_area_m2: float) -> f
     ParameterError
         K2 exceeds 4 dB: the room does not qualify (4.3.2).
     """
-    correction = float(10.0 * np.log10(1.0 + 4.0 * surface_m2 / absorption_area_m2))
+    correction = float(level_of_power(1.0 + 4.0 * surface_m2 / absorption_area_m2))
     if correction > LARGEST_ENVIRONMENT_CORRECTION_DB:
-        least = 4.0 * surface_m2 / (10.0 ** (0.1 * LARGEST_ENVIRONMENT_CORRECTION_DB) - 1.0)
+        least = 4.0 * surface_m2 / (power_of_level(LARGEST_ENVIRONMENT_CORRECTION_DB) - 1.0)
         raise ParameterError(
             f"sound_power.absorption_area_m2 = {absorption_area_m2:g} m²: K2 is {correction:.1f} "
             f"dB on a surface of {surface_m2:.3g} m²; ISO 3744 allows 4 dB, from {least:.3g} m²"
@@ -80,7 +75,7 @@ def sound_power_level(
         neither background nor room beyond its own walls
     """
     corrected = np.asarray(mean_level_db) - background_correction - environment_correction
-    return np.asarray(corrected + 10.0 * np.log10(surface_m2 / REFERENCE_SURFACE_M2))
+    return np.asarray(corrected + level_of_power(surface_m2 / REFERENCE_SURFACE_M2))
 
 
 def stand_corrections_db(settings: SoundPowerSettings, surface_m2: float) -> tuple[float, float]:

@@ -7,7 +7,7 @@ import numpy as np
 from scipy import fft
 
 from ..base.arrays import Array
-from ..base.decibel import SILENCE_DB
+from ..base.decibel import amplitude_of_level, level_of_amplitude
 from ..base.errors import ParameterError
 
 # Pole frequencies of the A and C weightings, Hz (IEC 61672-1:2013, Annex E, from f_r = 1 kHz,
@@ -72,7 +72,7 @@ def weighted_signal(signal: Array, sample_rate_hz: float, weighting: str) -> Arr
         raise ParameterError(f"weighting {weighting!r}: must be one of {', '.join(WEIGHTING)}")
     samples = signal.shape[-1]
     length = fft.next_fast_len(samples + int(np.ceil(_RINGING_S * sample_rate_hz)), real=True)
-    gain = 10.0 ** (WEIGHTING[weighting](fft.rfftfreq(length, 1.0 / sample_rate_hz)) / 20.0)
+    gain = amplitude_of_level(WEIGHTING[weighting](fft.rfftfreq(length, 1.0 / sample_rate_hz)))
     return np.asarray(fft.irfft(gain * fft.rfft(signal, length), length)[..., :samples])
 
 
@@ -89,4 +89,4 @@ def _c_gain(frequency: Array) -> Array:
 def _in_db(gain: Callable[[Array], Array], frequency_hz: Array | float) -> Array:
     """Gain relative to 1 kHz in dB; SILENCE_DB where nothing passes (0 Hz)."""
     relative = gain(np.asarray(frequency_hz, dtype=float)) / gain(np.asarray(1000.0))
-    return np.asarray(20.0 * np.log10(np.maximum(relative, 10.0 ** (SILENCE_DB / 20.0))))
+    return np.asarray(level_of_amplitude(relative))

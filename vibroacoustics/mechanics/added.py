@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..base.arrays import Array
+from ..base.decibel import amplitude_of_level, energy_mean
 from .moving_parts import MovingPart
 
 
@@ -73,12 +74,13 @@ class InsertionLoss:
 
     def at(self, frequency_hz: Array) -> Array:
         """Loss at each frequency, dB; zero outside the bands, where nothing is known."""
-        same = _number(np.asarray(frequency_hz))[..., None] == _number(self.band_hz)
+        numbers = third_octave_number(np.asarray(frequency_hz))
+        same = numbers[..., None] == third_octave_number(self.band_hz)
         return np.asarray(np.where(same, self.loss_db, 0.0).sum(axis=-1))
 
     def amplitude_factor(self, frequency_hz: Array) -> Array:
         """Pressure with it over pressure without it at each frequency."""
-        return np.asarray(10.0 ** (-self.at(frequency_hz) / 20.0))
+        return amplitude_of_level(-self.at(frequency_hz))
 
     def power_factor(self, frequency_hz: Array) -> Array:
         """Mean square with it over mean square without it at each frequency."""
@@ -87,9 +89,9 @@ class InsertionLoss:
     @property
     def even_db(self) -> float:
         """Loss of sound whose energy is spread evenly over the bands, dB."""
-        return float(-10.0 * np.log10(np.mean(10.0 ** (-self.loss_db / 10.0))))
+        return -float(energy_mean(-self.loss_db))
 
 
-def _number(frequency_hz: Array) -> Array:
+def third_octave_number(frequency_hz: Array) -> Array:
     """Number of the third octave of a frequency, 10 lg f rounded (IEC 61260-1, base ten)."""
     return np.asarray(np.rint(10.0 * np.log10(np.maximum(frequency_hz, 1e-3))))

@@ -16,6 +16,7 @@ import numpy as np
 import psutil
 
 from ..base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from ..base.decibel import amplitude_of_level, level_of_amplitude
 from ..base.errors import ParameterError, SolverError
 from ..base.progress import Progress, no_progress
 from . import kwave
@@ -39,7 +40,7 @@ _SETTLING_S: Final = 5e-4
 _CLEAR_NODES: Final = STENCIL_NODES // 2
 """Nodes between microphone and box: with the source inside a stencil, errors reach 1 dB."""
 _LARGEST_DIFFERENCE_DB: Final = 6.0
-_DEEPEST_NULL: Final = 10 ** (-30 / 20)
+_DEEPEST_NULL: Final = amplitude_of_level(-30.0)
 
 
 def kwave_green(
@@ -88,7 +89,7 @@ def green_difference_db(field: BoxField, expected: BoxField) -> Array:
     simulated = np.abs(np.concatenate([field.inner, field.outer], axis=1))
     exact = np.abs(np.concatenate([expected.inner, expected.outer], axis=1))
     counted = exact >= _DEEPEST_NULL * exact.max(axis=1, keepdims=True)
-    difference = np.where(counted, 20.0 * np.log10(simulated / exact), 0.0)
+    difference = np.where(counted, level_of_amplitude(simulated / exact), 0.0)
     worst = np.argmax(np.abs(difference), axis=1)
     result: Array = difference[np.arange(difference.shape[0]), worst]
     return result

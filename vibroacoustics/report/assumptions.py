@@ -2,10 +2,10 @@
 
 from typing import Any, Final
 
-import numpy as np
 import xarray as xr
 
 from ..base import rounding
+from ..base.decibel import level_of_power, power_of_level
 from .bands import band, band_words
 from .study import catalogue_receiver, has_draws, overall_noise, parameters, words
 from .tables import Table
@@ -98,7 +98,7 @@ def remainder_sentence(results: xr.Dataset) -> str:
 def structure_borne_sentence(results: xr.Dataset) -> str:
     """What removing a line would buy, were it far louder through the feet than through the air."""
     total = overall_noise(results)["level_dba"]
-    gain = 10.0 * np.log10(1.0 - 10.0 ** (-LOUD_LINE_BELOW_TOTAL_DB / 10.0))
+    gain = level_of_power(1.0 - power_of_level(-LOUD_LINE_BELOW_TOTAL_DB))
     return (
         f"To see what such sound could change: a 1× line of {total - LOUD_LINE_BELOW_TOTAL_DB:g} "
         f"dB(A), far above the airborne one, removed altogether, would lower {total:g} dB(A) by "

@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
+from ..base.decibel import power_of_level
 from ..base.vocabulary import REFERENCE_OPTION
 from .study import has_draws
 
@@ -71,7 +72,7 @@ def bands_by_speed(results: xr.Dataset, name: str, **at: Any) -> tuple[Band, ...
 
 def energy_share(level_db: float, of_level_db: float) -> float:
     """Energy of a level as a share of another's."""
-    return float(10.0 ** ((level_db - of_level_db) / 10.0))
+    return power_of_level(level_db - of_level_db)
 
 
 def percent(share: float) -> str:

@@ -7,6 +7,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.arrays import Array
+from ..base.decibel import level_of_amplitude
 from . import labels
 from .study import first_order_hz, options, parameters, speeds
 from .tables import Table
@@ -140,7 +141,7 @@ def grid_error_sentence(results: xr.Dataset) -> str:
     """Estimated error of the transfer vectors where they are loud."""
     size = np.abs(results["transfer_vector"].values)
     loud = size > 0.1 * size.max(axis=0)
-    error = 20.0 * np.log10(1.0 + results["transfer_vector_error"].values[loud] / size[loud])
+    error = level_of_amplitude(1.0 + results["transfer_vector_error"].values[loud] / size[loud])
     typical, worst = float(np.median(error)), float(np.quantile(error, 0.95))
     return (
         "Two grids estimate the error of the finer one, which the result extrapolates away: "

@@ -7,6 +7,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.arrays import Array
+from ..base.decibel import level_of_amplitude
 from .figures.unit_levels import names, silent_dofs, unit_level_db
 from .tables import Table, to_text
 
@@ -48,7 +49,7 @@ def _error_db(field: xr.DataArray, error: xr.DataArray) -> Array:
     size = np.abs(field.values)
     ordered = error.transpose(*field.dims).values
     with np.errstate(divide="ignore", invalid="ignore"):
-        in_db = 20.0 * np.log10(1.0 + ordered / size)
+        in_db = level_of_amplitude(1.0 + ordered / size)
     median = np.median(in_db, axis=-1)
     dofs = names(field, "dof")
     median[:, [dof in silent_dofs(np.moveaxis(size, 1, 0), dofs) for dof in dofs]] = np.nan

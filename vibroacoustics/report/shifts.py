@@ -8,6 +8,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.arrays import Array
+from ..base.decibel import level_of_amplitude
 from ..base.vocabulary import REFERENCE_OPTION
 from .comparison import column
 from .study import catalogue_receiver
@@ -69,7 +70,7 @@ class Shift:
         """Change at every speed in dB; values below the floor count as the floor."""
         floor = self.quantity.floor
         before, after = np.maximum(self.before, floor), np.maximum(self.after, floor)
-        gain = after - before if self.quantity.is_level else 20.0 * np.log10(after / before)
+        gain = after - before if self.quantity.is_level else level_of_amplitude(after / before)
         return np.asarray(gain)
 
     @property

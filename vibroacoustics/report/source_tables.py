@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
+from ..base.decibel import level_of_power, power_of_level
 from ..base.vocabulary import REFERENCE_OPTION
 from . import labels
 from .bands import QUANTILES, Band, band, band_words, energy_share, percent, quantiles
@@ -195,7 +196,6 @@ def _band(results: xr.Dataset, name: str, speed: float) -> Band:
     )
 
 
-def _difference(whole_dba: float, part_dba: float) -> float:
-    """Level of what is left of a whole without a part; far below any hearing if nothing is."""
-    left = 10.0 ** (whole_dba / 10.0) - 10.0 ** (part_dba / 10.0)
-    return float(10.0 * np.log10(max(left, 1e-30)))
+def _difference(total_dba: float, part_dba: float) -> float:
+    """Level of what is left of a total without a part; SILENCE_DB if nothing is."""
+    return level_of_power(power_of_level(total_dba) - power_of_level(part_dba))

@@ -9,6 +9,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ..base.arrays import Array, ComplexArray
+from ..base.decibel import level_of_amplitude
 from ..base.errors import ParameterError
 from ..base.vocabulary import (
     NO_ANGLE_ZERO,
@@ -69,7 +70,7 @@ def compare(
     turned = other * np.exp(-1j * order * tacho_angle_rad)
     known = ~(_negligible(ours, here) | _negligible(theirs, there))
     with np.errstate(divide="ignore", invalid="ignore"):  # of what is not known
-        level = 20.0 * np.log10(np.abs(turned) / np.abs(reference))
+        level = level_of_amplitude(np.abs(turned) / np.abs(reference))
     has_phase = known & (NO_ANGLE_ZERO not in (_angle_zero(first), _angle_zero(second)))
     values = {
         "channel_order": reference,

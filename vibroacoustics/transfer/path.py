@@ -8,6 +8,7 @@ from typing import Final
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
+from ..base.decibel import amplitude_of_level
 from ..machine.shell import Shell
 from ..machine.shell_structure import JOINTS, ShellStructure, ShellVariation
 from .shell_modes import (
@@ -103,5 +104,5 @@ def pressure_per_load(
     natural_hz = variation.frequency_factor_ratio * path.natural_hz
     moving = velocity_per_force(natural_hz, path.modal_mass_kg, loss_factor_ratio, frequency_hz)
     sound = pressure_per_velocity * moving
-    gain = 10.0 ** (variation.mobility_change_db / 20.0)
+    gain = amplitude_of_level(variation.mobility_change_db)
     return np.asarray(gain * np.einsum("rmf,mjc->rjcf", sound, path.joint_forces, optimize=True))

@@ -5,13 +5,13 @@ import pytest
 from pydantic import ValidationError
 from support import PIPELINES
 
+from vibroacoustics.base.decibel import energy_mean
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.vocabulary import stamp
 from vibroacoustics.levels.sound_field import unit_sound_power
 from vibroacoustics.levels.sound_power import (
     background_correction_db,
     box_area_m2,
-    energy_mean,
     environment_correction_db,
     hemisphere_area_m2,
     sound_power_level,

@@ -5,10 +5,9 @@ import pytest
 
 from vibroacoustics.base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.levels import sound_pressure_level
+from vibroacoustics.levels import energy_mean, sound_pressure_level
 from vibroacoustics.levels.sound_power import (
     box_area_m2,
-    energy_mean,
     hemisphere_area_m2,
     sound_power_level,
 )

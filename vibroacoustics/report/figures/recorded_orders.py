@@ -8,6 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ...base.decibel import level_of_amplitude
 from .needs import chosen, needs
 from .style import (
     Picture,
@@ -180,7 +181,7 @@ def order_map(orders: xr.Dataset, channel: str | None = None) -> Figure:
     is_run_up = _is_run_up(orders)
     spectra = _without_offset(own["order_map"].transpose("block", "map_order"), own)
     spectra = spectra.sortby("block_speed") if is_run_up else spectra
-    level = 20.0 * np.log10(np.maximum(np.abs(spectra.values), np.finfo(float).tiny))
+    level = level_of_amplitude(np.abs(spectra.values))
     top = float(level.max())
 
     def paint(panels: Sequence[Axes]) -> None:

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base.arrays import Array
+from ...base.decibel import level_of_power, power_of_level
 from ...base.vocabulary import REFERENCE_OPTION
 from ..shifts import HEARD_DB
 from ..source_words import quoted_speed, source_name
@@ -190,6 +191,4 @@ def _inner_level(results: xr.Dataset) -> xr.DataArray:
     """Energy sum of all sources but the moving parts, at the catalogue's microphone, dB."""
     levels = results["source_band_level"].sel(receiver=catalogue_receiver(results))
     inner = [name for name in levels["sound_source"].values if str(name) != MOVING_PARTS]
-    power = (10.0 ** (levels.sel(sound_source=inner) / 10.0)).sum("sound_source")
-    summed: xr.DataArray = 10.0 * xr.apply_ufunc(np.log10, power)
-    return summed
+    return level_of_power(power_of_level(levels.sel(sound_source=inner)).sum("sound_source"))

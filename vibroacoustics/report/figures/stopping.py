@@ -8,6 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ...base.decibel import level_of_amplitude
 from ..stopping import force_and_moments
 from ..study import catalogue_receiver, few_speeds, speeds
 from .needs import needs
@@ -101,7 +102,7 @@ def stopping_order_map(results: xr.Dataset) -> Figure:
     >>> va.plot.stopping_order_map(results).savefig("stopping_order_map.png")
     """
     along_x = results["stopping_order_map"].sel(axis="x").transpose("stopping_block", "map_order")
-    level = 20.0 * np.log10(np.maximum(along_x.values, np.finfo(float).tiny))
+    level = level_of_amplitude(along_x.values)
     top = float(level.max())
 
     def paint(panels: Sequence[Axes]) -> None:

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 
 from ...base.arrays import Array, ComplexArray
 from ...base.constants import REFERENCE_PRESSURE_PA
+from ...base.decibel import amplitude_of_level, level_of_amplitude
 from ..labels import DOF_WORDS
 
 WIDE_INCH: Final = 8.0
@@ -25,7 +26,7 @@ UNIT_VELOCITY: Final = 1e-3
 def unit_level_db(pressure_per_velocity: ComplexArray | Array) -> Array:
     """Level at 1 mm/s or 1 mrad/s, dB re 20 µPa; both root mean squares, so no factor of √2."""
     ratio = UNIT_VELOCITY * np.abs(pressure_per_velocity) / REFERENCE_PRESSURE_PA
-    return np.asarray(20.0 * np.log10(np.maximum(ratio, 1e-15)))
+    return np.asarray(level_of_amplitude(ratio))
 
 
 def unit_words(dof: str) -> str:
@@ -55,7 +56,7 @@ def silent_dofs(field: ComplexArray, dofs: Sequence[str]) -> list[str]:
     silent = []
     for unit in sorted({unit_words(dof) for dof in dofs}):
         same = [index for index, dof in enumerate(dofs) if unit_words(dof) == unit]
-        floor = 10.0 ** (-SILENT_DB / 20.0) * size[same].max()
+        floor = amplitude_of_level(-SILENT_DB) * size[same].max()
         silent += [dofs[index] for index in same if size[index] <= floor]
     return [dof for dof in dofs if dof in silent]
 

@@ -1,8 +1,8 @@
 """Change of the modelled level."""
 
-import numpy as np
 import xarray as xr
 
+from ...base.decibel import level_of_power, power_of_level
 from ...base.registry import register
 from ...base.vocabulary import REFERENCE_OPTION
 from ...study.criterion import Criterion
@@ -23,7 +23,7 @@ class LevelChange(Criterion):
 
     def value(self, results: xr.Dataset) -> xr.DataArray:
         """Change against `none`, dB."""
-        power = 10.0 ** (results["level_modelled"].sel(weighting="A") / 10.0)
-        mean_level = 10.0 * xr.apply_ufunc(np.log10, power.mean("receiver"))
+        power = power_of_level(results["level_modelled"].sel(weighting="A"))
+        mean_level = level_of_power(power.mean("receiver"))
         change: xr.DataArray = mean_level - mean_level.sel(option=REFERENCE_OPTION, drop=True)
         return change.max("speed")

@@ -2,9 +2,9 @@
 
 from typing import Final
 
-import numpy as np
 import xarray as xr
 
+from ...base.decibel import level_of_amplitude
 from ...base.registry import register
 from ...base.vocabulary import REFERENCE_OPTION
 from ...study.criterion import Criterion
@@ -26,5 +26,5 @@ class SpeedSensitivity(Criterion):
         """Largest minus smallest change, dB."""
         foot = results["foot_force_amplitude"].sel(order=1).max("foot")
         ratio = foot / foot.sel(option=REFERENCE_OPTION, drop=True)
-        change: xr.DataArray = 20.0 * xr.apply_ufunc(np.log10, ratio.clip(min=SMALLEST_RATIO))
+        change = level_of_amplitude(ratio.clip(min=SMALLEST_RATIO))
         return change.max("speed") - change.min("speed")
