@@ -2,8 +2,8 @@
 Transfer vectors of your own
 ============================
 
-``va.run`` takes the radiation as an argument: any function from a study to transfer vectors, measured
-ones or a second method's. The other pages of this gallery use this one, which needs a tenth of a
+``va.run`` takes the radiation as an argument: any function from a study to transfer vectors,
+measured ones or a second method's. The other pages use this one, which needs a tenth of a
 second:
 
 .. literalinclude:: /gallery/rough_radiation.py
