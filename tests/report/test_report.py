@@ -33,6 +33,8 @@ from vibroacoustics.report.housing import isolation_sentence, shape_words
 from vibroacoustics.report.option_verdict import option_verdict
 from vibroacoustics.report.scores import published_table, scores_csv, wrong_sums
 from vibroacoustics.report.verdict import extremes_table, headline, reasons
+from vibroacoustics.scoring import score
+from vibroacoustics.study.scoring import CriterionScale, Scoring
 
 COLUMNS = (
     "option,speed_rpm,receiver,force_1x_n,force_2x_n,moment_1x_nm,foot_force_1x_n,level_1x_db,"
@@ -332,6 +334,38 @@ def test_options_that_worsen_are_named_so(results: xr.Dataset) -> None:
     better = " ".join(reasons(make_results({"none": 1.0, "halved": 0.5})))
     assert "Worse" not in better
     assert "No option makes" in better
+
+
+@pytest.mark.parametrize(
+    ("labels", "values", "told"),
+    [
+        (
+            ["Foot force", "Cost", "Added mass"],
+            [[4.0, 0.0, 0.0], [2.0, 9.0, 3.0]],
+            "none scores better in Cost; Added mass.",
+        ),
+        (["Foot force", "Added mass"], [[4.0, 0.0], [3.0, 5.0]], "better in Added mass."),
+        (["Foot force", "Risk, 1 to 9"], [[4.0, 1.0], [3.0, 5.0]], "better in Risk, 1 to 9."),
+        (["Foot force", "Risk"], [[4.0, 1.0], [1.0, 1.0]], ""),
+    ],
+)
+def test_why_a_better_option_ranks_behind_is_told_by_the_criteria_that_decide(
+    labels: list[str], values: list[list[float]], told: str
+) -> None:
+    names = [f"criterion_{number}" for number in range(len(labels))]
+    scales = {
+        name: CriterionScale(best=0.0, worst=10.0, weight=1.0, label=label)
+        for name, label in zip(names, labels, strict=True)
+    }
+    coords = {"option": ["none", "halved"], "given_criterion": names}
+    results = make_results({"none": 1.0, "halved": 0.5}).drop_dims(["criterion", "scoring_method"])
+    results = results.drop_vars("first_place_share").assign(
+        given_value=stamp("given_value", values, coords)
+    )
+    scored = score(results, Scoring(criteria=scales))
+    text = reasons(results.merge(scored))[-1]
+    assert ("ranks below none all the same" in text) == bool(told)
+    assert told in text
 
 
 def test_a_line_that_rises_elsewhere_makes_the_verdict_mixed() -> None:

@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 from test_report import PUBLISHED_DBA, make_results
 
-from vibroacoustics.base.vocabulary import WEIGHTINGS, check, stamp
+from vibroacoustics.base.vocabulary import DERIVED_SUPPLY, GIVEN_SUPPLY, WEIGHTINGS, check, stamp
 from vibroacoustics.report import comparison_text, render
 from vibroacoustics.report.assumptions import not_modelled, remainder_sentence
 from vibroacoustics.report.bands import Band, percent
@@ -73,10 +73,12 @@ def with_sources(
         {"table": "gas", "field": "polytropic_index"},
         {"table": "variation", "field": "mobility_change_db"},
     ]
-    parameters["operation"] = {"supply_frequency_hz": [50.0, 60.0]}
     parameters["radiation"]["maximum_frequency_hz"] = 4000.0
     record = {**parameters["records"][1], "field": "gas.polytropic_index"}
     parameters["records"].append(record)
+    results["supply_frequency"] = stamp(
+        "supply_frequency", [50.0, 60.0], {"speed": speeds}, source=GIVEN_SUPPLY
+    )
     results.attrs["parameters"] = json.dumps(parameters)
     words = json.loads(results.attrs["words"])
     words["source_figures"] = FIGURES
@@ -205,7 +207,15 @@ def test_the_line_of_the_motor_is_never_called_2x(results: xr.Dataset) -> None:
     text = certainty_sentences(results)[-1]
     assert "100 Hz beside 2× at 96.7 Hz (2900 rpm), 120 Hz beside 2× at 116.7 Hz" in text
     assert "0.200 N" in text
+    assert "derived" not in text
     assert "Motor at twice the line frequency" in [row[0] for row in source_tables(results)[0].rows]
+
+
+def test_a_supply_that_is_derived_is_told(results: xr.Dataset) -> None:
+    supply = stamp("supply_frequency", [49.9638, 59.8], source=DERIVED_SUPPLY)
+    text = certainty_sentences(results.assign(supply_frequency=supply))[-1]
+    assert "99.9 Hz beside 2× at 96.7 Hz (2900 rpm), 119.6 Hz beside" in text
+    assert "The supply's frequency is derived from speed and slip" in text
 
 
 def test_an_option_that_rattles_is_not_better(results: xr.Dataset) -> None:

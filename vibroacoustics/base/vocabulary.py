@@ -68,6 +68,9 @@ RIGID_BODY_DOFS: Final = ("tx", "ty", "tz", "rx", "ry", "rz")
 WEIGHTINGS: Final = ("Z", "A", "C")
 REFERENCE_OPTION: Final = "none"
 """The option against which every change is told."""
+GIVEN_SUPPLY: Final = "given by the study"
+DERIVED_SUPPLY: Final = "derived from speed and slip"
+"""Attribute `source` of the frequency of the motor's supply."""
 NO_ANGLE_ZERO: Final = "none"
 """Attribute `angle_zero` of orders whose phases count from no mark on the shaft."""
 DOF_UNIT_NOTE: Final = "unit of the translations; for rotations with rad in place of m"

@@ -41,7 +41,7 @@ class Case:
     machine : as the option leaves it, with the values of a draw
     added : by the option
     revolution : steady, of the machine as given
-    supply_frequency_hz : of the motor; none where the study does not say it
+    supply_frequency_hz : of the motor, as the study gives it or a source derives it; else none
     maximum_frequency_hz : lines and noise up to here
     shared : with the other cases of the draw
     """
@@ -114,6 +114,23 @@ class Source(KindOfParameters):
             The source cannot act so.
         """
         raise NotImplementedError
+
+    def supply_frequency_hz(self, case: Case, before: Mapping[str, Loads]) -> float | None:
+        """Supply that the motor needs at the case's speed; None where the source knows of none.
+
+        It is asked for the reference option, where the study gives no supply.
+
+        Parameters
+        ----------
+        case : of the reference option, without a supply
+        before : see `loads`
+
+        Raises
+        ------
+        ParameterError
+            The motor cannot carry the load.
+        """
+        return None
 
 
 SOURCES: Final[Registry[type[Source]]] = Registry(

@@ -11,8 +11,8 @@ from ..mechanics.loads import Loads
 from ..orders.labelled import order_variables
 from ..results.size import check_size
 from ..results.speed_blocks import TIME_SERIES, blocks, gathered
-from ..sources.cases import cases_of, loads_of, sources_of_wrenches, without_time_series
-from ..sources.labelled import force_variables
+from ..sources.cases import cases_of, loaded_cases, sources_of_wrenches, without_time_series
+from ..sources.labelled import force_variables, supply_variable
 from ..study.selection import at_speeds
 from ..study.study import Study
 from ..transfer.foot_figures import with_foot_figures
@@ -62,12 +62,9 @@ def _blocks(study: Study, progress: Progress, motion: Motion) -> Iterator[xr.Dat
 
     for speeds in blocks(study.operation.speed_rpm):
         block = at_speeds(study, speeds, study.options)
-        cases = cases_of(block, advance)
-        loads = {
-            key: with_foot_figures(case.machine, loads_of(study, case))
-            for key, case in cases.items()
-        }
-        part = force_variables(block, cases, loads)
+        cases, named = loaded_cases(study, cases_of(block, advance))
+        loads = {key: with_foot_figures(case.machine, named[key]) for key, case in cases.items()}
+        part = force_variables(block, cases, loads).merge(supply_variable(block, cases))
         part = part.merge(order_variables(study, part))
         part = part.merge(housing_variables(block, part))
         if not study.operation.keeps_time_series:

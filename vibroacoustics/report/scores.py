@@ -6,11 +6,14 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
+from ..scoring.ranking import utilities
 from . import labels
 from .study import has_sources, options, parameters
 from .tables import Table, to_csv
 
 SUM_TOLERANCE: Final = 1e-6
+ROUNDING: Final = 1e-9
+"""Scores that differ by less share their rank."""
 
 
 def scores_csv(results: xr.Dataset) -> bytes:
@@ -87,6 +90,19 @@ def scope_words(results: xr.Dataset) -> str:
     if not has_sources(results):
         return ""
     return " The change of level in the scores counts all sources, at the assumed values."
+
+
+def criteria_of_advantage(results: xr.Dataset, option: str, other: str) -> list[str]:
+    """Words of the weighted criteria, computed or given, in which an option scores better.
+
+    The criterion that matters most to the weighted sum comes first.
+    """
+    scale = (results[name].values for name in ("criterion_best", "criterion_worst"))
+    values = results["criterion_value"].sel(option=[option, other])
+    better, worse = utilities(values.transpose("option", "criterion").values, *scale)
+    lead = results["weight"].values * (better - worse)
+    labels_of = results["criterion_label"].values
+    return [str(labels_of[at]) for at in np.argsort(-lead, kind="stable") if lead[at] > ROUNDING]
 
 
 def published_table(results: xr.Dataset) -> Table | None:

@@ -5,7 +5,7 @@ from typing import Final
 import xarray as xr
 
 from ..base import rounding
-from ..base.vocabulary import REFERENCE_OPTION
+from ..base.vocabulary import DERIVED_SUPPLY, REFERENCE_OPTION
 from . import labels
 from .bands import Band, band, band_words, draws, energy_share, percent
 from .study import (
@@ -190,26 +190,38 @@ def _up_to(results: xr.Dataset) -> str:
 
 def _not_an_order(results: xr.Dataset) -> str:
     """Keep the motor's line apart from 2x."""
-    if LINE_FIGURE not in results["figure"].values:
+    if LINE_FIGURE not in results["figure"].values or "supply_frequency" not in results:
         return ""
-    lines = parameters(results)["operation"]["supply_frequency_hz"]
-    pairs = (
-        f"{rounding.span(lines, lambda line: f'{2.0 * line:g}')} Hz beside 2× at "
-        f"{rounding.span(2.0 * first_order_hz(results), rounding.fixed)} Hz"
-        if many_speeds(results)
-        else ", ".join(
-            f"{2.0 * line:g} Hz beside 2× at {2.0 * first:.1f} Hz ({speed:g} rpm)"
-            for speed, line, first in zip(
-                speeds(results), lines, first_order_hz(results), strict=True
-            )
-        )
-    )
     figures = results["reported_figure"].sel(option=REFERENCE_OPTION)
     motor = float(figures.sel(figure=LINE_FIGURE).max())
     foot = results["foot_force_amplitude"].sel(order=1, option=REFERENCE_OPTION)
     return (
-        f"The motor's line at twice the line frequency is no order of the shaft: {pairs}. It and "
-        "its sidebands count as motor, never as 2×. Into a foot it passes at most "
+        "The motor's line at twice the line frequency is no order of the shaft: "
+        f"{_twice_line(results)}. It and its sidebands count as motor, never as 2×. "
+        f"{_derived_supply(results)}Into a foot it passes at most "
         f"{rounding.significant(motor)} N, beside {rounding.significant(float(foot.max()))} N at "
         "1×: what it does to floor and pipes is not modelled."
     )
+
+
+def _twice_line(results: xr.Dataset) -> str:
+    """Twice the line frequency beside 2x, by speed."""
+    twice = (2.0 * results["supply_frequency"].values).tolist()
+    write = "{:.1f}".format if _derived_supply(results) else "{:g}".format
+    if many_speeds(results):
+        return (
+            f"{rounding.span(twice, write)} Hz beside 2× at "
+            f"{rounding.span(2.0 * first_order_hz(results), rounding.fixed)} Hz"
+        )
+    rows = zip(speeds(results), twice, first_order_hz(results), strict=True)
+    return ", ".join(
+        f"{write(line)} Hz beside 2× at {2.0 * first:.1f} Hz ({speed:g} rpm)"
+        for speed, line, first in rows
+    )
+
+
+def _derived_supply(results: xr.Dataset) -> str:
+    """Where the supply's frequency comes from, if the study does not give it."""
+    if results["supply_frequency"].attrs["source"] != DERIVED_SUPPLY:
+        return ""
+    return "The supply's frequency is derived from speed and slip under the mean load. "

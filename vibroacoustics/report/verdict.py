@@ -11,7 +11,7 @@ from ..base.vocabulary import REFERENCE_OPTION
 from . import labels
 from .comparison import column, comparison
 from .option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, OptionVerdict, option_verdicts
-from .scores import scope_words
+from .scores import criteria_of_advantage, scope_words
 from .shifts import (
     FOOT_FORCE,
     FORCE,
@@ -205,15 +205,21 @@ def _ranking(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> str:
         if option.judgement == BETTER
         and own["rank"].sel(option=option.option) > own["rank"].sel(option=REFERENCE_OPTION)
     ]
-    behind = (
-        f" {' and '.join(unlucky)} ranks below {REFERENCE_OPTION} all the same: no balancer adds "
-        "no mass and does not depend on the speed."
-    )
+    behind = "".join(_behind(results, option) for option in unlucky)
     return (
         f"By the study's weights {' and '.join(winners)} {verb} first "
         f"({labels.name(method).lower()}, score {score} of 1), "
-        f"and in {share:.0f} % of {draws} weightings drawn at random.{behind if unlucky else ''}"
+        f"and in {share:.0f} % of {draws} weightings drawn at random.{behind}"
         f"{scope_words(results)}"
+    )
+
+
+def _behind(results: xr.Dataset, option: str) -> str:
+    """By which criteria an option that betters forces or sound falls behind the reference."""
+    criteria = criteria_of_advantage(results, REFERENCE_OPTION, option)
+    return (
+        f" {option} ranks below {REFERENCE_OPTION} all the same: {REFERENCE_OPTION} scores better "
+        f"in {'; '.join(criteria)}."
     )
 
 

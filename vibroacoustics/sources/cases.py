@@ -63,13 +63,46 @@ def loads_of(study: Study, case: Case) -> dict[str, Loads]:
     ParameterError
         A source cannot act so.
     """
+    return _loaded(study, case)[1]
+
+
+def loaded_cases(
+    study: Study, cases: Mapping[CaseKey, Case]
+) -> tuple[dict[CaseKey, Case], dict[CaseKey, dict[str, Loads]]]:
+    """The cases with the supply of the motor, and the loads of all sources in each.
+
+    A supply that the study does not give is derived of the reference option and holds for all
+    options at the speed: a balancer does not change the mains.
+    """
+    supplied: dict[CaseKey, Case] = {}
+    loads: dict[CaseKey, dict[str, Loads]] = {}
+    for key in sorted(cases, key=lambda key: key[1] != REFERENCE_OPTION):
+        reference = supplied.get((key[0], REFERENCE_OPTION), cases[key])
+        case = replace(cases[key], supply_frequency_hz=reference.supply_frequency_hz)
+        supplied[key], loads[key] = _loaded(study, case)
+    return {key: supplied[key] for key in cases}, {key: loads[key] for key in cases}
+
+
+def _loaded(study: Study, case: Case) -> tuple[Case, dict[str, Loads]]:
     loads: dict[str, Loads] = {}
     for name, source in sources_of(study).items():
         try:
+            if case.supply_frequency_hz is None:
+                case = _on_supply(case, source.supply_frequency_hz(case, dict(loads)))
             loads[name] = source.loads(case, dict(loads))
         except ParameterError as error:
             raise ParameterError(f"sources.{name}: {error}") from None
-    return loads
+    return case, loads
+
+
+def _on_supply(case: Case, frequency_hz: float | None) -> Case:
+    """The case on a derived supply, whose line at twice its frequency must be modelled."""
+    if frequency_hz is not None and 2.0 * frequency_hz > case.maximum_frequency_hz:
+        raise ParameterError(
+            f"radiation.maximum_frequency_hz = {case.maximum_frequency_hz:g} Hz: twice the supply "
+            f"frequency is {2.0 * frequency_hz:.4g} Hz at {case.speed_rpm:g} rpm"
+        )
+    return replace(case, supply_frequency_hz=frequency_hz)
 
 
 def sources_of_wrenches(loads: Mapping[str, Loads]) -> dict[str, str]:

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
-from ..base.vocabulary import AXES, REFERENCE_OPTION, check, stamp
+from ..base.vocabulary import AXES, DERIVED_SUPPLY, GIVEN_SUPPLY, REFERENCE_OPTION, check, stamp
 from ..machine.source import Case, CaseKey
 from ..mechanics.loads import Loads
 from ..mechanics.rotation import uniform_crank_angle
@@ -50,6 +50,24 @@ def force_variables(
         "reported_figure": _figures(study, cases, loads),
     }
     return check(xr.Dataset(arrays, coords={"crank_time": (_OVER_ANGLE, time)}))
+
+
+def supply_variable(study: Study, cases: Mapping[CaseKey, Case]) -> xr.Dataset:
+    """Frequency of the motor's supply and where it comes from; empty where there is none.
+
+    Parameters
+    ----------
+    study : its speeds
+    cases : of the reference option at least
+    """
+    operation = study.operation
+    supplies = [cases[speed, REFERENCE_OPTION].supply_frequency_hz for speed in operation.speed_rpm]
+    if None in supplies:
+        return xr.Dataset()
+    source = DERIVED_SUPPLY if operation.supply_frequency_hz is None else GIVEN_SUPPLY
+    coords = {"speed": list(operation.speed_rpm)}
+    supply = stamp("supply_frequency", supplies, coords, source=source)
+    return check(xr.Dataset({"supply_frequency": supply}))
 
 
 def _wrenches(

@@ -12,6 +12,7 @@ from ..base.registry import register
 from ..machine.source import Case, Source
 from ..mechanics.loads import Loads, Tone, total_torque_n_m
 from .induction_motor.parameters import CapacitorMotor, TurningRotor
+from .induction_motor.supply import on_supply, supply_frequency_hz
 from .induction_motor.torque_lines import TorqueLine, TorqueLines, torque_lines
 from .joint_loads import stator_loads
 
@@ -19,13 +20,6 @@ TWICE_LINE: Final = "2 x line"
 TWICE_LINE_FIGURE: Final = "foot_force_2x_line_n"
 LOWEST_LINE_HZ: Final = 10.0
 """Sidebands below are no sound."""
-_GROW_WITH_FREQUENCY: Final = (
-    "line_voltage_v",
-    "main_leakage_ohm",
-    "auxiliary_leakage_ohm",
-    "magnetising_ohm",
-    "rotor_leakage_ohm",
-)
 
 
 class _MotorTorque(Source):
@@ -35,6 +29,11 @@ class _MotorTorque(Source):
     }
     drawn: ClassVar[frozenset[tuple[str, str]]] = frozenset({("motor", "capacitance_f")})
     drives_shell: ClassVar[bool] = True
+
+    def supply_frequency_hz(self, case: Case, before: Mapping[str, Loads]) -> float:
+        """Of the supply on which the motor carries the mean load at the case's speed."""
+        mean = float(_load_torque(case, before)[0].real)
+        return supply_frequency_hz(case.machine.table(CapacitorMotor), case.speed_rpm, mean)
 
 
 @register
@@ -92,11 +91,14 @@ def _balance(case: Case, before: Mapping[str, Loads]) -> TorqueLines:
     if case.supply_frequency_hz is None:
         raise ParameterError("operation.supply_frequency_hz: is missing; the motor needs it")
     rated, rotor = case.machine.table(CapacitorMotor), case.machine.table(TurningRotor)
-    ratio = case.supply_frequency_hz / rated.line_frequency_hz
-    grown = {name: ratio * getattr(rated, name) for name in _GROW_WITH_FREQUENCY}
-    motor = rated.model_copy(update={"line_frequency_hz": case.supply_frequency_hz, **grown})
-    torque = total_torque_n_m(before.values(), case.maximum_order)
+    motor = on_supply(rated, case.supply_frequency_hz)
+    torque = _load_torque(case, before)
     return case.shared(
         ("torque lines", motor, rotor, torque.tobytes()),
         lambda: torque_lines(motor, rotor.inertia_kg_m2, list(torque)),
     )
+
+
+def _load_torque(case: Case, before: Mapping[str, Loads]) -> ComplexArray:
+    """Torque of the load by order, the mean first, N m."""
+    return total_torque_n_m(before.values(), case.maximum_order)

@@ -29,11 +29,14 @@ from vibroacoustics.machine.shell_structure import (
     STATOR,
 )
 from vibroacoustics.mechanics.added import RingForce
-from vibroacoustics.mechanics.loads import Noise
+from vibroacoustics.mechanics.loads import Noise, total_torque_n_m
 from vibroacoustics.mechanics.received_sound import NoisePower
 from vibroacoustics.radiation.pressure import pressure_per_velocity, wrench_pressure
 from vibroacoustics.radiation.scene import machine_body
-from vibroacoustics.sources.cases import loads_of
+from vibroacoustics.sources.cases import cases_of, loaded_cases, loads_of
+from vibroacoustics.sources.induction_motor.parameters import CapacitorMotor
+from vibroacoustics.sources.induction_motor.revolving_fields import point_at_torque
+from vibroacoustics.sources.induction_motor.supply import on_supply
 from vibroacoustics.sources.joint_loads import key_torque_n_m
 from vibroacoustics.sources.keys import KEY_COMPONENTS, OldhamKeyForces
 from vibroacoustics.sources.oldham_keys.rattle import steady_key_forces
@@ -622,10 +625,45 @@ def test_machine_without_a_table_cannot_have_its_source(tmp_path):
         load_text(tmp_path, TEXT, MACHINE_TEXT[:start] + MACHINE_TEXT[stop:])
 
 
-def test_motor_needs_its_supply(tmp_path):
+def test_supply_is_as_given(results):
+    assert results["supply_frequency"].values.tolist() == [50.0]
+    assert results["supply_frequency"].attrs["source"] == "given by the study"
+
+
+def test_supply_that_is_not_given_follows_from_speed_and_slip(tmp_path):
+    """It gives back the speed through the motor's torque curve; one for options and draws."""
+    text = TEXT.replace("supply_frequency_hz = [50.0]", "").replace("[2900.0]", "[3500.0, 2900.0]")
+    results = run_made_up(load_text(tmp_path, text.replace("stopping = true", "")))
+    supply = results["supply_frequency"]
+    assert supply.attrs["source"] == "derived from speed and slip"
+    np.testing.assert_allclose(
+        results["tone_frequency"].sel(line="motor: 2 x line"), 2.0 * supply, rtol=1e-12
+    )
     without = load_text(tmp_path, TEXT.replace("supply_frequency_hz = [50.0]", ""))
-    with pytest.raises(ParameterError, match=r"operation\.supply_frequency_hz: is missing"):
-        run_made_up(without)
+    case, loads = reference_loads(without)
+    assert case.supply_frequency_hz == pytest.approx(supply.sel(speed=2900.0).item(), rel=1e-9)
+    before = [own for name, own in loads.items() if name not in ("motor", "torque_ripple")]
+    mean = total_torque_n_m(before, case.maximum_order)[0].real
+    motor = on_supply(case.machine.table(CapacitorMotor), case.supply_frequency_hz)
+    slip = point_at_torque(motor, mean).slip
+    assert 0.0 < slip < 0.1
+    speed = 60.0 * case.supply_frequency_hz / motor.pole_pairs * (1.0 - slip)
+    assert speed == pytest.approx(2900.0, rel=1e-9)
+
+
+def reference_loads(study):
+    """Case and loads without a balancer at the study's only speed."""
+    cases, loads = loaded_cases(study, cases_of(study, lambda *_: None))
+    assert len({case.supply_frequency_hz for case in cases.values()}) == 1
+    return cases[2900.0, "none"], loads[2900.0, "none"]
+
+
+def test_derived_supply_above_the_highest_frequency_is_refused(tmp_path):
+    text = TEXT.replace("supply_frequency_hz = [50.0]", "")
+    study = load_text(tmp_path, text)
+    low = study.radiation.model_copy(update={"maximum_frequency_hz": 99.0})
+    with pytest.raises(ParameterError, match=r"maximum_frequency_hz = 99 Hz: twice the supply"):
+        reference_loads(study.model_copy(update={"radiation": low}))
 
 
 def test_sources_on_another_machine_are_refused_by_the_command(tmp_path):

@@ -22,6 +22,7 @@ from vibroacoustics.sources.induction_motor.revolving_fields import (
     point_at_torque,
 )
 from vibroacoustics.sources.induction_motor.speed_response import speed_response, two_axis_motor
+from vibroacoustics.sources.induction_motor.supply import on_supply, supply_frequency_hz
 from vibroacoustics.sources.induction_motor.torque_lines import torque_lines
 
 VALUES = values_of(machine_file("copeland_zp41k3e"))["motor"]
@@ -417,3 +418,37 @@ def test_rotation_that_does_not_converge():
     angle = uniform_crank_angle(64)
     with pytest.raises(SolverError, match="motor_slope_ratio = 40"):
         steady_rotation(np.ones(64), np.zeros(64), 20.0 + 15.0 * np.sin(angle), 10.0, 40.0)
+
+
+# --- the supply that a speed needs ---------------------------------------------------------------
+
+
+@pytest.mark.parametrize("speed_rpm", [1500.0, 2900.0, 3500.0])
+@pytest.mark.parametrize("load_n_m", [2.0, GAS_TORQUE])
+def test_supply_gives_back_the_speed_through_the_torque_curve(speed_rpm, load_n_m):
+    supply = supply_frequency_hz(MOTOR, speed_rpm, load_n_m)
+    motor = on_supply(MOTOR, supply)
+    slip = point_at_torque(motor, load_n_m).slip
+    assert slip > 0.0
+    assert 60.0 * supply / MOTOR.pole_pairs * (1.0 - slip) == pytest.approx(speed_rpm, rel=1e-10)
+    lines = torque_lines(motor, INERTIA, [load_n_m, 1.0])
+    assert lines.speed_rad_per_s == pytest.approx(2.0 * np.pi * speed_rpm / 60.0, rel=1e-10)
+
+
+def test_supply_of_the_rated_speed_is_the_rated_one():
+    slip = point_at_torque(MOTOR, GAS_TORQUE).slip
+    speed_rpm = 3000.0 * (1.0 - slip)
+    assert supply_frequency_hz(MOTOR, speed_rpm, GAS_TORQUE) == pytest.approx(50.0, rel=1e-10)
+    assert on_supply(MOTOR, 50.0) == MOTOR
+
+
+def test_motor_at_the_same_flux_draws_the_same_current_at_the_same_frequency_of_the_rotor():
+    """Twice the supply, half the slip: voltage and impedance of the field are doubled."""
+    doubled = on_supply(MOTOR, 100.0)
+    assert doubled.line_voltage_v == 2.0 * MOTOR.line_voltage_v
+    assert field_impedance(doubled, 0.01) == pytest.approx(2.0 * field_impedance(MOTOR, 0.02))
+
+
+def test_load_beyond_breakdown_has_no_supply():
+    with pytest.raises(ParameterError, match=r"torque = 500 N m: the motor gives .* at 2900 rpm"):
+        supply_frequency_hz(MOTOR, 2900.0, 500.0)
