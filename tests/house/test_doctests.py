@@ -36,7 +36,7 @@ def workplace(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("workplace")
     for name in ("data", "pipelines"):
         (folder / name).symlink_to(ROOT / name)
-    few = {"uncertainty": None, "options.twin-oldham": None}
+    few = {"uncertainty": None, "options.twin-oldham": None, "sources.keys": None}
     results = run_made_up(va.load_study(SOURCES_STUDY).replace(few))
     storage.write_results(results.merge(_differences(results)), folder / "results.nc")
     storage.write_results(_radiated(), folder / "transfer_vectors.nc")
