@@ -3,6 +3,9 @@
 The report draws its pictures with the same functions. A notebook shows what they return;
 `figure.savefig("name.png")` writes it.
 
+>>> results = va.open_results("results.nc")
+>>> va.plot.levels(results).savefig("levels.png")
+
 Of `run`: `force_over_revolution`, `force_orders`, `foot_force_orders`, `level_orders`,
 `mount_transmissibility`, `transfer`, `green_difference`, `levels`, `line_map`, `scores`,
 `source_third_octaves`, `option_third_octaves`, `stopping`, `stopping_order_map`.

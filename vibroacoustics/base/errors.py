@@ -2,27 +2,78 @@
 
 
 class VibroacousticsError(Exception):
-    """Base of every error raised on purpose; the command line prints it and exits with code 2."""
+    """Base of every error raised on purpose; the command line prints it and exits with code 2.
+
+    Examples
+    --------
+    >>> try:
+    ...     va.load_study("missing.toml")
+    ... except va.VibroacousticsError as error:
+    ...     print(error)
+    missing.toml: no such file
+    """
 
     def __init__(self, message: str) -> None:
         super().__init__(" ".join(message.splitlines()))  # names and values may hold line breaks
 
 
 class ParameterError(VibroacousticsError):
-    """An input value is missing, unknown, of the wrong type or outside its allowed range."""
+    """An input value is missing, unknown, of the wrong type or outside its allowed range.
+
+    Examples
+    --------
+    >>> va.NominalSpeed(-1.0)
+    Traceback (most recent call last):
+        ...
+    vibroacoustics.base.errors.ParameterError: speed_rpm = -1 rpm: must be a number above 0
+    """
 
 
 class SchemaError(VibroacousticsError):
-    """A variable left a stage with the wrong dimensions or unit."""
+    """A variable left a stage with the wrong dimensions or unit.
+
+    Examples
+    --------
+    >>> va.stamp("loudness", 1.0)
+    Traceback (most recent call last):
+        ...
+    vibroacoustics.base.errors.SchemaError: variable loudness is not in the vocabulary
+    """
 
 
 class SolverError(VibroacousticsError):
-    """A computation did not converge or gave values that cannot be right."""
+    """A computation did not converge or gave values that cannot be right.
+
+    Examples
+    --------
+    >>> time = np.arange(4096) / 1024.0
+    >>> recording = va.label_recording([np.cos(300.0 * time)], 1024.0, ["ring"], ["m/s²"])
+    >>> va.track_orders(recording, va.NominalSpeed(3000.0), [1.0, 1.001], bandwidth_hz=2.0)
+    Traceback (most recent call last):
+        ...
+    vibroacoustics.base.errors.SolverError: recording: track 0 (order 1, 50 Hz) and track 1 ...
+    """
 
 
 class StorageError(VibroacousticsError):
-    """A file cannot be read or written, or its content does not match its hash."""
+    """A file cannot be read or written, or its content does not match its hash.
+
+    Examples
+    --------
+    >>> va.open_results("missing.nc")
+    Traceback (most recent call last):
+        ...
+    vibroacoustics.base.errors.StorageError: ...missing.nc...
+    """
 
 
 class PluginError(VibroacousticsError):
-    """A stranger's option, machine, criterion, section or column cannot be taken in."""
+    """A stranger's option, machine, criterion, section or column cannot be taken in.
+
+    Examples
+    --------
+    >>> va.register("a word")
+    Traceback (most recent call last):
+        ...
+    vibroacoustics.base.errors.PluginError: 'a word': is none of ...
+    """

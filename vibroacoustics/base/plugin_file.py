@@ -27,6 +27,13 @@ def load_plugin(path: str | Path) -> None:
     ------
     PluginError
         It is missing, or fails, or registers what cannot be registered.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> code = "import vibroacoustics; vibroacoustics.register(vibroacoustics.Unit({}))"
+    >>> size = Path("own_unit.py").write_text(code.format("'ell', 'ell', 'm', 1.1"))
+    >>> va.load_plugin("own_unit.py")
     """
     file = Path(path).resolve()
     name = f"plugin_{file.stem}_{abs(hash(file)):x}"

@@ -196,10 +196,23 @@ def _loaded(point: metadata.EntryPoint) -> Any:
 def register(thing: Thing) -> Thing:
     """Take a thing in, of whichever registry; also a decorator of its class.
 
+    Parameters
+    ----------
+    thing : class derived from `Option`, `Machine`, `Source` or `Criterion`, or a `Section`,
+        `Column`, `Variable`, `Coordinate` or `Unit`
+
     Raises
     ------
     PluginError
         It is none of these, or its name is taken.
+
+    Examples
+    --------
+    >>> @va.register
+    ... class Remark(va.Criterion):
+    ...     name = "remark_ratio"
+    ...     def value(self, results):
+    ...         return results["score"].isel(scoring_method=0)
     """
     caller = sys._getframe(1).f_globals
     built_in = str(caller.get("__name__", "")).startswith(f"{PACKAGE}.")

@@ -43,6 +43,13 @@ class Variable(_Labelled):
     Attributes
     ----------
     complex_peak : whether its values are phasors, complex peaks
+
+    Examples
+    --------
+    >>> depth = va.register(va.Coordinate("depth", ("depth",), "m", "depth below the floor"))
+    >>> warmth = va.register(va.Variable("warmth", ("depth",), "K", "temperature of the soil"))
+    >>> va.stamp("warmth", [281.0, 283.0], {"depth": [0.0, 1.0]}).attrs["units"]
+    'K'
     """
 
     complex_peak: bool = False
@@ -50,7 +57,12 @@ class Variable(_Labelled):
 
 @dataclass(frozen=True)
 class Coordinate(_Labelled):
-    """A coordinate of a result: values along a dimension, or what belongs to them."""
+    """A coordinate of a result: values along a dimension, or what belongs to them.
+
+    Examples
+    --------
+    >>> depth = va.register(va.Coordinate("depth", ("depth",), "m", "depth below the floor"))
+    """
 
 
 Labelled = TypeVar("Labelled", bound=_Labelled)
@@ -92,6 +104,12 @@ def stamp(
     ------
     SchemaError
         The name is unknown or the number of dimensions does not fit.
+
+    Examples
+    --------
+    >>> level = va.stamp("level_remainder", 55.9, source="catalogue")
+    >>> level.attrs["units"], level.attrs["source"]
+    ('dB', 'catalogue')
     """
     variable = _look_up(VARIABLES, name)
     array = np.asarray(values)
@@ -111,11 +129,22 @@ def stamp(
 def check(dataset: xr.Dataset, required: Sequence[str] = ()) -> xr.Dataset:
     """Return the dataset if all of its variables obey the vocabulary.
 
+    Parameters
+    ----------
+    dataset : any result
+    required : names of variables that it must hold
+
     Raises
     ------
     SchemaError
         A variable is unknown, missing, has other dims or another unit, or is complex where
         it must not be.
+
+    Examples
+    --------
+    >>> results = va.open_results("results.nc")
+    >>> va.check(results) is results
+    True
     """
     for name in required:
         if name not in dataset:

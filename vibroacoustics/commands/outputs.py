@@ -109,9 +109,25 @@ def write_report(results: xr.Dataset, folder: str | Path) -> Path:
 def write_report_again(results_file: Path, folder: Path) -> Path:
     """Write the report of results that are on disk, its tables and figures, together or not at all.
 
+    Parameters
+    ----------
+    results : dataset of a finished run
+    folder : made where it is missing
+
     Returns
     -------
     path of the report
+
+    Raises
+    ------
+    StorageError
+        The folder cannot be written.
+
+    Examples
+    --------
+    >>> results = va.open_results("results.nc")
+    >>> va.write_report(results, "written").name
+    'report.html'
     """
     results, digest = open_run(results_file)
     with manifest.replacing(folder, results_file.name, digest) as staged:

@@ -46,6 +46,18 @@ class Machine(KindOfParameters):
     """A kind of machine: its parameters, its steady revolution, and the words that fit it only.
 
     A further kind is a folder of `mechanisms` whose class is registered; it edits no other file.
+
+    Examples
+    --------
+    >>> class LoneRotor(va.Machine):
+    ...     kind = "lone-rotor"
+    ...     unbalance_mass_kg: float
+    ...     unbalance_radius_m: float
+    ...     def revolution(self, speed_rpm, samples):
+    ...         rotation = va.constant_rotation(speed_rpm, samples)
+    ...         spot = va.circling("heavy_spot", self.unbalance_mass_kg, self.unbalance_radius_m,
+    ...                            0.0, rotation.crank_angle)
+    ...         return va.Revolution(speed_rpm, rotation, va.wrenches_of_parts([spot], rotation))
     """
 
     name: str = Field(min_length=1)

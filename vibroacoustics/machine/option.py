@@ -22,6 +22,19 @@ class Option(KindOfParameters):
 
     A further one is one file of `balancers`, or of a stranger, whose class is registered: others
     ask what it adds, never which one it is.
+
+    Examples
+    --------
+    >>> class CounterShaft(va.Option):
+    ...     kind = "counter-shaft"
+    ...     mass_kg: float
+    ...     radius_m: float
+    ...     def added(self, machine, revolution):
+    ...         angle = -revolution.rotation.crank_angle  # it turns the other way
+    ...         weight = va.circling("balancer", self.mass_kg, -self.radius_m, 0.0, angle)
+    ...         return va.Added((weight,), {"added_mass_kg": self.mass_kg})
+    >>> CounterShaft(mass_kg=0.1, radius_m=0.02).model_dump()
+    {'kind': 'counter-shaft', 'mass_kg': 0.1, 'radius_m': 0.02}
     """
 
     needs: ClassVar[type[Capability] | None] = None

@@ -44,6 +44,16 @@ class Case:
     supply_frequency_hz : of the motor, as the study gives it or a source derives it; else none
     maximum_frequency_hz : lines and noise up to here
     shared : with the other cases of the draw
+
+    Examples
+    --------
+    A source of your own gets a case and returns loads:
+
+    >>> class Hammer(va.Source):
+    ...     kind = "hammer"
+    ...     def loads(self, case: va.Case, before):
+    ...         samples = case.revolution.rotation.crank_angle.size
+    ...         return va.Loads(figures={"hammer_samples_count": samples})
     """
 
     machine: Machine
@@ -75,6 +85,19 @@ class Source(KindOfParameters):
     """Who drives the machine: what a study's table says of it, its loads and its words.
 
     A further one is one folder of `sources`, or a file of a stranger, whose class is registered.
+
+    Examples
+    --------
+    >>> class Pulse(va.Source):
+    ...     kind = "pulse"
+    ...     label = "pulse along x"
+    ...     peak_n: float
+    ...     def loads(self, case, before):
+    ...         force = np.zeros((3, case.revolution.rotation.crank_angle.size))
+    ...         force[0, 0] = self.peak_n
+    ...         return va.Loads(wrenches={"pulse": va.Wrench(force, 0.0 * force)})
+    >>> Pulse(peak_n=3.0).kind
+    'pulse'
     """
 
     tables: ClassVar[Mapping[str, type[Parameters]]] = {}

@@ -51,6 +51,13 @@ class Added:
     figures : to report of it, by name; the unit is the suffix of the name
     on_ring : force of what hangs on the machine's Oldham ring; none where nothing does
     rings : further Oldham rings
+
+    Examples
+    --------
+    >>> angle = va.constant_rotation(3000.0, 64).crank_angle
+    >>> weight = va.circling("balancer", 0.1, -0.02, 0.0, angle)  # kg, m, m
+    >>> va.Added((weight,), {"added_mass_kg": 0.1}).figures
+    {'added_mass_kg': 0.1}
     """
 
     parts: tuple[MovingPart, ...] = ()

@@ -56,6 +56,12 @@ class Slider(Capability):
     """A mass that slides to and fro with the crank.
 
     To first order its place is `amplitude_m` cos θ along the stroke from its middle.
+
+    Examples
+    --------
+    >>> machine = va.load_study("pipelines/mayekawa_wbhe.toml").machine
+    >>> machine.require(va.Slider).mass_kg > 0.0
+    True
     """
 
     words: ClassVar[str] = "a mass that slides to and fro"
@@ -70,7 +76,14 @@ class Slider(Capability):
 
 @dataclass(frozen=True)
 class OldhamRing(Capability):
-    """A ring that keeps an orbiting scroll from turning; x = `stroke_m` cos θ."""
+    """A ring that keeps an orbiting scroll from turning; x = `stroke_m` cos θ.
+
+    Examples
+    --------
+    >>> machine = va.load_study("pipelines/copeland_thesis.toml").machine
+    >>> machine.require(va.OldhamRing).stroke_m
+    0.00675
+    """
 
     words: ClassVar[str] = "an Oldham ring"
     mass_kg: float

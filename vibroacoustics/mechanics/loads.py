@@ -64,6 +64,14 @@ class Loads:
     noise : random loads
     shaft_torque_n_m : that the shaft needs, mean and complex peaks by order, shape (order,)
     figures : to report, by name; the unit is the suffix of the name
+
+    Examples
+    --------
+    >>> force = np.zeros((3, 64))
+    >>> force[0] = np.cos(2.0 * np.pi * np.arange(64) / 64)  # N, along x, once a revolution
+    >>> loads = va.Loads(wrenches={"imbalance": va.Wrench(force, np.zeros((3, 64)))})
+    >>> list(loads.wrenches)
+    ['imbalance']
     """
 
     wrenches: Mapping[str, Wrench] = field(default_factory=dict)

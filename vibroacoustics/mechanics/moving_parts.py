@@ -26,6 +26,14 @@ class MovingPart:
     mass_kg : mass
     position_m : centre of mass over one revolution, shape (3, samples); x, y, z from the
         machine's centre of mass at rest, uniformly sampled from crank angle zero
+
+    Examples
+    --------
+    >>> angle = va.constant_rotation(3000.0, 64).crank_angle
+    >>> stroke = 0.01 * np.cos(angle)  # m, along x
+    >>> piston = va.MovingPart("piston", 0.2, np.stack([stroke, 0.0 * stroke, 0.0 * stroke]))
+    >>> piston.position_m.shape
+    (3, 64)
     """
 
     source: str
@@ -39,6 +47,12 @@ class Wrench(NamedTuple):
     Attributes
     ----------
     force_n, moment_n_m : shape (3, samples); the moment about the centre of mass at rest
+
+    Examples
+    --------
+    >>> wrench = va.Wrench(force_n=np.zeros((3, 64)), moment_n_m=np.zeros((3, 64)))
+    >>> wrench.force_n.shape
+    (3, 64)
     """
 
     force_n: Array
@@ -61,6 +75,14 @@ class Revolution:
     rotation : of its shaft
     wrenches : what its moving parts do to the housing by change of momentum, by source
     figures : to report of it, such as losses, by name; the unit is the suffix of the name
+
+    Examples
+    --------
+    >>> rotation = va.constant_rotation(3000.0, 64)
+    >>> spot = va.circling("heavy_spot", 0.01, 0.02, 0.0, rotation.crank_angle)
+    >>> revolution = va.Revolution(3000.0, rotation, va.wrenches_of_parts([spot], rotation))
+    >>> float(np.max(revolution.wrenches["heavy_spot"].force_n).round(3))  # m r ω², N
+    19.739
     """
 
     speed_rpm: float
@@ -87,7 +109,27 @@ def circling(
     crank_angle: Array,
     frame: CrankFrame = UPRIGHT,
 ) -> MovingPart:
-    """A mass on a circle about the shaft; a negative radius stands opposite the crank pin."""
+    """A mass on a circle about the shaft; a negative radius stands opposite the crank pin.
+
+    Parameters
+    ----------
+    source : who makes the force, as in the results
+    mass_kg : mass
+    radius_m : of the circle
+    height_m : along the shaft from the frame's origin
+    crank_angle : uniform over one revolution, shape (samples,), rad
+    frame : axes of the mechanism in the machine; default: stroke x, shaft z
+
+    Returns
+    -------
+    moving part with a path of shape (3, samples), m
+
+    Examples
+    --------
+    >>> angle = va.constant_rotation(3000.0, 64).crank_angle
+    >>> va.circling("balancer", 0.1, -0.02, 0.0, angle).position_m[:, 0].round(3) + 0.0
+    array([-0.02, 0. , 0. ])
+    """
     circle = path(radius_m * np.cos(crank_angle), radius_m * np.sin(crank_angle), height_m)
     return MovingPart(source, mass_kg, axes_of(frame) @ circle + np.array(frame.origin_m)[:, None])
 
@@ -126,7 +168,24 @@ def wrench(parts: Sequence[MovingPart], rotation: Rotation) -> Wrench:
 
 
 def wrenches_of_parts(parts: Sequence[MovingPart], rotation: Rotation) -> dict[str, Wrench]:
-    """What moving parts do to the housing, by source in the order of the parts."""
+    """What moving parts do to the housing, by source in the order of the parts.
+
+    Parameters
+    ----------
+    parts : moving parts, all sampled at the crank angles of the rotation
+    rotation : of the shaft
+
+    Returns
+    -------
+    force, N, and moment about the centre of mass, N m, over crank angle: -Σ m a and -Σ r × m a
+
+    Examples
+    --------
+    >>> rotation = va.constant_rotation(3000.0, 64)
+    >>> spot = va.circling("heavy_spot", 0.01, 0.02, 0.0, rotation.crank_angle)
+    >>> va.wrenches_of_parts([spot], rotation)["heavy_spot"].force_n.shape
+    (3, 64)
+    """
     by_source: dict[str, list[MovingPart]] = {}
     for part in parts:
         by_source.setdefault(part.source, []).append(part)

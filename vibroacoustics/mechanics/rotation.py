@@ -48,7 +48,19 @@ def uniform_crank_angle(samples: int) -> Array:
 
 
 def constant_rotation(speed_rpm: float, samples: int) -> Rotation:
-    """Rotation at a constant speed."""
+    """Rotation at a constant speed.
+
+    Parameters
+    ----------
+    speed_rpm : above zero
+    samples : uniform crank angles over a revolution
+
+    Examples
+    --------
+    >>> rotation = va.constant_rotation(3000.0, 4)
+    >>> rotation.speed_rad_per_s.round(2).tolist()
+    [314.16, 314.16, 314.16, 314.16]
+    """
     speed = 2.0 * np.pi * shaft_frequency_hz(speed_rpm)
     return Rotation(np.full(samples, speed), np.zeros(samples))
 

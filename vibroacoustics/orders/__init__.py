@@ -1,4 +1,12 @@
-"""Order analysis: spectra over crank angle and the ellipses of vector orders."""
+"""Order analysis: spectra over crank angle and the ellipses of vector orders.
+
+>>> motion = va.orders.constant_speed(50.0, 0.0, 2.0)  # Hz, from and to in s
+>>> time = np.arange(2048) / 1024.0
+>>> angular = va.orders.angular_resample(np.cos(motion.angle_rad(time)), 1024.0, motion, 4.0)
+>>> spectra = va.orders.order_map(angular, 0.25, "hann")
+>>> va.orders.order_cut(spectra, [1.0]).rms[0].round(3)
+array([0.707])
+"""
 
 from ..mechanics.ellipse import semi_major_axis
 from .angular import AngularSignal, angular_resample, whole_revolutions

@@ -47,6 +47,16 @@ def radiate(
     ------
     ParameterError, SolverError, StorageError
         An input is out of range, a computation failed, the cache cannot be written.
+
+    Examples
+    --------
+    Transfer vectors of your own (made up here) take the place of the computation:
+
+    >>> study = va.load_study("pipelines/copeland_thesis.toml")
+    >>> values = 0.01 * np.ones((len(study.receivers), 6, 2))
+    >>> radiated = va.radiate(study, radiation=va.given_radiation(values, [25.0, 2500.0]))
+    >>> radiated["transfer_vector"].dims
+    ('receiver', 'dof', 'frequency')
     """
     try:
         path = shell_path(study)

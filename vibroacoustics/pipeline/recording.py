@@ -32,6 +32,16 @@ def analyse_orders(
     ------
     ParameterError, SolverError
         The speed cannot be found, or an order cannot be told at the resolution.
+
+    Examples
+    --------
+    >>> time = np.arange(8192) / 1024.0
+    >>> signal = 3.0 * np.cos(2.0 * np.pi * 50.0 * time)
+    >>> recording = va.label_recording([signal], 1024.0, ["ring"], ["m/s²"])
+    >>> settings = va.OrderAnalysis(va.NominalSpeed(3000.0), orders=(1.0,), maximum_order=4.0)
+    >>> orders = va.analyse_orders(recording, settings)
+    >>> abs(orders["channel_order"]).sel(channel="ring", order=1.0).round(3).values
+    array([3.])
     """
     try:
         return _analyse(recording, settings, progress)

@@ -42,6 +42,17 @@ def run(
     ------
     ParameterError, SolverError, StorageError
         An input is out of range, a computation failed, the cache cannot be written.
+
+    Examples
+    --------
+    Without `radiation` the package computes it: some minutes once, then seconds.
+
+    >>> study = va.load_study("pipelines/copeland_thesis.toml")
+    >>> study = study.replace({"operation.speed_rpm": [2900.0]})
+    >>> values = 0.01 * np.ones((len(study.receivers), 6, 2))  # made up, Pa s/m
+    >>> results = va.run(study, radiation=va.given_radiation(values, [25.0, 2500.0]))
+    >>> results["force_amplitude"].sel(option="none", order=1).round(1).values  # N
+    array([45.3])
     """
     try:
         return _run(study, progress, radiation)

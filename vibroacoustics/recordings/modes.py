@@ -53,6 +53,12 @@ def read_modes(path: str | Path, *, file_unit_m: float | None = None) -> Measure
         differ in their nodes, or the unit of length is missing.
     StorageError
         The file is missing, damaged, or larger than the caps.
+
+    Examples
+    --------
+    >>> modes = va.read_modes("modes.uff")
+    >>> modes.shape.shape  # (mode, node, 3)
+    (2, 5, 3)
     """
     path = Path(path)
     request = {"path": str(path), "channels": None, "sample_rate_hz": None, "modes": True}

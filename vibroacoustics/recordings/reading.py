@@ -56,6 +56,13 @@ def read_recording(
         in the file, samples are not finite or times not even.
     StorageError
         The file is missing, damaged, or larger than the caps.
+
+    Examples
+    --------
+    >>> recording = va.label_recording([[0.0, 0.5]], 1000.0, ["front"], ["Pa"])
+    >>> file = va.export_recording(recording, "front.csv")
+    >>> va.read_recording(file)["signal"].sel(channel="front").values
+    array([0. , 0.5])
     """
     path = Path(path)
     try:

@@ -41,6 +41,12 @@ def label_recording(
     ParameterError
         A unit is unknown, a name is there twice, a sample is not finite, a factor is zero, there
         are fewer than two samples.
+
+    Examples
+    --------
+    >>> recording = va.label_recording([[0.0, 9.81]], 1000.0, ["ring"], ["g"])
+    >>> recording["signal"].values.round(2), str(recording["channel_unit"].item())
+    (array([[ 0. , 96.2]]), 'm/s²')
     """
     return label_in_place(
         np.array(signal, dtype=float, ndmin=2), sample_rate_hz, names, units, calibration or {}

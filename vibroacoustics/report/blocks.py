@@ -2,6 +2,9 @@
 
 All are frozen and hold finished text; `block` names the kind of block in templates and JSON.
 `Table` is a block too.
+
+>>> table = va.blocks.Table("Prices", ("Option", "Price"), (("none", "0"), ("hood", "12")))
+>>> details = va.blocks.Details("More", (va.blocks.Text("As of today."), table))
 """
 
 import json

@@ -57,6 +57,17 @@ def compare(
     ------
     ParameterError
         The results have no channel, unit, order or speed in common, or the angle is not finite.
+
+    Examples
+    --------
+    >>> def orders_of(peak):
+    ...     tone = peak * np.cos(2.0 * np.pi * 50.0 * np.arange(4096) / 1024.0)
+    ...     recording = va.label_recording([tone], 1024.0, ["ring"], ["m/s²"])
+    ...     settings = va.OrderAnalysis(va.NominalSpeed(3000.0), (1.0,), maximum_order=4.0)
+    ...     return va.analyse_orders(recording, settings)
+    >>> compared = va.compare(orders_of(1.0), orders_of(2.0))
+    >>> compared["order_difference"].item()  # dB
+    6.02...
     """
     if not np.isfinite(tacho_angle_rad):
         raise ParameterError(f"tacho_angle = {tacho_angle_rad:g}: must be a finite angle")

@@ -60,10 +60,20 @@ def stage_results(results: xr.Dataset, path: Path) -> str:
 def open_results(path: str | Path) -> xr.Dataset:
     """Read a dataset that `write_results` wrote, into memory.
 
+    Parameters
+    ----------
+    path : file that a command or `write_report` wrote; its hash lies beside it
+
     Raises
     ------
     StorageError
         The file is missing, has no hash, does not match it, or is no netCDF.
+
+    Examples
+    --------
+    >>> results = va.open_results("results.nc")
+    >>> results["force_amplitude"].dims
+    ('speed', 'option', 'order')
     """
     return open_with_hash(path)[0]
 

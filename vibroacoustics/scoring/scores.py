@@ -30,6 +30,12 @@ def score(results: xr.Dataset, settings: Scoring | None = None) -> xr.Dataset:
     ------
     ParameterError
         A criterion is unknown or has no value for an option.
+
+    Examples
+    --------
+    >>> results = va.open_results("results.nc")
+    >>> va.score(results)["rank"].dims
+    ('option', 'scoring_method')
     """
     settings = settings or _stored_settings(results)
     criteria = scored_criteria(results, settings)

@@ -12,6 +12,16 @@ class Criterion:
 
     Class and registry lie here, not in `scoring`: a study refuses the name of an unknown
     criterion when it is loaded, and parameters import no stage.
+
+    Examples
+    --------
+    >>> class SecondForce(va.Criterion):
+    ...     name = "force_2x_n"
+    ...     label = "Largest force at twice the speed"
+    ...     def value(self, results):
+    ...         return results["force_amplitude"].sel(order=2).max("speed")
+    >>> SecondForce().value(va.open_results("results.nc")).dims
+    ('option',)
     """
 
     name: ClassVar[str]

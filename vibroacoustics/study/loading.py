@@ -32,6 +32,12 @@ def load_study(path: str | Path) -> Study:
     ------
     ParameterError
         Anything is missing, unknown, of the wrong type or outside its allowed range.
+
+    Examples
+    --------
+    >>> study = va.load_study("pipelines/copeland_thesis.toml")
+    >>> study.machine.name
+    'Copeland ZP41K3E-PFJ'
     """
     return study_of(read_with_base(Path(path)))
 

@@ -7,7 +7,19 @@ from ..base.errors import ParameterError
 
 @dataclass(frozen=True)
 class SpeedChannel:
-    """A channel tells the speed: in rpm where that is its unit, else by pulses."""
+    """A channel tells the speed: in rpm where that is its unit, else by pulses.
+
+    Attributes
+    ----------
+    channel : of the tacho, or of the speed with the unit rpm
+    pulses_per_revolution : of the tacho
+    index_channel : with one pulse a revolution, at which the crank angle is zero
+
+    Examples
+    --------
+    >>> va.SpeedChannel("tacho", pulses_per_revolution=60).index_channel is None
+    True
+    """
 
     channel: str
     pulses_per_revolution: int = 1
@@ -17,7 +29,22 @@ class SpeedChannel:
 
 @dataclass(frozen=True)
 class NominalSpeed:
-    """The speed is told, and taken to be even."""
+    """The speed is told, and taken to be even.
+
+    Attributes
+    ----------
+    speed_rpm : above zero
+
+    Raises
+    ------
+    ParameterError
+        The speed is not above zero.
+
+    Examples
+    --------
+    >>> va.NominalSpeed(2900.0)
+    NominalSpeed(speed_rpm=2900.0)
+    """
 
     speed_rpm: float
 
@@ -27,7 +54,23 @@ class NominalSpeed:
 
 @dataclass(frozen=True)
 class TacholessSpeed:
-    """The speed is found from the orders in a channel."""
+    """The speed is found from the orders in a channel.
+
+    Attributes
+    ----------
+    channel : name, or None for the recording's only channel
+    minimum_rpm, maximum_rpm : limits within which the speed is looked for
+
+    Raises
+    ------
+    ParameterError
+        The limits are not above zero, or do not rise.
+
+    Examples
+    --------
+    >>> va.TacholessSpeed("ring", 2000.0, 4000.0).maximum_rpm
+    4000.0
+    """
 
     channel: str | None
     """None: the recording's only channel."""
@@ -46,7 +89,27 @@ class TacholessSpeed:
 
 @dataclass(frozen=True)
 class OrderAnalysis:
-    """Settings of one analysis."""
+    """Settings of one analysis.
+
+    Attributes
+    ----------
+    speed : where the speed comes from
+    orders : wanted, rising
+    maximum_order : of spectra and map
+    resolution_order : coarsest noise bandwidth of a line, orders
+    speed_step_rpm : of the operating points of a run-up
+    with_map : whether the order map of every block is kept
+
+    Raises
+    ------
+    ParameterError
+        A number is not above zero, or the orders do not rise.
+
+    Examples
+    --------
+    >>> va.OrderAnalysis(va.NominalSpeed(2900.0), orders=(1.0, 2.0)).maximum_order
+    20.0
+    """
 
     speed: SpeedChannel | NominalSpeed | TacholessSpeed
     orders: tuple[float, ...] = (1.0, 2.0, 3.0, 4.0)

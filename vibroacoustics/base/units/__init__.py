@@ -19,6 +19,12 @@ class Unit:
     symbol : to print
     si_suffix : of the SI key
     factor : to SI
+
+    Examples
+    --------
+    >>> inch = va.register(va.Unit("inch", "in", "m", 0.0254))  # `stroke_inch` in a study file
+    >>> inch.factor
+    0.0254
     """
 
     suffix: str

@@ -41,6 +41,14 @@ class Column:
         without a balancer, `silent` where it is with the option
     applies : whether results have such a column
     position : from left to right; a stranger's are the last
+
+    Examples
+    --------
+    >>> def moment(results):
+    ...     return results["moment_amplitude"].sel(order=2)
+    >>> column = va.Column("moment_2x_nm", moment, head="Moment 2×, N m")
+    >>> column.values(va.open_results("results.nc")).dims
+    ('speed', 'option')
     """
 
     name: str

@@ -18,8 +18,8 @@ def needs(*variables: str, from_: str = "`run`") -> Callable[[Maker], Maker]:
 
     Parameters
     ----------
-    variables : names of the vocabulary
     from_ : what gives results that have them
+    variables : names of the vocabulary
     """
 
     def guarded(make: Maker) -> Maker:

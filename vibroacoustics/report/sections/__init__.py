@@ -25,6 +25,14 @@ class Section:
     blocks : makes what stands in it from the results, its pictures too
     applies : whether results have such a section
     position : from top to bottom; a stranger's are the last
+
+    Examples
+    --------
+    >>> def remark(results):
+    ...     return [va.blocks.Text(f"Made of {results.attrs['title']}.")]
+    >>> section = va.Section("remark", "A remark", remark)
+    >>> section.title
+    'A remark'
     """
 
     name: str
