@@ -11,7 +11,8 @@ from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.mechanics.crankshaft import reduced_inertia
 from vibroacoustics.mechanics.moving_parts import derivative, wrench
 from vibroacoustics.mechanics.rotation import constant_rotation, uniform_crank_angle
-from vibroacoustics.mechanisms.reciprocating.cycle import optimum_bore, steady_cycle
+from vibroacoustics.mechanisms.reciprocating.cycle import steady_cycle
+from vibroacoustics.mechanisms.reciprocating.efficiency import optimum_bore
 from vibroacoustics.mechanisms.reciprocating.gas import (
     compression_work_j,
     cylinder_pressure,

@@ -98,6 +98,22 @@ def journal_friction_moment(
     return np.asarray(friction * bearing.radius_m)
 
 
+def journal_friction_coefficient(
+    bearing: JournalBearing, load_n: Array, velocity: Array, viscosity_pa_s: float
+) -> Array:
+    """Friction coefficient of a short bearing with its eccentricity (21): M/(F r).
+
+    Parameters
+    ----------
+    bearing : lengths in m
+    load_n : load, N, above zero
+    velocity : angular velocity, rad/s, above zero
+    viscosity_pa_s : dynamic viscosity
+    """
+    moment = journal_friction_moment(bearing, load_n, velocity, viscosity_pa_s)
+    return np.asarray(moment / (load_n * bearing.radius_m))
+
+
 def petroff_coefficient(
     bearing: JournalBearing, load_n: Array, velocity: Array, viscosity_pa_s: float
 ) -> Array:
