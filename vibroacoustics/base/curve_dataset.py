@@ -1,6 +1,7 @@
 """A dataset of curves: each a variable with the words that its table and picture need."""
 
 from collections.abc import Iterable, Mapping
+from itertools import chain, count
 from typing import Any
 
 import numpy as np
@@ -29,7 +30,7 @@ def curves_dataset(curves: Iterable[Curve], attrs: Mapping[str, Any]) -> xr.Data
     for curve in curves:
         if curve.name in dataset.data_vars:
             raise ParameterError(f"curve {curve.name}: two have this name")
-        axes = [_without_clash(axis, curve.name, dataset) for axis in curve.axes]
+        axes = [_without_clash(axis, dataset) for axis in curve.axes]
         dataset = dataset.assign_coords({axis.name: _coordinate(axis) for axis in axes})
         dataset[curve.name] = xr.Variable(
             [axis.name for axis in axes],
@@ -46,11 +47,16 @@ def curves_dataset(curves: Iterable[Curve], attrs: Mapping[str, Any]) -> xr.Data
     return dataset
 
 
-def _without_clash(axis: Axis, curve: str, dataset: xr.Dataset) -> Axis:
-    if axis.name not in dataset.coords:
-        return axis
-    same = np.array_equal(dataset[axis.name].values, np.asarray(axis.values))
-    return axis if same else axis._replace(name=f"{axis.name}_of_{curve}")
+def _without_clash(axis: Axis, dataset: xr.Dataset) -> Axis:
+    """The axis under its name, or under the first number of it that is free or the same."""
+    for name in chain([axis.name], (f"{axis.name}_{number}" for number in count(2))):
+        if name not in dataset.coords or _same(dataset[name].values, axis):
+            return axis._replace(name=name)
+    raise AssertionError  # there is always a further number
+
+
+def _same(values: Array, axis: Axis) -> bool:
+    return bool(np.array_equal(values, np.asarray(axis.values)))
 
 
 def _coordinate(axis: Axis) -> xr.Variable:
@@ -80,5 +86,14 @@ def shown(values: xr.DataArray) -> Array:
 def shown_label(values: xr.DataArray) -> str:
     """Label of an axis: words, then the unit in which they are read, where there is one."""
     label = str(values.attrs["long_name"])
-    symbol = UNITS[values.attrs["read_in"]].symbol
+    symbol = UNITS[values.attrs["read_in"]].symbol if "read_in" in values.attrs else ""
     return f"{label}, {symbol}" if symbol else label
+
+
+def axis_words(coordinate: xr.DataArray) -> list[str]:
+    """Values of an axis in words: these, or numbers with the unit in which they are read."""
+    if "read_in" not in coordinate.attrs:
+        return [str(word) for word in coordinate.values]
+    symbol = UNITS[coordinate.attrs["read_in"]].symbol
+    numbers = (f"{value:.4g}".replace("-", "−") for value in shown(coordinate))
+    return [f"{number} {symbol}".strip() for number in numbers]

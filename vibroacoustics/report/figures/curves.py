@@ -10,18 +10,32 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base.arrays import Array
-from ...base.curve_dataset import shown, shown_label
+from ...base.curve_dataset import axis_words, shown, shown_label
 from ...base.errors import ParameterError
-from ...base.units import UNITS
-from .style import LEGEND_ROW_INCH, WIDTH_INCH, figure_of, legend_below, line_looks, plain, wrap
+from ...base.units import shaft_frequency_hz
+from .style import (
+    COLOURS, LEGEND_ROW_INCH, STYLE, WIDTH_INCH, Picture, figure_of, legend_below, line_looks, plain,
+    png, wrap,
+)
 
-TITLE_WIDTH: Final = 64
+TITLE_WIDTH: Final = 62
+LABEL_WIDTH: Final = 22
 PANEL_INCH: Final = 2.2
 ORBIT_INCH: Final = 4.2
+ORBIT_TICKS: Final = (-1.0, -0.5, 0.0, 0.5, 1.0)
 MOST_MARKED: Final = 12
 """Points of a line that has a marker on each."""
 DEGREES_PER_TICK: Final = 60.0
 LEGEND_COLUMNS: Final = 2
+
+
+def curve_figures(dataset: xr.Dataset) -> list[Picture]:
+    """A picture of every curve of a dataset of curves."""
+    return [
+        Picture(str(name), f"{curve.attrs['title']}.", str(curve.attrs["source"]), png(figure))
+        for name, curve in dataset.items()
+        for figure in [curves(dataset, str(name))]
+    ]
 
 
 def curves(dataset: xr.Dataset, name: str) -> Figure:
@@ -49,10 +63,10 @@ def curves(dataset: xr.Dataset, name: str) -> Figure:
 
     def paint(figure: Figure) -> None:
         panels: Sequence[Axes] = figure.subplots(families.shape[0], 1, squeeze=False)[:, 0]
-        for axes, family in zip(panels, families, strict=True):
+        for axes, family, words in zip(panels, families, _words(families), strict=True):
             (_paint_orbit if orbit else _paint_lines)(axes, family)
-            axes.set_title(_label(families, family), loc="left")
-        panels[0].set_title(_title(curve, families, families[0]), loc="left")
+            axes.set_title(plain(words), loc="left")
+        figure.suptitle(_title(curve), x=0.02, ha="left", fontsize=STYLE["axes.titlesize"])
         if rows:
             legend_below(panels[0], LEGEND_COLUMNS)
 
@@ -64,18 +78,17 @@ def _paint_lines(axes: Axes, family: xr.DataArray) -> None:
     abscissa = family[family.dims[-1]]
     values = shown(family)
     if "read_in" not in abscissa.attrs:
-        _paint_bars(axes, [str(word) for word in abscissa.values], values[0])
+        _paint_bars(axes, axis_words(abscissa), values[0])
         axes.set_xlabel(plain(shown_label(family)))
         return
     along = shown(abscissa)
     marker = "o" if along.size <= MOST_MARKED else None
-    for line, row, look in zip(family, values, line_looks(len(values)), strict=True):
-        label = wrap(_label(family, line), 30)
-        axes.plot(along, row, marker=marker, markersize=4.0, label=label, **look)
+    for words, row, look in zip(_words(family), values, line_looks(len(values)), strict=True):
+        axes.plot(along, row, marker=marker, markersize=4.0, label=wrap(words, 30), **look)
     for order in np.atleast_1d(family.attrs.get("orders", ())):
         _paint_order(axes, abscissa.values, float(order))
     axes.set_xlabel(plain(shown_label(abscissa)))
-    axes.set_ylabel(plain(fill(shown_label(family), 30)))
+    axes.set_ylabel(plain(fill(shown_label(family), LABEL_WIDTH)))
     axes.set_xlim(along.min(), along.max())
     if abscissa.attrs["read_in"] == "deg":
         _degree_ticks(axes, along)
@@ -83,9 +96,9 @@ def _paint_lines(axes: Axes, family: xr.DataArray) -> None:
 
 def _paint_bars(axes: Axes, words: list[str], values: Array) -> None:
     places = np.arange(len(words))[::-1]
-    axes.barh(places, values, height=0.5, color=line_looks(1)[0]["color"])
+    axes.barh(places, values, height=0.5, color=COLOURS[3])
     for place, value in zip(places, values, strict=True):
-        axes.annotate(f"{value:.4g}", (value, place), (4, 0), textcoords="offset points",
+        axes.annotate(f"{float(f'{value:.4g}'):g}", (value, place), (4, 0), textcoords="offset points",
                       va="center")  # fmt: skip
     axes.set_yticks(places, [wrap(word, 24) for word in words])
     axes.set_xlim(right=1.2 * float(np.max(values)))
@@ -95,25 +108,25 @@ def _paint_bars(axes: Axes, words: list[str], values: Array) -> None:
 def _paint_order(axes: Axes, speed_rpm: Array, order: float) -> None:
     """A shaft order over the speed, up to the highest frequency that is drawn."""
     top = axes.get_ylim()[1]
-    frequency = order * speed_rpm / UNITS_PER_MINUTE
+    frequency = order * np.vectorize(shaft_frequency_hz)(speed_rpm)
     axes.plot(speed_rpm, frequency, color="#888888", linewidth=1.0, linestyle="--")
-    end = int(np.flatnonzero(frequency <= top)[-1])
-    axes.annotate(f"{order:g}×", (speed_rpm[end], frequency[end]), (-4, 2),
+    end = int(np.flatnonzero(frequency <= 0.8 * top)[-1])
+    axes.annotate(f"{order:g}×", (speed_rpm[end], frequency[end]), (-6, 4),
                   textcoords="offset points", ha="right", color="#555555")  # fmt: skip
     axes.set_ylim(0.0, top)
 
 
-UNITS_PER_MINUTE: Final = 60.0
-
-
 def _paint_orbit(axes: Axes, family: xr.DataArray) -> None:
     """y over x of every line, closed, in a circle of one."""
-    for line, look in zip(family, line_looks(family.shape[0]), strict=True):
-        x, y = np.concatenate((shown(line), shown(line)[:, :1]), axis=1)
-        axes.plot(x, y, label=wrap(_label(family, line), 30), **look)
+    looks = line_looks(family.shape[0])
+    for words, line, look in zip(_words(family), shown(family), looks, strict=True):
+        x, y = np.concatenate((line, line[:, :1]), axis=1)
+        axes.plot(x, y, label=wrap(words, 30), **look)
     turn = np.linspace(0.0, 2.0 * np.pi, 361)
     axes.plot(np.cos(turn), np.sin(turn), color="#888888", linewidth=1.0, linestyle=":")
     axes.set_aspect("equal")
+    axes.set_xticks(ORBIT_TICKS)
+    axes.set_yticks(ORBIT_TICKS)
     axes.set_xlabel(plain(f"{shown_label(family)}, along x"))
     axes.set_ylabel(plain("along y"))
 
@@ -126,22 +139,13 @@ def _degree_ticks(axes: Axes, degrees: Array) -> None:
     axes.set_xlim(degrees.min(), max(degrees.max(), step * last))
 
 
-def _title(curve: xr.DataArray, families: xr.DataArray, first: xr.DataArray) -> str:
-    """Title and source, then what parts the panels."""
-    lines = [fill(str(curve.attrs["title"]), TITLE_WIDTH)]
-    lines.append(fill(f"after {curve.attrs['source']}", TITLE_WIDTH))
-    label = _label(families, first)
-    return plain("\n".join([*lines, label] if label else lines))
+def _words(family: xr.DataArray) -> list[str]:
+    """What parts the panels of families or the lines of a family; nothing where there is one."""
+    dim = family.dims[0]
+    return axis_words(family[dim]) if dim in family.coords else [""]
 
 
-def _label(family: xr.DataArray, line: xr.DataArray) -> str:
-    """Value of the axis that parts the lines: words, or a number with its unit."""
-    dim = str(family.dims[0])
-    if dim not in line.coords:
-        return ""
-    coordinate = line[dim]
-    if "read_in" not in coordinate.attrs:
-        return str(coordinate.item())
-    unit = UNITS[coordinate.attrs["read_in"]]
-    text = f"{coordinate.item() / unit.factor:.4g}"
-    return f"{text} {unit.symbol}" if unit.symbol else text
+def _title(curve: xr.DataArray) -> str:
+    """Title, and the document and figure that the curve repeats."""
+    words = (str(curve.attrs["title"]), f"({curve.attrs['source']})")
+    return plain("\n".join(fill(text, TITLE_WIDTH) for text in words))
