@@ -4,11 +4,12 @@ Whoever owns a curve gives its values in SI and the unit in which people read it
 pictures follow from that. A dataset of curves is self-contained: it is drawn without the machine.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Final, Literal, NamedTuple
+from typing import Any, Final, Literal, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .arrays import Array
 from .errors import ParameterError
@@ -32,7 +33,7 @@ class Axis(NamedTuple):
     """
 
     name: str
-    values: Array | Sequence[str]
+    values: NDArray[np.floating[Any]] | Sequence[str]
     unit: str = ""
     label: str = ""
 
@@ -74,26 +75,31 @@ class Curve:
 
     def _why_not(self) -> str | None:
         """Why the curve cannot be; None where it can."""
-        if not self.name.isidentifier():
-            return "the name must be a word of letters, digits and _"
+        return next((reason for reason in self._reasons() if reason), None)
+
+    def _reasons(self) -> Iterator[str | None]:
+        """What is wrong; what comes later takes for granted that nothing was before."""
+        if not self.name.isidentifier() or not self.title or not self.source:
+            yield "name, title and source must be said, the name as a word of letters, digits, _"
         most = MOST_AXES + (self.picture == "orbit")
         if not 1 <= len(self.axes) <= most:
-            return f"{len(self.axes)} axes; allowed 1 to {most}"
+            yield f"{len(self.axes)} axes; allowed 1 to {most}"
         shape = tuple(len(axis.values) for axis in self.axes)
         if np.shape(self.values) != shape or 0 in shape:
-            return f"values of shape {np.shape(self.values)} over axes of {shape}"
-        units = {self.unit, *(axis.unit for axis in self.axes if not axis.words)}
-        if unknown := sorted(units - set(UNITS)):
-            return f"unit {unknown[0]!r}: unknown; allowed {', '.join(UNITS)}"
-        numbers = (self.values, *(axis.values for axis in self.axes if not axis.words))
-        if not all(np.all(np.isfinite(np.asarray(part))) for part in numbers):
-            return "values must be finite"
-        if not self.title or not self.source:
-            return "title and source must be said"
-        orbit = self.picture == "orbit"
-        if orbit and (len(self.axes) < 2 or tuple(self.axes[-2].values) != ORBIT_AXES):
-            return "an orbit needs x and y as the last axis but one"
-        return None
+            yield f"values of shape {np.shape(self.values)} over axes of {shape}"
+        numbers = [(self.unit, self.values)]
+        numbers += [(axis.unit, np.asarray(axis.values)) for axis in self.axes if not axis.words]
+        for unit, values in numbers:
+            if unit not in UNITS:
+                yield f"unit {unit!r}: unknown; allowed {', '.join(UNITS)}"
+            if not np.all(np.isfinite(values)):
+                yield "values must be finite"
+        if self.picture == "orbit":
+            yield self._why_no_orbit()
+
+    def _why_no_orbit(self) -> str | None:
+        fits = len(self.axes) >= 2 and tuple(self.axes[-2].values) == ORBIT_AXES
+        return None if fits else "an orbit needs x and y as the last axis but one"
 
 
 def angle_axis(crank_angle: Array, name: str = "crank_angle", label: str = "Crank angle") -> Axis:

@@ -140,9 +140,7 @@ def _turning(case: Case) -> _Ring:
     """The machine's ring with the gas moment that presses its keys and what hangs on it."""
     ring = case.machine.require(OldhamRing)
     moment = gas_cycle(case.machine, case.shared).self_rotation_moment_n_m
-    return _Ring(
-        ring.mass_kg, ring.stroke_m, moment, (case.added.on_ring or NOTHING_HUNG).force_n
-    )
+    return _Ring(ring.mass_kg, ring.stroke_m, moment, (case.added.on_ring or NOTHING_HUNG).force_n)
 
 
 def _spectra(

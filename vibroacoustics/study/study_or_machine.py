@@ -3,9 +3,9 @@
 from pathlib import Path
 
 from ..machine.machine import Machine
-from .loading import _read_toml as read_toml
 from .loading import load_machine, load_study
 from .study import Study
+from .toml_files import read_toml
 
 
 def load_study_or_machine(path: str | Path) -> Study | Machine:

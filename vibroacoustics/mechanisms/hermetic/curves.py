@@ -67,9 +67,7 @@ def hermetic_curves(machine: HermeticCompressor, speed_rpm: float) -> Iterator[C
     yield _campbell(machine, bending, speed_rpm)
 
 
-def _solved(
-    machine: HermeticCompressor, case: Case, speed_rpm: float, more: str = ""
-) -> Solved:
+def _solved(machine: HermeticCompressor, case: Case, speed_rpm: float, more: str = "") -> Solved:
     own = machine.model_copy(update={"case": case})
     equations, solution = cycle_at_speed(own, speed_rpm, STEPS)
     return Solved(f"case {case}{more}", equations, *uniform_samples(solution, STEPS))
@@ -85,7 +83,7 @@ def _given(machine: HermeticCompressor, held: Solved, speed_rpm: float) -> Itera
     )  # fmt: skip
     supply = held.equations.machine.motor.synchronous_speed_rad_per_s
     lowest = 0.95 * 2.0 * np.pi * shaft_frequency_hz(speed_rpm)
-    speed = np.linspace(min(lowest, 0.95 * supply), supply, 41)
+    speed = np.linspace(min(lowest, 0.95 * supply), supply, 41, dtype=np.float64)
     yield Curve(
         "motor_torque", "Torque of the motor over its speed", held.equations.motor_torque(speed),
         (Axis("motor_speed", speed, "rad_per_s", "Speed"),), "n_m",

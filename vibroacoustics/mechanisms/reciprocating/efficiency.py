@@ -70,9 +70,7 @@ def optimum_bore(
     if not 0.0 < lowest_m < highest_m < np.inf:
         raise ParameterError(f"{where}: must be two rising, positive lengths")
     found = minimize_scalar(
-        lambda bore: (
-            -steady_cycle(machine, float(bore), speed_rpm, samples).mechanical_efficiency
-        ),
+        lambda bore: -steady_cycle(machine, float(bore), speed_rpm, samples).mechanical_efficiency,
         bounds=(lowest_m, highest_m),
         method="bounded",
         options={"xatol": 1e-5},

@@ -127,7 +127,7 @@ def _piston_power_w(
     machine: SliderLinkMachine, cycle: SliderLinkCycle, sliding: dict[str, Array]
 ) -> Array:
     force = np.abs(sliding["oil film of the piston"]) + np.abs(sliding["piston on the cylinder"])
-    return force * np.abs(piston_velocity(machine.mechanism, cycle.state))
+    return np.asarray(force * np.abs(piston_velocity(machine.mechanism, cycle.state)))
 
 
 def _coefficients(machine: SliderLinkMachine, cycle: SliderLinkCycle) -> Array:

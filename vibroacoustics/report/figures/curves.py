@@ -1,6 +1,5 @@
 """Pictures of a machine's inner curves, from what their dataset says of itself."""
 
-from collections.abc import Sequence
 from textwrap import fill
 from typing import Final
 
@@ -14,8 +13,17 @@ from ...base.curve_dataset import axis_words, shown, shown_label
 from ...base.errors import ParameterError
 from ...base.units import shaft_frequency_hz
 from .style import (
-    COLOURS, LEGEND_ROW_INCH, STYLE, WIDTH_INCH, Picture, figure_of, legend_below, line_looks, plain,
-    png, wrap,
+    COLOURS,
+    LEGEND_ROW_INCH,
+    STYLE,
+    WIDTH_INCH,
+    Picture,
+    figure_of,
+    legend_below,
+    line_looks,
+    plain,
+    png,
+    wrap,
 )
 
 TITLE_WIDTH: Final = 62
@@ -62,7 +70,7 @@ def curves(dataset: xr.Dataset, name: str) -> Figure:
     height = (ORBIT_INCH if orbit else PANEL_INCH) * families.shape[0]
 
     def paint(figure: Figure) -> None:
-        panels: Sequence[Axes] = figure.subplots(families.shape[0], 1, squeeze=False)[:, 0]
+        panels = figure.subplots(families.shape[0], 1, squeeze=False)[:, 0]
         for axes, family, words in zip(panels, families, _words(families), strict=True):
             (_paint_orbit if orbit else _paint_lines)(axes, family)
             axes.set_title(plain(words), loc="left")
@@ -98,8 +106,8 @@ def _paint_bars(axes: Axes, words: list[str], values: Array) -> None:
     places = np.arange(len(words))[::-1]
     axes.barh(places, values, height=0.5, color=COLOURS[3])
     for place, value in zip(places, values, strict=True):
-        axes.annotate(f"{float(f'{value:.4g}'):g}", (value, place), (4, 0), textcoords="offset points",
-                      va="center")  # fmt: skip
+        shown_value = f"{float(f'{value:.4g}'):g}"
+        axes.annotate(shown_value, (value, place), (4, 0), textcoords="offset points", va="center")
     axes.set_yticks(places, [wrap(word, 24) for word in words])
     axes.set_xlim(right=1.2 * float(np.max(values)))
     axes.grid(visible=False, axis="y")

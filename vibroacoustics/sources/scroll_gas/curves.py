@@ -40,13 +40,13 @@ def scroll_gas_curves(wraps: ScrollWraps, gas: ScrollGas) -> Iterator[Curve]:
 def _of_a_pocket(wraps: ScrollWraps, gas: ScrollGas) -> Iterator[Curve]:
     """Figure 18."""
     end = wraps.opening_angle_rad + max(AFTER_OPENING, 1.5 * gas.equalisation_angle_rad)
-    since = np.linspace(0.0, end, CRANK_ANGLES + 1)
+    since = np.linspace(0.0, end, CRANK_ANGLES + 1, dtype=np.float64)
     yield Curve(
         "pocket_pressure", "Pressure of one pocket from its closing to its discharge",
         pocket_pressure(wraps, gas, since), (_since_closing(since),), "bar",
         "thesis, section 6.1 and figure 18",
     )  # fmt: skip
-    trapped = np.linspace(0.0, wraps.opening_angle_rad, CRANK_ANGLES + 1)
+    trapped = np.linspace(0.0, wraps.opening_angle_rad, CRANK_ANGLES + 1, dtype=np.float64)
     axis = _since_closing(trapped)._replace(name="trapped_angle")
     yield Curve(
         "pocket_volume", "Volume of one pocket from its closing to its opening",
