@@ -67,10 +67,11 @@ def _coordinate(axis: Axis) -> xr.Variable:
     return xr.Variable(axis.name, values, {**_unit_attrs(axis.unit), "long_name": label})
 
 
-def _unit_attrs(unit: str) -> dict[str, str]:
-    """SI unit of the values, and the key of the one in which they are read."""
-    si = UNITS[unit].si_suffix
-    return {"units": UNITS[si].symbol or "1", "read_in": unit}
+def _unit_attrs(suffix: str) -> dict[str, str | float]:
+    """SI unit of the values; symbol of the one in which they are read, and its factor."""
+    unit = UNITS[suffix]
+    si = UNITS[unit.si_suffix].symbol or "1"
+    return {"units": si, "read_in": unit.symbol, "read_factor": unit.factor}
 
 
 def shown(values: xr.DataArray) -> Array:
@@ -80,20 +81,23 @@ def shown(values: xr.DataArray) -> Array:
     ----------
     values : variable or coordinate of a dataset of curves
     """
-    return np.asarray(values.values / UNITS[values.attrs["read_in"]].factor)
+    return np.asarray(values.values / values.attrs["read_factor"])
 
 
 def shown_label(values: xr.DataArray) -> str:
     """Label of an axis: words, then the unit in which they are read, where there is one."""
-    label = str(values.attrs["long_name"])
-    symbol = UNITS[values.attrs["read_in"]].symbol if "read_in" in values.attrs else ""
+    label, symbol = str(values.attrs["long_name"]), values.attrs.get("read_in")
     return f"{label}, {symbol}" if symbol else label
+
+
+def is_words(coordinate: xr.DataArray) -> bool:
+    """Whether an axis holds words in place of numbers."""
+    return "read_factor" not in coordinate.attrs
 
 
 def axis_words(coordinate: xr.DataArray) -> list[str]:
     """Values of an axis in words: these, or numbers with the unit in which they are read."""
-    if "read_in" not in coordinate.attrs:
+    if is_words(coordinate):
         return [str(word) for word in coordinate.values]
-    symbol = UNITS[coordinate.attrs["read_in"]].symbol
     numbers = (f"{value:.4g}".replace("-", "−") for value in shown(coordinate))
-    return [f"{number} {symbol}".strip() for number in numbers]
+    return [f"{number} {coordinate.attrs['read_in']}".strip() for number in numbers]

@@ -91,7 +91,7 @@ class Curve:
         numbers += [(axis.unit, np.asarray(axis.values)) for axis in self.axes if not axis.words]
         for unit, values in numbers:
             if unit not in UNITS:
-                yield f"unit {unit!r}: unknown; allowed {', '.join(UNITS)}"
+                yield f"unit {unit}: {UNITS.unknown(unit)}"
             if not np.all(np.isfinite(values)):
                 yield "values must be finite"
         if self.picture == "orbit":

@@ -4,7 +4,7 @@ from itertools import product
 
 import xarray as xr
 
-from ..base.curve_dataset import axis_words, shown, shown_label
+from ..base.curve_dataset import axis_words, is_words, shown, shown_label
 from .tables import to_csv
 
 
@@ -22,6 +22,6 @@ def curve_csv(curves: xr.Dataset, name: str) -> bytes:
     label = shown_label(curve)
     lines = [" ".join(words) for words in product(*map(axis_words, parting))]
     head = [f"{label}: {line}" if line else label for line in lines]
-    abscissa = shown(last).tolist() if "read_in" in last.attrs else axis_words(last)
+    abscissa = axis_words(last) if is_words(last) else shown(last).tolist()
     rows = ([first, *row.tolist()] for first, row in zip(abscissa, columns, strict=True))
     return to_csv((shown_label(last), *head), rows)

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base.arrays import Array
-from ...base.curve_dataset import axis_words, shown, shown_label
+from ...base.curve_dataset import axis_words, is_words, shown, shown_label
 from ...base.errors import ParameterError
 from ...base.units import shaft_frequency_hz
 from .style import (
@@ -85,7 +85,7 @@ def _paint_lines(axes: Axes, family: xr.DataArray) -> None:
     """Every line of a family over the abscissa; bars where the abscissa is words."""
     abscissa = family[family.dims[-1]]
     values = shown(family)
-    if "read_in" not in abscissa.attrs:
+    if is_words(abscissa):
         _paint_bars(axes, axis_words(abscissa), values[0])
         axes.set_xlabel(plain(shown_label(family)))
         return
@@ -98,7 +98,7 @@ def _paint_lines(axes: Axes, family: xr.DataArray) -> None:
     axes.set_xlabel(plain(shown_label(abscissa)))
     axes.set_ylabel(plain(fill(shown_label(family), LABEL_WIDTH)))
     axes.set_xlim(along.min(), along.max())
-    if abscissa.attrs["read_in"] == "deg":
+    if abscissa.attrs["read_in"] == "°":
         _degree_ticks(axes, along)
 
 
