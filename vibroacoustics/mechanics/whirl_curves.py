@@ -30,9 +30,10 @@ def campbell_curve(
     Parameters
     ----------
     frequencies_hz : ascending, of a spin in rad/s; as many at each speed, or more
-    highest_rpm, lowest_rpm : ends of the range of speeds
+    highest_rpm : end of the range of speeds
     modes : number of the lowest frequencies that are shown
     source : of the curve
+    lowest_rpm : start of the range of speeds
     """
     speeds = np.linspace(lowest_rpm, highest_rpm, SPEEDS)
     rows = [frequencies_hz(float(speed) / RPM) for speed in speeds]

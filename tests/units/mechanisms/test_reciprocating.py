@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from machine_files import changed, machine_file
 from scipy.integrate import solve_ivp
+from slider_crank_parts import slider_crank_parts
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.mechanics.crankshaft import reduced_inertia
@@ -23,7 +24,6 @@ from vibroacoustics.mechanisms.reciprocating.slider_crank import (
     housing_wrenches,
     motion,
     moving_masses,
-    slider_crank_parts,
     top_dead_centre_m,
 )
 from vibroacoustics.study.loading import load_machine

@@ -12,28 +12,6 @@ HALVINGS: Final = 60
 """Halvings of the eccentricity's interval, down to the rounding of a double."""
 
 
-def short_bearing_load(eccentricity_ratio: Array, length_per_diameter: float) -> Array:
-    """Load coefficient Φ_p (22) = ψ² F / (η ω l d) of a short bearing.
-
-    The paper leaves the function open; this is Ocvirk's (NACA TN 2808, 1952): half of
-    (l/d)² π ε √(0.6211 ε² + 1) / (1 - ε²)².
-
-    Parameters
-    ----------
-    eccentricity_ratio : from 0 to below 1
-    length_per_diameter : l/d
-
-    Raises
-    ------
-    ParameterError
-        The eccentricity is outside its range.
-    """
-    ratio = _checked(eccentricity_ratio)
-    clear = 1.0 - ratio**2
-    root = np.sqrt(np.pi**2 * clear + 16.0 * ratio**2)
-    return np.asarray(0.5 * length_per_diameter**2 * ratio * root / clear**2)
-
-
 def short_bearing_friction(eccentricity_ratio: Array, length_per_diameter: float) -> Array:
     """Friction coefficient Φ_T of (21) on the shaft of a short bearing.
 
