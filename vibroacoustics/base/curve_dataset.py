@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from .arrays import Array
-from .curves import Axis, Curve, in_words
+from .curves import Curve, CurveAxis, in_words
 from .errors import ParameterError
 from .units import UNITS
 
@@ -47,7 +47,7 @@ def curves_dataset(curves: Iterable[Curve], attrs: Mapping[str, Any]) -> xr.Data
     return dataset
 
 
-def _without_clash(axis: Axis, dataset: xr.Dataset) -> Axis:
+def _without_clash(axis: CurveAxis, dataset: xr.Dataset) -> CurveAxis:
     """The axis under its name, or under the first number of it that is free or the same."""
     for name in chain([axis.name], (f"{axis.name}_{number}" for number in count(2))):
         if name not in dataset.coords or _same(dataset[name].values, axis):
@@ -55,11 +55,11 @@ def _without_clash(axis: Axis, dataset: xr.Dataset) -> Axis:
     raise AssertionError  # there is always a further number
 
 
-def _same(values: Array, axis: Axis) -> bool:
+def _same(values: Array, axis: CurveAxis) -> bool:
     return bool(np.array_equal(values, np.asarray(axis.values)))
 
 
-def _coordinate(axis: Axis) -> xr.Variable:
+def _coordinate(axis: CurveAxis) -> xr.Variable:
     label = axis.label or in_words(axis.name)
     if axis.words:
         return xr.Variable(axis.name, np.array(axis.values, dtype=str), {"long_name": label})

@@ -21,7 +21,7 @@ MOST_AXES: Final = 3
 ORBIT_AXES: Final = ("x", "y")
 
 
-class Axis(NamedTuple):
+class CurveAxis(NamedTuple):
     """What a curve is given over.
 
     Attributes
@@ -63,7 +63,7 @@ class Curve:
     name: str
     title: str
     values: Array
-    axes: tuple[Axis, ...]
+    axes: tuple[CurveAxis, ...]
     unit: str
     source: str
     picture: Literal["lines", "orbit"] = "lines"
@@ -102,7 +102,9 @@ class Curve:
         return None if fits else "an orbit needs x and y as the last axis but one"
 
 
-def angle_axis(crank_angle: Array, name: str = "crank_angle", label: str = "Crank angle") -> Axis:
+def angle_axis(
+    crank_angle: Array, name: str = "crank_angle", label: str = "Crank angle"
+) -> CurveAxis:
     """Crank angle as an abscissa.
 
     Parameters
@@ -111,7 +113,7 @@ def angle_axis(crank_angle: Array, name: str = "crank_angle", label: str = "Cran
     name : of the dimension
     label : in a picture
     """
-    return Axis(name, crank_angle, "deg", label)
+    return CurveAxis(name, crank_angle, "deg", label)
 
 
 def in_words(name: str) -> str:

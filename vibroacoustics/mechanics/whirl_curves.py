@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from ..base.arrays import Array
-from ..base.curves import Axis, Curve
+from ..base.curves import Curve, CurveAxis
 from .beam_rotor import RotorMatrices, whirl_frequencies_hz
 from .critical_speed import forward_critical_speeds, rule_of_thumb_rpm, sag_under_weight_m
 
@@ -43,8 +43,8 @@ def campbell_curve(
         "Whirl frequencies of the shaft (Campbell map)",
         np.transpose([row[:kept] for row in rows]),
         (
-            Axis("whirl_mode", [f"mode {number + 1}" for number in range(kept)]),
-            Axis("shaft_speed", speeds, "rpm", "Shaft speed"),
+            CurveAxis("whirl_mode", [f"mode {number + 1}" for number in range(kept)]),
+            CurveAxis("shaft_speed", speeds, "rpm", "Shaft speed"),
         ),
         "hz",
         source,
@@ -73,7 +73,7 @@ def critical_speed_curves(rotor: RotorMatrices, source: str) -> Iterator[Curve]:
         "critical_speed",
         "Critical speeds of the shaft",
         np.append(critical, rule_of_thumb_rpm(sag_cm)),
-        (Axis("estimate", [*names, "300/√y, y the sag under its weight"]),),
+        (CurveAxis("estimate", [*names, "300/√y, y the sag under its weight"]),),
         "rpm",
         source,
     )

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from vibroacoustics.base.curve_dataset import axis_words, curves_dataset, shown, shown_label
-from vibroacoustics.base.curves import Axis, Curve, angle_axis
+from vibroacoustics.base.curves import Curve, CurveAxis, angle_axis
 from vibroacoustics.base.errors import ParameterError
 
 ANGLE = angle_axis(np.array([0.0, 1.0, 2.0]))
-FILMS = Axis("film", ["upper", "lower"])
+FILMS = CurveAxis("film", ["upper", "lower"])
 
 
 def curve(name="film", values=None, axes=(FILMS, ANGLE), **more):
@@ -32,7 +32,7 @@ def test_dataset_says_all_that_a_picture_needs():
 
 
 def test_numbers_as_names_of_lines_have_their_unit():
-    axes = (Axis("error", np.array([-1e-5, 0.0]), "um"), ANGLE)
+    axes = (CurveAxis("error", np.array([-1e-5, 0.0]), "um"), ANGLE)
     dataset = curves_dataset([curve(axes=axes)], {})
     assert axis_words(dataset["error"]) == ["−10 µm", "0 µm"]
 
@@ -62,8 +62,11 @@ def test_two_curves_of_one_name_are_refused():
         ({"unit": "umm"}, "unit umm: unknown, did you mean"),
         ({"axes": ()}, "0 axes; allowed 1 to 3"),
         ({"picture": "orbit"}, "needs x and y"),
-        ({"axes": (FILMS, Axis("crank_angle", np.array([0.0, 1.0, np.inf]), "deg"))}, "finite"),
-        ({"axes": (FILMS, Axis("crank_angle", np.arange(3.0)))}, "unit : unknown"),
+        (
+            {"axes": (FILMS, CurveAxis("crank_angle", np.array([0.0, 1.0, np.inf]), "deg"))},
+            "finite",
+        ),
+        ({"axes": (FILMS, CurveAxis("crank_angle", np.arange(3.0)))}, "unit : unknown"),
     ],
 )
 def test_curves_that_cannot_be(change, message):

@@ -6,7 +6,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from ...base.arrays import Array
-from ...base.curves import ORBIT_AXES, Axis, Curve, angle_axis
+from ...base.curves import ORBIT_AXES, Curve, CurveAxis, angle_axis
 from ...base.units import shaft_frequency_hz
 from ...mechanics.beam_rotor import with_disc
 from ...mechanics.whirl_curves import campbell_curve
@@ -20,7 +20,7 @@ from .shaft import ShaftEquations, crankshaft, rotor_matrices
 SOURCE: Final = "Estupiñan & Santos 2009, "
 STEPS: Final = 180
 """Crank angles a revolution: case III takes seconds."""
-AXES: Final = Axis("axis", list(ORBIT_AXES))
+AXES: Final = CurveAxis("axis", list(ORBIT_AXES))
 MODES: Final = 8
 
 
@@ -86,7 +86,7 @@ def _given(machine: HermeticCompressor, held: Solved, speed_rpm: float) -> Itera
     speed = np.linspace(min(lowest, 0.95 * supply), supply, 41, dtype=np.float64)
     yield Curve(
         "motor_torque", "Torque of the motor over its speed", held.equations.motor_torque(speed),
-        (Axis("motor_speed", speed, "rad_per_s", "Speed"),), "n_m",
+        (CurveAxis("motor_speed", speed, "rad_per_s", "Speed"),), "n_m",
         f"{SOURCE}figure 5 (b), running part, values assumed",
     )  # fmt: skip
 
@@ -98,13 +98,14 @@ def _held_crank(held: Solved) -> Iterator[Curve]:
     angle = angle_axis(held.angle)
     yield Curve(
         "joint_force", "Forces on the connecting rod, case I", forces,
-        (Axis("joint", ["piston pin, f_B", "crank pin, f_A"]), AXES, angle), "n",
+        (CurveAxis("joint", ["piston pin, f_B", "crank pin, f_A"]), AXES, angle), "n",
         f"{SOURCE}figure 6",
     )  # fmt: skip
     reaction = support_reaction(held.equations, held.angle, held.states)
     yield Curve(
         "crank_reaction_moment", "Reaction moments that hold the crank upright, case I",
-        reaction[:, 2:].T, (Axis("about", list(ORBIT_AXES)), angle), "n_m", f"{SOURCE}figure 7",
+        reaction[:, 2:].T, (CurveAxis("about", list(ORBIT_AXES)), angle), "n_m",
+        f"{SOURCE}figure 7",
     )  # fmt: skip
 
 
@@ -116,7 +117,7 @@ def _bearing_forces(held: Solved, rigid: Solved, bending: Solved) -> Iterator[Cu
     names = ["case I, reaction", rigid.words, bending.words]
     yield Curve(
         "upper_bearing_force", "Forces on the journal in the upper bearing", np.array(upper),
-        (Axis("bearing_case", names), AXES, angle), "n", f"{SOURCE}figures 8 and 11 (a)",
+        (CurveAxis("bearing_case", names), AXES, angle), "n", f"{SOURCE}figures 8 and 11 (a)",
     )  # fmt: skip
     yield Curve(
         "lower_bearing_force", "Forces on the journal in the lower bearing, case III",
@@ -127,7 +128,7 @@ def _bearing_forces(held: Solved, rigid: Solved, bending: Solved) -> Iterator[Cu
 def _films(cases: tuple[Solved, ...]) -> Iterator[Curve]:
     """Figures 9, 10, 12 and 13: the upper bearing."""
     angle = angle_axis(cases[0].angle)
-    axis = Axis("film_case", [solved.words for solved in cases])
+    axis = CurveAxis("film_case", [solved.words for solved in cases])
     uppers = [solved.bearings[0] for solved in cases]
     clearance = cases[0].equations.machine.bearing.clearance_m
     yield Curve(

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from ...base.arrays import Array
-from ...base.curves import Axis, Curve, angle_axis
+from ...base.curves import Curve, CurveAxis, angle_axis
 from ...base.units import shaft_frequency_hz
 from ...mechanics.rotation import uniform_crank_angle
 from .cycle import MiniCrankCycle, input_torque, scroll_load, steady_minicrank_cycle
@@ -49,7 +49,7 @@ def minicrank_curves(machine: MiniCrankMachine, speed_rpm: float) -> Iterator[Cu
     yield Curve(
         "input_torque", "Input torque of the machine at constant speed",
         np.array([*lines.values(), _sum(cycle.input_torque_n_m)]),
-        (Axis("torque_of", [*lines, "all"]), angle), "n_m",
+        (CurveAxis("torque_of", [*lines, "all"]), angle), "n_m",
         f"{SOURCE}equation (17) corrected, figure 7",
     )  # fmt: skip
     yield from _by_error(machine, speed, angle)
@@ -62,7 +62,7 @@ def minicrank_curves(machine: MiniCrankMachine, speed_rpm: float) -> Iterator[Cu
 
 
 def _loads(
-    machine: MiniCrankMachine, cycle: MiniCrankCycle, speed_rad_per_s: float, angle: Axis
+    machine: MiniCrankMachine, cycle: MiniCrankCycle, speed_rad_per_s: float, angle: CurveAxis
 ) -> Iterator[Curve]:
     """Figures 4 and 5."""
     load, links = cycle.load, cycle.links
@@ -71,7 +71,7 @@ def _loads(
     forces = [load.tangential_force_n, load.radial_force_n, inertia]
     yield Curve(
         "external_force", "Forces on the orbiting scroll", np.array(forces),
-        (Axis("force", ["tangential gas F_t", "radial gas F_r", "inertia F_c"]), angle), "n",
+        (CurveAxis("force", ["tangential gas F_t", "radial gas F_r", "inertia F_c"]), angle), "n",
         f"{SOURCE}figure 4, shape assumed",
     )  # fmt: skip
     moments = [
@@ -81,12 +81,14 @@ def _loads(
     ]
     yield Curve(
         "external_moment", "Moments on scroll and crank", np.array(moments),
-        (Axis("moment", ["rotation M_z", "resistance M_t", "friction M_sd"]), angle), "n_m",
+        (CurveAxis("moment", ["rotation M_z", "resistance M_t", "friction M_sd"]), angle), "n_m",
         f"{SOURCE}equation (14), figure 5, shape assumed",
     )  # fmt: skip
 
 
-def _by_error(machine: MiniCrankMachine, speed_rad_per_s: float, angle: Axis) -> Iterator[Curve]:
+def _by_error(
+    machine: MiniCrankMachine, speed_rad_per_s: float, angle: CurveAxis
+) -> Iterator[Curve]:
     """Figure 8: a single rigid mini-crank, errors of the crank that let it turn."""
     ideal = _ideal(machine)
     longer = {error: _with_error(ideal, error) for error in ERRORS_M}
@@ -95,7 +97,7 @@ def _by_error(machine: MiniCrankMachine, speed_rad_per_s: float, angle: Axis) ->
     if torques:
         yield Curve(
             "input_torque_by_error", "Input torque with one rigid mini-crank", np.array(torques),
-            (Axis("crank_error", np.array(list(closed)), "um", "Error of the crank"), angle),
+            (CurveAxis("crank_error", np.array(list(closed)), "um", "Error of the crank"), angle),
             "n_m", f"{SOURCE}equation (17) corrected, figure 8",
         )  # fmt: skip
 
@@ -123,12 +125,12 @@ def _sum(torques: Mapping[str, Array]) -> Array:
     return np.asarray(np.sum(list(torques.values()), axis=0))
 
 
-def _pins(cycle: MiniCrankCycle, angle: Axis) -> Curve:
+def _pins(cycle: MiniCrankCycle, angle: CurveAxis) -> Curve:
     """Figure 3: forces that rigid pins take."""
     given = (cycle.links, cycle.moved, cycle.masses, cycle.load, cycle.rotation)
     forces = [np.hypot(*crank_pin_force(*given)), np.hypot(*minicrank_pin_force(*given))]
     return Curve(
         "pin_force", "Forces at rigid pins", np.array(forces),
-        (Axis("pin", ["crank pin", "mini-crank pin"]), angle), "n",
+        (CurveAxis("pin", ["crank pin", "mini-crank pin"]), angle), "n",
         f"{SOURCE}figure 3",
     )  # fmt: skip

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from ...base.arrays import Array
-from ...base.curves import CRANK_ANGLES, Axis, Curve, angle_axis
+from ...base.curves import CRANK_ANGLES, Curve, CurveAxis, angle_axis
 from ...base.errors import ParameterError
 from ...mechanics.rotation import uniform_crank_angle
 from .cycle import Cycle, steady_cycle
@@ -40,9 +40,9 @@ def reciprocating_curves(machine: ReciprocatingMachine, speed_rpm: float) -> Ite
     """
     bores = machine.piston_and_rod.bore_m * BORE_RATIOS
     cycles = [steady_cycle(machine, float(bore), speed_rpm, CRANK_ANGLES) for bore in bores]
-    bore = Axis("bore", bores, "mm", "Bore")
+    bore = CurveAxis("bore", bores, "mm", "Bore")
     shown = [cycles[place] for place in LINES]
-    designs = Axis("design", bores[list(LINES)], "mm", "Bore")
+    designs = CurveAxis("design", bores[list(LINES)], "mm", "Bore")
     yield from _over_crank_angle(shown, designs)
     yield from _friction(shown, designs)
     yield from _over_bore(cycles, bore)
@@ -50,7 +50,7 @@ def reciprocating_curves(machine: ReciprocatingMachine, speed_rpm: float) -> Ite
     yield from _best(machine, speed_rpm)
 
 
-def _over_crank_angle(cycles: list[Cycle], designs: Axis) -> Iterator[Curve]:
+def _over_crank_angle(cycles: list[Cycle], designs: CurveAxis) -> Iterator[Curve]:
     """Figure 3 (a), (b) and (d) to (f)."""
     axes = (designs, angle_axis(uniform_crank_angle(CRANK_ANGLES)))
 
@@ -88,7 +88,7 @@ def _inertia_torques_n_m(cycle: Cycle) -> tuple[Array, Array]:
     return piston * moved.piston_m[1], rod
 
 
-def _friction(cycles: list[Cycle], designs: Axis) -> Iterator[Curve]:
+def _friction(cycles: list[Cycle], designs: CurveAxis) -> Iterator[Curve]:
     """Figure 4."""
     angle = angle_axis(uniform_crank_angle(CRANK_ANGLES))
     torques = [
@@ -98,7 +98,7 @@ def _friction(cycles: list[Cycle], designs: Axis) -> Iterator[Curve]:
     ]
     yield Curve(
         "friction_torque", "Friction torques of the bearings", np.array(torques),
-        (Axis("bearing", list(PAIRS.values())), designs, angle), "n_m",
+        (CurveAxis("bearing", list(PAIRS.values())), designs, angle), "n_m",
         "Tsuji et al. 2012, figure 4 (a) to (c)",
     )  # fmt: skip
     yield Curve(
@@ -108,7 +108,7 @@ def _friction(cycles: list[Cycle], designs: Axis) -> Iterator[Curve]:
     )  # fmt: skip
 
 
-def _over_bore(cycles: list[Cycle], bore: Axis) -> Iterator[Curve]:
+def _over_bore(cycles: list[Cycle], bore: CurveAxis) -> Iterator[Curve]:
     """Figures 3 (c), 5 (a) and 5 (b)."""
     fluctuation = np.array([cycle.rotation.fluctuation_ratio for cycle in cycles])
     yield Curve(
@@ -116,7 +116,7 @@ def _over_bore(cycles: list[Cycle], bore: Axis) -> Iterator[Curve]:
         "percent", "Tsuji et al. 2012, figure 3 (c)",
     )  # fmt: skip
     losses = np.transpose([_power_w(cycle, cycle.load_work_j) for cycle in cycles])
-    names = Axis("loss", [*LOSSES.values(), "all friction"])
+    names = CurveAxis("loss", [*LOSSES.values(), "all friction"])
     yield Curve(
         "friction_loss", "Power lost to friction", losses, (names, bore), "w",
         "Tsuji et al. 2012, figure 5 (a)",
@@ -128,7 +128,8 @@ def _over_bore(cycles: list[Cycle], bore: Axis) -> Iterator[Curve]:
         ]
     )
     yield Curve(
-        "power", "Power of motor and gas", powers, (Axis("power_of", ["motor", "gas"]), bore), "kw",
+        "power", "Power of motor and gas", powers,
+        (CurveAxis("power_of", ["motor", "gas"]), bore), "kw",
         "Tsuji et al. 2012, figure 5 (b)",
     )  # fmt: skip
 
@@ -139,14 +140,14 @@ def _power_w(cycle: Cycle, work_j: Mapping[str, float]) -> Array:
     return np.append(lost, lost.sum()) / cycle.rotation.duration_s
 
 
-def _efficiency(machine: ReciprocatingMachine, speed_rpm: float, bore: Axis) -> Curve:
+def _efficiency(machine: ReciprocatingMachine, speed_rpm: float, bore: CurveAxis) -> Curve:
     """Figure 5 (c)."""
     speeds = speed_rpm * SPEED_RATIOS
     return Curve(
         "mechanical_efficiency",
         "Mechanical efficiency at constant displacement",
         efficiency_map(machine, speeds, np.asarray(bore.values), CRANK_ANGLES),
-        (Axis("design_speed", speeds, "rpm", "Speed"), bore),
+        (CurveAxis("design_speed", speeds, "rpm", "Speed"), bore),
         "percent",
         "Tsuji et al. 2012, figure 5 (c)",
     )
@@ -165,10 +166,10 @@ def _best(machine: ReciprocatingMachine, speed_rpm: float) -> Iterator[Curve]:
         return
     bores, efficiencies = np.transpose(best)
     strokes = [2.0 * design_at_bore(reference, float(bore)).crank_radius_m for bore in bores]
-    axis = Axis("design_speed", speeds, "rpm", "Speed")
+    axis = CurveAxis("design_speed", speeds, "rpm", "Speed")
     yield Curve(
         "best_design", "Bore and stroke of the best efficiency", np.array([bores, strokes]),
-        (Axis("length", ["bore", "stroke"]), axis), "mm", "Tsuji et al. 2012, figure 6",
+        (CurveAxis("length", ["bore", "stroke"]), axis), "mm", "Tsuji et al. 2012, figure 6",
     )  # fmt: skip
     yield Curve(
         "best_efficiency", "Best mechanical efficiency", efficiencies, (axis,), "percent",

@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from ...base.arrays import Array
-from ...base.curves import CRANK_ANGLES, Axis, Curve, angle_axis
+from ...base.curves import CRANK_ANGLES, Curve, CurveAxis, angle_axis
 from ...base.units import shaft_frequency_hz
 from .bearing_friction import (
     journal_friction_coefficient,
@@ -54,42 +54,44 @@ def slider_link_curves(machine: SliderLinkMachine, speed_rpm: float) -> Iterator
     yield from _friction(machine, cycle, angle)
 
 
-def _loads(cycle: SliderLinkCycle, angle: Axis) -> Iterator[Curve]:
+def _loads(cycle: SliderLinkCycle, angle: CurveAxis) -> Iterator[Curve]:
     forces, contacts = cycle.forces, cycle.forces.contacts
     yield Curve(
         "piston_contact_force", "Contact forces on piston and link",
         np.array([contacts.front, contacts.rear, contacts.link]),
-        (Axis("contact", ["piston end", "cylinder end", "slider on link"]), angle), "n",
+        (CurveAxis("contact", ["piston end", "cylinder end", "slider on link"]), angle), "n",
         f"{SOURCE}equations (8) to (15)",
     )  # fmt: skip
     loads = (forces.crank_pin, forces.upper_bearing, forces.lower_bearing)
     yield Curve(
         "bearing_load", "Loads of the journal bearings",
         np.array([np.hypot(*load) for load in loads]),
-        (Axis("journal", list(JOURNALS.values())), angle), "n",
+        (CurveAxis("journal", list(JOURNALS.values())), angle), "n",
         f"{SOURCE}equations (17) and (27) to (30), table 2",
     )  # fmt: skip
 
 
-def _friction(machine: SliderLinkMachine, cycle: SliderLinkCycle, angle: Axis) -> Iterator[Curve]:
+def _friction(
+    machine: SliderLinkMachine, cycle: SliderLinkCycle, angle: CurveAxis
+) -> Iterator[Curve]:
     moments = np.array([cycle.forces.friction_moments[name] for name in RESISTING])
     yield Curve(
         "friction_moment", "Friction moments on the crankshaft", moments,
-        (Axis("resistance", list(RESISTING.values())), angle), "n_m",
+        (CurveAxis("resistance", list(RESISTING.values())), angle), "n_m",
         f"{SOURCE}equations (21) to (24)",
     )  # fmt: skip
     sliding = _sliding_friction_n(machine, cycle)
     yield Curve(
         "friction_force", "Friction forces of piston and link", np.array(list(sliding.values())),
-        (Axis("sliding_pair", list(sliding)), angle), "n",
+        (CurveAxis("sliding_pair", list(sliding)), angle), "n",
         f"{SOURCE}equations (4) and (7)",
     )  # fmt: skip
     yield Curve(
         "friction_coefficient", "Friction coefficients of the journal bearings",
         _coefficients(machine, cycle),
         (
-            Axis("journal", list(JOURNALS.values())),
-            Axis("friction_law", list(LAWS)),
+            CurveAxis("journal", list(JOURNALS.values())),
+            CurveAxis("friction_law", list(LAWS)),
             angle,
         ),
         "ratio", f"{SOURCE}equations (19) to (22), (20) corrected",
@@ -101,7 +103,7 @@ def _friction(machine: SliderLinkMachine, cycle: SliderLinkCycle, angle: Axis) -
     }
     yield Curve(
         "friction_power", "Power lost to friction", np.array(list(powers.values())),
-        (Axis("lost_in", list(powers)), angle), "w", f"{SOURCE}section 4",
+        (CurveAxis("lost_in", list(powers)), angle), "w", f"{SOURCE}section 4",
     )  # fmt: skip
 
 

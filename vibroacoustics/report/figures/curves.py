@@ -18,11 +18,11 @@ from .style import (
     STYLE,
     WIDTH_INCH,
     Picture,
-    figure_of,
     legend_below,
     line_looks,
     plain,
     png,
+    render,
     wrap,
 )
 
@@ -78,7 +78,7 @@ def curves(dataset: xr.Dataset, name: str) -> Figure:
         if rows:
             legend_below(panels[0], LEGEND_COLUMNS)
 
-    return figure_of(WIDTH_INCH, height + LEGEND_ROW_INCH * (rows + 2), paint)
+    return render(WIDTH_INCH, height + LEGEND_ROW_INCH * (rows + 2), paint)
 
 
 def _paint_lines(axes: Axes, family: xr.DataArray) -> None:

@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from ...base.curves import Axis, Curve, angle_axis
+from ...base.curves import Curve, CurveAxis, angle_axis
 from .rattle import KeyForces
 
 KEYS: Final = (
@@ -26,7 +26,7 @@ def oldham_key_curves(forces: KeyForces) -> Iterator[Curve]:
     """
     samples = forces.normal_n.shape[-1] // forces.revolutions
     angle = angle_axis(forces.crank_angle[:samples])
-    axes = (Axis("key", list(KEYS)), angle)
+    axes = (CurveAxis("key", list(KEYS)), angle)
     yield Curve(
         "key_force", "Forces on the Oldham keys across their slots",
         np.asarray(forces.normal_n[:, :samples]), axes, "n", SOURCE,

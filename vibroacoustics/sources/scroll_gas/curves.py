@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from ...base.arrays import Array
-from ...base.curves import CRANK_ANGLES, Axis, Curve, angle_axis
+from ...base.curves import CRANK_ANGLES, Curve, CurveAxis, angle_axis
 from ...mechanics.rotation import uniform_crank_angle
 from .cycle import ScrollGasCycle, scroll_gas_cycle
 from .parameters import ScrollGas, ScrollWraps
@@ -32,7 +32,7 @@ def scroll_gas_curves(wraps: ScrollWraps, gas: ScrollGas) -> Iterator[Curve]:
     yield Curve(
         "gas_moment", "Gas torque on the shaft, gas moment on the Oldham ring",
         np.array([cycle.torque_n_m, cycle.self_rotation_moment_n_m]),
-        (Axis("moment_on", ["shaft, F_t r", "ring, F_t r/2"]), angle), "n_m",
+        (CurveAxis("moment_on", ["shaft, F_t r", "ring, F_t r/2"]), angle), "n_m",
         "thesis, section 6.1 corrected",
     )  # fmt: skip
 
@@ -54,11 +54,11 @@ def _of_a_pocket(wraps: ScrollWraps, gas: ScrollGas) -> Iterator[Curve]:
     )  # fmt: skip
 
 
-def _since_closing(angle: Array) -> Axis:
+def _since_closing(angle: Array) -> CurveAxis:
     return angle_axis(angle, "pocket_angle", "Crank angle since the pocket has closed")
 
 
-def _forces(cycle: ScrollGasCycle, angle: Axis) -> Iterator[Curve]:
+def _forces(cycle: ScrollGasCycle, angle: CurveAxis) -> Iterator[Curve]:
     """Figures 19 and 20."""
     tangential, radial = cycle.tangential_force_n, cycle.radial_force_n
     parts = {
@@ -69,7 +69,7 @@ def _forces(cycle: ScrollGasCycle, angle: Axis) -> Iterator[Curve]:
     }
     yield Curve(
         "gas_force", "Gas force on one scroll", np.array(list(parts.values())),
-        (Axis("part", list(parts)), angle), "n",
+        (CurveAxis("part", list(parts)), angle), "n",
         "thesis, figure 19, appendix A corrected",
     )  # fmt: skip
     x, y, _ = cycle.on_orbiting_scroll_n
@@ -79,6 +79,6 @@ def _forces(cycle: ScrollGasCycle, angle: Axis) -> Iterator[Curve]:
     }
     yield Curve(
         "gas_force_angle", "Direction of the gas force on the orbiting scroll from x",
-        np.array(list(directions.values())), (Axis("reading", list(directions)), angle), "deg",
+        np.array(list(directions.values())), (CurveAxis("reading", list(directions)), angle), "deg",
         "thesis, figure 20",
     )  # fmt: skip
