@@ -77,13 +77,12 @@ if TYPE_CHECKING:
     from .mechanics.rotation import constant_rotation
     from .pipeline import (
         analyse_orders,
-        given_radiation,
         radiate,
         run,
         speed_frequency_map,
         track_orders,
     )
-    from .pipeline.curves import curves
+    from .radiation.given import given_radiation
     from .recordings import label_recording, read_modes, read_recording
     from .recordings.reader import Reader
     from .recordings.recorded import Recorded, Request
@@ -93,6 +92,7 @@ if TYPE_CHECKING:
     from .results.order_comparison import compare
     from .results.storage import open_results
     from .scoring import score
+    from .sources.curves import curves
     from .study.criterion import Criterion
     from .study.loading import load_machine, load_study
     from .study.order_analysis import NominalSpeed, OrderAnalysis, SpeedChannel, TacholessSpeed
@@ -201,9 +201,9 @@ _HOME = {
     "circling": "mechanics.moving_parts",
     "compare": "results.order_comparison",
     "constant_rotation": "mechanics.rotation",
-    "curves": "pipeline.curves",
+    "curves": "sources.curves",
     "export_recording": "commands.exporting",
-    "given_radiation": "pipeline",
+    "given_radiation": "radiation.given",
     "label_recording": "recordings",
     "load_machine": "study.loading",
     "load_plugin": "base.plugin_file",

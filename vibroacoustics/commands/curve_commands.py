@@ -29,7 +29,7 @@ def curves_command(
 ) -> None:
     """Show what goes on inside a machine: curves.nc, a table and a picture of each curve."""
     from ..base.plugin_file import load_plugin
-    from ..pipeline import curves
+    from ..sources import curves
     from ..study.study_or_machine import load_study_or_machine
     from . import outputs
 

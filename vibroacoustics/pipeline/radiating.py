@@ -1,6 +1,6 @@
 """The housing's radiation: transfer vectors, and what map and sound power make of them."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import xarray as xr
 
@@ -10,13 +10,11 @@ from ..base.progress import Progress, no_progress
 from ..base.vocabulary import check, label_coordinates
 from ..levels import sound_field as levels
 from ..levels.insertion_loss import airborne_factor
+from ..radiation.given import Radiation
 from ..radiation.pressure import pressure_on_map, pressure_on_surface, wrench_pressure
 from ..results import provenance, storage
 from ..study.study import Study
 from .shell import shell_path
-
-Radiation = Callable[[Study, Progress, Sequence[radiation.SurfaceMotion]], tuple[xr.Dataset, bool]]
-"""From a study and the shell's modes to transfer vectors, and whether they were known already."""
 
 
 def transfer_vectors(

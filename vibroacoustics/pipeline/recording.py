@@ -1,16 +1,19 @@
-"""Order analysis of a recording: speed, crank angle, orders, levels."""
+"""What is computed from a recording: orders and levels, tracked orders, a map over the speed."""
 
+from collections.abc import Sequence
 from typing import Final
 
 import xarray as xr
 
-from .. import orders
-from ..base.errors import VibroacousticsError
+from .. import orders as analysis
 from ..base.progress import Progress, no_progress
 from ..base.vocabulary import check, label_coordinates
+from ..levels.block_levels import labelled_block_levels
 from ..levels.recorded import channel_levels
 from ..orders import recorded as of_recording
-from ..orders.recorded_speed import channels_without_speed, recorded_speed
+from ..orders.labelled_map import labelled_map, mapped_spectra
+from ..orders.recorded_speed import SpeedSource, channels_without_speed, recorded_speed
+from ..orders.tracked import tracked_orders
 from ..results import provenance
 from ..study.order_analysis import OrderAnalysis
 
@@ -43,30 +46,137 @@ def analyse_orders(
     >>> abs(orders["channel_order"]).sel(channel="ring", order=1.0).round(3).values
     array([3.])
     """
-    try:
-        return _analyse(recording, settings, progress)
-    except VibroacousticsError as error:
-        raise type(error)(f"{provenance.recording_name(recording)}: {error}") from None
+    with provenance.naming(recording):
+        progress("orders", 0, _STAGES)
+        speed = recorded_speed(recording, settings.speed)
+        signal = channels_without_speed(recording["signal"], settings.speed)
+        rate_hz = float(recording.attrs["sample_rate_hz"])
+        progress("orders", 1, _STAGES)
+        angular = of_recording.resampled(signal, rate_hz, speed.motion, settings)
+        progress("orders", 2, _STAGES)
+        spectra = analysis.order_map(angular, settings.resolution_order, of_recording.WINDOW)
+        results = of_recording.recorded_orders(signal, angular, spectra, settings)
+        results = results.merge(of_recording.synchronous_average(signal, angular))
+        results = results.merge(of_recording.fault_times(speed.faults))
+        progress("orders", 3, _STAGES)
+        results = results.merge(channel_levels(signal, rate_hz))
+        progress("orders", 4, _STAGES)
+        results.attrs = {
+            **provenance.recording_attributes(recording, settings),
+            **speed.attributes(),
+            **of_recording.resolution(spectra),
+        }
+        return check(label_coordinates(results))
 
 
-def _analyse(recording: xr.Dataset, settings: OrderAnalysis, progress: Progress) -> xr.Dataset:
-    progress("orders", 0, _STAGES)
-    speed = recorded_speed(recording, settings.speed)
-    signal = channels_without_speed(recording["signal"], settings.speed)
-    rate_hz = float(recording.attrs["sample_rate_hz"])
-    progress("orders", 1, _STAGES)
-    angular = of_recording.resampled(signal, rate_hz, speed.motion, settings)
-    progress("orders", 2, _STAGES)
-    spectra = orders.order_map(angular, settings.resolution_order, of_recording.WINDOW)
-    results = of_recording.recorded_orders(signal, angular, spectra, settings)
-    results = results.merge(of_recording.synchronous_average(signal, angular))
-    results = results.merge(of_recording.fault_times(speed.faults))
-    progress("orders", 3, _STAGES)
-    results = results.merge(channel_levels(signal, rate_hz))
-    progress("orders", 4, _STAGES)
-    results.attrs = {
-        **provenance.recording_attributes(recording, settings),
-        **speed.attributes(),
-        **of_recording.resolution(spectra),
-    }
-    return check(label_coordinates(results))
+def track_orders(
+    recording: xr.Dataset,
+    speed: SpeedSource,
+    orders: Sequence[float],
+    bandwidth_hz: float,
+    poles: int = 2,
+) -> xr.Dataset:
+    """Complex envelope of each order over the time of a recording, all orders together.
+
+    A Vold-Kalman filter of the second generation (Vold, Mains and Blough 1997, SAE 972007). It
+    tells orders apart that lie close or cross, and follows them up to the ends of the recording.
+
+    Parameters
+    ----------
+    recording : from `read_recording` or `label_recording`
+    speed : where the speed comes from: `SpeedChannel`, `NominalSpeed` or `TacholessSpeed`
+    orders : what to track, multiples of the shaft's speed, whole or not
+    bandwidth_hz : full width at -3 dB of what passes around each order; below the distance of
+        orders that stay side by side, and up to √s where two cross with s Hz/s
+    poles : 1, 2 or 3; each steepens the filter by 40 dB a decade
+
+    Returns
+    -------
+    `tracked_order` (channel, track_time, order), complex peak in the channel's unit, with
+    `track_speed` (track_time), rpm; attribute `noise_gain`: the largest factor by which noise
+    within the bandwidth grows because orders are close
+
+    Raises
+    ------
+    ParameterError
+        The speed cannot be found, or the bandwidth does not fit recording or orders.
+    SolverError
+        Two orders are too close for too long.
+
+    Examples
+    --------
+    >>> time = np.arange(4096) / 1024.0
+    >>> swelling = (1.0 + time) * np.cos(2.0 * np.pi * 50.0 * time)
+    >>> recording = va.label_recording([swelling], 1024.0, ["ring"], ["m/s²"])
+    >>> tracked = va.track_orders(recording, va.NominalSpeed(3000.0), [1.0], bandwidth_hz=2.0)
+    >>> at_2_s = tracked["tracked_order"].sel(channel="ring", order=1.0).sel(
+    ...     track_time=2.0, method="nearest")
+    >>> round(abs(at_2_s.item()), 2)
+    3.0
+    """
+    with provenance.naming(recording):
+        of_shaft = recorded_speed(recording, speed)
+        signal = channels_without_speed(recording["signal"], speed)
+        rate_hz = float(recording.attrs["sample_rate_hz"])
+        tracked = tracked_orders(signal, rate_hz, of_shaft.motion, orders, bandwidth_hz, poles)
+        about = provenance.of_recording(recording, "tracked orders")
+        tracked.attrs = {**about, **of_shaft.attributes(), **tracked.attrs}
+        return check(label_coordinates(tracked))
+
+
+def speed_frequency_map(
+    recording: xr.Dataset,
+    speed: SpeedSource,
+    resolution_hz: float,
+    maximum_frequency_hz: float | None = None,
+) -> xr.Dataset:
+    """Spectra of blocks of a recording, each labelled with its speed: a Campbell map.
+
+    Orders are straight lines through the origin on it, natural frequencies lines of constant
+    frequency. Blocks have a Hann window and overlap by half; the recording's mean is taken off.
+
+    Parameters
+    ----------
+    recording : from `read_recording` or `label_recording`
+    speed : where the speed comes from: `SpeedChannel`, `NominalSpeed` or `TacholessSpeed`
+    resolution_hz : coarsest noise bandwidth of a line
+    maximum_frequency_hz : highest frequency that is kept; default: half the sample rate
+
+    Returns
+    -------
+    `speed_frequency_map` (channel, block, map_frequency), complex peak in the channel's unit;
+    where a channel is sound pressure `block_level` (channel, block, weighting), dB re 20 µPa, of
+    all frequencies above 0 Hz; coordinates `block_speed`, rpm, and `block_time`, s
+
+    Raises
+    ------
+    ParameterError
+        The speed cannot be found, or the recording is too short for the resolution.
+
+    Examples
+    --------
+    >>> time = np.arange(4096) / 1024.0
+    >>> frequency = 20.0 + 10.0 * time  # of the shaft, Hz
+    >>> tone = np.cos(2.0 * np.pi * (20.0 * time + 5.0 * time**2))
+    >>> recording = va.label_recording(
+    ...     [tone, 60.0 * frequency], 1024.0, ["front", "speed"], ["Pa", "rpm"])
+    >>> mapped = va.speed_frequency_map(recording, va.SpeedChannel("speed"), resolution_hz=8.0)
+    >>> mapped["speed_frequency_map"].dims
+    ('channel', 'block', 'map_frequency')
+    >>> mapped["block_level"].sel(channel="front", weighting="Z").mean().round(1).item()
+    91.0
+    """
+    with provenance.naming(recording):
+        of_shaft = recorded_speed(recording, speed)
+        signal = channels_without_speed(recording["signal"], speed)
+        rate_hz = float(recording.attrs["sample_rate_hz"])
+        mapped = mapped_spectra(signal, rate_hz, of_shaft.motion, resolution_hz)
+        spectra = labelled_map(mapped, signal, maximum_frequency_hz)
+        spectra = spectra.merge(
+            labelled_block_levels(
+                mapped.amplitude, mapped.frequency_hz, mapped.resolution_hz, signal["channel_unit"]
+            )
+        )
+        about = provenance.of_recording(recording, "speed-frequency map")
+        spectra.attrs = {**about, **of_shaft.attributes(), **spectra.attrs}
+        return check(label_coordinates(spectra))

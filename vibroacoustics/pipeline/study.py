@@ -10,13 +10,14 @@ from ..base.errors import ParameterError
 from ..base.hashing import canonical_json
 from ..base.progress import Progress, no_progress
 from ..base.vocabulary import check, label_coordinates
+from ..radiation.given import Radiation
 from ..results import provenance
 from ..results.words import words
 from ..stopping.labelled import stopping_variables
 from ..study.study import Study
 from ..transfer import on_mounts
 from .motion import motion_of
-from .radiating import Radiation, line_difference, sound_field, transfer_vectors
+from .radiating import line_difference, sound_field, transfer_vectors
 from .shell import shell_path
 from .sound import levels_of
 

@@ -1,6 +1,8 @@
 """Where a result comes from: software, versions, parameters, time."""
 
 import subprocess
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import asdict
 from datetime import UTC, datetime
 from functools import cache
@@ -11,6 +13,7 @@ from typing import Any, Final
 import xarray as xr
 
 from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.errors import VibroacousticsError
 from ..base.hashing import canonical_json, sha256
 from ..base.registry import plugins
 from ..recordings.reader import READERS
@@ -85,6 +88,15 @@ def of_recording(recording: xr.Dataset, what: str) -> dict[str, Any]:
         "source_file": name,
         **{key: recording.attrs[key] for key in kept if key in recording.attrs},
     }
+
+
+@contextmanager
+def naming(recording: xr.Dataset) -> Iterator[None]:
+    """Put the file of a recording before what goes wrong with it."""
+    try:
+        yield
+    except VibroacousticsError as error:
+        raise type(error)(f"{recording_name(recording)}: {error}") from None
 
 
 def recording_name(recording: xr.Dataset) -> str:

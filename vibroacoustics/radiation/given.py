@@ -1,14 +1,20 @@
 """Transfer vectors that are known: measured ones, or those of a second method."""
 
+from collections.abc import Callable, Sequence
+
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
+from ..base.progress import Progress
 from ..base.vocabulary import RIGID_BODY_DOFS, stamp
 from ..study.study import Study
-from .radiating import Radiation
+from .patterns import SurfaceMotion
+
+Radiation = Callable[[Study, Progress, Sequence[SurfaceMotion]], tuple[xr.Dataset, bool]]
+"""From a study and the shell's modes to transfer vectors, and whether they were known already."""
 
 
 def given_radiation(
@@ -52,8 +58,10 @@ def given_radiation(
         raise ParameterError(f"transfer_vector: has {of_housing.shape[1]} motions, must have 6")
     of_modes = None if shell_modes is None else _checked("shell_modes", shell_modes, frequency)
 
-    def radiation(study: Study, _: object, motions: object = ()) -> tuple[xr.Dataset, bool]:
-        names = [motion.name for motion in motions]  # type: ignore[attr-defined]
+    def radiation(
+        study: Study, _: Progress, motions: Sequence[SurfaceMotion] = ()
+    ) -> tuple[xr.Dataset, bool]:
+        names = [motion.name for motion in motions]
         return _labelled(study, names, frequency, of_housing, of_modes), False
 
     return radiation

@@ -1,0 +1,47 @@
+"""Orders of all channels of a recording, tracked over time and labelled."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+
+from ..base.errors import ParameterError
+from ..base.vocabulary import stamp
+from .crank_motion import CrankMotion
+from .vold_kalman import Track, vold_kalman
+
+
+def tracked_orders(
+    signal: xr.DataArray,
+    sample_rate_hz: float,
+    motion: CrankMotion,
+    orders: Sequence[float],
+    bandwidth_hz: float,
+    poles: int,
+) -> xr.Dataset:
+    """Complex envelope of each order, `tracked_order` (channel, track_time, order), complex peak.
+
+    Parameters
+    ----------
+    signal : (channel, time)
+    sample_rate_hz : of the signal
+    motion : of the shaft
+    orders, bandwidth_hz, poles : of `vold_kalman`
+
+    Raises
+    ------
+    ParameterError, SolverError
+        As `vold_kalman`; or an order is named twice or is not above 0.
+    """
+    numbers = [float(order) for order in orders]
+    if not numbers or min(numbers) <= 0.0 or len(set(numbers)) < len(numbers):
+        raise ParameterError(f"orders = {numbers}: must be numbers above 0, each once")
+    tracks = [Track(motion, order) for order in numbers]
+    tracked = vold_kalman(signal.values, sample_rate_hz, tracks, bandwidth_hz, poles)
+    coords = {"channel": signal["channel"], "track_time": tracked.time_s, "order": numbers}
+    rpm = 60.0 * motion.frequency_hz(tracked.time_s)
+    return xr.Dataset(
+        {"tracked_order": stamp("tracked_order", np.swapaxes(tracked.envelope, 1, 2), coords)},
+        coords={"track_speed": ("track_time", rpm), "channel_unit": signal["channel_unit"]},
+        attrs={"bandwidth_hz": bandwidth_hz, "poles": poles, "noise_gain": tracked.noise_gain},
+    )
