@@ -5,13 +5,17 @@ VENV := .venv
 BIN := $(VENV)/bin
 STUDY ?= pipelines/copeland_thesis.toml
 
-.PHONY: run test check lock clean
+.PHONY: run test check lock clean versions
 
 run: $(VENV)/.core
 	$(BIN)/vibroacoustics run $(STUDY)
 
 test: $(VENV)/.dev
 	$(BIN)/pytest -n auto --dist loadfile
+
+# Light tests on every Python that is promised, as far as it is here; not part of `make test`.
+versions:
+	$(PYTHON) tests/on_every_python.py
 
 # Format, lint, types and the import contract.
 check: $(VENV)/.dev
