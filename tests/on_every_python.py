@@ -36,7 +36,7 @@ def interpreter(version: str) -> Path | None:
     pyenv = Path(os.environ.get("PYENV_ROOT", Path.home() / ".pyenv")) / "versions"
     on_path = shutil.which(f"python{version}")
     for python in (on_path, *sorted(pyenv.glob(f"{version}.*/bin/python"))):
-        if python and subprocess.run([python, "--version"], capture_output=True).returncode == 0:
+        if python and _runs([python, "--version"]):
             return Path(python)
     return None
 
@@ -53,7 +53,11 @@ def tested(version: str, python: Path, folder: Path) -> bool:
         (home / "ready").touch()
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     command = [inner, "-m", "pytest", "-q", "-n", "0", "-m", "not slow", "-p", "no:cacheprovider"]
-    return subprocess.run([*command, *LIGHT], cwd=ROOT, env=environment).returncode == 0
+    return _runs([*command, *LIGHT], cwd=ROOT, env=environment)
+
+
+def _runs(command: list[object], **settings: object) -> bool:
+    return subprocess.run(command, check=False, **settings).returncode == 0
 
 
 def main() -> None:
