@@ -36,7 +36,7 @@ def interpreter(version: str) -> Path | None:
     pyenv = Path(os.environ.get("PYENV_ROOT", Path.home() / ".pyenv")) / "versions"
     on_path = shutil.which(f"python{version}")
     for python in (on_path, *sorted(pyenv.glob(f"{version}.*/bin/python"))):
-        if python and _runs([python, "--version"]):
+        if python and _runs([python, "--version"], capture_output=True):
             return Path(python)
     return None
 
