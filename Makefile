@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 STUDY ?= pipelines/copeland_thesis.toml
 MINUTES ?= 60
 
-.PHONY: run test long check lock clean
+.PHONY: run test long check lock clean versions
 
 run: $(VENV)/.core
 	$(BIN)/vibroacoustics run $(STUDY)
@@ -17,6 +17,10 @@ test: $(VENV)/.dev
 
 long: $(VENV)/.dev
 	$(BIN)/python -W ignore tests/robustness/torture.py --minutes $(MINUTES)
+
+# Light tests on every Python that is promised, as far as it is here; not part of `make test`.
+versions:
+	$(PYTHON) tests/on_every_python.py
 
 # Format, lint, types and the import contract.
 check: $(VENV)/.dev

@@ -3,7 +3,7 @@
     >>> import vibroacoustics as va
 
 **Studies.**
-`load_study(path)` reads a study; `study.replace({...})` changes values of it.
+`load_study(path)` reads a `Study`; its method `replace({...})` changes values of it.
 `run(study)` carries it from the machine's parameters to levels and scores, one `xarray.Dataset`.
 `radiate(study)` computes the housing's radiation alone.
 `given_radiation(...)` makes measured transfer vectors what `run` takes.
@@ -18,7 +18,7 @@ also of a machine alone, from `load_machine(path)`.
 `label_recording(...)` labels samples as one.
 `export_recording(recording, path)` writes it as CSV, WAV or netCDF.
 `read_modes(path)` reads measured modes of a structure.
-`analyse_orders(recording, OrderAnalysis(...))` finds orders and levels.
+`analyse_orders(recording, settings)` finds orders and levels; settings are an `OrderAnalysis`.
 `track_orders(recording, ...)` follows orders over time (Vold-Kalman).
 `speed_frequency_map(recording, ...)` gives spectra over speed and frequency (Campbell).
 `compare(first, second)` compares orders of two results in level and phase.

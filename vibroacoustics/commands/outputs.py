@@ -91,25 +91,6 @@ def write_report(results: xr.Dataset, folder: str | Path) -> Path:
     The dataset holds what sections and columns of plug-ins show, so that the report can be made
     again without them.
 
-    Returns
-    -------
-    path of the report
-
-    Raises
-    ------
-    StorageError
-        The folder cannot be written; what was there before then stays.
-    """
-    kept = report.keep(results)
-    with manifest.replacing(Path(folder), RESULTS_NAME) as staged:
-        digest = storage.stage_results(kept, staged / RESULTS_NAME)
-        _stage(report.render(kept, digest), staged)
-    return Path(folder) / REPORT_NAME
-
-
-def write_report_again(results_file: Path, folder: Path) -> Path:
-    """Write the report of results that are on disk, its tables and figures, together or not at all.
-
     Parameters
     ----------
     results : dataset of a finished run
@@ -122,13 +103,27 @@ def write_report_again(results_file: Path, folder: Path) -> Path:
     Raises
     ------
     StorageError
-        The folder cannot be written.
+        The folder cannot be written; what was there before then stays.
 
     Examples
     --------
     >>> results = va.open_results("results.nc")
     >>> va.write_report(results, "written").name
     'report.html'
+    """
+    kept = report.keep(results)
+    with manifest.replacing(Path(folder), RESULTS_NAME) as staged:
+        digest = storage.stage_results(kept, staged / RESULTS_NAME)
+        _stage(report.render(kept, digest), staged)
+    return Path(folder) / REPORT_NAME
+
+
+def write_report_again(results_file: Path, folder: Path) -> Path:
+    """Write the report of results that are on disk, its tables and figures, together or not at all.
+
+    Returns
+    -------
+    path of the report
     """
     results, digest = open_run(results_file)
     with manifest.replacing(folder, results_file.name, digest) as staged:

@@ -42,6 +42,10 @@ Out = Annotated[
     Path | None,
     typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE FILE."),
 ]
+Plugins = Annotated[
+    list[Path] | None,
+    typer.Option("--plugin", metavar="FILE.py", help="Python file with readers of yours."),
+]
 
 
 @commands.command("track")
@@ -62,6 +66,7 @@ def track_command(
     channels: Channels = None,
     sample_rate: SampleRate = None,
     out: Out = None,
+    plugin: Plugins = None,
 ) -> None:
     """Track orders over the time of a recording (Vold-Kalman): netCDF, figures and a table."""
     from .. import pipeline, report
@@ -71,7 +76,7 @@ def track_command(
     numbers = arguments.order_numbers(orders)
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
-    recording = _read(recording_file, unit, calibration, channels, sample_rate)
+    recording = _read(recording_file, unit, calibration, channels, sample_rate, plugin)
     tracked = pipeline.track_orders(recording, source, numbers, bandwidth, poles)
     written = recorded_outputs.write_tracked(tracked, folder)
     typer.echo(report.tracked_text(tracked))
@@ -95,6 +100,7 @@ def map_command(
     channels: Channels = None,
     sample_rate: SampleRate = None,
     out: Out = None,
+    plugin: Plugins = None,
 ) -> None:
     """Draw a recording over speed and frequency (Campbell), and its level over the speed."""
     from .. import pipeline
@@ -103,7 +109,7 @@ def map_command(
     source = arguments.speed_source(speed, pulses, index, rpm, tacholess)
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
-    recording = _read(recording_file, unit, calibration, channels, sample_rate)
+    recording = _read(recording_file, unit, calibration, channels, sample_rate, plugin)
     mapped = pipeline.speed_frequency_map(recording, source, resolution, maximum_frequency)
     typer.echo(f"speed-frequency map: {recorded_outputs.write_speed_map(mapped, folder)}")
 
@@ -116,12 +122,13 @@ def export_command(
     calibration: Calibration = None,
     channels: Channels = None,
     sample_rate: SampleRate = None,
+    plugin: Plugins = None,
 ) -> None:
     """Write a recording as CSV, WAV or netCDF in SI units."""
     from . import exporting, outputs
 
     outputs.check_folder(out.parent)
-    recording = _read(recording_file, unit, calibration, channels, sample_rate)
+    recording = _read(recording_file, unit, calibration, channels, sample_rate, plugin)
     typer.echo(f"recording: {exporting.export_recording(recording, out)}")
 
 
@@ -131,11 +138,15 @@ def _read(
     calibration: list[str] | None,
     channels: str | None,
     sample_rate_hz: float | None,
+    plugins: list[Path] | None,
 ) -> "xr.Dataset":
     """The recording as the options of a command say."""
+    from ..base.plugin_file import load_plugin
     from ..recordings import read_recording
     from . import arguments
 
+    for plugin in plugins or ():
+        load_plugin(plugin)
     return read_recording(
         file,
         units=arguments.assignments("--unit", unit),

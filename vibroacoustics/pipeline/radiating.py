@@ -51,8 +51,9 @@ def radiate(
     Transfer vectors of your own (made up here) take the place of the computation:
 
     >>> study = va.load_study("pipelines/copeland_thesis.toml")
-    >>> values = 0.01 * np.ones((len(study.receivers), 6, 2))
-    >>> radiated = va.radiate(study, radiation=va.given_radiation(values, [25.0, 2500.0]))
+    >>> frequency = np.arange(25.0, 2501.0, 25.0)
+    >>> vectors = 1e-4j * frequency * np.ones((len(study.receivers), 6, 1))
+    >>> radiated = va.radiate(study, radiation=va.given_radiation(vectors, frequency))
     >>> radiated["transfer_vector"].dims
     ('receiver', 'dof', 'frequency')
     """

@@ -50,8 +50,9 @@ def run(
 
     >>> study = va.load_study("pipelines/copeland_thesis.toml")
     >>> study = study.replace({"operation.speed_rpm": [2900.0]})
-    >>> values = 0.01 * np.ones((len(study.receivers), 6, 2))  # made up, Pa s/m
-    >>> results = va.run(study, radiation=va.given_radiation(values, [25.0, 2500.0]))
+    >>> frequency = np.arange(25.0, 2501.0, 25.0)
+    >>> vectors = 1e-4j * frequency * np.ones((len(study.receivers), 6, 1))  # made up, Pa s/m
+    >>> results = va.run(study, radiation=va.given_radiation(vectors, frequency))
     >>> results["force_amplitude"].sel(option="none", order=1).round(1).values  # N
     array([45.3])
     """

@@ -26,7 +26,9 @@ def given_radiation(
     ----------
     transfer_vector : complex, shape (receiver, 6, frequency), Pa per m/s along x, y, z and Pa per
         rad/s about x, y, z, at the centre of mass; receivers in the order of the study
-    frequency_hz : rising, shape (frequency,), Hz; up to the study's highest frequency
+    frequency_hz : rising, shape (frequency,), Hz; up to the study's highest frequency. Between two
+        of them a cubic spline is laid through the values without delay and growth with frequency,
+        T exp(jkr)/(jω): steps of 25 Hz are good to 0.01 dB at 1 m
     shell_modes : complex, shape (receiver, mode, frequency), Pa per m/s of each mode of the shell;
         for studies whose sources drive an elastic shell
 
@@ -42,11 +44,11 @@ def given_radiation(
     Examples
     --------
     >>> study = va.load_study("pipelines/copeland_thesis.toml")
-    >>> frequency = np.array([25.0, 2500.0])
-    >>> monopole = 0.01 * frequency * np.ones((len(study.receivers), 6, 1))  # made up
+    >>> frequency = np.arange(25.0, 2501.0, 25.0)
+    >>> vectors = 1e-4j * frequency * np.ones((len(study.receivers), 6, 1))  # made up
     >>> results = va.run(
     ...     study.replace({"operation.speed_rpm": [2900.0]}),
-    ...     radiation=va.given_radiation(monopole, frequency))
+    ...     radiation=va.given_radiation(vectors, frequency))
     >>> results["level_total"].dims
     ('speed', 'option', 'receiver')
     """

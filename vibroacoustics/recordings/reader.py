@@ -22,6 +22,13 @@ class Reader:
     words : what the format is called
     read : channels of a file; runs in a process of its own, of limited memory and time
     package : further package that `read` imports, as pip calls it; empty where none
+
+    Examples
+    --------
+    >>> def read(request):
+    ...     stored = np.fromfile(request.path, dtype="<i2")
+    ...     return va.Recorded(["sensor"], ["V"], [stored / 3276.8], 25600.0)
+    >>> logger = va.register(va.Reader("logger", (".log16",), "logger of the test bench", read))
     """
 
     name: str

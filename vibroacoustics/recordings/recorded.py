@@ -28,7 +28,21 @@ sample rate, if it is no rounding."""
 @dataclass(frozen=True)
 class Request:
     """What to read: the file, some of its channels, a sample rate that overrides the file's; or
-    the modes of a structure."""
+    the modes of a structure.
+
+    Attributes
+    ----------
+    path : of the file
+    channels : wanted; None for all
+    sample_rate_hz : that overrides the file's; None where the file's holds
+    modes : whether modes are read, no recording
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> va.Request(Path("run.log16"), channels=("b",)).chosen(["a", "b"])
+    [1]
+    """
 
     path: Path
     channels: tuple[str, ...] | None = None
@@ -54,7 +68,22 @@ class Request:
 
 @dataclass(frozen=True)
 class Recorded:
-    """Channels of a file as the file holds them, not yet in SI."""
+    """Channels of a file as the file holds them, not yet in SI.
+
+    Attributes
+    ----------
+    names : of the channels
+    units : as the file states them; empty where it states none
+    samples : one array a channel, shape (time,)
+    sample_rate_hz : actual sample rate
+    start_time : ISO 8601; empty where it is unknown
+    full_scale : whether the samples are fractions of the recorder's full scale
+
+    Examples
+    --------
+    >>> va.Recorded(["sensor"], ["V"], [np.zeros(4)], 25600.0).full_scale
+    False
+    """
 
     names: Sequence[str]
     units: Sequence[str]

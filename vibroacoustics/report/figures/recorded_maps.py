@@ -197,8 +197,11 @@ def _guides(axes: Axes, spectra: xr.DataArray) -> None:
     fastest = float(spectra["block_speed"][-1])
     for order in _GUIDES:
         end_rpm = min(fastest, 60.0 * highest / order)
-        if end_rpm <= lowest:
-            break
+        if end_rpm < lowest + 0.1 * (fastest - lowest):
+            break  # too short to read
         ends_hz = [order * lowest / 60.0, order * end_rpm / 60.0]
         axes.plot(ends_hz, [lowest, end_rpm], color="white", linewidth=0.5, alpha=0.7)
-        axes.annotate(f"{order}×", (ends_hz[1], end_rpm), fontsize=7, ha="center", va="bottom")
+        axes.annotate(
+            f"{order}×", (ends_hz[1], end_rpm), xytext=(-2, -2), textcoords="offset points",
+            color="white", fontsize=7, ha="right", va="top",
+        )  # fmt: skip

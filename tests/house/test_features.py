@@ -1,0 +1,141 @@
+"""What README, docs and changelog name is reached by a command or a public name."""
+
+import inspect
+import io
+import pydoc
+import re
+import subprocess
+import sys
+from contextlib import redirect_stdout
+
+import pytest
+import typer
+from support import ROOT
+
+import vibroacoustics as va
+from vibroacoustics.commands import cli
+
+FEATURES = {
+    "run of a study": "command run",
+    "run in Python": "va.run",
+    "values of a study changed": "va.Study.replace",
+    "study from a file": "va.load_study",
+    "radiation alone": "command radiation",
+    "radiation alone, in Python": "va.radiate",
+    "measured transfer vectors": "va.given_radiation",
+    "report again": "command report",
+    "report in Python": "va.write_report",
+    "ranking again": "command score",
+    "ranking in Python": "va.score",
+    "versions, memory, cache": "command doctor",
+    "cache listed and cleared": "command cache",
+    "orders of a recording": "command orders",
+    "orders in Python": "va.analyse_orders",
+    "order map": "va.plot.order_map",
+    "order cuts": "va.orders.order_cut",
+    "orders over the speed": "va.plot.orders_over_speed",
+    "angular resampling": "va.orders.angular_resample",
+    "synchronous averages": "va.orders.time_synchronous_average",
+    "synchronous envelopes": "va.orders.synchronous_demodulation",
+    "Vold-Kalman tracking": "command track",
+    "Vold-Kalman tracking in Python": "va.track_orders",
+    "tracked orders drawn": "va.plot.tracked_orders",
+    "speed-frequency map": "command map",
+    "speed-frequency map in Python": "va.speed_frequency_map",
+    "speed-frequency map drawn": "va.plot.speed_frequency_map",
+    "levels over a run-up": "va.plot.run_up_levels",
+    "tacho": "va.SpeedChannel",
+    "speed without a tacho": "va.TacholessSpeed",
+    "gears": "va.orders.CrankMotion.geared",
+    "filter bank": "va.levels.band_signal",
+    "Fast and Slow": "va.levels.recorded_levels",
+    "third octaves": "va.levels.band_levels",
+    "recordings read": "va.read_recording",
+    "simulated signals labelled": "va.label_recording",
+    "recordings exported": "command export",
+    "recordings exported in Python": "va.export_recording",
+    "measured modes": "va.read_modes",
+    "comparison of orders": "command compare",
+    "comparison of orders in Python": "va.compare",
+    "comparison of orders drawn": "va.plot.compared_orders",
+    "forces drawn": "va.plot.force_over_revolution",
+    "directivity drawn": "va.plot.directivity",
+    "level map drawn": "va.plot.line_map",
+    "stopping drawn": "va.plot.stopping",
+    "sources drawn": "va.plot.source_third_octaves",
+    "scores drawn": "va.plot.scores",
+    "balancer of one's own": "va.Option",
+    "machine of one's own": "va.Machine",
+    "source of one's own": "va.Source",
+    "criterion of one's own": "va.Criterion",
+    "section of one's own": "va.Section",
+    "blocks of a section": "va.blocks.Table",
+    "column of one's own": "va.Column",
+    "variable of one's own": "va.Variable",
+    "unit of one's own": "va.Unit",
+    "reader of one's own": "va.Reader",
+    "plug-in in a notebook": "va.load_plugin",
+}
+FENCED = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+IMPORT = re.compile(r"^\s*(?:from|import) (vibroacoustics\S*)", re.MULTILINE)
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+COMMANDS = set(typer.main.get_command(cli.app).commands)
+
+
+@pytest.mark.parametrize("feature", FEATURES)
+def test_feature_is_reached(feature):
+    way = FEATURES[feature]
+    if way.startswith("command "):
+        assert way.removeprefix("command ") in COMMANDS
+        return
+    names = way.split(".")[1:]
+    assert names[0] in va.__all__, names[0]
+    thing = va
+    for name in names:
+        thing = getattr(thing, name)
+    assert (inspect.getdoc(thing) or "").strip()
+
+
+def test_every_command_is_a_feature():
+    assert {way.removeprefix("command ") for way in FEATURES.values()} >= COMMANDS
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_code_on_pages_imports_the_package_alone(page):
+    for block in FENCED.findall(page.read_text(encoding="utf-8")):
+        assert set(IMPORT.findall(block)) <= {"vibroacoustics"}
+
+
+def test_gallery_imports_the_package_alone():
+    for page in (ROOT / "docs" / "gallery").glob("*.py"):
+        assert set(IMPORT.findall(page.read_text(encoding="utf-8"))) <= {"vibroacoustics"}, page
+
+
+def test_dir_and_help_show_the_public_names():
+    assert dir(va) == sorted(va.__all__)
+    assert dir(va.plot) == sorted(va.plot.__all__)
+    shown = io.StringIO()
+    with redirect_stdout(shown):
+        pydoc.doc(va, output=shown)
+    text = re.sub("\b.", "", shown.getvalue())
+    for name in ("track_orders", "load_study", "Option"):
+        assert name in text
+    missing = [name for name in va.__all__ if f"`{name}" not in (va.__doc__ or "")]
+    assert not missing, "not in the docstring of the package"
+
+
+def test_every_figure_returns_a_figure_and_says_what_it_needs():
+    for name in va.plot.__all__:
+        thing = getattr(va.plot, name)
+        assert inspect.signature(thing).return_annotation.__name__ == "Figure", name
+        assert "needs `" in thing.__doc__, name
+        assert f"`{name}`" in va.plot.__doc__, name
+
+
+def test_listing_the_names_loads_nothing():
+    code = (
+        "import sys, vibroacoustics; dir(vibroacoustics); "
+        "print([m for m in ('numpy', 'xarray', 'kwave') if m in sys.modules])"
+    )
+    told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert told.stdout.strip() == "[]"

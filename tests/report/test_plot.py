@@ -1,0 +1,63 @@
+"""`vibroacoustics.plot`: the report's pictures as figures, and what they refuse."""
+
+import pytest
+import xarray as xr
+from matplotlib.figure import Figure
+from test_report_sources import with_sources
+
+import vibroacoustics as va
+from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.report import render
+from vibroacoustics.report.figures.style import png
+
+OF_A_RUN = (
+    "force_over_revolution", "force_orders", "foot_force_orders", "level_orders",
+    "mount_transmissibility", "green_difference", "levels", "scores",
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def results() -> xr.Dataset:
+    return with_sources({"none": 40.0, "rattles": 52.0})
+
+
+def test_the_report_draws_with_the_same_functions(results):
+    files = render(results)
+    for name in OF_A_RUN:
+        assert files[f"figures/{name}.png"] == png(getattr(va.plot, name)(results)), name
+    (transfer,) = [name for name in files if name.startswith("figures/transfer_")]
+    assert files[transfer] == png(va.plot.transfer(results))
+    assert files["figures/sources_third_octaves.png"] == png(va.plot.source_third_octaves(results))
+    assert files["figures/sources_options.png"] == png(va.plot.option_third_octaves(results))
+
+
+def test_a_notebook_shows_a_figure(results):
+    figure = va.plot.levels(results)
+    assert isinstance(figure, Figure)
+    assert figure._repr_png_() == png(figure)
+
+
+def test_a_figure_can_be_changed(results):
+    figure = va.plot.levels(results)
+    before = png(figure)
+    figure.axes[0].set_title("Mine")
+    assert png(figure) != before
+
+
+def test_another_speed_is_drawn(results):
+    lowest = float(results["speed"].min())
+    drawn = va.plot.force_over_revolution(results, lowest)
+    assert png(drawn) != png(va.plot.force_over_revolution(results))
+
+
+@pytest.mark.parametrize("name", va.plot.__all__)
+def test_a_missing_variable_is_named(name):
+    with pytest.raises(ParameterError, match=rf"^plot\.{name}: these results hold no \w+ \("):
+        getattr(va.plot, name)(xr.Dataset())
+
+
+def test_unknown_labels_are_refused(results):
+    with pytest.raises(ParameterError, match="receiver = behind: not in these results; there are"):
+        va.plot.levels(results, "behind")
+    with pytest.raises(ParameterError, match=r"speed = 1\.0: not in these results"):
+        va.plot.force_over_revolution(results, 1.0)
