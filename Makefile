@@ -1,17 +1,22 @@
 # make run   sets up, runs the main job, prints the table and where the report is
 # make test  sets up and runs every test, the slow physics included
+# make long  kills, full disks, writers beside readers, flipped bits and signals, for an hour
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STUDY ?= pipelines/copeland_thesis.toml
+MINUTES ?= 60
 
-.PHONY: run test check lock clean
+.PHONY: run test long check lock clean
 
 run: $(VENV)/.core
 	$(BIN)/vibroacoustics run $(STUDY)
 
 test: $(VENV)/.dev
 	$(BIN)/pytest -n auto --dist loadfile
+
+long: $(VENV)/.dev
+	$(BIN)/python -W ignore tests/robustness/torture.py --minutes $(MINUTES)
 
 # Format, lint, types and the import contract.
 check: $(VENV)/.dev

@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Final
 
+_SIGNALS: Final = (signal.SIGINT, signal.SIGTERM, signal.SIGALRM)
 _AGAIN_S: Final = 2.0
 """A library may swallow the exception, or wait for its threads: then it is raised once more."""
 
@@ -31,19 +32,20 @@ def ended_by_signals() -> Iterator[None]:
         sys.unraisablehook = lambda _: None  # raised where Python cannot let it through
         raise Interrupted
 
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGALRM):
+    for number in _SIGNALS:
         signal.signal(number, interrupt)
     try:
         yield
+        _ignore()
     except BaseException:
+        _ignore()
         if not came:
             raise
-        _end(came[0])
+        print(f"ended by {signal.Signals(came[0]).name}", file=sys.stderr, flush=True)
+        os._exit(128 + came[0])  # worker threads are not waited for
 
 
-def _end(number: int) -> None:
-    """One line, and out: worker threads are not waited for."""
-    for caught in (signal.SIGINT, signal.SIGTERM, signal.SIGALRM):
-        signal.signal(caught, signal.SIG_IGN)
-    print(f"ended by {signal.Signals(number).name}", file=sys.stderr, flush=True)
-    os._exit(128 + number)
+def _ignore() -> None:
+    """What comes now comes too late."""
+    for number in _SIGNALS:
+        signal.signal(number, signal.SIG_IGN)

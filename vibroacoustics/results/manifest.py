@@ -31,9 +31,10 @@ Name = Annotated[str, AfterValidator(_below)]
 
 
 class Entry(BaseModel):
-    """Hash of a dataset, and of each file made of it by name."""
+    """Hash of a dataset, whether it lies in the folder, and the hash of each file made of it."""
 
     sha256: str
+    beside: bool
     files: dict[Name, str]
 
 
@@ -65,7 +66,8 @@ def replacing(folder: Path, dataset: str, dataset_sha256: str = "") -> Iterator[
         made = {name: _hash(staged / name) for name in files_in(staged) if name != dataset}
         digest = dataset_sha256 or hashed.stored_hash(staged / dataset)
         before = _read(folder) or {}
-        entry = Entry(sha256=str(digest), files=made)
+        beside = any((at / dataset).is_file() for at in (staged, folder))
+        entry = Entry(sha256=str(digest), beside=beside, files=made)
         after = dict(sorted({**_without(before, made), dataset: entry}.items()))
         write(staged / MANIFEST_NAME, _MANIFEST.dump_json(after, indent=1) + b"\n")
         replace_all(staged, folder, first=MANIFEST_NAME)  # killed from here on: a mixture is seen
@@ -81,7 +83,9 @@ def _without(manifest: Manifest, names: Container[str]) -> Manifest:
     """What it says of other files: a file is of the results that wrote it last."""
     return {
         dataset: Entry(
-            sha256=entry.sha256, files={n: h for n, h in entry.files.items() if n not in names}
+            sha256=entry.sha256,
+            beside=entry.beside,
+            files={n: h for n, h in entry.files.items() if n not in names},
         )
         for dataset, entry in manifest.items()
     }
@@ -110,6 +114,8 @@ def _mixed(folder: Path, dataset: str, entry: Entry) -> Iterator[str]:
     path = folder / dataset
     if path.is_file() and hashed.stored_hash(path) != entry.sha256:
         yield f"{path}: is not what the files beside it were made of"
+    elif entry.beside and not path.is_file():
+        yield f"{path}: is missing"
     for name, digest in entry.files.items():
         if (there := _hash(folder / name)) != digest:
             state = f"is not that of {dataset}" if there else "is missing"

@@ -100,6 +100,8 @@ def test_two_datasets_in_a_folder(tmp_path):
     make(tmp_path, "again", "a.csv", "b.csv")
     assert manifest.mixed(tmp_path) == []
     assert "map.png" in names(tmp_path)
+    (tmp_path / "results.nc").unlink()
+    assert manifest.mixed(tmp_path) == [f"{tmp_path}/results.nc: is missing"]
 
 
 def test_a_file_is_of_the_results_that_wrote_it_last(tmp_path):
@@ -116,11 +118,15 @@ def test_files_of_results_elsewhere(tmp_path):
     assert len(manifest.mixed(tmp_path)) == 1
 
 
+def listing(dataset: str = "a", sha256: object = "0", files: object = None) -> bytes:
+    entry = {"sha256": sha256, "beside": False, "files": {} if files is None else files}
+    return json.dumps({dataset: entry}).encode()
+
+
 @pytest.mark.parametrize(
     "content",
-    [b"", b"[]", b"\xff", b'{"a": 1}', b'{"a": {"sha256": 1, "files": {}}}', b"[" * 100_000,
-     b'{"a": {"sha256": "0", "files": {"../a": "0"}}}', b'{"/a": {"sha256": "0", "files": {}}}',
-     b'{"a": {"sha256": "0", "files": ["b"]}}'],
+    [b"", b"[]", b"\xff", b'{"a": 1}', b"[" * 100_000, listing(sha256=1), listing(files=["b"]),
+     listing(files={"../a": "0"}), listing(dataset="/a")],
 )  # fmt: skip
 def test_a_damaged_list_is_named_and_made_again(tmp_path, content):
     (tmp_path / "files.json").write_bytes(content)
