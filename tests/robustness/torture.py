@@ -111,6 +111,17 @@ def ended(number: int) -> int:
     return os.waitstatus_to_exitcode(os.waitpid(number, 0)[1])
 
 
+def slow_down() -> None:
+    """A disk that takes its time between two files, so that half of all blows fall there."""
+    replace = os.replace
+
+    def slow(source: Path, target: Path) -> None:
+        replace(source, target)
+        time.sleep(0.01)
+
+    os.replace = slow
+
+
 def write_many(folder: Path, first: int, count: int = 1000) -> None:
     for number in range(first, first + count):
         write_run(folder, number)
@@ -119,8 +130,13 @@ def write_many(folder: Path, first: int, count: int = 1000) -> None:
 def kill_a_writer(folder: Path, chance: random.Random) -> list[str]:
     """SIGKILL anywhere in a row of runs."""
     write_run(folder, 0)
-    writer = child(lambda: write_many(folder, 1))
-    time.sleep(chance.uniform(0.0, 0.1))
+
+    def work() -> None:
+        slow_down()
+        write_many(folder, 1)
+
+    writer = child(work)
+    time.sleep(chance.uniform(0.0, 0.2))
     os.kill(writer, signal.SIGKILL)
     ended(writer)
     return after(folder)
@@ -134,12 +150,13 @@ def signal_a_writer(folder: Path, chance: random.Random) -> list[str]:
     def work() -> None:
         with ended_by_signals():
             os.write(ready[1], b"!")
+            slow_down()
             write_many(folder, 1)
 
     number = chance.choice((signal.SIGINT, signal.SIGTERM))
     writer = child(work, errors.fileno())
     os.read(ready[0], 1)
-    time.sleep(chance.uniform(0.0, 0.1))
+    time.sleep(chance.uniform(0.0, 0.2))
     os.kill(writer, number)
     code = ended(writer)
     errors.seek(0)

@@ -76,8 +76,13 @@ def check_folder(folder: str | Path) -> None:
     Raises
     ------
     StorageError
-        It lies under a file or in a folder without write permission.
+        It lies under a file or in a folder without write permission, or its name is no UTF-8,
+        which netCDF cannot write.
     """
+    try:
+        str(folder).encode()
+    except UnicodeEncodeError:
+        raise StorageError(f"{str(folder)!a}: cannot be written: the name is no UTF-8") from None
     existing = Path(folder).absolute()
     while not existing.exists():
         existing = existing.parent

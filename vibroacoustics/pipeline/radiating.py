@@ -44,7 +44,7 @@ def radiate(
     Raises
     ------
     ParameterError, SolverError, StorageError
-        An input is out of range, a computation failed, the cache cannot be written.
+        An input is out of range, a computation failed, a file cannot be read.
 
     Examples
     --------

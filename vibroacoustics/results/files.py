@@ -114,7 +114,8 @@ def naming(path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        raise StorageError(f"{path}: cannot be written: {error.strerror or error}") from None
+        name = Path(*(part for part in path.parts if part != STAGING_NAME))
+        raise StorageError(f"{name}: cannot be written: {error.strerror or error}") from None
 
 
 def sync(path: Path) -> None:

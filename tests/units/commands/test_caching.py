@@ -1,5 +1,6 @@
 """`vibroacoustics cache`, `--no-cache` and what `score`, `report` and `doctor` say of a folder."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -61,6 +62,11 @@ def test_no_cache(folder, tmp_path):
         .attrs["transfer_vectors"]
         .startswith("comp")
     )
+
+
+def test_a_folder_whose_name_is_no_utf_8(tmp_path):
+    outcome = command_here("radiation", TINY, "--out", os.fsdecode(bytes(tmp_path) + b"/caf\xe9"))
+    assert_refused(outcome, "the name is no UTF-8")
 
 
 def test_a_cache_that_cannot_be_written_costs_one_line(tmp_path, monkeypatch):

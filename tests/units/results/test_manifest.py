@@ -61,10 +61,13 @@ def test_a_file_of_another_run_is_named(tmp_path):
     ]
 
 
+@pytest.mark.parametrize("has_list", [True, False])
 @pytest.mark.parametrize("killed_at", range(4))
-def test_killed_between_two_files_is_seen(tmp_path, monkeypatch, killed_at):
-    """At every step: what lies there is the older run's, or it is named."""
+def test_killed_between_two_files_is_seen(tmp_path, monkeypatch, killed_at, has_list):
+    """At every step: what lies there is the older run's, or it is named; an older version's too."""
     make(tmp_path, "first", "a.csv", "b.csv")
+    if not has_list:
+        (tmp_path / "files.json").unlink()
     moved, replace = [], os.replace
 
     def kill(source, target):
@@ -141,3 +144,10 @@ def test_a_folder_that_is_written_now_is_not_judged(tmp_path):
     with lock.locked(tmp_path / ".lock", "it"):
         assert manifest.mixed(tmp_path) == []
     assert len(manifest.mixed(tmp_path)) == 1
+
+
+def test_results_elsewhere_whose_name_is_no_utf_8(tmp_path):
+    with manifest.replacing(tmp_path, os.fsdecode(b"caf\xe9.nc"), "0" * 64) as staged:
+        write(staged / "a.csv", b"a")
+    assert manifest.mixed(tmp_path) == []
+    assert "a.csv" in manifest.listed(tmp_path)
