@@ -10,6 +10,8 @@
 `score(results)` scores and ranks the options again.
 `write_report(results, folder)` writes the report with tables and figures.
 `open_results(path)` reads results from a file.
+`curves(study)` shows what goes on inside: pressures, films, friction, torques, critical speeds;
+also of a machine alone, from `load_machine(path)`.
 
 **Recordings.**
 `read_recording(path)` reads a recording of any format.
@@ -31,9 +33,9 @@
 `Source` or `Criterion`, or a `Section` or `Column` of the report, whose content `blocks` make.
 `Added`, `Case`, `Loads`, `MovingPart`, `Revolution`, `Wrench`, `OldhamRing`, `Slider` are what
 these get and return; `circling`, `constant_rotation` and `wrenches_of_parts` make forces of moving
-masses. A `Variable`, `Coordinate` or `Unit` joins the vocabulary; `stamp` labels an array as a
-variable, `check` tests a dataset. A `Reader` reads a format of recordings: it gets a `Request` and
-gives `Recorded`.
+masses. A `Curve` over each `CurveAxis` shows what goes on inside. A `Variable`, `Coordinate` or
+`Unit` joins the vocabulary; `stamp` labels an array as a variable, `check` tests a dataset. A
+`Reader` reads a format of recordings: it gets a `Request` and gives `Recorded`.
 
 **Errors.** All derive from `VibroacousticsError`, each message is one line: `ParameterError`,
 `SolverError`, `StorageError`, `SchemaError`, `PluginError`.
@@ -44,6 +46,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from . import levels, orders, plot
+    from .base.curves import Curve, CurveAxis
     from .base.errors import (
         ParameterError,
         PluginError,
@@ -80,6 +83,7 @@ if TYPE_CHECKING:
         speed_frequency_map,
         track_orders,
     )
+    from .pipeline.curves import curves
     from .recordings import label_recording, read_modes, read_recording
     from .recordings.reader import Reader
     from .recordings.recorded import Recorded, Request
@@ -90,7 +94,7 @@ if TYPE_CHECKING:
     from .results.storage import open_results
     from .scoring import score
     from .study.criterion import Criterion
-    from .study.loading import load_study
+    from .study.loading import load_machine, load_study
     from .study.order_analysis import NominalSpeed, OrderAnalysis, SpeedChannel, TacholessSpeed
     from .study.study import Study
 
@@ -100,6 +104,8 @@ __all__ = [
     "Column",
     "Coordinate",
     "Criterion",
+    "Curve",
+    "CurveAxis",
     "Loads",
     "Machine",
     "MovingPart",
@@ -132,10 +138,12 @@ __all__ = [
     "circling",
     "compare",
     "constant_rotation",
+    "curves",
     "export_recording",
     "given_radiation",
     "label_recording",
     "levels",
+    "load_machine",
     "load_plugin",
     "load_study",
     "open_results",
@@ -160,6 +168,8 @@ _HOME = {
     "Column": "report.columns",
     "Coordinate": "base.vocabulary",
     "Criterion": "study.criterion",
+    "Curve": "base.curves",
+    "CurveAxis": "base.curves",
     "Loads": "mechanics.loads",
     "Machine": "machine.machine",
     "MovingPart": "mechanics.moving_parts",
@@ -191,9 +201,11 @@ _HOME = {
     "circling": "mechanics.moving_parts",
     "compare": "results.order_comparison",
     "constant_rotation": "mechanics.rotation",
+    "curves": "pipeline.curves",
     "export_recording": "commands.exporting",
     "given_radiation": "pipeline",
     "label_recording": "recordings",
+    "load_machine": "study.loading",
     "load_plugin": "base.plugin_file",
     "load_study": "study.loading",
     "open_results": "results.storage",

@@ -14,10 +14,11 @@ Of `analyse_orders`: `order_spectrum`, `orders_over_speed`, `order_map`.
 Of `speed_frequency_map`: `speed_frequency_map`, `run_up_levels`. Of `track_orders`:
 `tracked_orders`.
 
-Of `compare`: `compared_orders`.
+Of `compare`: `compared_orders`. Of `curves`: `curves`.
 """
 
 from .report.figures.compared_orders import compared_orders
+from .report.figures.curves import curves
 from .report.figures.directivity import directivity
 from .report.figures.forces import force_over_revolution
 from .report.figures.maps import line_map, unit_level_map
@@ -33,6 +34,7 @@ from .report.figures.transfer_vectors import transfer_vectors
 
 __all__ = [
     "compared_orders",
+    "curves",
     "directivity",
     "foot_force_orders",
     "force_orders",

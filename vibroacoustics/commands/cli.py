@@ -12,7 +12,7 @@ from typing import Annotated
 import typer
 
 from ..base.errors import VibroacousticsError
-from . import messages, recording_commands
+from . import curve_commands, messages, recording_commands
 
 INPUT_ERROR = 2
 
@@ -24,6 +24,7 @@ app = typer.Typer(
     rich_markup_mode=None,
 )
 
+app.add_typer(curve_commands.commands)
 app.add_typer(recording_commands.commands)
 
 StudyFile = Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study to run.")]

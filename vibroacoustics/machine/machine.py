@@ -3,12 +3,13 @@
 Heights are those of the machine's frame: z up, zero at the centre of mass at rest.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Annotated, ClassVar, Final, TypeVar
 
 from pydantic import Field, SerializeAsAny
 
 from ..base.arrays import Array
+from ..base.curves import Curve
 from ..base.errors import ParameterError
 from ..base.parameters import AnyOf, KindOfParameters, Parameters
 from ..base.registry import Registry
@@ -86,6 +87,20 @@ class Machine(KindOfParameters):
         Parameters
         ----------
         crank_angle : shape (samples,), rad
+        """
+        return ()
+
+    def curves(self, speed_rpm: float) -> Iterable[Curve]:
+        """What goes on inside at a speed: forces, pressures, films, torques and the like.
+
+        Parameters
+        ----------
+        speed_rpm : mean over time
+
+        Raises
+        ------
+        ParameterError, SolverError
+            The machine cannot run so.
         """
         return ()
 

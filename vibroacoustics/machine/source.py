@@ -1,11 +1,12 @@
 """A source: who drives the machine, with what it needs of the machine's tables."""
 
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Any, ClassVar, Final, TypeVar
 
 from pydantic import SerializeAsAny
 
+from ..base.curves import Curve
 from ..base.parameters import AnyOf, KindOfParameters, Parameters
 from ..base.registry import Registry
 from ..base.units import orders_below, shaft_frequency_hz
@@ -114,6 +115,20 @@ class Source(KindOfParameters):
             The source cannot act so.
         """
         raise NotImplementedError
+
+    def curves(self, case: Case) -> Iterable[Curve]:
+        """What goes on inside the source in one case.
+
+        Parameters
+        ----------
+        case : speed, machine, option
+
+        Raises
+        ------
+        ParameterError, SolverError
+            The source cannot act so.
+        """
+        return ()
 
 
 SOURCES: Final[Registry[type[Source]]] = Registry(

@@ -28,19 +28,6 @@ def rule_of_thumb_rpm(deflection_cm: float) -> float:
     return float(300.0 / np.sqrt(deflection_cm))
 
 
-def unbalance_deflection_m(
-    eccentricity_m: float, speed: Array | float, critical_speed: float
-) -> Array | float:
-    """Deflection of a disc on a light shaft, y = e ω²/(ω_c² - ω²) (Jeffcott 1919).
-
-    Parameters
-    ----------
-    eccentricity_m : e of the disc's centre of mass
-    speed, critical_speed : in the same unit
-    """
-    return eccentricity_m * speed**2 / (critical_speed**2 - speed**2)
-
-
 def on_bearings(rotor: RotorMatrices, nodes: Array, stiffness_n_per_m: float) -> RotorMatrices:
     """The rotor with springs in x and y at nodes."""
     stiffness = rotor.stiffness.copy()

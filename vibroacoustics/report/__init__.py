@@ -7,7 +7,9 @@ import xarray as xr
 from ..base.hashing import canonical_json
 from ..base.registry import plugins
 from .comparison import comparison_csv, comparison_text
+from .curve_tables import curve_csv
 from .figures.compared_orders import compared_order_figures
+from .figures.curves import curve_figures
 from .figures.recorded_maps import speed_map_figures, tracked_order_figures
 from .figures.recorded_orders import recorded_order_figures
 from .html import html
@@ -34,6 +36,8 @@ __all__ = [
     "comparison_of_orders_csv",
     "comparison_of_orders_text",
     "comparison_text",
+    "curve_csv",
+    "curve_figures",
     "keep",
     "levels_csv",
     "orders_csv",

@@ -11,6 +11,8 @@ import xarray as xr
 from ..base.errors import StorageError
 
 LARGE_BYTES: Final = 20_000_000
+ESCAPED: Final = "escaped_attributes"
+"""Attribute that names the others that are not in ASCII."""
 REAL_SUFFIX, IMAGINARY_SUFFIX = "_re", "_im"
 
 
@@ -60,19 +62,37 @@ def from_bytes(content: bytes, path: Path) -> xr.Dataset:
         They are no netCDF.
     """
     try:
-        return _plain_text(_join_complex(xr.load_dataset(content, engine="netcdf4")))
+        read = _unescape_attributes(xr.load_dataset(content, engine="netcdf4"))
+        return _plain_text(_join_complex(read))
     except (OSError, ValueError) as error:
         raise StorageError(f"{path}: is no result file: {error}") from None
 
 
 def _ascii_attributes(results: xr.Dataset) -> xr.Dataset:
-    """String attributes in ASCII, others escaped: not every reader knows netCDF's other strings."""
-    attributes = [results.attrs, *(results[name].attrs for name in results.variables)]
-    for attrs in attributes:
-        for name, value in attrs.items():
-            if isinstance(value, str) and not value.isascii():
-                attrs[name] = value.encode("ascii", "backslashreplace").decode()
+    """String attributes in ASCII, others escaped: not every reader knows netCDF's other strings.
+
+    Which ones are escaped stands beside them, so that they are read as they were written.
+    """
+    for attrs in _attributes(results):
+        texts = {name: value for name, value in attrs.items() if isinstance(value, str)}
+        escaped = [name for name, text in texts.items() if not text.isascii()]
+        for name in escaped:
+            attrs[name] = texts[name].encode("unicode_escape").decode()
+        if escaped:
+            attrs[ESCAPED] = " ".join(map(str, escaped))
     return results
+
+
+def _unescape_attributes(results: xr.Dataset) -> xr.Dataset:
+    for attrs in _attributes(results):
+        for name in str(attrs.pop(ESCAPED, "")).split():
+            attrs[name] = attrs[name].encode().decode("unicode_escape")
+    return results
+
+
+def _attributes(results: xr.Dataset) -> list[dict[Any, Any]]:
+    """Attributes of a dataset and of all that it holds."""
+    return [results.attrs, *(results.variables[name].attrs for name in results.variables)]
 
 
 def _split_complex(results: xr.Dataset) -> xr.Dataset:

@@ -1,8 +1,9 @@
 """Gas forces of a scroll as a source."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import ClassVar, Final
 
+from ..base.curves import Curve
 from ..base.parameters import Parameters
 from ..base.registry import register
 from ..machine.machine import Machine
@@ -12,6 +13,7 @@ from ..mechanics.loads import Loads
 from ..mechanics.rotation import uniform_crank_angle
 from ..orders import order_spectrum
 from .joint_loads import gas_loads
+from .scroll_gas.curves import scroll_gas_curves
 from .scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
 from .scroll_gas.parameters import ScrollGas, ScrollWraps
 
@@ -58,6 +60,10 @@ class ScrollGasForces(Source):
             joints=order_spectrum(gas_loads(cycle), highest),
             shaft_torque_n_m=order_spectrum(cycle.torque_n_m, highest),
         )
+
+    def curves(self, case: Case) -> Iterable[Curve]:
+        """Pressure of a pocket, forces and torque; see `scroll_gas_curves`."""
+        return scroll_gas_curves(case.machine.table(ScrollWraps), case.machine.table(ScrollGas))
 
 
 def gas_cycle(machine: Machine, shared: Shared) -> ScrollGasCycle:

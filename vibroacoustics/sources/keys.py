@@ -1,6 +1,6 @@
 """Keys of the Oldham ring, and of further rings, as a source."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Final
 
@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from ..base.arrays import Array, ComplexArray
+from ..base.curves import Curve
 from ..base.parameters import Parameters
 from ..base.registry import register
 from ..machine.shell_structure import BEARING_HOUSING, JOINTS, STATOR
@@ -19,6 +20,7 @@ from ..orders import order_spectrum
 from .gas import gas_cycle
 from .joint_loads import key_loads, key_torque_n_m
 from .oldham_keys.contact_loss import contact_loss_speed_rpm
+from .oldham_keys.curves import oldham_key_curves
 from .oldham_keys.parameters import OldhamKeys
 from .oldham_keys.rattle import KeyForces, steady_key_forces
 from .oldham_keys.spectra import spectral_density, split_periodic
@@ -80,9 +82,8 @@ class OldhamKeyForces(Source):
     def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
         """Loads of the ring's keys on the bearing housing, of further rings' on the stator."""
         ring, keys = case.machine.require(OldhamRing), case.machine.table(OldhamKeys)
-        moment = gas_cycle(case.machine, case.shared).self_rotation_moment_n_m
-        hung = case.added.on_ring or NOTHING_HUNG
-        turning = _Ring(ring.mass_kg, ring.stroke_m, moment, hung.force_n)
+        turning, hung = _turning(case), case.added.on_ring or NOTHING_HUNG
+        moment = turning.moment_n_m
         forces = self._forces(case, turning)
         spectra = [_spectra(case, keys, turning, forces, BEARING_HOUSING, 1.0)]
         figures = {
@@ -109,6 +110,10 @@ class OldhamKeyForces(Source):
             figures=figures,
         )
 
+    def curves(self, case: Case) -> Iterable[Curve]:
+        """Forces on the keys of the machine's ring; see `oldham_key_curves`."""
+        return oldham_key_curves(self._forces(case, _turning(case)))
+
     def _further(self, case: Case, ring: FurtherRing) -> tuple[_Spectra, dict[str, float]]:
         """Spectra and figures of the keys of a second ring, which no gas presses."""
         free = _Ring(ring.mass_kg, ring.stroke_m, np.zeros(1), np.zeros(1))
@@ -129,6 +134,13 @@ class OldhamKeyForces(Source):
                 keys, *numbers, case.speed_rpm, ring.moment_n_m, ring.hung_n, self.revolutions
             ),
         )
+
+
+def _turning(case: Case) -> _Ring:
+    """The machine's ring with the gas moment that presses its keys and what hangs on it."""
+    ring = case.machine.require(OldhamRing)
+    moment = gas_cycle(case.machine, case.shared).self_rotation_moment_n_m
+    return _Ring(ring.mass_kg, ring.stroke_m, moment, (case.added.on_ring or NOTHING_HUNG).force_n)
 
 
 def _spectra(

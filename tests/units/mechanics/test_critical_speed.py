@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from jeffcott import unbalance_deflection_m
 from machine_files import machine_file, values_of
 from support import ROOT
 
@@ -23,7 +24,6 @@ from vibroacoustics.mechanics.critical_speed import (
     rule_of_thumb_rpm,
     sag_under_weight_m,
     scroll_shaft_rotor,
-    unbalance_deflection_m,
 )
 from vibroacoustics.mechanics.scroll_shaft import ScrollShaft
 

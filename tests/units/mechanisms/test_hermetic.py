@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from printed_films import printed_film_force
 from scipy.integrate import solve_ivp
 from support import PIPELINES, ROOT, steady
 
@@ -24,7 +25,6 @@ from vibroacoustics.mechanisms.hermetic.cycle import (
     steady_cycle,
     uniform_samples,
 )
-from vibroacoustics.mechanisms.hermetic.film_force import printed_film_force
 from vibroacoustics.mechanisms.hermetic.forces import mechanism_motion
 from vibroacoustics.mechanisms.hermetic.gas import (
     dead_centres,

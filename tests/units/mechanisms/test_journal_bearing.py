@@ -4,16 +4,15 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from printed_films import long_bearing_force, long_bearing_pressure, printed_film_force
 from scipy.integrate import solve_bvp
 
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.mechanisms.hermetic.film_force import positive_film_force, printed_film_force
+from vibroacoustics.mechanisms.hermetic.film_force import positive_film_force
 from vibroacoustics.mechanisms.hermetic.film_linearisation import linear_film
 from vibroacoustics.mechanisms.hermetic.journal_bearing import (
     film_coordinates,
     highest_pressure_pa,
-    long_bearing_force,
-    long_bearing_pressure,
     short_bearing_force,
     short_bearing_pressure,
 )

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from machine_files import changed, machine_file
+from minicrank_reach import reachable_crank_angles
 from scipy.integrate import solve_ivp
 from scipy.optimize import least_squares
 from support import PIPELINES
@@ -22,11 +23,7 @@ from vibroacoustics.mechanics.moving_parts import (
 )
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.mechanisms.minicrank.cycle import steady_minicrank_cycle
-from vibroacoustics.mechanisms.minicrank.four_bar import (
-    four_bar_motion,
-    reachable_crank_angles,
-    three_minicranks_motion,
-)
+from vibroacoustics.mechanisms.minicrank.four_bar import four_bar_motion, three_minicranks_motion
 from vibroacoustics.mechanisms.minicrank.housing import counterweight_moments, housing_wrenches
 from vibroacoustics.mechanisms.minicrank.links import FourBar, Links, closing_margins
 from vibroacoustics.mechanisms.minicrank.machine import MiniCrankMachine

@@ -6,12 +6,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from machine_files import changed, machine_file
 from scipy.integrate import solve_ivp
+from slider_crank_parts import slider_crank_parts
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.mechanics.crankshaft import reduced_inertia
 from vibroacoustics.mechanics.moving_parts import derivative, wrench
 from vibroacoustics.mechanics.rotation import constant_rotation, uniform_crank_angle
-from vibroacoustics.mechanisms.reciprocating.cycle import optimum_bore, steady_cycle
+from vibroacoustics.mechanisms.reciprocating.cycle import steady_cycle
+from vibroacoustics.mechanisms.reciprocating.efficiency import optimum_bore
 from vibroacoustics.mechanisms.reciprocating.gas import (
     compression_work_j,
     cylinder_pressure,
@@ -22,7 +24,6 @@ from vibroacoustics.mechanisms.reciprocating.slider_crank import (
     housing_wrenches,
     motion,
     moving_masses,
-    slider_crank_parts,
     top_dead_centre_m,
 )
 from vibroacoustics.study.loading import load_machine

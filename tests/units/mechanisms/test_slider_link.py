@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 from scipy.integrate import quad, solve_ivp
 from slider_link_files import MACHINE_FILE, SPEED, STUDY, changed_machine
+from slider_link_pairs import free_acceleration, internal_forces, short_bearing_load
 from support import steady
 
 from vibroacoustics.balancers.lanchester import Lanchester
@@ -30,7 +31,6 @@ from vibroacoustics.mechanisms.slider_link.bearing_friction import (
     journal_friction_moment,
     petroff_coefficient,
     short_bearing_friction,
-    short_bearing_load,
     thrust_friction_moment,
 )
 from vibroacoustics.mechanisms.slider_link.crankshaft import (
@@ -52,11 +52,7 @@ from vibroacoustics.mechanisms.slider_link.piston import (
     piston_velocity,
     slider_velocity,
 )
-from vibroacoustics.mechanisms.slider_link.unbalance import (
-    free_acceleration,
-    internal_forces,
-    unbalance,
-)
+from vibroacoustics.mechanisms.slider_link.unbalance import unbalance
 from vibroacoustics.orders import order_spectrum, order_spectrum_at_speed
 from vibroacoustics.study.loading import load_machine, load_study
 from vibroacoustics.transfer import MachineOnMounts

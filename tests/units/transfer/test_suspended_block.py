@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 from slider_link_files import STUDY
+from slider_link_pairs import free_acceleration
 from support import ROOT, made_up_radiation
 
 from vibroacoustics import pipeline
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.machine.housing import Housing
-from vibroacoustics.mechanisms.slider_link.unbalance import free_acceleration
 from vibroacoustics.report.housing import block_table, modes_table
 from vibroacoustics.study.loading import load_machine, load_study
 from vibroacoustics.transfer import MachineOnMounts, on_mounts

@@ -29,6 +29,7 @@ for _unit in (
     Unit("deg", "°", "rad", 0.017453292519943295),
     Unit("rad", "rad", "rad", 1.0),
     Unit("rad_per_s", "rad/s", "rad_per_s", 1.0),
+    Unit("rad_per_s2", "rad/s²", "rad_per_s2", 1.0),
     Unit("ms", "ms", "s", 1e-3),
     Unit("s", "s", "s", 1.0),
     Unit("hz", "Hz", "hz", 1.0),
@@ -40,6 +41,8 @@ for _unit in (
     Unit("kg_per_m3", "kg/m³", "kg_per_m3", 1.0),
     Unit("n_m", "N m", "n_m", 1.0),
     Unit("n_m_s", "N m s", "n_m_s", 1.0),
+    Unit("w", "W", "w", 1.0),
+    Unit("kw", "kW", "w", 1e3),
     Unit("rpm", "rpm", "rpm", 1.0),  # the label of a speed; see shaft_frequency_hz
     Unit("db", "dB", "db", 1.0),
     Unit("dba", "dB(A)", "dba", 1.0),

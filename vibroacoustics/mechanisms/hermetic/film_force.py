@@ -5,7 +5,6 @@ from typing import Final
 
 import numpy as np
 
-from ...base.arrays import Array
 from .journal_bearing import Values, sommerfeld_angle
 from .machine import JournalBearing
 
@@ -79,27 +78,3 @@ def _angle(x: Values, y: Values) -> Values:
     turned_x = x * np.cos(base) + y * np.sin(base)
     turned_y = y * np.cos(base) - x * np.sin(base)
     return np.asarray(base + np.arctan(turned_y / turned_x))
-
-
-def printed_film_force(
-    law: Callable[..., tuple[Array, Array]],
-) -> FilmForce:
-    """A printed law in ε, dε/dt and u as a force in x and y (Estupiñan eq. 30)."""
-
-    def force(
-        bearing: JournalBearing, displacement_m: Values, velocity: Values, spin: Values
-    ) -> Values:
-        x, y = displacement_m[..., 0], displacement_m[..., 1]
-        eccentric = np.sqrt(x**2 + y**2)
-        rate = (x * velocity[..., 0] + y * velocity[..., 1]) / eccentric
-        turning = (x * velocity[..., 1] - y * velocity[..., 0]) / eccentric**2
-        clearance = bearing.clearance_m
-        radial, transverse = law(
-            bearing, eccentric / clearance, rate / clearance, spin - 2.0 * turning
-        )
-        return np.stack(
-            ((radial * x - transverse * y) / eccentric, (radial * y + transverse * x) / eccentric),
-            axis=-1,
-        )
-
-    return force

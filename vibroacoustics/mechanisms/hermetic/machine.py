@@ -1,9 +1,11 @@
 """A hermetic reciprocating compressor: slider-crank, gas, motor, journal bearings and shaft."""
 
+from collections.abc import Iterable
 from typing import ClassVar, Final, Literal
 
 from pydantic import Field, model_validator
 
+from ...base.curves import Curve
 from ...base.parameters import Parameters
 from ...base.registry import register
 from ...machine.machine import Machine
@@ -167,6 +169,12 @@ class HermeticCompressor(Machine):
         from .revolution import hermetic_revolution
 
         return hermetic_revolution(self, speed_rpm, samples)
+
+    def curves(self, speed_rpm: float) -> Iterable[Curve]:
+        """Forces, orbits and films over the crank angle; see `hermetic_curves`."""
+        from .curves import hermetic_curves
+
+        return hermetic_curves(self, speed_rpm)
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
         """What the model leaves out."""

@@ -1,10 +1,11 @@
 """A scroll compressor that mini-cranks keep from turning: links, masses, loads."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import ClassVar, Final
 
 from pydantic import Field
 
+from ...base.curves import Curve
 from ...base.parameters import Parameters
 from ...base.registry import register
 from ...machine.machine import Machine
@@ -104,6 +105,12 @@ class MiniCrankMachine(Machine):
         from .revolution import minicrank_revolution
 
         return minicrank_revolution(self, speed_rpm, samples)
+
+    def curves(self, speed_rpm: float) -> Iterable[Curve]:
+        """Load, input torque and pin forces over the crank angle; see `minicrank_curves`."""
+        from .curves import minicrank_curves
+
+        return minicrank_curves(self, speed_rpm)
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
         """What the model leaves out."""

@@ -1,10 +1,12 @@
 """A scroll compressor with an Oldham coupling: masses and places of its moving parts."""
 
+from collections.abc import Iterable
 from typing import ClassVar, Final
 
 from pydantic import Field
 
 from ...base.arrays import Array
+from ...base.curves import Curve
 from ...base.parameters import Parameters
 from ...base.registry import register
 from ...machine.machine import PART_MASS, Machine
@@ -94,6 +96,12 @@ class OldhamScroll(Machine):
         from .revolution import scroll_parts
 
         return scroll_parts(self, crank_angle)
+
+    def curves(self, speed_rpm: float) -> Iterable[Curve]:
+        """Force of the ring, critical speeds of the shaft; see `oldham_scroll_curves`."""
+        from .curves import oldham_scroll_curves
+
+        return oldham_scroll_curves(self, speed_rpm)
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
         """What the model leaves out, without and with gas, keys and motor."""

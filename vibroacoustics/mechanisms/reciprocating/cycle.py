@@ -1,11 +1,10 @@
 """Reciprocating compressor with Coulomb friction (Tsuji et al. 2012): forces, losses, speed."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from ...base.arrays import Array
 from ...base.errors import ParameterError, SolverError
@@ -197,48 +196,3 @@ def coulomb_friction(moved: Motion, forces: ConstraintForces, pairs: SlidingPair
     )
     wall = -pairs.wall_friction * np.abs(forces.piston_pin_n[1]) * np.sign(moved.piston_m[1])
     return Friction(wall, np.sign(moved.rod_angle[1]) * pin, crank_pin, journal)
-
-
-def efficiency_map(
-    machine: ReciprocatingMachine, speed_rpm: Sequence[float], bore_m: Sequence[float]
-) -> Array:
-    """Mechanical efficiency at constant displacement (Tsuji et al. 2012, figure 5c).
-
-    Returns
-    -------
-    shape (speeds, bores)
-    """
-    return np.array(
-        [
-            [steady_cycle(machine, bore, speed).mechanical_efficiency for bore in bore_m]
-            for speed in speed_rpm
-        ]
-    )
-
-
-def optimum_bore(
-    machine: ReciprocatingMachine, speed_rpm: float, lowest_m: float, highest_m: float
-) -> tuple[float, float]:
-    """Bore of the best efficiency at constant displacement (Tsuji et al. 2012, figure 6).
-
-    Returns
-    -------
-    bore, efficiency : m and ratio
-
-    Raises
-    ------
-    ParameterError
-        The range is empty or the best bore lies on an end of it.
-    """
-    where = f"bore_mm from {1e3 * lowest_m:g} to {1e3 * highest_m:g} mm"
-    if not 0.0 < lowest_m < highest_m < np.inf:
-        raise ParameterError(f"{where}: must be two rising, positive lengths")
-    found = minimize_scalar(
-        lambda bore: -steady_cycle(machine, float(bore), speed_rpm).mechanical_efficiency,
-        bounds=(lowest_m, highest_m),
-        method="bounded",
-        options={"xatol": 1e-5},
-    )
-    if min(found.x - lowest_m, highest_m - found.x) < 1e-4:
-        raise ParameterError(f"{where}: holds no optimum bore")
-    return float(found.x), -float(found.fun)

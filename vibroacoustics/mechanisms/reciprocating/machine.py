@@ -1,10 +1,12 @@
 """A single-acting reciprocating compressor: slider-crank, bearings, gas, drive."""
 
+from collections.abc import Iterable
 from math import pi
 from typing import ClassVar, Final
 
 from pydantic import Field, model_validator
 
+from ...base.curves import Curve
 from ...base.parameters import Parameters
 from ...base.registry import register
 from ...machine.machine import Machine
@@ -142,6 +144,12 @@ class ReciprocatingMachine(Machine):
         from .revolution import reciprocating_revolution
 
         return reciprocating_revolution(self, speed_rpm, samples)
+
+    def curves(self, speed_rpm: float) -> Iterable[Curve]:
+        """Torques, friction, losses and efficiency; see `reciprocating_curves`."""
+        from .curves import reciprocating_curves
+
+        return reciprocating_curves(self, speed_rpm)
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
         """What the model leaves out."""

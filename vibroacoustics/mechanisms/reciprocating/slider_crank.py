@@ -7,7 +7,7 @@ import numpy as np
 from ...base.arrays import Array
 from ...base.errors import ParameterError
 from ...mechanics.crankshaft import acceleration_of, planar
-from ...mechanics.moving_parts import MovingPart, Wrench, path
+from ...mechanics.moving_parts import Wrench
 from ...mechanics.rotation import Rotation
 from .machine import PistonAndRod
 
@@ -155,23 +155,6 @@ def rates_of_momentum(
         mass * acceleration_of(position, rotation) for mass, position in moving_masses(crank, moved)
     )
     return piston, rod_x, rod_y, turn
-
-
-def slider_crank_parts(crank: SliderCrank, moved: Motion) -> tuple[MovingPart, ...]:
-    """Piston and rod as moving parts: cylinder along x, crank in the plane z = 0.
-
-    The rod is two masses, in its eyes. They have its mass and centre of mass, and its inertia
-    where that is m a b.
-    """
-    zero = np.zeros_like(moved.crank_angle)
-    small = crank.rod_mass_kg * crank.big_end_to_centre_m / crank.rod_length_m
-    piston = path(moved.piston_m[0], zero + crank.offset_m, zero)
-    pin = path(np.cos(moved.crank_angle), np.sin(moved.crank_angle), zero) * crank.crank_radius_m
-    return (
-        MovingPart("piston", crank.piston_mass_kg, piston),
-        MovingPart("connecting_rod", small, piston),
-        MovingPart("connecting_rod", crank.rod_mass_kg - small, pin),
-    )
 
 
 def housing_wrenches(

@@ -12,28 +12,6 @@ HALVINGS: Final = 60
 """Halvings of the eccentricity's interval, down to the rounding of a double."""
 
 
-def short_bearing_load(eccentricity_ratio: Array, length_per_diameter: float) -> Array:
-    """Load coefficient Φ_p (22) = ψ² F / (η ω l d) of a short bearing.
-
-    The paper leaves the function open; this is Ocvirk's (NACA TN 2808, 1952): half of
-    (l/d)² π ε √(0.6211 ε² + 1) / (1 - ε²)².
-
-    Parameters
-    ----------
-    eccentricity_ratio : from 0 to below 1
-    length_per_diameter : l/d
-
-    Raises
-    ------
-    ParameterError
-        The eccentricity is outside its range.
-    """
-    ratio = _checked(eccentricity_ratio)
-    clear = 1.0 - ratio**2
-    root = np.sqrt(np.pi**2 * clear + 16.0 * ratio**2)
-    return np.asarray(0.5 * length_per_diameter**2 * ratio * root / clear**2)
-
-
 def short_bearing_friction(eccentricity_ratio: Array, length_per_diameter: float) -> Array:
     """Friction coefficient Φ_T of (21) on the shaft of a short bearing.
 
@@ -96,6 +74,22 @@ def journal_friction_moment(
     ratio = eccentricity_ratio(clearance**2 * load_n / shear, slenderness)
     friction = shear / clearance * short_bearing_friction(ratio, slenderness)
     return np.asarray(friction * bearing.radius_m)
+
+
+def journal_friction_coefficient(
+    bearing: JournalBearing, load_n: Array, velocity: Array, viscosity_pa_s: float
+) -> Array:
+    """Friction coefficient of a short bearing with its eccentricity (21): M/(F r).
+
+    Parameters
+    ----------
+    bearing : lengths in m
+    load_n : load, N, above zero
+    velocity : angular velocity, rad/s, above zero
+    viscosity_pa_s : dynamic viscosity
+    """
+    moment = journal_friction_moment(bearing, load_n, velocity, viscosity_pa_s)
+    return np.asarray(moment / (load_n * bearing.radius_m))
 
 
 def petroff_coefficient(

@@ -5,11 +5,13 @@ the paper's frame: x along the cylinder, z down along the shaft, origin on the s
 of the block's centre of mass.
 """
 
+from collections.abc import Iterable
 from math import pi
 from typing import ClassVar, Final
 
 from pydantic import Field, model_validator
 
+from ...base.curves import Curve
 from ...base.parameters import Parameters
 from ...base.registry import register
 from ...base.units import shaft_frequency_hz
@@ -227,6 +229,12 @@ class SliderLinkMachine(Machine):
         from .revolution import slider_link_revolution
 
         return slider_link_revolution(self, speed_rpm, samples)
+
+    def curves(self, speed_rpm: float) -> Iterable[Curve]:
+        """Forces and friction over the crank angle; see `slider_link_curves`."""
+        from .curves import slider_link_curves
+
+        return slider_link_curves(self, speed_rpm)
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
         """What the model leaves out."""

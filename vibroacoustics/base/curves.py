@@ -1,0 +1,122 @@
+"""Inner curves of a machine: values over a crank angle, a speed or a length, with their words.
+
+Whoever owns a curve gives its values in SI and the unit in which people read it; tables and
+pictures follow from that. A dataset of curves is self-contained: it is drawn without the machine.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, Final, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .arrays import Array
+from .errors import ParameterError
+from .units import UNITS
+
+CRANK_ANGLES: Final = 720
+"""Samples a revolution where a curve may choose: half a degree."""
+MOST_AXES: Final = 3
+ORBIT_AXES: Final = ("x", "y")
+
+
+class CurveAxis(NamedTuple):
+    """What a curve is given over.
+
+    Attributes
+    ----------
+    name : of the dimension
+    values : numbers in SI, or words
+    unit : key of `units.UNITS` in which they are read; empty for words
+    label : in a picture; the name in words where empty
+    """
+
+    name: str
+    values: NDArray[np.floating[Any]] | Sequence[str]
+    unit: str = ""
+    label: str = ""
+
+    @property
+    def words(self) -> bool:
+        """Whether the values are words."""
+        return not np.issubdtype(np.asarray(self.values).dtype, np.number)
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A curve, a family of curves, or families of curves in panels.
+
+    Attributes
+    ----------
+    name : of the variable, and of its table and picture
+    title : what is shown, in words
+    values : SI, one dimension for each axis
+    axes : the last is the abscissa, the one before parts the lines, the first of three the panels
+    unit : key of `units.UNITS` in which the values are read
+    source : document and figure or equation that it repeats; or what it is derived from
+    picture : lines over the abscissa; or an orbit, the second of two axes `x`, `y` over the first,
+        in a circle of one
+    orders : shaft orders that a map of frequencies over the speed shows as lines
+    """
+
+    name: str
+    title: str
+    values: Array
+    axes: tuple[CurveAxis, ...]
+    unit: str
+    source: str
+    picture: Literal["lines", "orbit"] = "lines"
+    orders: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        if reason := self._why_not():
+            raise ParameterError(f"curve {self.name}: {reason}")
+
+    def _why_not(self) -> str | None:
+        """Why the curve cannot be; None where it can."""
+        return next((reason for reason in self._reasons() if reason), None)
+
+    def _reasons(self) -> Iterator[str | None]:
+        """What is wrong; what comes later takes for granted that nothing was before."""
+        if not self.name.isidentifier() or not self.title or not self.source:
+            yield "name, title and source must be said, the name as a word of letters, digits, _"
+        most = MOST_AXES + (self.picture == "orbit")
+        if not 1 <= len(self.axes) <= most:
+            yield f"{len(self.axes)} axes; allowed 1 to {most}"
+        shape = tuple(len(axis.values) for axis in self.axes)
+        if np.shape(self.values) != shape or 0 in shape:
+            yield f"values of shape {np.shape(self.values)} over axes of {shape}"
+        numbers = [(self.unit, self.values)]
+        numbers += [(axis.unit, np.asarray(axis.values)) for axis in self.axes if not axis.words]
+        for unit, values in numbers:
+            if unit not in UNITS:
+                yield f"unit {unit}: {UNITS.unknown(unit)}"
+            if not np.all(np.isfinite(values)):
+                yield "values must be finite"
+        if self.picture == "orbit":
+            yield self._why_no_orbit()
+
+    def _why_no_orbit(self) -> str | None:
+        fits = len(self.axes) >= 2 and tuple(self.axes[-2].values) == ORBIT_AXES
+        return None if fits else "an orbit needs x and y as the last axis but one"
+
+
+def angle_axis(
+    crank_angle: Array, name: str = "crank_angle", label: str = "Crank angle"
+) -> CurveAxis:
+    """Crank angle as an abscissa.
+
+    Parameters
+    ----------
+    crank_angle : rad, shape (samples,)
+    name : of the dimension
+    label : in a picture
+    """
+    return CurveAxis(name, crank_angle, "deg", label)
+
+
+def in_words(name: str) -> str:
+    """A variable's name as the words of a label."""
+    text = name.replace("_", " ")
+    return text[:1].upper() + text[1:]
