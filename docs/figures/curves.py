@@ -76,11 +76,11 @@ def points(
     return draw
 
 
-def angles(*degrees: float) -> Callable[[Axes], None]:
+def angles(*degrees: float, at: tuple[float, float] = (0.3, 0.9)) -> Callable[[Axes], None]:
     def draw(axes: Axes) -> None:
         for angle in degrees:
             axes.axvline(angle, ls=":", lw=1.2, **PRINTED)
-        axes.annotate("⋮ printed", (0.3, 0.9), xycoords="axes fraction", **PRINTED)
+        axes.annotate("⋮ printed", at, xycoords="axes fraction", **PRINTED)
 
     return draw
 
@@ -93,15 +93,15 @@ def saw_tooth(axes: Axes) -> None:
 def speeds(axes: Axes) -> None:
     for speed in (20932.5, 24974.0):
         axes.axvline(speed, ls=":", lw=1.2, **PRINTED)
-    axes.annotate("printed", (20000.0, -0.42), ha="right", **PRINTED)
+    axes.annotate("⋮ printed", (0.46, 0.64), xycoords="axes fraction", **PRINTED)
 
 
 MARKS: dict[tuple[str, str], Callable[[Axes], None]] = {
     ("copeland_sources", "pocket_pressure"): points([0.0, 480.0], [15.0, 41.159]),
-    ("copeland_sources", "gas_force"): angles(90.0, 210.0),
+    ("copeland_sources", "gas_force"): angles(90.0, 210.0, at=(0.02, 0.4)),
     ("copeland_sources", "gas_force_angle"): saw_tooth,
     ("copeland_sources", "critical_speed"): speeds,
-    ("mayekawa_wbhe", "crank_acceleration"): angles(325.0),
+    ("mayekawa_wbhe", "crank_acceleration"): angles(325.0, at=(0.6, 0.1)),
     ("mayekawa_wbhe", "mechanical_efficiency"): points(
         [120.0, 130.0, 140.0], [92.1, 91.1, 90.3], (0.02, 0.04)
     ),
