@@ -61,20 +61,24 @@ def curves(
         )
     changed = _option(study, option)
     machine = base if changed is None else changed.applied_to(base)
-    attrs = {
-        "title": f"Curves of {machine.name} at {speed:g} rpm",
-        "machine": machine.name,
-        "machine_kind": machine.kind,
-        "option": option,
-        "speed_rpm": speed,
-    }
     parts = [machine.curves(speed)]
     if study is not None and changed is not None and study.sources:
         parts.append(_of_sources(study, machine, changed, speed))
-    dataset = curves_dataset(chain.from_iterable(parts), attrs)
+    words = _attributes(machine, option, speed)
+    dataset = curves_dataset(chain.from_iterable(parts), words)
     if not dataset.data_vars:
         raise ParameterError(f"machine {machine.name}: its kind {machine.kind} has no curves")
     return dataset
+
+
+def _attributes(machine: Machine, option: str, speed_rpm: float) -> dict[str, str | float]:
+    return {
+        "title": f"Curves of {machine.name} at {speed_rpm:g} rpm",
+        "machine": machine.name,
+        "machine_kind": machine.kind,
+        "option": option,
+        "speed_rpm": speed_rpm,
+    }
 
 
 def _speed(study: Study | None, machine: Machine) -> float:
