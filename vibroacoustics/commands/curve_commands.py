@@ -1,9 +1,11 @@
 """Command for a machine's inner curves. Heavy imports wait until it is needed."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Final
 
 import typer
+
+CURVES_NAME: Final = "curves.nc"
 
 commands = typer.Typer()
 
@@ -28,8 +30,9 @@ def curves_command(
     ] = None,
 ) -> None:
     """Show what goes on inside a machine: curves.nc, a table and a picture of each curve."""
+    from .. import report
     from ..base.plugin_file import load_plugin
-    from ..sources import curves
+    from ..sources.curves import curves
     from ..study.study_or_machine import load_study_or_machine
     from . import outputs
 
@@ -38,8 +41,9 @@ def curves_command(
     folder = out or Path("reports") / file.stem / "curves"
     study_or_machine = load_study_or_machine(file)
     outputs.check_folder(folder)
-    inner = curves.curves(study_or_machine, speed, option)
-    written = outputs.write_curves(inner, folder)
+    inner = curves(study_or_machine, speed, option)
+    tables = {f"{name}.csv": report.curve_csv(inner, str(name)) for name in inner.data_vars}
+    written = outputs.write_analysis(inner, folder, CURVES_NAME, tables, report.curve_figures)
     for name, curve in inner.items():
         typer.echo(f"{name}: {curve.attrs['title']} ({curve.attrs['source']})")
     typer.echo(f"curves: {written}")

@@ -19,7 +19,6 @@ REPORT_NAME: Final = "report.html"
 TRANSFER_VECTORS_NAME: Final = "transfer_vectors.nc"
 ORDERS_NAME: Final = "orders.nc"
 COMPARISON_NAME: Final = "compared_orders.nc"
-CURVES_NAME: Final = "curves.nc"
 REPORT_FILES: Final = (
     REPORT_NAME,
     "comparison.csv",
@@ -168,12 +167,6 @@ def write_comparison(compared: xr.Dataset, folder: str | Path) -> Path:
     """Write compared orders with their table and figures; see `write_radiation`."""
     table = {"compared_orders.csv": report.comparison_of_orders_csv(compared)}
     return write_analysis(compared, folder, COMPARISON_NAME, table, report.compared_order_figures)
-
-
-def write_curves(curves: xr.Dataset, folder: str | Path) -> Path:
-    """Write curves with a table and a picture of each; see `write_radiation`."""
-    tables = {f"{name}.csv": report.curve_csv(curves, str(name)) for name in curves.data_vars}
-    return write_analysis(curves, folder, CURVES_NAME, tables, report.curve_figures)
 
 
 def write_analysis(

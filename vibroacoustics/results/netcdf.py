@@ -74,11 +74,10 @@ def _ascii_attributes(results: xr.Dataset) -> xr.Dataset:
     Which ones are escaped stands beside them, so that they are read as they were written.
     """
     for attrs in _attributes(results):
-        escaped = [
-            name for name, value in attrs.items() if isinstance(value, str) and not value.isascii()
-        ]
+        texts = {name: value for name, value in attrs.items() if isinstance(value, str)}
+        escaped = [name for name, text in texts.items() if not text.isascii()]
         for name in escaped:
-            attrs[name] = attrs[name].encode("unicode_escape").decode()
+            attrs[name] = texts[name].encode("unicode_escape").decode()
         if escaped:
             attrs[ESCAPED] = " ".join(map(str, escaped))
     return results

@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 from inner_curves import FILES, inner
 from machine_files import machine_file
-from support import PIPELINES, assert_refused, command_here
+from support import PIPELINES, ROOT, assert_refused, command_here
 
 import vibroacoustics as va
 from vibroacoustics.base.curve_dataset import shown
@@ -156,12 +156,56 @@ def test_machine_without_curves_is_refused():
     class Plain(Machine):
         kind = "plain"
 
-    bare = va.load_machine(ZHAO)
-    fields = {name: getattr(bare, name) for name in Machine.model_fields}
     with pytest.raises(ParameterError, match="its kind plain has no curves"):
-        va.curves(Plain(**fields))
+        va.curves(Plain(**fields_of_a_machine()))
 
 
 def test_unknown_curve_names_those_that_there_are():
     with pytest.raises(ParameterError, match="curve film: unknown; allowed external_force, "):
         figure(inner("zhao_minicrank"), "film")
+
+
+def test_page_names_every_curve():
+    page = (ROOT / "docs" / "curves.md").read_text(encoding="utf-8")
+    missing = {
+        str(variable)
+        for name in FILES
+        for variable in inner(name).data_vars
+        if f"`{variable}`" not in page
+    }
+    assert not missing
+
+
+def test_curve_of_a_stranger_that_cannot_be_is_one_line():
+    class Broken(Machine):
+        kind = "broken"
+
+        def curves(self, speed_rpm):
+            angle = va.CurveAxis("crank_angle", np.arange(3.0), "deg")
+            yield va.Curve("load", "Load", np.full(3, np.inf), (angle,), "n_m", "assumed")
+
+    with pytest.raises(ParameterError, match="curve load: values must be finite"):
+        va.curves(Broken(**fields_of_a_machine()))
+
+
+def test_curve_of_a_stranger_is_drawn():
+    class Flywheel(Machine):
+        kind = "flywheel"
+
+        def curves(self, speed_rpm):
+            speeds = va.CurveAxis("shaft_speed", np.array([0.0, 3000.0, 6000.0]), "rpm")
+            modes = va.CurveAxis("whirl_mode", ["backward", "forward"])
+            values = np.array([[60.0, 50.0, 40.0], [60.0, 70.0, 80.0]])
+            axes = (modes, speeds)
+            yield va.Curve("whirl", "Whirl", values, axes, "hz", "assumed", orders=(1.0, 2.0))
+
+    curves = va.curves(Flywheel(**fields_of_a_machine()))
+    (axes,) = va.plot.curves(curves, "whirl").axes
+    assert len(axes.lines) == 4  # two modes, two orders
+    assert axes.get_xlabel() == "Shaft speed, rpm"
+    assert axes.get_ylabel() == "Whirl,\u00a0Hz"
+
+
+def fields_of_a_machine() -> dict[str, object]:
+    bare = va.load_machine(ZHAO)
+    return {name: getattr(bare, name) for name in Machine.model_fields}

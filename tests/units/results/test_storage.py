@@ -340,3 +340,15 @@ def test_a_folder_made_for_results_that_fail_goes_again(results, tmp_path, monke
     with pytest.raises(ZeroDivisionError):
         storage.write_results(results, tmp_path / "a" / "b" / "results.nc")
     assert not list(tmp_path.iterdir())
+
+
+def test_attributes_are_read_as_they_were_written(results, tmp_path):
+    """Escaped in the file for readers that know ASCII only; a backslash of ours is none of it."""
+    words = {"title": "Größe, µm\nand \\n", "plain": "C:\\new", "plugins": '{"a": "\\u00b5"}'}
+    written = results.assign_attrs(words)
+    written["receiver"].attrs["long_name"] = "Estupiñan"
+    storage.write_results(written, tmp_path / "r.nc")
+    read = storage.open_results(tmp_path / "r.nc")
+    assert {name: read.attrs[name] for name in words} == words
+    assert read["receiver"].attrs["long_name"] == "Estupiñan"
+    assert "escaped_attributes" not in read.attrs

@@ -27,12 +27,14 @@ from .style import (
 )
 
 TITLE_WIDTH: Final = 62
-LABEL_WIDTH: Final = 22
+LABEL_WIDTH: Final = 24
 PANEL_INCH: Final = 2.2
 ORBIT_INCH: Final = 4.2
 ORBIT_TICKS: Final = (-1.0, -0.5, 0.0, 0.5, 1.0)
 MOST_MARKED: Final = 12
 """Points of a line that has a marker on each."""
+LABELLED: Final = (0.1, 0.8)
+"""Heights, over that of the panel, between which a shaft order has its label."""
 DEGREES_PER_TICK: Final = 60.0
 LEGEND_COLUMNS: Final = 2
 
@@ -96,10 +98,17 @@ def _paint_lines(axes: Axes, family: xr.DataArray) -> None:
     for order in np.atleast_1d(family.attrs.get("orders", ())):
         _paint_order(axes, abscissa.values, float(order))
     axes.set_xlabel(plain(shown_label(abscissa)))
-    axes.set_ylabel(plain(fill(shown_label(family), LABEL_WIDTH)))
+    axes.set_ylabel(plain(_on_lines(shown_label(family))))
     axes.set_xlim(along.min(), along.max())
     if abscissa.attrs["read_in"] == "°":
         _degree_ticks(axes, along)
+
+
+def _on_lines(label: str) -> str:
+    """A label on lines short enough for the height of a panel; the unit stays with its word."""
+    words, comma, unit = label.partition(", ")
+    together = "\u00a0".join([f"{words}{comma.rstrip()}", *unit.split()])
+    return fill(together, LABEL_WIDTH)
 
 
 def _paint_bars(axes: Axes, words: list[str], values: Array) -> None:
@@ -118,9 +127,12 @@ def _paint_order(axes: Axes, speed_rpm: Array, order: float) -> None:
     top = axes.get_ylim()[1]
     frequency = order * np.vectorize(shaft_frequency_hz)(speed_rpm)
     axes.plot(speed_rpm, frequency, color="#888888", linewidth=1.0, linestyle="--")
-    end = int(np.flatnonzero(frequency <= 0.8 * top)[-1])
-    axes.annotate(f"{order:g}×", (speed_rpm[end], frequency[end]), (-6, 4),
-                  textcoords="offset points", ha="right", color="#555555")  # fmt: skip
+    end = int(np.flatnonzero(frequency <= LABELLED[1] * top)[-1])
+    if frequency[end] > LABELLED[0] * top:
+        place = (speed_rpm[end], frequency[end])
+        axes.annotate(
+            f"{order:g}×", place, (-6, 4), textcoords="offset points", ha="right", color="#555555"
+        )
     axes.set_ylim(0.0, top)
 
 
@@ -142,7 +154,7 @@ def _paint_orbit(axes: Axes, family: xr.DataArray) -> None:
 def _degree_ticks(axes: Axes, degrees: Array) -> None:
     """Ticks at multiples of 60°, or of 120° over more than a revolution."""
     step = DEGREES_PER_TICK * (2.0 if np.ptp(degrees) > 400.0 else 1.0)
-    first, last = np.ceil(degrees.min() / step), np.ceil(degrees.max() / step - 0.02)
+    first, last = np.ceil(degrees.min() / step), np.floor(degrees.max() / step + 0.05)
     axes.set_xticks(step * np.arange(first, last + 1))
     axes.set_xlim(degrees.min(), max(degrees.max(), step * last))
 

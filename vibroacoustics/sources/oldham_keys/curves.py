@@ -14,7 +14,7 @@ KEYS: Final = (
     "in the housing, x > 0",
     "in the housing, x < 0",
 )
-SOURCE: Final = "contact law of Lankarani & Nikravesh 1990 or Flores et al. 2011"
+SOURCE: Final = "four keys with clearance, film and friction, our equations"
 
 
 def oldham_key_curves(forces: KeyForces) -> Iterator[Curve]:
