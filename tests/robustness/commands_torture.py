@@ -1,7 +1,9 @@
 """The command `run`, killed or ended by a signal anywhere; see `torture`."""
 
+import atexit
 import os
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -20,6 +22,7 @@ from vibroacoustics.results import manifest
 
 STUDY: Final = Path(__file__).resolve().parents[1] / "studies" / "tiny.toml"
 WARM_CACHE: Final = Path(tempfile.mkdtemp(prefix="torture-cache-"))
+atexit.register(shutil.rmtree, WARM_CACHE, ignore_errors=True)
 
 
 def start(out: Path, cache_folder: Path) -> subprocess.Popen[str]:
