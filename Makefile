@@ -1,17 +1,23 @@
 # make run   sets up, runs the main job, prints the table and where the report is
 # make test  sets up and runs every test, the slow physics included
+# make docs  sets up and builds the site into docs/_build/html
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STUDY ?= pipelines/copeland_thesis.toml
 
-.PHONY: run test check lock clean
+.PHONY: run test docs check lock clean
 
 run: $(VENV)/.core
 	$(BIN)/vibroacoustics run $(STUDY)
 
 test: $(VENV)/.dev
 	$(BIN)/pytest -n auto --dist loadfile
+
+# Offline; the pages of the gallery are run. A warning is an error.
+docs: $(VENV)/.dev
+	$(BIN)/sphinx-build -W --keep-going --quiet -b html docs docs/_build/html
+	@echo "site: docs/_build/html/index.html"
 
 # Format, lint, types and the import contract.
 check: $(VENV)/.dev
@@ -38,4 +44,5 @@ lock:
 	$(LOCK) --extra dev --extra docs -o requirements-dev.lock
 
 clean:
+	rm -rf docs/_build docs/examples docs/generated
 	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache
