@@ -63,6 +63,7 @@ sphinx_gallery_conf = {
     "download_all_examples": False,
     "show_signature": False,
     "show_memory": False,
+    "write_computation_times": False,
     "min_reported_time": 1e6,
     "abort_on_example_error": True,
     "remove_config_comments": True,
@@ -70,6 +71,7 @@ sphinx_gallery_conf = {
 }
 
 GENERATED = ("vocabulary", "command_line", "errors", "registered")
+COPIED = {"changelog": "CHANGELOG.md", "contributing": "CONTRIBUTING.md"}
 
 
 def _write_generated(app) -> None:
@@ -78,6 +80,9 @@ def _write_generated(app) -> None:
     folder.mkdir(exist_ok=True)
     for name in GENERATED:
         text = import_module(f"generators.{name}").page()
+        (folder / f"{name}.md").write_text(text, encoding="utf-8")
+    for name, page in COPIED.items():
+        text = import_module("generators.copied").page(page)
         (folder / f"{name}.md").write_text(text, encoding="utf-8")
     (folder / "api.inc").write_text(import_module("generators.api").page(), encoding="utf-8")
     picture = import_module("generators.layers").picture()
@@ -94,7 +99,12 @@ def _without_links_out(app, docname: str, source: list[str]) -> None:
     source[0] = re.sub(r"(?<!!)\[([^\]]*)\]\((\.\.[^)\s]*)\)", words, source[0])
 
 
+def _readable_docstring(app, what, name, thing, options, lines: list[str]) -> None:
+    lines[:] = import_module("generators.docstrings").readable(lines)
+
+
 def setup(app) -> None:
     """Called by sphinx."""
+    app.connect("autodoc-process-docstring", _readable_docstring, priority=100)
     app.connect("builder-inited", _write_generated, priority=100)
     app.connect("source-read", _without_links_out)

@@ -1,7 +1,7 @@
 """Directives for every public name, so that the page of them needs no list of its own."""
 
 import inspect
-from types import ModuleType
+from types import FunctionType, ModuleType
 
 import vibroacoustics
 
@@ -28,5 +28,13 @@ def directive(head: str, name: str, thing: object) -> str:
         return f".. autofunction:: {name}\n"
     if head == "Modules":
         return f"{name}\n{'~' * len(name)}\n\n.. automodule:: {thing.__name__}\n   :members:\n"
-    own = [member for member in vars(thing) if not member.startswith(("_", "model_"))]
-    return f".. autoclass:: {name}\n   :members: {', '.join(own)}\n"
+    fields = {*getattr(thing, "__dataclass_fields__", ()), *getattr(thing, "_fields", ())}
+    own = [
+        member
+        for member, held in vars(thing).items()
+        if isinstance(held, FunctionType | classmethod | property)
+        and not member.startswith(("_", "model_"))
+        and member not in fields
+    ]
+    members = f"   :members: {', '.join(own)}\n" if own else ""
+    return f".. autoclass:: {name}\n{members}"

@@ -3,6 +3,8 @@
 import inspect
 import os
 import tempfile
+from contextlib import redirect_stdout
+from io import StringIO
 from pathlib import Path
 from typing import Final
 
@@ -14,9 +16,9 @@ from .tables import first_sentence
 ROOT: Final = Path(__file__).resolve().parents[2]
 HEAD: Final = """# Errors
 
-Every refusal derives from `VibroacousticsError` and is one line that a user can act on. On the command
-line it goes to the terminal, with exit code 2 and without a traceback; in Python it is raised. The
-lines below are what the examples gave when this page was made.
+Every refusal derives from `VibroacousticsError` and is one line that a user can act on. On the
+command line it goes to the terminal, with exit code 2 and without a traceback; in Python it is
+raised. The lines below are what the examples gave when this page was made.
 """
 EXAMPLES: Final = {
     "VibroacousticsError": """
@@ -43,7 +45,7 @@ check(results)
 Path("light.toml").write_text("""
 extends = "pipelines/dagilis_slider_link.toml"
 [machine.override.masses]
-crankshaft_inertia_kg_m2 = { value = 2.0e-5, source = "derived: shaft alone" }
+crankshaft_inertia_kg_m2 = { value = 1.0e-5, source = "derived: shaft alone" }
 """)
 va.run(va.load_study("light.toml"))
 ''',
@@ -94,7 +96,8 @@ def line_of(name: str, kind: type[Exception]) -> str:
             (Path(folder) / shared).symlink_to(ROOT / shared)
         os.chdir(folder)
         try:
-            exec(compile(EXAMPLES[name], name, "exec"), names)  # noqa: S102 - our own examples
+            with redirect_stdout(StringIO()):
+                exec(compile(EXAMPLES[name], name, "exec"), names)  # noqa: S102 - our own
         except kind as error:
             return str(error)
         finally:

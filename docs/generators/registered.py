@@ -16,10 +16,11 @@ from .tables import code, first_sentence, table
 
 HEAD: Final = """# Kinds, criteria and units
 
-What is built in, from the code's registries. Each list is open: one Python file adds to it, without a
-change of the package ([balancer](../add_a_balancer.md), [machine](../add_a_machine.md),
-[source](../add_a_source.md), [criterion](../add_a_criterion.md), [section](../add_a_section.md)). Fields
-are in SI; a file may write any of the units below in their place.
+What is built in, from the code's registries. Each list is open: one Python file adds to it, without
+a change of the package ([balancer](../add_a_balancer.md), [machine](../add_a_machine.md),
+[source](../add_a_source.md), [criterion](../add_a_criterion.md),
+[section](../add_a_section.md)). Fields are in SI; a file may write any of the units below in their
+place.
 """
 
 
@@ -48,7 +49,7 @@ def page() -> str:
                 for n, s in SOURCES.items()
             ],
         ),
-        "## Criteria\n\nTables of `[scoring.criteria]`; less is better where `best` is below `worst`.",
+        "## Criteria\n\nTables of `[scoring.criteria]`; less is better if `best` is below `worst`.",
         table(
             ("name", "is", "unit"), [(code(n), one.label, one.unit) for n, one in CRITERIA.items()]
         ),
