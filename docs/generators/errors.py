@@ -8,6 +8,8 @@ from io import StringIO
 from pathlib import Path
 from typing import Final
 
+import xarray as xr
+
 import vibroacoustics as va
 from vibroacoustics.base import errors
 
@@ -39,7 +41,7 @@ va.load_study("fast.toml")
 ''',
     "SchemaError": """
 results = xr.Dataset({"loudness": ("speed", [4.0])})
-check(results)
+va.check(results)
 """,
     "SolverError": '''
 Path("light.toml").write_text("""
@@ -89,8 +91,7 @@ def line_of(name: str, kind: type[Exception]) -> str:
         The example raises no such error.
     """
     before = Path.cwd()
-    names = {"va": va, "Path": Path, **vars(errors)}
-    names |= _further()
+    names = {"va": va, "xr": xr, "Path": Path, **vars(errors)}
     with tempfile.TemporaryDirectory() as folder:
         for shared in ("data", "pipelines"):
             (Path(folder) / shared).symlink_to(ROOT / shared)
@@ -103,11 +104,3 @@ def line_of(name: str, kind: type[Exception]) -> str:
         finally:
             os.chdir(before)
     raise AssertionError(f"{name}: its example raises nothing")
-
-
-def _further() -> dict[str, object]:
-    import xarray as xr
-
-    from vibroacoustics.base.vocabulary import check
-
-    return {"xr": xr, "check": check}

@@ -11,6 +11,11 @@ from .tables import code, first_sentence, table
 
 PACKAGE: Final = Path(vibroacoustics.__file__).parent
 SUBJECTS: Final = PACKAGE / "base" / "variables"
+CHAIN: Final = (
+    "study", "forces", "motion", "radiation", "sound_field", "levels", "sources", "draws",
+    "stopping", "scores", "columns", "recordings", "orders", "comparison",
+)  # fmt: skip
+"""Subjects in the order of the chain; further ones stand behind."""
 HEAD: Final = """# Vocabulary of results
 
 Every variable and coordinate that a result may hold, by subject. Nothing leaves a
@@ -47,7 +52,7 @@ def by_subject() -> dict[str, list[str]]:
     """Names by the subject of the file that has them."""
     left = {*VARIABLES, *COORDINATES}
     subjects: dict[str, list[str]] = {}
-    for file in sorted(SUBJECTS.glob("[!_]*.py")):
+    for file in sorted(SUBJECTS.glob("[!_]*.py"), key=place):
         text = file.read_text(encoding="utf-8")
         named = re.findall(r'(?:Variable|Coordinate)\(\s*"(\w+)"', text)
         title = first_sentence(re.match(r'"""(.*?)"""', text, re.DOTALL)[1]).rstrip(".")
@@ -58,13 +63,29 @@ def by_subject() -> dict[str, list[str]]:
     return subjects
 
 
+def place(file: Path) -> tuple[int, str]:
+    """Where the subject of a file stands on the page."""
+    listed = file.stem in CHAIN
+    return (CHAIN.index(file.stem) if listed else len(CHAIN)), file.stem
+
+
 def makers_of(name: str) -> list[str]:
-    """Files of the package that stamp a variable; else those that name it beside a stamp."""
+    """Files of the package that stamp a variable; else those below the report that name it."""
     files = [file for file in sorted(PACKAGE.rglob("*.py")) if PACKAGE / "base" not in file.parents]
     texts = {str(file.relative_to(PACKAGE)): file.read_text(encoding="utf-8") for file in files}
     stamped = [file for file, text in texts.items() if re.search(rf'stamp\(\s*"{name}"', text)]
-    return stamped or [
-        file
-        for file, text in texts.items()
-        if "stamp(" in text and f'"{name}"' in text and not file.startswith("report")
-    ]
+    named = [file for file, text in texts.items() if f'"{name}"' in text]
+    beside = [file for file in named if "stamp(" in texts[file]]
+    below = [file for file in named if not file.startswith(("report", "commands", "plot"))]
+    composed = [file for file, text in texts.items() if is_composed(name, text)]
+    return stamped or beside or below or composed
+
+
+def is_composed(name: str, text: str) -> bool:
+    """Whether a text puts a variable's name together: f"stopping_{what}" for stopping_force."""
+    patterns = re.findall(r'f"((?:\w*\{\w+\}\w*)+)"', text)
+    return any(
+        len(re.sub(r"\{\w+\}", "", pattern)) > 5
+        and re.fullmatch(re.sub(r"\{\w+\}", r"\\w+", pattern), name)
+        for pattern in patterns
+    )
