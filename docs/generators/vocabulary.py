@@ -1,6 +1,7 @@
 """The page of all variables of results: dimensions, unit, meaning, and who makes them."""
 
 import re
+from functools import cache
 from pathlib import Path
 from typing import Final
 
@@ -69,10 +70,16 @@ def place(file: Path) -> tuple[int, str]:
     return (CHAIN.index(file.stem) if listed else len(CHAIN)), file.stem
 
 
+@cache
+def sources() -> dict[str, str]:
+    """Text of every file of the package but those of the base."""
+    files = [file for file in sorted(PACKAGE.rglob("*.py")) if PACKAGE / "base" not in file.parents]
+    return {str(file.relative_to(PACKAGE)): file.read_text(encoding="utf-8") for file in files}
+
+
 def makers_of(name: str) -> list[str]:
     """Files of the package that stamp a variable; else those below the report that name it."""
-    files = [file for file in sorted(PACKAGE.rglob("*.py")) if PACKAGE / "base" not in file.parents]
-    texts = {str(file.relative_to(PACKAGE)): file.read_text(encoding="utf-8") for file in files}
+    texts = sources()
     stamped = [file for file, text in texts.items() if re.search(rf'stamp\(\s*"{name}"', text)]
     named = [file for file, text in texts.items() if f'"{name}"' in text]
     beside = [file for file in named if "stamp(" in texts[file]]
