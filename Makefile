@@ -1,13 +1,14 @@
 # make run   sets up, runs the main job, prints the table and where the report is
 # make test  sets up and runs every test, the slow physics included
 # make long  kills, full disks, writers beside readers, flipped bits and signals, for an hour
+# make docs  sets up and builds the site into docs/_build/html
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STUDY ?= pipelines/copeland_thesis.toml
 MINUTES ?= 60
 
-.PHONY: run test long check lock clean versions
+.PHONY: run test long docs check lock clean versions
 
 run: $(VENV)/.core
 	$(BIN)/vibroacoustics run $(STUDY)
@@ -21,6 +22,11 @@ long: $(VENV)/.dev
 # Light tests on every Python that is promised, as far as it is here; not part of `make test`.
 versions:
 	$(PYTHON) tests/on_every_python.py
+
+# Offline; the pages of the gallery are run. A warning is an error.
+docs: $(VENV)/.dev
+	$(BIN)/sphinx-build -W --keep-going --quiet -b html docs docs/_build/html
+	@echo "site: docs/_build/html/index.html"
 
 # Format, lint, types and the import contract.
 check: $(VENV)/.dev
@@ -47,4 +53,5 @@ lock:
 	$(LOCK) --extra dev --extra docs -o requirements-dev.lock
 
 clean:
+	rm -rf docs/_build docs/examples docs/generated
 	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache

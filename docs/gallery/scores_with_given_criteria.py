@@ -7,7 +7,7 @@ Fixed scales turn both into utilities from 0 to 1, weights into a score. See :do
 
 .. literalinclude:: /gallery/studies/given.toml
    :language: toml
-   :lines: 13-38, 49-
+   :lines: 13-
 """
 
 import matplotlib.pyplot as plt

@@ -1,0 +1,98 @@
+"""The page of all variables of results: dimensions, unit, meaning, and who makes them."""
+
+import re
+from functools import cache
+from pathlib import Path
+from typing import Final
+
+import vibroacoustics
+from vibroacoustics.base.vocabulary import COORDINATES, VARIABLES
+
+from .tables import code, first_sentence, table
+
+PACKAGE: Final = Path(vibroacoustics.__file__).parent
+SUBJECTS: Final = PACKAGE / "base" / "variables"
+CHAIN: Final = (
+    "study", "forces", "motion", "radiation", "sound_field", "levels", "sources", "draws",
+    "stopping", "scores", "columns", "recordings", "orders", "comparison",
+)  # fmt: skip
+"""Subjects in the order of the chain; further ones stand behind."""
+HEAD: Final = """# Vocabulary of results
+
+Every variable and coordinate that a result may hold, by subject. Nothing leaves a
+stage without passing this list: a variable that is not in it, or has other dimensions or another
+unit, is refused (`SchemaError`). Phasors are complex peaks, x(t) = Re{X exp(jωt)}; for degrees of
+freedom that turn, the unit has rad in place of m. Conventions: [](../conventions.md).
+"""
+
+
+def page() -> str:
+    """Markdown of the page."""
+    makers = {name: makers_of(name) for name in VARIABLES}
+    parts = [HEAD.strip()]
+    for title, names in by_subject().items():
+        variables = [VARIABLES[name] for name in names if name in VARIABLES]
+        coordinates = [COORDINATES[name] for name in names if name in COORDINATES]
+        parts.append(f"## {title}")
+        if variables:
+            rows = [(*row(one), ", ".join(map(code, makers[one.name]))) for one in variables]
+            parts.append(table(("variable", "dimensions", "unit", "meaning", "made by"), rows))
+        if coordinates:
+            rows = [row(one) for one in coordinates]
+            parts.append(table(("coordinate", "dimensions", "unit", "meaning"), rows))
+    return "\n\n".join(parts) + "\n"
+
+
+def row(one) -> tuple[str, str, str, str]:
+    """Name, dimensions, unit and meaning of a variable or a coordinate."""
+    phasor = ", phasor" if getattr(one, "complex_peak", False) else ""
+    return code(one.name), ", ".join(one.dims), one.units, one.long_name + phasor
+
+
+def by_subject() -> dict[str, list[str]]:
+    """Names by the subject of the file that has them."""
+    left = {*VARIABLES, *COORDINATES}
+    subjects: dict[str, list[str]] = {}
+    for file in sorted(SUBJECTS.glob("[!_]*.py"), key=place):
+        text = file.read_text(encoding="utf-8")
+        named = re.findall(r'(?:Variable|Coordinate)\(\s*"(\w+)"', text)
+        title = first_sentence(re.match(r'"""(.*?)"""', text, re.DOTALL)[1]).rstrip(".")
+        subjects[title] = [name for name in named if name in left]
+        left -= set(named)
+    if left:
+        subjects["Further"] = sorted(left)
+    return subjects
+
+
+def place(file: Path) -> tuple[int, str]:
+    """Where the subject of a file stands on the page."""
+    listed = file.stem in CHAIN
+    return (CHAIN.index(file.stem) if listed else len(CHAIN)), file.stem
+
+
+@cache
+def sources() -> dict[str, str]:
+    """Text of every file of the package but those of the base."""
+    files = [file for file in sorted(PACKAGE.rglob("*.py")) if PACKAGE / "base" not in file.parents]
+    return {str(file.relative_to(PACKAGE)): file.read_text(encoding="utf-8") for file in files}
+
+
+def makers_of(name: str) -> list[str]:
+    """Files of the package that stamp a variable; else those below the report that name it."""
+    texts = sources()
+    stamped = [file for file, text in texts.items() if re.search(rf'stamp\(\s*"{name}"', text)]
+    named = [file for file, text in texts.items() if f'"{name}"' in text]
+    beside = [file for file in named if "stamp(" in texts[file]]
+    below = [file for file in named if not file.startswith(("report", "commands", "plot"))]
+    composed = [file for file, text in texts.items() if is_composed(name, text)]
+    return stamped or beside or below or composed
+
+
+def is_composed(name: str, text: str) -> bool:
+    """Whether a text puts a variable's name together: f"stopping_{what}" for stopping_force."""
+    patterns = re.findall(r'f"((?:\w*\{\w+\}\w*)+)"', text)
+    return any(
+        len(re.sub(r"\{\w+\}", "", pattern)) > 5
+        and re.fullmatch(re.sub(r"\{\w+\}", r"\\w+", pattern), name)
+        for pattern in patterns
+    )
