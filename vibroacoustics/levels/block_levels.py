@@ -4,7 +4,7 @@ import numpy as np
 
 from ..base.arrays import Array, ComplexArray
 from ..base.constants import REFERENCE_PRESSURE_PA
-from ..base.decibel import mean_square_level
+from ..base.decibel import mean_square_level, power_of_level
 from .weighting import WEIGHTING
 
 
@@ -28,6 +28,6 @@ def block_levels(
     shape (..., block)
     """
     lines = resolution_hz / (frequency_hz[1] - frequency_hz[0])
-    gain = 10.0 ** (WEIGHTING[weighting](frequency_hz[1:]) / 10.0)
+    gain = power_of_level(WEIGHTING[weighting](frequency_hz[1:]))
     square = np.sum(gain * np.abs(spectra_pa[..., 1:]) ** 2, axis=-1) / (2.0 * lines)
     return mean_square_level(square, REFERENCE_PRESSURE_PA)
