@@ -11,7 +11,6 @@ NO_LEVELS = {
     "base/rounding.py": "number of digits",
     "levels/bands.py": "ratios and numbers of octaves of base ten",
     "mechanics/added.py": "number of a third octave",
-    "pipeline/sound.py": "not yet: factors of an insertion loss and of a catalogue level",
     "report/figures/style.py": "ticks of an axis",
     "study/speeds.py": "rounding of a step",
 }

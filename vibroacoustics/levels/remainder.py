@@ -7,7 +7,7 @@ import numpy as np
 
 from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
-from ..base.decibel import mean_square_level
+from ..base.decibel import mean_square_level, power_of_level
 from ..base.errors import ParameterError, SolverError
 from ..base.vocabulary import REFERENCE_OPTION
 from ..machine.source import CaseKey
@@ -39,7 +39,7 @@ def remainder(
     published = study.machine.overall_noise
     receiver = list(axes.receivers).index(study.catalogue_receiver)
     alone = sound[published.speed_rpm, REFERENCE_OPTION].total[0, receiver]
-    rest = REFERENCE_PRESSURE_PA**2 * 10.0 ** (published.level_dba / 10.0) - alone
+    rest = REFERENCE_PRESSURE_PA**2 * power_of_level(published.level_dba) - alone
     if rest <= 0.0 and not may_be_none:
         level = mean_square_level(alone, REFERENCE_PRESSURE_PA)
         raise ParameterError(

@@ -8,6 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ...base.decibel import level_of_amplitude
 from .needs import chosen, needs
 from .style import Picture, draw, legend_below, line_looks, numbered_file_name, png, shortened
 
@@ -43,7 +44,7 @@ def speed_frequency_map(mapped: xr.Dataset, channel: str | None = None) -> Figur
     varies = _varies(mapped["block_speed"])
     along = "block_speed" if varies else "block_time"
     spectra = mapped["speed_frequency_map"].sel(channel=name).sortby(along)
-    level = 20.0 * np.log10(np.maximum(np.abs(spectra.values), np.finfo(float).tiny))
+    level = level_of_amplitude(np.abs(spectra.values))
     top = float(level.max())
 
     def paint(panels: Sequence[Axes]) -> None:
