@@ -50,6 +50,7 @@ def tested(version: str, python: Path, folder: Path) -> bool:
         install = [inner, "-m", "pip", "install", "--quiet"]
         locked = ["--require-hashes", "-r", ROOT / "requirements-dev.lock"]
         subprocess.run([*install, *locked], check=True)
+        subprocess.run([*install, "--no-deps", "-e", ROOT], check=True)
         (home / "ready").touch()
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     command = [inner, "-m", "pytest", "-q", "-n", "0", "-m", "not slow", "-p", "no:cacheprovider"]
