@@ -57,7 +57,7 @@ def sound_power_variables(
     pressure: xr.DataArray,
     order_frequency: xr.DataArray,
     settings: SoundPowerSettings,
-    surface_m2: float,
+    surface: xr.DataArray,
 ) -> xr.Dataset:
     """Sound power level of every order and of all orders together, by weighting.
 
@@ -67,11 +67,11 @@ def sound_power_variables(
         order and receiver, complex peaks, Pa
     order_frequency : (speed, order), Hz
     settings : of the arrangement
-    surface_m2 : area of its measurement surface, m²
+    surface : `surface_transfer_vector`, whose attributes hold the reference box
     """
     ordered = pressure.transpose("speed", "option", "order", "receiver")
     mean = energy_mean(sound_pressure_level(ordered.values), axis=3)
-    power = sound_power_level(mean, surface_m2)
+    power = sound_power_level(mean, measurement_surface_m2(settings, surface))
     hertz = order_frequency.values[:, None, :]
     weighted = np.stack([power + WEIGHTING[name](hertz) for name in WEIGHTINGS], axis=-1)
     total = energy_sum(weighted[:, :, 1:], axis=2)  # order 0 is no sound

@@ -81,12 +81,9 @@ def sound_field(study: Study, results: xr.Dataset) -> xr.Dataset:
         fields = fields.merge(levels.map_level(pressure_on_map(velocity, results)))
     if study.sound_power is not None:
         pressure = pressure_on_surface(velocity, results)
-        area = levels.measurement_surface_m2(study.sound_power, results["surface_transfer_vector"])
-        fields = fields.merge(
-            levels.sound_power_variables(
-                pressure, results["order_frequency"], study.sound_power, area
-            )
-        )
+        frequency, surface = results["order_frequency"], results["surface_transfer_vector"]
+        power = levels.sound_power_variables(pressure, frequency, study.sound_power, surface)
+        fields = fields.merge(power)
     return fields
 
 

@@ -23,7 +23,7 @@ from ..sources.cases import loads_of, sources_of
 from ..study.selection import at_speeds
 from ..study.study import Study
 from ..transfer.path import ShellPath
-from ..transfer.received import Transmission, by_case_and_source
+from ..transfer.received import BySource, Transmission, by_case_and_source
 from ..uncertainty.drawn import drawn_cases, drawn_values, of_every_draw
 from ..uncertainty.draws import Draw, latin_hypercube, with_draw
 from .motion import Motion, motion_of
@@ -76,16 +76,7 @@ def sound_of_draws(
     draws: list[Draw],
     progress: Progress,
 ) -> list[Sound]:
-    """Mean squares by source of every case, for every draw.
-
-    Parameters
-    ----------
-    transmission : from loads to sound
-    axes : with the bands
-    cases : with the values as given
-    draws : sets of values
-    progress : called with the advance
-    """
+    """Mean squares by source of every case, for every draw."""
     study = transmission.study
 
     def sound_of(draw: Draw) -> Sound:
@@ -110,25 +101,20 @@ def _at_catalogue_speed(study: Study, motion: Motion) -> Motion:
 def _transmission(
     study: Study, motion: Motion, catalogue: Motion, shell: ShellPath | None
 ) -> Transmission:
-    results = motion.results
-    at_catalogue = catalogue.results.assign(transfer_vector=results["transfer_vector"])
-    of_wrenches = {
-        key: pressure
-        for part, sources in (
-            (at_catalogue, catalogue.source_of_wrench),
-            (results, motion.source_of_wrench),
-        )
-        for key, pressure in by_case_and_source(
-            wrench_pressure(part, "transfer_vector"), sources
-        ).items()
-    }
+    results, vectors = motion.results, motion.results["transfer_vector"]
+    at_catalogue = catalogue.with_results(catalogue.results.assign(transfer_vector=vectors))
     return Transmission(
         study,
-        pressure_per_velocity(results["transfer_vector"]),
+        pressure_per_velocity(vectors),
         None if shell is None else pressure_per_shell_velocity(results),
         shell,
-        of_wrenches,
+        {**_of_wrenches(at_catalogue), **_of_wrenches(motion)},
     )
+
+
+def _of_wrenches(motion: Motion) -> dict[CaseKey, BySource]:
+    pressure = wrench_pressure(motion.results, "transfer_vector")
+    return by_case_and_source(pressure, motion.source_of_wrench)
 
 
 def _axes(study: Study, results: xr.Dataset) -> LevelAxes:

@@ -73,15 +73,7 @@ def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
     if study.operation.stopping:
         body = on_mounts(study.machine)
         results = results.merge(stopping_variables(study, study.machine, body, results))
-    results = results.merge(_scores(study, results))
+    results = results.merge(scoring.study_scores(study, results))
     results.attrs = provenance.radiation_attributes(study, radiated, was_cached)
     results.attrs["words"] = canonical_json(words(study, motion.loads, results))
     return check(label_coordinates(results))
-
-
-def _scores(study: Study, results: xr.Dataset) -> xr.Dataset:
-    given = scoring.given_values(study.given, list(study.options))
-    scores = scoring.score(results.merge(given), study.scoring).merge(given)
-    if study.scoring.published is None:
-        return scores
-    return scores.merge(scoring.published_table(study.scoring.published))

@@ -4,6 +4,7 @@ from .given import given_values
 from .published import published_table
 from .ranking import METHODS, first_place_share, topsis, utilities, weighted_sum
 from .scores import score
+from .study_scores import study_scores
 from .text import ranking_text
 
 __all__ = [
@@ -13,6 +14,7 @@ __all__ = [
     "published_table",
     "ranking_text",
     "score",
+    "study_scores",
     "topsis",
     "utilities",
     "weighted_sum",

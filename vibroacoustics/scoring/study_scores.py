@@ -1,0 +1,17 @@
+"""Scores of a study's options."""
+
+import xarray as xr
+
+from ..study.study import Study
+from .given import given_values
+from .published import published_table
+from .scores import score
+
+
+def study_scores(study: Study, results: xr.Dataset) -> xr.Dataset:
+    """Values and scores of the criteria, and the published table where the study has one."""
+    given = given_values(study.given, list(study.options))
+    scores = score(results.merge(given), study.scoring).merge(given)
+    if study.scoring.published is None:
+        return scores
+    return scores.merge(published_table(study.scoring.published))
