@@ -63,6 +63,7 @@ sphinx_gallery_conf = {
     "download_all_examples": False,
     "show_signature": False,
     "show_memory": False,
+    "capture_repr": (),
     "write_computation_times": False,
     "min_reported_time": 1e6,
     "abort_on_example_error": True,

@@ -28,7 +28,7 @@ def main() -> None:
         title="Copeland scroll: what each balancer buys at one metre",
         xlabel="change of the 1× line, dB",
     )
-    axes.legend()
+    axes.legend(loc="lower right")
     figure.savefig(ROOT / "docs" / "figures" / "comparison.png", dpi=110)
 
 
