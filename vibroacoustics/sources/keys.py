@@ -112,7 +112,8 @@ class OldhamKeyForces(Source):
 
     def curves(self, case: Case) -> Iterable[Curve]:
         """Forces on the keys of the machine's ring; see `oldham_key_curves`."""
-        return oldham_key_curves(self._forces(case, _turning(case)))
+        one = self.model_copy(update={"revolutions": 1})
+        return oldham_key_curves(one._forces(case, _turning(case)))
 
     def _further(self, case: Case, ring: FurtherRing) -> tuple[_Spectra, dict[str, float]]:
         """Spectra and figures of the keys of a second ring, which no gas presses."""
