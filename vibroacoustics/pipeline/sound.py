@@ -19,13 +19,15 @@ from ..radiation.pressure import (
     pressure_per_velocity,
     wrench_pressure,
 )
-from ..sources.cases import loads_of, sources_of
+from ..sources.cases import sources_of
+from ..study.draws import Draw, draws_of, with_draw
 from ..study.selection import at_speeds
 from ..study.study import Study
 from ..transfer.path import ShellPath
 from ..transfer.received import Transmission, by_case_and_source
-from ..uncertainty.drawn import drawn_cases, drawn_values, of_every_draw
-from ..uncertainty.draws import Draw, latin_hypercube, with_draw
+from ..transfer.study_path import projection_errors
+from ..uncertainty.drawn import drawn_cases
+from ..uncertainty.draws import drawn_values, errors_of_projection, of_every_draw
 from .motion import Motion, motion_of
 
 Sound = dict[CaseKey, SourceSound]
@@ -55,7 +57,7 @@ def levels_of(
     axes = _axes(study, motion.results)
     received = transmission.received(cases, loads, study.machine)
     sound = {key: sound_by_source(one, axes.bands) for key, one in received.items()}
-    draws = latin_hypercube(study.ranges, study.uncertainty)
+    draws = draws_of(study).draws
     rest, share = remainder(study, axes, sound, bool(draws)), remaining_share(study.options)
     lines = line_pressure(axes, received)
     frequency = motion.results["order_frequency"]
@@ -63,16 +65,19 @@ def levels_of(
     levels = levels.merge(lines)
     if not draws:
         return levels
-    sounds = sound_of_draws(transmission, axes, cases, draws, progress)
+    sounds = sound_of_draws(transmission, axes, cases, sound, draws, progress)
     rests = remainder_by_draw(study, axes, sounds)
     levels = levels.merge(draw_variables(axes, sounds, rests, share))
-    return levels.merge(drawn_values(study.ranges, draws))
+    levels = levels.merge(drawn_values(study.ranges, draws))
+    errors = {} if shell is None else projection_errors(study, shell)
+    return levels.merge(errors_of_projection(study.ranges, errors))
 
 
 def sound_of_draws(
     transmission: Transmission,
     axes: LevelAxes,
     cases: Mapping[CaseKey, Case],
+    given: Sound,
     draws: list[Draw],
     progress: Progress,
 ) -> list[Sound]:
@@ -83,19 +88,23 @@ def sound_of_draws(
     transmission : from loads to sound
     axes : with the bands
     cases : with the values as given
+    given : their sound
     draws : sets of values
     progress : called with the advance
     """
     study = transmission.study
 
     def sound_of(draw: Draw) -> Sound:
-        drawn = drawn_cases(cases, study.machine, draw)
-        loads = {key: loads_of(study, case) for key, case in drawn.items()}
+        drawn = drawn_cases(cases, study, draw, transmission.rigid)
+        pressure = {**transmission.wrench_pressure, **drawn.wrench_pressure}
         machine = with_draw(study.machine, study.machine, draw)
-        received = transmission.received(drawn, loads, machine)
+        received = replace(transmission, wrench_pressure=pressure).received(
+            drawn.cases, drawn.loads, machine
+        )
         return {key: sound_by_source(one, axes.bands) for key, one in received.items()}
 
-    return of_every_draw(draws, sound_of, progress)
+    unknown = {key: one.unknown for key, one in given.items()}
+    return of_every_draw(draws, sound_of, unknown, progress)
 
 
 def _at_catalogue_speed(study: Study, motion: Motion) -> Motion:

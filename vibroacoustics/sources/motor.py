@@ -33,7 +33,6 @@ class _MotorTorque(Source):
         "motor": CapacitorMotor,
         "rotor": TurningRotor,
     }
-    drawn: ClassVar[frozenset[tuple[str, str]]] = frozenset({("motor", "capacitance_f")})
     drives_shell: ClassVar[bool] = True
 
 
