@@ -13,13 +13,15 @@ from test_report import PUBLISHED_DBA, make_results
 from vibroacoustics.base.vocabulary import DERIVED_SUPPLY, GIVEN_SUPPLY, WEIGHTINGS, check, stamp
 from vibroacoustics.report import comparison_text, render
 from vibroacoustics.report.assumptions import not_modelled, remainder_sentence
-from vibroacoustics.report.bands import Band, percent
+from vibroacoustics.report.bands import Band, draws, percent
+from vibroacoustics.report.drawn_words import drawn_sentences, held_sentence
 from vibroacoustics.report.option_verdict import option_verdict
 from vibroacoustics.report.source_changes import changes_sentence, source_change
 from vibroacoustics.report.source_tables import change_tables, figures_table, source_tables
 from vibroacoustics.report.source_words import (
     carrier_sentence,
     certainty_sentences,
+    left_out_sentence,
     shares_sentence,
 )
 from vibroacoustics.report.verdict import extremes_table, headline, reasons
@@ -186,10 +188,58 @@ def test_the_report_says_how_sure_the_ranking_is(results: xr.Dataset) -> None:
     assert "do not overlap (3.0 dB apart)" in sure
     assert "16 of 27 draws are left out" in sure
     assert "tends to be too loud" in sure
-    assert "1 of 1 values of these tables are assumed" in sure
+    assert "2 values are drawn" in sure
+    assert "gas: polytropic index; path through the shell: mobility change" in sure
     close = " ".join(certainty_sentences(with_sources({"none": 48.0})))
     assert "overlap (46.0 to 53.0 and 44.0 to 51.0 dB(A)): which is the louder is not sure" in close
     assert "11 draws, none of which exceeds 56 dB(A)" in close
+
+
+def test_what_is_not_drawn_is_told_with_range_and_reason(results: xr.Dataset) -> None:
+    held = {"table": "shell", "field": "dome_height_m", "lowest": 0.0, "highest": 0.06}
+    told = with_parameters(results, held_ranges=[{**held, "reason": "give the outside"}])
+    text = held_sentence(told)
+    assert "shell dome height (0 to 0.06 m), which give the outside" in text
+    assert text in certainty_sentences(told)
+    assert held_sentence(results) == ""
+
+
+def test_values_drawn_apart_from_their_sources_and_the_projection_are_told(
+    results: xr.Dataset,
+) -> None:
+    ranges = [
+        {"table": "housing", "field": "inertia_xx_kg_m2", "independent_of": ["housing.mass_kg"]},
+        {"table": "structure", "field": "thickness_m"},
+        {"table": "structure.stator", "field": "welds"},
+    ]
+    told = with_parameters(results, ranges=ranges)
+    coords = {"drawn_parameter": ["housing.inertia_xx_kg_m2", "structure.thickness_m"]}
+    told["projection_error"] = stamp("projection_error", [np.nan, 0.0096], coords)
+    text = " ".join(drawn_sentences(told)).replace("\u00a0", " ")
+    assert "shell: thickness; shell stator: welds" in text
+    assert "housing inertia xx (housing mass)" in text
+    assert "off by at most: shell thickness 0.96 %" in text
+
+
+def test_draws_without_solution_are_told(results: xr.Dataset) -> None:
+    failed = results.copy(deep=True)
+    failed["draw_weight"][0] = 0.0
+    failed["level_modelled_by_draw"][0] = np.nan
+    failed["source_level_by_draw"][0] = np.nan
+    kept, louder, unsolved = draws(failed)
+    assert unsolved == 1
+    assert (kept + 1, louder) in {
+        draws(results)[:2],
+        (draws(results)[0] + 1, draws(results)[1] - 1),
+    }
+    assert "1 further draws have no solution" in left_out_sentence(failed)
+
+
+def with_parameters(results: xr.Dataset, **changes: object) -> xr.Dataset:
+    """Results whose study has other parameters."""
+    changed = results.copy()
+    parameters = {**json.loads(results.attrs["parameters"]), **changes}
+    return changed.assign_attrs(parameters=json.dumps(parameters))
 
 
 def test_the_highest_frequency_is_told(results: xr.Dataset) -> None:

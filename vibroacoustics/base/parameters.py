@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
 from pydantic import (
@@ -29,6 +30,18 @@ class Parameters(BaseModel):
     model_config = ConfigDict(
         frozen=True, strict=True, extra="forbid", allow_inf_nan=False, validate_default=True
     )
+
+
+@dataclass(frozen=True)
+class Held:
+    """Annotation of a value that is not drawn from its range.
+
+    Attributes
+    ----------
+    reason : why not, after "it" or "they"
+    """
+
+    reason: str
 
 
 class KindOfParameters(Parameters):

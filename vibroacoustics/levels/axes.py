@@ -4,11 +4,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import xarray as xr
 
 from ..base.arrays import Array
 from ..machine.source import CaseKey
+from ..study.study import Study
 from .bands import Band
-from .by_source import SourceSound
+from .by_source import SourceSound, filled_thirds
 
 
 @dataclass(frozen=True)
@@ -26,6 +28,17 @@ class LevelAxes:
     sources: Sequence[str]
     receivers: Sequence[str]
     bands: Sequence[Band]
+
+    @classmethod
+    def of(cls, study: Study, sources: Sequence[str], results: xr.Dataset) -> "LevelAxes":
+        """Axes of a study's results with the sources of these names."""
+        return cls(
+            list(study.operation.speed_rpm),
+            list(study.options),
+            sources,
+            [str(name) for name in results["receiver"].values],
+            filled_thirds(study.radiation.maximum_frequency_hz),
+        )
 
     def gathered(self, sound: Mapping[CaseKey, SourceSound], part: str) -> Array:
         """A part of the sound of all cases, shape (speed, option, ...)."""

@@ -35,6 +35,11 @@ class SourceSound:
     part: Array
 
     @property
+    def unknown(self) -> "SourceSound":
+        """The same of a case without a solution: not a number."""
+        return SourceSound(*(np.full_like(part, np.nan) for part in vars(self).values()))
+
+    @property
     def total(self) -> Array:
         """Mean square of all sources together by weighting, shape (weighting, receiver), Pa²."""
         return np.asarray(self.part.sum(axis=1))

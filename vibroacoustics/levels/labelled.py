@@ -94,7 +94,8 @@ def draw_variables(
 ) -> xr.Dataset:
     """A-weighted levels of every draw.
 
-    A draw that alone is louder than the published level contradicts it and has weight 0.
+    A draw that alone is louder than the published level contradicts it and has weight 0, as has one
+    without a solution, whose levels are empty.
 
     Parameters
     ----------
@@ -109,14 +110,19 @@ def draw_variables(
     modelled = np.array([axes.gathered(sound, "part")[:, :, 0].sum(axis=2) for sound in sounds])
     total = modelled + remainder[:, None, None, None] * remaining_share[:, None]
     arrays: dict[str, tuple[Array, dict[str, Any]]] = {
-        "source_level_by_draw": (level(alone), {**draws, **axes.by_source}),
-        "level_modelled_by_draw": (level(modelled), by_receiver),
-        "level_total_by_draw": (level(total), by_receiver),
+        "source_level_by_draw": (_level_or_none(alone), {**draws, **axes.by_source}),
+        "level_modelled_by_draw": (_level_or_none(modelled), by_receiver),
+        "level_total_by_draw": (_level_or_none(total), by_receiver),
         "level_remainder_by_draw": (level(remainder), draws),
         "draw_weight": ((remainder > 0.0).astype(float), draws),
     }
     labelled = {name: stamp(name, values, coords) for name, (values, coords) in arrays.items()}
     return check(xr.Dataset(labelled))
+
+
+def _level_or_none(mean_square: Array) -> Array:
+    """Levels; empty where a draw has no solution."""
+    return np.where(np.isnan(mean_square), np.nan, level(np.nan_to_num(mean_square)))
 
 
 def _order_level(pressure: ComplexArray, frequency: Array) -> Array:

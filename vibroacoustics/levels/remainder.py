@@ -52,14 +52,17 @@ def remainder(
 def remainder_by_draw(
     study: Study, axes: LevelAxes, sounds: Sequence[Mapping[CaseKey, SourceSound]]
 ) -> Array:
-    """The same of every draw; zero where its model alone is louder, shape (draw,), Pa².
+    """The same of every draw, shape (draw,), Pa².
+
+    Zero where its model alone is louder, or has no solution.
 
     Raises
     ------
     SolverError
-        Nearly all draws are louder.
+        Nearly all draws are louder, or have no solution.
     """
     rests = np.array([remainder(study, axes, sound, may_be_none=True) for sound in sounds])
+    rests = np.nan_to_num(rests)
     if np.count_nonzero(rests) < LEAST_DRAWS:
         raise SolverError(
             f"uncertainty.random_samples: only {np.count_nonzero(rests)} of {rests.size} draws are "

@@ -11,24 +11,26 @@ from pydantic import Field, SerializeAsAny
 from ..base.arrays import Array
 from ..base.curves import Curve
 from ..base.errors import ParameterError
-from ..base.parameters import AnyOf, KindOfParameters, Parameters
+from ..base.parameters import AnyOf, Held, KindOfParameters, Parameters
 from ..base.registry import Registry
 from ..mechanics.capabilities import UPRIGHT, Capability, CrankFrame
 from ..mechanics.moving_parts import MovingPart, Revolution
+from .derived import INERTIAS, Derived
 from .housing import Housing
 from .mounts import Mounts
 from .shell import Shell
 from .suspension import Suspension
 
 PART_MASS = Field(gt=0.0, le=100.0)
+DATUM: Final = Held("are data that the model is compared to")
 
 
 class OverallNoise(Parameters):
     """The A-weighted sound pressure level of the whole machine, from a catalogue or assumed."""
 
-    level_dba: float = Field(ge=0.0, le=140.0)
-    speed_rpm: float = Field(ge=60.0, le=60000.0)
-    distance_m: float = Field(ge=0.1, le=20.0)
+    level_dba: Annotated[float, DATUM] = Field(ge=0.0, le=140.0)
+    speed_rpm: Annotated[float, DATUM] = Field(ge=60.0, le=60000.0)
+    distance_m: Annotated[float, DATUM] = Field(ge=0.1, le=20.0)
 
 
 class Erratum(Parameters):
@@ -77,6 +79,8 @@ class Machine(KindOfParameters):
     """Where the orders of the force come from."""
     labels: ClassVar[Mapping[str, str]] = {}
     """Plain words for its reported figures, where the name does not say it."""
+    derived: ClassVar[tuple[Derived, ...]] = INERTIAS
+    """Values that follow from others, where they are not drawn themselves."""
 
     def revolution(self, speed_rpm: float, samples: int) -> Revolution:
         """One steady revolution: force and moment of the moving parts by source.

@@ -1,23 +1,26 @@
 """The compressor's shell as a sound radiator."""
 
 from math import hypot
+from typing import Annotated, Final
 
 from pydantic import Field, model_validator
 
-from ..base.parameters import Parameters
+from ..base.parameters import Held, Parameters
+
+OUTSIDE: Final = Held("give the outside of the shell: each value needs a radiation of its own")
 
 
 class Shell(Parameters):
     """Upright closed cylinder with flat or domed caps, over the floor on its mounts."""
 
-    outer_diameter_m: float = Field(ge=0.02, le=2.0)
-    height_m: float = Field(ge=0.02, le=3.0)
+    outer_diameter_m: Annotated[float, OUTSIDE] = Field(ge=0.02, le=2.0)
+    height_m: Annotated[float, OUTSIDE] = Field(ge=0.02, le=3.0)
     """From bottom to top, domes included."""
-    dome_height_m: float = Field(default=0.0, ge=0.0, le=1.0)
+    dome_height_m: Annotated[float, OUTSIDE] = Field(default=0.0, ge=0.0, le=1.0)
     """Height of each cap, a half-ellipsoid; 0 is flat."""
-    centre_of_mass_height_m: float = Field(gt=0.0, le=3.0)
+    centre_of_mass_height_m: Annotated[float, OUTSIDE] = Field(gt=0.0, le=3.0)
     """Height of the machine's centre of mass above the bottom of the shell."""
-    floor_clearance_m: float = Field(ge=0.0, le=0.5)
+    floor_clearance_m: Annotated[float, OUTSIDE] = Field(ge=0.0, le=0.5)
     """Height of the bottom of the shell above the floor."""
 
     @model_validator(mode="after")

@@ -1,11 +1,11 @@
 """The compressor's shell as an elastic body, and the joints through which its inside drives it."""
 
 from math import pi
-from typing import Final
+from typing import Annotated, ClassVar, Final
 
 from pydantic import Field, model_validator
 
-from ..base.parameters import Parameters
+from ..base.parameters import Held, Parameters
 
 JOINTS: Final = ("bearing_housing", "fixed_scroll", "stator")
 """Inner parts that are fixed to the wall."""
@@ -38,6 +38,9 @@ class Joint(Parameters):
         return self
 
 
+ENDS: Final = Held("say where the wall is kept round: another one makes other modes")
+
+
 class ShellStructure(Parameters):
     """Wall and caps of one thickness and material."""
 
@@ -47,9 +50,18 @@ class ShellStructure(Parameters):
     density_kg_per_m3: float = Field(ge=100.0, le=1e5)
     loss_factor_ratio: float = Field(gt=0.0, le=1.0)
     """Structural, the same at every frequency."""
-    span_m: float | None = Field(default=None, gt=0.0, le=3.0)
+    span_m: Annotated[float | None, ENDS] = Field(default=None, gt=0.0, le=3.0)
     """Free length in the middle of the wall: at both of its ends internal parts or the skirts of
     the caps keep the section round. None: only the caps do, at the ends of the wall."""
+    changes_modes: ClassVar[tuple[str, ...]] = (
+        "thickness_m",
+        "youngs_modulus_pa",
+        "poisson_ratio",
+        "density_kg_per_m3",
+    )
+    """Values that modes change with; they are drawn by projection on the modes as given."""
+    changes_shapes: ClassVar[tuple[str, ...]] = ("thickness_m", "poisson_ratio")
+    """Those that also change the shapes of modes: their projection is not exact."""
     bearing_housing: Joint
     fixed_scroll: Joint
     stator: Joint
@@ -62,13 +74,3 @@ class ShellVariation(Parameters):
     """Added to the level of every path through the shell."""
     frequency_factor_ratio: float = Field(ge=0.3, le=3.0)
     """Times every natural frequency: parts and oil inside add stiffness and mass."""
-
-
-DRAWN_OF_SHELL: Final = frozenset(
-    {
-        ("structure", "loss_factor_ratio"),
-        ("variation", "mobility_change_db"),
-        ("variation", "frequency_factor_ratio"),
-    }
-)
-"""Values of an elastic shell that are drawn from their range; the others change its modes."""

@@ -103,8 +103,6 @@ class Source(KindOfParameters):
 
     tables: ClassVar[Mapping[str, type[Parameters]]] = {}
     """Tables of the machine that it reads."""
-    drawn: ClassVar[frozenset[tuple[str, str]]] = frozenset()
-    """Values of these that are drawn from their range, by table and field."""
     needs: ClassVar[type[Capability] | None] = None
     """What a machine must have for it beside the tables."""
     drives_shell: ClassVar[bool] = False

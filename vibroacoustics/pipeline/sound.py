@@ -8,7 +8,7 @@ import xarray as xr
 from ..base.progress import Progress, no_progress
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.axes import LevelAxes
-from ..levels.by_source import SourceSound, filled_thirds, sound_by_source
+from ..levels.by_source import SourceSound, sound_by_source
 from ..levels.insertion_loss import remaining_share
 from ..levels.labelled import draw_variables, level_variables
 from ..levels.lines import line_pressure
@@ -19,13 +19,15 @@ from ..radiation.pressure import (
     pressure_per_velocity,
     wrench_pressure,
 )
-from ..sources.cases import loads_of, sources_of
+from ..sources.cases import sources_of
+from ..study.draws import Draw, draws_of, with_draw
 from ..study.selection import at_speeds
 from ..study.study import Study
 from ..transfer.path import ShellPath
 from ..transfer.received import BySource, Transmission, by_case_and_source
-from ..uncertainty.drawn import drawn_cases, drawn_values, of_every_draw
-from ..uncertainty.draws import Draw, latin_hypercube, with_draw
+from ..transfer.study_path import projection_errors
+from ..uncertainty.drawn import drawn_cases
+from ..uncertainty.draws import drawn_values, errors_of_projection, of_every_draw
 from .motion import Motion, motion_of
 
 Sound = dict[CaseKey, SourceSound]
@@ -52,10 +54,10 @@ def levels_of(
     transmission = _transmission(study, motion, catalogue, shell)
     cases = {**catalogue.cases, **motion.cases}
     loads = {**catalogue.loads, **motion.loads}
-    axes = _axes(study, motion.results)
+    axes = LevelAxes.of(study, list(sources_of(study)), motion.results)
     received = transmission.received(cases, loads, study.machine)
     sound = {key: sound_by_source(one, axes.bands) for key, one in received.items()}
-    draws = latin_hypercube(study.ranges, study.uncertainty)
+    draws = draws_of(study).draws
     rest, share = remainder(study, axes, sound, bool(draws)), remaining_share(study.options)
     lines = line_pressure(axes, received)
     frequency = motion.results["order_frequency"]
@@ -63,16 +65,19 @@ def levels_of(
     levels = levels.merge(lines)
     if not draws:
         return levels
-    sounds = sound_of_draws(transmission, axes, cases, draws, progress)
+    sounds = sound_of_draws(transmission, axes, cases, sound, draws, progress)
     rests = remainder_by_draw(study, axes, sounds)
     levels = levels.merge(draw_variables(axes, sounds, rests, share))
-    return levels.merge(drawn_values(study.ranges, draws))
+    levels = levels.merge(drawn_values(study.ranges, draws))
+    errors = {} if shell is None else projection_errors(study, shell)
+    return levels.merge(errors_of_projection(study.ranges, errors))
 
 
 def sound_of_draws(
     transmission: Transmission,
     axes: LevelAxes,
     cases: Mapping[CaseKey, Case],
+    given: Sound,
     draws: list[Draw],
     progress: Progress,
 ) -> list[Sound]:
@@ -80,13 +85,16 @@ def sound_of_draws(
     study = transmission.study
 
     def sound_of(draw: Draw) -> Sound:
-        drawn = drawn_cases(cases, study.machine, draw)
-        loads = {key: loads_of(study, case) for key, case in drawn.items()}
+        drawn = drawn_cases(cases, study, draw, transmission.rigid)
+        pressure = {**transmission.wrench_pressure, **drawn.wrench_pressure}
         machine = with_draw(study.machine, study.machine, draw)
-        received = transmission.received(drawn, loads, machine)
+        received = replace(transmission, wrench_pressure=pressure).received(
+            drawn.cases, drawn.loads, machine
+        )
         return {key: sound_by_source(one, axes.bands) for key, one in received.items()}
 
-    return of_every_draw(draws, sound_of, progress)
+    unknown = {key: one.unknown for key, one in given.items()}
+    return of_every_draw(draws, sound_of, unknown, progress)
 
 
 def _at_catalogue_speed(study: Study, motion: Motion) -> Motion:
@@ -115,13 +123,3 @@ def _transmission(
 def _of_wrenches(motion: Motion) -> dict[CaseKey, BySource]:
     pressure = wrench_pressure(motion.results, "transfer_vector")
     return by_case_and_source(pressure, motion.source_of_wrench)
-
-
-def _axes(study: Study, results: xr.Dataset) -> LevelAxes:
-    return LevelAxes(
-        list(study.operation.speed_rpm),
-        list(study.options),
-        list(sources_of(study)),
-        [str(name) for name in results["receiver"].values],
-        filled_thirds(study.radiation.maximum_frequency_hz),
-    )

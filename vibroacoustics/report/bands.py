@@ -86,10 +86,13 @@ def percent(share: float) -> str:
     return f"{number}\u00a0%"
 
 
-def draws(results: xr.Dataset) -> tuple[int, int]:
-    """Draws that are kept, and those left out because they alone exceed the overall level."""
-    weight = results["draw_weight"].values
-    return int(np.count_nonzero(weight)), int(np.count_nonzero(weight == 0.0))
+def draws(results: xr.Dataset) -> tuple[int, int, int]:
+    """Draws that are kept, those that alone exceed the overall level, those without solution."""
+    kept = results["draw_weight"].values > 0.0
+    levels = results["level_modelled_by_draw"].transpose("draw", ...).values
+    unsolved = np.isnan(levels).reshape(kept.size, -1).any(axis=1)
+    louder = ~kept & ~unsolved
+    return int(kept.sum()), int(louder.sum()), int(unsolved.sum())
 
 
 def band_words(results: xr.Dataset) -> str:

@@ -6,8 +6,8 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.vocabulary import DERIVED_SUPPLY, REFERENCE_OPTION
-from . import labels
 from .bands import Band, band, band_words, draws, energy_share, percent
+from .drawn_words import drawn_sentences
 from .study import (
     catalogue_receiver,
     first_order_hz,
@@ -20,8 +20,6 @@ from .study import (
 )
 
 LINE_FIGURE: Final = "foot_force_2x_line_n"
-
-_TABLES: Final = {"variation": "path through the shell", "structure": "shell"}
 
 
 def source_name(results: xr.Dataset, source: str) -> str:
@@ -84,7 +82,7 @@ def shares_sentence(results: xr.Dataset) -> str:
 def certainty_sentences(results: xr.Dataset) -> list[str]:
     """What the ranking and the bands rest on."""
     texts = [_ranking(results), left_out_sentence(results), _as_assumed(results)]
-    texts += [_drawn(results)] if has_draws(results) else []
+    texts += drawn_sentences(results) if has_draws(results) else []
     return [*filter(None, [*texts, _up_to(results), _not_an_order(results)])]
 
 
@@ -92,17 +90,21 @@ def left_out_sentence(results: xr.Dataset) -> str:
     """How many draws the bands rest on, and why others do not count."""
     if not has_draws(results):
         return "No value of the sources has a range: nothing was drawn, and there are no bands."
-    kept, louder = draws(results)
+    kept, louder, unsolved = draws(results)
     overall = overall_noise(results)["level_dba"]
+    failed = f" {unsolved} further draws have no solution." if unsolved else ""
     if not louder:
-        return f"The bands rest on {kept} draws, none of which exceeds {overall:g} dB(A) alone."
+        return (
+            f"The bands rest on {kept} draws, none of which exceeds {overall:g} dB(A) alone."
+            f"{failed}"
+        )
     tends = (
         "; the model tends to be too loud, and the bands tell" if louder > kept else ": they tell"
     )
     return (
-        f"{louder} of {kept + louder} draws are left out because their modelled sources alone "
-        f"exceed {overall:g} dB(A), which they cannot{tends} only what agrees with the published "
-        f"level. They rest on {kept} draws."
+        f"{louder} of {kept + louder + unsolved} draws are left out because their modelled sources "
+        f"alone exceed {overall:g} dB(A), which they cannot{tends} only what agrees with the "
+        f"published level. They rest on {kept} draws.{failed}"
     )
 
 
@@ -156,27 +158,6 @@ def _as_assumed(results: xr.Dataset) -> str:
         f"At the assumed values, nothing drawn, {source_name(results, source)} alone reach "
         f"{rounding.level(value)} dB(A), {side} the band: its share is not known better than from "
         f"{percent(level.share_of(overall).lowest)} to {percent(energy_share(value, overall))}."
-    )
-
-
-def _drawn(results: xr.Dataset) -> str:
-    """Which values were drawn, and how many others of their tables are assumed and fixed."""
-    tables: dict[str, list[str]] = {}
-    for own in parameters(results)["ranges"]:
-        tables.setdefault(own["table"], []).append(labels.name(own["field"]).lower())
-    words_of = "; ".join(
-        f"{_TABLES.get(table, table)}: {', '.join(fields)}" for table, fields in tables.items()
-    )
-    known = [
-        record
-        for record in parameters(results)["records"]
-        if record["field"].partition(".")[0] in tables
-    ]
-    assumed = sum(str(record["source"]).startswith("assumed") for record in known)
-    return (
-        f"Drawn from their ranges by Latin hypercube ({words_of}). The other values of these "
-        f"tables, such as where the parts are welded to the shell, are fixed; {assumed} of "
-        f"{len(known)} values of these tables are assumed."
     )
 
 

@@ -32,9 +32,6 @@ class ScrollGasForces(Source):
     position: ClassVar[float] = 1.0
     label: ClassVar[str] = "gas forces"
     tables: ClassVar[Mapping[str, type[Parameters]]] = {"wraps": ScrollWraps, "gas": ScrollGas}
-    drawn: ClassVar[frozenset[tuple[str, str]]] = frozenset(
-        {("gas", "polytropic_index"), ("gas", "equalisation_angle_rad")}
-    )
     needs: ClassVar[type[Capability]] = OldhamRing
     drives_shell: ClassVar[bool] = True
 

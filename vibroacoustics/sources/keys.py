@@ -63,17 +63,6 @@ class OldhamKeyForces(Source):
         "wraps": ScrollWraps,
         "gas": ScrollGas,
     }
-    drawn: ClassVar[frozenset[tuple[str, str]]] = frozenset(
-        ("keys", name)
-        for name in (
-            "clearance_m",
-            "contact_stiffness_n_per_m1p5",
-            "restitution_ratio",
-            "film_damping_ns_per_m",
-            "friction_ratio",
-            "scroll_inertia_kg_m2",
-        )
-    )
     needs: ClassVar[type[Capability]] = OldhamRing
     drives_shell: ClassVar[bool] = True
     revolutions: int = Field(default=8, ge=1, le=1000)

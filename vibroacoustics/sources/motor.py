@@ -27,7 +27,6 @@ class _MotorTorque(Source):
         "motor": CapacitorMotor,
         "rotor": TurningRotor,
     }
-    drawn: ClassVar[frozenset[tuple[str, str]]] = frozenset({("motor", "capacitance_f")})
     drives_shell: ClassVar[bool] = True
 
     def supply_frequency_hz(self, case: Case, before: Mapping[str, Loads]) -> float:

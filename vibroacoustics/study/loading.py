@@ -3,17 +3,18 @@
 from collections.abc import Mapping
 from copy import deepcopy
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from ..base.errors import ParameterError
 from ..machine.machine import Machine
 from ..machine.option import OPTIONS
 from ..machine.source import SOURCES
+from .draws import warn_of_contradictions
 from .given_values import take_given
 from .kinds import validate_kinds
 from .machine_file import change_of, read_machine, read_redesign, take_changes
 from .published_table import read_published_table
-from .ranges import drawn_values, is_used, ranges_of, tables_used
+from .ranges import is_used, ranges_of, tables_used
 from .reader import Reader
 from .study import Study
 from .toml_files import Written, beside, read_with_base
@@ -62,7 +63,7 @@ def study_of(written: Written) -> Study:
     }
     _read_published(content, reader)
     _resolve_file_names(content, reader)
-    for name in ("records", "ranges", "source_file", "given"):  # filled in here, not by a file
+    for name in _FILLED_IN:
         if name in content:
             raise ParameterError(f"{path}: {name}: unknown key")
     given = take_given(content, reader)
@@ -76,8 +77,11 @@ def study_of(written: Written) -> Study:
     used = tables_used(content)
     machine_records = [record for record in machine_records if is_used(record, machine, used)]
     content["records"] = (*machine_records, *reader.records)
-    content["ranges"] = ranges_of(machine, machine_records, drawn_values(content), machine_reader)
-    return validated(Study, content, reader).remember(written)
+    ranges, held = ranges_of(machine, machine_records, content, machine_reader)
+    content.update(ranges=ranges, held_ranges=held)
+    study = validated(Study, content, reader).remember(written)
+    warn_of_contradictions(study)
+    return study
 
 
 def load_machine(path: str | Path) -> Machine:
@@ -90,6 +94,10 @@ def load_machine(path: str | Path) -> Machine:
     """
     path = Path(path)
     return read_machine(path, {}, Reader(path, {}))[0]
+
+
+_FILLED_IN: Final = ("records", "ranges", "held_ranges", "source_file", "given")
+"""Here, not by a file."""
 
 
 def _machine_table(content: dict[str, Any], reader: Reader) -> tuple[Path, Any]:

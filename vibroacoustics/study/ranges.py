@@ -1,15 +1,18 @@
 """Which values of the machine a study reads and draws, and from which ranges."""
 
 from collections.abc import Iterable, Mapping
-from typing import Any, Final
+from typing import Any, Final, get_args
 
+from pydantic import ValidationError
+
+from ..base.parameters import Held, Parameters
 from ..base.units import si_key
 from ..machine.machine import Machine
-from ..machine.shell_structure import DRAWN_OF_SHELL
+from ..machine.shell_structure import ShellStructure
 from ..machine.source import Source
 from .reader import Reader
 from .study import ParameterRecord
-from .uncertainty import Range
+from .uncertainty import HeldRange, Range
 from .wording import validated
 
 _ALWAYS_READ: Final = {"suspension"}
@@ -39,33 +42,104 @@ def is_used(record: ParameterRecord, machine: Machine, used: set[str]) -> bool:
     return field is None or field.is_required() or table in used | _ALWAYS_READ
 
 
-def drawn_values(content: Mapping[str, Any]) -> frozenset[tuple[str, str]]:
-    """Values that are drawn from their range, by table and field."""
-    sources = _sources(content)
-    of_shell = any(source.drives_shell for source in sources)
-    drawn = frozenset(pair for source in sources for pair in source.drawn)
-    return drawn | DRAWN_OF_SHELL if of_shell else drawn
-
-
 def ranges_of(
-    machine: Machine,
-    records: Iterable[ParameterRecord],
-    drawn: frozenset[tuple[str, str]],
-    reader: Reader,
-) -> tuple[Range, ...]:
-    """Ranges in SI of the values that are drawn; the machine must take both ends of each."""
-    found = []
-    for record in records:
-        table, _, key = record.field.partition(".")
-        field, factor = si_key(key)
-        if (table, field) not in drawn or record.lowest is None or record.highest is None:
+    machine: Machine, records: Iterable[ParameterRecord], content: Mapping[str, Any], reader: Reader
+) -> tuple[tuple[Range, ...], tuple[HeldRange, ...]]:
+    """Ranges in SI of the values that are drawn, and of those that are not; none without sources.
+
+    A value is drawn unless its class says `Held`. The field must take both ends of its range; that
+    values contradict one another is seen when they are drawn.
+    """
+    drawn: list[Range] = []
+    held: list[HeldRange] = []
+    measured = bool(content.get("shell_modes"))
+    for record in records if _sources(content) else ():
+        *tables, key = record.field.split(".")
+        if record.lowest is None or record.highest is None or not _of_machine(record, machine):
             continue
-        ends = [(limit, factor * limit) for limit in (record.lowest, record.highest)]
-        model = type(getattr(machine, table))
-        for written, end in ends:
-            reader.file_keys[table, field] = (key, written)
-            values = getattr(machine, table).model_dump() | {field: end}
-            validated(model, values, reader, (table,))
-        lowest, highest = (end for _, end in ends)
-        found.append(Range(table=table, field=field, lowest=lowest, highest=highest))
-    return tuple(found)
+        owner, (name, factor) = _owner(machine, tables), si_key(key)
+        field = type(owner).model_fields[name]
+        integer = _is_integer(field.annotation)
+        ends = [_si(end, factor, integer) for end in (record.lowest, record.highest)]
+        _check_ends(owner, (*tables, name), (key, record), ends, reader)
+        lowest, highest = map(float, ends)
+        limits = Range(
+            table=".".join(tables), field=name, lowest=lowest, highest=highest, integer=integer
+        )
+        reason = _why_held(owner, name, measured)
+        if reason is None:
+            drawn.append(limits)
+        else:
+            held.append(HeldRange(**dict(limits), reason=reason))
+    return tuple(_with_sources(item, machine, drawn) for item in drawn), tuple(held)
+
+
+def _with_sources(limits: Range, machine: Machine, drawn: Iterable[Range]) -> Range:
+    """A range with the other drawn values that its value follows from, but is drawn apart from."""
+    names = {other.name for other in drawn}
+    sources = [
+        source
+        for derived in machine.derived
+        if derived.name == limits.name
+        for source in derived.sources
+        if source in names
+    ]
+    return limits.model_copy(update={"independent_of": tuple(sources)})
+
+
+def _of_machine(record: ParameterRecord, machine: Machine) -> bool:
+    """Whether a record is of the machine, not of what an option changes of it."""
+    return record.field.partition(".")[0] in type(machine).model_fields
+
+
+def _owner(machine: Machine, tables: Iterable[str]) -> Parameters:
+    owner: Parameters = machine
+    for table in tables:
+        owner = getattr(owner, table)
+    return owner
+
+
+def _si(end: float, factor: float, integer: bool) -> float:
+    value = factor * end
+    return int(value) if integer and value.is_integer() else value
+
+
+def _is_integer(annotation: Any) -> bool:
+    kinds = {annotation, *get_args(annotation)}
+    return int in kinds and float not in kinds
+
+
+def _why_held(owner: Parameters, name: str, measured: bool) -> str | None:
+    """Why a value is not drawn; none where it is."""
+    field = type(owner).model_fields[name]
+    if measured and isinstance(owner, ShellStructure) and name in owner.changes_modes:
+        return "change modes, which are measured here"
+    if not isinstance(getattr(owner, name), int | float):
+        return "are lists"
+    return next((item.reason for item in field.metadata if isinstance(item, Held)), None)
+
+
+def _check_ends(
+    owner: Parameters,
+    keys: tuple[str, ...],
+    written: tuple[str, ParameterRecord],
+    ends: Iterable[float],
+    reader: Reader,
+) -> None:
+    """Refuse a range with an end that the field does not take, whatever the other values are."""
+    key, record = written
+    for limit, end in zip((record.lowest, record.highest), ends, strict=True):
+        values = {**dict(iter(owner)), keys[-1]: end}
+        if isinstance(getattr(owner, keys[-1]), tuple) or _contradicts_others(owner, values):
+            continue
+        reader.file_keys[keys] = (key, limit)
+        validated(type(owner), values, reader, keys[:-1])
+
+
+def _contradicts_others(owner: Parameters, values: dict[str, Any]) -> bool:
+    """Whether it is the values together that are refused, not one of them."""
+    try:
+        type(owner).model_validate(values)
+    except ValidationError as error:
+        return error.errors()[0]["type"] == "value_error"
+    return False

@@ -20,7 +20,7 @@ from .scoring import Scoring, check_given, check_scales
 from .sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
 from .speeds import MOST_SPEEDS, speed_range
 from .toml_files import Written
-from .uncertainty import MeasuredModes, Range, Uncertainty
+from .uncertainty import HeldRange, MeasuredModes, Range, Uncertainty
 
 MOST_SPEEDS_WITH_TIME_SERIES: Final = 100
 LEAST_ORDERS: Final = 2
@@ -125,6 +125,8 @@ class Study(Parameters):
     """Measured modes of the shell, in place of the computed ones."""
     ranges: tuple[Range, ...] = ()
     """Of the machine's values that are drawn at random."""
+    held_ranges: tuple[HeldRange, ...] = ()
+    """Of those that are not, with the reason."""
     records: tuple[ParameterRecord, ...] = ()
     source_file: str = ""
 

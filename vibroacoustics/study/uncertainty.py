@@ -9,9 +9,25 @@ class Range(Parameters):
     """Range of one value of the machine, in SI."""
 
     table: str
+    """Dotted, from the machine."""
     field: str
     lowest: float
     highest: float
+    integer: bool = False
+    """Whether it is a whole number."""
+    independent_of: tuple[str, ...] = ()
+    """Drawn values that this one would follow from if its file gave it no range."""
+
+    @property
+    def name(self) -> str:
+        """Dotted name of the value, from the machine."""
+        return f"{self.table}.{self.field}"
+
+
+class HeldRange(Range):
+    """Range of a value that is not drawn, and why."""
+
+    reason: str
 
 
 class Uncertainty(Parameters):

@@ -1,7 +1,7 @@
 """The elastic shell as a path: from loads on its joints to sound at the receivers."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Final
 
@@ -10,8 +10,9 @@ import numpy as np
 from ..base.arrays import Array, ComplexArray
 from ..base.decibel import amplitude_of_level
 from ..machine.shell import Shell
-from ..machine.shell_structure import JOINTS, ShellStructure, ShellVariation
+from ..machine.shell_structure import JOINTS, Joint, ShellStructure, ShellVariation
 from .shell_modes import (
+    ElasticShell,
     JointLoads,
     SampledMode,
     ShellMode,
@@ -19,6 +20,7 @@ from .shell_modes import (
     modal_forces,
     velocity_per_force,
 )
+from .shell_modes.projection import ProjectedModes
 
 MODES_BEYOND: Final = 1.1
 """Modes up to this many times the highest frequency take part."""
@@ -31,21 +33,60 @@ class ShellPath:
     Attributes
     ----------
     modes : computed or measured
+    structure : its joints and, where the modes are computed, its wall
     joint_forces : generalised force per unit load, shape (mode, joint, component)
+    wall : modes as given, for walls that differ; none where they are measured
+    radius_m : of the wall
+    frequency_factor : natural frequencies over those of the modes as given, shape (mode,) or ()
+    mass_factor : the same of the modal masses
     """
 
     modes: tuple[ShellMode, ...] | tuple[SampledMode, ...]
+    structure: ShellStructure
     joint_forces: Array
+    wall: ProjectedModes | None
+    radius_m: float
+    frequency_factor: Array | float = 1.0
+    mass_factor: float = 1.0
 
     @cached_property
     def natural_hz(self) -> Array:
         """Shape (mode,)."""
-        return np.array([mode.frequency_hz for mode in self.modes])
+        return self.frequency_factor * np.array([mode.frequency_hz for mode in self.modes])
 
     @cached_property
     def modal_mass_kg(self) -> Array:
         """Shape (mode,)."""
-        return np.array([mode.modal_mass_kg for mode in self.modes])
+        return self.mass_factor * np.array([mode.modal_mass_kg for mode in self.modes])
+
+    def with_structure(self, structure: ShellStructure) -> "ShellPath":
+        """The path with drawn values of joints and wall.
+
+        Joints are exact; another wall changes frequencies and masses of the modes as given, by
+        `ProjectedModes`, not their shapes. Measured modes stay.
+
+        Raises
+        ------
+        ParameterError
+            A joint reaches beyond the wall.
+        """
+        joints = [getattr(structure, name) for name in JOINTS]
+        path = self
+        if joints != [getattr(self.structure, name) for name in JOINTS]:
+            path = replace(path, joint_forces=self._joint_forces(joints))
+        if self.wall is not None:
+            path = replace(
+                path,
+                frequency_factor=self.wall.frequency_factor(structure),
+                mass_factor=self.wall.mass_factor(structure),
+            )
+        return path
+
+    def _joint_forces(self, joints: Sequence[Joint]) -> Array:
+        if self.wall is not None:
+            return _of_computed(self.wall.shell, joints)
+        modes = [mode for mode in self.modes if isinstance(mode, SampledMode)]
+        return _of_measured(modes, joints, self.radius_m)
 
 
 def computed_path(
@@ -62,8 +103,8 @@ def computed_path(
     """
     highest = MODES_BEYOND * maximum_frequency_hz / least_factor
     elastic = elastic_shell(shell, structure, highest)
-    loads = [modal_forces(elastic, JointLoads(getattr(structure, name))) for name in JOINTS]
-    return ShellPath(elastic.modes, np.stack(loads, axis=1))
+    forces = _of_computed(elastic, [getattr(structure, name) for name in JOINTS])
+    return ShellPath(elastic.modes, structure, forces, ProjectedModes(elastic), shell.radius_m)
 
 
 def measured_path(
@@ -77,9 +118,16 @@ def measured_path(
     structure : its joints
     radius_m : of the wall
     """
-    joints = [getattr(structure, name) for name in JOINTS]
-    forces = [[mode.modal_forces(joint, radius_m) for joint in joints] for mode in modes]
-    return ShellPath(tuple(modes), np.array(forces))
+    forces = _of_measured(modes, [getattr(structure, name) for name in JOINTS], radius_m)
+    return ShellPath(tuple(modes), structure, forces, None, radius_m)
+
+
+def _of_computed(shell: ElasticShell, joints: Sequence[Joint]) -> Array:
+    return np.stack([modal_forces(shell, JointLoads(joint)) for joint in joints], axis=1)
+
+
+def _of_measured(modes: Sequence[SampledMode], joints: Sequence[Joint], radius_m: float) -> Array:
+    return np.array([[mode.modal_forces(joint, radius_m) for joint in joints] for mode in modes])
 
 
 def pressure_per_load(

@@ -64,8 +64,9 @@ class Transmission:
     def _bending_shell(self, machine: Machine) -> BendingShell | None:
         if self.shell is None or self.modes is None:
             return None
-        loss = machine.table(ShellStructure).loss_factor_ratio
-        return BendingShell(self.shell, self.modes, loss, machine.table(ShellVariation))
+        structure, variation = machine.table(ShellStructure), machine.table(ShellVariation)
+        shell = self.shell.with_structure(structure)
+        return BendingShell(shell, self.modes, structure.loss_factor_ratio, variation)
 
     def _of_case(
         self, case: Case, loads: Mapping[str, Loads], of_wrenches: BySource, path: SoundPath

@@ -1,26 +1,55 @@
 """The elastic shell of a study as a path: its modes computed, or measured."""
 
+from typing import Final
+
 from ..base.arrays import Array
 from ..machine.shell_structure import ShellStructure, ShellVariation
 from ..study.study import Study
 from .path import ShellPath, computed_path, measured_path
 from .shell_modes import SampledMode
+from .shell_modes.projection import least_frequency_factor, projection_error
 
-_DRAWN = "frequency_factor_ratio"
+_FACTOR: Final = "frequency_factor_ratio"
 """Of the shell's variation: how natural frequencies differ in a draw."""
 
 
 def computed_shell_path(study: Study) -> ShellPath:
     """Modes that reach the highest frequency in every draw."""
     machine = study.machine
-    given = getattr(machine.table(ShellVariation), _DRAWN)
-    drawn = [limits.lowest for limits in study.ranges if limits.field == _DRAWN]
-    return computed_path(
-        machine.shell,
-        machine.table(ShellStructure),
-        study.radiation.maximum_frequency_hz,
-        min([given, *drawn]),
-    )
+    structure = machine.table(ShellStructure)
+    factors = [item.lowest for item in study.ranges if item.field == _FACTOR]
+    least = min([getattr(machine.table(ShellVariation), _FACTOR), *factors])
+    ends = [end for pair in _ends(study, structure).values() for end in pair]
+    least *= least_frequency_factor(structure, ends)
+    return computed_path(machine.shell, structure, study.radiation.maximum_frequency_hz, least)
+
+
+def projection_errors(study: Study, path: ShellPath) -> dict[str, float]:
+    """Largest relative error of a natural frequency by projection, by name of the drawn value.
+
+    Over the modes up to the highest frequency, at both ends of the value's range, the other values
+    as given. Only values that change the shapes of modes are in it.
+    """
+    if path.wall is None:
+        return {}
+    highest, shell = study.radiation.maximum_frequency_hz, study.machine.shell
+    return {
+        name: max(projection_error(path.wall, shell, end, highest) for end in ends)
+        for name, ends in _ends(study, path.structure).items()
+        if name.rpartition(".")[2] in path.structure.changes_shapes
+    }
+
+
+def _ends(study: Study, structure: ShellStructure) -> dict[str, list[ShellStructure]]:
+    """Walls at both ends of the range of each drawn value that modes change with."""
+    return {
+        item.name: [
+            structure.model_copy(update={item.field: end}) for end in (item.lowest, item.highest)
+        ]
+        for item in study.ranges
+        if item.field in structure.changes_modes
+        and getattr(study.machine, item.table, None) is structure
+    }
 
 
 def measured_shell_path(

@@ -1,62 +1,97 @@
-"""The cases of a study with drawn values, and all draws side by side."""
+"""The cases of a study with drawn values: what moves otherwise turns anew."""
 
-from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
-from typing import TypeVar
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import groupby
+from typing import Final
 
-import numpy as np
-import xarray as xr
-
-from ..base.progress import Progress
-from ..base.vocabulary import check, stamp
+from ..base.errors import ParameterError
 from ..machine.machine import Machine
 from ..machine.source import Case, CaseKey, Shared
-from ..radiation.machine_side import processors
-from ..study.uncertainty import Range
-from .draws import Draw, with_draw
+from ..mechanics.loads import Loads
+from ..sources.cases import loads_of, without_time_series
+from ..study.draws import Draw, with_draw
+from ..study.study import Study
+from ..transfer.received import BySource
+from ..transfer.sound_path import PressurePerVelocity
+from .wrenches import wrench_pressure
 
-Result = TypeVar("Result")
+_SHELL: Final = {"shell", "structure", "variation", "overall_noise"}
+"""Tables that say nothing of the motion."""
 
 
-def drawn_cases(cases: Mapping[CaseKey, Case], given: Machine, draw: Draw) -> dict[CaseKey, Case]:
+@dataclass(frozen=True)
+class DrawnCases:
+    """The cases of one draw.
+
+    Attributes
+    ----------
+    cases : with drawn values, without courses over crank angle
+    loads : of all sources in each
+    wrench_pressure : of the cases whose motion is not that as given, by source, (receiver, order)
+    """
+
+    cases: dict[CaseKey, Case]
+    loads: dict[CaseKey, dict[str, Loads]]
+    wrench_pressure: dict[CaseKey, BySource]
+
+
+def drawn_cases(
+    cases: Mapping[CaseKey, Case], study: Study, draw: Draw, rigid: PressurePerVelocity
+) -> DrawnCases:
     """The cases with drawn values; they share no result with those of other draws.
 
+    Where a draw changes what moves, or the machine on its mounts, revolution and what an option
+    adds are computed anew, and what the wrenches of the moving parts sound like.
+
     Parameters
     ----------
-    cases : with the values as given
-    given : machine of the study
+    cases : with the values as given, without their courses
+    study : with its machine and options
     draw : values by table and field
+    rigid : pressure per velocity of the rigid motions
+
+    Raises
+    ------
+    ParameterError, SolverError
+        A machine cannot run so, an option not be built, a source not act.
     """
+    drawn = DrawnCases({}, {}, {})
     shared = Shared()
-    return {
-        key: replace(case, machine=with_draw(case.machine, given, draw), shared=shared)
-        for key, case in cases.items()
-    }
+    for _, of_speed in groupby(cases.items(), key=lambda item: item[0][0]):
+        turned = Shared()  # let go with the speed: courses over crank angle are large
+        for key, given in of_speed:
+            machine = shared(
+                id(given.machine), partial(with_draw, given.machine, study.machine, draw)
+            )
+            case = replace(given, machine=machine, shared=shared)
+            if moves_otherwise(machine, given.machine, study):
+                case = _turned(case, study, key[1], turned)
+            loads = loads_of(study, case)
+            if case.revolution.wrenches:
+                highest = study.highest_order(case.speed_rpm)
+                drawn.wrench_pressure[key] = wrench_pressure(case, loads, highest, rigid)
+            drawn.cases[key], drawn.loads[key] = without_time_series(case, loads)
+    return drawn
 
 
-def of_every_draw(
-    draws: Sequence[Draw], compute: Callable[[Draw], Result], progress: Progress
-) -> list[Result]:
-    """What is computed of every draw, in their order.
-
-    Parameters
-    ----------
-    draws : sets of values
-    compute : called with one of them, in several threads at once
-    progress : called with the advance
-    """
-    results = []
-    with ThreadPoolExecutor(processors()) as pool:  # the keys run without the interpreter's lock
-        for result in pool.map(compute, draws):
-            results.append(result)
-            progress("sources", len(results), len(draws))
-    return results
+def moves_otherwise(machine: Machine, given: Machine, study: Study) -> bool:
+    """Whether two machines differ in more than the shell and what sources alone read."""
+    fields = type(machine).model_fields
+    of_sources = {name for source in study.sources.values() for name in source.tables}
+    still = _SHELL | {name for name in of_sources & set(fields) if not fields[name].is_required()}
+    return any(
+        getattr(machine, name) != getattr(given, name) for name in fields if name not in still
+    )
 
 
-def drawn_values(ranges: Sequence[Range], draws: Sequence[Draw]) -> xr.Dataset:
-    """The values of all draws, labelled."""
-    names = [f"{limits.table}.{limits.field}" for limits in ranges]
-    values = [[draw[limits.table, limits.field] for limits in ranges] for draw in draws]
-    coords = {"draw": np.arange(1, len(draws) + 1), "drawn_parameter": names}
-    return check(xr.Dataset({"drawn_value": stamp("drawn_value", values, coords)}))
+def _turned(case: Case, study: Study, option: str, turned: Shared) -> Case:
+    """A case with the revolution of its machine, which options that leave the machine share."""
+    turn = partial(case.machine.revolution, case.speed_rpm, study.operation.crank_angle_samples)
+    revolution = turned(id(case.machine), turn)
+    try:
+        added = study.options[option].added(case.machine, revolution)
+    except ParameterError as error:
+        raise ParameterError(f"options.{option}: {error}") from None
+    return replace(case, revolution=revolution, added=added)

@@ -1,62 +1,75 @@
-"""Random values of a machine, from the ranges of what is not known."""
+"""All draws side by side, and their values."""
 
-from collections.abc import Mapping, Sequence
-from typing import Final
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import TypeVar
 
-import scipy  # loads its subpackages when they are needed
+import numpy as np
+import xarray as xr
 
-from ..base.arrays import Array
-from ..machine.machine import Machine
-from ..study.uncertainty import Range, Uncertainty
+from ..base.errors import ParameterError, SolverError
+from ..base.progress import Progress
+from ..base.vocabulary import check, stamp
+from ..radiation.machine_side import processors
+from ..study.draws import Draw
+from ..study.uncertainty import Range
 
-WIDE_RATIO: Final = 3.0
-"""A range wider than this is drawn evenly over its logarithm."""
-
-Draw = Mapping[tuple[str, str], float]
-"""Drawn values in SI by table and field."""
-AS_GIVEN: Final[Draw] = {}
-"""The values of the file."""
-
-
-def latin_hypercube(ranges: Sequence[Range], settings: Uncertainty) -> list[Draw]:
-    """Sets of values drawn from their ranges (McKay, Beckman, Conover 1979); none without any."""
-    if not ranges:
-        return []
-    sampler = scipy.stats.qmc.LatinHypercube(len(ranges), rng=settings.seed)
-    return [_draw(ranges, row) for row in sampler.random(settings.random_samples)]
+Result = TypeVar("Result")
 
 
-def with_draw(machine: Machine, given: Machine, draw: Draw) -> Machine:
-    """A machine with drawn values; what an option has changed of the given one stays changed.
+def of_every_draw(
+    draws: Sequence[Draw],
+    compute: Callable[[Draw], Result],
+    without_solution: Result,
+    progress: Progress,
+) -> list[Result]:
+    """What is computed of every draw, in their order; one warning tells of draws without solution.
 
     Parameters
     ----------
-    machine : as an option leaves it
-    given : of the study
-    draw : values by table and field
+    draws : sets of values
+    compute : called with one of them, in several threads at once
+    without_solution : in place of the result of a draw with which the machine cannot run
+    progress : called with the advance
     """
-    tables: dict[str, dict[str, float]] = {}
-    for (table, field), value in draw.items():
-        if getattr(getattr(machine, table), field) == getattr(getattr(given, table), field):
-            tables.setdefault(table, {})[field] = value
-    if not tables:
-        return machine
-    return machine.model_copy(
-        update={
-            table: getattr(machine, table).model_copy(update=values)
-            for table, values in tables.items()
-        }
-    )
 
+    def solved(draw: Draw) -> Result | ParameterError | SolverError:
+        try:
+            return compute(draw)
+        except (ParameterError, SolverError) as error:
+            return error
 
-def _draw(ranges: Sequence[Range], shares: Array) -> Draw:
-    values = {}
-    for limits, share in zip(ranges, shares, strict=True):
-        wide = limits.lowest > 0.0 and limits.highest / limits.lowest > WIDE_RATIO
-        value = (
-            limits.lowest * (limits.highest / limits.lowest) ** share
-            if wide
-            else limits.lowest + share * (limits.highest - limits.lowest)
+    results: list[Result] = []
+    failures: list[Exception] = []
+    with ThreadPoolExecutor(processors()) as pool:  # the keys run without the interpreter's lock
+        for done, result in enumerate(pool.map(solved, draws), 1):
+            if isinstance(result, ParameterError | SolverError):
+                failures.append(result)
+                results.append(without_solution)
+            else:
+                results.append(result)
+            progress("sources", done, len(draws))
+    if failures:
+        warnings.warn(
+            f"{len(failures)} of {len(draws)} draws have no solution and are left out, such as: "
+            f"{failures[0]}",
+            stacklevel=2,
         )
-        values[limits.table, limits.field] = float(value)
-    return values
+    return results
+
+
+def drawn_values(ranges: Sequence[Range], draws: Sequence[Draw]) -> xr.Dataset:
+    """The values of all draws, labelled."""
+    names = [limits.name for limits in ranges]
+    values = [[draw[limits.table, limits.field] for limits in ranges] for draw in draws]
+    coords = {"draw": np.arange(1, len(draws) + 1), "drawn_parameter": names}
+    return check(xr.Dataset({"drawn_value": stamp("drawn_value", values, coords)}))
+
+
+def errors_of_projection(ranges: Sequence[Range], errors: Mapping[str, float]) -> xr.Dataset:
+    """Errors of the values that are drawn by projection on modes, empty for others, labelled."""
+    names = [limits.name for limits in ranges]
+    values = [errors.get(name, np.nan) for name in names]
+    coords = {"drawn_parameter": names}
+    return check(xr.Dataset({"projection_error": stamp("projection_error", values, coords)}))

@@ -34,5 +34,11 @@ for _thing in (
     ),
     Variable("draw_weight", ("draw",), "1", "weight of the draw; 0 where it is left out"),
     Variable("drawn_value", ("draw", "drawn_parameter"), "", "drawn value, SI unit in the name"),
+    Variable(
+        "projection_error",
+        ("drawn_parameter",),
+        "1",
+        "largest relative error of a natural frequency by projection; empty where exact",
+    ),
 ):
     register(_thing)

@@ -1,14 +1,15 @@
 """A scroll compressor with an Oldham coupling: masses and places of its moving parts."""
 
 from collections.abc import Iterable
-from typing import ClassVar, Final
+from typing import Annotated, ClassVar, Final
 
 from pydantic import Field
 
 from ...base.arrays import Array
 from ...base.curves import Curve
-from ...base.parameters import Parameters
+from ...base.parameters import Held, Parameters
 from ...base.registry import register
+from ...machine.derived import ROUND_INERTIAS, Derived, in_proportion
 from ...machine.machine import PART_MASS, Machine
 from ...machine.shell_structure import ShellStructure, ShellVariation
 from ...machine.stopping import Stopping
@@ -26,9 +27,11 @@ from ...sources.induction_motor.parameters import CapacitorMotor, TurningRotor
 from ...sources.oldham_keys.parameters import OldhamKeys
 from ...sources.scroll_gas.parameters import ScrollGas, ScrollWraps
 
+STROKES: Final = Held("may be printed or derived: two studies, no range")
+
 
 class Kinematics(Parameters):
-    orbit_radius_m: float = Field(ge=1e-4, le=0.05)
+    orbit_radius_m: Annotated[float, STROKES] = Field(ge=1e-4, le=0.05)
     """Radius of the orbit of the scroll; the Oldham ring's stroke amplitude equals it."""
 
 
@@ -55,6 +58,16 @@ class OldhamScroll(Machine):
     orders: ClassVar[str] = (
         "The stroke of the ring is a pure cosine of the crank angle, so order 2 of the ring "
         "alone is zero; higher orders come from what an option adds."
+    )
+    derived: ClassVar[tuple[Derived, ...]] = (
+        *ROUND_INERTIAS,
+        Derived(
+            "kinematics.orbit_radius_m",
+            ("wraps.base_radius_m", "wraps.thickness_m"),
+            lambda machine: machine.wraps and machine.wraps.orbit_radius_m,
+        ),
+        in_proportion("keys.ring_inertia_kg_m2", "oldham.mass_kg"),
+        in_proportion("keys.scroll_inertia_kg_m2", "orbiting_scroll.mass_kg"),
     )
     kinematics: Kinematics
     oldham: Ring

@@ -141,10 +141,7 @@ def matrices(meridian: Meridian, structure: ShellStructure, order: int) -> tuple
     structure : thickness and material
     order : circumferential order n
     """
-    place, weight = np.tile(np.polynomial.legendre.leggauss(_GAUSS), meridian.elements)
-    element = np.repeat(np.arange(meridian.elements), _GAUSS)
-    around = 2.0 * np.pi if order == 0 else np.pi
-    area = around * weight * 0.5 * meridian.lengths[element] * _radius(meridian, element, place)
+    element, place, area = _gauss_points(meridian, order)
     strain = strains(meridian, element, place, order)
     moved = displacement_shapes(meridian, element, place)
     surface_mass = structure.density_kg_per_m3 * structure.thickness_m
@@ -152,6 +149,38 @@ def matrices(meridian: Meridian, structure: ShellStructure, order: int) -> tuple
                           optimize=True)  # fmt: skip
     mass = surface_mass * np.einsum("p,pai,paj->pij", area, moved, moved, optimize=True)
     return _assembled(meridian, stiffness), _assembled(meridian, mass)
+
+
+def squared_strains(meridian: Meridian, order: int, amplitudes: Array) -> Array:
+    """Integrals of squared strains over the surface, shape (stretching or bending, part, motion).
+
+    Those of the stretching are of ε_s² + ε_θ² + γ²/2 and of 2 ε_s ε_θ - γ²/2, which stiffness
+    holds times Poisson's ratio; those of the bending likewise of the changes of curvature.
+
+    Parameters
+    ----------
+    meridian : nodes
+    order : circumferential order n
+    amplitudes : of the motions, shape (freedom, motion)
+    """
+    element, place, area = _gauss_points(meridian, order)
+    of_element = amplitudes[element_freedoms(meridian)][element]
+    strained = np.einsum("pai,pim->apm", strains(meridian, element, place, order), of_element)
+    parts = []
+    for along, around, shear in (strained[:3], strained[3:]):
+        plain = along**2 + around**2 + 0.5 * shear**2
+        coupled = 2.0 * along * around - 0.5 * shear**2
+        parts.append([area @ plain, area @ coupled])
+    return np.array(parts)
+
+
+def _gauss_points(meridian: Meridian, order: int) -> tuple[IndexArray, Array, Array]:
+    """Element, coordinate along it and weight by area of the points of integration."""
+    place, weight = np.tile(np.polynomial.legendre.leggauss(_GAUSS), meridian.elements)
+    element = np.repeat(np.arange(meridian.elements), _GAUSS)
+    around = 2.0 * np.pi if order == 0 else np.pi
+    area = around * weight * 0.5 * meridian.lengths[element] * _radius(meridian, element, place)
+    return element, place, area
 
 
 def _radius(meridian: Meridian, element: IndexArray, place: Array) -> Array:

@@ -1,0 +1,420 @@
+"""What can be drawn: every value with a range, whole numbers, what follows, what contradicts."""
+
+import shutil
+from dataclasses import replace
+from operator import attrgetter
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from sources_study import SOURCES_STUDY, case_of, made_up_modes, path_of, run_made_up, with_tables
+from support import MACHINE_FILE, ROOT
+
+from vibroacoustics.base.errors import ParameterError, SolverError
+from vibroacoustics.levels import SILENCE_DB
+from vibroacoustics.machine.machine import Machine
+from vibroacoustics.machine.source import Shared
+from vibroacoustics.radiation.pressure import pressure_per_velocity, wrench_pressure
+from vibroacoustics.sources.cases import without_time_series
+from vibroacoustics.sources.gas import ScrollGasForces
+from vibroacoustics.study.draws import draws_of, latin_hypercube, with_draw
+from vibroacoustics.study.loading import load_study
+from vibroacoustics.study.study import Study
+from vibroacoustics.study.uncertainty import Range
+from vibroacoustics.transfer.path import computed_path
+from vibroacoustics.transfer.study_path import projection_errors
+from vibroacoustics.uncertainty.drawn import drawn_cases, moves_otherwise
+from vibroacoustics.uncertainty.draws import of_every_draw
+
+TEXT = SOURCES_STUDY.read_text(encoding="utf-8")
+MACHINE_TEXT = MACHINE_FILE.read_text(encoding="utf-8")
+TWELVE = (
+    ("gas", "polytropic_index"),
+    ("gas", "equalisation_angle_rad"),
+    ("keys", "clearance_m"),
+    ("keys", "contact_stiffness_n_per_m1p5"),
+    ("keys", "restitution_ratio"),
+    ("keys", "film_damping_ns_per_m"),
+    ("keys", "friction_ratio"),
+    ("keys", "scroll_inertia_kg_m2"),
+    ("motor", "capacitance_f"),
+    ("structure", "loss_factor_ratio"),
+    ("variation", "mobility_change_db"),
+    ("variation", "frequency_factor_ratio"),
+)
+
+
+@pytest.fixture(scope="module")
+def study() -> Study:
+    return load_study(SOURCES_STUDY)
+
+
+def load_changed(folder: Path, *replaced: tuple[str, str], study: str = TEXT) -> Study:
+    """The study with texts of its machine file replaced."""
+    text = MACHINE_TEXT
+    for old, new in replaced:
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    shutil.copytree(ROOT / "data" / "validation", folder / "validation", dirs_exist_ok=True)
+    (folder / "machine.toml").write_text(text, encoding="utf-8")
+    named = study.replace("../../data/machines/copeland_zp41k3e.toml", "machine.toml")
+    (folder / "study.toml").write_text(named, encoding="utf-8")
+    return load_study(folder / "study.toml")
+
+
+def within(study: Study, *names: str) -> Study:
+    """The study with these ranges only."""
+    kept = tuple(item for item in study.ranges if item.name in names)
+    assert len(kept) == len(names)
+    return study.model_copy(update={"ranges": kept})
+
+
+# --- which values --------------------------------------------------------------------------------
+
+
+def test_every_value_with_a_range_is_drawn_or_held_with_a_reason(study):
+    """Of the tables that the study reads: that of the shaft is not among them."""
+    ranged = {
+        record.field.rpartition(".")[0]
+        for record in study.records
+        if record.file == MACHINE_FILE.name and record.lowest is not None
+    }
+    drawn, held = {item.table for item in study.ranges}, {item.table for item in study.held_ranges}
+    assert drawn | held == ranged
+    assert held == {"kinematics", "shell", "stopping"}
+    count = sum(record.lowest is not None for record in study.records)
+    assert len(study.ranges) + len(study.held_ranges) == count > 60
+    assert "structure.bearing_housing.height_m" in {item.name for item in study.ranges}
+    assert all(len(item.reason) > 20 for item in study.held_ranges)
+    assert "two studies" in study.held_ranges[0].reason
+
+
+def test_a_study_without_sources_draws_nothing():
+    thesis = load_study(ROOT / "pipelines" / "copeland_thesis.toml")
+    assert thesis.ranges == thesis.held_ranges == ()
+
+
+def test_data_of_the_catalogue_are_not_drawn(tmp_path):
+    level = 'value = 56.0, source = "thesis table 2, sound pressure level at 1 m"'
+    changed = load_changed(tmp_path, (level, f"{level}, range = [54.0, 58.0]"))
+    held = {item.name: item.reason for item in changed.held_ranges}
+    assert "data" in held["overall_noise.level_dba"]
+    assert "overall_noise.level_dba" not in {item.name for item in changed.ranges}
+
+
+def test_values_of_measured_modes_do_not_change_with_the_wall(tmp_path):
+    text = TEXT.replace("[uncertainty]", '[shell_modes]\nfile = "modes.uff"\n\n[uncertainty]')
+    measured = load_changed(tmp_path, study=text)
+    held = {item.name: item.reason for item in measured.held_ranges}
+    assert "measured" in held["structure.thickness_m"]
+    assert "structure.bearing_housing.welds" not in held
+
+
+@pytest.mark.filterwarnings("ignore:.*contradict themselves")
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("mayekawa_wbhe", "gas.crankcase_pressure_pa"),
+        ("dagilis_slider_link", "suspension.discharge_tube.inner_diameter_m"),
+        ("estupinan_hermetic", "shaft.rotor_distance_m"),
+        ("zhao_minicrank", "mounts.pitch_m"),
+    ],
+)
+def test_every_machine_takes_the_ends_of_its_ranges(tmp_path, monkeypatch, name, value):
+    """With a source that asks for nothing, so that values are drawn."""
+    monkeypatch.setattr(ScrollGasForces, "why_not", classmethod(lambda *_: None))
+    monkeypatch.setattr(ScrollGasForces, "drives_shell", False)
+    text = (ROOT / "pipelines" / f"{name}.toml").read_text(encoding="utf-8")
+    source = '\n[sources.gas]\nkind = "scroll-gas"\n'
+    (tmp_path / "study.toml").write_text(text.replace("../data", str(ROOT / "data")) + source)
+    study = load_study(tmp_path / "study.toml")
+    assert value in {item.name for item in study.ranges}
+    lists = {item.name for item in study.held_ranges if item.reason == "are lists"}
+    assert bool(lists) == (study.machine.suspension is not None)
+
+
+# --- whole numbers -------------------------------------------------------------------------------
+
+
+def test_whole_numbers_are_drawn_as_such_and_each_as_often(study):
+    limits = Range(table="structure.stator", field="welds", lowest=4, highest=8, integer=True)
+    settings = study.uncertainty.model_copy(update={"random_samples": 50})
+    drawn = [draw["structure.stator", "welds"] for draw in latin_hypercube((limits,), settings)]
+    assert all(isinstance(value, int) for value in drawn)
+    assert np.bincount(drawn, minlength=9)[4:].tolist() == [10] * 5
+    whole = {item.name for item in study.ranges if item.integer}
+    assert whole == {
+        f"structure.{joint}.welds" for joint in ("bearing_housing", "fixed_scroll", "stator")
+    }
+
+
+def test_range_of_a_whole_number_with_a_broken_end_is_refused(tmp_path):
+    old = 'three or four are usual", range = [3, 4]'
+    with pytest.raises(ParameterError, match=r"structure\.bearing_housing\.welds = 4\.5"):
+        load_changed(tmp_path, (old, old.replace("[3, 4]", "[3, 4.5]")))
+
+
+# --- what follows from others --------------------------------------------------------------------
+
+
+def test_orbit_follows_the_wraps(study):
+    base = study.machine
+    drawn = with_draw(base, base, {("wraps", "thickness_m"): 3.0e-3})
+    ratio = drawn.wraps.orbit_radius_m / base.wraps.orbit_radius_m
+    assert ratio > 1.05
+    assert drawn.kinematics.orbit_radius_m == pytest.approx(
+        ratio * base.kinematics.orbit_radius_m, rel=1e-12
+    )
+
+
+def test_inertias_follow_the_masses_unless_they_are_drawn_themselves(study):
+    base = study.machine
+    mass = {("housing", "mass_kg"): 28.0, ("orbiting_scroll", "mass_kg"): 1.8}
+    drawn = with_draw(base, base, mass)
+    assert drawn.housing.inertia_xx_kg_m2 == pytest.approx(0.57 * 28.0 / 35.0)
+    assert drawn.housing.inertia_yy_kg_m2 == pytest.approx(0.57 * 28.0 / 35.0)
+    assert drawn.keys.scroll_inertia_kg_m2 == pytest.approx(8e-4 * 1.5)
+    apart = with_draw(base, base, {**mass, ("housing", "inertia_xx_kg_m2"): 0.5})
+    assert apart.housing.inertia_xx_kg_m2 == 0.5
+    assert apart.housing.inertia_yy_kg_m2 == pytest.approx(0.5)  # round about z
+    said = {item.name: item.independent_of for item in study.ranges if item.independent_of}
+    assert said == {
+        "housing.inertia_xx_kg_m2": ("housing.mass_kg",),
+        "housing.inertia_zz_kg_m2": ("housing.mass_kg",),
+        "keys.scroll_inertia_kg_m2": ("orbiting_scroll.mass_kg",),
+    }
+
+
+def test_the_twelve_values_change_themselves_alone(study):
+    """As a plain copy with these values: nothing follows from them."""
+    base = study.machine
+    for draw in latin_hypercube(study.ranges, study.uncertainty):
+        tables: dict[str, dict[str, float]] = {}
+        for table, field in TWELVE:
+            tables.setdefault(table, {})[field] = draw[table, field]
+        twelve = {pair: draw[pair] for pair in TWELVE}
+        assert with_draw(base, base, twelve) == with_tables(study, **tables).machine
+        assert not moves_otherwise(with_draw(base, base, twelve), base, study)
+
+
+# --- contradictions ------------------------------------------------------------------------------
+
+
+def test_draws_that_contradict_themselves_are_told_and_drawn_anew(tmp_path):
+    """8 welds of up to 100° do not fit around: 360° are 45° each."""
+    old = 'lands of 30 mm", range = [10.0, 40.0]'
+    many = TEXT.replace("random_samples = 4", "random_samples = 20")
+    told = r"study\.toml: \d+ of \d+ draws \(\d+ %\) contradict themselves.*spread_deg"
+    with pytest.warns(UserWarning, match=told):
+        changed = load_changed(tmp_path, (old, old.replace("40.0", "100.0")), study=many)
+    sample = draws_of(changed)
+    assert len(sample.draws) == changed.uncertainty.random_samples
+    assert sample.refused
+    for draw in sample.draws:
+        joint = with_draw(changed.machine, changed.machine, draw).structure.stator
+        assert joint.welds * joint.spread_rad <= 2.0 * np.pi
+
+
+def test_ranges_that_hardly_ever_fit_are_refused(tmp_path):
+    old = 'lands of 30 mm", range = [10.0, 40.0]'
+    few = 'lands of the laminations touch the shell", range = [4, 8]'
+    with pytest.raises(ParameterError, match=r"draws contradict themselves.*welds") as refusal:
+        load_changed(
+            tmp_path,
+            (old, old.replace("[10.0, 40.0]", "[20.0, 360.0]")),
+            (few, few.replace("[4, 8]", "[6, 64]")),
+        )
+    assert len(str(refusal.value).splitlines()) == 1
+
+
+def test_sources_have_their_say_on_a_draw(study, monkeypatch):
+    """The wraps must orbit as the machine does."""
+    kind = type(study.sources["gas"])
+    monkeypatch.setattr(
+        kind,
+        "why_not",
+        classmethod(lambda cls, m: "too light" if m.housing.mass_kg < 31.5 else None),
+    )
+    sample = draws_of(study)
+    assert set(sample.refused) == {"sources.gas: too light"}
+    assert all(draw["housing", "mass_kg"] >= 31.5 for draw in sample.draws)
+
+
+def test_a_draw_without_solution_has_no_weight(study, monkeypatch):
+    revolution = type(study.machine).revolution
+
+    def at_times(machine: Machine, speed_rpm: float, samples: int):
+        if machine.orbiting_scroll.mass_kg > 1.55:
+            raise SolverError("it does not turn")
+        return revolution(machine, speed_rpm, samples)
+
+    monkeypatch.setattr(type(study.machine), "revolution", at_times)
+    heavy = [draw["orbiting_scroll", "mass_kg"] > 1.55 for draw in draws_of(study).draws]
+    assert sum(heavy) == 1
+    quiet = with_tables(study, overall_noise={"level_dba": 90.0})
+    with pytest.warns(UserWarning, match="1 of 4 draws have no solution.*it does not turn"):
+        results = run_made_up(quiet)
+    assert (results["draw_weight"].values == 0.0).tolist() == heavy
+    levels = results["level_modelled_by_draw"].values
+    assert np.isnan(levels).all(axis=(1, 2, 3)).tolist() == heavy
+    assert results["level_remainder_by_draw"].values[heavy] == SILENCE_DB
+
+
+def test_every_draw_is_told_of_in_order():
+    found = of_every_draw([{("a", "b"): 1.0}, {("a", "b"): 2.0}], lambda d: d["a", "b"], -1.0, no)
+    assert found == [1.0, 2.0]
+
+
+def no(*_: object) -> None:
+    """No progress."""
+
+
+# --- motion --------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def rigid(study):
+    return pressure_per_velocity(made_up_modes(study)["transfer_vector"])
+
+
+def drawn_pressure(study, rigid, draw, option="none"):
+    case = case_of(study, option)
+    bare, _ = without_time_series(replace(case, shared=Shared()), {})
+    key = (case.speed_rpm, option)
+    return drawn_cases({key: bare}, study, draw, rigid).wrench_pressure.get(key)
+
+
+def test_motion_as_given_sounds_as_in_the_results(study, rigid):
+    """A change by 1e-12 of a mount goes the way of the draws."""
+    results = run_made_up(study)
+    stiffness = study.machine.mounts.vertical_stiffness_n_per_m * (1.0 + 1e-12)
+    draw = {("mounts", "vertical_stiffness_n_per_m"): stiffness}
+    for option in study.options:
+        expected = wrench_pressure(results, "transfer_vector").sel(speed=2900.0, option=option)
+        expected = expected.sum("source").transpose("receiver", "order").values
+        found = drawn_pressure(study, rigid, draw, option)["moving_parts"]
+        size = np.abs(expected).max()
+        np.testing.assert_allclose(found, expected, atol=1e-9 * size, err_msg=option)
+
+
+def test_motion_that_a_draw_leaves_is_not_computed_anew(study, rigid):
+    assert drawn_pressure(study, rigid, {("keys", "friction_ratio"): 0.05}) is None
+    assert drawn_pressure(study, rigid, {("structure", "thickness_m"): 3e-3}) is None
+
+
+def test_soft_mounts_and_heavy_rings_change_the_first_order(study, rigid):
+    """Far above resonance velocity is force over mass: a lighter machine is louder by its mass;
+    the ring alone makes the force, so its sound grows as its mass."""
+    given = drawn_pressure(study, rigid, {("mounts", "pitch_m"): 0.19})["moving_parts"][:, 1]
+    lossy = drawn_pressure(study, rigid, {("mounts", "loss_factor_ratio"): 0.2})
+    assert np.abs(lossy["moving_parts"][:, 1] / given - 1.0).max() > 1e-4
+    heavy = drawn_pressure(
+        study, rigid, {("oldham", "mass_kg"): 2.0 * 0.0727, ("mounts", "pitch_m"): 0.19}
+    )
+    np.testing.assert_allclose(heavy["moving_parts"][:, 1], 2.0 * given, rtol=1e-9)
+
+
+def test_counterweights_balance_every_draw(study, rigid):
+    """They follow from the orbiting parts: a heavier scroll shakes no more than a light one."""
+    draw = {("orbiting_scroll", "mass_kg"): 1.8, ("orbiting_scroll", "height_m"): 0.07}
+    case = case_of(study)
+    drawn = with_draw(study.machine, study.machine, draw)
+    wrenches = drawn.revolution(2900.0, 256).wrenches
+    force = sum(w.force_n for name, w in wrenches.items() if name != "oldham")
+    assert np.abs(wrenches["orbiting_scroll"].force_n).max() > 500.0
+    assert np.abs(force).max() < 1e-8  # rounding of some kN
+    assert moves_otherwise(drawn, case.machine, study)
+
+
+def test_options_are_built_for_every_draw(study, rigid):
+    """Half the ring on the shaft: half of the drawn ring."""
+    ring = {("oldham", "mass_kg"): 0.1}
+    one, both = (
+        drawn_pressure(study, rigid, ring, name) for name in ("none", "counterweight-half")
+    )
+    given = drawn_pressure(study, rigid, {("oldham", "height_m"): 0.11 + 1e-9}, "none")
+    assert np.abs(one["moving_parts"][:, 1]).max() > np.abs(given["moving_parts"][:, 1]).max()
+    assert not np.allclose(one["moving_parts"][:, 1], both["moving_parts"][:, 1], rtol=0.05)
+
+
+# --- modes ---------------------------------------------------------------------------------------
+
+
+def changed_structure(study, **values):
+    return with_tables(study, structure=values).machine.structure
+
+
+def test_projection_is_exact_for_modulus_and_density(study):
+    path = path_of(study)
+    stiff = path.with_structure(changed_structure(study, youngs_modulus_pa=4.0 * 206e9))
+    np.testing.assert_allclose(stiff.natural_hz, 2.0 * path.natural_hz, rtol=1e-12)
+    heavy = path.with_structure(changed_structure(study, density_kg_per_m3=4.0 * 7850.0))
+    np.testing.assert_allclose(heavy.natural_hz, 0.5 * path.natural_hz, rtol=1e-12)
+    np.testing.assert_allclose(heavy.modal_mass_kg, 4.0 * path.modal_mass_kg, rtol=1e-12)
+
+
+def test_projection_of_a_thicker_wall_agrees_with_modes_anew(study):
+    """To 2 % at 4.0 instead of 3.2 mm, where frequencies rise by up to 25 %."""
+    shell, highest = study.machine.shell, study.radiation.maximum_frequency_hz
+    thick = changed_structure(study, thickness_m=4e-3)
+    path = path_of(study)
+    projected = path.with_structure(thick)
+    anew = computed_path(shell, thick, highest, 0.6)
+    names = [mode.name for mode in path.modes]
+    rows = [(names.index(m.name), number) for number, m in enumerate(anew.modes) if m.name in names]
+    one = np.array([projected.natural_hz[row] for row, _ in rows])
+    other = np.array([anew.natural_hz[row] for _, row in rows])
+    assert len(rows) >= 5
+    assert np.abs(one / other - 1.0).max() < 0.02
+    assert np.abs(one / path.natural_hz[[row for row, _ in rows]] - 1.0).max() > 0.1
+
+
+def test_projection_of_poissons_ratio_has_the_right_sign_by_mode(study):
+    path = path_of(study)
+    factor = path.with_structure(changed_structure(study, poisson_ratio=0.27)).natural_hz
+    errors = projection_errors(study, path)
+    assert set(errors) == {"structure.thickness_m", "structure.poisson_ratio"}
+    assert errors["structure.poisson_ratio"] < 2e-3
+    assert 1e-4 < errors["structure.thickness_m"] < 0.03
+    assert np.abs(factor / path.natural_hz - 1.0).max() > 1e-3
+
+
+def test_joints_of_a_draw_are_exact(study):
+    stator = study.machine.structure.stator.model_copy(update={"welds": 4, "height_m": -0.03})
+    changed = changed_structure(study, stator=stator)
+    least = path_of(study)
+    again = path_of(with_tables(study, structure={"stator": stator}))
+    found = least.with_structure(changed)
+    np.testing.assert_allclose(found.joint_forces, again.joint_forces, atol=1e-12)
+    assert np.abs(found.joint_forces - least.joint_forces).max() > 0.1
+
+
+def test_modes_reach_the_highest_frequency_with_the_thinnest_wall(study):
+    """Every mode that any end of a range brings below the highest frequency is among the modes."""
+    path, highest = path_of(study), study.radiation.maximum_frequency_hz
+    thin = changed_structure(study, thickness_m=2.5e-3, poisson_ratio=0.27)
+    anew = computed_path(study.machine.shell, thin, 0.8 / 1.1 * highest / 0.64, 1.0)
+    names = {mode.name for mode in path.modes}
+    audible = {m.name for m in anew.modes if 0.8 * m.frequency_hz <= highest}
+    assert audible <= names
+
+
+def test_results_say_the_error_of_the_projection(study):
+    results = run_made_up(within(study, "structure.thickness_m", "mounts.pitch_m"))
+    error = results["projection_error"]
+    assert isinstance(error, xr.DataArray)
+    assert 1e-4 < error.sel(drawn_parameter="structure.thickness_m").item() < 0.03
+    assert np.isnan(error.sel(drawn_parameter="mounts.pitch_m").item())
+    assert list(results["drawn_parameter"].values) == ["mounts.pitch_m", "structure.thickness_m"]
+    values = results["drawn_value"].sel(drawn_parameter="structure.thickness_m").values
+    assert np.all((values >= 2.5e-3) & (values <= 4e-3))
+    moving = results["source_level_by_draw"].sel(sound_source="moving_parts", option="none")
+    assert np.ptp(moving.values[:, 0, 0]) > 1e-3
+
+
+def test_a_draw_reads_back(study):
+    for draw in draws_of(study).draws:
+        drawn = with_draw(study.machine, study.machine, draw)
+        for (table, field), value in draw.items():
+            assert attrgetter(f"{table}.{field}")(drawn) == value

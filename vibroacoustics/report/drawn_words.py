@@ -1,0 +1,98 @@
+"""Which values were drawn, which were not and why, and how exact the draws are."""
+
+from collections.abc import Iterable
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+
+from . import labels
+from .bands import percent
+from .study import parameters
+
+_TABLES: Final = {"variation": "path through the shell", "structure": "shell"}
+"""Plain words for tables; others go by their name."""
+
+
+def drawn_sentences(results: xr.Dataset) -> list[str]:
+    """Values drawn, those drawn apart from what they follow from, projection, values held."""
+    ranges = parameters(results)["ranges"]
+    count = f"{len(ranges)} values are" if len(ranges) > 1 else "One value is"
+    texts = [
+        f"{count} drawn from their ranges by Latin hypercube: {_listed(ranges)}.",
+        _independent(ranges),
+        _projection(results),
+        held_sentence(results),
+    ]
+    return [*filter(None, texts)]
+
+
+def held_sentence(results: xr.Dataset) -> str:
+    """Values that have a range and are not drawn, with their ranges and the reasons."""
+    by_reason: dict[str, list[str]] = {}
+    for item in parameters(results).get("held_ranges", ()):
+        by_reason.setdefault(item["reason"], []).append(_with_range(item))
+    if not by_reason:
+        return ""
+    texts = [f"{', '.join(items)}, which {reason}" for reason, items in by_reason.items()]
+    return f"Not drawn, though they have a range: {'; '.join(texts)}."
+
+
+def _listed(ranges: Iterable[dict[str, Any]]) -> str:
+    tables: dict[str, list[str]] = {}
+    for item in ranges:
+        tables.setdefault(item["table"], []).append(labels.name(item["field"]).lower())
+    return "; ".join(f"{_table(name)}: {', '.join(fields)}" for name, fields in tables.items())
+
+
+def _table(dotted: str) -> str:
+    first, *rest = dotted.split(".")
+    return " ".join([_TABLES.get(first, first), *rest]).replace("_", " ")
+
+
+def _named(dotted: str) -> str:
+    table, _, field = dotted.rpartition(".")
+    return f"{_table(table)} {labels.name(field).lower()}"
+
+
+def _with_range(item: dict[str, Any]) -> str:
+    unit = labels.unit(item["field"])
+    limits = f"{item['lowest']:.4g} to {item['highest']:.4g}"
+    return f"{_named(_dotted(item))} ({limits}{f' {unit}' if unit else ''})"
+
+
+def _dotted(item: dict[str, Any]) -> str:
+    return f"{item['table']}.{item['field']}"
+
+
+def _independent(ranges: Iterable[dict[str, Any]]) -> str:
+    texts = [
+        f"{_named(_dotted(item))} ({', '.join(map(_named, sources))})"
+        for item in ranges
+        if (sources := item.get("independent_of"))
+    ]
+    if not texts:
+        return ""
+    return (
+        "Drawn apart from what it follows from, in brackets, because the machine's file gives both "
+        f"a range: {'; '.join(texts)}."
+    )
+
+
+def _projection(results: xr.Dataset) -> str:
+    """How far natural frequencies by projection are off."""
+    if "projection_error" not in results:
+        return ""
+    errors = results["projection_error"]
+    texts = [
+        f"{_named(str(name))} {percent(float(error))}"
+        for name, error in zip(errors["drawn_parameter"].values, errors.values, strict=True)
+        if np.isfinite(error)
+    ]
+    if not texts:
+        return ""
+    return (
+        "Wall and material change the modes by projection on the shapes as given. Against modes "
+        "computed anew at the ends of the range a natural frequency is off by at most: "
+        f"{', '.join(texts)}; modulus and density are exact."
+    )

@@ -1,0 +1,215 @@
+"""Random values of a machine, from the ranges of what is not known."""
+
+import warnings
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from operator import attrgetter
+from typing import Any, Final, TypeVar
+
+import scipy  # loads its subpackages when they are needed
+from pydantic import ValidationError
+
+from ..base.arrays import Array
+from ..base.errors import ParameterError
+from ..base.parameters import Parameters
+from ..machine.machine import Machine
+from .study import Study
+from .uncertainty import Range, Uncertainty
+
+WIDE_RATIO: Final = 3.0
+"""A range wider than this is drawn evenly over its logarithm."""
+MOST_ROUNDS: Final = 20
+"""Of sampling anew for draws that contradict themselves."""
+
+Draw = Mapping[tuple[str, str], float]
+"""Drawn values in SI by table, dotted from the machine, and field."""
+
+Table = TypeVar("Table", bound=Parameters)
+
+
+@dataclass(frozen=True)
+class Sample:
+    """Draws that the machine and its sources can take.
+
+    Attributes
+    ----------
+    draws : as many as the study asks for
+    refused : why others were not taken, one line each
+    """
+
+    draws: list[Draw]
+    refused: tuple[str, ...]
+
+    @property
+    def tried(self) -> int:
+        """All draws, with those that were not taken."""
+        return len(self.draws) + len(self.refused)
+
+
+def latin_hypercube(ranges: Sequence[Range], settings: Uncertainty) -> list[Draw]:
+    """Sets of values drawn from their ranges (McKay, Beckman, Conover 1979); none without any."""
+    if not ranges:
+        return []
+    return _hypercube(ranges, settings, _sampler(ranges, settings))
+
+
+def draws_of(study: Study) -> Sample:
+    """The draws of a study: those that contradict themselves are drawn anew.
+
+    What is left is a sample of the ranges under the condition that the values fit together; where
+    all do it is the Latin hypercube itself.
+
+    Raises
+    ------
+    ParameterError
+        Nearly no draw fits together.
+    """
+    wanted, ranges = study.uncertainty.random_samples, study.ranges
+    if not ranges:
+        return Sample([], ())
+    sampler = _sampler(ranges, study.uncertainty)
+    draws: list[Draw] = []
+    refused: list[str] = []
+    for _ in range(MOST_ROUNDS):
+        for draw in _hypercube(ranges, study.uncertainty, sampler):
+            reason = _why_not(study, draw)
+            if reason is not None:
+                refused.append(reason)
+            elif len(draws) < wanted:
+                draws.append(draw)
+        if len(draws) == wanted:
+            return Sample(draws, tuple(refused))
+    raise ParameterError(
+        f"{study.source_file}: uncertainty: {len(refused)} of {len(draws) + len(refused)} draws "
+        f"contradict themselves, most often {_most_often(refused)}; narrow the ranges"
+    )
+
+
+def warn_of_contradictions(study: Study) -> None:
+    """Tell in one line how many draws contradict themselves, and in what.
+
+    Raises
+    ------
+    ParameterError
+        Nearly all do.
+    """
+    sample = draws_of(study)
+    if sample.refused:
+        share = len(sample.refused) / sample.tried
+        warnings.warn(
+            f"{study.source_file}: {len(sample.refused)} of {sample.tried} draws "
+            f"({100.0 * share:.0f} %) contradict themselves and are drawn anew, most often "
+            f"{_most_often(sample.refused)}",
+            stacklevel=3,
+        )
+
+
+def with_draw(machine: Machine, given: Machine, draw: Draw) -> Machine:
+    """A machine with drawn values and what follows from them.
+
+    What an option has changed of the given machine stays changed.
+
+    Parameters
+    ----------
+    machine : as an option leaves it
+    given : of the study
+    draw : values by table and field
+
+    Raises
+    ------
+    ParameterError
+        The values contradict one another.
+    """
+    changed = {
+        f"{table}.{field}".lstrip("."): value
+        for (table, field), value in draw.items()
+        if _read(machine, table, field) == _read(given, table, field)
+    }
+    if not changed:
+        return machine
+    return _with_derived(machine, _replaced(machine, changed), draw)
+
+
+def _with_derived(machine: Machine, drawn: Machine, draw: Draw) -> Machine:
+    """A machine with what follows from its drawn values, in the order of `derived`."""
+    for derived in machine.derived:
+        table, _, field = derived.name.rpartition(".")
+        before, after = derived.rule(machine), derived.rule(drawn)
+        if (table, field) in draw or before is None or after is None or before == after:
+            continue
+        value = _read(machine, table, field)
+        if value is not None:
+            drawn = _replaced(drawn, {derived.name: value * after / before})
+    return drawn
+
+
+def _read(machine: Machine, table: str, field: str) -> Any:
+    """A value of a machine; none where an option leaves the table out."""
+    try:
+        return attrgetter(f"{table}.{field}".lstrip("."))(machine)
+    except AttributeError:
+        return None
+
+
+def _replaced(table: Table, values: Mapping[str, Any]) -> Table:
+    """A table with other values by dotted name, validated as a file is."""
+    fields: dict[str, Any] = dict(iter(table))
+    inner: dict[str, dict[str, Any]] = {}
+    for name, value in values.items():
+        first, _, rest = name.partition(".")
+        if rest:
+            inner.setdefault(first, {})[rest] = value
+        else:
+            fields[first] = value
+    for first, within in inner.items():
+        fields[first] = _replaced(fields[first], within)
+    try:
+        return type(table).model_validate(fields)
+    except ValidationError as error:
+        details = error.errors()[0]
+        place = ".".join(map(str, details["loc"]))
+        message = str(details.get("ctx", {}).get("error", details["msg"]))
+        raise ParameterError(f"{place}: {message}" if place else message) from None
+
+
+def _why_not(study: Study, draw: Draw) -> str | None:
+    """Why the machine or a source cannot take a draw; none where they can."""
+    try:
+        machine = with_draw(study.machine, study.machine, draw)
+    except ParameterError as error:
+        return str(error)
+    reasons = ((name, source.why_not(machine)) for name, source in study.sources.items())
+    return next((f"sources.{name}: {reason}" for name, reason in reasons if reason), None)
+
+
+def _most_often(reasons: Sequence[str]) -> str:
+    """The reason that comes most often, whatever its numbers, with the numbers of one draw."""
+    words = Counter(reason.partition(" = ")[0] for reason in reasons)
+    ((first, _),) = words.most_common(1)
+    return next(reason for reason in reasons if reason.partition(" = ")[0] == first)
+
+
+def _sampler(ranges: Sequence[Range], settings: Uncertainty) -> Any:
+    return scipy.stats.qmc.LatinHypercube(len(ranges), rng=settings.seed)
+
+
+def _hypercube(ranges: Sequence[Range], settings: Uncertainty, sampler: Any) -> list[Draw]:
+    return [_draw(ranges, row) for row in sampler.random(settings.random_samples)]
+
+
+def _draw(ranges: Sequence[Range], shares: Array) -> Draw:
+    return {
+        (limits.table, limits.field): _value(limits, float(share))
+        for limits, share in zip(ranges, shares, strict=True)
+    }
+
+
+def _value(limits: Range, share: float) -> float:
+    """The value that so large a share of the range lies below."""
+    lowest, highest = limits.lowest, limits.highest
+    if limits.integer:  # each as often as any other
+        return int(min(lowest + share * (highest - lowest + 1.0), highest))
+    if lowest > 0.0 and highest / lowest > WIDE_RATIO:
+        return float(lowest * (highest / lowest) ** share)
+    return float(lowest + share * (highest - lowest))

@@ -1,0 +1,116 @@
+"""Modes of a shell of another thickness or material, by projection on the modes as given.
+
+First order of Rayleigh's quotient: the shapes stay, mass and stiffness are those of the changed
+wall in these shapes (Rayleigh, Theory of Sound, 1894, § 89). Exact for modulus and density, which
+change no shape.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+from ...base.arrays import Array
+from ...machine.shell import Shell
+from ...machine.shell_structure import ShellStructure
+from .elements import squared_strains
+from .modes import ElasticShell, elastic_shell
+
+
+@dataclass(frozen=True)
+class ProjectedModes:
+    """What a changed wall does to natural frequencies and modal masses.
+
+    Attributes
+    ----------
+    shell : as given; its middle surface stays
+    """
+
+    shell: ElasticShell
+
+    def frequency_factor(self, structure: ShellStructure) -> Array:
+        """Natural frequency over that as given, shape (mode,)."""
+        stiffness = self.stiffness(structure) / self.stiffness(self.shell.structure)
+        return np.asarray(np.sqrt(stiffness / self.mass_factor(structure)))
+
+    def mass_factor(self, structure: ShellStructure) -> float:
+        """Modal mass over that as given, the same of every mode."""
+        given = self.shell.structure
+        density = structure.density_kg_per_m3 / given.density_kg_per_m3
+        return density * structure.thickness_m / given.thickness_m
+
+    def stiffness(self, structure: ShellStructure) -> Array:
+        """Modal stiffness of another wall in the shapes as given, shape (mode,), N/m."""
+        thickness, poisson = structure.thickness_m, structure.poisson_ratio
+        plate = structure.youngs_modulus_pa * thickness / (1.0 - poisson**2)
+        stretching, bending = self._squares[:, 0] + poisson * self._squares[:, 1]
+        return np.asarray(plate * (stretching + thickness**2 / 12.0 * bending))
+
+    @cached_property
+    def _squares(self) -> Array:
+        """`squared_strains` of all modes, shape (stretching or bending, part, mode)."""
+        modes = self.shell.modes
+        squares = np.zeros((2, 2, len(modes)))
+        for order in {mode.around.order for mode in modes}:
+            rows = [row for row, mode in enumerate(modes) if mode.around.order == order]
+            shapes = np.stack([modes[row].shape for row in rows], axis=1)
+            squares[..., rows] = squared_strains(self.shell.meridian, order, shapes)
+        return squares
+
+
+def projection_error(
+    projected: ProjectedModes, shell: Shell, structure: ShellStructure, maximum_frequency_hz: float
+) -> float:
+    """Largest relative error of a projected natural frequency, against modes computed anew.
+
+    Parameters
+    ----------
+    projected : modes as given
+    shell : its outside
+    structure : the changed wall
+    maximum_frequency_hz : of the modes that are compared, by name
+    """
+    anew = _frequencies_hz(shell, structure, maximum_frequency_hz)
+    factors = projected.frequency_factor(structure)
+    expected = {
+        mode.name: factor * mode.frequency_hz
+        for mode, factor in zip(projected.shell.modes, factors, strict=True)
+    }
+    errors = [
+        abs(expected[name] / frequency - 1.0)
+        for name, frequency in anew.items()
+        if name in expected
+    ]
+    return float(max(errors, default=0.0))
+
+
+@lru_cache(maxsize=16)
+def _frequencies_hz(
+    shell: Shell, structure: ShellStructure, maximum_frequency_hz: float
+) -> dict[str, float]:
+    """Natural frequencies by name of the mode."""
+    modes = elastic_shell(shell, structure, maximum_frequency_hz).modes
+    return {mode.name: mode.frequency_hz for mode in modes}
+
+
+def least_frequency_factor(given: ShellStructure, ends: list[ShellStructure]) -> float:
+    """A bound below the frequency factors of all walls between ends that differ in one value each.
+
+    Stretching stiffness goes as E h, bending as E h³, mass as ρ h; Poisson's ratio enters both
+    between 1/(1 - ν) and 1/(1 + ν).
+
+    Parameters
+    ----------
+    given : as the modes are computed for
+    ends : walls with one value at an end of its range
+    """
+    return float(np.prod([min(1.0, _least(given, end)) for end in ends]))
+
+
+def _least(given: ShellStructure, changed: ShellStructure) -> float:
+    one, other = given.poisson_ratio, changed.poisson_ratio
+    poisson = min((1.0 - one) / (1.0 - other), (1.0 + one) / (1.0 + other))
+    modulus = changed.youngs_modulus_pa / given.youngs_modulus_pa
+    density = changed.density_kg_per_m3 / given.density_kg_per_m3
+    thickness = changed.thickness_m / given.thickness_m
+    return float(min(1.0, thickness) * np.sqrt(modulus * poisson / density))
