@@ -30,6 +30,11 @@ class CurveAxis(NamedTuple):
     values : numbers in SI, or words
     unit : key of `units.UNITS` in which they are read; empty for words
     label : in a picture; the name in words where empty
+
+    Examples
+    --------
+    >>> va.CurveAxis("crank_angle", np.linspace(0.0, 6.0, 4), "deg").words
+    False
     """
 
     name: str
@@ -58,6 +63,14 @@ class Curve:
     picture : lines over the abscissa; or an orbit, the second of two axes `x`, `y` over the first,
         in a circle of one
     orders : shaft orders that a map of frequencies over the speed shows as lines
+
+    Examples
+    --------
+    >>> angle = np.linspace(0.0, 6.0, 4)
+    >>> axis = va.CurveAxis("crank_angle", angle, "deg", "Crank angle, degrees")
+    >>> curve = va.Curve("pin_force", "Force on the pin", np.cos(angle), (axis,), "n", "derived")
+    >>> curve.values.shape
+    (4,)
     """
 
     name: str

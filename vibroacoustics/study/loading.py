@@ -91,6 +91,15 @@ def load_machine(path: str | Path) -> Machine:
     ------
     ParameterError
         As `load_study`; also where a value has no source.
+
+    Parameters
+    ----------
+    path : TOML file of a machine
+
+    Examples
+    --------
+    >>> va.load_machine("data/machines/mayekawa_wbhe.toml").kind
+    'reciprocating'
     """
     path = Path(path)
     return read_machine(path, {}, Reader(path, {}))[0]

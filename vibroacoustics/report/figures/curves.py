@@ -53,13 +53,18 @@ def curves(dataset: xr.Dataset, name: str) -> Figure:
 
     Parameters
     ----------
-    dataset : of `vibroacoustics.curves`, also as read from its file
+    dataset : of `vibroacoustics.curves`, also as read from its file; needs `name`
     name : of the variable
 
     Raises
     ------
     ParameterError
         The dataset has no such curve.
+
+    Examples
+    --------
+    >>> inner = va.curves(va.load_study("pipelines/copeland_thesis.toml"))
+    >>> va.plot.curves(inner, "ring_force").savefig("ring_force.png")
     """
     if name not in dataset.data_vars or "read_in" not in dataset[name].attrs:
         known = [str(found) for found, own in dataset.items() if "read_in" in own.attrs]
