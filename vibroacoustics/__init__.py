@@ -22,6 +22,8 @@ also of a machine alone, from `load_machine(path)`.
 `track_orders(recording, ...)` follows orders over time (Vold-Kalman).
 `speed_frequency_map(recording, ...)` gives spectra over speed and frequency (Campbell).
 `compare(first, second)` compares orders of two results in level and phase.
+`read_limits(path)` reads limits of orders, each a `Limit`.
+`check_limits(results, limits)` holds orders of a recording, a study or a comparison against them.
 `SpeedChannel`, `NominalSpeed`, `TacholessSpeed` say where the speed comes from.
 
 **Figures and arrays.**
@@ -89,7 +91,10 @@ if TYPE_CHECKING:
     from .report import blocks
     from .report.columns import Column
     from .report.sections import Section
+    from .results.limit import Limit
+    from .results.limits_file import read_limits
     from .results.order_comparison import compare
+    from .results.order_limits import check_limits
     from .results.storage import open_results
     from .scoring import score
     from .sources.curves import curves
@@ -106,6 +111,7 @@ __all__ = [
     "Criterion",
     "Curve",
     "CurveAxis",
+    "Limit",
     "Loads",
     "Machine",
     "MovingPart",
@@ -135,6 +141,7 @@ __all__ = [
     "analyse_orders",
     "blocks",
     "check",
+    "check_limits",
     "circling",
     "compare",
     "constant_rotation",
@@ -150,6 +157,7 @@ __all__ = [
     "orders",
     "plot",
     "radiate",
+    "read_limits",
     "read_modes",
     "read_recording",
     "register",
@@ -170,6 +178,7 @@ _HOME = {
     "Criterion": "study.criterion",
     "Curve": "base.curves",
     "CurveAxis": "base.curves",
+    "Limit": "results.limit",
     "Loads": "mechanics.loads",
     "Machine": "machine.machine",
     "MovingPart": "mechanics.moving_parts",
@@ -198,6 +207,7 @@ _HOME = {
     "Wrench": "mechanics.moving_parts",
     "analyse_orders": "pipeline",
     "check": "base.vocabulary",
+    "check_limits": "results.order_limits",
     "circling": "mechanics.moving_parts",
     "compare": "results.order_comparison",
     "constant_rotation": "mechanics.rotation",
@@ -210,6 +220,7 @@ _HOME = {
     "load_study": "study.loading",
     "open_results": "results.storage",
     "radiate": "pipeline",
+    "read_limits": "results.limits_file",
     "read_modes": "recordings",
     "read_recording": "recordings",
     "register": "base.registry",

@@ -44,6 +44,15 @@ Plugins = Annotated[
 NoCache = Annotated[
     bool, typer.Option("--no-cache", help="Neither read nor write the cache of the radiation.")
 ]
+LimitsFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--limits",
+        metavar="LIMITS.csv",
+        help="Hold the orders against these limits: channel,order,limit,unit. "
+        "The exit code is 0 where they are exceeded, too.",
+    ),
+]
 ResultsFile = Annotated[Path, typer.Argument(metavar="RESULTS.nc", help="Results of a run.")]
 
 
@@ -152,11 +161,12 @@ def orders_command(
         Path | None,
         typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE FILE."),
     ] = None,
+    limits: LimitsFile = None,
     plugin: Plugins = None,
 ) -> None:
     """Find the orders of a recording: netCDF, CSV, figures and a table."""
     from .. import pipeline, recordings, report
-    from . import arguments, outputs
+    from . import arguments, checking, outputs
 
     settings = arguments.order_analysis(
         speed, pulses, index, rpm, tacholess, orders, maximum_order, resolution, speed_step,
@@ -165,6 +175,7 @@ def orders_command(
     _load(plugin)
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
+    allowed = checking.read(limits)
     recording = recordings.read_recording(
         recording_file,
         units=arguments.assignments("--unit", unit),
@@ -174,8 +185,10 @@ def orders_command(
     )
     with _progress_bar() as progress:
         results = pipeline.analyse_orders(recording, settings, progress)
+        results = checking.held_against(results, allowed)
         written = outputs.write_orders(results, folder)
     typer.echo(report.orders_text(results))
+    checking.tell(results, folder / outputs.LIMITS_NAME)
     typer.echo(f"orders: {written}")
 
 
@@ -194,16 +207,18 @@ def compare_command(
     out: Annotated[
         Path | None, typer.Option("--out", help="Folder of the results; default: that of B.")
     ] = None,
+    limits: LimitsFile = None,
 ) -> None:
     """Compare two results order by order, in level and phase."""
     from math import radians
 
     from .. import report
     from ..results import order_comparison
-    from . import arguments, outputs
+    from . import arguments, checking, outputs
 
     folder = out or second.parent
     outputs.check_folder(folder)
+    allowed = checking.read(limits)
     compared = order_comparison.compare(
         outputs.open_orders(first),
         outputs.open_orders(second),
@@ -211,8 +226,10 @@ def compare_command(
         option,
         radians(tacho_angle),
     )
+    compared = checking.held_against(compared, allowed)
     written = outputs.write_comparison(compared, folder)
     typer.echo(report.comparison_of_orders_text(compared))
+    checking.tell(compared, folder / outputs.COMPARED_LIMITS_NAME)
     typer.echo(f"compared orders: {written}")
 
 

@@ -19,6 +19,8 @@ REPORT_NAME: Final = "report.html"
 TRANSFER_VECTORS_NAME: Final = "transfer_vectors.nc"
 ORDERS_NAME: Final = "orders.nc"
 COMPARISON_NAME: Final = "compared_orders.nc"
+LIMITS_NAME: Final = "orders_limits.csv"
+COMPARED_LIMITS_NAME: Final = "compared_orders_limits.csv"
 REPORT_FILES: Final = (
     REPORT_NAME,
     "comparison.csv",
@@ -160,13 +162,17 @@ def write_orders(results: xr.Dataset, folder: str | Path) -> Path:
     tables = {"orders.csv": report.orders_csv(results)}
     if "equivalent_level" in results:
         tables["levels.csv"] = report.levels_csv(results)
+    if "order_limit" in results:
+        tables[LIMITS_NAME] = report.limits_csv(results)
     return write_analysis(results, folder, ORDERS_NAME, tables, report.recorded_order_figures)
 
 
 def write_comparison(compared: xr.Dataset, folder: str | Path) -> Path:
     """Write compared orders with their table and figures; see `write_radiation`."""
-    table = {"compared_orders.csv": report.comparison_of_orders_csv(compared)}
-    return write_analysis(compared, folder, COMPARISON_NAME, table, report.compared_order_figures)
+    tables = {"compared_orders.csv": report.comparison_of_orders_csv(compared)}
+    if "order_limit" in compared:
+        tables[COMPARED_LIMITS_NAME] = report.limits_csv(compared)
+    return write_analysis(compared, folder, COMPARISON_NAME, tables, report.compared_order_figures)
 
 
 def write_analysis(

@@ -15,6 +15,7 @@ from .figures.recorded_orders import recorded_order_figures
 from .html import html
 from .kept_columns import keep_columns
 from .kept_sections import keep_sections
+from .limit_tables import limits_csv, limits_text
 from .markdown import markdown
 from .order_tables import (
     comparison_of_orders_csv,
@@ -40,6 +41,8 @@ __all__ = [
     "curve_figures",
     "keep",
     "levels_csv",
+    "limits_csv",
+    "limits_text",
     "orders_csv",
     "orders_text",
     "radiation_figures",

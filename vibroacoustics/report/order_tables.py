@@ -19,7 +19,7 @@ _MOST_FAULTS: Final = 5
 _LEAST_COHERENCE: Final = 0.8
 """Of an order whose phase is told; noise in five independent blocks reaches it once in 600 times,
 0.2^(5 - 1)."""
-_WIDEST_CHANNEL: Final = 32
+WIDEST_CHANNEL: Final = 32
 _LEVELS: Final = ("equivalent_level", "fast_maximum_level", "slow_maximum_level")
 
 
@@ -68,7 +68,7 @@ def orders_text(results: xr.Dataset) -> str:
     tables = [_orders_table(results)]
     if "equivalent_level" in results:
         tables.append(_levels_table(results))
-    return "\n".join([*facts, "", *(to_text(table, _WIDEST_CHANNEL) for table in tables)])
+    return "\n".join([*facts, "", *(to_text(table, WIDEST_CHANNEL) for table in tables)])
 
 
 def orders_csv(results: xr.Dataset) -> bytes:
@@ -99,8 +99,8 @@ def comparison_of_orders_text(compared: xr.Dataset) -> str:
             f"{row.speed_rpm:.0f}",
             f"{row.other_speed_rpm:.0f}",
             f"{row.order:g}",
-            _amplitude(row.amplitude_peak),
-            _amplitude(row.other_amplitude_peak),
+            amplitude(row.amplitude_peak),
+            amplitude(row.other_amplitude_peak),
             rounding.signed(row.difference_db, 2),
             rounding.signed(row.phase_difference_deg, 1),
             rounding.fixed(row.coherence, 3),
@@ -117,7 +117,7 @@ def comparison_of_orders_text(compared: xr.Dataset) -> str:
     if len(rows) < len(every):
         caption += f"; {len(rows)} of {len(every)} rows, all in the CSV"
     table = Table(caption, head, rows, frozenset({0, 1, 2}))
-    return "\n".join([*facts, to_text(table, _WIDEST_CHANNEL)])
+    return "\n".join([*facts, to_text(table, WIDEST_CHANNEL)])
 
 
 def comparison_of_orders_csv(compared: xr.Dataset) -> bytes:
@@ -132,7 +132,7 @@ def _compared_fact(compared: xr.Dataset, name: str) -> str:
     return f"{told}, peaks from the RMS in the bands" if angle_zero == NO_ANGLE_ZERO else told
 
 
-def _amplitude(value: float) -> str:
+def amplitude(value: float) -> str:
     """Four digits of any unit: accelerations in m/s² and displacements in m alike."""
     return f"{value:.4g}"
 
@@ -179,9 +179,9 @@ def _orders_table(results: xr.Dataset) -> Table:
             f"{row.speed_rpm:.0f}",
             f"{row.blocks}",
             f"{row.order:g}",
-            _amplitude(row.amplitude_peak),
+            amplitude(row.amplitude_peak),
             rounding.fixed(row.phase_deg) if row.coherence >= _LEAST_COHERENCE else NOTHING,
-            _amplitude(row.rms_in_band),
+            amplitude(row.rms_in_band),
             rounding.fixed(row.coherence, 3),
         )
         for row in _order_rows(results)

@@ -47,7 +47,7 @@ def _encoding(part: xr.Dataset) -> dict[Hashable, dict[str, Any]]:
     numbers = {"fletcher32": True, "zlib": True, "complevel": 4}
     names = {"fletcher32": True, "dtype": "S1"}  # GNU Octave cannot read netCDF's strings
     return {
-        name: numbers if variable.dtype.kind in "fiu" else names
+        name: numbers if variable.dtype.kind in "biuf" else names
         for name, variable in part.variables.items()
         if variable.ndim
     }

@@ -25,7 +25,7 @@ SPEED_TOLERANCE: Final = 0.02
 NEGLIGIBLE: Final = 1e-9
 """Of the largest order of the same unit in a result: below, a simulated order is rounding (spectra
 of accelerations are good to about 1e-11), and no recorder has a range of 180 dB."""
-_ORDER_TOLERANCE: Final = 1e-6
+ORDER_TOLERANCE: Final = 1e-6
 
 
 def compare(
@@ -50,8 +50,9 @@ def compare(
     `order_difference` (dB) and `order_phase_difference` (rad, within ±π), each (channel, speed,
     order), not a number where one of the two has no such order (`NEGLIGIBLE`); no phase difference
     at all where one has no mark on the shaft as its angle zero, whose peaks then are √2 times the
-    RMS in the orders' bands. `channel_order_coherence` is the
-    lower of the two; coordinates `compared_speed` and `compared_channel`.
+    RMS in the orders' bands. `channel_order_rms` and `compared_order_rms` are the RMS in
+    the orders' bands, of a study the peaks over √2. `channel_order_coherence` is the lower of the
+    two; coordinates `compared_speed` and `compared_channel`.
 
     Raises
     ------
@@ -88,13 +89,15 @@ def compare(
         "compared_order": turned,
         "order_difference": np.where(known, level, np.nan),
         "order_phase_difference": np.where(has_phase, _phase(turned, reference), np.nan),
+        "channel_order_rms": _rms(first, ours, here),
+        "compared_order_rms": _rms(second, theirs, there),
         "channel_order_coherence": np.minimum(_coherence(first, here), _coherence(second, there)),
     }
     compared = xr.Dataset(
         {name: stamp(name, value, here) for name, value in values.items()},
         coords={
             "compared_speed": ("speed", speeds[:, 1]),
-            "channel_unit": ("channel", [_units(ours)[name] for name in names]),
+            "channel_unit": ("channel", [channel_units(ours)[name] for name in names]),
             "compared_channel": ("channel", there["channel"]),
         },
     )
@@ -177,18 +180,18 @@ def _pairs(
     ours: xr.DataArray, theirs: xr.DataArray, pairs: Mapping[str, str] | None
 ) -> dict[str, str]:
     """Channel of the second by that of the first, both there and of one unit."""
-    units, other_units = (_units(result) for result in (ours, theirs))
+    units, other_units = (channel_units(result) for result in (ours, theirs))
     chosen = dict(pairs) if pairs else {name: name for name in units if name in other_units}
     if not chosen:
         raise ParameterError(
-            f"no channel has the same name in both: {_listed(units)} against "
-            f"{_listed(other_units)}; pair them"
+            f"no channel has the same name in both: {listed(units)} against "
+            f"{listed(other_units)}; pair them"
         )
     for name, other in chosen.items():
         for wanted, there in ((name, units), (other, other_units)):
             if wanted not in there:
                 raise ParameterError(
-                    f"pair {name}={other}: no channel {wanted!r}; there are {_listed(there)}"
+                    f"pair {name}={other}: no channel {wanted!r}; there are {listed(there)}"
                 )
         if units[name] != other_units[other]:
             raise ParameterError(
@@ -197,19 +200,21 @@ def _pairs(
     return chosen
 
 
-def _units(result: xr.DataArray) -> dict[str, str]:
+def channel_units(result: xr.DataArray | xr.Dataset) -> dict[str, str]:
+    """Unit of each channel by its name."""
     names, units = (map(str, result[name].values) for name in ("channel", "channel_unit"))
     return dict(zip(names, units, strict=True))
 
 
-def _listed(units: Mapping[str, str]) -> str:
+def listed(units: Mapping[str, str]) -> str:
+    """Channels with their units, as in a message."""
     return ", ".join(f"{name} [{unit}]" for name, unit in units.items())
 
 
 def _common_orders(ours: xr.DataArray, theirs: xr.DataArray) -> Array:
     """Orders that both have, without order 0."""
     order, other = (np.asarray(result["order"].values, dtype=float) for result in (ours, theirs))
-    there = np.abs(order[:, None] - other).min(axis=1) < _ORDER_TOLERANCE
+    there = np.abs(order[:, None] - other).min(axis=1) < ORDER_TOLERANCE
     common: Array = order[there & (order > 0.0)]
     if not common.size:
         raise ParameterError(
@@ -239,7 +244,7 @@ def _common_speeds(ours: xr.DataArray, theirs: xr.DataArray) -> Array:
 def _at(result: xr.DataArray, place: Mapping[str, Any]) -> NDArray[Any]:
     """Values (channel, speed, order) at channels, speeds and orders that the result has."""
     chosen = result.sel(channel=place["channel"], speed=place["speed"])
-    chosen = chosen.sel(order=place["order"], method="nearest", tolerance=_ORDER_TOLERANCE)
+    chosen = chosen.sel(order=place["order"], method="nearest", tolerance=ORDER_TOLERANCE)
     return np.asarray(chosen.transpose("channel", "speed", "order").values)
 
 
@@ -263,6 +268,13 @@ def _coherence(result: xr.Dataset, place: Mapping[str, Any]) -> Array:
     if "channel_order_coherence" not in result:
         return np.ones([len(labels) for labels in place.values()])
     return _at(result["channel_order_coherence"], place)
+
+
+def _rms(result: xr.Dataset, orders: xr.DataArray, place: Mapping[str, Any]) -> Array:
+    """RMS in the bands of a recording's orders; of simulated ones from their peaks."""
+    if "channel_order_rms" in result:
+        return _at(result["channel_order_rms"], place)
+    return np.asarray(np.abs(_at(orders, place)) / np.sqrt(2.0))
 
 
 def _angle_zero(result: xr.Dataset) -> str:

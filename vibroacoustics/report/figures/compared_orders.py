@@ -41,6 +41,8 @@ def compared_order_figures(compared: xr.Dataset) -> list[Picture]:
 def compared_orders(compared: xr.Dataset, channel: str | None = None) -> Figure:
     """Orders of a channel in both results, peak: a panel a speed or, of a run-up, an order.
 
+    With `order_limit` (of `check_limits`), the limits are drawn, an RMS as its peak.
+
     Parameters
     ----------
     compared : of `compare`; needs `channel_order` and `compared_order`
@@ -66,7 +68,10 @@ def compared_orders(compared: xr.Dataset, channel: str | None = None) -> Figure:
     size = xr.concat([abs(own["channel_order"]), abs(own["compared_order"])], "result")
     largest = float(size.max())
     drawn = size.where(size > _QUIETEST * largest)
-    bottom, top = 0.5 * float(drawn.min()), 2.0 * largest
+    has_limits = "order_limit" in own and own["order_limit"].count()
+    limits = np.sqrt(2.0) * own["order_limit"] if has_limits else None
+    sizes = np.concatenate([drawn.values.ravel(), [] if limits is None else limits.values.ravel()])
+    bottom, top = 0.5 * float(np.nanmin(sizes)), 2.0 * float(np.nanmax(sizes))
 
     def paint(panels: Sequence[Axes]) -> None:
         for axes, place in zip(panels, places, strict=True):
@@ -80,6 +85,11 @@ def compared_orders(compared: xr.Dataset, channel: str | None = None) -> Figure:
                     shown[within], shown, marker, color=colour, label=shortened(label),
                     markersize=width, fillstyle="none",
                 )  # fmt: skip
+            if limits is not None:
+                axes.semilogy(
+                    limits[within], limits.sel({across: place}), "_", color=COLOURS[5],
+                    label="limit, as a peak", markersize=12,
+                )  # fmt: skip
             where = f"{place:.0f} rpm" if by_speed else f"order {place:g}"
             axes.set_title(f"{title}, {where}", loc="left")
             axes.set_ylim(bottom, top)
@@ -90,7 +100,7 @@ def compared_orders(compared: xr.Dataset, channel: str | None = None) -> Figure:
             whole_number_ticks(panels[-1])
         legend_below(panels[0], 1)
 
-    return draw(len(places), 2.2, paint, legend_rows=2, sharex=True)
+    return draw(len(places), 2.2, paint, legend_rows=2 + (limits is not None), sharex=True)
 
 
 def _picture(compared: xr.Dataset, channel: str, name: str) -> Picture:

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from ...base.decibel import level_of_amplitude
 from .needs import chosen, needs
 from .style import (
+    COLOURS,
     Picture,
     draw,
     legend_below,
@@ -24,6 +25,9 @@ from .style import (
 _MAP_RANGE_DB: Final = 60.0
 _QUIETEST: Final = 1e-5
 """Lowest amplitude of a logarithmic axis, as a share of the largest."""
+
+_OF_LIMITS: Final = {"linewidth": 0.8, "marker": ".", "markersize": 3.0, "linestyle": "-"}
+"""Look of limits, in the colour of their order."""
 
 
 def recorded_order_figures(results: xr.Dataset) -> list[Picture]:
@@ -58,17 +62,54 @@ def _without_offset(lines: xr.DataArray, own: xr.Dataset) -> xr.DataArray:
     return lines.sel(map_order=lines["map_order"] > 0.5 * own.attrs["band_order"])
 
 
-def _logarithmic(axes: Axes, shown: xr.DataArray) -> None:
-    """Logarithmic axis over what is shown, unless it is next to nothing."""
-    highest = float(shown.max())
+def _logarithmic(axes: Axes, shown: xr.DataArray, limits: xr.DataArray | None = None) -> None:
+    """Logarithmic axis over what is shown, unless it is next to nothing, and over its limits."""
+    sizes = shown.values.ravel()
+    highest = float(sizes.max())
     if highest > 0.0:
+        allowed = np.array([]) if limits is None else limits.values[np.isfinite(limits.values)]
+        bottom = max(0.5 * float(sizes.min()), _QUIETEST * highest)
         axes.set_yscale("log")
-        axes.set_ylim(bottom=max(0.5 * float(shown.min()), _QUIETEST * highest), top=2.0 * highest)
+        axes.set_ylim(bottom=min([bottom, *0.5 * allowed]), top=2.0 * max([highest, *allowed]))
+
+
+def _limits(own: xr.Dataset) -> xr.DataArray | None:
+    """Limits of a channel (speed, order), where it has any."""
+    return own["order_limit"] if "order_limit" in own and own["order_limit"].count() else None
+
+
+def _steady_limits(own: xr.Dataset) -> xr.DataArray | None:
+    """Limits by order that hold at every speed alike: a mean spectrum is of all speeds."""
+    limits = _limits(own)
+    if limits is None:
+        return None
+    alike = limits.max("speed", skipna=False) == limits.min("speed", skipna=False)
+    steady = limits.isel(speed=0, drop=True).where(alike).dropna("order")
+    return steady if steady.size else None
+
+
+def _limits_by_block(own: xr.Dataset) -> xr.DataArray | None:
+    """Limits of each block of revolutions: those of its operating point."""
+    limits = _limits(own)
+    if limits is None:
+        return None
+    return limits.sel(speed=own["block_speed"].sortby("block_speed"), method="nearest")
+
+
+def _draw_steady_limits(axes: Axes, limits: xr.DataArray, band_order: float) -> None:
+    half = 0.5 * band_order
+    orders = limits["order"].values
+    axes.hlines(
+        limits, orders - half, orders + half, colors=COLOURS[1], label="limit in an order's band"
+    )
+    legend_below(axes, 1)
 
 
 @needs("mean_order_spectrum", from_="`analyse_orders`")
 def order_spectrum(orders: xr.Dataset, channel: str | None = None) -> Figure:
     """Mean order spectrum of a channel: root mean square of each line.
+
+    With `order_limit` (of `check_limits`), limits that hold at every speed are drawn.
 
     Parameters
     ----------
@@ -88,17 +129,20 @@ def order_spectrum(orders: xr.Dataset, channel: str | None = None) -> Figure:
     """
     own, title = _of_channel(orders, channel)
     spectrum = _without_offset(own["mean_order_spectrum"], own)
+    limits = _steady_limits(own)
 
     def paint(panels: Sequence[Axes]) -> None:
         (axes,) = panels
         axes.plot(spectrum["map_order"], spectrum)
-        _logarithmic(axes, spectrum)
+        _logarithmic(axes, spectrum, limits)
+        if limits is not None:
+            _draw_steady_limits(axes, limits, own.attrs["band_order"])
         whole_number_ticks(axes)
         axes.set_xlabel("Shaft order")
         axes.set_ylabel(f"RMS of a line, {_unit(own)}")
         axes.set_title(title, loc="left")
 
-    return draw(1, 2.6, paint, 0)
+    return draw(1, 2.6, paint, 0 if limits is None else 1)
 
 
 def _spectrum_picture(results: xr.Dataset, channel: str, name: str) -> Picture:
@@ -114,6 +158,8 @@ def _spectrum_picture(results: xr.Dataset, channel: str, name: str) -> Picture:
 @needs("block_order_rms", from_="`analyse_orders`")
 def orders_over_speed(orders: xr.Dataset, channel: str | None = None) -> Figure:
     """Order cuts of a channel over the speed, block by block: a line an order.
+
+    With `order_limit` (of `check_limits`), limits are drawn in the colours of their orders.
 
     Parameters
     ----------
@@ -134,18 +180,24 @@ def orders_over_speed(orders: xr.Dataset, channel: str | None = None) -> Figure:
     own, title = _of_channel(orders, channel)
     cuts = own["block_order_rms"].sortby("block_speed")
     numbers = cuts["order"].values
+    limits = _limits_by_block(own)
 
     def paint(panels: Sequence[Axes]) -> None:
         (axes,) = panels
         for order, look in zip(numbers, line_looks(numbers.size), strict=True):
             axes.plot(cuts["block_speed"], cuts.sel(order=order), label=f"{order:g}×", **look)
-        _logarithmic(axes, cuts)
+            if limits is not None:
+                axes.plot(
+                    cuts["block_speed"], limits.sel(order=order), **(look | _OF_LIMITS),
+                    label="limits" if order == numbers[0] else None,
+                )  # fmt: skip
+        _logarithmic(axes, cuts, limits)
         axes.set_xlabel("Speed, rpm")
         axes.set_ylabel(f"RMS in the order's band, {_unit(own)}")
         axes.set_title(title, loc="left")
         legend_below(axes, 4)
 
-    return draw(1, 2.6, paint, -(-numbers.size // 4))
+    return draw(1, 2.6, paint, -(-(numbers.size + (limits is not None)) // 4))
 
 
 def _over_speed_picture(results: xr.Dataset, channel: str, name: str) -> Picture:
