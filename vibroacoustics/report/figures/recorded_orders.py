@@ -49,13 +49,13 @@ def _of_channel(orders: xr.Dataset, channel: str | None) -> tuple[xr.Dataset, st
     return orders.sel(channel=name), shortened(str(name))
 
 
-def _unit(own: xr.Dataset) -> str:
-    return str(own["channel_unit"].item())
+def _unit(of_channel: xr.Dataset) -> str:
+    return str(of_channel["channel_unit"].item())
 
 
-def _without_offset(lines: xr.DataArray, own: xr.Dataset) -> xr.DataArray:
+def _without_offset(lines: xr.DataArray, of_channel: xr.Dataset) -> xr.DataArray:
     """Lines above the main lobe of an offset, which is no order."""
-    return lines.sel(map_order=lines["map_order"] > 0.5 * own.attrs["band_order"])
+    return lines.sel(map_order=lines["map_order"] > 0.5 * of_channel.attrs["band_order"])
 
 
 def _logarithmic(axes: Axes, shown: xr.DataArray) -> None:
@@ -86,8 +86,8 @@ def order_spectrum(orders: xr.Dataset, channel: str | None = None) -> Figure:
     >>> orders = va.open_results("orders.nc")
     >>> va.plot.order_spectrum(orders).savefig("order_spectrum.png")
     """
-    own, title = _of_channel(orders, channel)
-    spectrum = _without_offset(own["mean_order_spectrum"], own)
+    of_channel, title = _of_channel(orders, channel)
+    spectrum = _without_offset(of_channel["mean_order_spectrum"], of_channel)
 
     def paint(panels: Sequence[Axes]) -> None:
         (axes,) = panels
@@ -95,7 +95,7 @@ def order_spectrum(orders: xr.Dataset, channel: str | None = None) -> Figure:
         _logarithmic(axes, spectrum)
         whole_number_ticks(axes)
         axes.set_xlabel("Shaft order")
-        axes.set_ylabel(f"RMS of a line, {_unit(own)}")
+        axes.set_ylabel(f"RMS of a line, {_unit(of_channel)}")
         axes.set_title(title, loc="left")
 
     return draw(1, 2.6, paint, 0)
@@ -131,8 +131,8 @@ def orders_over_speed(orders: xr.Dataset, channel: str | None = None) -> Figure:
     >>> orders = va.open_results("orders.nc")
     >>> va.plot.orders_over_speed(orders).savefig("orders_over_speed.png")
     """
-    own, title = _of_channel(orders, channel)
-    cuts = own["block_order_rms"].sortby("block_speed")
+    of_channel, title = _of_channel(orders, channel)
+    cuts = of_channel["block_order_rms"].sortby("block_speed")
     numbers = cuts["order"].values
 
     def paint(panels: Sequence[Axes]) -> None:
@@ -141,7 +141,7 @@ def orders_over_speed(orders: xr.Dataset, channel: str | None = None) -> Figure:
             axes.plot(cuts["block_speed"], cuts.sel(order=order), label=f"{order:g}×", **look)
         _logarithmic(axes, cuts)
         axes.set_xlabel("Speed, rpm")
-        axes.set_ylabel(f"RMS in the order's band, {_unit(own)}")
+        axes.set_ylabel(f"RMS in the order's band, {_unit(of_channel)}")
         axes.set_title(title, loc="left")
         legend_below(axes, 4)
 
@@ -177,9 +177,9 @@ def order_map(orders: xr.Dataset, channel: str | None = None) -> Figure:
     >>> orders = va.open_results("orders.nc")
     >>> va.plot.order_map(orders).savefig("order_map.png")
     """
-    own, title = _of_channel(orders, channel)
+    of_channel, title = _of_channel(orders, channel)
     is_run_up = _is_run_up(orders)
-    spectra = _without_offset(own["order_map"].transpose("block", "map_order"), own)
+    spectra = _without_offset(of_channel["order_map"].transpose("block", "map_order"), of_channel)
     spectra = spectra.sortby("block_speed") if is_run_up else spectra
     level = level_of_amplitude(np.abs(spectra.values))
     top = float(level.max())
@@ -197,7 +197,7 @@ def order_map(orders: xr.Dataset, channel: str | None = None) -> Figure:
         )
         figure = axes.get_figure()
         if figure is not None:
-            figure.colorbar(shown, ax=axes, label=f"dB re 1 {_unit(own)} peak")
+            figure.colorbar(shown, ax=axes, label=f"dB re 1 {_unit(of_channel)} peak")
         axes.grid(visible=False)
         whole_number_ticks(axes)
         axes.set_xlabel("Shaft order")
