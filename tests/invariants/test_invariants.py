@@ -460,8 +460,8 @@ def test_pressure_in_the_cabinet_is_reciprocal(cabinet):
     traces = {}
     for source in chosen:
         fields = Fields(grid, cells.open_areas, cells.volumes, ())
-        listening = fields.places(np.array(chosen))
-        fields.add(fields.places(np.array([source])), np.ones(1))
+        listening = fields.flat_indices(np.array(chosen))
+        fields.add(fields.flat_indices(np.array([source])), np.ones(1))
         heard = []
         for _ in range(300):
             fields.advance()

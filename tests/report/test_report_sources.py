@@ -423,7 +423,7 @@ def test_a_study_of_none_alone_has_sources_and_no_changes() -> None:
 
 def test_bands_and_shares_in_words() -> None:
     own = Band(44.7, 48.9, 51.2)
-    assert own.whole(lambda value: f"{value:.1f}") == "48.9 (44.7 to 51.2)"
-    assert Band(6.9, 6.9, 6.9).whole(lambda value: f"{value:.1f}") == "6.9"
+    assert own.middle_and_ends(lambda value: f"{value:.1f}") == "48.9 (44.7 to 51.2)"
+    assert Band(6.9, 6.9, 6.9).middle_and_ends(lambda value: f"{value:.1f}") == "6.9"
     texts = [percent(share).replace("\u00a0", " ") for share in (0.2, 0.0123, -0.05, 1e-6, np.nan)]
     assert texts == ["20 %", "1.2 %", "−5.0 %", "< 0.01 %", "–"]

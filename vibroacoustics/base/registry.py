@@ -146,8 +146,8 @@ class Registry(Generic[Thing]):
         if known is not None:
             other = self._origins.get(name)
             whose = "is built in" if other is None else f"is given by {other.file} already"
-            place = "" if origin is None else f"{origin.file}: "
-            raise PluginError(f"{place}{self.noun} {name}: {whose}; choose another name")
+            prefix = "" if origin is None else f"{origin.file}: "
+            raise PluginError(f"{prefix}{self.noun} {name}: {whose}; choose another name")
         self._things[name] = thing
         if origin is not None:
             self._origins[name] = origin

@@ -80,13 +80,13 @@ def assignments(option: str, texts: Sequence[str] | None) -> dict[str, str]:
     ParameterError
         A text has no `=`, or a name comes twice.
     """
-    found: dict[str, str] = {}
+    assigned: dict[str, str] = {}
     for text in texts or ():
         name, equals, value = text.rpartition("=")
-        if not equals or not name or not value or name in found:
+        if not equals or not name or not value or name in assigned:
             raise ParameterError(f"{option} {text!r}: must be NAME=VALUE, each name once")
-        found[name] = value
-    return found
+        assigned[name] = value
+    return assigned
 
 
 def numbers(option: str, texts: Sequence[str] | None) -> dict[str, float]:

@@ -53,8 +53,8 @@ def every(
         speed_rpm,
         Rotation(rotation.speed_rad_per_s[::stride], rotation.acceleration_rad_per_s2[::stride]),
         {
-            name: Wrench(own.force_n[:, ::stride], own.moment_n_m[:, ::stride])
-            for name, own in wrenches.items()
+            name: Wrench(wrench.force_n[:, ::stride], wrench.moment_n_m[:, ::stride])
+            for name, wrench in wrenches.items()
         },
         figures,
     )

@@ -30,8 +30,8 @@ class LowPass:
 
     def kernel(self, step: Array) -> Array:
         """h at distances within the half length."""
-        inside = np.sqrt(np.maximum(1.0 - (step / self.half_length) ** 2, 0.0))
-        window = np.i0(self.kaiser_beta * inside) / np.i0(self.kaiser_beta)
+        semicircle = np.sqrt(np.maximum(1.0 - (step / self.half_length) ** 2, 0.0))
+        window = np.i0(self.kaiser_beta * semicircle) / np.i0(self.kaiser_beta)
         return np.asarray(2.0 * self.cutoff * np.sinc(2.0 * self.cutoff * step) * window)
 
     def table(self) -> Array:
@@ -65,13 +65,13 @@ def add_samples(signal: Array, position: Array, width: Array, table: Array, outp
     taps = table.shape[1]
     weight = np.empty(taps)
     for n in range(signal.shape[1]):
-        whole = np.floor(position[n])
-        phase = (position[n] - whole) * (table.shape[0] - 1)
+        floor = np.floor(position[n])
+        phase = (position[n] - floor) * (table.shape[0] - 1)
         row = int(phase)
         share = phase - row
         for tap in range(taps):
             weight[tap] = table[row, tap] + share * (table[row + 1, tap] - table[row, tap])
-        first = int(whole)
+        first = int(floor)
         for channel in range(signal.shape[0]):
             value = signal[channel, n] * width[n]
             for tap in range(taps):

@@ -97,14 +97,14 @@ def order_lines(spectra: OrderMap, orders: Sequence[float] | Array) -> ComplexAr
         An order lies between two lines or beyond the map.
     """
     line = np.asarray(orders, dtype=float) * spectra.revolutions
-    whole = np.rint(line).astype(int)
-    for order, distance, number in zip(orders, np.abs(line - whole), whole, strict=True):
+    nearest = np.rint(line).astype(int)
+    for order, distance, number in zip(orders, np.abs(line - nearest), nearest, strict=True):
         if distance > _SAME_LINE or not 0 <= number < spectra.order.size:
             raise ParameterError(
                 f"order {order:g}: has no line; those of the map are 0 to {spectra.order[-1]:g} "
                 f"in steps of 1/{spectra.revolutions}"
             )
-    return spectra.amplitude[..., whole]
+    return spectra.amplitude[..., nearest]
 
 
 def _band_power(amplitude: ComplexArray) -> Array:

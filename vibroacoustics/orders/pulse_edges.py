@@ -96,7 +96,7 @@ def _levels(signal: Array) -> tuple[float, float]:
 @numba.njit(cache=True, nogil=True)
 def _crossings(signal: Array, lower: float, middle: float, upper: float) -> Array:
     """Upward crossings of the middle in samples, one for each way from lower to upper."""
-    found = np.empty(signal.size // 2 + 1)
+    crossings = np.empty(signal.size // 2 + 1)
     count = 0
     armed = signal[0] <= lower
     crossing = 0.0
@@ -105,9 +105,9 @@ def _crossings(signal: Array, lower: float, middle: float, upper: float) -> Arra
         if armed and before < middle <= after:
             crossing = k - 1 + (middle - before) / (after - before)
         if armed and after >= upper:
-            found[count] = crossing
+            crossings[count] = crossing
             count += 1
             armed = False
         elif after <= lower:
             armed = True
-    return found[:count].copy()
+    return crossings[:count].copy()

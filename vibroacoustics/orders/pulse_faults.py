@@ -125,13 +125,13 @@ def _search(time_s: Array, rate: Array) -> tuple[Indices, Indices, int]:
     for i in range(time_s.size):
         for j in range(i - 1, max(i - 2 - _LOOK_BACK, -1), -1):
             periods = 0.5 * (rate[i] + rate[j]) * (time_s[i] - time_s[j])
-            whole = max(1, round(periods))
-            if j < i - 1 and whole > 2:
+            period_count = max(1, round(periods))
+            if j < i - 1 and period_count > 2:
                 break
-            candidate = cost[j] + (periods - whole) ** 2 + _DISCARD_COST * (i - 1 - j)
-            candidate += _GAP_COST if whole > 1 else 0.0
+            candidate = cost[j] + (periods - period_count) ** 2 + _DISCARD_COST * (i - 1 - j)
+            candidate += _GAP_COST if period_count > 1 else 0.0
             if candidate < cost[i]:
-                cost[i], previous[i], steps[i] = candidate, j, whole
+                cost[i], previous[i], steps[i] = candidate, j, period_count
     tail = cost + _DISCARD_COST * np.arange(time_s.size)[::-1]
     return previous, steps, int(np.argmin(tail))
 

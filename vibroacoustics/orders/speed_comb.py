@@ -81,9 +81,9 @@ def comb_scores(levels: Array, orders: Array, candidates: Array) -> Array:
     between = (below[:, None] + _BETWEEN * (orders - below)[:, None]).ravel()
     weight = np.repeat([1.0, -1.0 / _BETWEEN.size], [orders.size, between.size])
     at = np.concatenate([orders, between])[:, None] * candidates
-    inside = at < levels.shape[1] - 1
-    lower, column = np.floor(at[inside]).astype(int), np.nonzero(inside)[1]
-    share, tooth = at[inside] - lower, np.broadcast_to(weight[:, None], at.shape)[inside]
+    covered = at < levels.shape[1] - 1
+    lower, column = np.floor(at[covered]).astype(int), np.nonzero(covered)[1]
+    share, tooth = at[covered] - lower, np.broadcast_to(weight[:, None], at.shape)[covered]
     comb = csr_array(
         (
             np.concatenate([tooth * (1.0 - share), tooth * share]),

@@ -95,19 +95,19 @@ def rpm_motion(speed_rpm: Array, sample_rate_hz: float) -> CrankMotion:
 
 def _from_index(motion: CrankMotion, index_times_s: Array, pitch_rad: float) -> CrankMotion:
     """The motion with angle zero at the first index pulse."""
-    inside = (index_times_s >= motion.start_s) & (index_times_s <= motion.end_s)
-    if not inside.any():
+    covered = (index_times_s >= motion.start_s) & (index_times_s <= motion.end_s)
+    if not covered.any():
         raise ParameterError(
             f"index: none of {index_times_s.size} pulses lies within the tacho's "
             f"{motion.start_s:.4g} to {motion.end_s:.4g} s"
         )
-    angle_rad = motion.angle_rad(index_times_s[inside])
+    angle_rad = motion.angle_rad(index_times_s[covered])
     pulses = float(np.median(np.diff(angle_rad))) / pitch_rad if angle_rad.size > 1 else 0.0
-    told = 2.0 * np.pi / pitch_rad
-    if angle_rad.size > 1 and abs(pulses - told) > 0.5:
+    stated = 2.0 * np.pi / pitch_rad
+    if angle_rad.size > 1 and abs(pulses - stated) > 0.5:
         raise ParameterError(
-            f"pulses_per_revolution = {told:.0f}: {pulses:.1f} tacho pulses come between two index "
-            "pulses"
+            f"pulses_per_revolution = {stated:.0f}: {pulses:.1f} tacho pulses come between two "
+            "index pulses"
         )
     coefficients = motion.curve.c.copy()
     coefficients[-1] -= angle_rad[0]

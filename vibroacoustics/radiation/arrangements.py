@@ -126,12 +126,14 @@ def box_positions(length_m: float, width_m: float, height_m: float, distance_m: 
     return distinct
 
 
-def _side_positions(axis: int, place: float, lower: Array, upper: Array, longest: float) -> Array:
+def _side_positions(
+    axis: int, coordinate: float, lower: Array, upper: Array, longest: float
+) -> Array:
     """Middles and corners of the partial areas of one side, (position, 3)."""
     counts = [ceil((high - low) / longest - 1e-9) for low, high in zip(lower, upper, strict=True)]
     corners = [np.linspace(lower[i], upper[i], counts[i] + 1) for i in range(3)]
     middles = [(line[1:] + line[:-1]) / 2.0 for line in corners]
-    corners[axis] = middles[axis] = np.array([place])
+    corners[axis] = middles[axis] = np.array([coordinate])
     return np.concatenate([_grid(middles), _grid(corners)])
 
 
@@ -192,8 +194,8 @@ def check_outside(name: str, points: Array, body: Body) -> None:
     ParameterError
         One line that names the first such point.
     """
-    inside = [body.contains(point) for point in points.reshape(-1, 3)]
-    _refuse(name, points, np.reshape(inside, points.shape[:-1]), "inside the machine")
+    contained = [body.contains(point) for point in points.reshape(-1, 3)]
+    _refuse(name, points, np.reshape(contained, points.shape[:-1]), "inside the machine")
 
 
 def _refuse(name: str, points: Array, wrong: NDArray[np.bool_], where: str) -> None:

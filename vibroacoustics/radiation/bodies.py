@@ -49,8 +49,8 @@ class Body:
         areas = self.area_vectors()
         size = np.linalg.norm(areas, axis=1)
         across = np.abs(areas[:, axis]) > (1.0 - 1e-9) * np.maximum(size, np.finfo(float).tiny)
-        place = np.round(self.triangles[across, 0, axis], 7)
-        planes, which = np.unique(place, return_inverse=True)
+        coordinate = np.round(self.triangles[across, 0, axis], 7)
+        planes, which = np.unique(coordinate, return_inverse=True)
         total = np.bincount(which, size[across], planes.size)
         chosen = np.argsort(-total, kind="stable")
         result: Array = planes[chosen[total[chosen] >= least_area_m2]]

@@ -54,14 +54,14 @@ def closed_box(
     middles = [(line[1:] + line[:-1]) / 2.0 for line in edges]
     inner, outer, weights = [], [], []
     for axis, sign in open_sides(on_walls):
-        inside = stop[axis] - 1 if sign > 0 else start[axis]
+        inner_cell = stop[axis] - 1 if sign > 0 else start[axis]
         layers = []
-        for cell in (inside, inside + sign):
+        for cell in (inner_cell, inner_cell + sign):
             lines = [middle[a:b] for middle, a, b in zip(middles, start, stop, strict=True)]
             lines[axis] = middles[axis][[cell]]
             layers.append(np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).reshape(-1, 3))
         widths = [np.diff(line)[a:b] for line, a, b in zip(edges, start, stop, strict=True)]
-        widths[axis] = 1.0 / np.abs(np.diff(middles[axis][[inside, inside + sign]]))
+        widths[axis] = 1.0 / np.abs(np.diff(middles[axis][[inner_cell, inner_cell + sign]]))
         inner.append(layers[0])
         outer.append(layers[1])
         weights.append(np.einsum("i,j,k->ijk", *widths).ravel())

@@ -102,11 +102,11 @@ def _labelled(
             f"{highest:g} Hz"
         )
     floor_m = study.machine.shell.floor_z_m
-    places = [(r.x_m, r.y_m, r.height_m + floor_m) for r in study.receivers.values()]
+    positions = [(r.x_m, r.y_m, r.height_m + floor_m) for r in study.receivers.values()]
     coords = {
         "receiver": receivers,
         "frequency": frequency_hz,
-        "distance": ("receiver", np.linalg.norm(places, axis=1)),
+        "distance": ("receiver", np.linalg.norm(positions, axis=1)),
     }
     vectors = {
         "transfer_vector": stamp(

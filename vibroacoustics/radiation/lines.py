@@ -63,7 +63,7 @@ def _find(
     triangles: Any, first: Any, second: Any, line: Any, along: Any, sense: Any
 ) -> int:  # pragma: no cover
     """Write every crossing of a line with a triangle, if there is room; return their number."""
-    found = 0
+    count = 0
     for triangle in triangles:
         i_start = np.searchsorted(first, triangle[:, 1].min())
         i_stop = np.searchsorted(first, triangle[:, 1].max())
@@ -86,12 +86,12 @@ def _find(
                 ec = _edge(ay, az, by, bz, y, z)
                 if (ea > 0 and eb > 0 and ec > 0) or (ea < 0 and eb < 0 and ec < 0):
                     if line.size:
-                        line[found] = i * second.size + j
-                        along[found] = (ea * ax + eb * bx + ec * cx) / (ea + eb + ec)
+                        line[count] = i * second.size + j
+                        along[count] = (ea * ax + eb * bx + ec * cx) / (ea + eb + ec)
                         # A normal along the line: the line leaves the body.
-                        sense[found] = -1.0 if twice > 0.0 else 1.0
-                    found += 1
-    return found
+                        sense[count] = -1.0 if twice > 0.0 else 1.0
+                    count += 1
+    return count
 
 
 @numba.njit(cache=True, nogil=True, inline="always")

@@ -95,12 +95,12 @@ class NearField:
     def recorded(self) -> tuple[IndexArray, IndexArray, NDArray[np.bool_]]:
         """What the upper half of the mirrored axes records of the layers.
 
-        Flat indices of its cells (cell,), the place among them of every cell of the layers'
+        Flat indices of its cells (cell,), the column among them of every cell of the layers'
         image (2, pair), and whether that cell lies across the middle of each axis (axis, 2, pair).
         """
         image, across = images(self.layers, self.grid.shape, self.grid.mirrored)
-        cells, place = np.unique(image, return_inverse=True)
-        return cells, place.reshape(image.shape), across
+        cells, columns = np.unique(image, return_inverse=True)
+        return cells, columns.reshape(image.shape), across
 
     def memory_bytes(self, frequencies: int) -> tuple[float, float, float]:
         """Memory of the geometry, of a pattern's result, and of a run besides its result."""
@@ -167,16 +167,18 @@ class NearField:
         """
         grid, cells = self.grid, self.cells.wall_cells
         image, beyond = images(cells, grid.shape, grid.mirrored)
-        _, place, across = self.recorded
-        layers = np.zeros((2, frequency_hz.size, place.shape[1]), dtype=complex)
+        _, columns, across = self.recorded
+        layers = np.zeros((2, frequency_hz.size, columns.shape[1]), dtype=complex)
         for parity in product((1, -1), repeat=len(grid.mirrored)):
             part = np.bincount(image, signs(beyond, parity) * flux) / 2 ** len(parity)
             if np.abs(part).max() <= _NO_PART * np.abs(flux).max():
                 continue
             odd = [axis for axis, sign in zip(grid.mirrored, parity, strict=True) if sign < 0]
             spectrum = _run(self, part, odd, frequency_hz, name, progress)
-            for layer, own, sign in zip(range(2), place, signs(across, parity), strict=True):
-                layers[layer] += sign * spectrum[:, own]
+            for layer, layer_columns, sign in zip(
+                range(2), columns, signs(across, parity), strict=True
+            ):
+                layers[layer] += sign * spectrum[:, layer_columns]
         return BoxField(*layers)
 
 
@@ -207,9 +209,9 @@ def _recording_layers(grid: NearGrid) -> IndexArray:
         ranges: list[IndexArray] = [
             np.arange(a, b) for a, b in zip(grid.box_start, grid.box_stop, strict=True)
         ]
-        inside = grid.box_stop[axis] - 1 if sign > 0 else grid.box_start[axis]
+        inner_cell = grid.box_stop[axis] - 1 if sign > 0 else grid.box_start[axis]
         side = []
-        for cell in (inside, inside + sign):
+        for cell in (inner_cell, inner_cell + sign):
             ranges[axis] = np.array([cell])
             side.append(np.ravel_multi_index(np.ix_(*ranges), grid.shape).ravel())
         layers.append(np.stack(side))
@@ -232,7 +234,7 @@ def _run(
     volumes = upper_half(near.cells.volumes, near.grid.mirrored)
     areas = [upper_half(area, near.grid.mirrored) for area in near.cells.open_areas]
     fields = Fields(grid, areas, volumes, odd)
-    recorded = fields.places(near.recorded[0])
+    recorded = fields.flat_indices(near.recorded[0])
     shifted_hz, gain = _grid_frequency(frequency_hz, near.grid)
     transformer = RunningTransform(shifted_hz, recorded.size)
     pulse_steps = int(np.ceil(pulse_duration_s(near.pulse_width_s) / time_step))
@@ -241,7 +243,7 @@ def _run(
     full = [grid.widths(axis) for axis in range(3)]
     wall_cells = np.flatnonzero(flux)
     volume = (volumes * np.einsum("i,j,k->ijk", *full)).reshape(-1)[wall_cells]
-    walls = fields.places(wall_cells)
+    walls = fields.flat_indices(wall_cells)
     stiffness = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S**2
     wall_pressure = -stiffness * time_step * flux[wall_cells] / volume
     every = sampling_steps(near.pulse_width_s, time_step)

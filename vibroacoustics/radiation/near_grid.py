@@ -155,10 +155,12 @@ def near_grid(
     mirrored = symmetric_axes(body, [axis for axis in range(3) if axis not in walled])
     edges, start, stop = [], [], []
     for axis in range(3):
-        own = {wall.sign: wall.position_m for wall in walls if wall.axis == axis}
+        wall_positions = {wall.sign: wall.position_m for wall in walls if wall.axis == axis}
         if axis in mirrored:
-            own[-1] = float(np.mean([corner[axis] for corner in body.bounds()]))
-        line, first, last = _axis(body, axis, spacing_m, own, box_margin_m, cells_per_unit)
+            wall_positions[-1] = float(np.mean([corner[axis] for corner in body.bounds()]))
+        line, first, last = _axis(
+            body, axis, spacing_m, wall_positions, box_margin_m, cells_per_unit
+        )
         if axis in mirrored:
             line = np.concatenate([2.0 * line[0] - line[:0:-1], line])
             first, last = line.size - 1 - (line.size // 2 + last), line.size // 2 + last

@@ -61,7 +61,7 @@ class Fields:
             values = np.broadcast_to(_along(values, axis), (1, *self._shape[1:])).ravel()
         return values
 
-    def places(self, cells: IndexArray) -> IndexArray:
+    def flat_indices(self, cells: IndexArray) -> IndexArray:
         """Flat indices, among cells and dead ones, of cells given by flat index."""
         index = np.unravel_index(cells, tuple(count - 1 for count in self._shape))
         return np.ravel_multi_index(tuple(one + 1 for one in index), self._shape)
@@ -71,15 +71,15 @@ class Fields:
         step: Any = _advance  # numba's types do not tell its arguments
         step(self._pressure, *self._flux, *self._split, *self._coefficients, self._shape[2])
 
-    def pressure(self, places: IndexArray) -> Array:
-        """Pressure at places."""
-        values: Array = self._pressure.reshape(-1)[places]
+    def pressure(self, indices: IndexArray) -> Array:
+        """Pressure at flat indices."""
+        values: Array = self._pressure.reshape(-1)[indices]
         return values
 
-    def add(self, places: IndexArray, pressure: Array) -> None:
-        """Add pressure at places."""
-        self._pressure.reshape(-1)[places] += pressure
-        self._split[0].reshape(-1)[places] += pressure
+    def add(self, indices: IndexArray, pressure: Array) -> None:
+        """Add pressure at flat indices."""
+        self._pressure.reshape(-1)[indices] += pressure
+        self._split[0].reshape(-1)[indices] += pressure
 
 
 def _along(values: Array, axis: int) -> Array:

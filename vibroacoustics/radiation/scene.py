@@ -95,10 +95,10 @@ def scene(shell: Shell, settings: RadiationSettings) -> Scene:
     if cabinet is None:
         return Scene(machine, (), walls)
     _check_fits(machine, cabinet, shell.floor_z_m)
-    whole = Scene(machine, tuple(cabinet_panels(cabinet, shell.floor_z_m)), walls)
-    if any(wall.depth_m(np.stack(whole.body.bounds())).min() < -1e-9 for wall in walls):
+    with_cabinet = Scene(machine, tuple(cabinet_panels(cabinet, shell.floor_z_m)), walls)
+    if any(wall.depth_m(np.stack(with_cabinet.body.bounds())).min() < -1e-9 for wall in walls):
         raise ParameterError("radiation.surroundings.cabinet: its panels reach through a wall")
-    return whole
+    return with_cabinet
 
 
 def machine_body(shell: Shell, body: RadiatingBody) -> Body:

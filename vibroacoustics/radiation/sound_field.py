@@ -89,8 +89,11 @@ def elsewhere(
         _check_surface(points, surroundings, side)
         values = _at_points(side, points, table, "sound power", progress)
         distances = ("position", np.linalg.norm(points, axis=1))
-        places = {"position": np.arange(1, points.shape[0] + 1), "position_distance": distances}
-        parts["surface_transfer_vector"] = (values, places, "frequency", table)
+        coordinates = {
+            "position": np.arange(1, points.shape[0] + 1),
+            "position_distance": distances,
+        }
+        parts["surface_transfer_vector"] = (values, coordinates, "frequency", table)
     if sound_field.map is not None:
         points = map_points(sound_field.map, floor_level_m)
         values = _at_points(side, points, lines, "map", progress)

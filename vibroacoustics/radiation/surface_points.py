@@ -93,14 +93,14 @@ def _cut(
     tolerance = 1e-9 * np.diff(planes).min()
     faces, pieces = [], []
     while face.size:
-        place = np.einsum("pck,pk->pc", corners, coordinate[face])
-        first = np.searchsorted(planes, place.min(axis=1) + tolerance)
-        last = np.searchsorted(planes, place.max(axis=1) - tolerance)
+        corner_coordinate = np.einsum("pck,pk->pc", corners, coordinate[face])
+        first = np.searchsorted(planes, corner_coordinate.min(axis=1) + tolerance)
+        last = np.searchsorted(planes, corner_coordinate.max(axis=1) - tolerance)
         crossed = last > first
         faces.append(face[~crossed])
         pieces.append(corners[~crossed])
         plane = planes[(first[crossed] + last[crossed]) // 2]
-        corners = _in_three(corners[crossed], place[crossed] - plane[:, None])
+        corners = _in_three(corners[crossed], corner_coordinate[crossed] - plane[:, None])
         face = np.tile(face[crossed], 3)
     return np.concatenate(faces), np.concatenate(pieces)
 

@@ -22,7 +22,7 @@ def symmetric_axes(body: Body, axes: Sequence[int] = (0, 1, 2)) -> tuple[int, ..
     However its surface is divided into triangles.
     """
     lower, upper = body.bounds()
-    found = []
+    symmetric = []
     for axis in axes:
         across = tuple(
             np.linspace(lower[other], upper[other], 2 * _LINES + 1)[1::2]
@@ -31,8 +31,8 @@ def symmetric_axes(body: Body, axes: Sequence[int] = (0, 1, 2)) -> tuple[int, ..
         edges = np.linspace(lower[axis], upper[axis], _CELLS + 1)
         shares = fluid_on_lines(body, axis, (across[0], across[1]), (1, 1), edges)
         if np.all(np.abs(shares - shares[..., ::-1]) <= _SAME):
-            found.append(axis)
-    return tuple(found)
+            symmetric.append(axis)
+    return tuple(symmetric)
 
 
 def both_halves(upper: Array, axes: Sequence[int], faces: int | None = None) -> Array:

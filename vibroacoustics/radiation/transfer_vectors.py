@@ -279,7 +279,7 @@ def frequencies_hz(settings: RadiationSettings) -> Array:
 
 
 def _labelled(
-    found: Mapping[str, Array | ComplexArray],
+    vectors: Mapping[str, Array | ComplexArray],
     positions: Mapping[str, Array],
     frequency: Array,
     patterns: list[str],
@@ -292,11 +292,11 @@ def _labelled(
         name: stamp(name, values, by_receiver)
         if name == "green_difference"
         else stamp(name, values[:, :number], by_dof)
-        for name, values in found.items()
+        for name, values in vectors.items()
     }
     if patterns:
         by_pattern = {**by_receiver, "pattern": patterns}
         for name in ("transfer_vector", "transfer_vector_error"):
             full = f"pattern_{name}"
-            arrays[full] = stamp(full, found[name][:, number:], by_pattern)
+            arrays[full] = stamp(full, vectors[name][:, number:], by_pattern)
     return xr.Dataset(arrays, coords={"distance": ("receiver", distances)})

@@ -40,10 +40,10 @@ def wall_fluxes(
         offset -= np.einsum("pi,pi->p", offset, points.normal)[:, None] * points.normal
         velocities = [pattern.velocity(points) for pattern in patterns]
         wall.add(points, piece, np.any(velocities, axis=(0, 2)))
-        for own, velocity in zip(sums, velocities, strict=True):
-            own.add(velocity, points, piece, offset)
+        for pattern_sums, velocity in zip(sums, velocities, strict=True):
+            pattern_sums.add(velocity, points, piece, offset)
     nearest = _nearest_with_points(tree, wall.area)
-    return np.array([own.flux(wall, nearest) for own in sums])
+    return np.array([pattern_sums.flux(wall, nearest) for pattern_sums in sums])
 
 
 class _Wall:
@@ -103,9 +103,9 @@ class _Sums:
         """Flux (wall,): the mean velocity on the wall areas of the grid, and what varies."""
         if self._fastest_across <= _SLIDING * self._fastest:
             return np.zeros(wall.area.size)
-        own = self._velocity / np.maximum(wall.area, np.finfo(float).tiny)[:, None]
-        varying = self._across - np.einsum("wi,wi->w", own, wall.area_vectors)
-        mean = own[nearest]
+        mean_velocity = self._velocity / np.maximum(wall.area, np.finfo(float).tiny)[:, None]
+        varying = self._across - np.einsum("wi,wi->w", mean_velocity, wall.area_vectors)
+        mean = mean_velocity[nearest]
         flux = np.einsum("wi,wi->w", mean, wall.areas) - varying
         flux -= wall.translation_flux() @ self._moment / wall.volume()
         moving = np.linalg.norm(mean, axis=1) * np.linalg.norm(wall.areas, axis=1)

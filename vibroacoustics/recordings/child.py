@@ -69,40 +69,40 @@ def _reader(request: Request) -> Reader:
 
 def _recording(request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
     """Header and channels of a recording."""
-    found = _checked(_reader(request).read(request))
+    recording = _checked(_reader(request).read(request))
     header = {
-        "names": list(found.names),
-        "units": list(found.units),
-        "samples": len(found.samples[0]),
-        "sample_rate_hz": float(found.sample_rate_hz),
-        "start_time": found.start_time,
-        "full_scale": found.full_scale,
+        "names": list(recording.names),
+        "units": list(recording.units),
+        "samples": len(recording.samples[0]),
+        "sample_rate_hz": float(recording.sample_rate_hz),
+        "start_time": recording.start_time,
+        "full_scale": recording.full_scale,
     }
-    return header, found.samples
+    return header, recording.samples
 
 
 def _refusal(message: str) -> dict[str, Any]:
     return {"error": StorageError.__name__, "message": message}
 
 
-def _checked(found: Recorded) -> Recorded:
+def _checked(recording: Recorded) -> Recorded:
     """The recording if its channels have a form that can be handed over."""
-    if not found.samples:
+    if not recording.samples:
         raise ParameterError("no channel is chosen")
-    for name, samples in zip(found.names, found.samples, strict=True):
+    for name, samples in zip(recording.names, recording.samples, strict=True):
         if samples.ndim != 1 or samples.dtype.kind not in "iuf":
             raise StorageError(f"channel {name!r}: its samples are no real numbers")
         if len(samples) < MINIMUM_SAMPLES:
             raise ParameterError(
                 f"channel {name!r}: has {len(samples)} samples; at least {MINIMUM_SAMPLES} needed"
             )
-        if len(samples) != len(found.samples[0]):
+        if len(samples) != len(recording.samples[0]):
             raise ParameterError(
-                f"channel {name!r}: has {len(samples)} samples, {found.names[0]!r} "
-                f"{len(found.samples[0])}: choose channels of the same length"
+                f"channel {name!r}: has {len(samples)} samples, {recording.names[0]!r} "
+                f"{len(recording.samples[0])}: choose channels of the same length"
             )
-    check_size(len(found.samples), len(found.samples[0]))
-    return found
+    check_size(len(recording.samples), len(recording.samples[0]))
+    return recording
 
 
 def main() -> None:

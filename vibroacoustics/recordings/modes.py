@@ -73,12 +73,12 @@ def read_modes(path: str | Path, *, file_unit_m: float | None = None) -> Measure
             )
     except VibroacousticsError as error:
         raise type(error)(f"{path}: {error}") from None
-    places, *shapes = rows.reshape(len(rows), -1, 3)
+    positions, *shapes = rows.reshape(len(rows), -1, 3)
     return MeasuredModes(
         np.array(header["frequency_hz"]),
         np.array(header["modal_mass_kg"]),
         np.array(header["viscous_damping_ratio"]),
-        places * (file_unit_m or 1.0),
+        positions * (file_unit_m or 1.0),
         np.array(shapes),
         header["sha256"],
     )

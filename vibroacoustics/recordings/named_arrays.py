@@ -59,7 +59,7 @@ class _Column:
     name: str
     unit: str
     array: NamedArray
-    place: int
+    index: int
     time_axis: int
 
     @property
@@ -92,7 +92,7 @@ def recorded(
         raise ParameterError(
             f"holds no vector of numbers beside the time; its variables: {listed(list(by_name))}"
         )
-    columns = [columns[place] for place in request.chosen([column.name for column in columns])]
+    columns = [columns[index] for index in request.chosen([column.name for column in columns])]
     _check_lengths(columns, time)
     check_size(len(columns), columns[0].samples)
     stated = _stated_rate_hz(by_name, columns, attributes)
@@ -100,7 +100,7 @@ def recorded(
     return Recorded(
         names=[column.name for column in columns],
         units=[column.unit for column in columns],
-        samples=[loaded[column.array.name][column.place] for column in columns],
+        samples=[loaded[column.array.name][column.index] for column in columns],
         sample_rate_hz=_rate_hz(time, stated, request),
         start_time=as_text(attributes.get("start_time", "")),
     )
@@ -118,8 +118,8 @@ def _own_columns(by_name: Mapping[str, NamedArray]) -> list[_Column]:
     if not len(names) == len(units) == signal.shape[0] or len(signal.shape) != 2:
         raise ParameterError("signal, channel and channel_unit do not belong together")
     return [
-        _Column(name, unit, signal, place, 1)
-        for place, (name, unit) in enumerate(zip(names, units, strict=True))
+        _Column(name, unit, signal, index, 1)
+        for index, (name, unit) in enumerate(zip(names, units, strict=True))
     ]
 
 
@@ -144,7 +144,7 @@ def _columns(arrays: Sequence[NamedArray], time: NamedArray | None) -> list[_Col
         unit = next((as_text(array.attributes[n]) for n in UNIT_NAMES if n in array.attributes), "")
         names = numbered([array.name] * width)
         columns += [
-            _Column(name, unit, array, place, array.time_axis) for place, name in enumerate(names)
+            _Column(name, unit, array, index, array.time_axis) for index, name in enumerate(names)
         ]
     return columns
 
@@ -154,9 +154,9 @@ def _check_lengths(columns: Sequence[_Column], time: NamedArray | None) -> None:
     if time is not None:
         lengths[time.name] = int(np.prod(time.shape))
     if len(set(lengths.values())) > 1:
-        told = [f"{name} {samples}" for name, samples in lengths.items()]
+        listing = [f"{name} {samples}" for name, samples in lengths.items()]
         raise ParameterError(
-            f"variables differ in length ({listed(told)}): choose channels of the same length"
+            f"variables differ in length ({listed(listing)}): choose channels of the same length"
         )
 
 

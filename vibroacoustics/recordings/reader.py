@@ -66,7 +66,9 @@ def readers_by_suffix() -> dict[str, Reader]:
         Two readers claim one suffix.
     """
     readers: dict[str, Reader] = {}
-    for reader in sorted(READERS.values(), key=lambda own: READERS.origin(own.name) is not None):
+    for reader in sorted(
+        READERS.values(), key=lambda candidate: READERS.origin(candidate.name) is not None
+    ):
         for suffix in reader.suffixes:
             other = readers.setdefault(suffix, reader)
             if other is not reader:

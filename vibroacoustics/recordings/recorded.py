@@ -143,21 +143,21 @@ def even_rate_hz(time_s: Samples, request: Request) -> float:
         raise ParameterError(f"time has {time.size} values; at least {MINIMUM_SAMPLES} are needed")
     wrong = np.flatnonzero(~(np.diff(time) > 0.0))  # not a number is wrong too
     if wrong.size:
-        place = int(wrong[0])
+        sample = int(wrong[0])
         raise ParameterError(
-            f"time does not grow from sample {place + 1} ({time[place]:.9g} s) to the next "
-            f"({time[place + 1]:.9g} s)"
+            f"time does not grow from sample {sample + 1} ({time[sample]:.9g} s) to the next "
+            f"({time[sample + 1]:.9g} s)"
         )
     if request.sample_rate_hz is not None:
         return request.sample_rate_hz
     rate = float((time.size - 1) / (time[-1] - time[0]))
     deviation = np.abs((time - time[0]) * rate - np.arange(time.size))
-    place = int(np.argmax(deviation))
-    if not deviation[place] <= MAXIMUM_TIME_DEVIATION:
+    sample = int(np.argmax(deviation))
+    if not deviation[sample] <= MAXIMUM_TIME_DEVIATION:
         raise ParameterError(
-            f"time is not even: sample {place + 1} lies {deviation[place]:.3g} sampling intervals "
-            f"off the grid of {rate:.9g} Hz, allowed are {MAXIMUM_TIME_DEVIATION:g}; if the times "
-            "are only rounded, give sample_rate_hz"
+            f"time is not even: sample {sample + 1} lies {deviation[sample]:.3g} sampling "
+            f"intervals off the grid of {rate:.9g} Hz, allowed are {MAXIMUM_TIME_DEVIATION:g}; "
+            "if the times are only rounded, give sample_rate_hz"
         )
     return rate
 

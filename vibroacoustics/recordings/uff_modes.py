@@ -36,13 +36,15 @@ def read(request: Request) -> tuple[dict[str, Any], list[Samples]]:
 
     file = pyuff.UFF(str(request.path))
     kinds = [int(kind) for kind in file.get_set_types()]
-    modes = [found for found in _sets(file, kinds, (55,)) if found["analysis_type"] == NORMAL_MODE]
+    modes = [
+        dataset for dataset in _sets(file, kinds, (55,)) if dataset["analysis_type"] == NORMAL_MODE
+    ]
     if not modes:
         raise ParameterError("holds no normal mode (dataset 55, analysis type 2)")
     units = (_sets(file, kinds, (164,)) or [_SI])[-1]
     numbers = modes[0]["node_nums"]
     check_size(len(modes), 3 * len(numbers))
-    places = _places(_sets(file, kinds, _NODES), numbers) / float(units["length"])
+    positions = _node_positions(_sets(file, kinds, _NODES), numbers) / float(units["length"])
     shapes = [_shape(mode, numbers) for mode in modes]
     to_kg = float(units["length"]) / float(units["force"])
     header = {
@@ -53,21 +55,23 @@ def read(request: Request) -> tuple[dict[str, Any], list[Samples]]:
         "modal_mass_kg": [to_kg * float(mode["modal_m"]) for mode in modes],
         "viscous_damping_ratio": [float(mode["modal_damp_vis"]) for mode in modes],
     }
-    return header, [row.ravel() for row in (places, *shapes)]
+    return header, [row.ravel() for row in (positions, *shapes)]
 
 
 def _sets(file: Any, kinds: Sequence[int], wanted: Sequence[int]) -> list[Set]:
-    return [file.read_sets(place) for place, kind in enumerate(kinds) if kind in wanted]
+    return [file.read_sets(index) for index, kind in enumerate(kinds) if kind in wanted]
 
 
-def _places(found: Sequence[Set], numbers: Samples) -> Samples:
+def _node_positions(node_sets: Sequence[Set], numbers: Samples) -> Samples:
     """Places of the numbered nodes in units of the file, shape (node, 3)."""
     by_number: dict[int, tuple[float, float, float]] = {}
     systems: set[float] = set()
-    for nodes in found:
+    for nodes in node_sets:
         systems |= set(nodes["disp_cs"])
-        places = zip(nodes["x"], nodes["y"], nodes["z"], strict=True)
-        by_number |= {int(n): place for n, place in zip(nodes["node_nums"], places, strict=True)}
+        positions = zip(nodes["x"], nodes["y"], nodes["z"], strict=True)
+        by_number |= {
+            int(n): position for n, position in zip(nodes["node_nums"], positions, strict=True)
+        }
     missing = [int(number) for number in numbers if int(number) not in by_number]
     if missing:
         raise ParameterError(

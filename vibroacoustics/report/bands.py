@@ -23,7 +23,7 @@ class Band(NamedTuple):
         """`44.7 to 51.2`."""
         return rounding.span((self.lowest, self.highest), write)
 
-    def whole(self, write: Callable[[float], str]) -> str:
+    def middle_and_ends(self, write: Callable[[float], str]) -> str:
         """`48.9 (44.7 to 51.2)`; the middle alone where nothing was drawn."""
         ends, middle = self.ends(write), write(self.middle)
         return middle if ends == middle else f"{middle} ({ends})"
@@ -55,8 +55,8 @@ def quantiles(results: xr.Dataset, name: str) -> xr.DataArray:
     level = level.isel(draw=results["draw_weight"].values > 0.0)
     if name.startswith("change"):
         level = level - level.sel(option=REFERENCE_OPTION, drop=True)
-    found: xr.DataArray = level.quantile(QUANTILES, "draw")
-    return found
+    over_draws: xr.DataArray = level.quantile(QUANTILES, "draw")
+    return over_draws
 
 
 def band(results: xr.Dataset, name: str, **at: Any) -> Band:

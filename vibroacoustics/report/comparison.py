@@ -22,7 +22,7 @@ from .study import (
 )
 from .tables import Table, to_csv, to_text
 
-_PLACE = ("option", "speed", "receiver")
+_DIMENSIONS = ("option", "speed", "receiver")
 
 
 def column(results: xr.Dataset, name: str) -> xr.DataArray:
@@ -63,9 +63,9 @@ def comparison_text(results: xr.Dataset) -> str:
 
 
 def _joined(results: xr.Dataset, columns: Sequence[Column]) -> xr.Dataset:
-    arrays = {own.name: own.values(results).reset_coords(drop=True) for own in columns}
-    place = xr.Dataset(coords={dim: results[dim] for dim in _PLACE})
-    return xr.Dataset(arrays).broadcast_like(place).transpose(*_PLACE)
+    arrays = {column.name: column.values(results).reset_coords(drop=True) for column in columns}
+    coordinates = xr.Dataset(coords={dim: results[dim] for dim in _DIMENSIONS})
+    return xr.Dataset(arrays).broadcast_like(coordinates).transpose(*_DIMENSIONS)
 
 
 def _tables(
@@ -82,7 +82,7 @@ def _tables(
             f"{speed:g} rpm (1× at {frequency:.1f} Hz), microphone {receiver}",
             ("Option", *heads.values()),
             tuple(
-                (option, *(write(own, at, i) for own in columns if own.name in heads))
+                (option, *(write(column, at, i) for column in columns if column.name in heads))
                 for at, option in enumerate(options(shown))
             ),
         )

@@ -31,7 +31,9 @@ def modes_table(results: xr.Dataset) -> Table:
         for mode in frequency["mode"].values
     )
     head = ("Mode", "Natural frequency, Hz", "Motion by share of kinetic energy")
-    redesigned = any(own["kind"] == "redesign" for own in parameters(results)["options"].values())
+    redesigned = any(
+        option["kind"] == "redesign" for option in parameters(results)["options"].values()
+    )
     caption = "Rigid-body modes on the mounts" + (", machine as it is" if redesigned else "")
     return Table(caption, head, rows, frozenset({0, 2}))
 
@@ -43,8 +45,8 @@ def shape_words(results: xr.Dataset, mode: str) -> str:
     shares = energy * shape.values**2 / np.sum(energy * shape.values**2)
     several = len(shape["body"]) > 1
     words = []
-    for place in np.argsort(-shares, axis=None, kind="stable"):
-        body, dof = np.unravel_index(place, shares.shape)
+    for index in np.argsort(-shares, axis=None, kind="stable"):
+        body, dof = np.unravel_index(index, shares.shape)
         if shares[body, dof] > DOMINANT:
             who = f"{shape['body'].values[body]} " if several else ""
             motion = labels.DOF_WORDS[str(shape["dof"].values[dof])]
@@ -78,10 +80,10 @@ def block_table(results: xr.Dataset) -> Table | None:
 def _spring_displacement_mm(results: xr.Dataset, option: str) -> Array:
     """At the spring that moves most, peak over a revolution, shape (speed,)."""
     study = parameters(results)
-    inside = study["options"][option].get("machine", study["machine"])["suspension"]
-    half, low = 0.5 * inside["springs"]["pitch_m"], inside["springs_height_m"]
+    suspension = study["options"][option].get("machine", study["machine"])["suspension"]
+    half, low = 0.5 * suspension["springs"]["pitch_m"], suspension["springs_height_m"]
     moved = {}
-    for body, height in (("block", low), ("shell", low + inside["height_m"])):
+    for body, height in (("block", low), ("shell", low + suspension["height_m"])):
         name = "block_velocity_order" if body == "block" else "velocity_order"
         velocity = results[name].sel(option=option).sum("source").isel(order=slice(1, None))
         omega = 2.0 * np.pi * velocity["order_frequency"].transpose("speed", "order").values

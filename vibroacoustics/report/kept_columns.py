@@ -15,7 +15,7 @@ from .columns import COLUMNS, Column, Write
 from .study import few_speeds
 
 ATTRIBUTE: Final = "report_columns"
-_PLACE: Final = ("option", "speed", "receiver")
+_DIMENSIONS: Final = ("option", "speed", "receiver")
 
 
 class ColumnsOf(NamedTuple):
@@ -29,37 +29,42 @@ def columns_of(results: xr.Dataset) -> ColumnsOf:
     """Built-in columns, those of strangers that are loaded, and kept ones of others, in order."""
     strangers = COLUMNS.origins()
     columns = [
-        own for own in COLUMNS.values() if own.name not in strangers and own.applies(results)
+        column
+        for column in COLUMNS.values()
+        if column.name not in strangers and column.applies(results)
     ]
-    names = frozenset(own.name for own in columns)
+    names = frozenset(column.name for column in columns)
     lines = []
     for name in strangers:
         try:
             columns += _checked(COLUMNS[name], results, names)
         except Exception as error:
             lines.append(left_out.failure(f"column {name}", error))
-    columns += [own for own in _kept(results) if own.name not in COLUMNS]
+    columns += [column for column in _kept(results) if column.name not in COLUMNS]
     absent = left_out.missing(results, "column", ATTRIBUTE)
     lines += [line for name, line in absent.items() if name not in COLUMNS]
-    return ColumnsOf(tuple(sorted(columns, key=lambda own: own.position)), tuple(lines))
+    return ColumnsOf(tuple(sorted(columns, key=lambda column: column.position)), tuple(lines))
 
 
 def keep_columns(results: xr.Dataset) -> xr.Dataset:
     """The results with head, values and texts of every column that is not built in."""
     others = [
-        own
-        for own in columns_of(results).columns
-        if COLUMNS.origin(own.name) or own.name not in COLUMNS
+        column
+        for column in columns_of(results).columns
+        if COLUMNS.origin(column.name) or column.name not in COLUMNS
     ]
     kept = results.drop_vars(["column_value", "column"], errors="ignore")
     if not others:
         return kept.assign_attrs({ATTRIBUTE: "[]"}) if COLUMNS.origins() else kept
-    arrays = [_values(own, results).astype(float) for own in others]
+    arrays = [_values(column, results).astype(float) for column in others]
     kept.attrs[ATTRIBUTE] = json.dumps(
-        [_as_json(own, values, results) for own, values in zip(others, arrays, strict=True)]
+        [_as_json(column, values, results) for column, values in zip(others, arrays, strict=True)]
     )
     values = np.stack([array.values for array in arrays])
-    coords = {"column": [own.name for own in others], **{dim: results[dim] for dim in _PLACE}}
+    coords = {
+        "column": [column.name for column in others],
+        **{dim: results[dim] for dim in _DIMENSIONS},
+    }
     kept["column_value"] = stamp("column_value", values, coords)
     return kept
 
@@ -77,11 +82,11 @@ def _checked(column: Column, results: xr.Dataset, names: frozenset[str]) -> list
 def _values(column: Column, results: xr.Dataset) -> xr.DataArray:
     """Values over option, speed and microphone."""
     values = column.values(results).reset_coords(drop=True)
-    if not set(values.dims) <= set(_PLACE):
-        raise ValueError(f"dimensions are {values.dims}; allowed {', '.join(_PLACE)}")
-    place = xr.Dataset(coords={dim: results[dim] for dim in _PLACE})
-    own, _ = xr.align(values, place, join="exact")
-    return own.broadcast_like(place).transpose(*_PLACE)
+    if not set(values.dims) <= set(_DIMENSIONS):
+        raise ValueError(f"dimensions are {values.dims}; allowed {', '.join(_DIMENSIONS)}")
+    coordinates = xr.Dataset(coords={dim: results[dim] for dim in _DIMENSIONS})
+    aligned, _ = xr.align(values, coordinates, join="exact")
+    return aligned.broadcast_like(coordinates).transpose(*_DIMENSIONS)
 
 
 def _texts(column: Column, values: xr.DataArray, results: xr.Dataset) -> dict[str, str]:
@@ -105,15 +110,15 @@ def _as_json(column: Column, values: xr.DataArray, results: xr.Dataset) -> dict[
 def _kept(results: xr.Dataset) -> list[Column]:
     return [
         Column(
-            own["name"],
-            partial(_kept_values, own["name"]),
-            own["head"],
-            own["terminal"],
-            _writer(own["texts"]),
-            own["change_of"],
-            position=own["position"],
+            entry["name"],
+            partial(_kept_values, entry["name"]),
+            entry["head"],
+            entry["terminal"],
+            _writer(entry["texts"]),
+            entry["change_of"],
+            position=entry["position"],
         )
-        for own in json.loads(results.attrs.get(ATTRIBUTE) or "[]")
+        for entry in json.loads(results.attrs.get(ATTRIBUTE) or "[]")
     ]
 
 

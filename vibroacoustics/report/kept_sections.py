@@ -19,28 +19,30 @@ def sections_of(results: xr.Dataset) -> list[Section]:
     """
     strangers = SECTIONS.origins()
     sections = [
-        own for own in SECTIONS.values() if own.name not in strangers and own.applies(results)
+        section
+        for section in SECTIONS.values()
+        if section.name not in strangers and section.applies(results)
     ]
     for name in strangers:
         sections += _guarded(SECTIONS[name], results)
-    sections += [own for own in _kept(results) if own.name not in SECTIONS]
+    sections += [section for section in _kept(results) if section.name not in SECTIONS]
     for name, line in left_out.missing(results, "section", ATTRIBUTE).items():
         if name not in SECTIONS:
             sections.append(_fixed(name, name, (Text(line, "note"),)))
-    return sorted(sections, key=lambda own: own.position)
+    return sorted(sections, key=lambda section: section.position)
 
 
 def keep_sections(results: xr.Dataset) -> xr.Dataset:
     """The results with the blocks of every section that is not built in."""
     kept = [
         {
-            "name": own.name,
-            "title": own.title,
-            "position": own.position,
-            "blocks": json.loads(to_json(own.blocks(results))),
+            "name": section.name,
+            "title": section.title,
+            "position": section.position,
+            "blocks": json.loads(to_json(section.blocks(results))),
         }
-        for own in sections_of(results)
-        if own.name not in SECTIONS or SECTIONS.origin(own.name)
+        for section in sections_of(results)
+        if section.name not in SECTIONS or SECTIONS.origin(section.name)
     ]
     if not kept and not SECTIONS.origins():
         return results
@@ -60,8 +62,10 @@ def _guarded(section: Section, results: xr.Dataset) -> list[Section]:
 
 def _kept(results: xr.Dataset) -> list[Section]:
     return [
-        _fixed(own["name"], own["title"], from_json(json.dumps(own["blocks"])), own["position"])
-        for own in json.loads(results.attrs.get(ATTRIBUTE) or "[]")
+        _fixed(
+            entry["name"], entry["title"], from_json(json.dumps(entry["blocks"])), entry["position"]
+        )
+        for entry in json.loads(results.attrs.get(ATTRIBUTE) or "[]")
     ]
 
 

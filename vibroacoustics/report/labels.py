@@ -57,5 +57,5 @@ def _split(label: str, of_study: Mapping[str, Any]) -> tuple[str, str]:
         symbol = units.get("_".join(parts[start:]))
         if symbol is not None:
             return "_".join(parts[:start]), symbol
-    known, found = split_key(label)
-    return known, found.symbol if found else ""
+    known, unit = split_key(label)
+    return known, unit.symbol if unit else ""

@@ -43,9 +43,9 @@ def _bullets(block: Bullets) -> str:
 @_block.register
 def _definitions(block: Definitions) -> str:
     return "\n".join(
-        f"- **{escape_markdown(own.term)}** ({escape_markdown(own.tag)}): "
-        f"{escape_markdown(own.words)}"
-        for own in block.entries
+        f"- **{escape_markdown(entry.term)}** ({escape_markdown(entry.tag)}): "
+        f"{escape_markdown(entry.words)}"
+        for entry in block.entries
     )
 
 
@@ -57,8 +57,9 @@ def _table(block: Table) -> str:
 @_block.register
 def _pictures(block: Pictures) -> str:
     return "\n\n".join(
-        f"![{escape_markdown(own.alt)}]({figure_file(own)})\n{escape_markdown(own.caption)}"
-        for own in block.pictures
+        f"![{escape_markdown(picture.alt)}]({figure_file(picture)})\n"
+        f"{escape_markdown(picture.caption)}"
+        for picture in block.pictures
     )
 
 

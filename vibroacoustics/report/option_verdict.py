@@ -38,24 +38,26 @@ def option_verdict(results: xr.Dataset, option: str) -> OptionVerdict:
 
     With further sources the band of all sources stands for the modelled level.
     """
-    inside = source_change(results, option) if has_sources(results) else None
+    change = source_change(results, option) if has_sources(results) else None
     shifts = [
         shift(results, quantity, option)
         for quantity in JUDGED
-        if inside is None or quantity != MODELLED
+        if change is None or quantity != MODELLED
     ]
     elsewhere = {
         receiver: shift(results, LINE, option, receiver) for receiver in other_receivers(results)
     }
     worse_in = _worse_in(shifts, elsewhere)
-    if inside is not None and inside.worsens:
+    if change is not None and change.worsens:
         worse_in = (*worse_in, ALL_SOURCES)
-    better = any(own.improves for own in shifts) or (inside is not None and inside.improves)
+    better = any(quantity_shift.improves for quantity_shift in shifts) or (
+        change is not None and change.improves
+    )
     judgement = judge(bool(worse_in), better)
     sentences = [
         _shift_sentence(shifts, judgement, catalogue_receiver(results)),
         _elsewhere(shifts[-1], elsewhere),
-        *([_total(results, option)] if inside is None else change_sentences(results, option)),
+        *([_total(results, option)] if change is None else change_sentences(results, option)),
         *words(results)["sentences"][option],
         _mass(results, option),
     ]
@@ -73,10 +75,15 @@ def judge(worse: bool, better: bool) -> str:
 
 def _shift_sentence(shifts: Sequence[Shift], judgement: str, receiver: str) -> str:
     if judgement == NO_CHANGE:
-        *words, last = (own.quantity.words for own in shifts)
+        *words, last = (quantity_shift.quantity.words for quantity_shift in shifts)
         return f"{', '.join(words)} and {last} stay the same."
-    mechanical = [own for own in shifts if not own.quantity.is_level]
-    parts = [f"the {own.quantity.words} {own.sentence()}" for own in mechanical]
+    mechanical = [
+        quantity_shift for quantity_shift in shifts if not quantity_shift.quantity.is_level
+    ]
+    parts = [
+        f"the {quantity_shift.quantity.words} {quantity_shift.sentence()}"
+        for quantity_shift in mechanical
+    ]
     return f"At 1×, {'; '.join(parts)}. ".replace("the 1× ", "the ") + (
         f"At {receiver} the 1× line {shifts[-1].sentence()}."
     )
@@ -84,8 +91,8 @@ def _shift_sentence(shifts: Sequence[Shift], judgement: str, receiver: str) -> s
 
 def _worse_in(shifts: Sequence[Shift], elsewhere: Mapping[str, Shift]) -> tuple[str, ...]:
     """What the option makes worse; the line elsewhere if it is not worse here already."""
-    worse = [own.quantity.words for own in shifts if own.worsens]
-    louder = [name for name, own in elsewhere.items() if own.worsens]
+    worse = [quantity_shift.quantity.words for quantity_shift in shifts if quantity_shift.worsens]
+    louder = [name for name, line_shift in elsewhere.items() if line_shift.worsens]
     if louder and LINE.words not in worse:
         worse.append(f"{LINE.words} at {', '.join(louder)}")
     return tuple(worse)
@@ -93,9 +100,15 @@ def _worse_in(shifts: Sequence[Shift], elsewhere: Mapping[str, Shift]) -> tuple[
 
 def _elsewhere(here: Shift, elsewhere: Mapping[str, Shift]) -> str:
     """Warn of microphones at which the line rises although it does not at the catalogue's."""
-    louder = {} if here.worsens else {at: own for at, own in elsewhere.items() if own.worsens}
-    places = "; ".join(f"at {receiver} it {own.sentence()}" for receiver, own in louder.items())
-    return f"Not so elsewhere: {places}." if louder else ""
+    louder = (
+        {}
+        if here.worsens
+        else {at: line_shift for at, line_shift in elsewhere.items() if line_shift.worsens}
+    )
+    at_receivers = "; ".join(
+        f"at {receiver} it {line_shift.sentence()}" for receiver, line_shift in louder.items()
+    )
+    return f"Not so elsewhere: {at_receivers}." if louder else ""
 
 
 def _total(results: xr.Dataset, option: str) -> str:

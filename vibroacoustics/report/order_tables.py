@@ -81,8 +81,13 @@ def levels_csv(results: xr.Dataset) -> bytes:
     names = ("leq_db", "lfmax_db", "lsmax_db")
     bands = [f"leq_{band:g}_hz_db" for band in results["band"].values]
     rows: list[list[str | float]] = [
-        [channel, weighting, *(float(own[name]) for name in _LEVELS), *map(float, own.band_level)]
-        for channel, weighting, own in _level_rows(results)
+        [
+            channel,
+            weighting,
+            *(float(levels[name]) for name in _LEVELS),
+            *map(float, levels.band_level),
+        ]
+        for channel, weighting, levels in _level_rows(results)
     ]
     return to_csv(("channel", "weighting", *names, *bands), rows)
 
@@ -128,8 +133,8 @@ def comparison_of_orders_csv(compared: xr.Dataset) -> bytes:
 def _compared_fact(compared: xr.Dataset, name: str) -> str:
     """What one of the results is, and where its phases count from."""
     angle_zero = compared.attrs[f"{name}_angle_zero"]
-    told = f"{compared.attrs[name]}; crank angle zero: {angle_zero}"
-    return f"{told}, peaks from the RMS in the bands" if angle_zero == NO_ANGLE_ZERO else told
+    fact = f"{compared.attrs[name]}; crank angle zero: {angle_zero}"
+    return f"{fact}, peaks from the RMS in the bands" if angle_zero == NO_ANGLE_ZERO else fact
 
 
 def amplitude(value: float) -> str:
@@ -146,28 +151,28 @@ def _faults_line(times: xr.DataArray) -> str:
 
 
 def _order_rows(results: xr.Dataset) -> Iterator[_Order]:
-    for at in _places(results):
-        own = results.sel(at)
-        value = complex(own["channel_order"].item())
+    for at in _labels_of_orders(results):
+        of_order = results.sel(at)
+        value = complex(of_order["channel_order"].item())
         yield _Order(
             channel=str(at["channel"]),
-            unit=str(own["channel_unit"].item()),
+            unit=str(of_order["channel_unit"].item()),
             speed_rpm=float(at["speed"]),
-            blocks=int(own["block_count"]),
+            blocks=int(of_order["block_count"]),
             order=float(at["order"]),
             frequency_hz=float(at["order"] * at["speed"] / 60.0),
             amplitude_peak=abs(value),
             phase_deg=float(np.degrees(np.angle(value))),
-            rms_in_band=float(own["channel_order_rms"]),
-            coherence=float(own["channel_order_coherence"]),
+            rms_in_band=float(of_order["channel_order_rms"]),
+            coherence=float(of_order["channel_order_coherence"]),
         )
 
 
-def _places(results: xr.Dataset) -> Iterator[dict[str, Any]]:
+def _labels_of_orders(results: xr.Dataset) -> Iterator[dict[str, Any]]:
     """Every channel at every speed and order."""
     dims = ("channel", "speed", "order")
-    for place in product(*(results[dim].values for dim in dims)):
-        yield dict(zip(dims, place, strict=True))
+    for values in product(*(results[dim].values for dim in dims)):
+        yield dict(zip(dims, values, strict=True))
 
 
 def _orders_table(results: xr.Dataset) -> Table:
@@ -202,8 +207,8 @@ def _orders_table(results: xr.Dataset) -> Table:
 def _shown_speeds(results: xr.Dataset) -> set[float]:
     """Some operating points, from the lowest to the highest."""
     speeds = results["speed"].values
-    places = np.linspace(0, speeds.size - 1, _MOST_SPEEDS).round().astype(int)
-    return set(speeds[places].tolist())
+    indices = np.linspace(0, speeds.size - 1, _MOST_SPEEDS).round().astype(int)
+    return set(speeds[indices].tolist())
 
 
 def _level_rows(results: xr.Dataset) -> Iterator[tuple[str, str, xr.Dataset]]:
@@ -216,26 +221,26 @@ def _level_rows(results: xr.Dataset) -> Iterator[tuple[str, str, xr.Dataset]]:
 
 def _levels_table(results: xr.Dataset) -> Table:
     rows = tuple(
-        (channel, weighting, *(rounding.fixed(float(own[name])) for name in _LEVELS))
-        for channel, weighting, own in _level_rows(results)
+        (channel, weighting, *(rounding.fixed(float(levels[name])) for name in _LEVELS))
+        for channel, weighting, levels in _level_rows(results)
     )
     head = ("Channel", "weighting", "Leq, dB", "LFmax, dB", "LSmax, dB")
     return Table("Sound pressure levels, dB re 20 µPa", head, rows, frozenset({0, 1}))
 
 
 def _compared_rows(compared: xr.Dataset) -> Iterator[_ComparedOrder]:
-    for at in _places(compared):
-        own = compared.sel(at)
+    for at in _labels_of_orders(compared):
+        of_order = compared.sel(at)
         yield _ComparedOrder(
             channel=str(at["channel"]),
-            other_channel=str(own["compared_channel"].item()),
-            unit=str(own["channel_unit"].item()),
+            other_channel=str(of_order["compared_channel"].item()),
+            unit=str(of_order["channel_unit"].item()),
             speed_rpm=float(at["speed"]),
-            other_speed_rpm=float(own["compared_speed"]),
+            other_speed_rpm=float(of_order["compared_speed"]),
             order=float(at["order"]),
-            amplitude_peak=abs(complex(own["channel_order"].item())),
-            other_amplitude_peak=abs(complex(own["compared_order"].item())),
-            difference_db=float(own["order_difference"]),
-            phase_difference_deg=float(np.degrees(own["order_phase_difference"])),
-            coherence=float(own["channel_order_coherence"]),
+            amplitude_peak=abs(complex(of_order["channel_order"].item())),
+            other_amplitude_peak=abs(complex(of_order["compared_order"].item())),
+            difference_db=float(of_order["order_difference"]),
+            phase_difference_deg=float(np.degrees(of_order["order_phase_difference"])),
+            coherence=float(of_order["channel_order_coherence"]),
         )

@@ -35,7 +35,8 @@ class Page(NamedTuple):
 def page_of(results: xr.Dataset) -> Page:
     """The page of a finished run."""
     parts = tuple(
-        Part(own.name, own.title, tuple(own.blocks(results))) for own in sections_of(results)
+        Part(section.name, section.title, tuple(section.blocks(results)))
+        for section in sections_of(results)
     )
     of_study = parameters(results)
     return Page(of_study["title"], of_study["machine"]["name"], results.attrs["created_utc"], parts)

@@ -138,8 +138,11 @@ def published_source(results: xr.Dataset) -> str:
 def _scores_row(of_option: xr.Dataset, option: str, methods: list[str]) -> tuple[str, ...]:
     cells = [option]
     for method in methods:
-        own = of_option.sel({"scoring_method": method})
-        cells += [rounding.fixed(own["score"].item(), 2), rounding.fixed(own["rank"].item(), 0)]
+        of_method = of_option.sel({"scoring_method": method})
+        cells += [
+            rounding.fixed(of_method["score"].item(), 2),
+            rounding.fixed(of_method["rank"].item(), 0),
+        ]
     return (*cells, f"{100.0 * of_option['first_place_share'].item():.1f} %")
 
 

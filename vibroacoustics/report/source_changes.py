@@ -16,17 +16,17 @@ class SourceChange(NamedTuple):
     """Change of all modelled sources and of the whole machine, a band at every speed."""
 
     sources: tuple[Band, ...]
-    whole: tuple[Band, ...]
+    total: tuple[Band, ...]
 
     @property
     def worsens(self) -> bool:
         """Louder within the whole band, at one speed at least."""
-        return any(own.lowest > TOLERANCE_DB for own in self.sources)
+        return any(band.lowest > TOLERANCE_DB for band in self.sources)
 
     @property
     def improves(self) -> bool:
         """Quieter within the whole band, at one speed at least."""
-        return any(own.highest < -TOLERANCE_DB for own in self.sources)
+        return any(band.highest < -TOLERANCE_DB for band in self.sources)
 
 
 def source_change(results: xr.Dataset, option: str) -> SourceChange:
@@ -49,56 +49,56 @@ def changes_sentence(results: xr.Dataset) -> str:
         f"{at} it becomes quieter with {_named(results, quieter)}." if quieter else "",
     ]
     if rest:
-        ends = [end for option in rest for own in changes[option].whole for end in own]
+        ends = [end for option in rest for band in changes[option].total for end in band]
         assumed = results["change_total"].sel(option=rest, receiver=catalogue_receiver(results))
         largest = float(np.abs([*ends, *assumed.values.ravel()]).max())
         bound = 0.1 * max(np.ceil(10.0 * largest), 1.0)
         which = "No other option changes" if louder or quieter else "No option changes"
-        heard = "" if largest >= HEARD_DB else ", which can hardly be heard"
+        audibility = "" if largest >= HEARD_DB else ", which can hardly be heard"
         parts.append(
             f"{which} the total of {overall_noise(results)['level_dba']:g} dB(A) by more than "
-            f"{rounding.fixed(bound)} dB{heard}."
+            f"{rounding.fixed(bound)} dB{audibility}."
         )
     return " ".join(filter(None, parts))
 
 
 def change_sentences(results: xr.Dataset, option: str) -> list[str]:
     """What an option does to all sources and the total, and why."""
-    own = source_change(results, option)
+    change = source_change(results, option)
     return [
-        f"With all sources the modelled level changes by {_by_speed(results, own.sources)} "
-        f"({band_words(results)} of the draws), the total by {_by_speed(results, own.whole)}.",
+        f"With all sources the modelled level changes by {_by_speed(results, change.sources)} "
+        f"({band_words(results)} of the draws), the total by {_by_speed(results, change.total)}.",
         *_impacts(results, option),
     ]
 
 
-def change_words(own: Band) -> str:
+def change_words(band: Band) -> str:
     """`+2.2 to +12.2 dB`."""
-    if max(abs(own.lowest), abs(own.highest)) < TOLERANCE_DB:
+    if max(abs(band.lowest), abs(band.highest)) < TOLERANCE_DB:
         return f"less than {TOLERANCE_DB:g} dB"
-    return f"{own.ends(rounding.signed)} dB"
+    return f"{band.ends(rounding.signed)} dB"
 
 
 def _surely_louder(change: SourceChange) -> bool:
-    return any(own.lowest >= HEARD_DB for own in change.whole)
+    return any(band.lowest >= HEARD_DB for band in change.total)
 
 
 def _surely_quieter(change: SourceChange) -> bool:
-    return any(own.highest <= -HEARD_DB for own in change.whole) and not _surely_louder(change)
+    return any(band.highest <= -HEARD_DB for band in change.total) and not _surely_louder(change)
 
 
 def _named(results: xr.Dataset, changes: dict[str, SourceChange]) -> str:
     return " and ".join(
-        f"{option} ({_by_speed(results, change.whole)})" for option, change in changes.items()
+        f"{option} ({_by_speed(results, change.total)})" for option, change in changes.items()
     )
 
 
 def _by_speed(results: xr.Dataset, bands: tuple[Band, ...]) -> str:
-    words = [change_words(own) for own in bands]
+    words = [change_words(band) for band in bands]
     if len(set(words)) == 1:
         return words[0]
     if many_speeds(results):
-        lowest, highest = min(own.lowest for own in bands), max(own.highest for own in bands)
+        lowest, highest = min(band.lowest for band in bands), max(band.highest for band in bands)
         return f"{change_words(Band(lowest, lowest, highest))}, depending on the speed"
     return " and ".join(
         f"{text} at {speed:g} rpm" for text, speed in zip(words, speeds(results), strict=True)

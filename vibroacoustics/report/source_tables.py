@@ -116,18 +116,18 @@ def _source_table(results: xr.Dataset, speed: float) -> Table:
         for source, level in ranked(results, speed)
         for share in (percent(_at(results, "source_share", speed, sound_source=source)),)
     ]
-    modelled, whole = (_at(results, name, speed) for name in ("level_modelled", "level_total"))
+    modelled, total = (_at(results, name, speed) for name in ("level_modelled", "level_total"))
     sums = (
         ("All modelled sources", modelled, _band(results, "level_modelled", speed), "100 %"),
         (
             "Not modelled, the remainder",
-            _difference(whole, modelled),
+            _difference(total, modelled),
             band(results, "level_remainder"),
             rounding.NOTHING,
         ),
-        ("Whole machine", whole, _band(results, "level_total", speed), rounding.NOTHING),
+        ("Whole machine", total, _band(results, "level_total", speed), rounding.NOTHING),
     )
-    rows += [_row(*own, quoted, overall) for own in sums]
+    rows += [_row(*of_sum, quoted, overall) for of_sum in sums]
     caption = (
         f"{speed:g} rpm, option {REFERENCE_OPTION}, microphone {catalogue_receiver(results)}"
         + ("" if quoted else "; no overall level is published at this speed")
@@ -138,25 +138,25 @@ def _source_table(results: xr.Dataset, speed: float) -> Table:
 def _row(
     name: str, level_dba: float, drawn: Band, share: str, quoted: bool, overall_dba: float
 ) -> tuple[str, ...]:
-    cells = (name, rounding.level(level_dba), drawn.whole(rounding.level), share)
+    cells = (name, rounding.level(level_dba), drawn.middle_and_ends(rounding.level), share)
     if not quoted:
         return cells
     return (
         *cells,
         percent(energy_share(level_dba, overall_dba)),
-        drawn.share_of(overall_dba).whole(percent),
+        drawn.share_of(overall_dba).middle_and_ends(percent),
     )
 
 
 def _change_row(results: xr.Dataset, option: str, speed: float) -> tuple[str, ...]:
-    place = {"option": option, "speed": speed, "receiver": catalogue_receiver(results)}
-    of_both = {**place, "option": [option, REFERENCE_OPTION]}
+    selection = {"option": option, "speed": speed, "receiver": catalogue_receiver(results)}
+    of_both = {**selection, "option": [option, REFERENCE_OPTION]}
     line = column(results, "level_1x_db").sel(of_both).values
-    change = float(column(results, "change_1x_db").sel(place))
+    change = float(column(results, "change_1x_db").sel(selection))
     cells = [option, rounding.level_change(change, *map(float, line))]
     for name in ("change_modelled", "change_total"):
-        cells.append(rounding.signed(float(results[name].sel(place))))
-        cells.append(band(results, name, **place).ends(rounding.signed))
+        cells.append(rounding.signed(float(results[name].sel(selection))))
+        cells.append(band(results, name, **selection).ends(rounding.signed))
     at = speeds(results).index(speed)
     for figure, write in (
         ("impacts_per_revolution", rounding.fixed),
@@ -170,7 +170,7 @@ def _change_row(results: xr.Dataset, option: str, speed: float) -> tuple[str, ..
 
 
 def _at(results: xr.Dataset, name: str, speed: float, **more: str) -> float:
-    place = {
+    selection = {
         "speed": speed,
         "option": REFERENCE_OPTION,
         "receiver": catalogue_receiver(results),
@@ -178,8 +178,8 @@ def _at(results: xr.Dataset, name: str, speed: float, **more: str) -> float:
     }
     values = results[name]
     if "weighting" in values.dims:
-        place["weighting"] = "A"
-    return float(values.sel(place))
+        selection["weighting"] = "A"
+    return float(values.sel(selection))
 
 
 def _level(results: xr.Dataset, source: str, speed: float) -> float:

@@ -35,11 +35,11 @@ def quoted_speed(results: xr.Dataset) -> float:
 
 def ranked(results: xr.Dataset, speed: float) -> list[tuple[str, Band]]:
     """Sources without a balancer at the catalogue's microphone, the loudest first."""
-    found = [
+    sources = [
         (str(source), _source_band(results, str(source), speed))
         for source in results["sound_source"].values
     ]
-    return sorted(found, key=lambda entry: -entry[1].middle)
+    return sorted(sources, key=lambda entry: -entry[1].middle)
 
 
 def carrier_sentence(results: xr.Dataset) -> str:
@@ -67,7 +67,7 @@ def shares_sentence(results: xr.Dataset) -> str:
         "receiver": catalogue_receiver(results),
     }
     shares = [
-        f"{source_name(results, source)} {level.share_of(overall).whole(percent)}"
+        f"{source_name(results, source)} {level.share_of(overall).middle_and_ends(percent)}"
         for source, level in ranked(results, speed)
     ]
     together = band(results, "level_modelled", **at).share_of(overall)
@@ -75,7 +75,8 @@ def shares_sentence(results: xr.Dataset) -> str:
     return (
         f"Of the energy of {overall:g} dB(A) there, in the middle of the draws with the "
         f"{band_words(results)} in brackets: {'; '.join(shares)}; all modelled sources together "
-        f"{together.whole(percent)}. Not modelled is the rest, {rest.whole(percent)}."
+        f"{together.middle_and_ends(percent)}. Not modelled is the rest, "
+        f"{rest.middle_and_ends(percent)}."
     )
 
 

@@ -35,7 +35,7 @@ def _resultant(vector: xr.DataArray) -> xr.DataArray:
 def _greatest(over_time: xr.DataArray) -> tuple[Array, Array]:
     """Before switch-off and from then on, shape (speed,)."""
     time = over_time["stopping_time"]
-    parts = (over_time.where(own).max("stopping_time") for own in (time < 0.0, time >= 0.0))
+    parts = (over_time.where(during).max("stopping_time") for during in (time < 0.0, time >= 0.0))
     before, after = (np.asarray(part.values) for part in parts)
     return before, after
 

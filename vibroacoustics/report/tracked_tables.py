@@ -72,10 +72,10 @@ def _peaks(tracked: xr.Dataset) -> Iterator[_Peak]:
 def _rows(tracked: xr.Dataset) -> Iterator[tuple[str | float, ...]]:
     times, speeds = tracked["track_time"].values, tracked["track_speed"].values
     for channel in tracked["channel"].values:
-        own = tracked["tracked_order"].sel(channel=channel)
-        unit = str(own["channel_unit"].item())
-        for order in own["order"].values:
-            values = own.sel(order=order).values
+        of_channel = tracked["tracked_order"].sel(channel=channel)
+        unit = str(of_channel["channel_unit"].item())
+        for order in of_channel["order"].values:
+            values = of_channel.sel(order=order).values
             sizes, phases = np.abs(values), np.rad2deg(np.angle(values))
             for row in zip(times, speeds, sizes, phases, strict=True):
                 yield (str(channel), unit, float(order), *map(float, row))

@@ -57,22 +57,22 @@ def headline(results: xr.Dataset) -> str:
     change = rounding.span(line, rounding.signed)
     return (
         f"At {receiver} the balancing options change the 1× line by {change} dB, "
-        f"{_total_words(float(abs(total).max()), _whole(results))}"
+        f"{_total_words(float(abs(total).max()), _total_dba(results))}"
     )
 
 
 def reasons(results: xr.Dataset) -> list[str]:
     """Sentences that explain the headline."""
-    inside = has_sources(results)
+    with_sources = has_sources(results)
     texts = [_as_it_is(results)]
-    if inside:
+    if with_sources:
         texts += [shares_sentence(results), left_out_sentence(results)]
     else:
         texts.append(_remainder(results))
     if not balancers(results):
         return texts
     verdicts = option_verdicts(results)
-    if inside:
+    if with_sources:
         texts.insert(0, changes_sentence(results))
     return [*texts, *_warnings(verdicts), _ranking(results, verdicts)]
 
@@ -106,41 +106,42 @@ def _total_words(change_db: float, published_dba: float) -> str:
 
 def _as_it_is(results: xr.Dataset) -> str:
     """Forces and levels without a balancer."""
-    own = comparison(results).sel(
+    reference = comparison(results).sel(
         {"option": REFERENCE_OPTION, "receiver": catalogue_receiver(results)}
     )
     shaken = (
-        _shaken_over_the_speeds(results, own)
+        _shaken_over_the_speeds(results, reference)
         if many_speeds(results)
-        else _shaken_by_speed(results, own)
+        else _shaken_by_speed(results, reference)
     )
     return (
         f"Without a balancer the moving parts shake the {_body(results)} at 1× with {shaken}; "
-        f"at 2× with {_twice(float(own['force_2x_n'].max()))}. A foot passes on at most "
-        f"{FOOT_FORCE.write(float(own['foot_force_1x_n'].max()))}; at {own['receiver'].item()} the "
-        f"1× line has {rounding.span(own['level_1x_db'].values, rounding.level)} dB or "
-        f"{rounding.span(own['level_1x_dba'].values, rounding.level)} dB(A)."
+        f"at 2× with {_twice(float(reference['force_2x_n'].max()))}. A foot passes on at most "
+        f"{FOOT_FORCE.write(float(reference['foot_force_1x_n'].max()))}; at "
+        f"{reference['receiver'].item()} the 1× line has "
+        f"{rounding.span(reference['level_1x_db'].values, rounding.level)} dB or "
+        f"{rounding.span(reference['level_1x_dba'].values, rounding.level)} dB(A)."
     )
 
 
-def _shaken_by_speed(results: xr.Dataset, own: xr.Dataset) -> str:
+def _shaken_by_speed(results: xr.Dataset, reference: xr.Dataset) -> str:
     return ", ".join(
         f"{FORCE.write(force)} and {MOMENT.write(moment)} at {speed:g} rpm ({frequency:.1f} Hz)"
         for speed, frequency, force, moment in zip(
             speeds(results),
             first_order_hz(results),
-            own["force_1x_n"].values,
-            own["moment_1x_nm"].values,
+            reference["force_1x_n"].values,
+            reference["moment_1x_nm"].values,
             strict=True,
         )
     )
 
 
-def _shaken_over_the_speeds(results: xr.Dataset, own: xr.Dataset) -> str:
+def _shaken_over_the_speeds(results: xr.Dataset, reference: xr.Dataset) -> str:
     """Ranges, where a list of all speeds would be long."""
     return (
-        f"{rounding.span(own['force_1x_n'].values, rounding.significant)} N and "
-        f"{rounding.span(own['moment_1x_nm'].values, rounding.significant)} N m at "
+        f"{rounding.span(reference['force_1x_n'].values, rounding.significant)} N and "
+        f"{rounding.span(reference['moment_1x_nm'].values, rounding.significant)} N m at "
         f"{rounding.span(speeds(results), '{:g}'.format)} rpm "
         f"({rounding.span(first_order_hz(results), rounding.fixed)} Hz)"
     )
@@ -158,7 +159,7 @@ def _remainder(results: xr.Dataset) -> str:
     """Why the total hardly follows the line."""
     receiver = catalogue_receiver(results)
     modelled = float(column(results, "level_modelled_dba").sel(receiver=receiver).max())
-    gap = _whole(results) - modelled
+    gap = _total_dba(results) - modelled
     carried = (
         f"all shaft orders together reach at most {rounding.level(modelled)} dB(A) at {receiver}, "
         f"whatever the option: {rounding.fixed(gap)} dB below the level of the whole machine"
@@ -174,12 +175,12 @@ def _remainder(results: xr.Dataset) -> str:
 
 def _warnings(verdicts: Sequence[OptionVerdict]) -> list[str]:
     """Name the options that make something worse, and those that do nothing."""
-    worse = [own.option for own in verdicts if own.judgement == WORSE]
-    idle = [own.option for own in verdicts if own.judgement == NO_CHANGE]
+    worse = [verdict.option for verdict in verdicts if verdict.judgement == WORSE]
+    idle = [verdict.option for verdict in verdicts if verdict.judgement == NO_CHANGE]
     mixed = [
-        f"{own.option} (worse: {', '.join(own.worse_in)})"
-        for own in verdicts
-        if own.judgement == MIXED
+        f"{verdict.option} (worse: {', '.join(verdict.worse_in)})"
+        for verdict in verdicts
+        if verdict.judgement == MIXED
     ]
     texts = [
         f"Worse than no balancer: {', '.join(worse)}." if worse else "",
@@ -193,17 +194,18 @@ def _warnings(verdicts: Sequence[OptionVerdict]) -> list[str]:
 def _ranking(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> str:
     """Which option the study's weights prefer, and how sure that is."""
     method = str(results["scoring_method"].values[0])
-    own = results[["score", "rank", "first_place_share"]].sel({"scoring_method": method})
-    winners = [str(name) for name in own["option"].values[own["rank"].values == 1.0]]
-    share = 100.0 * float(own["first_place_share"].sel(option=winners).sum())
+    of_method = results[["score", "rank", "first_place_share"]].sel({"scoring_method": method})
+    winners = [str(name) for name in of_method["option"].values[of_method["rank"].values == 1.0]]
+    share = 100.0 * float(of_method["first_place_share"].sel(option=winners).sum())
     draws = parameters(results)["scoring"]["random_weightings"]
     verb = "ranks" if len(winners) == 1 else "rank"
-    score = rounding.fixed(float(own["score"].max()), 2)
+    score = rounding.fixed(float(of_method["score"].max()), 2)
     unlucky = [
         option.option
         for option in verdicts
         if option.judgement == BETTER
-        and own["rank"].sel(option=option.option) > own["rank"].sel(option=REFERENCE_OPTION)
+        and of_method["rank"].sel(option=option.option)
+        > of_method["rank"].sel(option=REFERENCE_OPTION)
     ]
     behind = "".join(_behind(results, option) for option in unlucky)
     return (
@@ -231,13 +233,13 @@ def _extremes(results: xr.Dataset, quantity: Quantity) -> tuple[str, ...]:
     best_name, worst_name = (str(find("option").item()) for find in (worst.idxmin, worst.idxmax))
     exact = quantity == TOTAL and not has_sources(results)
     write = _write_total if exact else quantity.write
-    own = highest.sel(option=REFERENCE_OPTION).item()
+    reference = highest.sel(option=REFERENCE_OPTION).item()
     best = highest.sel(option=best_name).item()
-    close = quantity in (MODELLED, TOTAL) and own - best < TOLERANCE_DB
+    close = quantity in (MODELLED, TOTAL) and reference - best < TOLERANCE_DB
     none_better = close and has_sources(results)
     return (
         quantity.words,
-        write(own),
+        write(reference),
         f"none lower by {TOLERANCE_DB:g} dB" if none_better else f"{write(best)}: {best_name}",
         f"{write(highest.sel(option=worst_name).item())}: {worst_name}",
     )
@@ -248,5 +250,5 @@ def _write_total(value_dba: float) -> str:
     return f"{rounding.fixed(value_dba, 3)} dB(A)"
 
 
-def _whole(results: xr.Dataset) -> float:
+def _total_dba(results: xr.Dataset) -> float:
     return overall_noise(results)["level_dba"]

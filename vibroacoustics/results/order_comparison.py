@@ -164,9 +164,9 @@ def _by_order(study: xr.Dataset, variable: str) -> xr.DataArray:
 
 def _named(values: xr.DataArray, word: str, unit: str) -> xr.DataArray:
     """Values (speed, ..., order) as channels (channel, speed, order)."""
-    places = [dim for dim in values.dims if dim not in ("speed", "order")]
-    names = [" ".join([word, *at]) for at in product(*(values[dim].values for dim in places))]
-    flat = values.transpose(*places, "speed", "order").values
+    other_dims = [dim for dim in values.dims if dim not in ("speed", "order")]
+    names = [" ".join([word, *at]) for at in product(*(values[dim].values for dim in other_dims))]
+    flat = values.transpose(*other_dims, "speed", "order").values
     coords = {
         "channel": names,
         "speed": values["speed"].values,
@@ -231,30 +231,30 @@ def _common_speeds(ours: xr.DataArray, theirs: xr.DataArray) -> Array:
     nearest = distance.argmin(axis=1)
     mutual = distance.argmin(axis=0)[nearest] == np.arange(speed.size)
     near = distance[np.arange(speed.size), nearest] <= SPEED_TOLERANCE * speed
-    found: Array = np.stack([speed, other[nearest]], axis=1)[near & mutual]
-    if not found.size:
+    pairs: Array = np.stack([speed, other[nearest]], axis=1)[near & mutual]
+    if not pairs.size:
         raise ParameterError(
             f"no speed in common within {100 * SPEED_TOLERANCE:g} %: "
             f"{', '.join(map('{:.0f}'.format, speed))} against "
             f"{', '.join(map('{:.0f}'.format, other))} rpm"
         )
-    return found
+    return pairs
 
 
-def _at(result: xr.DataArray, place: Mapping[str, Any]) -> NDArray[Any]:
+def _at(result: xr.DataArray, selection: Mapping[str, Any]) -> NDArray[Any]:
     """Values (channel, speed, order) at channels, speeds and orders that the result has."""
-    chosen = result.sel(channel=place["channel"], speed=place["speed"])
-    chosen = chosen.sel(order=place["order"], method="nearest", tolerance=ORDER_TOLERANCE)
+    chosen = result.sel(channel=selection["channel"], speed=selection["speed"])
+    chosen = chosen.sel(order=selection["order"], method="nearest", tolerance=ORDER_TOLERANCE)
     return np.asarray(chosen.transpose("channel", "speed", "order").values)
 
 
-def _negligible(result: xr.DataArray, place: Mapping[str, Any]) -> NDArray[np.bool_]:
+def _negligible(result: xr.DataArray, selection: Mapping[str, Any]) -> NDArray[np.bool_]:
     """Where an order is nothing beside the largest with its unit; order 0 does not count."""
     size = abs(result.where(result["order"] > 0.0, 0.0))
     largest = size.max(("speed", "order")).groupby("channel_unit").max()
-    own = largest.sel(channel_unit=result["channel_unit"]).drop_vars("channel_unit")
-    least = _at(NEGLIGIBLE * own.broadcast_like(size), place)
-    return np.asarray(_at(size, place) <= least)
+    largest_of_unit = largest.sel(channel_unit=result["channel_unit"]).drop_vars("channel_unit")
+    least = _at(NEGLIGIBLE * largest_of_unit.broadcast_like(size), selection)
+    return np.asarray(_at(size, selection) <= least)
 
 
 def _phase(values: ComplexArray, reference: ComplexArray) -> Array:
@@ -263,18 +263,18 @@ def _phase(values: ComplexArray, reference: ComplexArray) -> Array:
     return np.asarray(difference - 2.0 * np.pi * np.rint(difference / (2.0 * np.pi)))
 
 
-def _coherence(result: xr.Dataset, place: Mapping[str, Any]) -> Array:
+def _coherence(result: xr.Dataset, selection: Mapping[str, Any]) -> Array:
     """Coherence of a recording's orders; 1 for simulated ones."""
     if "channel_order_coherence" not in result:
-        return np.ones([len(labels) for labels in place.values()])
-    return _at(result["channel_order_coherence"], place)
+        return np.ones([len(labels) for labels in selection.values()])
+    return _at(result["channel_order_coherence"], selection)
 
 
-def _rms(result: xr.Dataset, orders: xr.DataArray, place: Mapping[str, Any]) -> Array:
+def _rms(result: xr.Dataset, orders: xr.DataArray, selection: Mapping[str, Any]) -> Array:
     """RMS in the bands of a recording's orders; of simulated ones from their peaks."""
     if "channel_order_rms" in result:
-        return _at(result["channel_order_rms"], place)
-    return np.asarray(np.abs(_at(orders, place)) / np.sqrt(2.0))
+        return _at(result["channel_order_rms"], selection)
+    return np.asarray(np.abs(_at(orders, selection)) / np.sqrt(2.0))
 
 
 def _angle_zero(result: xr.Dataset) -> str:

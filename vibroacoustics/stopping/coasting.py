@@ -129,14 +129,16 @@ def run_down(
     angle += speed_rad_per_s * np.minimum(time, 0.0)
     acceleration = np.where(time < 0.0, 0.0, coasting.acceleration(coasts, angle, speed))
     shift = coasting.shift(coasts)
-    own = angle, speed, acceleration
+    unshifted = angle, speed, acceleration
     ahead = angle + shift.angle, speed + shift.rate, acceleration + shift.acceleration
-    wrenches = [wrench_along(part, *(ahead if part.source in shifted else own)) for part in parts]
+    wrenches = [
+        wrench_along(part, *(ahead if part.source in shifted else unshifted)) for part in parts
+    ]
     spin = np.zeros((2, 3, time.size))  # of the rotor: no force, a moment about z
     spin[1, 2] = -stopping.shaft_inertia_kg_m2 * acceleration
     force, moment = np.stack([*wrenches, spin], axis=1)
     sources = (*(part.source for part in parts), "rotor")
-    return RunDown(time, *own, shift, sources, force, moment, stop)
+    return RunDown(time, *unshifted, shift, sources, force, moment, stop)
 
 
 def _check(parts: Sequence[MovingPart], shifted: Collection[str], speed: float) -> None:

@@ -168,9 +168,9 @@ def _replaced(table: Table, values: Mapping[str, Any]) -> Table:
         return type(table).model_validate(fields)
     except ValidationError as error:
         details = error.errors()[0]
-        place = ".".join(map(str, details["loc"]))
+        field = ".".join(map(str, details["loc"]))
         message = str(details.get("ctx", {}).get("error", details["msg"]))
-        raise ParameterError(f"{place}: {message}" if place else message) from None
+        raise ParameterError(f"{field}: {message}" if field else message) from None
 
 
 def _why_not(study: Study, draw: Draw) -> str | None:

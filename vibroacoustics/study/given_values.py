@@ -24,13 +24,15 @@ def _given_values(
     """Numbers of one option's table; those with a source are recorded in the scale's unit."""
     keys = ("options", option, "given")
     if not is_table(table):
-        raise ParameterError(f"{reader.place(keys)}: must be a table")
+        raise ParameterError(f"{reader.file_and_key(keys)}: must be a table")
     values = {}
     for name, written in table.items():
         unit = _at(content, ("scoring", "criteria", name, "unit"))
         number = reader.number((*keys, name), written, unit if isinstance(unit, str) else "")
         if not is_number(number):
-            raise ParameterError(f"{reader.place((*keys, name))} = {number}: must be a number")
+            raise ParameterError(
+                f"{reader.file_and_key((*keys, name))} = {number}: must be a number"
+            )
         values[name] = float(number)
     return values
 

@@ -30,5 +30,5 @@ def validate_kinds(
         return
     for key, table in tables.items():
         if isinstance(table, dict):
-            kind, values = of_kind(registry, table, reader.place((name, key)))
+            kind, values = of_kind(registry, table, reader.file_and_key((name, key)))
             tables[key] = validated(kind, values, reader, (name, key))

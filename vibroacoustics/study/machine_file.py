@@ -44,7 +44,7 @@ def change_of(option: str) -> tuple[str, ...]:
 def take_changes(content: Mapping[str, Any], path: Path) -> list[tuple[str, dict[str, Any]]]:
     """Take the table `change` out of each option that changes values of the machine."""
     options = content.get("options")
-    found = []
+    changes = []
     for name, option in (options if isinstance(options, dict) else {}).items():
         kind = option.get("kind") if isinstance(option, dict) else None
         if not isinstance(kind, str) or kind not in OPTIONS or not OPTIONS[kind].changes_machine:
@@ -53,8 +53,8 @@ def take_changes(content: Mapping[str, Any], path: Path) -> list[tuple[str, dict
             raise ParameterError(f"{path}: options.{name}.machine: unknown key")
         if "change" not in option:
             raise ParameterError(f"{path}: options.{name}.change: is missing")
-        found.append((name, option.pop("change")))
-    return found
+        changes.append((name, option.pop("change")))
+    return changes
 
 
 def read_redesign(

@@ -20,8 +20,8 @@ _ALWAYS_READ: Final = {"suspension"}
 
 def _sources(content: Mapping[str, Any]) -> list[Source]:
     tables = content.get("sources")
-    found = tables.values() if isinstance(tables, dict) else ()
-    return [source for source in found if isinstance(source, Source)]
+    values = tables.values() if isinstance(tables, dict) else ()
+    return [source for source in values if isinstance(source, Source)]
 
 
 def tables_used(content: Mapping[str, Any]) -> set[str]:

@@ -36,7 +36,7 @@ class Reader:
                 continue
             name, factor = si_key(key)
             if name in result:
-                raise ParameterError(f"{self.place(keys)}: given twice, in two units")
+                raise ParameterError(f"{self.file_and_key(keys)}: given twice, in two units")
             number = self.number(keys, value)
             self.file_keys[(*prefix, name)] = (key, number)
             result[name] = _scale(number, factor)
@@ -46,7 +46,7 @@ class Reader:
         """The file that gives the value of these keys."""
         return self.origin.get(keys, self.path)
 
-    def place(self, keys: tuple[str, ...]) -> str:
+    def file_and_key(self, keys: tuple[str, ...]) -> str:
         """File and dotted key as written; a changed machine value stands in the study."""
         prefix = self.overridden.get(keys, ())
         dotted = ".".join((*prefix, *keys))
@@ -61,7 +61,7 @@ class Reader:
         value : number, or table with value, source and range
         unit : where the key's suffix tells none
         """
-        where = self.place(keys)
+        where = self.file_and_key(keys)
         if not is_quantity(value):
             if self.sources_required and is_number(value):
                 raise ParameterError(f"{where} = {value}: needs a source: {{ value, source }}")

@@ -13,7 +13,7 @@ MINIMUM_BACKGROUND_MARGIN_DB: Final = 6.0
 MAXIMUM_POINTS: Final = 20_000
 """Of a map or a directivity; each is one point of the Green's function."""
 
-Place = Annotated[float, Field(ge=-20.0, le=20.0)]
+Coordinate = Annotated[float, Field(ge=-20.0, le=20.0)]
 
 
 class SoundPowerSettings(Parameters):
@@ -55,11 +55,11 @@ class MapSettings(Parameters):
 
     normal: Literal["x", "y", "z"] = "y"
     """Axis that the plane is perpendicular to."""
-    coordinate_m: Place = 0.0
+    coordinate_m: Coordinate = 0.0
     """Place of the plane on that axis."""
-    horizontal_m: tuple[Place, Place] = (-1.5, 1.5)
+    horizontal_m: tuple[Coordinate, Coordinate] = (-1.5, 1.5)
     """Ends of the map's horizontal side: along x, or along y where the normal is x."""
-    vertical_m: tuple[Place, Place] = (0.0, 2.0)
+    vertical_m: tuple[Coordinate, Coordinate] = (0.0, 2.0)
     """Ends of its vertical side: the height, or along y where the normal is z."""
     spacing_m: float = Field(default=0.05, ge=0.005, le=1.0)
     """Largest distance of neighbouring points."""

@@ -100,10 +100,10 @@ def is_table(value: Any) -> bool:
 
 def leaves(content: Mapping[str, Any], prefix: tuple[str, ...] = ()) -> list[tuple[str, ...]]:
     """Key paths of all values; a quantity table is one value."""
-    found: list[tuple[str, ...]] = []
+    paths: list[tuple[str, ...]] = []
     for key, value in content.items():
         if isinstance(value, dict) and not is_quantity(value):
-            found += leaves(value, (*prefix, key))
+            paths += leaves(value, (*prefix, key))
         else:
-            found.append((*prefix, key))
-    return found
+            paths.append((*prefix, key))
+    return paths

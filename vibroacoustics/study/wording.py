@@ -19,7 +19,7 @@ class FileKeys(Protocol):
     file_keys: dict[tuple[str, ...], tuple[str, Any]]
     """Key and value as written, by the path of the SI field."""
 
-    def place(self, keys: tuple[str, ...]) -> str:
+    def file_and_key(self, keys: tuple[str, ...]) -> str:
         """File and dotted key, as written, of a path of keys."""
 
 
@@ -52,7 +52,7 @@ def _one_line(
     inner = _without_tags(tuple(str(part) for part in details["loc"]))
     location = (*table, *inner)
     key, value = reader.file_keys.get(location, (location[-1] if location else "", None))
-    where = reader.place((*location[:-1], key) if location else ())
+    where = reader.file_and_key((*location[:-1], key) if location else ())
     plain = _PLAIN.get(details["type"])
     if plain is not None:
         return f"{where}: {plain}"
@@ -128,7 +128,7 @@ def _find_field(model: type[BaseModel], location: tuple[str, ...]) -> FieldInfo 
 def _models_in(annotation: Any) -> list[type[BaseModel]]:
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return [annotation]
-    return [found for argument in get_args(annotation) for found in _models_in(argument)]
+    return [model for argument in get_args(annotation) for model in _models_in(argument)]
 
 
 _BODIES: Final = {

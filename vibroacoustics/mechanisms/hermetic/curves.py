@@ -68,8 +68,8 @@ def hermetic_curves(machine: HermeticCompressor, speed_rpm: float) -> Iterator[C
 
 
 def _solved(machine: HermeticCompressor, case: Case, speed_rpm: float, more: str = "") -> Solved:
-    own = machine.model_copy(update={"case": case})
-    equations, solution = cycle_at_speed(own, speed_rpm, STEPS)
+    machine_of_case = machine.model_copy(update={"case": case})
+    equations, solution = cycle_at_speed(machine_of_case, speed_rpm, STEPS)
     return Solved(f"case {case}{more}", equations, *uniform_samples(solution, STEPS))
 
 
@@ -133,17 +133,17 @@ def _films(cases: tuple[Solved, ...]) -> Iterator[Curve]:
     clearance = cases[0].equations.machine.bearing.clearance_m
     yield Curve(
         "journal_orbit", "Orbit of the journal in the upper bearing, over its clearance",
-        np.array([own.orbit_m.T / clearance for own in uppers]), (axis, AXES, angle), "ratio",
+        np.array([upper.orbit_m.T / clearance for upper in uppers]), (axis, AXES, angle), "ratio",
         f"{SOURCE}figures 9 and 13 (a)", picture="orbit",
     )  # fmt: skip
     yield Curve(
         "thinnest_film", "Thinnest film of the upper bearing",
-        np.array([own.thinnest_film_m for own in uppers]), (axis, angle), "um",
+        np.array([upper.thinnest_film_m for upper in uppers]), (axis, angle), "um",
         f"{SOURCE}figures 12 (a) and 13 (b)",
     )  # fmt: skip
     yield Curve(
         "highest_film_pressure", "Highest pressure in the film of the upper bearing",
-        np.array([own.highest_pressure_pa for own in uppers]), (axis, angle), "mpa",
+        np.array([upper.highest_pressure_pa for upper in uppers]), (axis, angle), "mpa",
         f"{SOURCE}figures 10 and 12 (b)",
     )  # fmt: skip
 
@@ -166,7 +166,7 @@ def _lower_film(bending: Solved) -> Iterator[Curve]:
 def _campbell(machine: HermeticCompressor, bending: Solved, speed_rpm: float) -> Curve:
     """Frequencies on films linearised about the cycle's mean loads."""
     rotor = with_disc(rotor_matrices(machine), 0, machine.crank.mass_kg, 0.0, 0.0)
-    loads = [float(np.linalg.norm(own.force_n, axis=-1).mean()) for own in bending.bearings]
+    loads = [float(np.linalg.norm(bearing.force_n, axis=-1).mean()) for bearing in bending.bearings]
     journals = crankshaft(bending.equations.machine).bearing_freedoms
 
     def frequencies(spin: float) -> Array:

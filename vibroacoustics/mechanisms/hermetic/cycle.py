@@ -110,10 +110,10 @@ def uniform_samples(solution: PeriodicSolution, steps: int = STEPS) -> tuple[Arr
         The solution has other steps.
     """
     wanted = np.linspace(0.0, 2.0 * np.pi, steps + 1)[:-1]
-    places = np.searchsorted(solution.mesh, wanted)
-    if not np.array_equal(solution.mesh[places], wanted):
+    indices = np.searchsorted(solution.mesh, wanted)
+    if not np.array_equal(solution.mesh[indices], wanted):
         raise ParameterError(f"steps = {steps}: must be that of the solution's own mesh")
-    return solution.mesh[places], solution.states[places]
+    return solution.mesh[indices], solution.states[indices]
 
 
 def _guess(machine: HermeticCompressor, shaft: Crankshaft) -> Array:
@@ -150,6 +150,6 @@ def _films_and_moves(
     stages: Array, step: Array, freedoms: Sequence[int], clearance_m: float
 ) -> tuple[Array, Array]:
     """Thinnest film and length of the step of each journal at each point."""
-    places = np.array([(at, at + 1) for at in freedoms], dtype=int).reshape(-1, 2)
-    film = clearance_m - np.linalg.norm(stages[..., places], axis=-1)
-    return film, np.linalg.norm(step[..., places], axis=-1)
+    journal_freedoms = np.array([(at, at + 1) for at in freedoms], dtype=int).reshape(-1, 2)
+    film = clearance_m - np.linalg.norm(stages[..., journal_freedoms], axis=-1)
+    return film, np.linalg.norm(step[..., journal_freedoms], axis=-1)

@@ -65,13 +65,13 @@ def linear_film(bearing: JournalBearing, load_n: float, spin_rad_per_s: float) -
     radial, transverse = force(eccentricity)
     # The film's force stands at (π - its angle) from ξ; the load opposes it along +x.
     attitude = np.pi - np.arctan2(transverse, radial)
-    place = bearing.clearance_m * eccentricity * np.array([np.cos(attitude), np.sin(attitude)])
+    position = bearing.clearance_m * eccentricity * np.array([np.cos(attitude), np.sin(attitude)])
     stiffness, damping = (np.zeros((2, 2)) for _ in range(2))
     for axis in range(2):
         step = 1j * COMPLEX_STEP * np.eye(2)[axis]
         spin = np.array(spin_rad_per_s)
-        moved = positive_film_force(bearing, place + step, np.zeros(2), spin)
-        moving = positive_film_force(bearing, place + 0j, step, spin)
+        moved = positive_film_force(bearing, position + step, np.zeros(2), spin)
+        moving = positive_film_force(bearing, position + 0j, step, spin)
         stiffness[:, axis] = -moved.imag / COMPLEX_STEP
         damping[:, axis] = -moving.imag / COMPLEX_STEP
     return LinearFilm(eccentricity, stiffness, damping)

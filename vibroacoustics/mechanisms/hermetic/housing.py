@@ -78,9 +78,9 @@ def _rigid_motions(equations: ShaftEquations) -> Array:
     return np.concatenate(motions)
 
 
-def _wrench(mass_kg: float, place: Array, acceleration: Array, spin_moment: Array) -> Wrench:
+def _wrench(mass_kg: float, position: Array, acceleration: Array, spin_moment: Array) -> Wrench:
     force = -mass_kg * acceleration
-    return Wrench(force, np.cross(place, force, axis=0) + _axial(spin_moment))
+    return Wrench(force, np.cross(position, force, axis=0) + _axial(spin_moment))
 
 
 def _axial(moment: Array) -> Array:

@@ -69,7 +69,7 @@ def support_reaction(equations: ShaftEquations, angle: Array, states: Array) -> 
     forces in N and moments in N m on the crank, zero for free coordinates, shape (angles, 4)
     """
     reaction = -motion_of(equations, angle, states).shaft_load[..., :4]
-    reaction[..., [place for place in equations.shaft.free if place < 4]] = 0.0
+    reaction[..., [freedom for freedom in equations.shaft.free if freedom < 4]] = 0.0
     return reaction
 
 

@@ -42,7 +42,7 @@ def hermetic_revolution(machine: HermeticCompressor, speed_rpm: float, samples: 
         stride,
         speed_rpm,
         rotation,
-        {name: own.placed(machine.crank_frame) for name, own in wrenches.items()},
+        {name: wrench.placed(machine.crank_frame) for name, wrench in wrenches.items()},
         facts,
     )
 
@@ -65,13 +65,15 @@ def _bearing_facts(equations: ShaftEquations, solution: PeriodicSolution) -> Map
         return {"upper_bearing_largest_load_n": float(np.max(np.linalg.norm(held, axis=-1)))}
     facts: dict[str, float] = {}
     cycles = bearing_cycles(equations, solution.states)
-    for name, own in zip(("upper", "lower"), cycles, strict=False):  # one bearing in case II
-        thinnest = int(np.argmin(own.thinnest_film_m))
+    for name, bearing in zip(("upper", "lower"), cycles, strict=False):  # one bearing in case II
+        thinnest = int(np.argmin(bearing.thinnest_film_m))
         where = np.rad2deg(solution.mesh[thinnest])
         facts |= {
-            f"{name}_bearing_largest_load_n": float(np.max(np.linalg.norm(own.force_n, axis=-1))),
-            f"{name}_bearing_thinnest_film_um": 1e6 * float(own.thinnest_film_m[thinnest]),
+            f"{name}_bearing_largest_load_n": float(
+                np.max(np.linalg.norm(bearing.force_n, axis=-1))
+            ),
+            f"{name}_bearing_thinnest_film_um": 1e6 * float(bearing.thinnest_film_m[thinnest]),
             f"{name}_bearing_thinnest_film_at_deg": float(where),
-            f"{name}_bearing_highest_pressure_mpa": 1e-6 * float(own.highest_pressure_pa.max()),
+            f"{name}_bearing_highest_pressure_mpa": 1e-6 * float(bearing.highest_pressure_pa.max()),
         }
     return facts

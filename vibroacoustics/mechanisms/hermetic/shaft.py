@@ -150,9 +150,9 @@ class ShaftEquations:
             force[..., at : at + 2] += film
         coordinates, rates = self.crank_coordinates(angle, states)
         added, load = added_mass(self.machine, coordinates, rates, gas_force_n(self.machine, angle))
-        places, free = shaft.crank_places, list(shaft.free)
-        mass[..., places[:, None], places] += added[..., free, :][..., free]
-        force[..., places] += load[..., free]
+        crank_freedoms, free = shaft.crank_places, list(shaft.free)
+        mass[..., crank_freedoms[:, None], crank_freedoms] += added[..., free, :][..., free]
+        force[..., crank_freedoms] += load[..., free]
         return mass, force
 
     def accelerations(self, angle: Array, states: Array) -> Array:
@@ -197,9 +197,9 @@ class ShaftEquations:
         for at in self.shaft.bearing_freedoms:
             columns = [at, at + 1, freedoms + at, freedoms + at + 1, -1]
             local = states[..., columns].astype(complex)
-            for place, column in enumerate(columns):
+            for index, column in enumerate(columns):
                 moved = local.copy()
-                moved[..., place] += 1j * COMPLEX_STEP
+                moved[..., index] += 1j * COMPLEX_STEP
                 force = self.film(bearing, moved[..., :2], moved[..., 2:4], moved[..., 4])
                 tangent[..., at : at + 2, column] += force.imag / COMPLEX_STEP
 
@@ -207,12 +207,12 @@ class ShaftEquations:
         self, angle: Array, states: Array, accelerations: Array, tangent: Array
     ) -> None:
         shaft, gas = self.shaft, gas_force_n(self.machine, angle)
-        places, free = shaft.crank_places, list(shaft.free)
+        crank_freedoms, free = shaft.crank_places, list(shaft.free)
         coordinates, rates = (
             value.astype(complex) for value in self.crank_coordinates(angle, states)
         )
         second = np.zeros(coordinates.shape)
-        second[..., free] = accelerations[..., places]
+        second[..., free] = accelerations[..., crank_freedoms]
         moves = [(coordinates, at, at) for at in range(len(free) - 1)]  # but not θ
         moves += [(rates, at, shaft.freedoms + at) for at in range(len(free) - 1)]
         moves += [(rates, len(free) - 1, 2 * shaft.freedoms)]
@@ -220,4 +220,4 @@ class ShaftEquations:
             moved[..., free[at]] += 1j * COMPLEX_STEP
             load = mechanism_motion(self.machine, coordinates, rates, second, gas).shaft_load
             moved[..., free[at]] -= 1j * COMPLEX_STEP
-            tangent[..., places, column] += load[..., free].imag / COMPLEX_STEP
+            tangent[..., crank_freedoms, column] += load[..., free].imag / COMPLEX_STEP

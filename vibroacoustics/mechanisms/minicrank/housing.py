@@ -13,7 +13,9 @@ from .pin_forces import direction, turning_force
 def housing_wrenches(machine: MiniCrankMachine, cycle: MiniCrankCycle) -> dict[str, Wrench]:
     """-Σ m a and -d/dt of the angular momentum, by source, in the axes of the machine."""
     in_plane = {**_crankshaft(machine, cycle), "minicrank": (0.0, _minicranks(machine, cycle))}
-    return {name: own.placed(machine.plane(height)) for name, (height, own) in in_plane.items()}
+    return {
+        name: wrench.placed(machine.plane(height)) for name, (height, wrench) in in_plane.items()
+    }
 
 
 def counterweight_moments(machine: MiniCrankMachine) -> tuple[float, float]:

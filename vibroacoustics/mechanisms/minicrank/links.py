@@ -72,8 +72,8 @@ def why_open(links: Links) -> str | None:
     if links.is_parallelogram or margin >= SMALLEST_MARGIN_M:
         return None
     short = margin <= -SMALLEST_MARGIN_M
-    found = f"{-1e6 * margin:.4g} µm are missing" if short else "they only just reach"
-    return f"{links}: the links do not close over a revolution of the crankshaft; {found}"
+    reason = f"{-1e6 * margin:.4g} µm are missing" if short else "they only just reach"
+    return f"{links}: the links do not close over a revolution of the crankshaft; {reason}"
 
 
 def why_misfit(links: Links) -> str | None:

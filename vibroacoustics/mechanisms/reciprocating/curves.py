@@ -41,7 +41,7 @@ def reciprocating_curves(machine: ReciprocatingMachine, speed_rpm: float) -> Ite
     bores = machine.piston_and_rod.bore_m * BORE_RATIOS
     cycles = [steady_cycle(machine, float(bore), speed_rpm, CRANK_ANGLES) for bore in bores]
     bore = CurveAxis("bore", bores, "mm", "Bore")
-    shown = [cycles[place] for place in LINES]
+    shown = [cycles[index] for index in LINES]
     designs = CurveAxis("design", bores[list(LINES)], "mm", "Bore")
     yield from _over_crank_angle(shown, designs)
     yield from _friction(shown, designs)

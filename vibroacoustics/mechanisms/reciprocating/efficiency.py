@@ -69,12 +69,12 @@ def optimum_bore(
     where = f"bore_mm from {1e3 * lowest_m:g} to {1e3 * highest_m:g} mm"
     if not 0.0 < lowest_m < highest_m < np.inf:
         raise ParameterError(f"{where}: must be two rising, positive lengths")
-    found = minimize_scalar(
+    optimum = minimize_scalar(
         lambda bore: -steady_cycle(machine, float(bore), speed_rpm, samples).mechanical_efficiency,
         bounds=(lowest_m, highest_m),
         method="bounded",
         options={"xatol": 1e-5},
     )
-    if min(found.x - lowest_m, highest_m - found.x) < 1e-4:
+    if min(optimum.x - lowest_m, highest_m - optimum.x) < 1e-4:
         raise ParameterError(f"{where}: holds no optimum bore")
-    return float(found.x), -float(found.fun)
+    return float(optimum.x), -float(optimum.fun)

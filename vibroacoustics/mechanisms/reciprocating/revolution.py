@@ -28,7 +28,7 @@ def reciprocating_revolution(
         stride,
         speed_rpm,
         cycle.rotation,
-        {name: own.placed(machine.crank_frame) for name, own in wrenches.items()},
+        {name: wrench.placed(machine.crank_frame) for name, wrench in wrenches.items()},
         {
             "speed_fluctuation_percent": 100.0 * cycle.rotation.fluctuation_ratio,
             "mechanical_efficiency_percent": 100.0 * cycle.mechanical_efficiency,

@@ -25,8 +25,8 @@ class GaussPanels:
     @property
     def nodes(self) -> Array:
         """Shape (panel × node,)."""
-        places, _, _ = _rule()
-        return np.asarray(self.edges[:-1, None] + self._width * places).ravel()
+        positions, _, _ = _rule()
+        return np.asarray(self.edges[:-1, None] + self._width * positions).ravel()
 
     def integral(self, values: Array) -> float:
         """Over all panels.
@@ -44,9 +44,9 @@ class GaussPanels:
         ----------
         values : at the nodes
         """
-        _, whole, inner = _rule()
+        _, weights, inner = _rule()
         scaled = self._width * values.reshape(-1, NODES)
-        edges = np.concatenate([[0.0], np.cumsum(scaled @ whole)])
+        edges = np.concatenate([[0.0], np.cumsum(scaled @ weights)])
         return (edges[:-1, None] + scaled @ inner.T).ravel(), edges
 
     @property
@@ -57,9 +57,9 @@ class GaussPanels:
 def _rule() -> tuple[Array, Array, Array]:
     """Nodes on 0 to 1, weights over all of it, and from zero to each node (node, node)."""
     points, weights = np.polynomial.legendre.leggauss(NODES)
-    places = 0.5 * (points + 1.0)
+    positions = 0.5 * (points + 1.0)
     powers = np.arange(NODES)
-    # Integrates every power exactly: inner @ place^k = place^(k+1) / (k+1).
-    vandermonde = places[:, None] ** powers
-    integrals = places[:, None] ** (powers + 1) / (powers + 1)
-    return places, 0.5 * weights, integrals @ np.linalg.inv(vandermonde)
+    # Integrates every power exactly: inner @ position^k = position^(k+1) / (k+1).
+    vandermonde = positions[:, None] ** powers
+    integrals = positions[:, None] ** (powers + 1) / (powers + 1)
+    return positions, 0.5 * weights, integrals @ np.linalg.inv(vandermonde)

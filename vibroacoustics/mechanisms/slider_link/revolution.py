@@ -34,14 +34,14 @@ def slider_link_revolution(
     speed_rpm : mean over time
     samples : crank angles of the revolution
     """
-    whole = 4 // gcd(samples, 4)  # the contacts change at the quarters of a revolution
-    stride = whole * -(-SAMPLES // (whole * samples))
+    multiple = 4 // gcd(samples, 4)  # the contacts change at the quarters of a revolution
+    stride = multiple * -(-SAMPLES // (multiple * samples))
     frequency = shaft_frequency_hz(speed_rpm)
     cycle = steady_motion(machine, 2.0 * pi * frequency, samples * stride)
     rotation = Rotation(cycle.state.velocity, cycle.state.acceleration)
     wrenches = {
-        name: own.placed(machine.crank_frame)
-        for name, own in unbalance(machine, cycle.state).items()
+        name: wrench.placed(machine.crank_frame)
+        for name, wrench in unbalance(machine, cycle.state).items()
     }
     power = {name: work * frequency for name, work in cycle.work_j.items()}
     facts = {

@@ -55,8 +55,8 @@ def read(request: Request) -> Recorded:
         rate = even_rate_hz(table[:, time_column] * time_factor(head.units[time_column]), request)
     if rate is None:
         raise ParameterError("has no column 'time [s]': add one or give sample_rate_hz")
-    columns = [place for place in range(len(head.names)) if place != time_column]
-    columns = [columns[place] for place in request.chosen([head.names[c] for c in columns])]
+    columns = [column for column in range(len(head.names)) if column != time_column]
+    columns = [columns[index] for index in request.chosen([head.names[c] for c in columns])]
     return Recorded(
         names=[head.names[column] for column in columns],
         units=[head.units[column] for column in columns],
@@ -69,11 +69,11 @@ def _read_head(file: BinaryIO) -> _Head:
     lines = [_text(line) for line in islice(_lines(file), MAXIMUM_HEAD_LINES)]
     for separator in SEPARATORS:
         rows = [_fields(line, separator) for line in lines]
-        for place, fields in enumerate(rows):
+        for number, fields in enumerate(rows):
             if (len(fields) > 1 or separator == ",") and _are_numbers(fields, separator):
-                names, units = _parse_names(rows[:place], len(fields))
-                is_comma = separator != "," and any("," in line for line in lines[place:])
-                return _Head(names, units, separator, is_comma, place)
+                names, units = _parse_names(rows[:number], len(fields))
+                is_comma = separator != "," and any("," in line for line in lines[number:])
+                return _Head(names, units, separator, is_comma, number)
     raise StorageError(f"has no row of numbers in its first {len(lines)} lines")
 
 
@@ -130,22 +130,24 @@ def _is_unit(field: str) -> bool:
 
 def _split_name(field: str) -> tuple[str, str]:
     """Name and unit; round brackets count as part of the name where they hold no unit."""
-    found = _BRACKETS.fullmatch(field)
-    if found is None or (found["square"] is None and not _is_unit(found["round"])):
+    match = _BRACKETS.fullmatch(field)
+    if match is None or (match["square"] is None and not _is_unit(match["round"])):
         return field, ""
-    return found["name"], (found["square"] or found["round"] or "").strip()
+    return match["name"], (match["square"] or match["round"] or "").strip()
 
 
 def _time_column(head: _Head) -> int | None:
     """The column named time, or the one whose unit is that of a time."""
-    found = [
-        place
-        for place, (name, unit) in enumerate(zip(head.names, head.units, strict=True))
+    time_columns = [
+        column
+        for column, (name, unit) in enumerate(zip(head.names, head.units, strict=True))
         if name.lower() in _TIME_NAMES or unit in TIME_UNITS
     ]
-    if len(found) > 1:
-        raise ParameterError(f"columns {[head.names[place] for place in found]} are all times")
-    return found[0] if found else None
+    if len(time_columns) > 1:
+        raise ParameterError(
+            f"columns {[head.names[column] for column in time_columns]} are all times"
+        )
+    return time_columns[0] if time_columns else None
 
 
 def _read_numbers(path: Path, head: _Head) -> Samples:

@@ -35,22 +35,22 @@ def _read_hdf5(request: Request) -> Recorded:
     import h5py
 
     with h5py.File(request.path, "r") as file:
-        arrays = [named_dataset(name, found) for name, found in datasets(file)]
+        arrays = [named_dataset(name, dataset) for name, dataset in datasets(file)]
         return recorded(arrays, _plain(file.attrs), request)
 
 
 def datasets(file: Any) -> list[tuple[str, Any]]:
     """Path and dataset of all that an HDF5 file holds itself; links to others are not followed."""
-    found: list[tuple[str, Any]] = []
+    collected: list[tuple[str, Any]] = []
 
     def collect(name: str, item: Any) -> None:
-        if len(found) == MAXIMUM_DATASETS:
+        if len(collected) == MAXIMUM_DATASETS:
             raise StorageError(f"holds more than {MAXIMUM_DATASETS} datasets")
         if hasattr(item, "shape"):
-            found.append((name, item))
+            collected.append((name, item))
 
     file.visititems(collect)
-    return found
+    return collected
 
 
 def named_dataset(name: str, dataset: Any) -> NamedArray:

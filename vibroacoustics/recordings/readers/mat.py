@@ -55,9 +55,9 @@ def _read_hdf5(request: Request) -> Recorded:
 
     with h5py.File(request.path, "r") as file:
         arrays = [
-            named_dataset(name, found)
-            for name, found in datasets(file)
-            if "/" not in name and as_text(found.attrs.get("MATLAB_class", "")) in _NUMBERS
+            named_dataset(name, dataset)
+            for name, dataset in datasets(file)
+            if "/" not in name and as_text(dataset.attrs.get("MATLAB_class", "")) in _NUMBERS
         ]
         _check_numbers(arrays, [name for name in file if not name.startswith("#")])
         return recorded(arrays, {}, request)

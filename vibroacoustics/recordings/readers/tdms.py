@@ -25,14 +25,16 @@ def read(request: Request) -> Recorded:
 
     with TdmsFile.open(request.path) as file:
         _check_whole(file)
-        found = [channel for group in file.groups() for channel in group.channels()]
-        found = [channel for channel in found if channel.dtype.kind in "iuf" and len(channel)]
-        has_groups = len({channel.group_name for channel in found}) > 1
-        names = [f"{c.group_name}/{c.name}" if has_groups else c.name for c in found]
+        candidates = [channel for group in file.groups() for channel in group.channels()]
+        candidates = [
+            channel for channel in candidates if channel.dtype.kind in "iuf" and len(channel)
+        ]
+        has_groups = len({channel.group_name for channel in candidates}) > 1
+        names = [f"{c.group_name}/{c.name}" if has_groups else c.name for c in candidates]
         chosen = request.chosen(names)
         if not chosen:
             raise ParameterError("holds no channel of numbers")
-        names, channels = [names[c] for c in chosen], [found[c] for c in chosen]
+        names, channels = [names[c] for c in chosen], [candidates[c] for c in chosen]
         rate = _check_alike(names, channels, request)
         _check_claims(channels, request)
         return Recorded(
@@ -56,13 +58,15 @@ def _check_whole(file: Any) -> None:
 
 def _check_alike(names: list[str], channels: list[Any], request: Request) -> float:
     """The sample rate that the channels share; they share their length too."""
-    told, kinds = [], set()
+    descriptions, kinds = [], set()
     for name, channel in zip(names, channels, strict=True):
         rate = request.sample_rate_hz or _rate_hz(name, channel)
         kinds.add((len(channel), rate))
-        told.append(f"{name} {len(channel)} samples at {rate:.9g} Hz")
+        descriptions.append(f"{name} {len(channel)} samples at {rate:.9g} Hz")
     if len(kinds) > 1:
-        raise ParameterError(f"channels differ ({listed(told)}): choose some that are alike")
+        raise ParameterError(
+            f"channels differ ({listed(descriptions)}): choose some that are alike"
+        )
     return kinds.pop()[1]
 
 

@@ -38,10 +38,10 @@ def read(request: Request) -> Recorded:
 
     labels = _ordinate_labels(request)
     file = pyuff.UFF(str(request.path))
-    places = [place for place, kind in enumerate(file.get_set_types()) if kind == 58]
-    if not places or len(places) != len(labels):
-        raise StorageError(f"{len(places)} whole datasets 58, {len(labels)} begun: truncated")
-    headers = [file.read_sets(place, header_only=True) for place in places]
+    indices = [index for index, kind in enumerate(file.get_set_types()) if kind == 58]
+    if not indices or len(indices) != len(labels):
+        raise StorageError(f"{len(indices)} whole datasets 58, {len(labels)} begun: truncated")
+    headers = [file.read_sets(index, header_only=True) for index in indices]
     responses = [n for n, header in enumerate(headers) if header["func_type"] == TIME_RESPONSE]
     if not responses:
         kinds = sorted({header["func_type"] for header in headers})
@@ -49,11 +49,11 @@ def read(request: Request) -> Recorded:
     names = numbered([_name(headers[n], labels[n][0]) for n in responses])
     chosen = request.chosen(names)
     check_size(len(chosen), max(headers[responses[c]]["num_pts"] for c in chosen))
-    sets = [_whole_set(file, places[responses[c]], names[c]) for c in chosen]
+    sets = [_whole_set(file, indices[responses[c]], names[c]) for c in chosen]
     return Recorded(
         names=[names[c] for c in chosen],
         units=[labels[responses[c]][1] for c in chosen],
-        samples=[found["data"] for found in sets],
+        samples=[dataset["data"] for dataset in sets],
         sample_rate_hz=_common_rate_hz(sets, [names[c] for c in chosen], request),
         start_time=_given(sets[0]["id3"]),
     )
@@ -65,7 +65,7 @@ def _ordinate_labels(request: Request) -> list[tuple[str, str]]:
         request.path.open("rb") as file,
         mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content,
     ):
-        records = [found["record"] for found in _RECORD_9.finditer(content)]
+        records = [match["record"] for match in _RECORD_9.finditer(content)]
     texts = [_text(record) for record in records]
     return [(_given(text[_LABEL]), _given(text[_UNIT])) for text in texts]
 
@@ -87,29 +87,30 @@ def _name(header: Mapping[str, Any], label: str) -> str:
     return _given(header["id1"]) or _given(header["rsp_ent_name"]) or label or "channel"
 
 
-def _whole_set(file: Any, place: int, name: str) -> Mapping[str, Any]:
-    found: Mapping[str, Any] = file.read_sets(place)
-    if len(found["data"]) != found["num_pts"]:
+def _whole_set(file: Any, index: int, name: str) -> Mapping[str, Any]:
+    dataset: Mapping[str, Any] = file.read_sets(index)
+    if len(dataset["data"]) != dataset["num_pts"]:
         raise StorageError(
-            f"channel {name!r}: {len(found['data'])} samples, its header says {found['num_pts']}"
+            f"channel {name!r}: {len(dataset['data'])} samples, its header says "
+            f"{dataset['num_pts']}"
         )
-    return found
+    return dataset
 
 
 def _common_rate_hz(sets: list[Mapping[str, Any]], names: list[str], request: Request) -> float:
-    rates = {name: _rate_hz(found, request) for name, found in zip(names, sets, strict=True)}
+    rates = {name: _rate_hz(dataset, request) for name, dataset in zip(names, sets, strict=True)}
     if len(set(rates.values())) > 1:
-        told = ", ".join(f"{name} {rate:.9g} Hz" for name, rate in rates.items())
-        raise ParameterError(f"channels differ in sample rate ({told}): choose some of one rate")
+        listing = ", ".join(f"{name} {rate:.9g} Hz" for name, rate in rates.items())
+        raise ParameterError(f"channels differ in sample rate ({listing}): choose some of one rate")
     return rates[names[0]]
 
 
-def _rate_hz(found: Mapping[str, Any], request: Request) -> float:
-    if found["abscissa_spacing"] != EVEN_SPACING:
-        return even_rate_hz(found["x"], request)
-    if request.sample_rate_hz is None and not found["abscissa_inc"] > 0.0:
-        raise ParameterError(f"abscissa increment {found['abscissa_inc']} s: must be above zero")
-    return request.sample_rate_hz or 1.0 / found["abscissa_inc"]
+def _rate_hz(dataset: Mapping[str, Any], request: Request) -> float:
+    if dataset["abscissa_spacing"] != EVEN_SPACING:
+        return even_rate_hz(dataset["x"], request)
+    if request.sample_rate_hz is None and not dataset["abscissa_inc"] > 0.0:
+        raise ParameterError(f"abscissa increment {dataset['abscissa_inc']} s: must be above zero")
+    return request.sample_rate_hz or 1.0 / dataset["abscissa_inc"]
 
 
 register(Reader("uff", (".uff", ".unv"), "UFF", read, package="pyuff"))

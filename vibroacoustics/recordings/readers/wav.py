@@ -31,9 +31,9 @@ def read(request: Request) -> Recorded:
     names = [f"channel {number}" for number in range(1, frames.shape[1] + 1)]
     chosen = request.chosen(names)
     return Recorded(
-        names=[names[place] for place in chosen],
+        names=[names[column] for column in chosen],
         units=[""] * len(chosen),
-        samples=[_full_scale_fraction(frames[:, place]) for place in chosen],
+        samples=[_full_scale_fraction(frames[:, column]) for column in chosen],
         sample_rate_hz=request.sample_rate_hz or float(file_rate),
         full_scale=stored.dtype.kind in "iu",
     )

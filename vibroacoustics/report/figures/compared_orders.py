@@ -59,24 +59,26 @@ def compared_orders(compared: xr.Dataset, channel: str | None = None) -> Figure:
     >>> compared = va.open_results("compared_orders.nc")
     >>> va.plot.compared_orders(compared).savefig("compared_orders.png")
     """
-    own = compared.sel(channel=chosen(compared, "channel", channel))
-    by_speed = own.sizes["speed"] <= _MOST_PANELS
+    of_channel = compared.sel(channel=chosen(compared, "channel", channel))
+    by_speed = of_channel.sizes["speed"] <= _MOST_PANELS
     across, within = ("speed", "order") if by_speed else ("order", "speed")
-    places = own[across].values[:_MOST_PANELS]
-    title = shortened(str(own["channel"].item()))
-    labels = (own.attrs["first"], own.attrs["second"])
-    size = xr.concat([abs(own["channel_order"]), abs(own["compared_order"])], "result")
+    panel_values = of_channel[across].values[:_MOST_PANELS]
+    title = shortened(str(of_channel["channel"].item()))
+    labels = (of_channel.attrs["first"], of_channel.attrs["second"])
+    size = xr.concat(
+        [abs(of_channel["channel_order"]), abs(of_channel["compared_order"])], "result"
+    )
     largest = float(size.max())
     drawn = size.where(size > _QUIETEST * largest)
-    has_limits = "order_limit" in own and own["order_limit"].count()
-    limits = np.sqrt(2.0) * own["order_limit"] if has_limits else None
+    has_limits = "order_limit" in of_channel and of_channel["order_limit"].count()
+    limits = np.sqrt(2.0) * of_channel["order_limit"] if has_limits else None
     sizes = np.concatenate([drawn.values.ravel(), [] if limits is None else limits.values.ravel()])
     bottom, top = 0.5 * float(np.nanmin(sizes)), 2.0 * float(np.nanmax(sizes))
 
     def paint(panels: Sequence[Axes]) -> None:
-        for axes, place in zip(panels, places, strict=True):
+        for axes, value in zip(panels, panel_values, strict=True):
             for shown, label, colour, marker, width in zip(
-                drawn.sel({across: place}), labels, (COLOURS[3], COLOURS[1]), "ox", (8, 6),
+                drawn.sel({across: value}), labels, (COLOURS[3], COLOURS[1]), "ox", (8, 6),
                 strict=True,
             ):  # fmt: skip
                 if by_speed:
@@ -87,20 +89,20 @@ def compared_orders(compared: xr.Dataset, channel: str | None = None) -> Figure:
                 )  # fmt: skip
             if limits is not None:
                 axes.semilogy(
-                    limits[within], limits.sel({across: place}), "_", color=COLOURS[5],
+                    limits[within], limits.sel({across: value}), "_", color=COLOURS[5],
                     label="limit, as a peak", markersize=12,
                 )  # fmt: skip
-            where = f"{place:.0f} rpm" if by_speed else f"order {place:g}"
+            where = f"{value:.0f} rpm" if by_speed else f"order {value:g}"
             axes.set_title(f"{title}, {where}", loc="left")
             axes.set_ylim(bottom, top)
-            axes.set_ylabel(f"Peak, {own['channel_unit'].item()}")
+            axes.set_ylabel(f"Peak, {of_channel['channel_unit'].item()}")
         panels[-1].set_xlabel("Shaft order" if by_speed else "Speed, rpm")
         if by_speed:
-            panels[-1].set_xlim(0.0, float(own["order"].max()) + 0.5)
+            panels[-1].set_xlim(0.0, float(of_channel["order"].max()) + 0.5)
             whole_number_ticks(panels[-1])
         legend_below(panels[0], 1)
 
-    return draw(len(places), 2.2, paint, legend_rows=2 + (limits is not None), sharex=True)
+    return draw(len(panel_values), 2.2, paint, legend_rows=2 + (limits is not None), sharex=True)
 
 
 def _picture(compared: xr.Dataset, channel: str, name: str) -> Picture:

@@ -67,7 +67,7 @@ def curves(dataset: xr.Dataset, name: str) -> Figure:
     >>> va.plot.curves(inner, "ring_force").savefig("ring_force.png")
     """
     if name not in dataset.data_vars or "read_in" not in dataset[name].attrs:
-        known = [str(found) for found, own in dataset.items() if "read_in" in own.attrs]
+        known = [str(key) for key, variable in dataset.items() if "read_in" in variable.attrs]
         raise ParameterError(f"curve {name}: unknown; allowed {', '.join(known) or 'none'}")
     curve = dataset[name]
     orbit = curve.attrs["picture"] == "orbit"
@@ -117,12 +117,14 @@ def _on_lines(label: str) -> str:
 
 
 def _paint_bars(axes: Axes, words: list[str], values: Array) -> None:
-    places = np.arange(len(words))[::-1]
-    axes.barh(places, values, height=0.5, color=COLOURS[3])
-    for place, value in zip(places, values, strict=True):
+    positions = np.arange(len(words))[::-1]
+    axes.barh(positions, values, height=0.5, color=COLOURS[3])
+    for position, value in zip(positions, values, strict=True):
         shown_value = f"{float(f'{value:.4g}'):g}"
-        axes.annotate(shown_value, (value, place), (4, 0), textcoords="offset points", va="center")
-    axes.set_yticks(places, [wrap(word, 24) for word in words])
+        axes.annotate(
+            shown_value, (value, position), (4, 0), textcoords="offset points", va="center"
+        )
+    axes.set_yticks(positions, [wrap(word, 24) for word in words])
     axes.set_xlim(right=1.2 * float(np.max(values)))
     axes.grid(visible=False, axis="y")
 
@@ -134,9 +136,14 @@ def _paint_order(axes: Axes, speed_rpm: Array, order: float) -> None:
     axes.plot(speed_rpm, frequency, color="#888888", linewidth=1.0, linestyle="--")
     end = int(np.flatnonzero(frequency <= LABELLED[1] * top)[-1])
     if frequency[end] > LABELLED[0] * top:
-        place = (speed_rpm[end], frequency[end])
+        end_point = (speed_rpm[end], frequency[end])
         axes.annotate(
-            f"{order:g}×", place, (-6, 4), textcoords="offset points", ha="right", color="#555555"
+            f"{order:g}×",
+            end_point,
+            (-6, 4),
+            textcoords="offset points",
+            ha="right",
+            color="#555555",
         )
     axes.set_ylim(0.0, top)
 

@@ -138,15 +138,15 @@ def level_maps(panels: dict[str, Array], plane: Plane, silent: Sequence[str]) ->
     def paint(figure: Figure) -> None:
         grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
         for row, axes_row in enumerate(grid):
-            own = titles[row * columns : (row + 1) * columns]
-            loud = [panels[title] for title in own if title not in silent]
+            row_titles = titles[row * columns : (row + 1) * columns]
+            loud = [panels[title] for title in row_titles if title not in silent]
             if not loud:
                 edges = np.array([0.0, 1.0])
             else:
                 edges = colour_edges(float(np.nanmax(loud)), float(np.nanmin(loud)))
-            for axes, title in zip(axes_row, own, strict=False):
+            for axes, title in zip(axes_row, row_titles, strict=False):
                 _map_panel(axes, panels[title], plane, edges, title, title in silent)
-            for axes in axes_row[len(own) :]:
+            for axes in axes_row[len(row_titles) :]:
                 axes.set_axis_off()
             if loud:
                 _colour_bar(figure, list(axes_row), edges)
@@ -197,7 +197,7 @@ def _colour_bar(figure: Figure, axes: list[Any], edges: Array) -> None:
 
 def _plane(radiated: xr.Dataset) -> Plane:
     """The two axes along which a map extends; the third is constant."""
-    places = {name: radiated[f"map_{name}"].values for name in "xyz"}
-    normal = min(places, key=lambda name: float(np.ptp(places[name])))
+    coordinates = {name: radiated[f"map_{name}"].values for name in "xyz"}
+    normal = min(coordinates, key=lambda name: float(np.ptp(coordinates[name])))
     across, up = [name for name in "xyz" if name != normal]
-    return Plane(places[across], places[up], f"{across}, m", f"{up}, m")
+    return Plane(coordinates[across], coordinates[up], f"{across}, m", f"{up}, m")

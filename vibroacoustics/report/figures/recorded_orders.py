@@ -53,13 +53,13 @@ def _of_channel(orders: xr.Dataset, channel: str | None) -> tuple[xr.Dataset, st
     return orders.sel(channel=name), shortened(str(name))
 
 
-def _unit(own: xr.Dataset) -> str:
-    return str(own["channel_unit"].item())
+def _unit(of_channel: xr.Dataset) -> str:
+    return str(of_channel["channel_unit"].item())
 
 
-def _without_offset(lines: xr.DataArray, own: xr.Dataset) -> xr.DataArray:
+def _without_offset(lines: xr.DataArray, of_channel: xr.Dataset) -> xr.DataArray:
     """Lines above the main lobe of an offset, which is no order."""
-    return lines.sel(map_order=lines["map_order"] > 0.5 * own.attrs["band_order"])
+    return lines.sel(map_order=lines["map_order"] > 0.5 * of_channel.attrs["band_order"])
 
 
 def _logarithmic(axes: Axes, shown: xr.DataArray, limits: xr.DataArray | None = None) -> None:
@@ -73,14 +73,18 @@ def _logarithmic(axes: Axes, shown: xr.DataArray, limits: xr.DataArray | None = 
         axes.set_ylim(bottom=min([bottom, *0.5 * allowed]), top=2.0 * max([highest, *allowed]))
 
 
-def _limits(own: xr.Dataset) -> xr.DataArray | None:
+def _limits(of_channel: xr.Dataset) -> xr.DataArray | None:
     """Limits of a channel (speed, order), where it has any."""
-    return own["order_limit"] if "order_limit" in own and own["order_limit"].count() else None
+    return (
+        of_channel["order_limit"]
+        if "order_limit" in of_channel and of_channel["order_limit"].count()
+        else None
+    )
 
 
-def _steady_limits(own: xr.Dataset) -> xr.DataArray | None:
+def _steady_limits(of_channel: xr.Dataset) -> xr.DataArray | None:
     """Limits by order that hold at every speed alike: a mean spectrum is of all speeds."""
-    limits = _limits(own)
+    limits = _limits(of_channel)
     if limits is None:
         return None
     alike = limits.max("speed", skipna=False) == limits.min("speed", skipna=False)
@@ -88,12 +92,12 @@ def _steady_limits(own: xr.Dataset) -> xr.DataArray | None:
     return steady if steady.size else None
 
 
-def _limits_by_block(own: xr.Dataset) -> xr.DataArray | None:
+def _limits_by_block(of_channel: xr.Dataset) -> xr.DataArray | None:
     """Limits of each block of revolutions: those of its operating point."""
-    limits = _limits(own)
+    limits = _limits(of_channel)
     if limits is None:
         return None
-    return limits.sel(speed=own["block_speed"].sortby("block_speed"), method="nearest")
+    return limits.sel(speed=of_channel["block_speed"].sortby("block_speed"), method="nearest")
 
 
 def _draw_steady_limits(axes: Axes, limits: xr.DataArray, band_order: float) -> None:
@@ -127,19 +131,19 @@ def order_spectrum(orders: xr.Dataset, channel: str | None = None) -> Figure:
     >>> orders = va.open_results("orders.nc")
     >>> va.plot.order_spectrum(orders).savefig("order_spectrum.png")
     """
-    own, title = _of_channel(orders, channel)
-    spectrum = _without_offset(own["mean_order_spectrum"], own)
-    limits = _steady_limits(own)
+    of_channel, title = _of_channel(orders, channel)
+    spectrum = _without_offset(of_channel["mean_order_spectrum"], of_channel)
+    limits = _steady_limits(of_channel)
 
     def paint(panels: Sequence[Axes]) -> None:
         (axes,) = panels
         axes.plot(spectrum["map_order"], spectrum)
         _logarithmic(axes, spectrum, limits)
         if limits is not None:
-            _draw_steady_limits(axes, limits, own.attrs["band_order"])
+            _draw_steady_limits(axes, limits, of_channel.attrs["band_order"])
         whole_number_ticks(axes)
         axes.set_xlabel("Shaft order")
-        axes.set_ylabel(f"RMS of a line, {_unit(own)}")
+        axes.set_ylabel(f"RMS of a line, {_unit(of_channel)}")
         axes.set_title(title, loc="left")
 
     return draw(1, 2.6, paint, 0 if limits is None else 1)
@@ -177,10 +181,10 @@ def orders_over_speed(orders: xr.Dataset, channel: str | None = None) -> Figure:
     >>> orders = va.open_results("orders.nc")
     >>> va.plot.orders_over_speed(orders).savefig("orders_over_speed.png")
     """
-    own, title = _of_channel(orders, channel)
-    cuts = own["block_order_rms"].sortby("block_speed")
+    of_channel, title = _of_channel(orders, channel)
+    cuts = of_channel["block_order_rms"].sortby("block_speed")
     numbers = cuts["order"].values
-    limits = _limits_by_block(own)
+    limits = _limits_by_block(of_channel)
 
     def paint(panels: Sequence[Axes]) -> None:
         (axes,) = panels
@@ -193,7 +197,7 @@ def orders_over_speed(orders: xr.Dataset, channel: str | None = None) -> Figure:
                 )  # fmt: skip
         _logarithmic(axes, cuts, limits)
         axes.set_xlabel("Speed, rpm")
-        axes.set_ylabel(f"RMS in the order's band, {_unit(own)}")
+        axes.set_ylabel(f"RMS in the order's band, {_unit(of_channel)}")
         axes.set_title(title, loc="left")
         legend_below(axes, 4)
 
@@ -229,9 +233,9 @@ def order_map(orders: xr.Dataset, channel: str | None = None) -> Figure:
     >>> orders = va.open_results("orders.nc")
     >>> va.plot.order_map(orders).savefig("order_map.png")
     """
-    own, title = _of_channel(orders, channel)
+    of_channel, title = _of_channel(orders, channel)
     is_run_up = _is_run_up(orders)
-    spectra = _without_offset(own["order_map"].transpose("block", "map_order"), own)
+    spectra = _without_offset(of_channel["order_map"].transpose("block", "map_order"), of_channel)
     spectra = spectra.sortby("block_speed") if is_run_up else spectra
     level = level_of_amplitude(np.abs(spectra.values))
     top = float(level.max())
@@ -249,7 +253,7 @@ def order_map(orders: xr.Dataset, channel: str | None = None) -> Figure:
         )
         figure = axes.get_figure()
         if figure is not None:
-            figure.colorbar(shown, ax=axes, label=f"dB re 1 {_unit(own)} peak")
+            figure.colorbar(shown, ax=axes, label=f"dB re 1 {_unit(of_channel)} peak")
         axes.grid(visible=False)
         whole_number_ticks(axes)
         axes.set_xlabel("Shaft order")

@@ -178,13 +178,13 @@ def _changing_options(results: xr.Dataset) -> list[str]:
     level = _inner_level(results)
     reference = level.sel(option=REFERENCE_OPTION)
     loudest = reference.max("band")
-    found = []
+    changing = []
     for option in balancers(results):
-        own = level.sel(option=option)
-        loud = (own > loudest - WITHIN_DB) | (reference > loudest - WITHIN_DB)
-        if (abs(own - reference).where(loud, 0.0) > HEARD_DB).any():
-            found.append(option)
-    return found
+        of_option = level.sel(option=option)
+        loud = (of_option > loudest - WITHIN_DB) | (reference > loudest - WITHIN_DB)
+        if (abs(of_option - reference).where(loud, 0.0) > HEARD_DB).any():
+            changing.append(option)
+    return changing
 
 
 def _inner_level(results: xr.Dataset) -> xr.DataArray:

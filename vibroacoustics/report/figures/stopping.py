@@ -60,8 +60,8 @@ def stopping(results: xr.Dataset) -> Figure:
     def paint(panels: Sequence[Axes]) -> None:
         for axes, (label, over_time) in zip(panels, curves.items(), strict=True):
             for speed, look in zip(names, line_looks(len(names)), strict=True):
-                own = over_time.sel(speed=speed)
-                axes.plot(milliseconds, own, label=f"{speed:g} rpm", **look)
+                at_speed = over_time.sel(speed=speed)
+                axes.plot(milliseconds, at_speed, label=f"{speed:g} rpm", **look)
             axes.set_ylabel(label)
         top = float(level.max())
         panels[-1].set_ylim(top - LEVEL_RANGE_DB, top + 3.0)

@@ -21,8 +21,8 @@ def _blocks(results: xr.Dataset) -> list[Block]:
 
 def _options(results: xr.Dataset) -> list[Block]:
     entries = tuple(
-        Definition(own.option, own.judgement, " ".join(own.sentences))
-        for own in option_verdicts(results)
+        Definition(of_option.option, of_option.judgement, " ".join(of_option.sentences))
+        for of_option in option_verdicts(results)
     )
     title = Heading("Option by option, against no balancer")
     return [title, Definitions(entries)] if entries else []

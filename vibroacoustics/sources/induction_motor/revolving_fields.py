@@ -64,8 +64,10 @@ def operating_point(motor: CapacitorMotor, slip: float) -> OperatingPoint:
     auxiliary = motor.auxiliary_resistance_ohm + 1j * motor.auxiliary_leakage_ohm
     auxiliary += 1.0 / (1j * motor.line_rad_per_s * motor.capacitance_f)
     ratio = motor.turns_ratio
-    own, mutual = 0.5 * (forward + backward), 0.5j * ratio * (forward - backward)
-    circuit = np.array([[main + own, -mutual], [mutual, auxiliary + ratio**2 * own]])
+    self_impedance, mutual = 0.5 * (forward + backward), 0.5j * ratio * (forward - backward)
+    circuit = np.array(
+        [[main + self_impedance, -mutual], [mutual, auxiliary + ratio**2 * self_impedance]]
+    )
     voltage = np.sqrt(2.0) * motor.line_voltage_v
     i_main, i_auxiliary = np.linalg.solve(circuit, np.full(2, voltage, dtype=complex))
     i_forward = 0.5 * (i_main - 1j * ratio * i_auxiliary)
@@ -87,13 +89,13 @@ def operating_point(motor: CapacitorMotor, slip: float) -> OperatingPoint:
 
 def breakdown_slip(motor: CapacitorMotor) -> float:
     """Slip of the largest mean torque on the running part of the curve."""
-    found = minimize_scalar(
+    breakdown = minimize_scalar(
         lambda slip: -operating_point(motor, slip).torque_n_m,
         bounds=(0.0, LARGEST_RUNNING_SLIP),
         method="bounded",
         options={"xatol": 1e-9},
     )
-    return float(found.x)
+    return float(breakdown.x)
 
 
 def point_at_torque(motor: CapacitorMotor, torque_n_m: float) -> OperatingPoint:

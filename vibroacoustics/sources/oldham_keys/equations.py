@@ -51,9 +51,9 @@ def spline_value(spline: Array, angle: float) -> float:
     """Value of a periodic cubic spline of equal pieces over one turn."""
     pieces = spline.shape[1]
     turn = angle / (2.0 * np.pi)
-    place = (turn - np.floor(turn)) * pieces
-    piece = min(int(place), pieces - 1)
-    step = (place - piece) * (2.0 * np.pi / pieces)
+    position = (turn - np.floor(turn)) * pieces
+    piece = min(int(position), pieces - 1)
+    step = (position - piece) * (2.0 * np.pi / pieces)
     value = spline[0, piece]
     for power in range(1, 4):
         value = value * step + spline[power, piece]

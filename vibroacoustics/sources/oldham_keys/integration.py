@@ -102,7 +102,7 @@ def first_event(
     contacts : before the step, shape (2, 4)
     clearance : m
     """
-    found, earliest, face = -1, 2.0, 0.0
+    first_key, earliest, face = -1, 2.0, 0.0
     for key in range(KEYS):
         side = contacts[SIDE, key]
         towards = side if side != 0.0 else np.sign(after[SHIFT, key])
@@ -117,8 +117,8 @@ def first_event(
             towards * after[RATE, key] * step,
         )
         if share < earliest:
-            found, earliest, face = key, share, towards
-    return found, earliest, face
+            first_key, earliest, face = key, share, towards
+    return first_key, earliest, face
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")

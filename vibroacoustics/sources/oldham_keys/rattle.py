@@ -133,11 +133,11 @@ def steady_key_forces(
     samples = 2 ** int(np.ceil(np.log2(SAMPLE_RATE_HZ * period)))
     steps = _steps(period / samples, greatest_step_s(coupling))
     settled, all_samples = SETTLING_REVOLUTIONS * samples, revolutions * samples
-    found = integrate(
+    integrated = integrate(
         np.zeros(2 * COORDINATES), settled + all_samples, period / samples, steps, coupling
     )
     # An interval's end is its sample: the one before the first kept is at crank angle zero.
-    kept = [np.ascontiguousarray(rows[settled - 1 : -1].T) for rows in found[1:]]
+    kept = [np.ascontiguousarray(rows[settled - 1 : -1].T) for rows in integrated[1:]]
     if not all(np.all(np.isfinite(rows)) for rows in kept):
         raise SolverError(f"Oldham keys at {speed_rpm:g} rpm: the integration diverged")
     return KeyForces(speed_rpm, revolutions, *kept)

@@ -88,6 +88,6 @@ def band_rms(
     frequency_hz, density : from `spectral_density`
     lowest_hz, highest_hz : the band, its upper edge left out
     """
-    inside = (frequency_hz >= lowest_hz) & (frequency_hz < highest_hz)
-    own = np.einsum("iif->if", density).real[:, inside]
-    return np.asarray(np.sqrt(own.sum(axis=-1) * (frequency_hz[1] - frequency_hz[0])))
+    in_band = (frequency_hz >= lowest_hz) & (frequency_hz < highest_hz)
+    auto_density = np.einsum("iif->if", density).real[:, in_band]
+    return np.asarray(np.sqrt(auto_density.sum(axis=-1) * (frequency_hz[1] - frequency_hz[0])))

@@ -88,9 +88,11 @@ def scroll_gas_cycle(wraps: ScrollWraps, gas: ScrollGas, crank_angle: Array) -> 
     turn = 2.0 * np.pi
     count = contact_count(wraps, gas.equalisation_angle_rad)
     since_closing = np.mod(crank_angle - wraps.closing_crank_angle_rad, turn)
-    inside = since_closing + turn * np.arange(count)[:, None]
-    step = pocket_pressure(wraps, gas, inside) - pocket_pressure(wraps, gas, inside - turn)
-    contact = contact_angle(wraps, inside)
+    inner_angle = since_closing + turn * np.arange(count)[:, None]
+    step = pocket_pressure(wraps, gas, inner_angle) - pocket_pressure(
+        wraps, gas, inner_angle - turn
+    )
+    contact = contact_angle(wraps, inner_angle)
     width = 2.0 * wraps.base_radius_m * wraps.height_m
     return ScrollGasCycle(
         crank_angle=crank_angle,

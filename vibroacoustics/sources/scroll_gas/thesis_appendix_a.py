@@ -80,8 +80,8 @@ def _pressures_bar(
     shifts = HALF_TURN * np.sign(at_orbiting - at_fixed)
     gaps = zip(at_fixed[:-2], at_fixed[2:], shifts[:-2], strict=True)
     areas = np.array([_area_m2(fixed, orbiting, *gap) for gap in gaps])
-    inside = STANDSTILL_PRESSURE_BAR * (LARGEST_AREA_M2 / areas) ** ADIABATIC_COEFFICIENT
-    return np.array([LARGEST_PRESSURE_BAR, *inside, STANDSTILL_PRESSURE_BAR])
+    pressures_bar = STANDSTILL_PRESSURE_BAR * (LARGEST_AREA_M2 / areas) ** ADIABATIC_COEFFICIENT
+    return np.array([LARGEST_PRESSURE_BAR, *pressures_bar, STANDSTILL_PRESSURE_BAR])
 
 
 def _area_m2(

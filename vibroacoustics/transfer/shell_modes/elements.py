@@ -54,25 +54,27 @@ def element_freedoms(meridian: Meridian) -> IndexArray:
     return np.asarray(np.concatenate([nodes, inner], axis=1))
 
 
-def shapes(meridian: Meridian, element: IndexArray, place: Array, derivative: int = 0) -> Shapes:
+def shapes(
+    meridian: Meridian, element: IndexArray, coordinate: Array, derivative: int = 0
+) -> Shapes:
     """Displacements u along the meridian, v around and w outwards per amplitude.
 
     Parameters
     ----------
     meridian : nodes
     element : of each point, shape (point,)
-    place : coordinate -1 to 1 along it, shape (point,)
+    coordinate : -1 to 1 along it, shape (point,)
     derivative : order of the derivative in s, 0 to 2
     """
     half = 0.5 * meridian.lengths[element]
     scale = half[:, None] ** -derivative
     linear, inner, hermite = (
-        scale * _polynomials(coefficients, place, derivative)
+        scale * _polynomials(coefficients, coordinate, derivative)
         for coefficients in (_LINEAR, _BUBBLES, _HERMITE)
     )
     hermite[:, 1::2] *= -half[:, None]  # w' = -β
     radial, axial = meridian.tangents[element].T
-    along, around, normal = (np.zeros((place.size, 12)) for _ in range(3))
+    along, around, normal = (np.zeros((coordinate.size, 12)) for _ in range(3))
     for end, node in enumerate((0, NODE_FREEDOMS)):
         along[:, node + RADIAL] = linear[:, end] * radial
         along[:, node + AXIAL] = linear[:, end] * axial
@@ -84,20 +86,20 @@ def shapes(meridian: Meridian, element: IndexArray, place: Array, derivative: in
     return Shapes(along, around, normal)
 
 
-def _polynomials(coefficients: Polynomials, place: Array, derivative: int) -> Array:
+def _polynomials(coefficients: Polynomials, coordinate: Array, derivative: int) -> Array:
     """Derivatives in the element's coordinate of polynomials, shape (point, polynomial)."""
     series = [np.polynomial.Polynomial(c).deriv(derivative) for c in coefficients]
-    return np.stack([polynomial(place) for polynomial in series], axis=1)
+    return np.stack([polynomial(coordinate) for polynomial in series], axis=1)
 
 
-def displacement_shapes(meridian: Meridian, element: IndexArray, place: Array) -> Array:
+def displacement_shapes(meridian: Meridian, element: IndexArray, coordinate: Array) -> Array:
     """Radial, axial and circumferential displacement per amplitude, shape (point, 3, 12)."""
-    along, around, normal = shapes(meridian, element, place)
+    along, around, normal = shapes(meridian, element, coordinate)
     radial, axial = meridian.tangents[element].T[:, :, None]
     return np.stack([radial * along + axial * normal, axial * along - radial * normal, around], 1)
 
 
-def strains(meridian: Meridian, element: IndexArray, place: Array, order: int) -> Array:
+def strains(meridian: Meridian, element: IndexArray, coordinate: Array, order: int) -> Array:
     """Strains and changes of curvature per amplitude, shape (point, 6, 12).
 
     ε_s, ε_θ, γ, κ_s, κ_θ, 2 κ_sθ of Sanders (1959) on a cone, for u and w with cos nθ and v with
@@ -107,14 +109,14 @@ def strains(meridian: Meridian, element: IndexArray, place: Array, order: int) -
     ----------
     meridian : nodes
     element : of each point, shape (point,)
-    place : coordinate -1 to 1 along it, shape (point,), off the axis
+    coordinate : -1 to 1 along it, shape (point,), off the axis
     order : n
     """
     n = order
     (u, v, w), (du, dv, dw), (_, _, ddw) = (
-        shapes(meridian, element, place, derivative) for derivative in range(3)
+        shapes(meridian, element, coordinate, derivative) for derivative in range(3)
     )
-    r = _radius(meridian, element, place)[:, None]
+    r = _radius(meridian, element, coordinate)[:, None]
     slope, turn = meridian.tangents[element].T[:, :, None]  # dr/ds, and r over the second radius
     spin = 0.5 * (dv + (slope * v + n * u) / r)  # about the normal
     lean = (n * w + turn * v) / r  # about the meridian
@@ -141,9 +143,9 @@ def matrices(meridian: Meridian, structure: ShellStructure, order: int) -> tuple
     structure : thickness and material
     order : circumferential order n
     """
-    element, place, area = _gauss_points(meridian, order)
-    strain = strains(meridian, element, place, order)
-    moved = displacement_shapes(meridian, element, place)
+    element, coordinate, area = _gauss_points(meridian, order)
+    strain = strains(meridian, element, coordinate, order)
+    moved = displacement_shapes(meridian, element, coordinate)
     surface_mass = structure.density_kg_per_m3 * structure.thickness_m
     stiffness = np.einsum("p,pai,ab,pbj->pij", area, strain, _elasticity(structure), strain,
                           optimize=True)  # fmt: skip
@@ -163,9 +165,9 @@ def squared_strains(meridian: Meridian, order: int, amplitudes: Array) -> Array:
     order : circumferential order n
     amplitudes : of the motions, shape (freedom, motion)
     """
-    element, place, area = _gauss_points(meridian, order)
+    element, coordinate, area = _gauss_points(meridian, order)
     of_element = amplitudes[element_freedoms(meridian)][element]
-    strained = np.einsum("pai,pim->apm", strains(meridian, element, place, order), of_element)
+    strained = np.einsum("pai,pim->apm", strains(meridian, element, coordinate, order), of_element)
     parts = []
     for along, around, shear in (strained[:3], strained[3:]):
         plain = along**2 + around**2 + 0.5 * shear**2
@@ -176,16 +178,18 @@ def squared_strains(meridian: Meridian, order: int, amplitudes: Array) -> Array:
 
 def _gauss_points(meridian: Meridian, order: int) -> tuple[IndexArray, Array, Array]:
     """Element, coordinate along it and weight by area of the points of integration."""
-    place, weight = np.tile(np.polynomial.legendre.leggauss(_GAUSS), meridian.elements)
+    coordinate, weight = np.tile(np.polynomial.legendre.leggauss(_GAUSS), meridian.elements)
     element = np.repeat(np.arange(meridian.elements), _GAUSS)
     around = 2.0 * np.pi if order == 0 else np.pi
-    area = around * weight * 0.5 * meridian.lengths[element] * _radius(meridian, element, place)
-    return element, place, area
+    area = (
+        around * weight * 0.5 * meridian.lengths[element] * _radius(meridian, element, coordinate)
+    )
+    return element, coordinate, area
 
 
-def _radius(meridian: Meridian, element: IndexArray, place: Array) -> Array:
+def _radius(meridian: Meridian, element: IndexArray, coordinate: Array) -> Array:
     start, end = meridian.nodes[element, 0], meridian.nodes[element + 1, 0]
-    return np.asarray(0.5 * ((1.0 - place) * start + (1.0 + place) * end))
+    return np.asarray(0.5 * ((1.0 - coordinate) * start + (1.0 + coordinate) * end))
 
 
 def _elasticity(structure: ShellStructure) -> Array:

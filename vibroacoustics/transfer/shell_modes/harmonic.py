@@ -46,11 +46,11 @@ class Harmonic:
     @cached_property
     def reduction(self) -> Any:
         """All amplitudes from the free ones, sparse (freedom, free)."""
-        whole = identity(freedom_count(self.meridian), format="lil")
+        transformation = identity(freedom_count(self.meridian), format="lil")
         if self.order == 1:
             for tip in self._tips:  # u_r cos θ and v sin θ with v = -u_r are a translation
-                whole[tip + CIRCUMFERENTIAL, tip + RADIAL] = -1.0
-        return whole.tocsc()[:, self.kept]
+                transformation[tip + CIRCUMFERENTIAL, tip + RADIAL] = -1.0
+        return transformation.tocsc()[:, self.kept]
 
     @property
     def _tips(self) -> list[int]:
@@ -61,8 +61,8 @@ class Harmonic:
     @cached_property
     def free_matrices(self) -> tuple[Array, Array]:
         """Stiffness and mass of the free amplitudes."""
-        whole = matrices(self.meridian, self.structure, self.order)
-        stiffness, mass = (self.reduction.T @ matrix @ self.reduction for matrix in whole)
+        all_matrices = matrices(self.meridian, self.structure, self.order)
+        stiffness, mass = (self.reduction.T @ matrix @ self.reduction for matrix in all_matrices)
         return stiffness, mass
 
     @cached_property

@@ -43,7 +43,9 @@ class PointForces:
     def generalised(self, meridian: Meridian, around: Around) -> Array:
         """As of any `Load`."""
         angle = np.arctan2(self.points[:, 1], self.points[:, 0])
-        place = np.stack([np.hypot(self.points[:, 0], self.points[:, 1]), self.points[:, 2]], 1)
+        meridian_points = np.stack(
+            [np.hypot(self.points[:, 0], self.points[:, 1]), self.points[:, 2]], 1
+        )
         cosine, sine = np.cos(angle), np.sin(angle)
         x, y, axial = self.directions.T
         parts = np.stack(
@@ -53,7 +55,7 @@ class PointForces:
                 (y * cosine - x * sine) * around.around(angle),
             ]
         )
-        freedoms, weights = _interpolation(meridian, place)
+        freedoms, weights = _interpolation(meridian, meridian_points)
         total = np.zeros((freedom_count(meridian), angle.size))
         total[freedoms.T, np.arange(angle.size)] = np.einsum("pia,ip->ap", weights, parts)
         return total
@@ -77,10 +79,10 @@ class JointLoads:
             The joint reaches beyond the wall.
         """
         heights, weights = self._heights(meridian)
-        place = np.stack([np.full(heights.size, meridian.wall_radius_m), heights], axis=1)
+        meridian_points = np.stack([np.full(heights.size, meridian.wall_radius_m), heights], axis=1)
         parts = self._mean_parts(around)
         parts[:, 3] /= meridian.wall_radius_m
-        freedoms, shapes = _interpolation(meridian, place)
+        freedoms, shapes = _interpolation(meridian, meridian_points)
         total = np.zeros((freedom_count(meridian), len(JOINT_LOADS)))
         np.add.at(total, freedoms, np.einsum("p,pia,il->pal", weights, shapes, parts))
         return total
@@ -126,9 +128,9 @@ class JointLoads:
         return complex(np.exp(1j * order * joint.first_angle_rad) * spread)
 
 
-def _interpolation(meridian: Meridian, place: Array) -> tuple[IndexArray, Array]:
+def _interpolation(meridian: Meridian, points: Array) -> tuple[IndexArray, Array]:
     """Freedoms (point, 12) that move places (point, 2), and by how much, (point, 3, 12)."""
-    element, along = meridian.locate(place)
+    element, along = meridian.locate(points)
     return element_freedoms(meridian)[element], displacement_shapes(meridian, element, along)
 
 
@@ -136,8 +138,8 @@ def _mean_points(middle: float, width: float, count: int) -> tuple[Array, Array]
     """Places around a middle and their weights in the mean over a width."""
     if width == 0.0:
         return np.array([middle]), np.ones(1)
-    place, weight = np.polynomial.legendre.leggauss(count)
-    return middle + width / 2.0 * place, weight / 2.0
+    node, weight = np.polynomial.legendre.leggauss(count)
+    return middle + width / 2.0 * node, weight / 2.0
 
 
 def joint_forces(joint: Joint, radius_m: float) -> tuple[Array, Array]:

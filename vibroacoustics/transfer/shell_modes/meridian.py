@@ -58,14 +58,14 @@ class Meridian:
         wall = self.nodes[self.nodes[:, 0] >= self.wall_radius_m * (1.0 - 1e-9), 1]
         return float(wall.min()), float(wall.max())
 
-    def locate(self, place: Array) -> tuple[IndexArray, Array]:
+    def locate(self, points: Array) -> tuple[IndexArray, Array]:
         """Element next to each place (point, 2) near the surface, and -1 to 1 along it.
 
         Of the two elements at the nearest node the closer one.
         """
-        _, node = self._tree.query(place)
+        _, node = self._tree.query(points)
         pairs = np.stack([np.maximum(node - 1, 0), np.minimum(node, self.elements - 1)])
-        ahead = place - self.nodes[pairs]
+        ahead = points - self.nodes[pairs]
         share = np.sum(ahead * self.tangents[pairs], axis=2) / self.lengths[pairs]
         share = np.clip(share, 0.0, 1.0)
         step = (share * self.lengths[pairs])[..., None] * self.tangents[pairs]

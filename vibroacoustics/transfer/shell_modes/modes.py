@@ -77,8 +77,8 @@ class ShellMode:
             surface move as its nearest point does
         """
         angle = np.arctan2(points[:, 1], points[:, 0])
-        place = np.stack([np.hypot(points[:, 0], points[:, 1]), points[:, 2]], axis=1)
-        element, along = self.meridian.locate(place)
+        meridian_points = np.stack([np.hypot(points[:, 0], points[:, 1]), points[:, 2]], axis=1)
+        element, along = self.meridian.locate(meridian_points)
         powers = along ** np.arange(4)[:, None]
         radial, axial, around = np.einsum("pik,kp->ip", self._cubics[element], powers)
         radial, axial = self.around.radial(angle) * np.stack([radial, axial])
@@ -96,8 +96,8 @@ class ShellMode:
     def _cubics(self) -> Array:
         """Displacement along each element, radial, axial and around, (element, 3, power)."""
         count = self.meridian.elements
-        element, place = np.repeat(np.arange(count), 4), np.tile(_FOUR_PLACES, count)
-        weights = displacement_shapes(self.meridian, element, place)
+        element, coordinate = np.repeat(np.arange(count), 4), np.tile(_FOUR_PLACES, count)
+        weights = displacement_shapes(self.meridian, element, coordinate)
         amplitudes = self.shape[element_freedoms(self.meridian)[element]]
         values = np.einsum("pia,pa->pi", weights, amplitudes).reshape(count, 4, 3)
         to_powers = np.linalg.inv(np.vander(_FOUR_PLACES, increasing=True))
@@ -142,8 +142,8 @@ class ElasticShell:
     @cached_property
     def modes(self) -> tuple[ShellMode, ...]:
         """Elastic modes by rising frequency; orders above 0 come as pairs, `cos` and `sin`."""
-        found = [mode for harmonic in self.harmonics for mode in self._of_order(harmonic)]
-        return tuple(sorted(found, key=lambda mode: mode.frequency_hz))
+        elastic = [mode for harmonic in self.harmonics for mode in self._of_order(harmonic)]
+        return tuple(sorted(elastic, key=lambda mode: mode.frequency_hz))
 
     def arounds(self, order: int) -> tuple[Around, ...]:
         """Orientations of an order."""

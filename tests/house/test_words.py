@@ -1,0 +1,50 @@
+"""No Python name is a word that says nothing of what it names."""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from support import ROOT
+
+PACKAGE = ROOT / "vibroacoustics"
+FILES = sorted(PACKAGE.rglob("*.py"))
+WORDS = {
+    "own", "found", "place", "places", "told", "tell", "heard", "hear", "inside", "whole", "doubt",
+}  # fmt: skip
+NAMES = ("id", "attr", "arg", "name", "asname", "rest")  # fields of the nodes that hold a name
+GIVEN = {"tell"}  # attributes of the standard library: `file.tell()`
+
+
+def _names(tree: ast.Module) -> Iterator[tuple[int, str]]:
+    """Line and name of everything named, in f-strings too, without leading underscores."""
+    for node in ast.walk(tree):
+        for field in NAMES:
+            name = getattr(node, field, None)
+            given = isinstance(node, ast.Attribute) and name in GIVEN
+            if isinstance(name, str) and not given:
+                yield getattr(node, "lineno", 0), name.strip("_").lower()
+
+
+def _faults(path: Path, code: str) -> list[str]:
+    faults = [f"{path}:{line}: {name}" for line, name in _names(ast.parse(code)) if name in WORDS]
+    return faults + ([f"{path}: {path.stem}"] if path.stem.strip("_") in WORDS else [])
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_no_name_is_an_empty_word(path):
+    assert not _faults(path.relative_to(ROOT), path.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize(
+    "code",
+    ["own = 1", "def whole(): ...", "def f(place): ...", "f(told=1)", "a.found", "f'{heard}'",
+     "lambda inside: 1", "import a as _places", "[1 for own in b]", "class Doubt: ..."],
+)  # fmt: skip
+def test_the_check_sees_every_kind_of_name(code):
+    assert len(_faults(Path("a.py"), code)) == 1
+
+
+def test_the_check_sees_a_module_and_passes_text_and_files():
+    assert _faults(Path("place.py"), "") == ["place.py: place"]
+    assert not _faults(Path("a.py"), "'own place'\nmany_places = file.tell()  # inside")
