@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from ..base.arrays import Array, ComplexArray
+from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.decibel import amplitude_of_level
 from ..machine.shell import Shell
 from ..machine.shell_structure import JOINTS, Joint, ShellStructure, ShellVariation
@@ -20,7 +20,7 @@ from .shell_modes import (
     modal_forces,
     velocity_per_force,
 )
-from .shell_modes.projection import ProjectedModes
+from .shell_modes.projection import ProjectedModes, least_frequency_factor
 
 MODES_BEYOND: Final = 1.1
 """Modes up to this many times the highest frequency take part."""
@@ -35,8 +35,9 @@ class ShellPath:
     modes : computed or measured
     structure : its joints and, where the modes are computed, its wall
     joint_forces : generalised force per unit load, shape (mode, joint, component)
-    wall : modes as given, for walls that differ; none where they are measured
+    wall : all modes as given, for walls that differ; none where they are measured
     radius_m : of the wall
+    rows : the path's modes among those of the wall, shape (mode,)
     frequency_factor : natural frequencies over those of the modes as given, shape (mode,) or ()
     mass_factor : the same of the modal masses
     """
@@ -46,6 +47,7 @@ class ShellPath:
     joint_forces: Array
     wall: ProjectedModes | None
     radius_m: float
+    rows: IndexArray
     frequency_factor: Array | float = 1.0
     mass_factor: float = 1.0
 
@@ -77,22 +79,26 @@ class ShellPath:
         if self.wall is not None:
             path = replace(
                 path,
-                frequency_factor=self.wall.frequency_factor(structure),
+                frequency_factor=self.wall.frequency_factor(structure)[self.rows],
                 mass_factor=self.wall.mass_factor(structure),
             )
         return path
 
     def _joint_forces(self, joints: Sequence[Joint]) -> Array:
         if self.wall is not None:
-            return _of_computed(self.wall.shell, joints)
+            return _of_computed(self.wall.shell, joints)[self.rows]
         modes = [mode for mode in self.modes if isinstance(mode, SampledMode)]
         return _of_measured(modes, joints, self.radius_m)
 
 
 def computed_path(
-    shell: Shell, structure: ShellStructure, maximum_frequency_hz: float, least_factor: float
+    shell: Shell,
+    structure: ShellStructure,
+    maximum_frequency_hz: float,
+    least_factor: float,
+    walls: Sequence[ShellStructure] = (),
 ) -> ShellPath:
-    """Modes of the closed shell that reach the highest frequency.
+    """Modes of the closed shell that come below the highest frequency in any draw.
 
     Parameters
     ----------
@@ -100,11 +106,22 @@ def computed_path(
     structure : wall, material and joints
     maximum_frequency_hz : of the sound
     least_factor : smallest factor on the natural frequencies that any draw may have
+    walls : that differ in one value each, at the ends of the ranges
     """
     highest = MODES_BEYOND * maximum_frequency_hz / least_factor
-    elastic = elastic_shell(shell, structure, highest)
-    forces = _of_computed(elastic, [getattr(structure, name) for name in JOINTS])
-    return ShellPath(elastic.modes, structure, forces, ProjectedModes(elastic), shell.radius_m)
+    bound = least_frequency_factor(structure, walls)
+    elastic = elastic_shell(shell, structure, highest / bound)
+    projected = ProjectedModes(elastic)
+    rows = projected.below(highest, walls)
+    joints = [getattr(structure, name) for name in JOINTS]
+    return ShellPath(
+        tuple(elastic.modes[row] for row in rows),
+        structure,
+        _of_computed(elastic, joints)[rows],
+        projected,
+        shell.radius_m,
+        rows,
+    )
 
 
 def measured_path(
@@ -119,7 +136,7 @@ def measured_path(
     radius_m : of the wall
     """
     forces = _of_measured(modes, [getattr(structure, name) for name in JOINTS], radius_m)
-    return ShellPath(tuple(modes), structure, forces, None, radius_m)
+    return ShellPath(tuple(modes), structure, forces, None, radius_m, np.arange(len(modes)))
 
 
 def _of_computed(shell: ElasticShell, joints: Sequence[Joint]) -> Array:

@@ -7,7 +7,7 @@ from ..machine.shell_structure import ShellStructure, ShellVariation
 from ..study.study import Study
 from .path import ShellPath, computed_path, measured_path
 from .shell_modes import SampledMode
-from .shell_modes.projection import least_frequency_factor, projection_error
+from .shell_modes.projection import projection_error
 
 _FACTOR: Final = "frequency_factor_ratio"
 """Of the shell's variation: how natural frequencies differ in a draw."""
@@ -19,9 +19,9 @@ def computed_shell_path(study: Study) -> ShellPath:
     structure = machine.table(ShellStructure)
     factors = [item.lowest for item in study.ranges if item.field == _FACTOR]
     least = min([getattr(machine.table(ShellVariation), _FACTOR), *factors])
-    ends = [end for pair in _ends(study, structure).values() for end in pair]
-    least *= least_frequency_factor(structure, ends)
-    return computed_path(machine.shell, structure, study.radiation.maximum_frequency_hz, least)
+    walls = [end for pair in _ends(study, structure).values() for end in pair]
+    highest = study.radiation.maximum_frequency_hz
+    return computed_path(machine.shell, structure, highest, least, walls)
 
 
 def projection_errors(study: Study, path: ShellPath) -> dict[str, float]:

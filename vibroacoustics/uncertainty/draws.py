@@ -34,22 +34,19 @@ def of_every_draw(
     progress : called with the advance
     """
 
-    def solved(draw: Draw) -> Result | ParameterError | SolverError:
+    def solved(draw: Draw) -> tuple[Result, str | None]:
         try:
-            return compute(draw)
-        except (ParameterError, SolverError) as error:
-            return error
+            return compute(draw), None
+        except (ParameterError, SolverError) as error:  # whose frames would hold all it computed
+            return without_solution, str(error)
 
     results: list[Result] = []
-    failures: list[Exception] = []
+    failures: list[str] = []
     with ThreadPoolExecutor(processors()) as pool:  # the keys run without the interpreter's lock
-        for done, result in enumerate(pool.map(solved, draws), 1):
-            if isinstance(result, ParameterError | SolverError):
-                failures.append(result)
-                results.append(without_solution)
-            else:
-                results.append(result)
-            progress("sources", done, len(draws))
+        for result, failure in pool.map(solved, draws):
+            results.append(result)
+            failures += [] if failure is None else [failure]
+            progress("sources", len(results), len(draws))
     if failures:
         warnings.warn(
             f"{len(failures)} of {len(draws)} draws have no solution and are left out, such as: "

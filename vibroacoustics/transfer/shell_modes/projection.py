@@ -5,12 +5,13 @@ wall in these shapes (Rayleigh, Theory of Sound, 1894, § 89). Exact for modulus
 change no shape.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
 
-from ...base.arrays import Array
+from ...base.arrays import Array, IndexArray
 from ...machine.shell import Shell
 from ...machine.shell_structure import ShellStructure
 from .elements import squared_strains
@@ -45,6 +46,19 @@ class ProjectedModes:
         plate = structure.youngs_modulus_pa * thickness / (1.0 - poisson**2)
         stretching, bending = self._squares[:, 0] + poisson * self._squares[:, 1]
         return np.asarray(plate * (stretching + thickness**2 / 12.0 * bending))
+
+    def below(self, maximum_frequency_hz: float, walls: Sequence[ShellStructure]) -> IndexArray:
+        """Modes that come below a frequency with a wall between those that are given.
+
+        Parameters
+        ----------
+        maximum_frequency_hz : the frequency
+        walls : that differ in one value each, at the ends of its range
+        """
+        lowest = np.array([mode.frequency_hz for mode in self.shell.modes])
+        for wall in walls:
+            lowest *= np.minimum(self.frequency_factor(wall), 1.0)
+        return np.flatnonzero(lowest <= maximum_frequency_hz)
 
     @cached_property
     def _squares(self) -> Array:
@@ -93,7 +107,7 @@ def _frequencies_hz(
     return {mode.name: mode.frequency_hz for mode in modes}
 
 
-def least_frequency_factor(given: ShellStructure, ends: list[ShellStructure]) -> float:
+def least_frequency_factor(given: ShellStructure, ends: Sequence[ShellStructure]) -> float:
     """A bound below the frequency factors of all walls between ends that differ in one value each.
 
     Stretching stiffness goes as E h, bending as E h³, mass as ρ h; Poisson's ratio enters both
