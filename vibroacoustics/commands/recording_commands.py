@@ -1,9 +1,15 @@
-"""Commands for recordings: track, map, export. Heavy imports wait until a command needs them."""
+"""Commands for recordings: orders, compare, track, map, export.
+
+Heavy imports wait until a command needs them.
+"""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+from .options import LimitsFile, Plugins, load_plugins
+from .progress import progress_bar
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -42,10 +48,89 @@ Out = Annotated[
     Path | None,
     typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE FILE."),
 ]
-Plugins = Annotated[
-    list[Path] | None,
-    typer.Option("--plugin", metavar="FILE.py", help="Python file with readers of yours."),
-]
+
+
+@commands.command("orders")
+def orders_command(
+    recording_file: Recording,
+    speed: Speed = None,
+    pulses: Pulses = 1,
+    index: Index = None,
+    rpm: Rpm = None,
+    tacholess: Tacholess = None,
+    orders: Annotated[str, typer.Option(help="Orders wanted, with commas.")] = "1,2,3,4",
+    maximum_order: Annotated[float, typer.Option(help="Highest order of spectra and map.")] = 20.0,
+    resolution: Annotated[float, typer.Option(help="Coarsest resolution, orders.")] = 0.25,
+    speed_step: Annotated[float, typer.Option(help="Of a run-up's operating points, rpm.")] = 100.0,
+    with_map: Annotated[bool, typer.Option("--map", help="Keep and draw the order map.")] = False,
+    unit: Units = None,
+    calibration: Calibration = None,
+    channels: Channels = None,
+    sample_rate: SampleRate = None,
+    out: Out = None,
+    limits: LimitsFile = None,
+    plugin: Plugins = None,
+) -> None:
+    """Find the orders of a recording: netCDF, CSV, figures and a table."""
+    from .. import pipeline, report
+    from . import arguments, checking, outputs
+
+    settings = arguments.order_analysis(
+        speed, pulses, index, rpm, tacholess, orders, maximum_order, resolution, speed_step,
+        with_map,
+    )  # fmt: skip
+    folder = out or Path("reports") / recording_file.stem
+    outputs.check_folder(folder)
+    allowed = checking.read(limits)
+    recording = _read(recording_file, unit, calibration, channels, sample_rate, plugin)
+    with progress_bar() as progress:
+        results = pipeline.analyse_orders(recording, settings, progress)
+        results = checking.held_against(results, allowed)
+        written = outputs.write_orders(results, folder)
+    typer.echo(report.orders_text(results))
+    checking.tell(results, folder / outputs.LIMITS_NAME)
+    typer.echo(f"orders: {written}")
+
+
+@commands.command("compare")
+def compare_command(
+    first: Annotated[Path, typer.Argument(metavar="A.nc", help="Results of `run` or `orders`.")],
+    second: Annotated[Path, typer.Argument(metavar="B.nc", help="Results to compare with.")],
+    pair: Annotated[
+        list[str] | None,
+        typer.Option(metavar="CHANNEL_OF_A=CHANNEL_OF_B", help="Default: channels of one name."),
+    ] = None,
+    option: Annotated[str, typer.Option(help="Balancing option of a study.")] = "none",
+    tacho_angle: Annotated[
+        float, typer.Option(help="Crank angle of A where B's tacho gives its pulse, degrees.")
+    ] = 0.0,
+    out: Annotated[
+        Path | None, typer.Option("--out", help="Folder of the results; default: that of B.")
+    ] = None,
+    limits: LimitsFile = None,
+) -> None:
+    """Compare two results order by order, in level and phase."""
+    from math import radians
+
+    from .. import report
+    from ..results import order_comparison
+    from . import arguments, checking, outputs
+
+    folder = out or second.parent
+    outputs.check_folder(folder)
+    allowed = checking.read(limits)
+    compared = order_comparison.compare(
+        outputs.open_orders(first),
+        outputs.open_orders(second),
+        arguments.assignments("--pair", pair),
+        option,
+        radians(tacho_angle),
+    )
+    compared = checking.held_against(compared, allowed)
+    written = outputs.write_comparison(compared, folder)
+    typer.echo(report.comparison_of_orders_text(compared))
+    checking.tell(compared, folder / outputs.COMPARED_LIMITS_NAME)
+    typer.echo(f"compared orders: {written}")
 
 
 @commands.command("track")
@@ -141,12 +226,10 @@ def _read(
     plugins: list[Path] | None,
 ) -> "xr.Dataset":
     """The recording as the options of a command say."""
-    from ..base.plugin_file import load_plugin
     from ..recordings import read_recording
     from . import arguments
 
-    for plugin in plugins or ():
-        load_plugin(plugin)
+    load_plugins(plugins)
     return read_recording(
         file,
         units=arguments.assignments("--unit", unit),
