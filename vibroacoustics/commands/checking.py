@@ -21,7 +21,7 @@ def held_against(results: xr.Dataset, limits: tuple[Limit, ...]) -> xr.Dataset:
     return with_limits(results, limits) if limits else results
 
 
-def tell(results: xr.Dataset, file: Path) -> None:
+def print_margins(results: xr.Dataset, file: Path) -> None:
     """Print the margins and where they are, if there are limits."""
     if "order_limit" in results:
         typer.echo(report.limits_text(results))

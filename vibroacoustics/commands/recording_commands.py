@@ -88,7 +88,7 @@ def orders_command(
         results = checking.held_against(results, allowed)
         written = outputs.write_orders(results, folder)
     typer.echo(report.orders_text(results))
-    checking.tell(results, folder / outputs.LIMITS_NAME)
+    checking.print_margins(results, folder / outputs.LIMITS_NAME)
     typer.echo(f"orders: {written}")
 
 
@@ -129,7 +129,7 @@ def compare_command(
     compared = checking.held_against(compared, allowed)
     written = outputs.write_comparison(compared, folder)
     typer.echo(report.comparison_of_orders_text(compared))
-    checking.tell(compared, folder / outputs.COMPARED_LIMITS_NAME)
+    checking.print_margins(compared, folder / outputs.COMPARED_LIMITS_NAME)
     typer.echo(f"compared orders: {written}")
 
 

@@ -65,13 +65,13 @@ def check_limits(
     """
     values = _values(results, option)
     allowed, not_checked = _allowed(values, limits)
-    checked = {"order_limit": stamp("order_limit", allowed, _places(values))}
+    checked = {"order_limit": stamp("order_limit", allowed, _coordinates(values))}
     for name, (margin, within) in _CHECKED.items():
         if name in values:
             with np.errstate(invalid="ignore"):  # without a limit
                 below = -level_of_amplitude(values[name].values / allowed)
-            checked[margin] = stamp(margin, below, _places(values))
-            checked[within] = stamp(within, ~(below < 0.0), _places(values))
+            checked[margin] = stamp(margin, below, _coordinates(values))
+            checked[within] = stamp(within, ~(below < 0.0), _coordinates(values))
     kept = ("title", "first", "second", "option")
     attrs = {name: results.attrs[name] for name in kept if name in results.attrs}
     attrs |= software_attributes(f"limits of {attrs.get('title', 'results')}")
@@ -98,12 +98,12 @@ def _values(results: xr.Dataset, option: str) -> xr.Dataset:
             ["block_count", "calibration_factor"], errors="ignore"
         )
     peaks = channel_orders(results, option)
-    places = {**_places(peaks.to_dataset()), "channel_unit": peaks["channel_unit"]}
+    coordinates = {**_coordinates(peaks.to_dataset()), "channel_unit": peaks["channel_unit"]}
     rms = np.abs(peaks.transpose(*ORDERS).values) / np.sqrt(2.0)
-    return xr.Dataset({"channel_order_rms": stamp("channel_order_rms", rms, places)})
+    return xr.Dataset({"channel_order_rms": stamp("channel_order_rms", rms, coordinates)})
 
 
-def _places(values: xr.Dataset) -> dict[str, Any]:
+def _coordinates(values: xr.Dataset) -> dict[str, Any]:
     return {name: values[name].values for name in ORDERS}
 
 
