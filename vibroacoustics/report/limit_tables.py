@@ -42,8 +42,9 @@ class _Checked(NamedTuple):
 
 
 def limits_csv(checked: xr.Dataset) -> bytes:
-    """Every order that has a limit, at every speed."""
-    return to_csv(_Checked._fields, _rows(checked))
+    """Every order that has a limit, at every speed; of two results with a column for which."""
+    first = 0 if "compared_limit_margin" in checked else 1
+    return to_csv(_Checked._fields[first:], (row[first:] for row in _rows(checked)))
 
 
 def limits_text(checked: xr.Dataset) -> str:

@@ -144,6 +144,47 @@ def test_compare_with_itself_beside_it(analysed: Path, tmp_path: Path) -> None:
     np.testing.assert_allclose(phase.squeeze(), [-30.0, -60.0], atol=1e-9)
 
 
+def test_orders_and_comparison_with_limits(recording: Path, tmp_path: Path) -> None:
+    """Exceeded limits are told, exit code 0; without limits the next time their file goes."""
+    limits, out = tmp_path / "limits.csv", tmp_path / "out"
+    limits.write_text("channel,order,limit,unit\nshell,1,0.2,m/s²\n*,2,40,dB\n", encoding="utf-8")
+    to = ("orders", recording, "--speed", "tacho", "--out", out)
+    outcome = command_here(*to, "--limits", limits)
+    assert outcome.returncode == 0, outcome.stderr
+    assert "1 of 2 orders exceeds its limit, the worst by 0.5 dB: order 1 of sh" in outcome.stdout
+    assert f"limits: {out / 'orders_limits.csv'} (the exit code is 0" in outcome.stdout
+    with (out / "orders_limits.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert [(row["channel"], row["within"]) for row in rows] == [
+        ("shell", "no"),
+        ("microphone 1", "yes"),
+    ]
+    assert not open_results(out / "orders.nc")["within_limit"].all()
+    orders = out / "orders.nc"
+    outcome = command_here("compare", orders, orders, "--limits", limits)
+    assert outcome.returncode == 0, outcome.stderr
+    assert "2 of 4 orders exceed their limits" in outcome.stdout
+    assert (out / "compared_orders_limits.csv").is_file()
+    assert command_here(*to).returncode == 0
+    assert not (out / "orders_limits.csv").exists()
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("shell,1,x,N", "limits.csv: line 2: limit = 'x': must be a number"),
+        ("shell,1,60,dB", "limits.csv: line 2: unit = 'dB': channel 'shell' is in m/s²"),
+        ("shel,1,1,N", "limits.csv: line 2: channel = 'shel', in N: must be one of shell"),
+    ],
+)
+def test_limits_that_are_refused(line: str, words: str, recording: Path, tmp_path: Path) -> None:
+    limits = tmp_path / "limits.csv"
+    limits.write_text(f"channel,order,limit,unit\n{line}\n", encoding="utf-8")
+    to = ("--speed", "tacho", "--out", tmp_path / "out", "--limits", limits)
+    assert_refused(command_here("orders", recording, *to), words)
+    assert not (tmp_path / "out").exists()
+
+
 # --- what is refused -----------------------------------------------------------------------------
 
 

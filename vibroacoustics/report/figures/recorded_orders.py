@@ -26,7 +26,7 @@ _MAP_RANGE_DB: Final = 60.0
 _QUIETEST: Final = 1e-5
 """Lowest amplitude of a logarithmic axis, as a share of the largest."""
 
-_OF_LIMITS: Final = {"linewidth": 0.8, "marker": ".", "markersize": 3.0, "linestyle": "-"}
+_OF_LIMITS: Final = {"linewidth": 0.8, "marker": "_", "markersize": 4.0, "linestyle": "-"}
 """Look of limits, in the colour of their order."""
 
 
