@@ -141,6 +141,8 @@ def green_sentence(results: xr.Dataset) -> str:
 
 def grid_error_sentence(results: xr.Dataset) -> str:
     """Estimated error of the transfer vectors where they are loud."""
+    if "transfer_vector_error" not in results:
+        return "The transfer vectors are given, without an estimate of their error."
     size = np.abs(results["transfer_vector"].values)
     loud = size > 0.1 * size.max(axis=0)
     error = level_of_amplitude(1.0 + results["transfer_vector_error"].values[loud] / size[loud])

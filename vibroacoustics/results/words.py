@@ -31,16 +31,11 @@ def words(
         *study.machine.leaves_out(inner_sources),
         *(text for _, option in options for text in option.leaves_out(inner_sources)),
     ]
-    labels = dict(study.machine.labels)
-    for _, option in options:
-        labels |= option.labels
-    for source in study.sources.values():
-        labels |= source.labels
     return {
         "axes": study.machine.axes,
         "orders": study.machine.orders,
         "leaves_out": list(dict.fromkeys(left_out)),
-        "labels": labels,
+        "labels": _labels(study, results),
         "shell_bends": study.drives_shell,
         "units": {suffix: UNITS[suffix].symbol for suffix in UNITS.origins()},
         "source_figures": _source_figures(loads),
@@ -51,6 +46,22 @@ def words(
             name: list(option.sentences(_figures(results, name))) for name, option in options
         },
     }
+
+
+def _labels(study: Study, results: xr.Dataset) -> dict[str, str]:
+    """Words for figures; those of an option must not be about what others call otherwise."""
+    reported = [(option, _figures(results, name)) for name, option in study.options.items()]
+    labels = dict(study.machine.labels)
+    for option in study.options.values():
+        others = [one for one in reported if one[0].kind != option.kind]
+        labels |= {
+            name: text
+            for name, text in option.labels.items()
+            if all(name not in figures or one.labels.get(name) == text for one, figures in others)
+        }
+    for source in study.sources.values():
+        labels |= source.labels
+    return labels
 
 
 def _source_figures(loads: Mapping[CaseKey, Mapping[str, Loads]]) -> list[str]:
