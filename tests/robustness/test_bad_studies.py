@@ -202,8 +202,8 @@ def test_unknown_key_of_the_machine(tree):
     [
         ("catalogue_receiver = ", ["catalogue_receiver"]),
         ("tuned_speed_rpm = { value = 3500.0, source = \"assumed: as spring-mass\"",
-         ["options.spring-mass-printed.tuned_speed_rpm"]),
-        ("damping_ns_per_m", ["options.damping.damping"]),
+         ["options.spring-mass-printed.lost_tuned", "did you mean tuned_speed_rpm"]),
+        ("damping_ns_per_m", ["options.damping.lost", "did you mean damping_ns_per_m"]),
         ("maximum_frequency_hz", ["radiation"]),
     ],
 )  # fmt: skip
