@@ -1,4 +1,8 @@
-"""Errors that a user can act on. Each message is one clear line."""
+"""Errors that a user can act on. Each message is one clear line; all of a file come at once."""
+
+from typing import Final
+
+LONGEST_LINE: Final = 300
 
 
 class VibroacousticsError(Exception):
@@ -13,8 +17,12 @@ class VibroacousticsError(Exception):
     missing.toml: no such file
     """
 
-    def __init__(self, message: str) -> None:
-        super().__init__(" ".join(message.splitlines()))  # names and values may hold line breaks
+    def __init__(self, *messages: str) -> None:
+        # names and values may hold line breaks
+        super().__init__(*(" ".join(message.splitlines()) for message in messages))
+
+    def __str__(self) -> str:
+        return "\n".join(map(str, self.args))
 
 
 class ParameterError(VibroacousticsError):
@@ -27,6 +35,9 @@ class ParameterError(VibroacousticsError):
         ...
     vibroacoustics.base.errors.ParameterError: speed_rpm = -1 rpm: must be a number above 0
     """
+
+    def __init__(self, *messages: str) -> None:
+        super().__init__(*map(_shortened, messages))
 
 
 class SchemaError(VibroacousticsError):
@@ -77,3 +88,10 @@ class PluginError(VibroacousticsError):
         ...
     vibroacoustics.base.errors.PluginError: 'a word': is none of ...
     """
+
+
+def _shortened(line: str) -> str:
+    """A line of at most 300 characters: its begin, which names the file, and its end."""
+    if len(line) <= LONGEST_LINE:
+        return line
+    return f"{line[:200]} … {line[203 - LONGEST_LINE :]}"

@@ -113,7 +113,7 @@ def split_kind(
     values = dict(table)
     kind = values.pop("kind", None)
     if kind is None:
-        raise ParameterError("kind is missing")
+        raise ParameterError(f"kind is missing; allowed {', '.join(registry)}")
     if not isinstance(kind, str) or kind not in registry:
         raise ParameterError(f"kind = {kind}: {registry.unknown(str(kind))}")
     return registry[kind], values

@@ -6,6 +6,9 @@ from pathlib import Path
 from typing import Final
 
 from .errors import PluginError, VibroacousticsError
+from .regular_file import opened
+
+MAXIMUM_BYTES: Final = 10_000_000
 
 _FILES: Final[dict[str, Path]] = {}
 """By the name of the module that each became."""
@@ -39,8 +42,7 @@ def load_plugin(path: str | Path) -> None:
     name = f"plugin_{file.stem}_{abs(hash(file)):x}"
     if name in sys.modules:
         return
-    if not file.is_file():
-        raise PluginError(f"{path}: no such file")
+    _check(file, path)
     spec = spec_from_file_location(name, file)
     if spec is None or spec.loader is None:
         raise PluginError(f"{path}: is no Python file (.py)")
@@ -55,3 +57,14 @@ def load_plugin(path: str | Path) -> None:
     except Exception as error:
         del sys.modules[name]
         raise PluginError(f"{path}: {type(error).__name__}: {error}") from None
+
+
+def _check(file: Path, given: str | Path) -> None:
+    """Refuse what is no regular file, or too large for a module."""
+    try:
+        with opened(file, MAXIMUM_BYTES):
+            return
+    except FileNotFoundError:
+        raise PluginError(f"{given}: no such file") from None
+    except OSError as error:
+        raise PluginError(f"{given}: cannot be read: {error.strerror}") from None

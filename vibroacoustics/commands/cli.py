@@ -40,13 +40,14 @@ ResultsFile = Annotated[Path, typer.Argument(metavar="RESULTS.nc", help="Results
 
 
 def main() -> None:
-    """Run the command line; an input error is one line on stderr and exit code 2."""
+    """Run the command line; input errors are lines on stderr and exit code 2."""
     gc.set_threshold(*COLLECTIONS)
     try:
         with messages.warnings_in_one_line():
             app()
     except VibroacousticsError as error:
-        print(f"error: {' '.join(str(error).split())}", file=sys.stderr)
+        for line in str(error).splitlines():
+            print(f"error: {' '.join(line.split())}", file=sys.stderr)
         sys.exit(INPUT_ERROR)
     except MemoryError as error:
         print(f"error: not enough memory: {error}", file=sys.stderr)

@@ -7,13 +7,14 @@ from typing import Any, Final
 import numpy as np
 
 from ..base.errors import ParameterError
+from ..base.regular_file import opened
 from .arrays import Array, IndexArray
 
 _SECTIONS: Final = 128
 """Facets around an axis: the surface lies within 3e-4 of a radius of the true one."""
 _SUBDIVISIONS: Final = 5
 """Of an icosahedron: 20480 facets."""
-_LARGEST_FILE_BYTES: Final = 200 * 2**20
+LARGEST_FILE_BYTES: Final = 200 * 2**20
 
 
 @dataclass(frozen=True)
@@ -140,15 +141,10 @@ def read_mesh(path: Path, unit_m: float) -> Body:
     import trimesh
 
     try:
-        size = path.stat().st_size
-        if size > _LARGEST_FILE_BYTES:
-            raise ParameterError(f"{path}: {size / 2**20:.0f} MiB; allowed up to 200 MiB")
-        with path.open("rb") as file:
+        with opened(path, LARGEST_FILE_BYTES) as file:
             mesh = trimesh.load_mesh(file, file_type="stl")
     except OSError as error:
         raise ParameterError(f"{path}: cannot be read: {error.strerror}") from None
-    except ParameterError:
-        raise
     except Exception as error:  # whatever a broken file raises in the reader
         raise ParameterError(f"{path}: is no STL mesh: {error}") from None
     body = Body(unit_m * np.asarray(mesh.vertices), np.asarray(mesh.faces))

@@ -10,6 +10,7 @@ from typing import Final
 import numpy as np
 
 from ..base.errors import ParameterError
+from ..base.regular_file import opened
 from ..machine.shell import Shell
 from ..study.body import (
     BoxBody,
@@ -142,11 +143,9 @@ def file_patterns(body: RadiatingBody, machine: Body) -> list[Pattern]:
 def _read_velocities(name: str, path: Path) -> Array:
     where = f"radiation.body.patterns.{name}: {path}"
     try:
-        if path.stat().st_size > _LARGEST_PATTERN_FILE_BYTES:
-            raise ParameterError(f"{where}: larger than 100 MiB")
-        with warnings.catch_warnings():
+        with opened(path, _LARGEST_PATTERN_FILE_BYTES) as file, warnings.catch_warnings():
             warnings.simplefilter("error")  # an empty file is a warning to NumPy
-            return np.loadtxt(path, delimiter=",", ndmin=1)
+            return np.loadtxt(file, delimiter=",", ndmin=1)
     except OSError as error:
         raise ParameterError(f"{where}: cannot be read: {error.strerror or error}") from None
     except (ValueError, UserWarning) as error:

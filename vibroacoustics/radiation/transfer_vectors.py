@@ -2,6 +2,7 @@
 
 import hashlib
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import Any, Final
@@ -13,6 +14,7 @@ import xarray as xr
 from ..base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from ..base.errors import ParameterError
 from ..base.progress import Progress, no_progress
+from ..base.regular_file import read_bytes
 from ..base.vocabulary import RIGID_BODY_DOFS, check, stamp
 from ..machine.shell import Shell
 from ..study.body import MeshBody
@@ -21,6 +23,7 @@ from ..study.receivers import Receiver
 from . import room_grid
 from .arrangements import check_outside
 from .arrays import Array, ComplexArray
+from .bodies import LARGEST_FILE_BYTES
 from .box import Box, BoxField
 from .interpolation import interpolate
 from .kwave import kwave_version
@@ -251,8 +254,11 @@ def _hashes_of_files(settings: RadiationSettings) -> dict[str, str]:
     """Content of the files that the settings name; what cannot be read is refused later."""
     if not isinstance(settings.body, MeshBody):
         return {}
-    files = [Path(name) for name in (settings.body.file, *settings.body.patterns.values())]
-    return {str(file): _hash(file.read_bytes()) for file in files if file.is_file()}
+    hashes = {}
+    for name in (settings.body.file, *settings.body.patterns.values()):
+        with suppress(OSError, ValueError):
+            hashes[str(Path(name))] = _hash(read_bytes(Path(name), LARGEST_FILE_BYTES))
+    return hashes
 
 
 def _source_hash() -> str:

@@ -12,8 +12,12 @@ from typing import Final, NamedTuple
 
 from ..base.errors import StorageError
 from ..base.hashing import sha256
+from ..base.regular_file import opened, read_bytes
 
 _LINE: Final = re.compile(rb"\nvibroacoustics sha256 ([0-9a-f]{64})\n")
+_MAXIMUM_HASH_BYTES: Final = 4096
+MAXIMUM_RESULTS_BYTES: Final = 2 * 2**30
+"""Of a results file, and of what it holds once it is read."""
 _LENGTH: Final = len(b"\nvibroacoustics sha256 \n") + 64
 
 
@@ -57,7 +61,7 @@ def read_checked(path: Path) -> Checked:
 def stored_hash(path: Path) -> str | None:
     """Hash that stands in a file or, of earlier versions, beside it; None where there is none."""
     try:
-        with path.open("rb") as file:
+        with opened(path, MAXIMUM_RESULTS_BYTES) as file:
             file.seek(-min(_LENGTH, os.fstat(file.fileno()).st_size), os.SEEK_END)
             line = _LINE.fullmatch(file.read())
     except OSError:
@@ -68,7 +72,11 @@ def stored_hash(path: Path) -> str | None:
 def hash_beside(path: Path) -> str | None:
     """Hash in `NAME.sha256`, as earlier versions wrote it; None where there is none."""
     try:
-        return hash_path(path).read_bytes().split(b" ")[0].decode("ascii", "replace")
+        return (
+            read_bytes(hash_path(path), _MAXIMUM_HASH_BYTES)
+            .split(b" ")[0]
+            .decode("ascii", "replace")
+        )
     except OSError:
         return None
 
@@ -81,7 +89,7 @@ def hash_path(path: Path) -> Path:
 def _read(path: Path) -> tuple[bytes, bytes]:
     """Content and what may be its last line, apart."""
     try:
-        with path.open("rb") as file:
+        with opened(path, MAXIMUM_RESULTS_BYTES) as file:
             body = file.read(max(os.fstat(file.fileno()).st_size - _LENGTH, 0))
             return body, file.read()
     except FileNotFoundError:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Final
 
 from ..base.errors import ParameterError, StorageError
+from ..base.regular_file import read_text
 from .limit import Limit
 
 REQUIRED: Final = ("channel", "order", "limit", "unit")
@@ -58,11 +59,7 @@ def read_limits(path: str | Path) -> tuple[Limit, ...]:
 
 def _text(path: Path) -> str:
     try:
-        with path.open("rb") as file:
-            content = file.read(MAXIMUM_BYTES + 1)
-        if len(content) > MAXIMUM_BYTES:
-            raise StorageError(f"{path}: is larger than {MAXIMUM_BYTES} bytes")
-        return content.decode("utf-8-sig")
+        return read_text(path, MAXIMUM_BYTES)
     except FileNotFoundError:
         raise StorageError(f"{path}: no such file") from None
     except (OSError, ValueError) as error:

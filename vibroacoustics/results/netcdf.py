@@ -2,6 +2,7 @@
 
 import errno
 from collections.abc import Hashable
+from io import BytesIO
 from pathlib import Path
 from typing import Any, Final
 
@@ -9,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.errors import StorageError
+from .hashed import MAXIMUM_RESULTS_BYTES
 
 LARGE_BYTES: Final = 20_000_000
 ESCAPED: Final = "escaped_attributes"
@@ -62,10 +64,30 @@ def from_bytes(content: bytes, path: Path) -> xr.Dataset:
         They are no netCDF.
     """
     try:
+        _check_size(content)
         read = _unescape_attributes(xr.load_dataset(content, engine="netcdf4"))
         return _plain_text(_join_complex(read))
-    except (OSError, ValueError) as error:
+    except StorageError as error:
+        raise StorageError(f"{path}: {error}") from None
+    except (OSError, ValueError, RuntimeError) as error:
         raise StorageError(f"{path}: is no result file: {error}") from None
+
+
+def _check_size(content: bytes) -> None:
+    """Refuse by what the file claims, before anything is allocated; groups may lead in circles."""
+    import h5py
+
+    size = 0.0
+    with h5py.File(BytesIO(content), "r") as file:
+        for name in file:
+            dataset = file[name] if file.get(name, getclass=True) is h5py.Dataset else None
+            if dataset is None or dataset.external or dataset.is_virtual:
+                raise StorageError(f"is no result file: {name!r} is not stored in it as an array")
+            size += np.prod(dataset.shape or (), dtype=float) * dataset.dtype.itemsize
+            if size > MAXIMUM_RESULTS_BYTES:
+                raise StorageError(
+                    f"claims more than {MAXIMUM_RESULTS_BYTES / 2**30:g} GiB of values"
+                )
 
 
 def _ascii_attributes(results: xr.Dataset) -> xr.Dataset:

@@ -28,12 +28,16 @@ def _given_values(
     values = {}
     for name, written in table.items():
         unit = _at(content, ("scoring", "criteria", name, "unit"))
-        number = reader.number((*keys, name), written, unit if isinstance(unit, str) else "")
-        if not is_number(number):
-            raise ParameterError(
-                f"{reader.file_and_key((*keys, name))} = {number}: must be a number"
-            )
-        values[name] = float(number)
+        try:
+            number = reader.number((*keys, name), written, unit if isinstance(unit, str) else "")
+        except ParameterError as error:
+            reader.problems += error.args
+            continue
+        if is_number(number):
+            values[name] = float(number)
+        else:
+            where = reader.file_and_key((*keys, name))
+            reader.problems.append(f"{where} = {number}: must be a number")
     return values
 
 

@@ -7,7 +7,7 @@ from ..base.errors import ParameterError
 from ..base.parameters import Kind, split_kind
 from ..base.registry import Registry
 from .reader import Reader
-from .wording import validated
+from .wording import checked
 
 
 def of_kind(
@@ -24,11 +24,21 @@ def of_kind(
 def validate_kinds(
     content: dict[str, Any], name: str, registry: Registry[type[Kind]], reader: Reader
 ) -> None:
-    """Turn each table of a table, such as that of the options, into parameters of its kind."""
+    """Turn each table of a table, such as that of the options, into parameters of its kind.
+
+    What is refused is taken out and goes to the problems of the reader.
+    """
     tables = content.get(name)
     if not isinstance(tables, dict):  # refused by the study
         return
+    valid: dict[str, Any] = {}
     for key, table in tables.items():
         if isinstance(table, dict):
-            kind, values = of_kind(registry, table, reader.file_and_key((name, key)))
-            tables[key] = validated(kind, values, reader, (name, key))
+            try:
+                kind, values = of_kind(registry, table, reader.file_and_key((name, key)))
+                valid[key] = checked(kind, values, reader, (name, key))
+            except ParameterError as error:
+                reader.problems += error.args
+        else:  # refused by the study
+            valid[key] = table
+    content[name] = valid

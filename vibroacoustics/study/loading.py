@@ -65,7 +65,8 @@ def study_of(written: Written) -> Study:
     _resolve_file_names(content, reader)
     for name in _FILLED_IN:
         if name in content:
-            raise ParameterError(f"{path}: {name}: unknown key")
+            del content[name]
+            reader.problems.append(f"{path}: {name}: unknown key")
     given = take_given(content, reader)
     content = reader.to_si(content, ())
     content.update(machine=machine, source_file=path.name, given=given)
@@ -74,6 +75,8 @@ def study_of(written: Written) -> Study:
         machine_records += change_records
     validate_kinds(content, "options", OPTIONS, reader)
     validate_kinds(content, "sources", SOURCES, reader)
+    if reader.problems:
+        validated(Study, content, reader)  # raises, with what else is wrong
     used = tables_used(content)
     machine_records = [record for record in machine_records if is_used(record, machine, used)]
     content["records"] = (*machine_records, *reader.records)

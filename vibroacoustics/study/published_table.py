@@ -2,15 +2,18 @@
 
 import csv
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from ..base.errors import ParameterError
+from ..base.regular_file import read_text
+
+MAXIMUM_BYTES: Final = 1_000_000
 
 
 def read_published_table(path: Path) -> dict[str, Any]:
     """A published table of scores: `criterion,OPTION,…`, one line a criterion, last the sums."""
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        lines = read_text(path, MAXIMUM_BYTES).splitlines()
     except OSError as error:
         raise ParameterError(f"{path}: cannot be read: {error.strerror}") from None
     except ValueError as error:  # no UTF-8, no file name

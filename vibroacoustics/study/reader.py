@@ -25,9 +25,10 @@ class Reader:
         self.overridden: dict[tuple[str, ...], tuple[str, ...]] = {}
         self.records: list[ParameterRecord] = []
         self.file_keys: dict[tuple[str, ...], tuple[str, Any]] = {}
+        self.problems: list[str] = []
 
     def to_si(self, content: Mapping[str, Any], prefix: tuple[str, ...]) -> dict[str, Any]:
-        """Bare values in SI, by field, of a table under the keys of a prefix."""
+        """Bare values in SI, by field, of a table under a prefix; refusals go to `problems`."""
         result: dict[str, Any] = {}
         for key, value in content.items():
             keys = (*prefix, key)
@@ -36,11 +37,20 @@ class Reader:
                 continue
             name, factor = si_key(key)
             if name in result:
-                raise ParameterError(f"{self.file_and_key(keys)}: given twice, in two units")
-            number = self.number(keys, value)
+                self.problems.append(f"{self.file_and_key(keys)}: given twice, in two units")
+            number = self._number_or_problem(keys, value)
             self.file_keys[(*prefix, name)] = (key, number)
             result[name] = _scale(number, factor)
         return result
+
+    def _number_or_problem(self, keys: tuple[str, ...], value: Any) -> Any:
+        """The bare value of a leaf; what is wrong with its source or range is told later."""
+        try:
+            return self.number(keys, value)
+        except ParameterError as error:
+            self.problems += error.args
+            bare = value["value"] if is_quantity(value) else value
+            return tuple(bare) if isinstance(bare, list) else bare
 
     def file(self, keys: tuple[str, ...]) -> Path:
         """The file that gives the value of these keys."""

@@ -130,6 +130,13 @@ class Study(Parameters):
     records: tuple[ParameterRecord, ...] = ()
     source_file: str = ""
 
+    @field_validator("options", "receivers")
+    @classmethod
+    def _named(cls, given: dict[str, Any]) -> dict[str, Any]:
+        if not all(name.strip() for name in given):
+            raise ValueError("a name is blank")
+        return given
+
     @model_validator(mode="after")
     def _consistent(self) -> "Study":
         reference = self.options.get(REFERENCE_OPTION)

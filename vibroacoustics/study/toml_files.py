@@ -7,7 +7,9 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 from ..base.errors import ParameterError
+from ..base.regular_file import read_text
 from ..base.units import si_key
+from .nesting import nested_deeper_than
 
 MAXIMUM_FILE_BYTES: Final = 1_000_000
 MAXIMUM_DEPTH: Final = 16
@@ -31,9 +33,10 @@ class Written(NamedTuple):
 def read_toml(path: Path) -> dict[str, Any]:
     """Content of a TOML file, refused in one line where it cannot be read."""
     try:
-        if path.stat().st_size > MAXIMUM_FILE_BYTES:
-            raise ParameterError(f"{path}: larger than {MAXIMUM_FILE_BYTES} bytes")
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
+        text = read_text(path, MAXIMUM_FILE_BYTES).replace("\r\n", "\n")
+        if nested_deeper_than(text, MAXIMUM_DEPTH):
+            raise ParameterError(f"{path}: is nested deeper than {MAXIMUM_DEPTH} levels")
+        content = tomllib.loads(text)
     except FileNotFoundError:
         raise ParameterError(f"{path}: no such file") from None
     except OSError as error:

@@ -1,4 +1,4 @@
-"""The wording of a refusal: pydantic's finding as one line in the file's own keys and units."""
+"""The wording of refusals: pydantic's findings, a line each, in the file's own keys and units."""
 
 from typing import Any, Final, Protocol, TypeVar, get_args
 
@@ -8,9 +8,11 @@ from pydantic_core import ErrorDetails
 
 from ..base.errors import ParameterError
 from ..base.units import split_key
+from .asked_keys import asked_key, meant_field, meant_key
 from .radiation import RadiationSettings
 
 Model = TypeVar("Model", bound=BaseModel)
+MOST_LINES: Final = 40
 
 
 class FileKeys(Protocol):
@@ -19,6 +21,9 @@ class FileKeys(Protocol):
     file_keys: dict[tuple[str, ...], tuple[str, Any]]
     """Key and value as written, by the path of the SI field."""
 
+    problems: list[str]
+    """What the reader refuses."""
+
     def file_and_key(self, keys: tuple[str, ...]) -> str:
         """File and dotted key, as written, of a path of keys."""
 
@@ -26,7 +31,7 @@ class FileKeys(Protocol):
 def validated(
     model: type[Model], content: dict[str, Any], reader: FileKeys, table: tuple[str, ...] = ()
 ) -> Model:
-    """Validate SI values; a refusal is worded in the file's own keys and units.
+    """Validate SI values; refusals are worded in the file's own keys and units.
 
     Parameters
     ----------
@@ -38,12 +43,104 @@ def validated(
     Raises
     ------
     ParameterError
-        One line that names file, field, value, unit and allowed range.
+        A line for each refusal and each problem of the reader, which names file, field, value,
+        unit and allowed range.
     """
+    try:
+        valid = checked(model, content, reader, table)
+    except ParameterError as error:
+        raise ParameterError(*_first([*reader.problems, *error.args])) from None
+    if reader.problems:
+        raise ParameterError(*_first(reader.problems))
+    return valid
+
+
+def checked(
+    model: type[Model], content: dict[str, Any], reader: FileKeys, table: tuple[str, ...] = ()
+) -> Model:
+    """As `validated`, without the problems of the reader."""
     try:
         return model.model_validate(content)
     except ValidationError as error:
-        raise ParameterError(_one_line(model, error.errors()[0], reader, table)) from None
+        lines = _lines(model, error.errors(), reader, table)
+        raise ParameterError(*lines) from None
+
+
+def _first(lines: list[str]) -> list[str]:
+    """Lines, or the first of them and how many more there are."""
+    different = list(dict.fromkeys(lines))
+    more = len(different) - MOST_LINES
+    return different if more <= 0 else [*different[:MOST_LINES], f"and {more} more"]
+
+
+def _lines(
+    model: type[BaseModel], errors: list[ErrorDetails], reader: FileKeys, table: tuple[str, ...]
+) -> list[str]:
+    """A line for each written value or missing key."""
+    refused: dict[tuple[str, ...], ErrorDetails] = {}
+    for details in errors:
+        inner = _without_tags(tuple(str(part) for part in details["loc"]))
+        refused.setdefault(_written(inner, reader, table), details)
+    if not table and reader.problems:
+        refused.pop((), None)  # what the values are together is not known without all of them
+    missing = [inner for inner, details in refused.items() if details["type"] == "missing"]
+    told: dict[tuple[str, ...], list[str]] = {}
+    for inner, details in refused.items():
+        if details["type"] != "missing":
+            words = ""
+            if details["type"] == "extra_forbidden" and len(told) < MOST_LINES:
+                meant, words = _meant(model, inner, missing, reader, table)
+                missing = [other for other in missing if other != meant]
+            told[inner] = [_one_line(model, details, reader, table) + words]
+    told |= {inner: _asked(model, inner, reader, table) for inner in missing}
+    return [line for inner in refused for line in told.get(inner, ())]
+
+
+def _written(inner: tuple[str, ...], reader: FileKeys, table: tuple[str, ...]) -> tuple[str, ...]:
+    """Location of the value that the file writes, of which an error may concern an item."""
+    ends = range(1, len(inner))
+    return next((inner[:end] for end in ends if (*table, *inner[:end]) in reader.file_keys), inner)
+
+
+def _meant(
+    model: type[BaseModel],
+    inner: tuple[str, ...],
+    missing: list[tuple[str, ...]],
+    reader: FileKeys,
+    table: tuple[str, ...],
+) -> tuple[tuple[str, ...], str]:
+    """The field that a misspelt key means: one that is missing, or else an optional one."""
+    key = reader.file_keys.get((*table, *inner), (inner[-1], None))[0]
+    lacking = [other[-1] for other in missing if other[:-1] == inner[:-1]]
+    known = [field for at in _models_at(model, inner[:-1]) for field in at.model_fields]
+    field = meant_field(key, lacking) or meant_field(key, known)
+    if field is None:
+        return (), ""
+    return (*inner[:-1], field), f", did you mean {meant_key(key, field)}"
+
+
+def _asked(
+    model: type[BaseModel], inner: tuple[str, ...], reader: FileKeys, table: tuple[str, ...]
+) -> list[str]:
+    """A line for a missing value, or for each that a missing table needs."""
+    models = _models_at(model, inner)
+    fields = models[0].model_fields if len(models) == 1 and _is_table(model, inner) else {}
+    needed = [name for name, field in fields.items() if field.is_required()]
+    if needed:
+        return [line for name in needed for line in _asked(model, (*inner, name), reader, table)]
+    key = asked_key(inner[-1])
+    unit = split_key(key)[1]
+    bounds = _allowed(model, inner, 1.0 if unit is None else unit.factor)
+    symbol = f" {unit.symbol}" if unit and unit.symbol else ""
+    allowed = f"; allowed {bounds}{symbol}" if bounds else ""
+    return [f"{reader.file_and_key((*table, *inner[:-1], key))}: is missing{allowed}"]
+
+
+def _is_table(model: type[BaseModel], inner: tuple[str, ...]) -> bool:
+    """Whether a field is a table of its own, not a list or table of such tables."""
+    field = _find_field(model, inner)
+    annotation = None if field is None else field.annotation
+    return isinstance(annotation, type) and issubclass(annotation, BaseModel)
 
 
 def _one_line(
@@ -71,7 +168,6 @@ def _one_line(
 
 
 _PLAIN: Final = {
-    "missing": "is missing",
     "extra_forbidden": "unknown key",
     "union_tag_not_found": "kind is missing",
 }
@@ -115,6 +211,17 @@ _LIMIT_WORDS: Final = (("ge", "from"), ("gt", "above"), ("le", "to"), ("lt", "to
 
 def _find_field(model: type[BaseModel], location: tuple[str, ...]) -> FieldInfo | None:
     """Field that a location leads to, through nested parameter objects and tables of them."""
+    return _follow(model, location)[0]
+
+
+def _models_at(model: type[BaseModel], location: tuple[str, ...]) -> list[type[BaseModel]]:
+    """Parameter objects that may stand at a location."""
+    return _follow(model, location)[1]
+
+
+def _follow(
+    model: type[BaseModel], location: tuple[str, ...]
+) -> tuple[FieldInfo | None, list[type[BaseModel]]]:
     models: list[type[BaseModel]] = [model]
     field: FieldInfo | None = None
     for part in location:
@@ -122,7 +229,7 @@ def _find_field(model: type[BaseModel], location: tuple[str, ...]) -> FieldInfo 
         if named:
             field = named[0]
             models = _models_in(field.annotation)
-    return field
+    return field, models
 
 
 def _models_in(annotation: Any) -> list[type[BaseModel]]:

@@ -123,7 +123,10 @@ def test_no_lock_can_be_made_but_the_result_is_there(folder, monkeypatch):
     def refuse(*_):
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr("vibroacoustics.results.lock.os.open", refuse)
+    def read_only(path, flags, *rest, opened=os.open):
+        return refuse() if flags & os.O_CREAT else opened(path, flags, *rest)
+
+    monkeypatch.setattr("vibroacoustics.results.lock.os.open", read_only)
     monkeypatch.setattr(os, "utime", refuse)
     assert storage.cached("kind", {"a": 1}, never)[1]
 

@@ -78,7 +78,7 @@ BAD_FILES = {
     "unknown column": (b"channel,order,limit,unit,peak\n", ["line 1: column 'peak'", HEADER]),
     "column twice": (b"channel,order,limit,unit,unit\n", ["line 1: column 'unit'", "once"]),
     "no text": (b"\xff\xfe", ["limits.csv: cannot be read: is no text in UTF-8"]),
-    "too large": (b"#" * 1_000_001, ["limits.csv: is larger than 1000000 bytes"]),
+    "too large": (b"#" * 1_000_001, ["limits.csv: cannot be read: larger than 1000000 bytes"]),
     "quote": (b'channel,order,limit,unit\n"shell,1,1,N\n', ["line 2: cannot be split"]),
 }  # fmt: skip
 BAD_LINES = {

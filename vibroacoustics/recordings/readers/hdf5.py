@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from functools import partial
+from itertools import count
 from typing import Any, Final
 
 import numpy as np
@@ -13,6 +14,8 @@ from ..reader import Reader
 from ..recorded import MAXIMUM_READING_BYTES, Recorded, Request, check_size
 
 MAXIMUM_DATASETS: Final = 10_000
+MAXIMUM_NAME: Final = 4096
+"""Characters of a path: a chain of groups is not followed further."""
 _CLASSIC: Final = b"CDF"
 
 
@@ -42,10 +45,13 @@ def _read_hdf5(request: Request) -> Recorded:
 def datasets(file: Any) -> list[tuple[str, Any]]:
     """Path and dataset of all that an HDF5 file holds itself; links to others are not followed."""
     collected: list[tuple[str, Any]] = []
+    visited = count()
 
     def collect(name: str, item: Any) -> None:
-        if len(collected) == MAXIMUM_DATASETS:
-            raise StorageError(f"holds more than {MAXIMUM_DATASETS} datasets")
+        if next(visited) == MAXIMUM_DATASETS or len(name) > MAXIMUM_NAME:
+            raise StorageError(
+                f"holds more than {MAXIMUM_DATASETS} datasets and groups, or too deep"
+            )
         if hasattr(item, "shape"):
             collected.append((name, item))
 

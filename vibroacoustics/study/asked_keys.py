@@ -1,0 +1,51 @@
+"""The key that a message asks for: in the unit that the example files use."""
+
+from difflib import get_close_matches
+from typing import Final
+
+from ..base.units import si_key, split_key
+
+_BY_QUANTITY: Final = {
+    "floor_clearance_m": "mm",
+    "clearance_m": "um",
+    "error_m": "um",
+    "crankcase_pressure_pa": "mpa",
+    "pressure_pa": "bar",
+    "per_rad": "rad",
+    "youngs_modulus_pa": "gpa",
+    "bearing_stiffness_n_per_m": "n_per_m",
+    "duration_s": "ms",
+    "approach_speed_m_per_s": "mm_per_s",
+}
+"""By the end of a field's name, the first that fits."""
+_BY_UNIT: Final = {"m": "mm", "rad": "deg", "n_per_m": "n_per_mm", "m3": "cm3", "f": "uf"}
+_LONGEST_KEY: Final = 100
+_LIKENESS: Final = 0.7
+
+
+def asked_key(field: str) -> str:
+    """Key for a field of the model, such as `stroke_mm` for `stroke_m`."""
+    stem, unit = split_key(field)
+    if unit is None:
+        return field
+    usual = next((suffix for end, suffix in _BY_QUANTITY.items() if field.endswith(end)), None)
+    return f"{stem}_{usual or _BY_UNIT.get(unit.suffix, unit.suffix)}"
+
+
+def meant_field(key: str, fields: list[str]) -> str | None:
+    """The field that a misspelt key most likely means; None where none is like it."""
+    if len(key) > _LONGEST_KEY:
+        return None
+    by_name = {split_key(field)[0]: field for field in fields} | {field: field for field in fields}
+    for name in (split_key(key)[0], key, key.rpartition("_")[0]):
+        for match in get_close_matches(name, by_name, 1, _LIKENESS):
+            return by_name[match]
+    return None
+
+
+def meant_key(key: str, field: str) -> str:
+    """Key for a field, in the unit of the misspelt one where it fits."""
+    stem, unit = split_key(field)
+    own = split_key(key)[1]
+    fits = own is not None and si_key(f"{stem}_{own.suffix}")[0] == field
+    return f"{stem}_{own.suffix}" if own is not None and unit and fits else asked_key(field)
