@@ -28,8 +28,7 @@ def opened(path: Path, maximum_bytes: int) -> Iterator[BinaryIO]:
     ValueError
         The name cannot be that of a file.
     """
-    without_waiting = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0)
-    with open(os.open(path, without_waiting), "rb") as file:
+    with open(path, "rb", opener=_without_waiting) as file:
         status = os.fstat(file.fileno())
         if not stat.S_ISREG(status.st_mode):
             raise OSError(errno.EINVAL, "no regular file", str(path))
@@ -56,3 +55,7 @@ def read_text(path: Path, maximum_bytes: int) -> str:
         It is no UTF-8.
     """
     return read_bytes(path, maximum_bytes).decode("utf-8-sig")
+
+
+def _without_waiting(path: str, flags: int) -> int:
+    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0))

@@ -46,6 +46,6 @@ def meant_field(key: str, fields: list[str]) -> str | None:
 def meant_key(key: str, field: str) -> str:
     """Key for a field, in the unit of the misspelt one where it fits."""
     stem, unit = split_key(field)
-    own = split_key(key)[1]
-    fits = own is not None and si_key(f"{stem}_{own.suffix}")[0] == field
-    return f"{stem}_{own.suffix}" if own is not None and unit and fits else asked_key(field)
+    given = split_key(key)[1]
+    fits = given is not None and si_key(f"{stem}_{given.suffix}")[0] == field
+    return f"{stem}_{given.suffix}" if given is not None and unit and fits else asked_key(field)

@@ -84,16 +84,16 @@ def _lines(
     if not table and reader.problems:
         refused.pop((), None)  # what the values are together is not known without all of them
     missing = [inner for inner, details in refused.items() if details["type"] == "missing"]
-    told: dict[tuple[str, ...], list[str]] = {}
+    lines: dict[tuple[str, ...], list[str]] = {}
     for inner, details in refused.items():
         if details["type"] != "missing":
             words = ""
-            if details["type"] == "extra_forbidden" and len(told) < MOST_LINES:
+            if details["type"] == "extra_forbidden" and len(lines) < MOST_LINES:
                 meant, words = _meant(model, inner, missing, reader, table)
                 missing = [other for other in missing if other != meant]
-            told[inner] = [_one_line(model, details, reader, table) + words]
-    told |= {inner: _asked(model, inner, reader, table) for inner in missing}
-    return [line for inner in refused for line in told.get(inner, ())]
+            lines[inner] = [_one_line(model, details, reader, table) + words]
+    lines |= {inner: _asked(model, inner, reader, table) for inner in missing}
+    return [line for inner in refused for line in lines.get(inner, ())]
 
 
 def _written(inner: tuple[str, ...], reader: FileKeys, table: tuple[str, ...]) -> tuple[str, ...]:

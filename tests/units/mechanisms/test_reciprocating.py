@@ -352,6 +352,5 @@ def test_file_of_a_machine_that_cannot_be(tmp_path, old, new, message):
     assert old in text
     file = tmp_path / "machine.toml"
     file.write_text(text.replace(old, new), encoding="utf-8")
-    with pytest.raises(ParameterError, match=message) as refused:
+    with pytest.raises(ParameterError, match=message):
         load_machine(file)
-    assert "\n" not in str(refused.value)
