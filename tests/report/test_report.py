@@ -1,10 +1,13 @@
 """The report on small synthetic results: tables, verdict, escaping, self-containment."""
 
+import base64
 import csv
+import hashlib
 import io
 import json
 import re
 from collections.abc import Sequence
+from html import unescape as html_text
 from typing import Any
 
 import numpy as np
@@ -439,6 +442,26 @@ def test_the_page_is_self_contained(files: dict[str, bytes]) -> None:
     assert "url(" not in page
 
 
+def test_a_browser_may_show_the_style_and_the_figures_of_the_page_and_nothing_else(
+    files: dict[str, bytes],
+) -> None:
+    page = files["report.html"].decode()
+    policy = html_text(
+        re.findall(r'<meta http-equiv="Content-Security-Policy" content="([^"]*)">', page)[0]
+    )
+    (style,) = re.findall(r"<style>(.*?)</style>", page, re.DOTALL)
+    digest = base64.b64encode(hashlib.sha256(style.encode()).digest()).decode()
+    assert policy.split("; ") == [
+        "default-src 'none'",
+        "img-src data:",
+        f"style-src 'sha256-{digest}'",
+        "base-uri 'none'",
+        "form-action 'none'",
+    ]
+    assert not re.search(r"<[^>]* style=", page)  # the hash allows none
+    assert page.index("Content-Security-Policy") < page.index("<style>")
+
+
 def test_every_figure_is_on_the_page_with_its_text(files: dict[str, bytes]) -> None:
     page = files["report.html"].decode()
     pictures = [name for name in files if name.startswith("figures/")]
@@ -454,6 +477,16 @@ def test_names_are_escaped() -> None:
     assert "&lt;script&gt;" in page["report.html"].decode()
     assert "<script" not in page["comparison.md"].decode()
     assert "figures/transfer_a_b_.png" in page
+
+
+@pytest.mark.parametrize("start", ["=", "+", "-", "@", "\t"])
+def test_no_name_is_a_formula_in_a_spreadsheet(start: str) -> None:
+    name = f"{start}SUM(1+1)"
+    made = make_results({"none": 1.0, name: 1.5}, receivers=(name,))
+    for table in (comparison_csv(made), scores_csv(made)):
+        rows = list(csv.DictReader(io.StringIO(table.decode())))
+        assert f"'{name}" in {row["option"] for row in rows}
+        assert name not in {cell for row in rows for cell in row.values()}
 
 
 def test_the_report_is_the_same_twice(results: xr.Dataset, files: dict[str, bytes]) -> None:

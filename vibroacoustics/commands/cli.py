@@ -143,7 +143,9 @@ def score_command(
     results, _ = outputs.open_run(results_file)
     messages.warn(manifest.mixed(results_file.parent))
     settings = loading.load_study(scoring_of).scoring if scoring_of else None
-    typer.echo(scoring.ranking_text(scoring.score(results, settings)))
+    with outputs.refusing(results_file):
+        ranking = scoring.ranking_text(scoring.score(results, settings))
+    typer.echo(ranking)
 
 
 @app.command("cache")

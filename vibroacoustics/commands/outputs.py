@@ -1,16 +1,18 @@
 """What a run leaves on disk: the dataset, the report, its tables and figures."""
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
 
 import xarray as xr
 
 from .. import report
-from ..base.errors import StorageError
+from ..base.errors import StorageError, VibroacousticsError
 from ..report.figures import Picture
 from ..results import manifest, storage
+from ..results.complete import check_run
 from ..results.files import write
 from ..results.provenance import RECORDING_SCHEMA_VERSION, SCHEMA_VERSION
 
@@ -38,12 +40,32 @@ def open_run(path: str | Path) -> tuple[xr.Dataset, str]:
     Raises
     ------
     StorageError
-        The file cannot be read, or holds something else, or another version of the vocabulary.
+        The file cannot be read, or holds something else, an incomplete run, or another version
+        of the vocabulary.
     """
     results, digest = _open_of_this_version(path)
     if "criterion_value" not in results:
         raise StorageError(f"{path}: holds no run: {results.attrs.get('title', 'other results')}")
+    check_run(results, str(path))
     return results, digest
+
+
+@contextmanager
+def refusing(path: Path) -> Iterator[None]:
+    """What results that are complete by their names still hold too strangely to show.
+
+    Raises
+    ------
+    StorageError
+        Names the file; its cause is what went wrong.
+    """
+    try:
+        yield
+    except VibroacousticsError:
+        raise
+    except Exception as error:
+        reason = f"{type(error).__name__}: {error}"[:200]
+        raise StorageError(f"{path}: holds values that cannot be shown: {reason}") from error
 
 
 def open_orders(path: str | Path) -> xr.Dataset:
@@ -132,8 +154,10 @@ def write_report_again(results_file: Path, folder: Path) -> Path:
     path of the report
     """
     results, digest = open_run(results_file)
+    with refusing(results_file):
+        files = report.render(results, digest)
     with manifest.replacing(folder, results_file.name, digest) as staged:
-        _stage(report.render(results, digest), staged)
+        _stage(files, staged)
     return folder / REPORT_NAME
 
 

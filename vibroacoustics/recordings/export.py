@@ -1,17 +1,19 @@
 """Recordings out, for other tools: CSV and WAV as bytes."""
 
-import csv
 import io
 
 import numpy as np
 import xarray as xr
 from scipy.io import wavfile
 
+from ..base import csv_text
 from ..base.errors import ParameterError
 
 
 def csv_bytes(recording: xr.Dataset) -> bytes:
     """A table with the header `time [s],name [unit],…`; `read_recording` reads it back exactly.
+
+    Names that a spreadsheet would take for formulas begin with an apostrophe there.
 
     Parameters
     ----------
@@ -23,12 +25,8 @@ def csv_bytes(recording: xr.Dataset) -> bytes:
         f"{' '.join(str(name).split())} [{unit}]"
         for name, unit in zip(channels["channel"].values, units, strict=True)
     ]
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerow(["time [s]", *header])
     table = np.vstack([channels["time"].values, channels.values]).T
-    for row in table:  # repr is the shortest text that is read back bit by bit
-        text.write(",".join(map(repr, row.tolist())) + "\n")
-    return text.getvalue().encode()
+    return csv_text.csv_bytes(["time [s]", *header], (row.tolist() for row in table))
 
 
 def wav_bytes(recording: xr.Dataset) -> bytes:

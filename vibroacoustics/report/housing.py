@@ -145,6 +145,8 @@ def grid_error_sentence(results: xr.Dataset) -> str:
         return "The transfer vectors are given, without an estimate of their error."
     size = np.abs(results["transfer_vector"].values)
     loud = size > 0.1 * size.max(axis=0)
+    if not loud.any():
+        return "The transfer vectors are silent."
     error = level_of_amplitude(1.0 + results["transfer_vector_error"].values[loud] / size[loud])
     typical, worst = float(np.median(error)), float(np.quantile(error, 0.95))
     return (

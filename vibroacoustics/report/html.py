@@ -1,6 +1,7 @@
 """The report as one self-contained HTML page."""
 
 import base64
+import hashlib
 import re
 from importlib import resources
 
@@ -30,7 +31,18 @@ def html(page: Page, results_sha256: str = "") -> bytes:
     }
     style = resources.files(__package__).joinpath("templates/style.css").read_text("utf-8")
     template = environment.get_template("report.html.j2")
-    return template.render(page=page, style=style, results_sha256=results_sha256).encode()
+    return template.render(
+        page=page, style=style, policy=_policy(style), results_sha256=results_sha256
+    ).encode()
+
+
+def _policy(style: str) -> str:
+    """What a browser may do with the page: show its one style and its figures, run nothing."""
+    digest = base64.b64encode(hashlib.sha256(style.encode()).digest()).decode()
+    return (
+        f"default-src 'none'; img-src data:; style-src 'sha256-{digest}'; "
+        "base-uri 'none'; form-action 'none'"
+    )
 
 
 def _linked(text: Text) -> Markup:

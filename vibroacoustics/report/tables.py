@@ -1,10 +1,10 @@
 """A table as data, and its forms as CSV, Markdown and plain text."""
 
-import csv
-import io
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
+
+from ..base.csv_text import csv_bytes
 
 
 @dataclass(frozen=True)
@@ -21,11 +21,7 @@ class Table:
 
 def to_csv(columns: Sequence[str], rows: Iterable[Sequence[str | float]]) -> bytes:
     """CSV with a head line; numbers to nine significant digits."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(columns)
-    writer.writerows([_exact(cell) for cell in row] for row in rows)
-    return text.getvalue().encode()
+    return csv_bytes(columns, rows, lambda number: f"{number:.9g}")
 
 
 def to_markdown(table: Table) -> str:
@@ -56,10 +52,6 @@ def escape_markdown(text: str) -> str:
     for character in "\\`*_[]|":
         text = text.replace(character, f"\\{character}")
     return text.replace("<", "&lt;").replace("\n", " ")
-
-
-def _exact(cell: str | float) -> str:
-    return cell if isinstance(cell, str) else f"{cell:.9g}"
 
 
 def _pipes(cells: Iterable[str]) -> str:

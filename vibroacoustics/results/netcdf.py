@@ -69,7 +69,8 @@ def from_bytes(content: bytes, path: Path) -> xr.Dataset:
         return _plain_text(_join_complex(read))
     except StorageError as error:
         raise StorageError(f"{path}: {error}") from None
-    except (OSError, ValueError, RuntimeError) as error:
+    except (OSError, ValueError, RuntimeError, LookupError, AttributeError, TypeError) as error:
+        # RuntimeError is netCDF's; the others come of attributes that no result of ours has
         raise StorageError(f"{path}: is no result file: {error}") from None
 
 

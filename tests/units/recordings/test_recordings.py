@@ -214,6 +214,14 @@ def test_csv_round_trip(recording, tmp_path):
     assert abs(found.attrs["sample_rate_hz"] / RATE_HZ - 1.0) <= 2.0 * EPS
 
 
+@pytest.mark.parametrize("name", ["=1+1", "+a", "-a", "@a", "'=a", "'a"])
+def test_a_channel_that_would_be_a_formula_is_defused_and_read_back(tmp_path, name):
+    made = label_recording([SIGNAL[0]], RATE_HZ, [name], ["Pa"])
+    content = csv_bytes(made)
+    assert content.startswith(b"time [s],'")
+    assert list(read_recording(write(tmp_path / "a.csv", content))["channel"].values) == [name]
+
+
 CSV_TABLES = {
     "comma": "time [s],a [Pa],b [g]\n0,1,2\n0.5,3,4\n",
     "semicolon and decimal comma": "time [s];a [Pa];b [g]\n0,0;1;2\n0,5;3,0;4,0\n",

@@ -11,6 +11,7 @@ from typing import BinaryIO, Final
 
 import numpy as np
 
+from ...base.csv_text import fused
 from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
 from ..quantities import TIME_UNITS, find_quantity, time_factor
@@ -117,7 +118,7 @@ def _parse_names(rows: list[list[str]], columns: int) -> tuple[list[str], list[s
     units = None
     if len(above) > 1 and all(_is_unit(field) for field in above[-1]):
         units = [field.strip("[]()") for field in above.pop()]
-    named = [_split_name(field) for field in above[-1]]
+    named = [_split_name(fused(field)) for field in above[-1]]
     if len(named) != columns or (units is not None and len(units) != columns):
         raise ParameterError(f"the header names {len(named)} columns, the table has {columns}")
     return [name for name, _ in named], units or [unit for _, unit in named]

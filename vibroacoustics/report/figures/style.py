@@ -8,6 +8,7 @@ from itertools import cycle, islice
 from typing import Any, Final, NamedTuple
 
 import matplotlib
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -68,6 +69,7 @@ class Drawing(Figure):
         return png(self)
 
 
+NOTHING_TO_DRAW: Final = "Every value is too small to draw."
 FAST: Final = {"compress_level": 1}
 """Larger files by a third, written in half the time."""
 
@@ -95,9 +97,22 @@ def render(width_inch: float, height_inch: float, paint: Callable[[Figure], None
         figure = Drawing(figsize=(width_inch, height_inch), dpi=DOTS_PER_INCH, layout=layout)
         FigureCanvasAgg(figure)
         paint(figure)
+        for axes in figure.axes:
+            _say_where_empty(axes)
         layout.execute(figure)  # once; saving with a layout engine would draw everything twice
         figure.set_layout_engine(None)
     return figure
+
+
+def _say_where_empty(axes: Axes) -> None:
+    """A sentence on a logarithmic axis without a value above zero, which cannot be drawn."""
+    smallest = {"x": axes.dataLim.minposx, "y": axes.dataLim.minposy}
+    scales = {"x": axes.get_xscale(), "y": axes.get_yscale()}
+    empty = [name for name in "xy" if scales[name] == "log" and not np.isfinite(smallest[name])]
+    if empty:
+        axes.set(**{f"{name}scale": "linear" for name in empty})
+        axes.set(**{f"{name}ticks": [] for name in empty if name == "x"})
+        axes.text(0.5, 0.5, NOTHING_TO_DRAW, transform=axes.transAxes, ha="center", va="center")
 
 
 def png(figure: Figure) -> bytes:
