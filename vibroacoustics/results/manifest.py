@@ -14,6 +14,7 @@ from pydantic import AfterValidator, BaseModel, TypeAdapter
 from ..base.hashing import sha256
 from . import hashed
 from .files import LOCK_NAME, files_in, only_writer, replace_all, write
+from .interruption import uninterrupted
 from .lock import is_held
 
 MANIFEST_NAME: Final = "files.json"
@@ -70,13 +71,18 @@ def replacing(folder: Path, dataset: str, dataset_sha256: str = "") -> Iterator[
         entry = Entry(sha256=str(digest), beside=beside, files=made)
         after = dict(sorted({**_without(before, made), dataset: entry}.items()))
         write(staged / MANIFEST_NAME, _MANIFEST.dump_json(after, indent=1) + b"\n")
-        replace_all(staged, folder, first=MANIFEST_NAME)  # killed from here on: a mixture is seen
-        with suppress(OSError):
+        with uninterrupted():
+            replace_all(staged, folder, first=MANIFEST_NAME)  # killed from here on: it is seen
             if not dataset_sha256:
-                hashed.hash_path(folder / dataset).unlink(missing_ok=True)  # earlier versions'
+                _remove(hashed.hash_path(folder / dataset))  # earlier versions'
             for name, old in before[dataset].files.items() if dataset in before else ():
                 if name not in made and _hash(folder / name) == old:
-                    (folder / name).unlink()
+                    _remove(folder / name)
+
+
+def _remove(path: Path) -> None:
+    with suppress(OSError):
+        path.unlink(missing_ok=True)
 
 
 def _without(manifest: Manifest, names: Container[str]) -> Manifest:

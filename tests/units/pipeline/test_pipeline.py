@@ -15,6 +15,7 @@ from vibroacoustics.study.loading import load_study
 ROUNDING = 1e-12
 STUDIES = ROOT / "tests" / "studies"
 OF_SOURCES = {
+    "projection_error",
     "supply_frequency",
     "source_level_by_draw",
     "level_modelled_by_draw",
