@@ -84,7 +84,7 @@ height_mm = { value = 0.0, source = "a test" }
     study = tmp_path / "study.toml"
     study.write_text(text.replace("[receivers.", option, 1))
     without = command(tmp_path, "run", study)
-    assert_refused(without, "options.weight.radius_m: is missing")
+    assert_refused(without, "options.weight.radius_inch: unknown key")
     outcome = stranger("run", study, names=("inches",))
     assert_refused(
         outcome, "options.weight.radius_inch = 400.0 in: out of range", "above 0 to 19.685 in"

@@ -34,7 +34,7 @@ class OrderMap:
 
     @property
     def resolution_order(self) -> float:
-        """Noise bandwidth of a line, orders: the resolution really obtained."""
+        """Noise bandwidth of a line in orders, as really obtained."""
         return self.window.noise_bandwidth_lines / self.revolutions
 
     @property

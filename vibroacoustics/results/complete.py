@@ -12,19 +12,19 @@ from ..base.vocabulary import COORDINATES, REFERENCE_OPTION, VARIABLES, check
 
 VARIABLES_OF_A_RUN: Final = (
     "natural_frequency", "mode_shape", "mount_transmissibility", "force", "force_amplitude",
-    "moment_amplitude", "foot_force_amplitude", "velocity_order", "reported_figure",
+    "moment_amplitude", "foot_force_amplitude", "reported_figure",
     "transfer_vector", "order_level", "level_modelled", "level_total", "level_remainder",
     "source_level", "change_1x", "change_modelled", "change_total", "criterion_value",
     "criterion_best", "criterion_worst", "weight", "score", "rank", "first_place_share",
 )  # fmt: skip
 EMPTY_WHERE_NONE: Final = ("reported_figure",)
 """May be NaN: an option without such a figure."""
-ATTRIBUTES_OF_A_RUN: Final = ("created_utc", "parameters", "parameters_sha256", "words")
+ATTRIBUTES_OF_A_RUN: Final = ("created_utc", "parameters", "words")
 OBJECTS: Final = ("package_versions", "plugins", "radiation")
 """Further attributes, JSON objects where they are there."""
 WORDS_OF_A_RUN: Final = {
     "axes": str, "orders": str, "leaves_out": list, "labels": dict, "shell_bends": bool,
-    "units": dict, "source_figures": list, "sources": dict, "sentences": dict,
+    "source_figures": list, "sources": dict, "sentences": dict,
 }  # fmt: skip
 """Attribute `words`: its keys and their JSON types."""
 
@@ -68,7 +68,8 @@ def _check_attributes(results: xr.Dataset) -> None:
     for name in ATTRIBUTES_OF_A_RUN:
         if not isinstance(results.attrs.get(name), str):
             raise SchemaError(f"attribute {name} is missing or no text")
-    if sha256(results.attrs["parameters"].encode()) != results.attrs["parameters_sha256"]:
+    digest = sha256(results.attrs["parameters"].encode())
+    if results.attrs.get("parameters_sha256", digest) != digest:
         raise SchemaError("attribute parameters does not fit its hash, parameters_sha256")
     parameters, words = _json(results, "parameters"), _json(results, "words")
     for name in OBJECTS:
@@ -98,7 +99,6 @@ def _check_names(results: xr.Dataset, parameters: dict[str, Any], words: dict[st
     if REFERENCE_OPTION not in options:
         raise SchemaError(f"coordinate option: holds no option {REFERENCE_OPTION}")
     for known, names, attribute in (
-        (parameters.get("options"), options, "parameters: options"),
         (parameters.get("receivers"), receivers, "parameters: receivers"),
         (words["sentences"], options, "words: sentences"),
     ):
