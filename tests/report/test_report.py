@@ -33,7 +33,7 @@ from vibroacoustics.report.assumptions import records_table
 from vibroacoustics.report.comparison import comparison, comparison_csv, comparison_tables
 from vibroacoustics.report.figures.scores import contributions
 from vibroacoustics.report.housing import isolation_sentence, shape_words
-from vibroacoustics.report.option_verdict import option_verdict
+from vibroacoustics.report.option_verdict import option_verdict, option_verdicts
 from vibroacoustics.report.scores import published_table, scores_csv, wrong_sums
 from vibroacoustics.report.verdict import extremes_table, headline, reasons
 from vibroacoustics.scoring import score
@@ -331,10 +331,11 @@ def test_the_verdict_follows_the_sign(factor: float, judgement: str, words: str)
 
 
 def test_options_that_worsen_are_named_so(results: xr.Dataset) -> None:
-    texts = " ".join(reasons(results))
+    texts = " ".join(reasons(results, option_verdicts(results)))
     assert "Worse than no balancer: louder." in texts
     assert "Without any effect on force, feet and sound: idle." in texts
-    better = " ".join(reasons(make_results({"none": 1.0, "halved": 0.5})))
+    halved = make_results({"none": 1.0, "halved": 0.5})
+    better = " ".join(reasons(halved, option_verdicts(halved)))
     assert "Worse" not in better
     assert "No option makes" in better
 
@@ -366,7 +367,7 @@ def test_why_a_better_option_ranks_behind_is_told_by_the_criteria_that_decide(
         given_value=stamp("given_value", values, coords)
     )
     scored = score(results, Scoring(criteria=scales))
-    text = reasons(results.merge(scored))[-1]
+    text = reasons(results.merge(scored), option_verdicts(results.merge(scored)))[-1]
     assert ("ranks below none all the same" in text) == bool(told)
     assert told in text
 

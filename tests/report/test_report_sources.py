@@ -15,7 +15,7 @@ from vibroacoustics.report import comparison_text, render
 from vibroacoustics.report.assumptions import not_modelled, remainder_sentence
 from vibroacoustics.report.bands import Band, draws, percent
 from vibroacoustics.report.drawn_words import drawn_sentences, held_sentence
-from vibroacoustics.report.option_verdict import option_verdict
+from vibroacoustics.report.option_verdict import option_verdict, option_verdicts
 from vibroacoustics.report.source_changes import changes_sentence, source_change
 from vibroacoustics.report.source_tables import change_tables, figures_table, source_tables
 from vibroacoustics.report.source_words import (
@@ -301,7 +301,7 @@ def test_a_band_on_both_sides_of_zero_judges_nothing() -> None:
 
 
 def test_the_reasons_name_what_becomes_louder(results: xr.Dataset) -> None:
-    first = reasons(results)[0]
+    first = reasons(results, option_verdicts(results))[0]
     whole = [
         energy(gas, 62.0 + spread, rest) - PUBLISHED_DBA
         for spread in (SPREAD_DB[0], SPREAD_DB[2])
@@ -310,7 +310,7 @@ def test_the_reasons_name_what_becomes_louder(results: xr.Dataset) -> None:
     ]
     assert f"louder with rattles (+{whole[0]:.1f} to +{whole[1]:.1f} dB)" in first
     assert "No other option changes" in first
-    assert "16 of 27 draws are left out" in " ".join(reasons(results))
+    assert "16 of 27 draws are left out" in " ".join(reasons(results, option_verdicts(results)))
 
 
 def _remainder(spread_db: float) -> float:

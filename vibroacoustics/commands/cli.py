@@ -7,7 +7,7 @@ import gc
 import sys
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
-from typing import Annotated, Final
+from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
@@ -15,6 +15,9 @@ from ..base.errors import VibroacousticsError
 from . import curve_commands, messages, recording_commands
 from .options import Plugins, load_plugins
 from .progress import progress_bar
+
+if TYPE_CHECKING:
+    from ..study.study import Study
 
 INPUT_ERROR = 2
 COLLECTIONS: Final = (100_000, 10, 10)
@@ -33,6 +36,10 @@ app.add_typer(curve_commands.commands)
 app.add_typer(recording_commands.commands)
 
 StudyFile = Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study to run.")]
+Out = Annotated[
+    Path | None,
+    typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE STUDY."),
+]
 NoCache = Annotated[
     bool, typer.Option("--no-cache", help="Neither read nor write the cache of the radiation.")
 ]
@@ -57,22 +64,15 @@ def main() -> None:
 @app.command("run")
 def run_command(
     study_file: StudyFile,
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE STUDY."),
-    ] = None,
+    out: Out = None,
     plugin: Plugins = None,
     no_cache: NoCache = False,
 ) -> None:
     """Run a study and write results.nc, report.html, tables and figures."""
     from .. import pipeline, report
-    from ..study import loading
     from . import outputs
 
-    load_plugins(plugin)
-    folder = out or Path("reports") / study_file.stem
-    study = loading.load_study(study_file)
-    outputs.check_folder(folder)
+    study, folder = _study_and_folder(study_file, out, plugin)
     with _cache(no_cache), progress_bar() as progress:
         results = pipeline.run(study, progress)
     written = outputs.write_report(results, folder)
@@ -84,22 +84,15 @@ def run_command(
 @app.command("radiation")
 def radiation_command(
     study_file: StudyFile,
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE STUDY."),
-    ] = None,
+    out: Out = None,
     plugin: Plugins = None,
     no_cache: NoCache = False,
 ) -> None:
     """Compute the housing's radiation alone: transfer vectors, map, directivity, sound power."""
     from .. import pipeline, report
-    from ..study import loading
     from . import outputs
 
-    load_plugins(plugin)
-    folder = out or Path("reports") / study_file.stem
-    study = loading.load_study(study_file)
-    outputs.check_folder(folder)
+    study, folder = _study_and_folder(study_file, out, plugin)
     with _cache(no_cache), progress_bar() as progress:
         radiated = pipeline.radiate(study, progress)
     written = outputs.write_radiation(radiated, folder)
@@ -179,6 +172,20 @@ def doctor_command(
 
     for line in doctor.findings(folder):
         typer.echo(line)
+
+
+def _study_and_folder(
+    study_file: Path, out: Path | None, plugins: list[Path] | None
+) -> "tuple[Study, Path]":
+    """The study and the folder of its results, which can be written."""
+    from ..study import loading
+    from . import outputs
+
+    load_plugins(plugins)
+    folder = out or Path("reports") / study_file.stem
+    study = loading.load_study(study_file)
+    outputs.check_folder(folder)
+    return study, folder
 
 
 def _cache(unused: bool) -> AbstractContextManager[None]:

@@ -10,7 +10,7 @@ from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
 from . import labels
 from .comparison import column, comparison
-from .option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, OptionVerdict, option_verdicts
+from .option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, OptionVerdict
 from .scores import criteria_of_advantage, scope_words
 from .shifts import (
     FOOT_FORCE,
@@ -61,17 +61,16 @@ def headline(results: xr.Dataset) -> str:
     )
 
 
-def reasons(results: xr.Dataset) -> list[str]:
-    """Sentences that explain the headline."""
+def reasons(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> list[str]:
+    """Sentences that explain the headline, with the verdicts on the options."""
     with_sources = has_sources(results)
     texts = [_as_it_is(results)]
     if with_sources:
         texts += [shares_sentence(results), left_out_sentence(results)]
     else:
         texts.append(_remainder(results))
-    if not balancers(results):
+    if not verdicts:
         return texts
-    verdicts = option_verdicts(results)
     if with_sources:
         texts.insert(0, changes_sentence(results))
     return [*texts, *_warnings(verdicts), _ranking(results, verdicts)]

@@ -1,28 +1,31 @@
 """What balancing does, in a few sentences, and what each option does."""
 
+from collections.abc import Sequence
+
 import xarray as xr
 
 from ...base.registry import register
 from .. import verdict
 from ..blocks import Block, Bullets, Definition, Definitions, Heading, Text
-from ..option_verdict import option_verdicts
+from ..option_verdict import OptionVerdict, option_verdicts
 from . import Section
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
     table = verdict.extremes_table(results)
+    verdicts = option_verdicts(results)
     return [
         Text(verdict.headline(results), "headline"),
-        Bullets(tuple(verdict.reasons(results))),
+        Bullets(tuple(verdict.reasons(results, verdicts))),
         *([table] if table else []),
-        *_options(results),
+        *_options(verdicts),
     ]
 
 
-def _options(results: xr.Dataset) -> list[Block]:
+def _options(verdicts: Sequence[OptionVerdict]) -> list[Block]:
     entries = tuple(
         Definition(of_option.option, of_option.judgement, " ".join(of_option.sentences))
-        for of_option in option_verdicts(results)
+        for of_option in verdicts
     )
     title = Heading("Option by option, against no balancer")
     return [title, Definitions(entries)] if entries else []
