@@ -11,12 +11,14 @@ from ..base.hashing import sha256
 from ..base.vocabulary import COORDINATES, REFERENCE_OPTION, VARIABLES, check
 
 VARIABLES_OF_A_RUN: Final = (
-    "natural_frequency", "mode_shape", "mount_transmissibility", "force", "force_amplitude",
+    "natural_frequency", "mode_shape", "mount_transmissibility", "force_amplitude",
     "moment_amplitude", "foot_force_amplitude", "reported_figure",
     "transfer_vector", "order_level", "level_modelled", "level_total", "level_remainder",
     "source_level", "change_1x", "change_modelled", "change_total", "criterion_value",
     "criterion_best", "criterion_worst", "weight", "score", "rank", "first_place_share",
 )  # fmt: skip
+OF_FEW_SPEEDS: Final = ("force",)
+"""Left out of the results of many speeds."""
 EMPTY_WHERE_NONE: Final = ("reported_figure",)
 """May be NaN: an option without such a figure."""
 ATTRIBUTES_OF_A_RUN: Final = ("created_utc", "parameters", "words")
@@ -53,7 +55,7 @@ def _check_variables(results: xr.Dataset) -> None:
     strangers = [name for name in results.data_vars if name not in VARIABLES]
     strangers += [name for name in results.coords if name not in COORDINATES]
     check(results.drop_vars(strangers), VARIABLES_OF_A_RUN)
-    for name in VARIABLES_OF_A_RUN:
+    for name in (*VARIABLES_OF_A_RUN, *(name for name in OF_FEW_SPEEDS if name in results)):
         values = results[name]
         for dim in values.dims:
             if dim not in results.coords or not results.sizes[dim]:

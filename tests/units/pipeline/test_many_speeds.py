@@ -243,6 +243,8 @@ def test_time_series_of_many_speeds_only_on_request(folder, tmp_path, many):
     page = outputs.write_report(dropped, tmp_path).read_text()
     assert "operation.keep_time_series" in page
     assert not (tmp_path / "figures" / "force_over_revolution.png").exists()
+    again = outputs.write_report_again(tmp_path / "results.nc", tmp_path / "again")
+    assert again.read_text() == page
 
 
 def test_result_above_2_gib_is_refused_before_the_second_speed(tmp_path, monkeypatch):
