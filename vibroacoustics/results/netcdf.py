@@ -119,27 +119,31 @@ def _attributes(results: xr.Dataset) -> list[dict[Any, Any]]:
 
 
 def _split_complex(results: xr.Dataset) -> xr.Dataset:
-    split = results.copy()
-    for name, array in results.data_vars.items():
-        if np.iscomplexobj(array.data):
-            split = split.drop_vars(str(name))
-            split[f"{name}{REAL_SUFFIX}"] = array.real.assign_attrs(array.attrs)
-            split[f"{name}{IMAGINARY_SUFFIX}"] = array.imag.assign_attrs(array.attrs)
-    return split
+    variables = results.data_vars.items()
+    complex_valued = {str(name): array for name, array in variables if np.iscomplexobj(array.data)}
+    parts = {}
+    for name, array in complex_valued.items():
+        parts[f"{name}{REAL_SUFFIX}"] = array.real.assign_attrs(array.attrs)
+        parts[f"{name}{IMAGINARY_SUFFIX}"] = array.imag.assign_attrs(array.attrs)
+    return results.drop_vars(list(complex_valued)).assign(parts)
 
 
 def _join_complex(split: xr.Dataset) -> xr.Dataset:
-    results = split.copy()
-    for name in map(str, split.data_vars):
-        stem = name.removesuffix(REAL_SUFFIX)
-        if stem == name or stem + IMAGINARY_SUFFIX not in split:
-            continue
-        real, imaginary = split[name], split[stem + IMAGINARY_SUFFIX]
-        results = results.drop_vars([name, stem + IMAGINARY_SUFFIX])
-        joined = np.empty(real.shape, dtype=complex)  # a sum would lose -0.0 and infinities
-        joined.real, joined.imag = real.values, imaginary.values
-        results[stem] = real.copy(data=joined)
-    return results
+    names = [str(name) for name in split.data_vars]
+    stems = [name.removesuffix(REAL_SUFFIX) for name in names if name.endswith(REAL_SUFFIX)]
+    joined, parts = {}, []
+    for stem in stems:
+        pair = [f"{stem}{REAL_SUFFIX}", f"{stem}{IMAGINARY_SUFFIX}"]
+        if pair[1] in split:
+            joined[stem] = _joined(*(split[name] for name in pair))
+            parts += pair
+    return split.drop_vars(parts).assign(joined)
+
+
+def _joined(real: xr.DataArray, imaginary: xr.DataArray) -> xr.DataArray:
+    joined = np.empty(real.shape, dtype=complex)  # a sum would lose -0.0 and infinities
+    joined.real, joined.imag = real.values, imaginary.values
+    return real.copy(data=joined)
 
 
 def _plain_text(results: xr.Dataset) -> xr.Dataset:
