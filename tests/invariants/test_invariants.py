@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from radiation_parts import floor, normal_velocity
+from sphere_sound import sphere_pressure
 from support import (
     CRANK_ANGLE,
     ROUNDING,
@@ -28,13 +30,11 @@ from vibroacoustics.mechanisms.oldham_scroll.rotating_set import (
 )
 from vibroacoustics.orders import order_spectrum, semi_major_axis
 from vibroacoustics.radiation.bodies import sphere
-from vibroacoustics.radiation.exact import box_green, sphere_pressure
+from vibroacoustics.radiation.exact import box_green
 from vibroacoustics.radiation.join import join
 from vibroacoustics.radiation.machine_side import EXTRAPOLATION
-from vibroacoustics.radiation.mirrors import floor
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.near_step import Fields
-from vibroacoustics.radiation.patterns import normal_velocity
 from vibroacoustics.radiation.scene import Scene, cabinet_panels
 from vibroacoustics.study.surroundings import Cabinet
 from vibroacoustics.transfer import MachineOnMounts

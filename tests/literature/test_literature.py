@@ -9,6 +9,7 @@ import re
 
 import numpy as np
 import pytest
+from rotor_at_rest import natural_frequencies_hz
 from support import CRANK_ANGLE, PIPELINES, ROOT, balancing, machine_parts, turning, wrench_orders
 
 from vibroacoustics import levels, scoring
@@ -19,7 +20,6 @@ from vibroacoustics.levels import sound_power
 from vibroacoustics.mechanics.beam_rotor import (
     Section,
     assemble,
-    natural_frequencies_hz,
     with_disc,
 )
 from vibroacoustics.mechanics.moving_parts import derivative, wrench

@@ -8,6 +8,7 @@ import struct
 import numpy as np
 import pytest
 import xarray as xr
+from radiation_parts import floor
 from support import PIPELINES
 from typer.testing import CliRunner
 
@@ -27,7 +28,6 @@ from vibroacoustics.radiation.arrangements import (
     map_points,
 )
 from vibroacoustics.radiation.exact import green, wavenumber
-from vibroacoustics.radiation.mirrors import floor
 from vibroacoustics.report.figures.directivity import directivity_figure
 from vibroacoustics.report.figures.maps import line_map_figures, map_figure
 from vibroacoustics.report.figures.transfer_vectors import transfer_vector_figure

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from scipy.linalg import eigh
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
@@ -142,16 +141,6 @@ def with_disc(
     gyroscopic[at[2], at[3]] += axial_kg_m2
     gyroscopic[at[3], at[2]] -= axial_kg_m2
     return RotorMatrices(mass, gyroscopic, rotor.stiffness)
-
-
-def natural_frequencies_hz(rotor: RotorMatrices, support: Array | None = None) -> Array:
-    """Natural frequencies at rest, each plane's, with an added support stiffness in N/m.
-
-    Rigid-body motions of a free rotor come out as zero to rounding.
-    """
-    stiffness = rotor.stiffness if support is None else rotor.stiffness + support
-    squared = eigh(stiffness, rotor.mass, eigvals_only=True)
-    return np.asarray(np.sqrt(np.abs(squared)) / (2.0 * np.pi))
 
 
 def whirl_frequencies_hz(rotor: RotorMatrices, spin_rad_per_s: float) -> Array:

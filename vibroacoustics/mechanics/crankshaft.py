@@ -136,12 +136,6 @@ def steady_rotation(
     raise SolverError(f"motor_slope_ratio = {motor_slope_ratio:g}: no steady rotation found")
 
 
-def _integral(rate: Array) -> Array:
-    """Integral of a rate over crank angle from zero, by the trapezoidal rule."""
-    step = 2.0 * np.pi / rate.size
-    return np.asarray(step * (np.cumsum(rate) - 0.5 * (rate + rate[0])))
-
-
 def _energy(surplus: Array, before: Array, restoring: float) -> Array:
     """Periodic solution of E' + k E = surplus + k E_before, by the trapezoidal rule.
 

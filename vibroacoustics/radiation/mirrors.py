@@ -34,11 +34,6 @@ class Mirror:
         return depth
 
 
-def floor(position_z_m: float) -> Mirror:
-    """Hard floor at a height."""
-    return Mirror(axis=2, sign=-1, position_m=position_z_m)
-
-
 def images(source: Array, mirrors: Sequence[Mirror]) -> tuple[Array, Array]:
     """A source (3,) and all of its images: positions (image, 3), m, and strengths (image,)."""
     positions: Array = np.asarray(source, dtype=float)[None, :]

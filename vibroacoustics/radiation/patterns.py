@@ -63,11 +63,6 @@ def surface_motion(motion: SurfaceMotion) -> Pattern:
     return Pattern(motion.name, lambda at: motion.velocity(np.asarray(at.position, dtype=float)))
 
 
-def normal_velocity(name: str, velocity: Callable[[Array], Array]) -> Pattern:
-    """Pattern of a normal velocity (point,) given as a function of points (point, 3)."""
-    return Pattern(name, lambda at: velocity(at.position)[:, None] * at.normal)
-
-
 def sampled(name: str, body: Body, values: Array) -> Pattern:
     """Pattern given on a body's mesh: one value for each face, or one for each vertex.
 

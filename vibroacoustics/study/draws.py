@@ -2,8 +2,9 @@
 
 import warnings
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from operator import attrgetter
 from typing import Any, Final, TypeVar
 
@@ -47,11 +48,11 @@ class Sample:
         return len(self.draws) + len(self.refused)
 
 
-def latin_hypercube(ranges: Sequence[Range], settings: Uncertainty) -> list[Draw]:
-    """Sets of values drawn from their ranges (McKay, Beckman, Conover 1979); none without any."""
-    if not ranges:
-        return []
-    return _hypercube(ranges, settings, _sampler(ranges, settings))
+def latin_hypercubes(ranges: Sequence[Range], settings: Uncertainty) -> Iterator[list[Draw]]:
+    """Sets of values drawn from their ranges (McKay, Beckman, Conover 1979), one after another."""
+    sampler = scipy.stats.qmc.LatinHypercube(len(ranges), rng=settings.seed)
+    while True:
+        yield [_draw(ranges, row) for row in sampler.random(settings.random_samples)]
 
 
 def draws_of(study: Study) -> Sample:
@@ -68,11 +69,11 @@ def draws_of(study: Study) -> Sample:
     wanted, ranges = study.uncertainty.random_samples, study.ranges
     if not ranges:
         return Sample([], ())
-    sampler = _sampler(ranges, study.uncertainty)
+    hypercubes = latin_hypercubes(ranges, study.uncertainty)
     draws: list[Draw] = []
     refused: list[str] = []
-    for _ in range(MOST_ROUNDS):
-        for draw in _hypercube(ranges, study.uncertainty, sampler):
+    for hypercube in islice(hypercubes, MOST_ROUNDS):
+        for draw in hypercube:
             reason = _why_not(study, draw)
             if reason is not None:
                 refused.append(reason)
@@ -188,14 +189,6 @@ def _most_often(reasons: Sequence[str]) -> str:
     words = Counter(reason.partition(" = ")[0] for reason in reasons)
     ((first, _),) = words.most_common(1)
     return next(reason for reason in reasons if reason.partition(" = ")[0] == first)
-
-
-def _sampler(ranges: Sequence[Range], settings: Uncertainty) -> Any:
-    return scipy.stats.qmc.LatinHypercube(len(ranges), rng=settings.seed)
-
-
-def _hypercube(ranges: Sequence[Range], settings: Uncertainty, sampler: Any) -> list[Draw]:
-    return [_draw(ranges, row) for row in sampler.random(settings.random_samples)]
 
 
 def _draw(ranges: Sequence[Range], shares: Array) -> Draw:

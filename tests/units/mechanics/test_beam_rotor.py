@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from rotor_at_rest import natural_frequencies_hz
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.mechanics.beam_rotor import (
@@ -11,7 +12,6 @@ from vibroacoustics.mechanics.beam_rotor import (
     Section,
     assemble,
     beam_element,
-    natural_frequencies_hz,
     whirl_frequencies_hz,
     with_disc,
 )

@@ -41,7 +41,7 @@ from vibroacoustics.sources.joint_loads import key_torque_n_m
 from vibroacoustics.sources.keys import KEY_COMPONENTS, OldhamKeyForces
 from vibroacoustics.sources.oldham_keys.rattle import steady_key_forces
 from vibroacoustics.sources.oldham_keys.spectra import spectral_density
-from vibroacoustics.study.draws import latin_hypercube, with_draw
+from vibroacoustics.study.draws import latin_hypercubes, with_draw
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.uncertainty import MeasuredModes, Range
 from vibroacoustics.transfer import MachineOnMounts
@@ -401,7 +401,7 @@ def test_rigid_machine_is_moved_by_momentum_alone(study, without):
 def test_modes_reach_the_highest_frequency_in_every_draw(study):
     """Where natural frequencies are lowered to 0.8, modes up to 1.25 times it come below it."""
     highest = study.radiation.maximum_frequency_hz
-    draws = latin_hypercube(study.ranges, study.uncertainty)
+    draws = next(latin_hypercubes(study.ranges, study.uncertainty))
     lowest = min(draw["variation", "frequency_factor_ratio"] for draw in draws)
     every = elastic_shell(study.machine.shell, study.machine.structure, highest / lowest).modes
     assert {mode.name for mode in every} <= {mode.name for mode in path_of(study).modes}
@@ -444,7 +444,7 @@ def test_sources_do_not_change_the_moving_parts(results, without):
 
 def test_hypercube_takes_every_stratum_of_every_range_once(study):
     settings = study.uncertainty.model_copy(update={"random_samples": 12})
-    drawn = latin_hypercube(study.ranges, settings)
+    drawn = next(latin_hypercubes(study.ranges, settings))
     for limits in study.ranges:
         values = np.array([draw[limits.table, limits.field] for draw in drawn])
         low, high = limits.lowest, limits.highest
@@ -456,15 +456,15 @@ def test_hypercube_takes_every_stratum_of_every_range_once(study):
 
 
 def test_hypercube_is_reproducible_and_follows_its_seed(study):
-    one, same = (latin_hypercube(study.ranges, study.uncertainty) for _ in range(2))
-    other = latin_hypercube(study.ranges, study.uncertainty.model_copy(update={"seed": 7}))
+    one, same = (next(latin_hypercubes(study.ranges, study.uncertainty)) for _ in range(2))
+    other = next(latin_hypercubes(study.ranges, study.uncertainty.model_copy(update={"seed": 7})))
     assert one == same
     assert one != other
 
 
 def test_draw_changes_nothing_but_what_is_not_known(study):
     base = study.machine
-    for draw in latin_hypercube(study.ranges, study.uncertainty):
+    for draw in next(latin_hypercubes(study.ranges, study.uncertainty)):
         drawn = with_draw(base, base, draw)
         for (table, field), value in draw.items():
             assert attrgetter(f"{table}.{field}")(drawn) == value
@@ -489,7 +489,7 @@ def test_wide_ranges_are_drawn_over_their_logarithm(study):
     name = "contact_stiffness_n_per_m1p5"
     limits = Range(table="keys", field=name, lowest=1e9, highest=1e11)
     settings = study.uncertainty.model_copy(update={"random_samples": 10})
-    stiffness = [draw["keys", name] for draw in latin_hypercube((limits,), settings)]
+    stiffness = [draw["keys", name] for draw in next(latin_hypercubes((limits,), settings))]
     assert np.count_nonzero(np.array(stiffness) < 1e10) == 5
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from radiation_parts import floor
 
 from vibroacoustics.base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from vibroacoustics.base.errors import ParameterError
@@ -24,7 +25,6 @@ from vibroacoustics.radiation.arrangements import (
 )
 from vibroacoustics.radiation.bodies import cylinder
 from vibroacoustics.radiation.exact import green, wavenumber
-from vibroacoustics.radiation.mirrors import floor
 from vibroacoustics.study.sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
 
 FLOOR_Z_M = -0.225

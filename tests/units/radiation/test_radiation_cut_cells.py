@@ -4,15 +4,16 @@ import dataclasses
 
 import numpy as np
 import pytest
+from radiation_parts import floor, normal_velocity
 from support import whole_surface
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.radiation.bodies import Body, block, cylinder, join_bodies, sphere
 from vibroacoustics.radiation.cut_cells import cut_cells
-from vibroacoustics.radiation.mirrors import Mirror, floor
+from vibroacoustics.radiation.mirrors import Mirror
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.near_grid import BOX_MARGIN_M, PML_CELLS, near_grid
-from vibroacoustics.radiation.patterns import Pattern, normal_velocity, rigid_body
+from vibroacoustics.radiation.patterns import Pattern, rigid_body
 
 BALL = sphere(0.1, (0.003, 0.001, 0.002))
 CAN = cylinder(0.083, -0.11, 0.12)

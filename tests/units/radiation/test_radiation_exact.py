@@ -2,17 +2,17 @@
 
 import numpy as np
 import pytest
+from radiation_parts import floor
 from scipy import special
+from sphere_sound import outgoing_hankel, sphere_pressure
 
 from vibroacoustics.base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from vibroacoustics.radiation.exact import (
     free_green,
     green,
-    outgoing_hankel,
-    sphere_pressure,
     wavenumber,
 )
-from vibroacoustics.radiation.mirrors import Mirror, floor
+from vibroacoustics.radiation.mirrors import Mirror
 
 FREQUENCY_HZ = np.array([50.0, 400.0, 1500.0])
 

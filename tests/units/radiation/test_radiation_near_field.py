@@ -4,6 +4,8 @@ import sys
 
 import numpy as np
 import pytest
+from radiation_parts import floor, normal_velocity
+from sphere_sound import sphere_pressure
 from support import PEAK_MEMORY, in_child, radiated
 
 from vibroacoustics.base.errors import ParameterError, SolverError
@@ -11,14 +13,13 @@ from vibroacoustics.base.progress import no_progress
 from vibroacoustics.radiation import near_field
 from vibroacoustics.radiation.bodies import Body, cylinder, join_bodies, sphere
 from vibroacoustics.radiation.box import BoxField
-from vibroacoustics.radiation.exact import box_green, sphere_pressure
+from vibroacoustics.radiation.exact import box_green
 from vibroacoustics.radiation.join import join
 from vibroacoustics.radiation.machine_side import MachineSide, check_memory, near_fields
-from vibroacoustics.radiation.mirrors import Mirror, floor
+from vibroacoustics.radiation.mirrors import Mirror
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.patterns import (
     Pattern,
-    normal_velocity,
     rigid_body,
     rigid_body_velocity,
 )
@@ -243,13 +244,13 @@ def test_predicted_memory_is_what_it_takes(spacing_m, frequencies, patterns):
         from vibroacoustics.base.progress import no_progress
         from vibroacoustics.radiation.bodies import cylinder
         from vibroacoustics.radiation.machine_side import MachineSide, memory_bytes, near_fields
-        from vibroacoustics.radiation.mirrors import floor
+        from vibroacoustics.radiation.mirrors import Mirror
         from vibroacoustics.radiation.patterns import rigid_body
         from vibroacoustics.radiation.scene import Scene
         from vibroacoustics.base.vocabulary import RIGID_BODY_DOFS
         # Short runs that would not be accepted: their length takes no memory.
         near_field._MOST_DIAGONALS, near_field._NOT_QUIET = 2.0, 1.0
-        scene = Scene(cylinder(0.0825, -0.19, 0.227), (), (floor(-0.21),))
+        scene = Scene(cylinder(0.0825, -0.19, 0.227), (), (Mirror(2, -1, -0.21),))
         motions = [rigid_body(dof) for dof in RIGID_BODY_DOFS[:{patterns}]]
         frequency = np.linspace(25.0, 2000.0, {frequencies})
         MachineSide(scene, near_fields(scene, 0.024, 4000.0), motions, frequency[:2], no_progress)

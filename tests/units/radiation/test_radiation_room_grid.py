@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from radiation_parts import floor
 from support import cube_box
 
 from vibroacoustics.radiation import room_grid
@@ -10,7 +11,7 @@ from vibroacoustics.radiation.band_limited import (
     Interpolator,
     interpolation_weights,
 )
-from vibroacoustics.radiation.mirrors import Mirror, floor, images
+from vibroacoustics.radiation.mirrors import Mirror, images
 from vibroacoustics.radiation.pulse import pulse, pulse_duration_s, pulse_width_s, transform
 from vibroacoustics.radiation.room_record import steps_per_sample
 

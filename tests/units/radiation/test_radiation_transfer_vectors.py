@@ -5,11 +5,11 @@ import json
 import numpy as np
 import pytest
 import xarray as xr
+from sphere_sound import sphere_pressure
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.progress import no_progress
 from vibroacoustics.machine.shell import Shell
-from vibroacoustics.radiation.exact import sphere_pressure
 from vibroacoustics.radiation.interpolation import interpolate
 from vibroacoustics.radiation.machine_side import MachineSide, near_fields
 from vibroacoustics.radiation.patterns import rigid_body

@@ -4,14 +4,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scroll_closed_forms import built_in_pressure_pa, compression_work_j
 from test_scroll_gas import CASES, GAS, OTHER_WRAPS, WRAPS, gas_of
 
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.orders import order_spectrum
 from vibroacoustics.sources.scroll_gas.cycle import scroll_gas_cycle
 from vibroacoustics.sources.scroll_gas.pressures import (
-    built_in_pressure_pa,
-    compression_work_j,
     pocket_pressure,
 )
 

@@ -5,9 +5,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import thesis_appendix_a
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from machine_files import machine_of
+from scroll_closed_forms import (
+    built_in_pressure_pa,
+    built_in_volume_ratio,
+    compression_work_j,
+    displacement_m3,
+)
 from scroll_flanks import (
     INNER,
     OUTER,
@@ -22,22 +29,16 @@ from support import ROOT
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.orders import order_spectrum
-from vibroacoustics.sources.scroll_gas import thesis_appendix_a
 from vibroacoustics.sources.scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
 from vibroacoustics.sources.scroll_gas.parameters import ScrollGas, ScrollWraps
 from vibroacoustics.sources.scroll_gas.pockets import (
     area_inside,
-    built_in_volume_ratio,
     contact_angle,
-    displacement_m3,
     pocket_volume,
 )
 from vibroacoustics.sources.scroll_gas.pressures import (
-    built_in_pressure_pa,
-    compression_work_j,
     pocket_pressure,
 )
-from vibroacoustics.sources.scroll_gas.thesis_appendix_a import appendix_a_force
 
 VALIDATION_FILE = ROOT / "data" / "validation" / "scroll_gas.csv"
 CASES = ["15 to 41.159 bar", "6.78 to 30.7 bar"]
@@ -314,7 +315,7 @@ def test_uniform_pressure_gives_no_force_and_no_moment(degrees):
 
 @pytest.fixture(scope="module")
 def appendix_a():
-    return appendix_a_force()
+    return thesis_appendix_a.appendix_a_force()
 
 
 def test_appendix_a_as_printed(appendix_a):

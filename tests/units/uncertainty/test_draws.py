@@ -18,7 +18,7 @@ from vibroacoustics.machine.source import Shared
 from vibroacoustics.radiation.pressure import pressure_per_velocity, wrench_pressure
 from vibroacoustics.sources.cases import without_time_series
 from vibroacoustics.sources.gas import ScrollGasForces
-from vibroacoustics.study.draws import draws_of, latin_hypercube, with_draw
+from vibroacoustics.study.draws import draws_of, latin_hypercubes, with_draw
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.study import Study
 from vibroacoustics.study.uncertainty import Range
@@ -140,7 +140,9 @@ def test_every_machine_takes_the_ends_of_its_ranges(tmp_path, monkeypatch, name,
 def test_whole_numbers_are_drawn_as_such_and_each_as_often(study):
     limits = Range(table="structure.stator", field="welds", lowest=4, highest=8, integer=True)
     settings = study.uncertainty.model_copy(update={"random_samples": 50})
-    drawn = [draw["structure.stator", "welds"] for draw in latin_hypercube((limits,), settings)]
+    drawn = [
+        draw["structure.stator", "welds"] for draw in next(latin_hypercubes((limits,), settings))
+    ]
     assert all(isinstance(value, int) for value in drawn)
     assert np.bincount(drawn, minlength=9)[4:].tolist() == [10] * 5
     whole = {item.name for item in study.ranges if item.integer}
@@ -189,7 +191,7 @@ def test_inertias_follow_the_masses_unless_they_are_drawn_themselves(study):
 def test_the_twelve_values_change_themselves_alone(study):
     """As a plain copy with these values: nothing follows from them."""
     base = study.machine
-    for draw in latin_hypercube(study.ranges, study.uncertainty):
+    for draw in next(latin_hypercubes(study.ranges, study.uncertainty)):
         tables: dict[str, dict[str, float]] = {}
         for table, field in TWELVE:
             tables.setdefault(table, {})[field] = draw[table, field]

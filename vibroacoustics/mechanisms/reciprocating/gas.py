@@ -28,15 +28,3 @@ def cylinder_pressure(swept_m3: Array, expanding: NDArray[np.bool_], gas: Cylind
     )
     fill = swept_m3 / float(np.max(swept_m3)) + gas.clearance_ratio
     return cycle.pressure_pa(fill, expanding)
-
-
-def compression_work_j(displaced_m3: float, gas: CylinderGas) -> float:
-    """Indicated work of a revolution in closed form, ∮ V dp of two polytropes, J.
-
-    W = n/(n-1) p_s V_i [(p_d/p_s)^((n-1)/n) - 1] with the volume V_i drawn in, which is the
-    displaced one less the expansion of the clearance.
-    """
-    n, ratio = gas.polytropic_index, gas.discharge_pressure_pa / gas.suction_pressure_pa
-    drawn_in = displaced_m3 * (1.0 + gas.clearance_ratio * (1.0 - ratio ** (1.0 / n)))
-    rise = ratio ** ((n - 1.0) / n) - 1.0
-    return float(n / (n - 1.0) * gas.suction_pressure_pa * drawn_in * rise)

@@ -1,4 +1,4 @@
-"""Induction motors: the torque curve of a balanced one, the circuit of one with a capacitor."""
+"""Induction motor with a capacitor, by its circuit."""
 
 import math
 
@@ -7,14 +7,6 @@ from pydantic import Field
 from ...base.parameters import Parameters
 
 OHM = Field(gt=0.0, le=1e5)
-
-
-class KlossMotor(Parameters):
-    """A balanced motor (three-phase) by the top of its torque curve."""
-
-    synchronous_speed_rad_per_s: float = Field(gt=0.0, le=1e4)
-    breakdown_torque_n_m: float = Field(gt=0.0, le=1e6)
-    breakdown_slip_ratio: float = Field(gt=0.0, lt=1.0)
 
 
 class CapacitorMotor(Parameters):

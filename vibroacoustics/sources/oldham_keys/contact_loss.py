@@ -42,17 +42,3 @@ def contact_loss_speed_rpm(
     least_ratio = (1.0 - keys.friction_ratio) / float(np.max(share))
     speed = np.sqrt(least_ratio / (ring_mass_kg * stroke_m * keys.radius_m))
     return float(speed) * 30.0 / np.pi
-
-
-def contact_loss_moment_n_m(
-    keys: OldhamKeys, ring_mass_kg: float, stroke_m: float, speed_rpm: float
-) -> float:
-    """Constant moment below which a key leaves its face: m r ω² R/(1 - µ), N m.
-
-    Parameters
-    ----------
-    keys, ring_mass_kg, stroke_m : see `contact_loss_speed_rpm`
-    speed_rpm : of the shaft
-    """
-    inertia = ring_mass_kg * stroke_m * (speed_rpm * np.pi / 30.0) ** 2
-    return float(inertia * keys.radius_m / (1.0 - keys.friction_ratio))

@@ -26,21 +26,6 @@ def split_periodic(force_n: Array, revolutions: int) -> tuple[Array, Array]:
     return mean, (turns - mean[..., None, :]).reshape(force_n.shape)
 
 
-def order_phasors(mean_revolution: Array) -> ComplexArray:
-    """Complex peak amplitudes of the shaft orders 0, 1, 2 ..., shape (..., samples // 2).
-
-    X_k = 2/N Σ x exp(-j k θ), and half of it for order 0.
-
-    Parameters
-    ----------
-    mean_revolution : over uniform crank angles from zero, shape (..., samples)
-    """
-    samples = mean_revolution.shape[-1]
-    phasors = np.fft.rfft(mean_revolution, axis=-1)[..., : samples // 2] * (2.0 / samples)
-    phasors[..., 0] /= 2.0
-    return phasors
-
-
 def spectral_density(
     force_n: Array, sample_rate_hz: float, block_samples: int
 ) -> tuple[Array, ComplexArray]:
@@ -76,18 +61,3 @@ def spectral_density(
     density[..., [0, -1]] /= 2.0
     frequency = np.fft.rfftfreq(block_samples, 1.0 / sample_rate_hz).astype(float)
     return frequency, np.asarray(density)
-
-
-def band_rms(
-    frequency_hz: Array, density: ComplexArray, lowest_hz: float, highest_hz: float
-) -> Array:
-    """Root mean square of each force between two frequencies, shape (forces,), N.
-
-    Parameters
-    ----------
-    frequency_hz, density : from `spectral_density`
-    lowest_hz, highest_hz : the band, its upper edge left out
-    """
-    in_band = (frequency_hz >= lowest_hz) & (frequency_hz < highest_hz)
-    auto_density = np.einsum("iif->if", density).real[:, in_band]
-    return np.asarray(np.sqrt(auto_density.sum(axis=-1) * (frequency_hz[1] - frequency_hz[0])))

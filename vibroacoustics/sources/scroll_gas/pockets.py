@@ -46,17 +46,6 @@ def pocket_volume(wraps: ScrollWraps, angle_since_closing: Array) -> Array:
     return 2.0 * np.pi * wraps.base_radius_m * wraps.orbit_radius_m * wraps.height_m * mean
 
 
-def displacement_m3(wraps: ScrollWraps) -> float:
-    """Volume drawn in per revolution: both outer pockets when they close."""
-    return 2.0 * float(pocket_volume(wraps, np.zeros(())))
-
-
-def built_in_volume_ratio(wraps: ScrollWraps) -> float:
-    """Volume of a pocket when it closes over that when it opens."""
-    closed, opened = pocket_volume(wraps, np.array([0.0, wraps.opening_angle_rad]))
-    return float(closed / opened)
-
-
 def area_inside(wraps: ScrollWraps, contact: Array) -> Array:
     """Plate area on which a pressure step at a pair of contacts acts axially, m².
 

@@ -1,4 +1,4 @@
-"""Pressure in the pockets over crank angle, and the work of a revolution in closed form."""
+"""Pressure in the pockets over crank angle."""
 
 from typing import Final
 
@@ -6,7 +6,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from .parameters import ScrollGas, ScrollWraps
-from .pockets import built_in_volume_ratio, displacement_m3, pocket_volume
+from .pockets import pocket_volume
 
 OPENED_BEFORE: Final = 1e-9
 """Crank angle before the opening at which a pocket counts as open, rad: rounding must not decide
@@ -34,21 +34,3 @@ def pocket_pressure(wraps: ScrollWraps, gas: ScrollGas, angle_since_closing: Arr
     width = max(gas.equalisation_angle_rad, OPENED_BEFORE)
     left = 0.5 + 0.5 * np.cos(np.pi * np.minimum(since_opening / width, 1.0))
     return np.asarray(gas.discharge_pressure_pa + left * (compressed - gas.discharge_pressure_pa))
-
-
-def built_in_pressure_pa(wraps: ScrollWraps, gas: ScrollGas) -> float:
-    """Pressure in a pocket just before it opens."""
-    return float(gas.suction_pressure_pa * built_in_volume_ratio(wraps) ** gas.polytropic_index)
-
-
-def compression_work_j(wraps: ScrollWraps, gas: ScrollGas) -> float:
-    """Work on the gas per revolution in closed form, ∮ V dp of polytrope and step at once, J.
-
-    W = n/(n-1) p_s V_s (ε^(n-1) - 1) + (p_d - p_i) V_s/ε with the built-in volume ratio ε and the
-    built-in pressure p_i = p_s ε^n. The least work of n/(n-1) p_s V_s ((p_d/p_s)^((n-1)/n) - 1)
-    is reached where p_i = p_d.
-    """
-    n, ratio, drawn_in = gas.polytropic_index, built_in_volume_ratio(wraps), displacement_m3(wraps)
-    compressed = n / (n - 1.0) * gas.suction_pressure_pa * drawn_in * (ratio ** (n - 1.0) - 1.0)
-    step = gas.discharge_pressure_pa - built_in_pressure_pa(wraps, gas)
-    return float(compressed + step * drawn_in / ratio)

@@ -5,7 +5,7 @@ from functools import cached_property
 from typing import Any, Final
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve, eigh
+from scipy.linalg import eigh
 from scipy.sparse import identity
 
 from ...base.arrays import Array, IndexArray
@@ -100,23 +100,6 @@ class Harmonic:
         stiffness = self._held_stiffness(16.0 * limit)
         squares, shapes = eigh(stiffness, self.free_matrices[1], subset_by_value=(-np.inf, limit))
         return np.sqrt(squares) / (2.0 * np.pi), np.asarray(self.reduction @ shapes)
-
-    def elastic_flexibility(self, load: Array, frequency_hz: float) -> Array:
-        """Static elastic amplitudes (freedom, load) under loads on the amplitudes (freedom, load).
-
-        The resultant of a load is met by the inertia of the accelerating rigid shell, which leaves
-        no rigid motion: (K + s M R Rᵀ M)⁻¹ - R Rᵀ / s for any s.
-
-        Parameters
-        ----------
-        load : force on each amplitude
-        frequency_hz : of the order of the elastic modes', sets s
-        """
-        shift = (2.0 * np.pi * frequency_hz) ** 2
-        reduced = self.reduction.T @ load
-        moved = cho_solve(cho_factor(self._held_stiffness(shift)), reduced)
-        moved -= self.rigid_motions @ (self.rigid_motions.T @ reduced) / shift
-        return np.asarray(self.reduction @ moved)
 
     def _held_stiffness(self, shift: float) -> Array:
         """K + s M R Rᵀ M: the rigid motions get the eigenvalue s, the elastic modes keep theirs."""

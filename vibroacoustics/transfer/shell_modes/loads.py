@@ -1,4 +1,4 @@
-"""Forces on the shell: at points, and through the joints of internal parts."""
+"""Forces on the shell through the joints of internal parts."""
 
 from dataclasses import dataclass
 from typing import Final, Protocol
@@ -25,40 +25,6 @@ class Load(Protocol):
 
     def generalised(self, meridian: Meridian, around: Around) -> Array:
         """Force on each amplitude of a motion around the axis, shape (freedom, load)."""
-
-
-@dataclass(frozen=True)
-class PointForces:
-    """Unit forces at points of the surface.
-
-    Attributes
-    ----------
-    points : x, y, z about the centre of mass, shape (load, 3), m
-    directions : unit vectors, shape (load, 3)
-    """
-
-    points: Array
-    directions: Array
-
-    def generalised(self, meridian: Meridian, around: Around) -> Array:
-        """As of any `Load`."""
-        angle = np.arctan2(self.points[:, 1], self.points[:, 0])
-        meridian_points = np.stack(
-            [np.hypot(self.points[:, 0], self.points[:, 1]), self.points[:, 2]], 1
-        )
-        cosine, sine = np.cos(angle), np.sin(angle)
-        x, y, axial = self.directions.T
-        parts = np.stack(
-            [
-                (x * cosine + y * sine) * around.radial(angle),
-                axial * around.radial(angle),
-                (y * cosine - x * sine) * around.around(angle),
-            ]
-        )
-        freedoms, weights = _interpolation(meridian, meridian_points)
-        total = np.zeros((freedom_count(meridian), angle.size))
-        total[freedoms.T, np.arange(angle.size)] = np.einsum("pia,ip->ap", weights, parts)
-        return total
 
 
 @dataclass(frozen=True)

@@ -88,10 +88,6 @@ class ShellMode:
             [radial * cosine - around * sine, radial * sine + around * cosine, axial], 1
         )
 
-    def normal_velocity(self, points: Array, normals: Array) -> Array:
-        """Velocity along unit normals (point, 3), shape (point,)."""
-        return np.asarray(np.einsum("pi,pi->p", self.velocity(points), normals))
-
     @cached_property
     def _cubics(self) -> Array:
         """Displacement along each element, radial, axial and around, (element, 3, power)."""

@@ -5,8 +5,8 @@ Leissa, Vibration of Shells, NASA SP-288 (1973), section 2.3.
 
 import numpy as np
 
-from ...base.arrays import Array
-from ...machine.shell_structure import ShellStructure
+from vibroacoustics.base.arrays import Array
+from vibroacoustics.machine.shell_structure import ShellStructure
 
 
 def fluegge_matrix(

@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from ...base.arrays import Array, ComplexArray, IndexArray
+from vibroacoustics.base.arrays import Array, ComplexArray, IndexArray
 
 BASE_RADIUS_M: Final = 0.00215
 """R."""
