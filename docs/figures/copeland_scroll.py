@@ -1,14 +1,14 @@
 """Draw docs/machines/copeland_scroll.md: `python docs/figures/copeland_scroll.py`."""
 
 from pathlib import Path
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Annulus, Circle, Polygon, Rectangle
 
-from vibroacoustics.sources.scroll_gas.parameters import ScrollWraps
-from vibroacoustics.study.loading import load_study
+import vibroacoustics as va
 
 HERE = Path(__file__).parent
 ANGLE = np.deg2rad(50.0)
@@ -18,7 +18,7 @@ ARROW = {"arrowstyle": "->", "lw": 2}
 
 def main() -> None:
     """Wraps in contact and ring with its keys at one crank angle, to scale, from above."""
-    study = load_study(HERE.parents[1] / "pipelines" / "copeland_sources.toml")
+    study = va.load_study(HERE.parents[1] / "pipelines" / "copeland_sources.toml")
     machine = study.machine
     orbit = 1e3 * machine.wraps.orbit_radius_m
     centre = orbit * np.array([np.cos(ANGLE), np.sin(ANGLE)])
@@ -32,7 +32,7 @@ def main() -> None:
     figure.savefig(HERE / "copeland_scroll.svg", bbox_inches="tight", metadata={"Date": None})
 
 
-def wrap_outline(wraps: ScrollWraps) -> np.ndarray:
+def wrap_outline(wraps: Any) -> np.ndarray:
     """Both flanks of a wrap, involutes that begin half a thickness apart, mm."""
     roll = np.linspace(wraps.start_angle_rad, wraps.end_angle_rad, 250)
     half = 0.5 * wraps.thickness_m / wraps.base_radius_m
@@ -43,7 +43,7 @@ def wrap_outline(wraps: ScrollWraps) -> np.ndarray:
     return 1e3 * wraps.base_radius_m * np.concatenate([sides[0], sides[1][::-1]])
 
 
-def draw_wraps(axes: Axes, wraps: ScrollWraps, centre: np.ndarray) -> None:
+def draw_wraps(axes: Axes, wraps: Any, centre: np.ndarray) -> None:
     outline = wrap_outline(wraps)
     axes.add_patch(Polygon(-outline, fc="white", ec=DARK, label="fixed scroll"))
     axes.add_patch(Polygon(outline + centre, fc=PART, ec=DARK, label="orbiting scroll"))

@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 import vibroacoustics as va
-from vibroacoustics.report.figures.style import png
 
 ROOT = Path(__file__).parents[2]
 FOLDER = Path(__file__).with_suffix("")
@@ -62,7 +61,9 @@ def add_printed(machine: str, name: str, figure: Figure) -> None:
 
 def save(figure: Figure, path: Path) -> None:
     """A small PNG: few colours are enough for lines."""
-    image = Image.open(io.BytesIO(png(figure))).convert("RGB")
+    content = io.BytesIO()
+    figure.savefig(content, format="png")
+    image = Image.open(content).convert("RGB")
     image.quantize(COLOURS, dither=Image.Dither.NONE).save(path, optimize=True)
 
 

@@ -12,9 +12,7 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Circle, FancyBboxPatch, Rectangle
 
-from vibroacoustics.mechanisms.hermetic.pin import COORDINATES, crank_point, rod_motion
-from vibroacoustics.mechanisms.hermetic.shaft import node_positions_m
-from vibroacoustics.study.loading import load_machine
+import vibroacoustics as va
 
 FIGURE = Path(__file__).with_suffix(".svg")
 MACHINE = Path(__file__).parents[2] / "data" / "machines" / "estupinan_hermetic.toml"
@@ -24,7 +22,7 @@ STEEL, LIGHT, OIL = "#5b6770", "#d5dade", "#c98a1b"
 
 def main() -> None:
     mpl.rcParams.update({"svg.hashsalt": "estupinan", "font.size": 9, "svg.fonttype": "path"})
-    machine = load_machine(MACHINE)
+    machine = va.load_machine(MACHINE)
     figure, (along, beside) = plt.subplots(
         1, 2, figsize=(10.0, 4.6), width_ratios=[1.0, 1.1], layout="constrained"
     )
@@ -38,12 +36,10 @@ def main() -> None:
 
 def _along_the_shaft(axes: Axes, machine: Any) -> None:
     """Slider-crank in the paper's X and Y, mm."""
-    place, still = np.zeros(COORDINATES), np.zeros(COORDINATES)
-    place[-1] = np.deg2rad(CRANK_ANGLE_DEG)
-    pin = crank_point(place, still, machine.crank.radius_m, 0.0).position_m
-    moved = rod_motion(machine.rod.length_m, pin, still[:3], still[:3])
-    pin, piston = 1e3 * pin, 1e3 * float(moved.piston_position_m)
     bore, radius = 1e3 * machine.piston.diameter_m, 1e3 * machine.crank.radius_m
+    angle = np.deg2rad(CRANK_ANGLE_DEG)
+    pin = radius * np.array([np.cos(angle), np.sin(angle)])
+    piston = pin[0] + np.sqrt((1e3 * machine.rod.length_m) ** 2 - pin[1] ** 2)
     end = 1e3 * machine.rod.length_m + radius + 7.0
     for low in (0.5 * bore, -0.5 * bore - 4.0):
         _box(axes, 28.0, low, end - 28.0, 4.0, LIGHT)
@@ -72,7 +68,7 @@ def _from_the_side(axes: Axes, machine: Any) -> None:
     """Block on its springs in the shell, heights in mm from the crank's centre."""
     half, radius = 1e3 * machine.bearing.radius_m, 1e3 * machine.crank.radius_m
     pin, lower = 1e3 * machine.crank.pin_offset_m, -1e3 * machine.shaft.bearing_distance_m
-    foot = -1e3 * float(node_positions_m(machine)[-1])
+    foot = lower - 1e3 * machine.shaft.rotor_distance_m
     inside, shell = machine.suspension, machine.shell
     block = -1e3 * machine.crank_height_m
     centre = block - 1e3 * inside.height_m

@@ -6,8 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Arc, Circle, Rectangle
 
-from vibroacoustics.mechanisms.reciprocating.slider_crank import design_at_bore, motion
-from vibroacoustics.study.loading import load_machine
+import vibroacoustics as va
 
 HERE = Path(__file__).parent
 ANGLE = np.deg2rad(50.0)
@@ -16,11 +15,12 @@ PART, DARK = "#d5dde5", "#22303c"
 
 def main() -> None:
     """Slider-crank at one crank angle, to scale, cylinder upright."""
-    machine = load_machine(HERE.parents[1] / "data" / "machines" / "mayekawa_wbhe.toml")
-    crank = design_at_bore(machine.piston_and_rod, machine.piston_and_rod.bore_m)
-    piston = 1e3 * motion(crank, np.array([ANGLE])).piston_m[0, 0]
-    radius, bore = 1e3 * crank.crank_radius_m, 1e3 * crank.bore_m
+    machine = va.load_machine(HERE.parents[1] / "data" / "machines" / "mayekawa_wbhe.toml")
+    part = machine.piston_and_rod
+    bore = 1e3 * part.bore_m
+    radius = 2e9 * part.displacement_m3 / (np.pi * bore**2)
     pin = radius * np.array([np.sin(ANGLE), np.cos(ANGLE)])
+    piston = pin[1] + np.sqrt((radius / part.crank_to_rod_ratio) ** 2 - pin[0] ** 2)
     plt.rcParams.update({"svg.hashsalt": "vibroacoustics", "font.size": 11})
     figure, axes = plt.subplots(figsize=(4.6, 6.6))
     top = 420.0

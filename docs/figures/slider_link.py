@@ -1,16 +1,14 @@
 """Draw the mechanism of docs/machines/slider_link.md: `python docs/figures/slider_link.py`."""
 
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Circle, Ellipse, Rectangle
 
-from vibroacoustics.mechanisms.slider_link.machine import SliderLinkMachine
-from vibroacoustics.mechanisms.slider_link.piston import engaged_length
-from vibroacoustics.study.loading import load_machine
+import vibroacoustics as va
 
 HERE: Final = Path(__file__).parent
 ANGLE: Final = np.deg2rad(55.0)
@@ -19,7 +17,7 @@ PART, DARK, TURNING, BLOCK = "#d5dde5", "#22303c", "#5b7f9f", "#eceff2"
 
 def main() -> None:
     """Mechanism from above and block in its shell from the side, both to scale."""
-    machine = load_machine(HERE.parents[1] / "data" / "machines" / "dagilis_slider_link.toml")
+    machine = va.load_machine(HERE.parents[1] / "data" / "machines" / "dagilis_slider_link.toml")
     plt.rcParams.update({"svg.hashsalt": "vibroacoustics", "font.size": 10})
     figure, panels = plt.subplots(
         1, 2, figsize=(12.0, 5.0), width_ratios=(1.0, 1.35), layout="tight"
@@ -32,7 +30,7 @@ def main() -> None:
     figure.savefig(HERE / "slider_link.svg", bbox_inches="tight", metadata={"Date": None})
 
 
-def from_above(axes: Axes, machine: SliderLinkMachine) -> None:
+def from_above(axes: Axes, machine: Any) -> None:
     """Crank, slider, link, piston and cylinder; the paper's y points down the page."""
     parts = machine.mechanism
     radius, bore, slider = (
@@ -41,7 +39,7 @@ def from_above(axes: Axes, machine: SliderLinkMachine) -> None:
     axis = 1e3 * parts.link_offset_m
     pin = radius * np.array([np.cos(ANGLE), -np.sin(ANGLE)])
     end = 1e3 * parts.piston_length_m + pin[0]
-    mouth = end - 1e3 * float(engaged_length(parts, np.array(ANGLE)))
+    mouth = end - 1e3 * parts.cylinder_length_m + radius * (1.0 - np.cos(ANGLE))
     head, reach = mouth + 1e3 * parts.cylinder_length_m + 1.5, radius + 0.5 * slider + 1.0
     box(axes, (pin[0] - 0.5 * slider - 4, -reach), (slider + 8, 2 * reach), PART)
     box(axes, (pin[0] - 0.5 * slider, -reach + 3), (slider, 2 * reach - 6), "white")
@@ -80,7 +78,7 @@ def from_above(axes: Axes, machine: SliderLinkMachine) -> None:
     axes.set(xlim=(-26, 84), ylim=(-43, 31), title="from above, z into the page")
 
 
-def from_the_side(axes: Axes, machine: SliderLinkMachine) -> None:
+def from_the_side(axes: Axes, machine: Any) -> None:
     """Block on its springs in the shell; heights from the block's centre of mass."""
     inside, heights, shell = machine.suspension, machine.heights, machine.shell
     shaft = -1e3 * machine.centre_of_mass_offset_m

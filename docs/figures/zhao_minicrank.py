@@ -10,15 +10,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from vibroacoustics.mechanisms.minicrank.cycle import steady_minicrank_cycle
-from vibroacoustics.mechanisms.minicrank.four_bar import four_bar_motion
-from vibroacoustics.mechanisms.minicrank.links import Links
-from vibroacoustics.study.loading import load_machine
+import vibroacoustics as va
 
 HERE = Path(__file__).resolve().parent
 MACHINE = HERE.parent.parent / "data" / "machines" / "zhao_minicrank.toml"
 CRANK_ANGLE = np.deg2rad(65.0)
-LINKS = Links(0.25, 1.0, 0.26, 1.0)
+CRANK_LENGTH, SCROLL_LENGTH, MINICRANK_LENGTH, BRACKET_LENGTH = 0.25, 1.0, 0.26, 1.0
 CRANK, SCROLL, MINICRANK, FRAME = "#d55e00", "#0072b2", "#009e73", "0.35"
 
 
@@ -33,18 +30,17 @@ def main() -> None:
 
 
 def draw_four_bar(axes: Axes) -> None:
-    moved = four_bar_motion(LINKS, np.array([CRANK_ANGLE]), -1)
-    third = moved.minicrank_angle[0, 0]
-    pin = LINKS.crank_m * np.exp(1j * CRANK_ANGLE)
-    far = LINKS.bracket_m + LINKS.minicrank_m * np.exp(1j * third)
-    line(axes, 0.0, LINKS.bracket_m, FRAME, linestyle="--")
+    pin = CRANK_LENGTH * np.exp(1j * CRANK_ANGLE)
+    third = minicrank_angle(pin)
+    far = BRACKET_LENGTH + MINICRANK_LENGTH * np.exp(1j * third)
+    line(axes, 0.0, BRACKET_LENGTH, FRAME, linestyle="--")
     for start, end, colour in (
         (0.0, pin, CRANK),
         (pin, far, SCROLL),
-        (LINKS.bracket_m, far, MINICRANK),
+        (BRACKET_LENGTH, far, MINICRANK),
     ):
         line(axes, start, end, colour, linewidth=4.0, solid_capstyle="round")
-    for place in (0.0, pin, far, LINKS.bracket_m):
+    for place in (0.0, pin, far, BRACKET_LENGTH):
         axes.plot(np.real(place), np.imag(place), "o", color="white", mec="black", ms=6.0)
     forward = 1j * np.exp(1j * CRANK_ANGLE)
     arrow(axes, pin, pin - 0.22 * forward, "$F_t$")
@@ -55,11 +51,11 @@ def draw_four_bar(axes: Axes) -> None:
     for place, text, aligned in (
         (0.5 * pin - 0.06, "$l_1$ crankshaft", "right"),
         (0.5 * (pin + far) + 0.06j, "$l_2$ orbiting scroll, $J_2$", "center"),
-        (0.5 * (LINKS.bracket_m + far) - 0.06, "$l_3$ mini-crank", "right"),
+        (0.5 * (BRACKET_LENGTH + far) - 0.06, "$l_3$ mini-crank", "right"),
         (0.5 - 0.06j, "$l_4$ bracket", "center"),
     ):
         axes.text(np.real(place), np.imag(place), text, ha=aligned, va="center")
-    for centre, end, name in ((0.0, CRANK_ANGLE, "1"), (LINKS.bracket_m, third, "3")):
+    for centre, end, name in ((0.0, CRANK_ANGLE, "1"), (BRACKET_LENGTH, third, "3")):
         arc = centre + 0.09 * np.exp(1j * np.linspace(0.0, end, 30))
         axes.plot(arc.real, arc.imag, color="black", linewidth=0.8)
         label = centre + 0.13 * np.exp(0.4j * end)
@@ -71,8 +67,17 @@ def draw_four_bar(axes: Axes) -> None:
     axes.axis("off")
 
 
+def minicrank_angle(pin: complex) -> float:
+    """Angle at which scroll and mini-crank meet, by the law of cosines."""
+    span = pin - BRACKET_LENGTH
+    cosine = (MINICRANK_LENGTH**2 + abs(span) ** 2 - SCROLL_LENGTH**2) / (
+        2.0 * MINICRANK_LENGTH * abs(span)
+    )
+    return float(np.angle(span) - np.arccos(cosine))
+
+
 def draw_three(axes: Axes) -> None:
-    pin = LINKS.crank_m * np.exp(1j * CRANK_ANGLE)
+    pin = CRANK_LENGTH * np.exp(1j * CRANK_ANGLE)
     centres = np.exp(2j * np.pi * np.arange(3) / 3.0)
     around = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 200))
     plate = pin + 1.22 * around
@@ -89,14 +94,14 @@ def draw_three(axes: Axes) -> None:
 
 
 def draw_torque(axes: Axes) -> None:
-    machine = load_machine(MACHINE)
+    machine = va.load_machine(MACHINE)
     styles = ("-", "--", "-.", ":")
     for error_um, style in zip((-10.0, -50.0, -100.0, 0.0), styles, strict=True):
         changed = machine.four_bar.model_copy(update={"crank_error_m": 1e-6 * error_um})
-        cycle = steady_minicrank_cycle(machine.model_copy(update={"four_bar": changed}), 1500.0)
-        total = np.sum(list(cycle.input_torque_n_m.values()), axis=0)
+        inner = va.curves(machine.model_copy(update={"four_bar": changed}), 1500.0)
+        total = inner["input_torque"].sel(torque_of="all")
         label = f"{error_um:g} µm".replace("-", "−") if error_um else "none: (18)"
-        axes.plot(np.rad2deg(cycle.moved.crank_angle), total, style, label=label, linewidth=1.2)
+        axes.plot(np.rad2deg(total["crank_angle"]), total, style, label=label, linewidth=1.2)
     axes.set(
         xlim=(0.0, 360.0),
         xticks=range(0, 361, 60),

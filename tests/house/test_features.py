@@ -113,8 +113,9 @@ def test_code_on_pages_imports_the_package_alone(page):
         assert set(IMPORT.findall(block)) <= {"vibroacoustics"}
 
 
-def test_gallery_imports_the_package_alone():
-    for page in (ROOT / "docs" / "gallery").glob("*.py"):
+@pytest.mark.parametrize("folder", ["gallery", "figures"])
+def test_scripts_of_the_site_import_the_package_alone(folder):
+    for page in (ROOT / "docs" / folder).glob("*.py"):
         assert set(IMPORT.findall(page.read_text(encoding="utf-8"))) <= {"vibroacoustics"}, page
 
 

@@ -28,9 +28,9 @@ def on_supply(rated: CapacitorMotor, frequency_hz: float) -> CapacitorMotor:
 def supply_frequency_hz(rated: CapacitorMotor, speed_rpm: float, torque_n_m: float) -> float:
     """Supply on which the motor carries a load at a speed, f = p n/(60 (1 - s)).
 
-    The slip s = (n_s - n)/n_s of the speed n below the synchronous n_s = 60 f/p (Fitzgerald,
-    Kingsley & Umans, Electric Machinery, 6th ed., 6.1) is that at which the motor on this supply,
-    at the same flux, gives the torque; the curve is that of its circuit (`operating_point`).
+    By definition the slip is s = (n_s - n)/n_s, the speed n against the synchronous n_s = 60 f/p,
+    at which the field turns. It is that at which the motor on this supply, at the same flux, gives
+    the torque; the curve is that of its circuit (`operating_point`).
 
     Parameters
     ----------
