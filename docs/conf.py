@@ -58,7 +58,7 @@ sphinx_gallery_conf = {
     "ignore_pattern": r"(rough_radiation|__init__)\.py$",
     "within_subsection_order": "FileNameSortKey",
     "matplotlib_animations": False,
-    "image_scrapers": ("matplotlib",),
+    "image_scrapers": ("matplotlib", "generators.figures.scraper"),
     "reset_modules": ("matplotlib",),
     "download_all_examples": False,
     "show_signature": False,

@@ -5,6 +5,7 @@ Radiation, map and directivity
 The package's own method for the sound of the shaking shell, on a coarse grid: cut cells around
 the shell, joined by reciprocity with the floor's Green's function (:doc:`/radiation`). Asked for
 besides the microphones: sound power by ISO 3744, a map of levels and the directivity.
+``vibroacoustics radiation STUDY.toml`` (``va.radiate``) computes the radiation alone.
 
 .. literalinclude:: /gallery/studies/field.toml
    :language: toml

@@ -58,7 +58,7 @@ axes.legend(fontsize="small")
 # The report
 # ----------
 # ``va.write_report`` makes HTML, Markdown and tables of the results; ``vibroacoustics run`` calls
-# it.
+# it, ``vibroacoustics report RESULTS.nc`` does it again from the results alone.
 with tempfile.TemporaryDirectory() as folder:
     va.write_report(results, folder)
     print(*sorted(path.name for path in Path(folder).iterdir()), sep="\n")

@@ -16,14 +16,16 @@ from pathlib import Path
 def outcome(page: Path) -> dict[str, object]:
     """Seconds, number of figures, and the error if there was one."""
     import matplotlib.pyplot as plt
+    from matplotlib.figure import Figure
 
     os.chdir(page.parent)
-    start, error = time.perf_counter(), ""
+    start, error, names = time.perf_counter(), "", {}
     try:
-        runpy.run_path(str(page), run_name="__main__")
+        names = runpy.run_path(str(page), run_name="__main__")
     except Exception:
         error = traceback.format_exc()
-    figures = len(plt.get_fignums())
+    drawn = [each for each in names.values() if isinstance(each, Figure)]
+    figures = len(plt.get_fignums()) or len(drawn)
     plt.close("all")
     return {"seconds": time.perf_counter() - start, "figures": figures, "error": error}
 

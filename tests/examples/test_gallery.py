@@ -8,12 +8,16 @@ import sys
 from pathlib import Path
 
 import pytest
+import typer
 from support import ROOT
 
 import vibroacoustics
+from vibroacoustics.commands import cli
 
 GALLERY = ROOT / "docs" / "gallery"
 HELPERS = {"rough_radiation.py"}
+ELSEWHERE = {"doctor", "cache"}
+"""They look after the machine's set-up: docs/start.md."""
 PAGES = sorted(page for page in GALLERY.glob("*.py") if page.name not in HELPERS)
 
 
@@ -39,11 +43,18 @@ def test_page_runs_and_draws(page, outcomes):
 
 
 def test_there_is_a_page_for_every_machine_and_job():
-    assert len(PAGES) >= 14
+    assert len(PAGES) >= 17
     text = "".join(page.read_text() for page in GALLERY.glob("studies/*.toml"))
     text += "".join((ROOT / "pipelines" / f"{name}.toml").read_text() for name in extended(text))
     for machine in (ROOT / "data" / "machines").glob("*.toml"):
         assert machine.name in text, machine.name
+
+
+@pytest.mark.parametrize("job", sorted(set(typer.main.get_command(cli.app).commands) - ELSEWHERE))
+def test_there_is_a_page_for_every_command(job):
+    """As words of the command line, or as arguments of a process."""
+    text = "".join(page.read_text() for page in PAGES)
+    assert f"vibroacoustics {job}" in text or f'"vibroacoustics", "{job}"' in text
 
 
 def extended(text: str) -> list[str]:

@@ -107,6 +107,11 @@ def test_every_command_is_a_feature():
     assert {way.removeprefix("command ") for way in FEATURES.values()} >= COMMANDS
 
 
+def test_first_steps_name_every_command():
+    text = (ROOT / "docs" / "start.md").read_text(encoding="utf-8")
+    assert not [name for name in COMMANDS if f"| `vibroacoustics {name}" not in text]
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 def test_code_on_pages_imports_the_package_alone(page):
     for block in FENCED.findall(page.read_text(encoding="utf-8")):
