@@ -31,8 +31,8 @@ figure = va.plot.curves(inner, "mechanical_efficiency")
 # %%
 # Numbers and pictures of your own
 # --------------------------------
-# A curve is a labelled array in SI units, angles in radians. The scroll of a study with sources: its
-# source of gas forces shows pockets and force, its keys what they carry.
+# A curve is a labelled array in SI units, angles in radians. The scroll of a study with sources:
+# its source of gas forces shows pockets and force, its keys what they carry.
 scroll = va.curves(va.load_study("studies/sources.toml"))
 force = scroll["gas_force"]
 print(force.dims, force.attrs["units"], force.attrs["long_name"], sep=" | ")

@@ -43,8 +43,8 @@ axes.set_ylabel("first place, % of random weightings")
 # %%
 # Other weights
 # -------------
-# ``va.score`` ranks finished results again (``vibroacoustics score RESULTS.nc``), here with cost counting more and more. The settings of
-# the study are changed through a copy.
+# ``va.score`` ranks finished results again (``vibroacoustics score RESULTS.nc``), here with cost
+# counting more and more. The settings of the study are changed through a copy.
 shares = np.linspace(0.0, 0.9, 10)
 scores = []
 for share in shares:
