@@ -7,6 +7,8 @@ import tomllib
 from importlib import import_module
 from pathlib import Path
 
+from sphinx.util import logging
+
 DOCS = Path(__file__).resolve().parent
 ROOT = DOCS.parent
 sys.path[:0] = [str(ROOT), str(DOCS)]
@@ -33,6 +35,7 @@ default_role = "code"
 suppress_warnings = ["config.cache"]  # sphinx-gallery's settings hold a function's name
 
 myst_heading_anchors = 3
+myst_enable_extensions = ["html_image"]
 autodoc_member_order = "bysource"
 autodoc_typehints = "description"
 autosummary_generate = False
@@ -104,8 +107,15 @@ def _readable_docstring(app, what, name, thing, options, lines: list[str]) -> No
     lines[:] = import_module("generators.docstrings").readable(lines)
 
 
+def _warn_of_missing_pictures(app, exception) -> None:
+    if exception is None and app.builder.format == "html":
+        for line in import_module("generators.pictures").missing(Path(app.outdir)):
+            logging.getLogger(__name__).warning(line)
+
+
 def setup(app) -> None:
     """Called by sphinx."""
     app.connect("autodoc-process-docstring", _readable_docstring, priority=100)
     app.connect("builder-inited", _write_generated, priority=100)
     app.connect("source-read", _without_links_out)
+    app.connect("build-finished", _warn_of_missing_pictures)

@@ -26,13 +26,16 @@ results = va.run(study, radiation=rough_radiation)  # the package's own method w
 # counterweights cancel; what remains is the ring.
 force = results["force"].sel(speed=2900.0, option="none", axis="x")
 degrees = np.degrees(results["crank_angle"])
-figure, axes = plt.subplots(layout="constrained")
+figure, (parts, rest) = plt.subplots(2, 1, sharex=True, layout="constrained", figsize=(6.4, 6.4))
 for part in force:
     if abs(part).max() > 0.0:
-        axes.plot(degrees, part, label=part["source"].item().replace("_", " "))
-axes.plot(degrees, force.sum("source"), "k", linewidth=2, label="sum")
-axes.set(xlabel="crank angle, °", ylabel="force along the stroke, N", xlim=(0, 360))
-axes.legend(fontsize="small", ncols=2)
+        parts.plot(degrees, part, label=part["source"].item().replace("_", " "))
+rest.plot(degrees, force.sum("source"), "k", label="sum of all")
+rest.plot(degrees, force.sel(source="oldham"), "--", label="oldham")
+parts.set(ylabel="force along the stroke, N", xlim=(0, 360))
+rest.set(xlabel="crank angle, °", ylabel="what remains, N")
+parts.legend(fontsize="small", ncols=2, loc="lower center")
+rest.legend(fontsize="small")
 
 # %%
 # Options compared

@@ -28,7 +28,7 @@ for option in ("none", "counterweight-half", "counterweight-full", "lanchester")
     force = results["force"].sel(speed=1200.0, option=option).sum("source")
     axes.plot(force.sel(axis="x"), force.sel(axis="z"), label=option)
 axes.set(xlabel="force x, N", ylabel="force z, N", aspect="equal")
-axes.legend(fontsize="small")
+figure.legend(fontsize="small", loc="outside right upper")
 
 # %%
 # Orders

@@ -56,7 +56,7 @@ for dof, name in (("tx", "to and fro along x"), ("ty", "to and fro along y")):
     decibel = 20.0 * np.log10(np.maximum(ring / ring.max(), 1e-2))
     axes.plot(azimuth, np.append(decibel, decibel[0]), label=name)
 axes.set(rmin=-40.0, rmax=0.0)
-axes.legend(fontsize="small", loc="lower center")
+figure.legend(fontsize="small", loc="outside lower center", ncols=2)
 
 # %%
 # Sound power level

@@ -32,13 +32,14 @@ for name in sorted(results.attrs):
 # %%
 # Select, reduce, draw
 # --------------------
-# Orders of the sound pressure as an ordinary bar chart.
-level = results["order_level"].sel(speed=2900.0, receiver="front_1m", weighting="Z")
+# The first order at every microphone as an ordinary bar chart.
+level = results["order_level"].sel(speed=2900.0, order=1, weighting="Z")
 figure, axes = plt.subplots(layout="constrained")
+place = np.arange(level.sizes["receiver"])
 for number, option in enumerate(("none", "counterweight-half", "twin-oldham")):
-    shown = level.sel(option=option, order=slice(1, 8)).clip(min=-60.0)
-    axes.bar(shown["order"] + 0.27 * (number - 1), shown + 60.0, 0.27, bottom=-60.0, label=option)
-axes.set(xlabel="order", ylabel="sound pressure level, dB")
+    axes.bar(place + 0.27 * (number - 1), level.sel(option=option), 0.27, label=option)
+axes.set_xticks(place, level["receiver"].values)
+axes.set_ylabel("level of the 1× line, dB")
 axes.legend(fontsize="small")
 
 # %%

@@ -28,6 +28,6 @@ figure, axes = plt.subplots(layout="constrained")
 for number, dof in enumerate(("tx", "tz", "ry")):
     for values, style in ((own, "-"), (rough["transfer_vector"], "--")):
         size = abs(values.sel(receiver="front_1m", dof=dof))
-        axes.loglog(size["frequency"], size, style, color=f"C{number}", label=f"{dof} {style}")
+        axes.loglog(size["frequency"], size, style, color=f"C{number}", label=dof * (style == "-"))
 axes.set(xlabel="frequency, Hz", ylabel="Pa s/m (ry: Pa s/rad)", title="dashed: the rough estimate")
-axes.legend(fontsize="small", ncols=3)
+axes.legend(fontsize="small")

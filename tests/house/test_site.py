@@ -45,6 +45,15 @@ def test_vocabulary_has_every_variable_with_unit_and_maker():
     assert len(without) < 0.05 * len(VARIABLES), without
 
 
+def test_pictures_that_are_missing_are_told(tmp_path):
+    from generators import pictures
+
+    (tmp_path / "there.svg").touch()
+    page = '<img alt="a" src="there.svg"/><img src="../gone.png" width="3"><img src="data:x">'
+    (tmp_path / "page.html").write_text(page, encoding="utf-8")
+    assert pictures.missing(tmp_path) == ["page.html: no picture ../gone.png"]
+
+
 def test_command_line_has_every_option():
     from generators import command_line
 

@@ -1,0 +1,17 @@
+"""Pictures that a built page asks for and that are not there."""
+
+import re
+from pathlib import Path
+from urllib.parse import unquote
+
+_SOURCE = re.compile(r'<img\b[^>]*?\bsrc="([^":]+)"')  # an address with a scheme is not local
+
+
+def missing(folder: Path) -> list[str]:
+    """A line for each."""
+    lines = []
+    for page in sorted(folder.rglob("*.html")):
+        for source in _SOURCE.findall(page.read_text(encoding="utf-8")):
+            if not (page.parent / unquote(source)).is_file():
+                lines.append(f"{page.relative_to(folder)}: no picture {source}")
+    return lines
