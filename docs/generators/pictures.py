@@ -9,9 +9,9 @@ _SOURCE = re.compile(r'<img\b[^>]*?\bsrc="([^":]+)"')  # an address with a schem
 
 def missing(folder: Path) -> list[str]:
     """A line for each."""
-    lines = []
-    for page in sorted(folder.rglob("*.html")):
-        for source in _SOURCE.findall(page.read_text(encoding="utf-8")):
-            if not (page.parent / unquote(source)).is_file():
-                lines.append(f"{page.relative_to(folder)}: no picture {source}")
-    return lines
+    return [
+        f"{page.relative_to(folder)}: no picture {source}"
+        for page in sorted(folder.rglob("*.html"))
+        for source in _SOURCE.findall(page.read_text(encoding="utf-8"))
+        if not (page.parent / unquote(source)).is_file()
+    ]
