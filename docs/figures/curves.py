@@ -71,7 +71,7 @@ def points(
     x: list[float], y: list[float], at: tuple[float, float] = (0.02, 0.9)
 ) -> Callable[[Axes], None]:
     def draw(axes: Axes) -> None:
-        axes.plot(x, y, "s", mfc="none", ms=9, mew=1.5, **PRINTED)
+        axes.plot(x, y, "s", mfc="none", ms=9, mew=1.5, clip_on=False, **PRINTED)
         axes.annotate("□ printed", at, xycoords="axes fraction", **PRINTED)
 
     return draw
@@ -104,7 +104,7 @@ MARKS: dict[tuple[str, str], Callable[[Axes], None]] = {
     ("copeland_sources", "critical_speed"): speeds,
     ("mayekawa_wbhe", "crank_acceleration"): angles(325.0, at=(0.6, 0.1)),
     ("mayekawa_wbhe", "mechanical_efficiency"): points(
-        [120.0, 130.0, 140.0], [92.1, 91.1, 90.3], (0.02, 0.04)
+        [120.0, 130.0, 140.0], [92.1, 91.1, 90.3], (0.4, 0.06)
     ),
     ("mayekawa_wbhe", "best_design"): points(
         [800.0, 1000.0, 1200.0, 1000.0], [120.0, 130.0, 140.0, 100.0]

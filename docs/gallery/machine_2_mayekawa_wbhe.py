@@ -23,7 +23,7 @@ results = va.run(study, radiation=rough_radiation)
 # ---------------------
 # Half of the oscillating mass in the counterweight makes a circle of the line, all of it turns the
 # line; Lanchester's two shafts take the first order and leave the second.
-figure, axes = plt.subplots(layout="constrained")
+figure, axes = plt.subplots(layout="constrained", figsize=(4.8, 4.8))
 for option in ("none", "counterweight-half", "counterweight-full", "lanchester"):
     force = results["force"].sel(speed=1200.0, option=option).sum("source")
     axes.plot(force.sel(axis="x"), force.sel(axis="z"), label=option)

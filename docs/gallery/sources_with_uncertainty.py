@@ -58,4 +58,4 @@ correlation = {name: np.corrcoef(rank, loudness)[0, 1] for name, rank in ranks.i
 names = sorted(correlation, key=lambda name: abs(correlation[name]))[-12:]
 figure, axes = plt.subplots(layout="constrained")
 axes.barh(names, [correlation[name] for name in names])
-axes.set(xlabel="rank correlation with the level", xlim=(-1, 1))
+axes.set(xlabel="rank correlation with the level", xlim=(-1, 1), xticks=[-1, 0, 1])
