@@ -57,9 +57,11 @@ def _along_the_shaft(axes: Axes, machine: Any) -> None:
     for words, at in {
         "θ": (5.6, 1.9), "α": (piston - 17.0, 0.4), "A": (pin[0] - 1.0, pin[1] + 2.6),
         "B": (piston + 1.5, 1.8), "$r_c$": (-3.0, 4.4), "$l$": (19.0, 5.4),
-        "C": (-4.4, -4.6), "X": (end + 9.0, 1.2), "Y": (1.0, 13.0), "gas": (end - 8.5, -6.0),
+        "C": (-4.4, -4.6), "X": (end + 9.0, 1.2), "Y": (1.0, 13.0),
     }.items():  # fmt: skip
         axes.annotate(words, at)
+    middle = 0.5 * (piston + 6.0 + end)
+    axes.text(middle, -6.0, "gas", rotation=90, ha="center", va="center")
     _dimension(axes, (0.0, -20.0), (piston, -20.0), "$x_B$")
     axes.set_title("Along the shaft: crank, rod, piston")
 
@@ -107,9 +109,10 @@ def _from_the_side(axes: Axes, machine: Any) -> None:
         ("grommet", (105.0, bottom - 16.0), (500.0 * machine.mounts.pitch_m, bottom - 12.0)),
     ):
         axes.annotate(words, to, at, arrowprops=line, va="center")
-    axes.annotate("z", (2.0, 46.0))
+    axes.annotate("z", (2.0, 38.0))
     _dimension(axes, (3.0, 0.0), (3.0, lower), "$L$")
-    _dimension(axes, (26.0, 0.0), (26.0, pin), "$h_p$")
+    _dimension(axes, (26.0, 0.0), (26.0, pin), "")
+    axes.annotate("$h_p$", (28.0, -6.0))
     axes.set_title("From the side: block on springs in the shell")
     axes.margins(0.02)
 

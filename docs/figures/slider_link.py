@@ -71,7 +71,7 @@ def from_above(axes: Axes, machine: Any) -> None:
         (31, -7): "piston",
         (head + 5, axis + 7.5): "gas force $F_g$",
         (-24, -1): "shaft",
-        (57, 2): "e",
+        (62, 2): "e",
     }
     write(axes, words)
     axes.plot([pin[0] + 7.5, 27.5], [pin[1] - 7.5, -24.5], color=DARK, lw=0.7)
