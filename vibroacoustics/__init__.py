@@ -15,6 +15,7 @@ also of a machine alone, from `load_machine(path)`.
 
 **Recordings.**
 `read_recording(path)` reads a recording of any format.
+`open_recording(path)` opens one of any length, to be read in blocks.
 `label_recording(...)` labels samples as one.
 `export_recording(recording, path)` writes it as CSV, WAV or netCDF.
 `read_modes(path)` reads measured modes of a structure.
@@ -85,7 +86,7 @@ if TYPE_CHECKING:
         track_orders,
     )
     from .radiation.given import given_radiation
-    from .recordings import label_recording, read_modes, read_recording
+    from .recordings import label_recording, open_recording, read_modes, read_recording
     from .recordings.reader import Reader
     from .recordings.recorded import Recorded, Request
     from .report import blocks
@@ -153,6 +154,7 @@ __all__ = [
     "load_machine",
     "load_plugin",
     "load_study",
+    "open_recording",
     "open_results",
     "orders",
     "plot",
@@ -215,6 +217,7 @@ _HOME = {
     "export_recording": "commands.exporting",
     "given_radiation": "radiation.given",
     "label_recording": "recordings",
+    "open_recording": "recordings",
     "load_machine": "study.loading",
     "load_plugin": "base.plugin_file",
     "load_study": "study.loading",

@@ -51,6 +51,7 @@ FEATURES = {
     "Fast and Slow": "va.levels.recorded_levels",
     "third octaves": "va.levels.band_levels",
     "recordings read": "va.read_recording",
+    "recordings read in blocks": "va.open_recording",
     "simulated signals labelled": "va.label_recording",
     "recordings exported": "command export",
     "recordings exported in Python": "va.export_recording",

@@ -8,21 +8,30 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .blocks import FileBlocks, LabelledBlocks, RecordingBlocks, open_recording
     from .export import csv_bytes, wav_bytes
     from .modes import MeasuredModes, read_modes
     from .reading import read_recording
     from .recording import label_recording
 
 __all__ = [
+    "FileBlocks",
+    "LabelledBlocks",
     "MeasuredModes",
+    "RecordingBlocks",
     "csv_bytes",
     "label_recording",
+    "open_recording",
     "read_modes",
     "read_recording",
     "wav_bytes",
 ]
 
 _HOME = {
+    "FileBlocks": "blocks",
+    "LabelledBlocks": "blocks",
+    "RecordingBlocks": "blocks",
+    "open_recording": "blocks",
     "MeasuredModes": "modes",
     "csv_bytes": "export",
     "label_recording": "recording",

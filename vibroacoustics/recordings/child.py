@@ -11,7 +11,8 @@ import json
 import os
 import resource
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO, Final
 
@@ -28,20 +29,22 @@ PIECE: Final = 2**17
 """Samples that are handed over at a time, 1 MiB."""
 
 
-def answer(request: Request, plugin: str | None = None) -> tuple[dict[str, Any], Iterable[Any]]:
+def answer(
+    request: Request, plugin: str | None = None, hashed: bool = True
+) -> tuple[dict[str, Any], Iterable[Any]]:
     """Header and channels of a file, or the error that the user shall see.
 
     Parameters
     ----------
     request : what to read
     plugin : file of the user that brings the reader
+    hashed : whether the file's hash is wanted
     """
     try:
         if plugin is not None:
             load_plugin(plugin)
         header, rows = (uff_modes.read if request.modes else _recording)(request)
-        with request.path.open("rb") as file:
-            digest = hashlib.file_digest(file, "sha256").hexdigest()
+        digest = _digest(request.path) if hashed else ""
     except VibroacousticsError as error:
         return {"error": type(error).__name__, "message": str(error)}, ()
     except MemoryError:
@@ -69,7 +72,8 @@ def _reader(request: Request) -> Reader:
 
 def _recording(request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
     """Header and channels of a recording."""
-    recording = _checked(_reader(request).read(request))
+    recording = cut(_reader(request).read(request), request)
+    _check(recording, MINIMUM_SAMPLES if request.samples is None else 0)
     header = {
         "names": list(recording.names),
         "units": list(recording.units),
@@ -77,24 +81,44 @@ def _recording(request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
         "sample_rate_hz": float(recording.sample_rate_hz),
         "start_time": recording.start_time,
         "full_scale": recording.full_scale,
+        "first_sample": recording.first_sample,
+        "total_samples": recording.total_samples,
+        "remarks": list(recording.remarks),
     }
     return header, recording.samples
+
+
+def _digest(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def cut(recording: Recorded, request: Request) -> Recorded:
+    """The part that was asked for, where the reader has read all."""
+    if recording.first_sample is not None or not recording.samples:
+        return recording
+    total = len(recording.samples[0])
+    first, last = 0, total
+    if not request.wants_all:
+        first, last = request.part(total, recording.sample_rate_hz)
+    samples = recording.samples if request.wants_all else [s[first:last] for s in recording.samples]
+    return replace(recording, samples=samples, first_sample=first, total_samples=total)
 
 
 def _refusal(message: str) -> dict[str, Any]:
     return {"error": StorageError.__name__, "message": message}
 
 
-def _checked(recording: Recorded) -> Recorded:
-    """The recording if its channels have a form that can be handed over."""
+def _check(recording: Recorded, minimum: int) -> None:
+    """Refuse channels that have no form that can be handed over."""
     if not recording.samples:
         raise ParameterError("no channel is chosen")
     for name, samples in zip(recording.names, recording.samples, strict=True):
         if samples.ndim != 1 or samples.dtype.kind not in "iuf":
             raise StorageError(f"channel {name!r}: its samples are no real numbers")
-        if len(samples) < MINIMUM_SAMPLES:
+        if len(samples) < minimum:
             raise ParameterError(
-                f"channel {name!r}: has {len(samples)} samples; at least {MINIMUM_SAMPLES} needed"
+                f"channel {name!r}: has {len(samples)} samples; at least {minimum} needed"
             )
         if len(samples) != len(recording.samples[0]):
             raise ParameterError(
@@ -102,7 +126,6 @@ def _checked(recording: Recorded) -> Recorded:
                 f"{len(recording.samples[0])}: choose channels of the same length"
             )
     check_size(len(recording.samples), len(recording.samples[0]))
-    return recording
 
 
 def main() -> None:
@@ -113,14 +136,20 @@ def main() -> None:
     output = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # a parser that prints does no harm
     asked = json.loads(sys.argv[1])
-    channels = asked["channels"]
-    request = Request(
+    _write(output, *answer(_request(asked), asked.get("plugin"), asked.get("hashed", True)))
+
+
+def _request(asked: Mapping[str, Any]) -> Request:
+    channels, samples = asked["channels"], asked.get("samples")
+    return Request(
         Path(asked["path"]),
         None if channels is None else tuple(channels),
         asked["sample_rate_hz"],
         asked.get("modes", False),
+        asked.get("from_s"),
+        asked.get("to_s"),
+        None if samples is None else (samples[0], samples[1]),
     )
-    _write(output, *answer(request, asked.get("plugin")))
 
 
 def _limit(kind: int, amount: int) -> None:

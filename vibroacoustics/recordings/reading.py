@@ -1,12 +1,16 @@
 """A recording from a file of any format, in the labelled form."""
 
+import hashlib
 import io
 import json
 import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping, Sequence
+import warnings
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, cast
 
@@ -17,7 +21,7 @@ from ..base.arrays import Array
 from ..base.errors import ParameterError, PluginError, StorageError, VibroacousticsError
 from .child import MAXIMUM_CPU_S
 from .reader import readers_by_suffix
-from .recorded import MAXIMUM_READING_BYTES, check_rate, listed
+from .recorded import MAXIMUM_READING_BYTES, check_part, check_rate, listed
 from .recording import label_in_place
 
 _ERRORS: Final = {error.__name__: error for error in (ParameterError, PluginError, StorageError)}
@@ -30,6 +34,8 @@ def read_recording(
     calibration: Mapping[str, float] | None = None,
     channels: Sequence[str] | None = None,
     sample_rate_hz: float | None = None,
+    from_s: float | None = None,
+    to_s: float | None = None,
 ) -> xr.Dataset:
     """Read a recording; what its file must hold is told in docs/recordings.md.
 
@@ -42,12 +48,14 @@ def read_recording(
     calibration : factor by channel, the channel's unit per unit stored in the file
     channels : names of the channels to read; default: all
     sample_rate_hz : actual sample rate, where the file states none or a rounded one
+    from_s, to_s : part to read, in seconds from the first sample; default: all
 
     Returns
     -------
     `signal` (channel, time) in SI units, with the coordinates `channel_unit` and
     `calibration_factor` and the attributes `sample_rate_hz`, `source_file`, `source_sha256` and,
-    where known, `start_time`
+    where known, `start_time`; of a part `part_start_s`, and `part_sha256` of its samples instead
+    of the file's hash where the file is larger than the cap
 
     Raises
     ------
@@ -57,6 +65,11 @@ def read_recording(
     StorageError
         The file is missing, damaged, or larger than the caps.
 
+    Warns
+    -----
+    RecordingWarning
+        Samples are at full scale, or the file's end is missing.
+
     Examples
     --------
     >>> recording = va.label_recording([[0.0, 0.5]], 1000.0, ["front"], ["Pa"])
@@ -64,38 +77,96 @@ def read_recording(
     >>> va.read_recording(file)["signal"].sel(channel="front").values
     array([0. , 0.5])
     """
-    path = Path(path)
-    try:
-        readers = readers_by_suffix()
-        check_file(path, list(readers))
-        plugin = readers[path.suffix.lower()].plugin
-        if sample_rate_hz is not None:
-            check_rate(sample_rate_hz)
-        header, stored = read_in_child(
-            {
-                "path": str(path),
-                "channels": None if channels is None else list(channels),
-                "sample_rate_hz": None if sample_rate_hz is None else float(sample_rate_hz),
-                "plugin": None if plugin is None else str(plugin),
-            }
-        )
+    asked = Asked(Path(path), units or {}, calibration or {}, channels, sample_rate_hz)
+    with naming_file(asked.path):
+        check_part(from_s, to_s)
+        is_part = from_s is not None or to_s is not None
+        is_large = asked.check(may_be_large=is_part or channels is not None)
+        part = {"from_s": from_s, "to_s": to_s, "hashed": not is_large}
+        header, stored = read_in_child(asked.request() | part)
+        digest = {"source_sha256": header["sha256"]}
+        if is_large:
+            digest = {"part_sha256": hashlib.sha256(stored.data.cast("B")).hexdigest()}
         recording = label_in_place(
             stored,
             header["sample_rate_hz"],
             header["names"],
-            _units(header, units or {}, calibration or {}),
-            calibration or {},
+            asked.chosen_units(header),
+            asked.calibration,
         )
-    except VibroacousticsError as error:
-        raise type(error)(f"{path}: {error}") from None
-    recording.attrs |= {"source_file": path.name, "source_sha256": header["sha256"]}
+    _warn(asked.path, header)
+    recording.attrs |= {"source_file": asked.path.name, **digest}
+    if is_part:
+        recording.attrs["part_start_s"] = header["first_sample"] / header["sample_rate_hz"]
     if header["start_time"]:
         recording.attrs["start_time"] = header["start_time"]
     return recording
 
 
-def check_file(path: Path, suffixes: Sequence[str]) -> None:
+class RecordingWarning(UserWarning):
+    """A recording was read, but its file holds something that its user must know."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What is asked of a file: how its channels are to be read, in the user's words.
+
+    Attributes
+    ----------
+    path : of the file
+    units, calibration, channels, sample_rate_hz : as in `read_recording`
+    """
+
+    path: Path
+    units: Mapping[str, str]
+    calibration: Mapping[str, float]
+    channels: Sequence[str] | None
+    sample_rate_hz: float | None
+
+    def check(self, may_be_large: bool) -> bool:
+        """Refuse a file that cannot be read; see `check_file`. Whether it is above the cap."""
+        check_file(self.path, list(readers_by_suffix()), may_be_large)
+        if self.sample_rate_hz is not None:
+            check_rate(self.sample_rate_hz)
+        return self.path.stat().st_size > MAXIMUM_READING_BYTES
+
+    def request(self) -> dict[str, Any]:
+        """The request to the process that reads."""
+        plugin = readers_by_suffix()[self.path.suffix.lower()].plugin
+        return {
+            "path": str(self.path),
+            "channels": None if self.channels is None else list(self.channels),
+            "sample_rate_hz": None if self.sample_rate_hz is None else float(self.sample_rate_hz),
+            "plugin": None if plugin is None else str(plugin),
+        }
+
+    def chosen_units(self, header: Mapping[str, Any]) -> list[str]:
+        """Unit of each channel, from the user or else from the file."""
+        return _units(header, self.units, self.calibration)
+
+
+@contextmanager
+def naming_file(path: Path) -> Iterator[None]:
+    """Put the file before what goes wrong with it."""
+    try:
+        yield
+    except VibroacousticsError as error:
+        raise type(error)(f"{path}: {error}") from None
+
+
+def _warn(path: Path, header: Mapping[str, Any]) -> None:
+    for remark in header["remarks"]:
+        warnings.warn(f"{path}: {remark}", RecordingWarning, stacklevel=3)
+
+
+def check_file(path: Path, suffixes: Sequence[str], may_be_large: bool = False) -> None:
     """Refuse a file that is missing, empty, too large, or of another kind.
+
+    Parameters
+    ----------
+    path : of the file
+    suffixes : that are known
+    may_be_large : whether only a part of it is read
 
     Raises
     ------
@@ -116,9 +187,10 @@ def check_file(path: Path, suffixes: Sequence[str]) -> None:
         raise StorageError("is no file")
     if size == 0:
         raise StorageError("is empty")
-    if size > MAXIMUM_READING_BYTES:
+    if size > MAXIMUM_READING_BYTES and not may_be_large:
         raise StorageError(
-            f"has {size / 2**30:.3g} GiB; at most {MAXIMUM_READING_BYTES / 2**30:g} GiB"
+            f"has {size / 2**30:.3g} GiB; at most {MAXIMUM_READING_BYTES / 2**30:g} GiB are read "
+            "at once: give from_s and to_s, or channels"
         )
 
 
@@ -158,7 +230,7 @@ def _receive(stream: io.BufferedReader) -> tuple[dict[str, Any], Array] | None:
     if "error" in header:
         raise _ERRORS[header["error"]](header["message"])
     samples = np.empty((len(header["names"]), header["samples"]))
-    complete = stream.readinto(samples.data.cast("B")) == samples.nbytes
+    complete = not samples.size or stream.readinto(samples.data.cast("B")) == samples.nbytes
     return (header, samples) if complete else None
 
 

@@ -19,10 +19,6 @@ MAXIMUM_READING_BYTES: Final = 2 * MAXIMUM_RECORDING_BYTES
 """Largest file, and all the memory that the process which reads it may ask for: the recording and
 as much again for the form in which the file holds it."""
 MINIMUM_SAMPLES: Final = 2
-MAXIMUM_TIME_DEVIATION: Final = 0.05
-"""Largest distance of a sample's time from the even grid, in sampling intervals: the rounding of
-times written in microseconds at 100 kHz. More makes a phase error above 2° at a tenth of the
-sample rate, if it is no rounding."""
 
 
 @dataclass(frozen=True)
@@ -36,18 +32,57 @@ class Request:
     channels : wanted; None for all
     sample_rate_hz : that overrides the file's; None where the file's holds
     modes : whether modes are read, no recording
+    from_s, to_s : part that is wanted, seconds from the first sample; None for begin and end
+    samples : part that is wanted, first sample and the one behind the last; instead of times
 
     Examples
     --------
     >>> from pathlib import Path
     >>> va.Request(Path("run.log16"), channels=("b",)).chosen(["a", "b"])
     [1]
+    >>> va.Request(Path("run.log16"), from_s=2.0).part(300, sample_rate_hz=100.0)
+    (200, 300)
     """
 
     path: Path
     channels: tuple[str, ...] | None = None
     sample_rate_hz: float | None = None
     modes: bool = False
+    from_s: float | None = None
+    to_s: float | None = None
+    samples: tuple[int, int] | None = None
+
+    @property
+    def wants_all(self) -> bool:
+        """Whether no part is asked for."""
+        return self.from_s is None and self.to_s is None and self.samples is None
+
+    def part(self, samples: int, sample_rate_hz: float) -> tuple[int, int]:
+        """First sample that is wanted, and the one behind the last.
+
+        Parameters
+        ----------
+        samples : that the file holds of a channel
+        sample_rate_hz : actual sample rate
+
+        Raises
+        ------
+        ParameterError
+            The part begins behind the end of the recording, or is empty.
+        """
+        if self.samples is not None:
+            return max(self.samples[0], 0), min(self.samples[1], samples)
+        first = 0 if self.from_s is None else _nearest_sample(self.from_s, sample_rate_hz)
+        last = samples
+        if self.to_s is not None:
+            last = min(samples, _nearest_sample(self.to_s, sample_rate_hz))
+        if last - first < MINIMUM_SAMPLES:
+            raise ParameterError(
+                f"from_s = {self.from_s or 0.0:g} s, to_s = "
+                f"{samples / sample_rate_hz if self.to_s is None else self.to_s:g} s: holds no "
+                f"samples; the recording lasts {samples / sample_rate_hz:.9g} s"
+            )
+        return first, last
 
     def chosen(self, names: Sequence[str]) -> list[int]:
         """Places of the wanted channels among those of the file, in the order asked for.
@@ -78,6 +113,12 @@ class Recorded:
     sample_rate_hz : actual sample rate
     start_time : ISO 8601; empty where it is unknown
     full_scale : whether the samples are fractions of the recorder's full scale
+    first_sample : number of the first sample that is handed back, where the reader has read the
+        part that was asked for; None where it has read all
+    total_samples : that the file holds of a channel; None for as many as are handed back
+    limits : lowest and highest value that the file's number format can hold, one pair a channel;
+        a sample at a limit is an overload. Empty where the format has none
+    remarks : what the user must know of the file, a line each
 
     Examples
     --------
@@ -94,6 +135,29 @@ class Recorded:
     start_time: str = ""
     full_scale: bool = False
     """The samples are fractions of the recorder's full scale and mean nothing uncalibrated."""
+    first_sample: int | None = None
+    total_samples: int | None = None
+    limits: Sequence[tuple[float, float] | None] = ()
+    remarks: Sequence[str] = ()
+
+
+def _nearest_sample(time_s: float, sample_rate_hz: float) -> int:
+    return round(time_s * sample_rate_hz)
+
+
+def check_part(from_s: float | None, to_s: float | None) -> None:
+    """Refuse a part that is none.
+
+    Raises
+    ------
+    ParameterError
+        A time is negative or not finite, or the end does not lie behind the begin.
+    """
+    for name, value in (("from_s", from_s), ("to_s", to_s)):
+        if value is not None and not 0.0 <= value < np.inf:
+            raise ParameterError(f"{name} = {value:g} s: must be 0 or above")
+    if to_s is not None and to_s <= (from_s or 0.0):
+        raise ParameterError(f"to_s = {to_s:g} s: must lie behind from_s = {from_s or 0.0:g} s")
 
 
 def check_size(channels: int, samples: int) -> None:
@@ -123,43 +187,6 @@ def check_rate(sample_rate_hz: float) -> None:
     """
     if not 0.0 < sample_rate_hz < np.inf:
         raise ParameterError(f"sample_rate_hz = {sample_rate_hz:g} Hz: must be above zero")
-
-
-def even_rate_hz(time_s: Samples, request: Request) -> float:
-    """Sample rate of a time axis, from its end points: (N - 1) / (t_N - t_1).
-
-    Parameters
-    ----------
-    time_s : shape (time,), s
-    request : its sample rate overrides that of the axis
-
-    Raises
-    ------
-    ParameterError
-        The times do not grow or are not even.
-    """
-    time = np.asarray(time_s, dtype=float)
-    if time.size < MINIMUM_SAMPLES:
-        raise ParameterError(f"time has {time.size} values; at least {MINIMUM_SAMPLES} are needed")
-    wrong = np.flatnonzero(~(np.diff(time) > 0.0))  # not a number is wrong too
-    if wrong.size:
-        sample = int(wrong[0])
-        raise ParameterError(
-            f"time does not grow from sample {sample + 1} ({time[sample]:.9g} s) to the next "
-            f"({time[sample + 1]:.9g} s)"
-        )
-    if request.sample_rate_hz is not None:
-        return request.sample_rate_hz
-    rate = float((time.size - 1) / (time[-1] - time[0]))
-    deviation = np.abs((time - time[0]) * rate - np.arange(time.size))
-    sample = int(np.argmax(deviation))
-    if not deviation[sample] <= MAXIMUM_TIME_DEVIATION:
-        raise ParameterError(
-            f"time is not even: sample {sample + 1} lies {deviation[sample]:.3g} sampling "
-            f"intervals off the grid of {rate:.9g} Hz, allowed are {MAXIMUM_TIME_DEVIATION:g}; "
-            "if the times are only rounded, give sample_rate_hz"
-        )
-    return rate
 
 
 def numbered(names: Sequence[str]) -> list[str]:

@@ -68,15 +68,8 @@ def label_in_place(
     sample_rate_hz, names, units, calibration : as in `label_recording`
     """
     _check_form(signal, sample_rate_hz, names, units)
-    si_units, factors = [], []
-    for name, unit, samples in zip(names, units, signal, strict=True):
-        measured = _quantity(name, unit)
-        factor = _calibration(name, calibration) * measured.factor
-        with np.errstate(over="ignore"):  # told in the next line
-            np.multiply(samples, factor, out=samples)
-        _check_finite(name, samples)
-        si_units.append(measured.unit)
-        factors.append(factor)
+    si_units, factors = si_scale(names, units, calibration)
+    scale_in_place(signal, names, factors)
     time = np.arange(signal.shape[1], dtype=float)
     time /= sample_rate_hz
     coords = {
@@ -88,6 +81,38 @@ def label_in_place(
     recording = xr.Dataset({"signal": vocabulary.stamp("signal", signal, coords)})
     recording.attrs["sample_rate_hz"] = float(sample_rate_hz)
     return vocabulary.label_coordinates(vocabulary.check(recording))
+
+
+def si_scale(
+    names: Sequence[str], units: Sequence[str], calibration: Mapping[str, float]
+) -> tuple[list[str], list[float]]:
+    """SI unit of each channel, and the factor that takes its samples to it.
+
+    Raises
+    ------
+    ParameterError
+        A unit is unknown, a factor zero.
+    """
+    measured = [_quantity(name, unit) for name, unit in zip(names, units, strict=True)]
+    factors = [
+        _calibration(name, calibration) * kind.factor
+        for name, kind in zip(names, measured, strict=True)
+    ]
+    return [kind.unit for kind in measured], factors
+
+
+def scale_in_place(signal: Array, names: Sequence[str], factors: Sequence[float]) -> None:
+    """Multiply the samples of each channel, shape (channel, time), by its factor.
+
+    Raises
+    ------
+    ParameterError
+        A sample is not finite.
+    """
+    for name, factor, samples in zip(names, factors, signal, strict=True):
+        with np.errstate(over="ignore"):  # told in the next line
+            np.multiply(samples, factor, out=samples)
+        _check_finite(name, samples)
 
 
 def _check_form(

@@ -26,7 +26,8 @@ from vibroacoustics.recordings import (
 )
 from vibroacoustics.recordings.quantities import QUANTITIES, find_quantity, quantity
 from vibroacoustics.recordings.readers import csv_table
-from vibroacoustics.recordings.recorded import Request, even_rate_hz
+from vibroacoustics.recordings.recorded import Request
+from vibroacoustics.recordings.time_axis import even_rate_hz
 from vibroacoustics.results import storage
 
 MOTOR = ROOT / "data" / "recordings" / "electric_motor_vibration.uff"

@@ -16,7 +16,8 @@ from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
 from ..quantities import TIME_UNITS, find_quantity, time_factor
 from ..reader import Reader
-from ..recorded import Recorded, Request, Samples, check_size, even_rate_hz
+from ..recorded import Recorded, Request, Samples, check_size
+from ..time_axis import even_rate_hz
 
 MAXIMUM_LINE_BYTES: Final = 2**16
 MAXIMUM_HEAD_LINES: Final = 200

@@ -2,20 +2,23 @@
 
 from collections.abc import Mapping
 from functools import partial
-from itertools import count
+from itertools import count, product
 from typing import Any, Final
 
 import numpy as np
 
 from ...base.errors import StorageError
 from ...base.registry import register
-from ..named_arrays import NamedArray, as_text, recorded
+from ..named_arrays import RATE_NAMES, UNIT_NAMES, NamedArray, Part, as_text, recorded
+from ..packing import PACKING_NAMES
 from ..reader import Reader
 from ..recorded import MAXIMUM_READING_BYTES, Recorded, Request, check_size
 
 MAXIMUM_DATASETS: Final = 10_000
 MAXIMUM_NAME: Final = 4096
 """Characters of a path: a chain of groups is not followed further."""
+CHUNK_CACHE_BYTES: Final = 2**29
+"""A chunk that does not fit is read value by value where one channel of several is wanted."""
 _CLASSIC: Final = b"CDF"
 
 
@@ -37,7 +40,7 @@ def read(request: Request) -> Recorded:
 def _read_hdf5(request: Request) -> Recorded:
     import h5py
 
-    with h5py.File(request.path, "r") as file:
+    with h5py.File(request.path, "r", rdcc_nbytes=CHUNK_CACHE_BYTES) as file:
         arrays = [named_dataset(name, dataset) for name, dataset in datasets(file)]
         return recorded(arrays, _plain(file.attrs), request)
 
@@ -67,32 +70,44 @@ def named_dataset(name: str, dataset: Any) -> NamedArray:
     """
     shape = tuple(int(side) for side in dataset.shape or ())
 
-    def load() -> Any:
-        check_size(0, int(np.prod(shape, dtype=float)))
+    def load(part: Part) -> Any:
+        check_size(0, int(np.prod([side.stop - side.start for side in part], dtype=float)))
         if dataset.external or dataset.is_virtual:
             raise StorageError(f"dataset {name!r} is stored in another file: copy it into this one")
         if dataset.chunks is None and dataset.size and not dataset.id.get_storage_size():
             raise StorageError(f"dataset {name!r} claims {shape} values and stores none")
         if dataset.chunks is not None:
-            _check_chunks(name, dataset)
-        return dataset[()]
+            _check_chunks(name, dataset, part)
+        return dataset[part]
 
     return NamedArray(name, shape, dataset.dtype.kind in "iuf", load, _plain(dataset.attrs))
 
 
-def _check_chunks(name: str, dataset: Any) -> None:
-    sides = zip(dataset.shape, dataset.chunks, strict=True)
-    needed = int(np.prod([-(-side // chunk) for side, chunk in sides], dtype=float))
-    stored = dataset.id.get_num_chunks()
-    if stored < needed:
-        raise StorageError(f"dataset {name!r} is incomplete: {stored} of {needed} chunks stored")
+def _check_chunks(name: str, dataset: Any, part: Part) -> None:
+    """Refuse a part of which not every chunk is stored."""
     if np.prod(dataset.chunks, dtype=float) * dataset.dtype.itemsize > MAXIMUM_READING_BYTES:
         raise StorageError(f"dataset {name!r} has chunks of {dataset.chunks}: too large")
+    sides = list(zip(part, dataset.chunks, strict=True))
+    needed = [range(s.start // c, -(-s.stop // c)) for s, c in sides]
+    number = int(np.prod([len(along) for along in needed], dtype=float))
+    stored = dataset.id.get_num_chunks()
+    if stored >= number and number < _count_of_chunks(dataset):
+        places = product(
+            *([n * c for n in along] for along, (_, c) in zip(needed, sides, strict=True))
+        )
+        stored = sum(dataset.id.get_chunk_info_by_coord(place).size > 0 for place in places)
+    if stored < number:
+        raise StorageError(f"dataset {name!r} is incomplete: {stored} of {number} chunks stored")
+
+
+def _count_of_chunks(dataset: Any) -> int:
+    sides = zip(dataset.shape, dataset.chunks, strict=True)
+    return int(np.prod([-(-side // chunk) for side, chunk in sides], dtype=float))
 
 
 def _plain(attributes: Any) -> Mapping[str, Any]:
     """The attributes that we know; others may be of types that cannot be read."""
-    wanted = ("units", "unit", "sample_rate_hz", "sample_rate", "fs", "Fs", "start_time")
+    wanted = (*UNIT_NAMES, *RATE_NAMES, *PACKING_NAMES, "start_time")
     return {name: attributes[name] for name in wanted if name in attributes}
 
 
@@ -106,12 +121,16 @@ def _read_classic(request: Request) -> Recorded:
                 as_text(name),
                 tuple(variable.data.shape),
                 variable.data.dtype.kind in "iuf",
-                partial(np.array, variable.data),
+                partial(_part_of, variable.data),
                 variable._attributes,
             )
             for name, variable in file.variables.items()
         ]
         return recorded(arrays, file._attributes, request)
+
+
+def _part_of(values: Any, part: Part) -> Any:
+    return np.array(values[part])
 
 
 register(Reader("hdf5", (".h5", ".hdf5", ".nc"), "HDF5 and netCDF", read))

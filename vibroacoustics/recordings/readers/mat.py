@@ -1,11 +1,11 @@
 """MAT: up to 7.2 by SciPy, 7.3 as HDF5. Variables are numbers; cells and structs are not read."""
 
-from functools import partial
+from functools import cache, partial
 from typing import Any, Final
 
 from ...base.errors import ParameterError
 from ...base.registry import register
-from ..named_arrays import NamedArray, as_text, recorded
+from ..named_arrays import NamedArray, Part, as_text, recorded
 from ..reader import Reader
 from ..recorded import Recorded, Request, listed
 from .hdf5 import datasets, named_dataset
@@ -39,8 +39,12 @@ def _read_mat(request: Request) -> Recorded:
 
     variables = whosmat(request.path)
 
-    def load(name: str) -> Any:
+    @cache
+    def loaded(name: str) -> Any:
         return loadmat(request.path, variable_names=[name])[name]
+
+    def load(name: str, part: Part) -> Any:
+        return loaded(name)[part]
 
     arrays = [
         NamedArray(name, shape, kind in _NUMBERS, partial(load, name))

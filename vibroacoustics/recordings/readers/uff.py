@@ -8,7 +8,8 @@ from typing import Any, Final
 from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
 from ..reader import Reader
-from ..recorded import Recorded, Request, check_size, even_rate_hz, numbered
+from ..recorded import Recorded, Request, check_size, numbered
+from ..time_axis import even_rate_hz
 
 TIME_RESPONSE: Final = 1
 """Function type in record 6, field 1."""

@@ -1,0 +1,71 @@
+"""Parts of recordings: only what is asked for is read."""
+
+import time
+
+import h5py
+import numpy as np
+import pytest
+
+from vibroacoustics.base.errors import ParameterError, StorageError
+from vibroacoustics.recordings import (
+    LabelledBlocks,
+    label_recording,
+    open_recording,
+    read_recording,
+)
+
+RATE_HZ = 51200.0
+GIB = 2**30
+
+
+def long_hdf5(path, stored_s, rate_hz=RATE_HZ, duration_s=3600.0, channels=16):
+    """A file that claims an hour of 16 channels, 22 GiB, of which one part is stored."""
+    samples = int(duration_s * rate_hz)
+    with h5py.File(path, "w") as file:
+        signal = file.create_dataset(
+            "acceleration", (samples, channels), "f8", chunks=(int(rate_hz), channels)
+        )
+        signal.attrs["units"] = "m/s2"
+        file.attrs["sample_rate_hz"] = rate_hz
+        for second in range(*stored_s):
+            at = slice(int(second * rate_hz), int((second + 1) * rate_hz))
+            signal[at] = np.tile(float(second) + np.arange(channels), (int(rate_hz), 1))
+    return path
+
+
+def test_a_minute_of_22_gib(tmp_path):
+    path = long_hdf5(tmp_path / "a.h5", (600, 660))
+    claimed = 16 * 3600 * 51200 * 8
+    assert claimed > 21.9 * GIB
+    begin = time.monotonic()
+    part = read_recording(path, from_s=600.0, to_s=660.0, channels=["acceleration 3"])
+    assert time.monotonic() - begin < 15.0
+    assert part.sizes == {"channel": 1, "time": 60 * 51200}
+    expected = np.repeat(np.arange(600.0, 660.0), 51200) + 2.0
+    np.testing.assert_array_equal(part["signal"].values[0], expected)
+    assert part.attrs["part_start_s"] == 600.0
+    with pytest.raises(StorageError, match="incomplete: 60 of 61 chunks stored"):
+        read_recording(path, from_s=600.0, to_s=661.0, channels=["acceleration 3"])
+
+
+def test_blocks_of_a_file(tmp_path):
+    path = long_hdf5(tmp_path / "a.h5", (2, 5), 1000.0, 8.0, 3)
+    blocks = open_recording(path, from_s=2.0, to_s=5.0, units={"acceleration 1": "g"})
+    assert (blocks.samples, blocks.sample_rate_hz) == (3000, 1000.0)
+    assert blocks.channels == ("acceleration 1", "acceleration 2", "acceleration 3")
+    assert blocks.channel_units == ["m/s²"] * 3
+    two = blocks.read(["acceleration 3", "acceleration 1"], 999, 1002)
+    np.testing.assert_allclose(
+        two, [[4.0, 5.0, 5.0], [2.0 * 9.80665, 3.0 * 9.80665, 3.0 * 9.80665]]
+    )
+    assert blocks.read(["acceleration 2"], 0, 1).tolist() == [[3.0]]
+    for wrong in ((0, 3001), (5, 5), (-1, 3)):
+        with pytest.raises(ParameterError, match="must lie within 0 to 3000"):
+            blocks.read(["acceleration 1"], *wrong)
+
+
+def test_blocks_of_memory():
+    recording = label_recording([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]], 10.0, ["a", "b"], ["Pa", "V"])
+    blocks = LabelledBlocks(recording)
+    assert blocks.read(["b"], 1, 3).tolist() == [[5.0, 6.0]]
+    assert (blocks.samples, blocks.channels, blocks.channel_units) == (3, ("a", "b"), ("Pa", "V"))

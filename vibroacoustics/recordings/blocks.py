@@ -1,0 +1,191 @@
+"""A recording that is read in blocks, for analyses of more than memory holds."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array
+from ..base.errors import ParameterError
+from .reading import Asked, naming_file, read_in_child
+from .recorded import MAXIMUM_RECORDING_BYTES, Request, check_part, listed
+from .recording import scale_in_place, si_scale
+
+
+class RecordingBlocks(Protocol):
+    """Channels of one sample rate and length that are read a block at a time."""
+
+    @property
+    def sample_rate_hz(self) -> float:
+        """Actual sample rate."""
+
+    @property
+    def samples(self) -> int:
+        """Of a channel, all in all."""
+
+    @property
+    def channels(self) -> Sequence[str]:
+        """Names, each once."""
+
+    @property
+    def channel_units(self) -> Sequence[str]:
+        """SI unit of each channel's samples."""
+
+    @property
+    def calibration_factors(self) -> Sequence[float]:
+        """SI unit per unit stored, already applied, of each channel."""
+
+    @property
+    def attributes(self) -> Mapping[str, Any]:
+        """Those of the recording in the labelled form, where known: `source_file`, …"""
+
+    def read(self, channels: Sequence[str], first: int, last: int) -> Array:
+        """Samples `first` up to, but not with, `last`; shape (channel, time), SI units."""
+
+
+@dataclass(frozen=True)
+class FileBlocks:
+    """A recording in a file; each block is read by a process of its own, of limited memory."""
+
+    asked: Asked
+    header: Mapping[str, Any]
+    first_sample: int
+    samples: int
+    channel_units: Sequence[str]
+    calibration_factors: Sequence[float]
+
+    @property
+    def sample_rate_hz(self) -> float:
+        """Actual sample rate."""
+        return float(self.header["sample_rate_hz"])
+
+    @property
+    def channels(self) -> Sequence[str]:
+        """Names, each once."""
+        return tuple(self.header["names"])
+
+    @property
+    def attributes(self) -> Mapping[str, Any]:
+        """Attributes as `read_recording` gives them, but no hash."""
+        start = {"start_time": self.header["start_time"]} if self.header["start_time"] else {}
+        return {"sample_rate_hz": self.sample_rate_hz, "source_file": self.asked.path.name} | start
+
+    def read(self, channels: Sequence[str], first: int, last: int) -> Array:
+        """Samples of some channels; see `RecordingBlocks`.
+
+        Raises
+        ------
+        ParameterError
+            There is no such channel or sample, or a sample is not finite.
+        StorageError
+            The file is damaged, or the block larger than the cap.
+        """
+        _check_block(self, channels, first, last)
+        at = self.first_sample
+        part = {"samples": [at + first, at + last], "channels": list(channels), "hashed": False}
+        with naming_file(self.asked.path):
+            _, samples = read_in_child(self.asked.request() | part)
+            places = [self.channels.index(name) for name in channels]
+            scale_in_place(samples, channels, [self.calibration_factors[p] for p in places])
+        return samples
+
+
+@dataclass(frozen=True)
+class LabelledBlocks:
+    """A recording in the labelled form, which is in memory already."""
+
+    recording: xr.Dataset
+
+    @property
+    def sample_rate_hz(self) -> float:
+        """Actual sample rate."""
+        return float(self.recording.attrs["sample_rate_hz"])
+
+    @property
+    def samples(self) -> int:
+        """Of a channel."""
+        return int(self.recording.sizes["time"])
+
+    @property
+    def channels(self) -> Sequence[str]:
+        """Names, each once."""
+        return tuple(str(name) for name in self.recording["channel"].values)
+
+    @property
+    def channel_units(self) -> Sequence[str]:
+        """SI unit of each channel's samples."""
+        return tuple(str(unit) for unit in self.recording["channel_unit"].values)
+
+    @property
+    def calibration_factors(self) -> Sequence[float]:
+        """SI unit per unit stored, already applied, of each channel."""
+        return tuple(self.recording["calibration_factor"].values.tolist())
+
+    @property
+    def attributes(self) -> Mapping[str, Any]:
+        """Attributes of the recording."""
+        return dict(self.recording.attrs)
+
+    def read(self, channels: Sequence[str], first: int, last: int) -> Array:
+        """Samples of some channels; see `RecordingBlocks`."""
+        _check_block(self, channels, first, last)
+        chosen = self.recording["signal"].sel(channel=list(channels))
+        return np.asarray(chosen.values[:, first:last])
+
+
+def open_recording(
+    path: str | Path,
+    *,
+    units: Mapping[str, str] | None = None,
+    calibration: Mapping[str, float] | None = None,
+    channels: Sequence[str] | None = None,
+    sample_rate_hz: float | None = None,
+    from_s: float | None = None,
+    to_s: float | None = None,
+) -> FileBlocks:
+    """Open a recording of any length, to be read in blocks.
+
+    Formats that know where a sample lies read only the block: HDF5, netCDF, WAV, FLAC, TDMS, UFF.
+
+    Parameters
+    ----------
+    path, units, calibration, channels, sample_rate_hz, from_s, to_s : as in `read_recording`
+
+    Raises
+    ------
+    ParameterError, StorageError
+        As `read_recording`; samples are checked when they are read.
+
+    Examples
+    --------
+    >>> recording = va.label_recording([np.arange(8.0)], 1000.0, ["front"], ["Pa"])
+    >>> file = va.export_recording(recording, "front.nc")
+    >>> blocks = va.open_recording(file)
+    >>> blocks.samples, blocks.read(["front"], 2, 4)
+    (8, array([[2., 3.]]))
+    """
+    asked = Asked(Path(path), units or {}, calibration or {}, channels, sample_rate_hz)
+    with naming_file(asked.path):
+        check_part(from_s, to_s)
+        asked.check(may_be_large=True)
+        header, _ = read_in_child(asked.request() | {"samples": [0, 0], "hashed": False})
+        names, rate_hz = header["names"], float(header["sample_rate_hz"])
+        si_units, factors = si_scale(names, asked.chosen_units(header), asked.calibration)
+        request = Request(asked.path, from_s=from_s, to_s=to_s)
+        first, last = request.part(header["total_samples"], rate_hz)
+    return FileBlocks(asked, header, first, last - first, si_units, factors)
+
+
+def _check_block(blocks: RecordingBlocks, channels: Sequence[str], first: int, last: int) -> None:
+    unknown = [name for name in channels if name not in blocks.channels]
+    if unknown:
+        raise ParameterError(f"no channel {unknown[0]!r} among {listed(blocks.channels)}")
+    if not 0 <= first < last <= blocks.samples:
+        raise ParameterError(
+            f"samples {first} to {last}: must lie within 0 to {blocks.samples} and be one at least"
+        )
+    if 8 * len(channels) * (last - first) > MAXIMUM_RECORDING_BYTES:
+        raise ParameterError(f"samples {first} to {last}: more than the cap allows at once")

@@ -1,0 +1,57 @@
+"""Packed values of netCDF and HDF5: scale, offset, values that stand for missing ones.
+
+Conventions of netCDF (Unidata, "Best practices") and CF-1.11, 8.1: value = stored · scale_factor +
+add_offset; fill values are compared as they are stored.
+"""
+
+from collections.abc import Mapping
+from typing import Any, Final
+
+import numpy as np
+
+from .recorded import Samples
+
+PACKING_NAMES: Final = ("scale_factor", "add_offset", "_FillValue", "missing_value", "_Unsigned")
+"""Attributes that say how values are stored."""
+_DEFAULT_FILL: Final = 9.969209968386869e36
+"""What the netCDF library writes for numbers that never were written, as float or double."""
+
+
+def unsigned(stored: Samples, attributes: Mapping[str, Any]) -> Samples:
+    """Stored values as the unsigned whole numbers that `_Unsigned` says they are."""
+    text = attributes.get("_Unsigned", b"")
+    text = text.encode() if isinstance(text, str) else bytes(text)
+    if text.lower() != b"true" or stored.dtype.kind != "i":
+        return stored
+    return stored.view(f"{stored.dtype.byteorder}u{stored.dtype.itemsize}")
+
+
+def unpacked(stored: Samples, attributes: Mapping[str, Any]) -> Samples:
+    """Values that the stored numbers stand for; the stored ones where nothing is packed."""
+    if not is_packed(attributes):
+        return stored
+    scale = float(np.asarray(attributes.get("scale_factor", 1.0)).item())
+    offset = float(np.asarray(attributes.get("add_offset", 0.0)).item())
+    return np.asarray(stored * np.float64(scale) + offset)
+
+
+def is_packed(attributes: Mapping[str, Any]) -> bool:
+    """Whether stored numbers are no values yet."""
+    return "scale_factor" in attributes or "add_offset" in attributes
+
+
+def missing(stored: Samples, attributes: Mapping[str, Any]) -> tuple[Samples, float] | None:
+    """Which of the stored numbers stand for a missing value, and that number; None without any."""
+    fills = [
+        float(fill)
+        for name in ("_FillValue", "missing_value")
+        for fill in np.ravel(np.asarray(attributes.get(name, ())))
+        if np.asarray(fill).dtype.kind in "iuf"
+    ]
+    for fill in [*fills, _DEFAULT_FILL]:
+        where = stored == np.asarray(fill).astype(stored.dtype if np.isfinite(fill) else float)
+        if fill == _DEFAULT_FILL and stored.dtype.kind != "f":
+            continue
+        if where.any():
+            return where, fill
+    return None
