@@ -173,7 +173,9 @@ def open_recording(
         asked.check(may_be_large=True)
         header, _ = read_in_child(asked.request() | {"samples": [0, 0], "hashed": False})
         names, rate_hz = header["names"], float(header["sample_rate_hz"])
-        si_units, factors = si_scale(names, asked.chosen_units(header), asked.calibration)
+        si_units, factors = si_scale(
+            names, asked.chosen_units(header), asked.chosen_calibration(header)
+        )
         request = Request(asked.path, from_s=from_s, to_s=to_s)
         first, last = request.part(header["total_samples"], rate_hz)
     return FileBlocks(asked, header, first, last - first, si_units, factors)

@@ -21,6 +21,7 @@ import numpy as np
 from ..base.errors import ParameterError, StorageError, VibroacousticsError
 from ..base.plugin_file import load_plugin
 from . import uff_modes
+from .overload import overloads
 from .reader import Reader, needed, readers_by_suffix
 from .recorded import MAXIMUM_READING_BYTES, MINIMUM_SAMPLES, Recorded, Request, check_size
 
@@ -83,7 +84,9 @@ def _recording(request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
         "full_scale": recording.full_scale,
         "first_sample": recording.first_sample,
         "total_samples": recording.total_samples,
-        "remarks": list(recording.remarks),
+        "calibration": list(recording.calibration) or [None] * len(recording.names),
+        "remarks": [*recording.remarks],
+        "overloads": [overload and overload._asdict() for overload in overloads(recording)],
     }
     return header, recording.samples
 

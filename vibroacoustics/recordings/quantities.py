@@ -50,6 +50,15 @@ _SIGNS: Final = str.maketrans(
 )
 """Signs that files write in several ways; `μ` is the Greek letter, `µ` the micro sign."""
 
+_NAMES: Final = {
+    "Pa": ("Pascal", "Pascals", "pascal", "pascals"),
+    "N": ("Newton", "Newtons", "newton", "newtons"),
+    "V": ("Volt", "Volts", "volt", "volts"),
+    "A": ("Ampere", "Amperes", "Amps", "ampere", "amperes", "amps"),
+    "rpm": ("U/min",),
+}
+"""Units in words, as some recorders write them."""
+
 _SPELLINGS: Final[dict[str, str]] = {
     **{unit.translate(_SIGNS): unit for unit in QUANTITIES},
     **dict.fromkeys(("m s-2", "m/s/s", "m/(s2)"), "m/s²"),
@@ -63,6 +72,7 @@ _SPELLINGS: Final[dict[str, str]] = {
     "rad s-1": "rad/s",
     **dict.fromkeys(("deg", "degree", "degrees"), "°"),
     "-": "1",
+    **{name: unit for unit, names in _NAMES.items() for name in names},
 }
 
 

@@ -92,15 +92,19 @@ def read_recording(
             header["sample_rate_hz"],
             header["names"],
             asked.chosen_units(header),
-            asked.calibration,
+            asked.chosen_calibration(header),
         )
-    _warn(asked.path, header)
+    _warn(recording, asked.path, header)
     recording.attrs |= {"source_file": asked.path.name, **digest}
     if is_part:
         recording.attrs["part_start_s"] = header["first_sample"] / header["sample_rate_hz"]
     if header["start_time"]:
         recording.attrs["start_time"] = header["start_time"]
     return recording
+
+
+_NEVER_OVERLOADED: Final = ("rpm", "rad/s", "rad", "1")
+"""Units of channels that stay at one value, or jump from one to another."""
 
 
 class RecordingWarning(UserWarning):
@@ -142,7 +146,17 @@ class Asked:
 
     def chosen_units(self, header: Mapping[str, Any]) -> list[str]:
         """Unit of each channel, from the user or else from the file."""
-        return _units(header, self.units, self.calibration)
+        return _units(header, self.units, self.chosen_calibration(header), self.calibration)
+
+    def chosen_calibration(self, header: Mapping[str, Any]) -> dict[str, float]:
+        """Factor by channel, from the user or else from the file, in the file's unit."""
+        stated = zip(header["names"], header["units"], header["calibration"], strict=True)
+        of_file = {
+            name: factor
+            for name, unit, factor in stated
+            if factor is not None and self.units.get(name, unit) == unit
+        }
+        return of_file | dict(self.calibration)
 
 
 @contextmanager
@@ -154,9 +168,23 @@ def naming_file(path: Path) -> Iterator[None]:
         raise type(error)(f"{path}: {error}") from None
 
 
-def _warn(path: Path, header: Mapping[str, Any]) -> None:
-    for remark in header["remarks"]:
-        warnings.warn(f"{path}: {remark}", RecordingWarning, stacklevel=3)
+def _warn(recording: xr.Dataset, path: Path, header: Mapping[str, Any]) -> None:
+    for line in [*header["remarks"], *_overloads(recording, header)]:
+        warnings.warn(f"{path}: {line}", RecordingWarning, stacklevel=3)
+
+
+def _overloads(recording: xr.Dataset, header: Mapping[str, Any]) -> Iterator[str]:
+    """A line for each channel with samples at full scale."""
+    for name, unit, overload in zip(
+        header["names"], recording["channel_unit"].values, header["overloads"], strict=True
+    ):
+        if overload is None or str(unit) in _NEVER_OVERLOADED:
+            continue
+        time_s = (header["first_sample"] + overload["first"]) / header["sample_rate_hz"]
+        yield (
+            f"channel {name!r}: {overload['samples']} samples are at full scale, the first at "
+            f"{time_s:.9g} s: the recorder may have been overloaded"
+        )
 
 
 def check_file(path: Path, suffixes: Sequence[str], may_be_large: bool = False) -> None:
@@ -245,11 +273,14 @@ def _end_of(code: int, messages: bytes) -> str:
 
 
 def _units(
-    header: Mapping[str, Any], units: Mapping[str, str], calibration: Mapping[str, float]
+    header: Mapping[str, Any],
+    units: Mapping[str, str],
+    calibration: Mapping[str, float],
+    given_calibration: Mapping[str, float],
 ) -> list[str]:
     """Unit of each channel, from the user or else from the file."""
     names = header["names"]
-    for option, given in (("units", units), ("calibration", calibration)):
+    for option, given in (("units", units), ("calibration", given_calibration)):
         for name in given:
             if name not in names:
                 raise ParameterError(f"{option}: no channel {name!r} among {listed(names)}")

@@ -118,6 +118,8 @@ class Recorded:
     total_samples : that the file holds of a channel; None for as many as are handed back
     limits : lowest and highest value that the file's number format can hold, one pair a channel;
         a sample at a limit is an overload. Empty where the format has none
+    calibration : factor that the file states of each channel, its unit per unit of the samples;
+        one that the user gives counts instead. Empty or None where the file states none
     remarks : what the user must know of the file, a line each
 
     Examples
@@ -138,6 +140,7 @@ class Recorded:
     first_sample: int | None = None
     total_samples: int | None = None
     limits: Sequence[tuple[float, float] | None] = ()
+    calibration: Sequence[float | None] = ()
     remarks: Sequence[str] = ()
 
 

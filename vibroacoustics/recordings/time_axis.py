@@ -21,7 +21,9 @@ Times = Callable[[int, int], Samples]
 """Times in s from one sample up to, but not with, another."""
 
 
-def even_part(times: Times, samples: int, request: Request) -> tuple[int, int, float]:
+def even_part(
+    times: Times, samples: int, request: Request, origin_s: float | None = None
+) -> tuple[int, int, float]:
     """First sample that is wanted, the one behind the last, and the sample rate.
 
     The rate is (N - 1) / (t_N - t_1), from the end points of the part or, of a block, of the whole
@@ -32,6 +34,7 @@ def even_part(times: Times, samples: int, request: Request) -> tuple[int, int, f
     times : of the axis; of a part only its times are asked for
     samples : of the axis
     request : part that is wanted
+    origin_s : time of the recording's first sample, where that is not of the axis
 
     Raises
     ------
@@ -48,7 +51,7 @@ def even_part(times: Times, samples: int, request: Request) -> tuple[int, int, f
     check_size(0, last - first)
     time = np.asarray(times(first, last), dtype=float)
     _check_growing(time, first)
-    _check_gap(time, first, start, request.sample_rate_hz)
+    _check_gap(time, first, start if origin_s is None else origin_s, request.sample_rate_hz)
     if request.sample_rate_hz is not None:
         return first, last, request.sample_rate_hz
     if request.samples is not None and time.size == 0:
@@ -62,16 +65,17 @@ def even_part(times: Times, samples: int, request: Request) -> tuple[int, int, f
     return first, last, float(rate_hz)
 
 
-def even_rate_hz(time_s: Samples, request: Request) -> float:
+def even_rate_hz(time_s: Samples, request: Request, origin_s: float | None = None) -> float:
     """Sample rate of a time axis that is read in full; see `even_part`.
 
     Parameters
     ----------
     time_s : shape (time,), s
     request : its sample rate overrides that of the axis
+    origin_s : time of the recording's first sample, where that is not of the axis
     """
     whole = Request(request.path, sample_rate_hz=request.sample_rate_hz)
-    return even_part(lambda first, last: time_s[first:last], len(time_s), whole)[2]
+    return even_part(lambda first, last: time_s[first:last], len(time_s), whole, origin_s)[2]
 
 
 def _between(

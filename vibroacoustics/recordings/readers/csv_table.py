@@ -1,40 +1,34 @@
 """CSV: columns `name [unit]`, one of them the time; comma, semicolon or tab; decimal comma."""
 
-import csv
-import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import islice
-from pathlib import Path
-from typing import BinaryIO, Final
+from typing import Any, BinaryIO, Final
 
 import numpy as np
 
-from ...base.csv_text import fused
 from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
-from ..quantities import TIME_UNITS, find_quantity, time_factor
+from ..csv_head import Head, read_head, time_column
+from ..quantities import time_factor
 from ..reader import Reader
-from ..recorded import Recorded, Request, Samples, check_size
+from ..recorded import Recorded, Request, Samples, check_rate, check_size
+from ..text_lines import MAXIMUM_LINE_BYTES, last_lines, lines, opened, reached, text
 from ..time_axis import even_rate_hz
+from ..time_stamps import stamp_ns, stamp_text
 
-MAXIMUM_LINE_BYTES: Final = 2**16
 MAXIMUM_HEAD_LINES: Final = 200
-SEPARATORS: Final = ("\t", ";", ",")
-_TIME_NAMES: Final = {"time", "t"}
-_BRACKETS: Final = re.compile(r"(?P<name>.*?)\s*(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\))")
 
 
 @dataclass(frozen=True)
-class _Head:
-    """What stands above the numbers."""
+class _Table:
+    """Rows of numbers: from a place in the file up to another."""
 
-    names: Sequence[str]
-    units: Sequence[str]
-    separator: str
-    has_decimal_comma: bool
-    lines: int
+    file: BinaryIO
+    head: Head
+    begin: int
+    end: int
 
 
 def read(request: Request) -> Recorded:
@@ -47,122 +41,173 @@ def read(request: Request) -> Recorded:
     StorageError
         The table has a gap, a line too long or columns of different lengths.
     """
-    with request.path.open("rb") as file:
-        head = _read_head(file)
-    table = _read_numbers(request.path, head)
-    check_size(len(head.names), len(table))
-    rate = request.sample_rate_hz
-    time_column = _time_column(head)
-    if time_column is not None:
-        rate = even_rate_hz(table[:, time_column] * time_factor(head.units[time_column]), request)
-    if rate is None:
-        raise ParameterError("has no column 'time [s]': add one or give sample_rate_hz")
-    columns = [column for column in range(len(head.names)) if column != time_column]
-    columns = [columns[index] for index in request.chosen([head.names[c] for c in columns])]
+    with opened(request.path) as file:
+        head = read_head([text(line) for line in islice(lines(file), MAXIMUM_HEAD_LINES)])
+        table, remarks = _complete(_Table(file, head, *_rows(file, head)))
+        time = time_column(head)
+        names = [n for c, n in enumerate(head.names) if c not in (time, head.stamps)]
+        columns = [c for c in range(len(head.names)) if c not in (time, head.stamps)]
+        columns = [columns[index] for index in request.chosen(names)]
+        if time is None:
+            part = _without_time(table, columns, request)
+        else:
+            part = _with_time(table, time, columns, request)
+        start = "" if head.stamps is None else _field(_first_line(table), table, head.stamps)
     return Recorded(
         names=[head.names[column] for column in columns],
         units=[head.units[column] for column in columns],
-        samples=[table[:, column] for column in columns],
-        sample_rate_hz=rate,
+        samples=part.samples,
+        sample_rate_hz=part.rate_hz,
+        start_time=stamp_text(start) if start else "",
+        first_sample=part.first,
+        remarks=remarks,
     )
 
 
-def _read_head(file: BinaryIO) -> _Head:
-    lines = [_text(line) for line in islice(_lines(file), MAXIMUM_HEAD_LINES)]
-    for separator in SEPARATORS:
-        rows = [_fields(line, separator) for line in lines]
-        for number, fields in enumerate(rows):
-            if (len(fields) > 1 or separator == ",") and _are_numbers(fields, separator):
-                names, units = _parse_names(rows[:number], len(fields))
-                is_comma = separator != "," and any("," in line for line in lines[number:])
-                return _Head(names, units, separator, is_comma, number)
-    raise StorageError(f"has no row of numbers in its first {len(lines)} lines")
+@dataclass(frozen=True)
+class _Part:
+    samples: list[Samples]
+    rate_hz: float
+    first: int | None
 
 
-def _lines(file: BinaryIO) -> Iterator[bytes]:
-    number = 0
-    while line := file.readline(MAXIMUM_LINE_BYTES):
-        number += 1
-        if len(line) == MAXIMUM_LINE_BYTES:
-            raise StorageError(f"line {number} is longer than {MAXIMUM_LINE_BYTES} bytes")
-        yield line
+def _rows(file: BinaryIO, head: Head) -> tuple[int, int]:
+    """Places of the first row of numbers, and behind the last."""
+    file.seek(0)
+    for _ in range(head.lines):
+        file.readline(MAXIMUM_LINE_BYTES)
+    begin = file.tell()
+    return begin, file.seek(0, 2)
 
 
-def _text(line: bytes) -> str:
-    try:
-        return line.decode("utf-8-sig")
-    except UnicodeDecodeError:  # as Western European spreadsheets write m/s²
-        return line.decode("latin-1")
+def _complete(table: _Table) -> tuple[_Table, list[str]]:
+    """The table without a last row that was cut short, and what to tell of it."""
+    found, has_end = last_lines(table.file, table.begin)
+    if has_end or len(found) < 2:
+        return table, []
+    (_, before), (place, last) = found
+    if not _is_cut(_split(before, table.head), _split(last, table.head)):
+        return table, []
+    remark = (
+        f"its last row ({text(last)[:60]!r}) has no end and seems cut short: the file is "
+        "truncated; that row is left out"
+    )
+    return _Table(table.file, table.head, table.begin, place), [remark]
 
 
-def _fields(line: str, separator: str) -> list[str]:
-    try:
-        return next(csv.reader([line], delimiter=separator), [])
-    except csv.Error as error:
-        raise StorageError(f"line {line[:40]!r} cannot be split: {error}") from None
+def _is_cut(before: Sequence[str], last: Sequence[str]) -> bool:
+    """Whether a last row without an end lacks columns, or digits of its last number."""
+    if len(last) < len(before) or last[-1].strip('0123456789+-.eE \t"'):
+        return True
+    return len(last[-1].partition(".")[2]) < len(before[-1].partition(".")[2])
 
 
-def _are_numbers(fields: Sequence[str], separator: str) -> bool:
-    try:
-        for field in fields:
-            float(field if separator == "," else field.replace(",", "."))
-    except ValueError:
-        return False
-    return bool(fields)
+def _split(line: bytes, head: Head) -> list[str]:
+    plain = text(line).strip("\r\n")
+    return (plain.replace(",", ".") if head.has_decimal_comma else plain).split(head.separator)
 
 
-def _parse_names(rows: list[list[str]], columns: int) -> tuple[list[str], list[str]]:
-    """Names and units from the last rows above the numbers; a row of units may stand below."""
-    above = [[field.strip() for field in row] for row in rows if any(f.strip() for f in row)]
-    if not above:
-        raise ParameterError("has no header row: write 'time [s]' and 'name [unit]' above")
-    units = None
-    if len(above) > 1 and all(_is_unit(field) for field in above[-1]):
-        units = [field.strip("[]()") for field in above.pop()]
-    named = [_split_name(fused(field)) for field in above[-1]]
-    if len(named) != columns or (units is not None and len(units) != columns):
-        raise ParameterError(f"the header names {len(named)} columns, the table has {columns}")
-    return [name for name, _ in named], units or [unit for _, unit in named]
+def _field(line: bytes, table: _Table, column: int) -> str:
+    fields = _split(line, table.head)
+    if column >= len(fields):
+        raise StorageError(f"row {text(line)[:60]!r}: has {len(fields)} columns")
+    return fields[column]
 
 
-def _is_unit(field: str) -> bool:
-    plain = field.strip("[]()")
-    return not plain or plain in TIME_UNITS or find_quantity(plain) is not None
+def _first_line(table: _Table) -> bytes:
+    table.file.seek(table.begin)
+    return table.file.readline(MAXIMUM_LINE_BYTES)
 
 
-def _split_name(field: str) -> tuple[str, str]:
-    """Name and unit; round brackets count as part of the name where they hold no unit."""
-    match = _BRACKETS.fullmatch(field)
-    if match is None or (match["square"] is None and not _is_unit(match["round"])):
-        return field, ""
-    return match["name"], (match["square"] or match["round"] or "").strip()
+def _with_time(table: _Table, time: int, columns: Sequence[int], request: Request) -> _Part:
+    """The rows from one time to another, which are found by halving."""
+    seconds = _clock(table, time)
+    start = seconds(_field(_first_line(table), table, time))
+    wanted = table
+    if request.from_s is not None or request.to_s is not None:
+        wanted = _between(table, lambda line: seconds(_field(line, table, time)), start, request)
+    is_stamped = time == table.head.stamps
+    values = _numbers(wanted, [time, *columns], {time: seconds} if is_stamped else {}, None)
+    times = values[:, 0] * (1.0 if is_stamped else time_factor(table.head.units[time]))
+    rate_hz = even_rate_hz(times, request, start)
+    first = round((times[0] - start) * rate_hz)
+    samples = [values[:, number + 1] for number in range(len(columns))]
+    return _Part(samples, rate_hz, first if request.samples is None else None)
 
 
-def _time_column(head: _Head) -> int | None:
-    """The column named time, or the one whose unit is that of a time."""
-    time_columns = [
-        column
-        for column, (name, unit) in enumerate(zip(head.names, head.units, strict=True))
-        if name.lower() in _TIME_NAMES or unit in TIME_UNITS
-    ]
-    if len(time_columns) > 1:
+def _between(
+    table: _Table, seconds: Callable[[bytes], float], start: float, request: Request
+) -> _Table:
+    found = partial(reached, table.file, table.begin, table.end, seconds)
+    table.file.seek(table.begin)
+    two = [table.file.readline(MAXIMUM_LINE_BYTES) for _ in range(2)]
+    half = 0.5 * (seconds(two[1]) - seconds(two[0]))  # the nearest sample counts
+    first = table.begin if request.from_s is None else found(start + request.from_s - half)
+    last = table.end if request.to_s is None else found(start + request.to_s - half)
+    if first >= last:
         raise ParameterError(
-            f"columns {[head.names[column] for column in time_columns]} are all times"
+            f"from_s = {request.from_s or 0.0:g} s: holds no samples; the recording ends before"
         )
-    return time_columns[0] if time_columns else None
+    return _Table(table.file, table.head, first, last)
 
 
-def _read_numbers(path: Path, head: _Head) -> Samples:
-    with path.open(encoding="latin-1", newline="\n") as file:
-        pieces = iter(partial(file.readline, MAXIMUM_LINE_BYTES), "")  # of a line without end
-        lines: Iterator[str] = islice(pieces, head.lines, None)
-        if head.has_decimal_comma:
-            lines = (line.replace(",", ".") for line in lines)
-        try:
-            return np.loadtxt(lines, delimiter=head.separator, comments=None, ndmin=2)
-        except ValueError as error:
-            reason = str(error).split("; use `")[0]
-            raise StorageError(f"below its {head.lines} header lines: {reason}") from None
+def _without_time(table: _Table, columns: Sequence[int], request: Request) -> _Part:
+    rate_hz = request.sample_rate_hz
+    if rate_hz is None:
+        raise ParameterError("has no column 'time [s]': add one or give sample_rate_hz")
+    check_rate(rate_hz)
+    rows = None if request.wants_all else request.part(2**62, rate_hz)
+    values = _numbers(table, columns, {}, rows)
+    first = None if rows is None else rows[0]
+    return _Part([values[:, n] for n in range(len(columns))], rate_hz, first)
+
+
+def _clock(table: _Table, time: int) -> Callable[[str], float]:
+    """Seconds of a field of the time column; of time stamps since the first."""
+    if time != table.head.stamps:
+        factor = time_factor(table.head.units[time])
+        return lambda field: float(field) * factor
+    origin = stamp_ns(_field(_first_line(table), table, time))
+    return lambda field: 1e-9 * (stamp_ns(field) - origin)
+
+
+def _numbers(
+    table: _Table,
+    columns: Sequence[int],
+    converters: Mapping[int | str, Callable[[str], Any]],
+    rows: tuple[int, int] | None,
+) -> Samples:
+    """Numbers of some columns, shape (row, column)."""
+    chosen = _row_texts(table) if rows is None else islice(_row_texts(table), *rows)
+    try:
+        values: Samples = np.loadtxt(
+            chosen, delimiter=table.head.separator, comments=None, ndmin=2, usecols=list(columns),
+            converters=dict(converters) or None,
+        )  # fmt: skip
+    except ValueError as error:
+        reason = str(error).split("; use `")[0]
+        raise StorageError(f"below its {table.head.lines} header lines: {reason}") from None
+    check_size(len(columns), len(values))
+    return values
+
+
+def _row_texts(table: _Table) -> Iterator[str]:
+    """Rows with a decimal point, all of the same number of columns."""
+    table.file.seek(table.begin)
+    at, row = table.begin, 0
+    separators = len(table.head.names) - 1
+    while at < table.end and (line := table.file.readline(MAXIMUM_LINE_BYTES)):
+        at += len(line)
+        row += 1
+        plain = line.decode("latin-1")
+        if not plain.strip():
+            continue
+        if plain.count(table.head.separator) != separators:
+            raise ValueError(
+                f"row {row} has {plain.count(table.head.separator) + 1} columns, not "
+                f"{separators + 1}"
+            )
+        yield plain.replace(",", ".") if table.head.has_decimal_comma else plain
 
 
 register(Reader("csv", (".csv", ".txt"), "CSV", read))

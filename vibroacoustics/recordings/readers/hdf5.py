@@ -9,7 +9,8 @@ import numpy as np
 
 from ...base.errors import StorageError
 from ...base.registry import register
-from ..named_arrays import RATE_NAMES, UNIT_NAMES, NamedArray, Part, as_text, recorded
+from ..array_recording import recorded
+from ..named_arrays import UNIT_NAMES, NamedArray, Part, as_text, is_rate
 from ..packing import PACKING_NAMES
 from ..reader import Reader
 from ..recorded import MAXIMUM_READING_BYTES, Recorded, Request, check_size
@@ -19,6 +20,7 @@ MAXIMUM_NAME: Final = 4096
 """Characters of a path: a chain of groups is not followed further."""
 CHUNK_CACHE_BYTES: Final = 2**29
 """A chunk that does not fit is read value by value where one channel of several is wanted."""
+_NO_VARIABLE: Final = b"This is a netCDF dimension but not a netCDF variable"
 _CLASSIC: Final = b"CDF"
 
 
@@ -55,11 +57,17 @@ def datasets(file: Any) -> list[tuple[str, Any]]:
             raise StorageError(
                 f"holds more than {MAXIMUM_DATASETS} datasets and groups, or too deep"
             )
-        if hasattr(item, "shape"):
+        if hasattr(item, "shape") and not _is_dimension(item):
             collected.append((name, item))
 
     file.visititems(collect)
     return collected
+
+
+def _is_dimension(dataset: Any) -> bool:
+    """Whether it is a dimension of netCDF without values, such as a time that only has a length."""
+    name = dataset.attrs.get("NAME", b"")
+    return isinstance(name, bytes) and name.startswith(_NO_VARIABLE)
 
 
 def named_dataset(name: str, dataset: Any) -> NamedArray:
@@ -80,7 +88,7 @@ def named_dataset(name: str, dataset: Any) -> NamedArray:
             _check_chunks(name, dataset, part)
         return dataset[part]
 
-    return NamedArray(name, shape, dataset.dtype.kind in "iuf", load, _plain(dataset.attrs))
+    return NamedArray(name, shape, dataset.dtype.kind in "iuf", load, _attributes(dataset))
 
 
 def _check_chunks(name: str, dataset: Any, part: Part) -> None:
@@ -105,10 +113,19 @@ def _count_of_chunks(dataset: Any) -> int:
     return int(np.prod([-(-side // chunk) for side, chunk in sides], dtype=float))
 
 
+def _attributes(dataset: Any) -> Mapping[str, Any]:
+    """Attributes of a dataset, and the sample rate of its group where it has none itself."""
+    own = _plain(dataset.attrs)
+    if any(map(is_rate, own)) or dataset.parent.name == "/":
+        return own
+    of_group = _plain(dataset.parent.attrs)
+    return {name: value for name, value in of_group.items() if is_rate(name)} | dict(own)
+
+
 def _plain(attributes: Any) -> Mapping[str, Any]:
     """The attributes that we know; others may be of types that cannot be read."""
-    wanted = (*UNIT_NAMES, *RATE_NAMES, *PACKING_NAMES, "start_time")
-    return {name: attributes[name] for name in wanted if name in attributes}
+    wanted = (*UNIT_NAMES, *PACKING_NAMES, "start_time")
+    return {name: attributes[name] for name in attributes if name in wanted or is_rate(name)}
 
 
 def _read_classic(request: Request) -> Recorded:

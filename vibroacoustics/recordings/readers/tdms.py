@@ -4,8 +4,9 @@ from typing import Any
 
 from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
+from ..named_arrays import is_rate
 from ..reader import Reader
-from ..recorded import Recorded, Request, check_size, listed
+from ..recorded import Recorded, Request, check_rate, check_size, listed
 
 INCREMENT, START, UNIT = "wf_increment", "wf_start_time", "unit_string"
 """Waveform properties of a channel: sampling interval in s, start, unit."""
@@ -35,14 +36,18 @@ def read(request: Request) -> Recorded:
         if not chosen:
             raise ParameterError("holds no channel of numbers")
         names, channels = [names[c] for c in chosen], [candidates[c] for c in chosen]
-        rate = _check_alike(names, channels, request)
-        _check_claims(channels, request)
+        rate = _check_alike(file, names, channels, request)
+        total = len(channels[0])
+        first, last = request.part(total, rate)
+        _check_claims(channels, total, last - first, request)
         return Recorded(
             names=names,
             units=[str(channel.properties.get(UNIT, "")) for channel in channels],
-            samples=[channel[:] for channel in channels],
+            samples=[channel[first:last] for channel in channels],
             sample_rate_hz=rate,
             start_time=str(channels[0].properties.get(START, "")),
+            first_sample=first,
+            total_samples=total,
         )
 
 
@@ -56,11 +61,11 @@ def _check_whole(file: Any) -> None:
         raise StorageError("is truncated: its last segment holds less than it claims")
 
 
-def _check_alike(names: list[str], channels: list[Any], request: Request) -> float:
+def _check_alike(file: Any, names: list[str], channels: list[Any], request: Request) -> float:
     """The sample rate that the channels share; they share their length too."""
     descriptions, kinds = [], set()
     for name, channel in zip(names, channels, strict=True):
-        rate = request.sample_rate_hz or _rate_hz(name, channel)
+        rate = request.sample_rate_hz or _rate_hz(file, name, channel)
         kinds.add((len(channel), rate))
         descriptions.append(f"{name} {len(channel)} samples at {rate:.9g} Hz")
     if len(kinds) > 1:
@@ -70,19 +75,34 @@ def _check_alike(names: list[str], channels: list[Any], request: Request) -> flo
     return kinds.pop()[1]
 
 
-def _rate_hz(name: str, channel: Any) -> float:
+def _rate_hz(file: Any, name: str, channel: Any) -> float:
+    """Rate from the waveform's increment, or from a property of channel, group or file."""
     increment = channel.properties.get(INCREMENT)
     if increment is None:
-        raise ParameterError(f"channel {name!r}: has no {INCREMENT}: give sample_rate_hz")
+        return _stated_rate_hz(file, name, channel)
     if not float(increment) > 0.0:
         raise ParameterError(f"channel {name!r}: {INCREMENT} is {increment} s, must be above zero")
     return 1.0 / float(increment)
 
 
-def _check_claims(channels: list[Any], request: Request) -> None:
+def _stated_rate_hz(file: Any, name: str, channel: Any) -> float:
+    for properties in (
+        channel.properties, file[channel.group_name].properties, file.properties
+    ):  # fmt: skip
+        for key, value in properties.items():
+            if is_rate(key):
+                rate = float(value)
+                check_rate(rate)
+                return rate
+    raise ParameterError(
+        f"channel {name!r}: has no {INCREMENT} and no property such as SampleFrequency: "
+        "give sample_rate_hz"
+    )
+
+
+def _check_claims(channels: list[Any], samples: int, wanted: int, request: Request) -> None:
     """Refuse more samples than the file has bytes, before anything is allocated."""
-    samples = len(channels[0])
-    check_size(len(channels), samples)
+    check_size(len(channels), wanted)
     if samples > request.path.stat().st_size:
         raise StorageError(f"claims {samples} samples, more than the file has bytes")
 

@@ -1,26 +1,21 @@
-"""UFF dataset 58 (ASCII and binary), time responses, through pyuff."""
+"""UFF dataset 58 (ASCII and binary), time responses."""
 
-import mmap
-import re
-from collections.abc import Mapping
-from typing import Any, Final
+from collections.abc import Sequence
+from typing import BinaryIO, Final
 
-from ...base.errors import ParameterError, StorageError
+from ...base.errors import ParameterError
 from ...base.registry import register
 from ..reader import Reader
-from ..recorded import Recorded, Request, check_size, numbered
-from ..time_axis import even_rate_hz
+from ..recorded import Recorded, Request, Samples, check_rate, check_size, listed, numbered
+from ..time_axis import even_part
+from ..uff58 import DOUBLE, SINGLE, Header, headers
+from ..uff58_values import values
 
 TIME_RESPONSE: Final = 1
 """Function type in record 6, field 1."""
-EVEN_SPACING: Final = 1
-"""Abscissa spacing in record 7, field 3."""
-_RECORD_9: Final = re.compile(
-    rb"^ {4}-1[ ]*\r?\n {4}58[ b][^\n]*\n(?:[^\n]*\n){8}(?P<record>[^\n]*)", re.MULTILINE
-)
-"""The ordinate's labels, ten lines below the head of a dataset 58."""
-_LABEL, _UNIT = slice(26, 46), slice(47, 67)
-"""Columns of record 9: format I10, 3I5, 2(1X, 20A1)."""
+
+_Part = tuple[int, int, float]
+"""First sample, the one behind the last, sample rate."""
 
 
 def read(request: Request) -> Recorded:
@@ -35,83 +30,77 @@ def read(request: Request) -> Recorded:
     StorageError
         The file is truncated or too large.
     """
-    import pyuff
-
-    labels = _ordinate_labels(request)
-    file = pyuff.UFF(str(request.path))
-    indices = [index for index, kind in enumerate(file.get_set_types()) if kind == 58]
-    if not indices or len(indices) != len(labels):
-        raise StorageError(f"{len(indices)} whole datasets 58, {len(labels)} begun: truncated")
-    headers = [file.read_sets(index, header_only=True) for index in indices]
-    responses = [n for n, header in enumerate(headers) if header["func_type"] == TIME_RESPONSE]
-    if not responses:
-        kinds = sorted({header["func_type"] for header in headers})
-        raise ParameterError(f"holds no time response (function type 1), only types {kinds}")
-    names = numbered([_name(headers[n], labels[n][0]) for n in responses])
-    chosen = request.chosen(names)
-    check_size(len(chosen), max(headers[responses[c]]["num_pts"] for c in chosen))
-    sets = [_whole_set(file, indices[responses[c]], names[c]) for c in chosen]
+    with request.path.open("rb") as file:
+        responses = _time_responses(*headers(file))
+        names = numbered([header.name or "channel" for header in responses])
+        chosen = request.chosen(names)
+        names, responses = [names[c] for c in chosen], [responses[c] for c in chosen]
+        first, last, rate_hz = _common_part(file, names, responses, request)
+        check_size(len(chosen), last - first)
+        samples = [values(file, header, first, last)[0] for header in responses]
     return Recorded(
-        names=[names[c] for c in chosen],
-        units=[labels[responses[c]][1] for c in chosen],
-        samples=[dataset["data"] for dataset in sets],
-        sample_rate_hz=_common_rate_hz(sets, [names[c] for c in chosen], request),
-        start_time=_given(sets[0]["id3"]),
+        names=names,
+        units=[header.unit for header in responses],
+        samples=samples,
+        sample_rate_hz=rate_hz,
+        start_time=responses[0].start_time,
+        first_sample=first,
+        total_samples=responses[0].points,
     )
 
 
-def _ordinate_labels(request: Request) -> list[tuple[str, str]]:
-    """Label and unit of each ordinate; pyuff would lose the ² of `m/s²` that is not in UTF-8."""
-    with (
-        request.path.open("rb") as file,
-        mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content,
-    ):
-        records = [match["record"] for match in _RECORD_9.finditer(content)]
-    texts = [_text(record) for record in records]
-    return [(_given(text[_LABEL]), _given(text[_UNIT])) for text in texts]
-
-
-def _text(record: bytes) -> str:
-    try:
-        return record.decode("utf-8")
-    except UnicodeDecodeError:
-        return record.decode("latin-1")
-
-
-def _given(text: str) -> str:
-    """The text, empty where the file says NONE."""
-    return "" if text.strip().upper() == "NONE" else text.strip()
-
-
-def _name(header: Mapping[str, Any], label: str) -> str:
-    """First of id line 1, response entity and ordinate label that is given."""
-    return _given(header["id1"]) or _given(header["rsp_ent_name"]) or label or "channel"
-
-
-def _whole_set(file: Any, index: int, name: str) -> Mapping[str, Any]:
-    dataset: Mapping[str, Any] = file.read_sets(index)
-    if len(dataset["data"]) != dataset["num_pts"]:
-        raise StorageError(
-            f"channel {name!r}: {len(dataset['data'])} samples, its header says "
-            f"{dataset['num_pts']}"
+def _time_responses(headers_58: Sequence[Header], kinds: Sequence[int]) -> list[Header]:
+    responses = [header for header in headers_58 if header.function_type == TIME_RESPONSE]
+    types = sorted({header.function_type for header in headers_58})
+    if types and not responses:
+        raise ParameterError(
+            f"holds no time response (function type 1), only functions of type {types}"
         )
-    return dataset
+    if not responses:
+        datasets = ", ".join(map(str, sorted(set(kinds)))) or "none"
+        raise ParameterError(f"holds no time response (dataset 58); its datasets: {datasets}")
+    if any(header.ordinate_type not in (SINGLE, DOUBLE) for header in responses):
+        raise ParameterError("holds a complex time response: no real numbers")
+    return responses
 
 
-def _common_rate_hz(sets: list[Mapping[str, Any]], names: list[str], request: Request) -> float:
-    rates = {name: _rate_hz(dataset, request) for name, dataset in zip(names, sets, strict=True)}
-    if len(set(rates.values())) > 1:
-        listing = ", ".join(f"{name} {rate:.9g} Hz" for name, rate in rates.items())
-        raise ParameterError(f"channels differ in sample rate ({listing}): choose some of one rate")
-    return rates[names[0]]
+def _common_part(
+    file: BinaryIO, names: Sequence[str], responses: Sequence[Header], request: Request
+) -> _Part:
+    """The part that is wanted, which all responses share."""
+    if not responses:
+        raise ParameterError("no channel is chosen")
+    lengths = [f"{name} {header.points}" for name, header in zip(names, responses, strict=True)]
+    if len({header.points for header in responses}) > 1:
+        raise ParameterError(f"channels differ in length ({listed(lengths)}): choose some alike")
+    check_size(0, 0 if not request.wants_all else responses[0].points)
+    parts = [_part(file, header, request) for header in responses]
+    if len(set(parts)) > 1:
+        rates = ", ".join(
+            f"{name} {part[2]:.9g} Hz" for name, part in zip(names, parts, strict=True)
+        )
+        raise ParameterError(f"channels differ in sample rate ({rates}): choose some of one rate")
+    return parts[0]
 
 
-def _rate_hz(dataset: Mapping[str, Any], request: Request) -> float:
-    if dataset["abscissa_spacing"] != EVEN_SPACING:
-        return even_rate_hz(dataset["x"], request)
-    if request.sample_rate_hz is None and not dataset["abscissa_inc"] > 0.0:
-        raise ParameterError(f"abscissa increment {dataset['abscissa_inc']} s: must be above zero")
-    return request.sample_rate_hz or 1.0 / dataset["abscissa_inc"]
+def _part(file: BinaryIO, header: Header, request: Request) -> _Part:
+    if header.is_even:
+        rate_hz = request.sample_rate_hz or _rate_hz(header.increment)
+        check_rate(rate_hz)
+        return (*request.part(header.points, rate_hz), rate_hz)
+
+    def times(first: int, last: int) -> Samples:
+        _, abscissas = values(file, header, first, last)
+        assert abscissas is not None  # noqa: S101 - the abscissa is uneven
+        return abscissas
+
+    return even_part(times, header.points, request)
 
 
-register(Reader("uff", (".uff", ".unv"), "UFF", read, package="pyuff"))
+def _rate_hz(increment: float) -> float:
+    if not increment > 0.0:
+        raise ParameterError(f"abscissa increment {increment} s: must be above zero")
+    return 1.0 / increment
+
+
+register(Reader("uff", (".uff", ".unv"), "UFF", read))

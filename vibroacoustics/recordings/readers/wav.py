@@ -1,17 +1,13 @@
-"""WAV: PCM and IEEE float. The file states no unit; integers are fractions of full scale."""
-
-import os
-import struct
-from typing import BinaryIO, Final
+"""WAV: PCM and IEEE float. Integers are fractions of full scale; few files state a unit."""
 
 import numpy as np
 
 from ...base.errors import StorageError
 from ...base.registry import register
 from ..reader import Reader
-from ..recorded import Recorded, Request, Samples, check_size
-
-_BYTE_ORDER: Final = {b"RIFF": "<", b"RIFX": ">", b"RF64": "<"}
+from ..recorded import Recorded, Request, Samples, check_rate, check_size
+from ..riff import FLOAT, PCM, Wave, read_wave
+from . import sound_file
 
 
 def read(request: Request) -> Recorded:
@@ -22,21 +18,50 @@ def read(request: Request) -> Recorded:
     StorageError
         The file is no WAV file, is truncated or too large.
     """
-    from scipy.io import wavfile
-
     with request.path.open("rb") as file:
-        _check_chunks(file)
-    file_rate, stored = wavfile.read(request.path)
-    frames = stored.reshape(len(stored), -1)
-    names = [f"channel {number}" for number in range(1, frames.shape[1] + 1)]
+        wave = read_wave(file)
+    if wave.kind not in (PCM, FLOAT):  # packed: A-law, ADPCM, …
+        return sound_file.read(request)
+    rate_hz = request.sample_rate_hz or wave.sample_rate_hz
+    check_rate(rate_hz)
+    names = [f"channel {number}" for number in range(1, wave.channels + 1)]
     chosen = request.chosen(names)
+    first, last = request.part(wave.frames, rate_hz)
+    check_size(len(chosen), last - first)
+    frames = _frames(request, wave, first, last)
+    is_whole = wave.kind == PCM
+    pascal = wave.pascal_at_full_scale if is_whole else None
+    highest = 1.0 - 2.0 ** (1 - 8 * wave.sample_bytes)
     return Recorded(
         names=[names[column] for column in chosen],
-        units=[""] * len(chosen),
+        units=["" if pascal is None else "Pa"] * len(chosen),
         samples=[_full_scale_fraction(frames[:, column]) for column in chosen],
-        sample_rate_hz=request.sample_rate_hz or float(file_rate),
-        full_scale=stored.dtype.kind in "iu",
+        sample_rate_hz=rate_hz,
+        full_scale=is_whole,
+        first_sample=first,
+        total_samples=wave.frames,
+        limits=[(-1.0, highest) if is_whole else None] * len(chosen),
+        calibration=[pascal] * len(chosen),
     )
+
+
+def _frames(request: Request, wave: Wave, first: int, last: int) -> Samples:
+    """Stored samples, shape (time, channel); 24 bits as the upper ones of 32."""
+    width = wave.sample_bytes
+    kinds = {1: "u1", 2: "i2", 4: "i4", 8: "i8"} if wave.kind == PCM else {4: "f4", 8: "f8"}
+    is_24 = wave.kind == PCM and width == 3
+    if width not in kinds and not is_24:
+        raise StorageError(f"has samples of {8 * width} bits: known are 8 to 64, floats 32 and 64")
+    values = (last - first) * wave.channels
+    offset = wave.start + first * wave.channels * width
+    if not is_24:
+        kind = np.dtype(kinds[width]).newbyteorder(wave.order)
+        stored = np.fromfile(request.path, kind, values, offset=offset)
+        return stored.reshape(-1, wave.channels)
+    raw = np.fromfile(request.path, "u1", 3 * values, offset=offset).reshape(-1, 3)
+    padded = np.zeros((values, 4), dtype="u1")
+    padded[:, 1:] = raw if wave.order == "<" else raw[:, ::-1]
+    return padded.view("<i4").reshape(-1, wave.channels)
 
 
 def _full_scale_fraction(stored: Samples) -> Samples:
@@ -48,43 +73,4 @@ def _full_scale_fraction(stored: Samples) -> Samples:
     return np.asarray((stored - offset) / half_range)
 
 
-def _check_chunks(file: BinaryIO) -> None:
-    """Walk through the chunks: each must lie within the file, and the samples within the cap."""
-    size = file.seek(0, os.SEEK_END)
-    file.seek(0)
-    head = file.read(12)
-    order = _BYTE_ORDER.get(head[:4])
-    if order is None or head[8:] != b"WAVE":
-        raise StorageError("is no WAV file: it does not begin with RIFF and WAVE")
-    long_size, block = 0, b""
-    while len(chunk := file.read(8)) == 8:
-        name, claimed = struct.unpack(f"{order}4sI", chunk)
-        start = file.tell()
-        if name == b"data" and head[:4] == b"RF64":
-            claimed = long_size
-        if claimed > size - start:
-            raise StorageError(
-                f"chunk {name.decode('latin-1')!r} claims {claimed} bytes, {size - start} follow: "
-                "the file is truncated or was never finished"
-            )
-        if name == b"fmt ":
-            block = file.read(16)
-        elif name == b"ds64":
-            long_size = int.from_bytes(file.read(16)[8:], "little")
-        elif name == b"data":
-            _check_data(block, order, claimed)
-            return
-        file.seek(start + claimed + claimed % 2)  # chunks begin at even places
-    raise StorageError("holds no samples: it has no data chunk")
-
-
-def _check_data(block: bytes, order: str, size: int) -> None:
-    if len(block) < 16:
-        raise StorageError("has no format chunk before its samples")
-    channels, _, _, frame_bytes = struct.unpack(f"{order}HIIH", block[2:14])
-    if channels == 0 or frame_bytes < channels:
-        raise StorageError(f"claims {channels} channels in {frame_bytes} bytes a sample")
-    check_size(channels, size // frame_bytes)
-
-
-register(Reader("wav", (".wav",), "WAV", read))
+register(Reader("wav", (".wav",), "WAV", read, package="soundfile"))

@@ -1,0 +1,161 @@
+"""Channels among named arrays: vectors, and rows or columns of tables."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+
+from ..base.errors import ParameterError, StorageError
+from .named_arrays import UNIT_NAMES, NamedArray, Part, as_text, is_time
+from .packing import PACKING_NAMES, is_packed, missing, unsigned
+from .recorded import Samples, check_size, listed, numbered
+
+MAXIMUM_COLUMNS: Final = 10_000
+
+
+@dataclass(frozen=True)
+class Column:
+    """One channel: a row or column of an array."""
+
+    name: str
+    unit: str
+    array: NamedArray
+    index: int
+    time_axis: int
+
+    @property
+    def samples(self) -> int:
+        """Of the whole recording."""
+        return self.array.shape[self.time_axis]
+
+
+def own_columns(by_name: Mapping[str, NamedArray]) -> list[Column]:
+    """Channels of a recording that we wrote as netCDF.
+
+    Raises
+    ------
+    ParameterError
+        Its variables do not belong together.
+    """
+    signal = by_name["signal"]
+    names, units = _texts(by_name["channel"]), _texts(by_name["channel_unit"])
+    if not len(names) == len(units) == signal.shape[0] or len(signal.shape) != 2:
+        raise ParameterError("signal, channel and channel_unit do not belong together")
+    return [
+        Column(name, unit, signal, index, 1)
+        for index, (name, unit) in enumerate(zip(names, units, strict=True))
+    ]
+
+
+def _texts(array: NamedArray) -> list[str]:
+    """Texts that are stored as rows of characters or as whole strings."""
+    check_size(1, int(np.prod(array.shape)))
+    stored = np.asarray(array.load(tuple(slice(0, side) for side in array.shape)))
+    if stored.dtype == np.dtype("S1") and stored.ndim == 2:
+        return [row.tobytes().rstrip(b"\0 ").decode("utf-8", "replace") for row in stored]
+    return [as_text(text) for text in stored.ravel()]
+
+
+def columns_of(arrays: Sequence[NamedArray]) -> list[Column]:
+    """All channels: vectors by their name, tables by name and number.
+
+    Raises
+    ------
+    StorageError
+        A table has more columns than any recorder has channels.
+    """
+    columns = []
+    for array in arrays:
+        if is_time(array.name) or not array.may_be_channels:
+            continue
+        width = min(array.shape) if len(array.shape) == 2 else 1
+        if width > MAXIMUM_COLUMNS:
+            raise StorageError(f"variable {array.name!r} claims {array.shape} values: too wide")
+        unit = next((as_text(array.attributes[n]) for n in UNIT_NAMES if n in array.attributes), "")
+        names = numbered([array.name] * width)
+        columns += [
+            Column(name, unit, array, index, array.time_axis) for index, name in enumerate(names)
+        ]
+    return columns
+
+
+def check_lengths(columns: Sequence[Column], time: NamedArray | None) -> None:
+    """Refuse channels that differ in length, among them or from their time axis.
+
+    Raises
+    ------
+    ParameterError
+        They do.
+    """
+    lengths = {column.name: column.samples for column in columns}
+    if time is not None:
+        lengths[time.name] = int(np.prod(time.shape))
+    if len(set(lengths.values())) > 1:
+        listing = [f"{name} {samples}" for name, samples in lengths.items()]
+        raise ParameterError(
+            f"variables differ in length ({listed(listing)}): choose channels of the same length"
+        )
+
+
+def column_of(table: NamedArray, number: int) -> NamedArray:
+    """One row or column of a table as a vector; the time runs along its longer side."""
+    axis = table.time_axis
+
+    def load(part: Part) -> Any:
+        both = [part[0]]
+        both.insert(1 - axis, slice(number, number + 1))
+        return np.asarray(table.load(tuple(both))).ravel()
+
+    shape = (table.shape[axis],)
+    packing = {name: table.attributes[name] for name in PACKING_NAMES if name in table.attributes}
+    return NamedArray(f"column {number + 1} of {table.name}", shape, True, load, packing)
+
+
+def stored_samples(columns: Sequence[Column], first: int, last: int) -> list[Samples]:
+    """Stored samples of each column; of a table those columns alone that are wanted, at once."""
+    tables: dict[str, tuple[int, Samples]] = {}
+    for one in {column.array.name: column for column in columns}.values():
+        wanted = [column.index for column in columns if column.array is one.array]
+        tables[one.array.name] = min(wanted), _rows(one, min(wanted), max(wanted) + 1, first, last)
+    return [
+        tables[column.array.name][1][column.index - tables[column.array.name][0]]
+        for column in columns
+    ]
+
+
+def _rows(one: Column, low: int, high: int, first: int, last: int) -> Samples:
+    """Stored values of the columns from `low` up to `high` of a table, shape (channel, time)."""
+    part = [slice(first, last)]
+    if len(one.array.shape) == 2:
+        part.insert(1 - one.time_axis, slice(low, high))
+    sides = [side.stop - side.start for side in part]
+    values = np.asarray(one.array.load(tuple(part))).reshape(sides)
+    values = unsigned(values, one.array.attributes)
+    return np.atleast_2d(np.moveaxis(values, one.time_axis, -1))
+
+
+def check_present(column: Column, stored: Samples, first: int, rate_hz: float) -> None:
+    """Refuse samples that the file says are missing.
+
+    Raises
+    ------
+    ParameterError
+        Some are; the line says how many and where.
+    """
+    absent = missing(stored, column.array.attributes)
+    if absent is not None:
+        where, fill = absent
+        sample = first + int(np.flatnonzero(where)[0])
+        raise ParameterError(
+            f"channel {column.name!r}: {np.count_nonzero(where)} of {stored.size} samples are "
+            f"missing (fill value {fill:g}), the first is sample {sample + 1} "
+            f"({sample / rate_hz:.9g} s): choose a part without them by from_s and to_s"
+        )
+
+
+def limits(column: Column, stored: Samples) -> tuple[float, float] | None:
+    """Range of a recorder's whole numbers; packed values fill theirs by intent."""
+    if stored.dtype.kind != "i" or is_packed(column.array.attributes):
+        return None
+    return float(np.iinfo(stored.dtype).min), float(np.iinfo(stored.dtype).max)

@@ -1,0 +1,45 @@
+"""FLAC and Sony Wave64, and packed WAV, through libsndfile."""
+
+from typing import Final
+
+from ...base.registry import register
+from ..reader import Reader
+from ..recorded import Recorded, Request, check_size
+
+_BITS: Final = {"PCM_S8": 8, "PCM_U8": 8, "PCM_16": 16, "PCM_24": 24, "PCM_32": 32}
+_FLOATS: Final = ("FLOAT", "DOUBLE")
+
+
+def read(request: Request) -> Recorded:
+    """Channels `channel 1`, `channel 2` …, fractions of full scale unless stored as floats.
+
+    Raises
+    ------
+    StorageError
+        The file is damaged or too large.
+    """
+    import soundfile
+
+    with soundfile.SoundFile(str(request.path)) as file:
+        rate_hz = request.sample_rate_hz or float(file.samplerate)
+        names = [f"channel {number}" for number in range(1, file.channels + 1)]
+        chosen = request.chosen(names)
+        first, last = request.part(file.frames, rate_hz)
+        check_size(file.channels, last - first)
+        file.seek(first)
+        frames = file.read(last - first, dtype="float64", always_2d=True)
+        bits = _BITS.get(file.subtype)
+        limits = None if bits is None else (-1.0, 1.0 - 2.0 ** (1 - bits))
+        return Recorded(
+            names=[names[column] for column in chosen],
+            units=[""] * len(chosen),
+            samples=[frames[:, column] for column in chosen],
+            sample_rate_hz=rate_hz,
+            full_scale=file.subtype not in _FLOATS,
+            first_sample=first,
+            total_samples=file.frames,
+            limits=[limits] * len(chosen),
+        )
+
+
+register(Reader("flac", (".flac", ".w64"), "FLAC and Wave64", read, package="soundfile"))

@@ -1,0 +1,133 @@
+"""Chunks of a WAV file: where its samples are, how they are stored, and what is written beside."""
+
+import os
+import re
+import struct
+from dataclasses import dataclass
+from typing import BinaryIO, Final, Literal
+
+from ..base.errors import StorageError
+
+PCM, FLOAT, _EXTENSIBLE = 0x0001, 0x0003, 0xFFFE
+ByteOrder = Literal["<", ">"]
+_BYTE_ORDER: Final[dict[bytes, ByteOrder]] = {
+    b"RIFF": "<",
+    b"RIFX": ">",
+    b"RF64": "<",
+    b"BW64": "<",
+}
+_LONG: Final = (b"RF64", b"BW64")
+_MAXIMUM_COMMENT: Final = 2**16
+_OCEAN_SONICS: Final = re.compile(
+    r"(?P<volt>[0-9.]+) V pk, *(?P<sensitivity>-[0-9.]+) dBV re 1uPa"
+    r"(?:.*?, *(?P<count>[0-9]+) = Max Count)?"
+)
+"""Comment of Ocean Sonics' hydrophones (icListen AF User Guide, 2017, table of the WAV header)."""
+
+
+@dataclass(frozen=True)
+class Wave:
+    """What stands before and behind the samples of a WAV file.
+
+    Attributes
+    ----------
+    order : of bytes, `<` or `>`
+    kind : of the samples, PCM or FLOAT, or another number of the format
+    channels, sample_rate_hz : of the samples
+    sample_bytes : of one channel
+    start : place of the first sample in the file
+    frames : samples of a channel
+    comment : text beside the samples; empty without one
+    """
+
+    order: ByteOrder
+    kind: int
+    channels: int
+    sample_rate_hz: float
+    sample_bytes: int
+    start: int
+    frames: int
+    comment: str
+
+    @property
+    def pascal_at_full_scale(self) -> float | None:
+        """Calibration that the recorder wrote into its comment; None without one."""
+        match = _OCEAN_SONICS.match(self.comment)
+        if match is None:
+            return None
+        full_scale = 2.0 ** (8 * self.sample_bytes - 1)
+        largest = float(match["count"] or full_scale)
+        volt = float(match["volt"]) * full_scale / largest
+        return float(volt * 10.0 ** (-float(match["sensitivity"]) / 20.0) * 1e-6)
+
+
+def read_wave(file: BinaryIO) -> Wave:
+    """Walk through the chunks: those up to the samples must lie within the file.
+
+    Raises
+    ------
+    StorageError
+        The file is no WAV file, or claims more than it holds.
+    """
+    size = file.seek(0, os.SEEK_END)
+    file.seek(0)
+    head = file.read(12)
+    order = _BYTE_ORDER.get(head[:4])
+    if order is None or head[8:] != b"WAVE":
+        raise StorageError("is no WAV file: it does not begin with RIFF and WAVE")
+    long_size, block, comment = 0, b"", ""
+    while len(chunk := file.read(8)) == 8:
+        name, claimed = struct.unpack(f"{order}4sI", chunk)
+        start = file.tell()
+        if name == b"data" and head[:4] in _LONG:
+            claimed = long_size
+        if claimed > size - start:
+            raise StorageError(
+                f"chunk {name.decode('latin-1')!r} claims {claimed} bytes, {size - start} follow: "
+                "the file is truncated or was never finished"
+            )
+        if name == b"fmt ":
+            block = file.read(min(claimed, 40))
+        elif name == b"ds64":
+            long_size = int.from_bytes(file.read(16)[8:], "little")
+        elif name == b"LIST":
+            comment = _comment(file.read(min(claimed, _MAXIMUM_COMMENT)), order) or comment
+        elif name == b"data":
+            file.seek(start + claimed + claimed % 2)
+            return _wave(block, order, start, claimed, comment or _comment_behind(file, order))
+        file.seek(start + claimed + claimed % 2)  # chunks begin at even places
+    raise StorageError("holds no samples: it has no data chunk")
+
+
+def _wave(block: bytes, order: ByteOrder, start: int, size: int, comment: str) -> Wave:
+    if len(block) < 16:
+        raise StorageError("has no format chunk before its samples")
+    kind, channels, rate, _, frame_bytes = struct.unpack(f"{order}HHIIH", block[:14])
+    if kind == _EXTENSIBLE and len(block) >= 26:
+        kind = struct.unpack(f"{order}H", block[24:26])[0]
+    if channels == 0 or frame_bytes < channels:
+        raise StorageError(f"claims {channels} channels in {frame_bytes} bytes a sample")
+    width = frame_bytes // channels
+    return Wave(order, kind, channels, float(rate), width, start, size // frame_bytes, comment)
+
+
+def _comment_behind(file: BinaryIO, order: str) -> str:
+    """Comment in a list behind the samples, where nothing needs to be in order."""
+    while len(chunk := file.read(8)) == 8:
+        name, claimed = struct.unpack(f"{order}4sI", chunk)
+        start = file.tell()
+        if name == b"LIST":
+            return _comment(file.read(min(claimed, _MAXIMUM_COMMENT)), order)
+        file.seek(start + claimed + claimed % 2)
+    return ""
+
+
+def _comment(content: bytes, order: str) -> str:
+    """Text of ICMT in a list of kind INFO."""
+    at = 4
+    while content[:4] == b"INFO" and at + 8 <= len(content):
+        name, size = struct.unpack(f"{order}4sI", content[at : at + 8])
+        if name == b"ICMT":
+            return content[at + 8 : at + 8 + size].rstrip(b"\0 ").decode("latin-1")
+        at += 8 + size + size % 2
+    return ""

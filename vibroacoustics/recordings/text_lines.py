@@ -1,0 +1,121 @@
+"""Lines of a text file: of any Unicode, its unfinished end, the line with a value."""
+
+import codecs
+import os
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import BinaryIO, Final
+
+from ..base.errors import StorageError
+
+MAXIMUM_LINE_BYTES: Final = 2**16
+_PIECE: Final = 2**20
+_UTF_16: Final = {codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
+
+
+@contextmanager
+def opened(path: Path) -> Iterator[BinaryIO]:
+    """A text file as bytes of which a line feed is one; UTF-16 is put into UTF-8."""
+    with path.open("rb") as file:
+        encoding = _wide_encoding(file.read(64))
+        if encoding is None:
+            file.seek(0)
+            yield file
+            return
+    with path.open(encoding=encoding, newline="") as wide, tempfile.TemporaryFile() as narrow:
+        while piece := wide.read(_PIECE):
+            narrow.write(piece.encode())
+        narrow.seek(0)
+        yield narrow
+
+
+def _wide_encoding(begin: bytes) -> str | None:
+    """UTF-16 by its mark, or by the zeros in every second byte of what is in ASCII."""
+    if begin[:2] in _UTF_16:
+        return _UTF_16[begin[:2]]
+    if len(begin) >= 4 and not any(begin[1::2]) and all(begin[::2]):
+        return "utf-16-le"
+    if len(begin) >= 4 and not any(begin[::2]) and all(begin[1::2]):
+        return "utf-16-be"
+    return None
+
+
+def lines(file: BinaryIO) -> Iterator[bytes]:
+    """Lines from where the file is.
+
+    Raises
+    ------
+    StorageError
+        A line is longer than any table has.
+    """
+    number = 0
+    while line := file.readline(MAXIMUM_LINE_BYTES):
+        number += 1
+        if len(line) == MAXIMUM_LINE_BYTES:
+            raise StorageError(f"line {number} is longer than {MAXIMUM_LINE_BYTES} bytes")
+        yield line
+
+
+def text(line: bytes) -> str:
+    """A line as text."""
+    try:
+        return line.decode("utf-8-sig")
+    except UnicodeDecodeError:  # as Western European spreadsheets write m/s²
+        return line.decode("latin-1")
+
+
+def last_lines(file: BinaryIO, begin: int) -> tuple[list[tuple[int, bytes]], bool]:
+    """Places and content of the last two lines, and whether the last one has its end.
+
+    Parameters
+    ----------
+    file : to look at
+    begin : place of the first line that counts
+    """
+    size = file.seek(0, os.SEEK_END)
+    start = max(begin, size - 2 * MAXIMUM_LINE_BYTES)
+    file.seek(start)
+    content = file.read()
+    found, at = [], start
+    for line in content.splitlines(keepends=True):
+        found.append((at, line))
+        at += len(line)
+    return found[-2:], content.endswith((b"\n", b"\r"))
+
+
+def reached(
+    file: BinaryIO, begin: int, end: int, value: Callable[[bytes], float], wanted: float
+) -> int:
+    """Place of the first line whose value is not below the wanted one; values must grow.
+
+    Parameters
+    ----------
+    file : to look at, by halving
+    begin, end : places of the first line, and behind the last
+    value : of a line
+    wanted : least value
+    """
+    low, high = begin, end
+    while low < high:
+        middle = (low + high) // 2
+        start, line = _line_at(file, middle, begin)
+        if not line or start >= high:
+            high = middle
+        elif value(line) < wanted:
+            low = start + len(line)
+        else:
+            high = middle if start > middle else start
+    return low
+
+
+def _line_at(file: BinaryIO, at: int, begin: int) -> tuple[int, bytes]:
+    """The first line that begins at a place or behind it."""
+    if at > begin:
+        file.seek(at - 1)
+        file.readline()
+    else:
+        file.seek(begin)
+    start = file.tell()
+    return start, file.readline(MAXIMUM_LINE_BYTES)

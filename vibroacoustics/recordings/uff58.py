@@ -1,0 +1,167 @@
+"""Headers of datasets 58 and 58b of a universal file, and where their values are.
+
+Source: SDRC, "Universal dataset number 58, function at nodal DOF", and 58b. Lines may lack their
+trailing blanks and end in CR LF, as many programs write them.
+"""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import BinaryIO, Final
+
+from ..base.errors import StorageError
+
+LONGEST_LINE: Final = 2**12
+SINGLE, DOUBLE = 2, 4
+"""Ordinate data types, record 7, field 1: real; 5 and 6 are complex."""
+EVEN_SPACING: Final = 1
+"""Abscissa spacing, record 7, field 3."""
+_MARK: Final = re.compile(rb" {4}-1\s*")
+_IEEE: Final = 2
+"""Floating point format, record 1, field 4 of a dataset 58b."""
+_BYTE_ORDERS: Final = {1: "<", 2: ">"}
+_LABEL, _UNIT = slice(26, 46), slice(47, 67)
+"""Columns of record 9: format I10, 3I5, 2(1X, 20A1)."""
+_INCREMENT: Final = slice(43, 56)
+"""Columns of record 7: format 3I10, 3E13.5."""
+
+
+@dataclass(frozen=True)
+class Header:
+    """Header of a dataset 58.
+
+    Attributes
+    ----------
+    function_type : 1 for a time response
+    name : id line 1, else response entity, else label of the ordinate; may be empty
+    start_time : id line 3
+    unit : of the ordinate
+    ordinate_type : 2 and 4 real, 5 and 6 complex, single and double precision
+    points : of the abscissa
+    is_even : whether the abscissa has even spacing
+    increment : of the abscissa, where it has
+    byte_order : `<` or `>`; empty for text
+    start : place of the first value in the file
+    """
+
+    function_type: int
+    name: str
+    start_time: str
+    unit: str
+    ordinate_type: int
+    points: int
+    is_even: bool
+    increment: float
+    byte_order: str
+    start: int
+
+    @property
+    def numbers(self) -> int:
+        """Numbers that the dataset holds: x too where the abscissa is uneven."""
+        parts = 1 if self.ordinate_type in (SINGLE, DOUBLE) else 2
+        return self.points * (parts if self.is_even else parts + 1)
+
+    @property
+    def per_line(self) -> int:
+        """Numbers in a line of text: 6E13.5, 4E20.12 or 2(E13.5, E20.12)."""
+        return 6 if self.ordinate_type in (SINGLE, 5) else 4
+
+
+def headers(file: BinaryIO) -> tuple[list[Header], list[int]]:
+    """Headers of the datasets 58, and the numbers of all datasets.
+
+    Raises
+    ------
+    StorageError
+        There is no dataset, or one is not closed: the file is truncated.
+    """
+    found, kinds = [], []
+    file.seek(0)
+    for line in _lines(file):
+        if not _MARK.fullmatch(line):
+            continue
+        kind = next(_lines(file), b"")
+        if not kind.strip():
+            break
+        kinds.append(_whole(kind[:6], "dataset"))
+        if kinds[-1] == 58:
+            found.append(_header(file, kind))
+            _skip_values(file, found[-1], kind)
+        if not _goes_on_to_mark(file):
+            raise StorageError(f"its last dataset, {kinds[-1]}, has no end: truncated")
+    if not kinds:
+        raise StorageError("is no universal file: it holds no dataset")
+    return found, kinds
+
+
+def _lines(file: BinaryIO) -> Iterator[bytes]:
+    return iter(lambda: file.readline(LONGEST_LINE), b"")
+
+
+def _goes_on_to_mark(file: BinaryIO) -> bool:
+    return any(_MARK.fullmatch(line) for line in _lines(file))
+
+
+def _header(file: BinaryIO, kind: bytes) -> Header:
+    records = [_text(file.readline(LONGEST_LINE)) for _ in range(11)]
+    numbers = records[6]
+    return Header(
+        function_type=_whole(records[5][:5], "function type"),
+        name=_given(records[0]) or _given(records[5][31:41]) or _given(records[8][_LABEL]),
+        start_time=_given(records[2]),
+        unit=_given(records[8][_UNIT]),
+        ordinate_type=_whole(numbers[:10], "ordinate data type"),
+        points=_whole(numbers[10:20], "number of points"),
+        is_even=_whole(numbers[20:30], "abscissa spacing") == EVEN_SPACING,
+        increment=_number(numbers[_INCREMENT], "abscissa increment"),
+        byte_order=_byte_order(kind),
+        start=file.tell(),
+    )
+
+
+def _byte_order(kind: bytes) -> str:
+    """Order of the bytes of a dataset 58b, empty for text; format I6, A1, 2I6, 2I12."""
+    if kind[6:7] != b"b":
+        return ""
+    order, form = _whole(kind[7:13], "byte ordering"), _whole(kind[13:19], "floating point format")
+    if order not in _BYTE_ORDERS or form != _IEEE:
+        raise StorageError(f"dataset 58b: byte ordering {order}, format {form}: only IEEE is known")
+    return _BYTE_ORDERS[order]
+
+
+def _skip_values(file: BinaryIO, header: Header, kind: bytes) -> None:
+    """Go to the last line of the values, or stay where the lines are not of one length."""
+    if header.byte_order:
+        file.seek(header.start + _whole(kind[31:43], "number of bytes"))
+        return
+    length = len(file.readline(LONGEST_LINE))
+    last = header.start + (-(-header.numbers // header.per_line) - 1) * length
+    file.seek(max(header.start, last - 1))
+    if file.read(1) != b"\n" or _MARK.fullmatch(file.readline(LONGEST_LINE)):
+        file.seek(header.start)
+
+
+def _whole(field: str | bytes, what: str) -> int:
+    try:
+        return int(field)
+    except ValueError:
+        raise StorageError(f"{what} {field!r}: is no number: damaged") from None
+
+
+def _number(field: str, what: str) -> float:
+    try:
+        return float(field.replace("D", "E") or 0.0)
+    except ValueError:
+        raise StorageError(f"{what} {field!r}: is no number: damaged") from None
+
+
+def _text(record: bytes) -> str:
+    try:
+        return record.decode("utf-8")
+    except UnicodeDecodeError:
+        return record.decode("latin-1")
+
+
+def _given(text: str) -> str:
+    """The text, empty where the file says NONE."""
+    return "" if text.strip().upper() == "NONE" else text.strip()
