@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from .option_words import in_own_words
 from .options import LimitsFile, Plugins, load_plugins
 from .progress import progress_bar
 
@@ -44,6 +45,10 @@ Channels = Annotated[str | None, typer.Option(help="Channels to read, with comma
 SampleRate = Annotated[
     float | None, typer.Option(help="Actual sample rate, Hz, instead of the file's.")
 ]
+From = Annotated[
+    float | None, typer.Option("--from", help="Begin of the part to read, s from the first sample.")
+]
+To = Annotated[float | None, typer.Option("--to", help="End of the part to read, s.")]
 Out = Annotated[
     Path | None,
     typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE FILE."),
@@ -51,6 +56,7 @@ Out = Annotated[
 
 
 @commands.command("orders")
+@in_own_words
 def orders_command(
     recording_file: Recording,
     speed: Speed = None,
@@ -67,6 +73,8 @@ def orders_command(
     calibration: Calibration = None,
     channels: Channels = None,
     sample_rate: SampleRate = None,
+    from_s: From = None,
+    to_s: To = None,
     out: Out = None,
     limits: LimitsFile = None,
     plugin: Plugins = None,
@@ -82,7 +90,9 @@ def orders_command(
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
     allowed = checking.read(limits)
-    recording = _read(recording_file, unit, calibration, channels, sample_rate, plugin)
+    recording = _read(
+        recording_file, unit, calibration, channels, sample_rate, from_s, to_s, plugin
+    )
     with progress_bar() as progress:
         results = pipeline.analyse_orders(recording, settings, progress)
         results = checking.held_against(results, allowed)
@@ -134,6 +144,7 @@ def compare_command(
 
 
 @commands.command("track")
+@in_own_words
 def track_command(
     recording_file: Recording,
     bandwidth: Annotated[
@@ -150,6 +161,8 @@ def track_command(
     calibration: Calibration = None,
     channels: Channels = None,
     sample_rate: SampleRate = None,
+    from_s: From = None,
+    to_s: To = None,
     out: Out = None,
     plugin: Plugins = None,
 ) -> None:
@@ -161,7 +174,9 @@ def track_command(
     numbers = arguments.order_numbers(orders)
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
-    recording = _read(recording_file, unit, calibration, channels, sample_rate, plugin)
+    recording = _read(
+        recording_file, unit, calibration, channels, sample_rate, from_s, to_s, plugin
+    )
     tracked = pipeline.track_orders(recording, source, numbers, bandwidth, poles)
     written = recorded_outputs.write_tracked(tracked, folder)
     typer.echo(report.tracked_text(tracked))
@@ -169,6 +184,7 @@ def track_command(
 
 
 @commands.command("map")
+@in_own_words
 def map_command(
     recording_file: Recording,
     speed: Speed = None,
@@ -184,6 +200,8 @@ def map_command(
     calibration: Calibration = None,
     channels: Channels = None,
     sample_rate: SampleRate = None,
+    from_s: From = None,
+    to_s: To = None,
     out: Out = None,
     plugin: Plugins = None,
 ) -> None:
@@ -194,12 +212,15 @@ def map_command(
     source = arguments.speed_source(speed, pulses, index, rpm, tacholess)
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
-    recording = _read(recording_file, unit, calibration, channels, sample_rate, plugin)
+    recording = _read(
+        recording_file, unit, calibration, channels, sample_rate, from_s, to_s, plugin
+    )
     mapped = pipeline.speed_frequency_map(recording, source, resolution, maximum_frequency)
     typer.echo(f"speed-frequency map: {recorded_outputs.write_speed_map(mapped, folder)}")
 
 
 @commands.command("export")
+@in_own_words
 def export_command(
     recording_file: Recording,
     out: Annotated[Path, typer.Option("--out", help="File that ends in .csv, .wav or .nc.")],
@@ -207,13 +228,17 @@ def export_command(
     calibration: Calibration = None,
     channels: Channels = None,
     sample_rate: SampleRate = None,
+    from_s: From = None,
+    to_s: To = None,
     plugin: Plugins = None,
 ) -> None:
     """Write a recording as CSV, WAV or netCDF in SI units."""
     from . import exporting, outputs
 
     outputs.check_folder(out.parent)
-    recording = _read(recording_file, unit, calibration, channels, sample_rate, plugin)
+    recording = _read(
+        recording_file, unit, calibration, channels, sample_rate, from_s, to_s, plugin
+    )
     typer.echo(f"recording: {exporting.export_recording(recording, out)}")
 
 
@@ -223,6 +248,8 @@ def _read(
     calibration: list[str] | None,
     channels: str | None,
     sample_rate_hz: float | None,
+    from_s: float | None,
+    to_s: float | None,
     plugins: list[Path] | None,
 ) -> "xr.Dataset":
     """The recording as the options of a command say."""
@@ -236,4 +263,6 @@ def _read(
         calibration=arguments.numbers("--calibration", calibration),
         channels=None if channels is None else channels.split(","),
         sample_rate_hz=sample_rate_hz,
+        from_s=from_s,
+        to_s=to_s,
     )

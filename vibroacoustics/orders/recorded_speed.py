@@ -28,6 +28,10 @@ class UncertainSpeedWarning(UserWarning):
     """The speed that a signal gives need not be that of the shaft."""
 
 
+class StandstillWarning(UserWarning):
+    """A part of the recording in which the shaft stands is not analysed."""
+
+
 @dataclass(frozen=True)
 class RecordedSpeed:
     """Crank motion of a recording and where it comes from."""
@@ -63,6 +67,8 @@ def recorded_speed(recording: xr.Dataset, speed: SpeedSource) -> RecordedSpeed:
     -----
     UncertainSpeedWarning
         Other speeds explain the signal as well as the one that was tracked.
+    StandstillWarning
+        The shaft stands at the begin or the end: that part is left out.
     """
     signal = recording["signal"]
     rate_hz = float(recording.attrs["sample_rate_hz"])
@@ -74,8 +80,7 @@ def recorded_speed(recording: xr.Dataset, speed: SpeedSource) -> RecordedSpeed:
         return _from_signal(_channel(signal, speed.channel), rate_hz, speed)
     channel = _channel(signal, speed.channel)
     if channel["channel_unit"].item() == "rpm":
-        motion = rpm_motion(channel.values, rate_hz)
-        return RecordedSpeed(motion, f"channel {speed.channel}, rpm")
+        return _from_rpm(channel, rate_hz)
     return _from_pulses(signal, rate_hz, speed)
 
 
@@ -119,6 +124,17 @@ def _from_signal(channel: xr.DataArray, rate_hz: float, speed: TacholessSpeed) -
         f"mean confidence {confidence:.2f} of 1"
     )
     return RecordedSpeed(tracked.motion, source, quality={"confidence": confidence})
+
+
+def _from_rpm(channel: xr.DataArray, rate_hz: float) -> RecordedSpeed:
+    motion = rpm_motion(channel.values, rate_hz)
+    source = f"channel {channel['channel'].item()}, rpm"
+    before, behind = motion.start_s, (channel.size - 1) / rate_hz - motion.end_s
+    if max(before, behind) < 0.5 / rate_hz:
+        return RecordedSpeed(motion, source)
+    cut = f"standstill cut off: {before:.3g} s before, {behind:.3g} s behind"
+    warnings.warn(f"channel {channel['channel'].item()}: {cut}", StandstillWarning, stacklevel=3)
+    return RecordedSpeed(motion, f"{source}; {cut}")
 
 
 def _from_pulses(signal: xr.DataArray, rate_hz: float, speed: SpeedChannel) -> RecordedSpeed:

@@ -55,7 +55,8 @@ def read_recording(
     `signal` (channel, time) in SI units, with the coordinates `channel_unit` and
     `calibration_factor` and the attributes `sample_rate_hz`, `source_file`, `source_sha256` and,
     where known, `start_time`; of a part `part_start_s`, and `part_sha256` of its samples instead
-    of the file's hash where the file is larger than the cap
+    of the file's hash where the file is larger than the cap; `reading_remarks` where there are
+    warnings
 
     Raises
     ------
@@ -169,8 +170,12 @@ def naming_file(path: Path) -> Iterator[None]:
 
 
 def _warn(recording: xr.Dataset, path: Path, header: Mapping[str, Any]) -> None:
-    for line in [*header["remarks"], *_overloads(recording, header)]:
+    """Tell what the user must know, and keep it with the recording."""
+    lines = [*header["remarks"], *_overloads(recording, header)]
+    for line in lines:
         warnings.warn(f"{path}: {line}", RecordingWarning, stacklevel=3)
+    if lines:
+        recording.attrs["reading_remarks"] = "; ".join(lines)
 
 
 def _overloads(recording: xr.Dataset, header: Mapping[str, Any]) -> Iterator[str]:

@@ -81,7 +81,10 @@ def of_recording(recording: xr.Dataset, what: str) -> dict[str, Any]:
     what : the result in plain words, lower case
     """
     name = recording_name(recording)
-    kept = ("source_sha256", "start_time", "sample_rate_hz")
+    kept = (
+        "source_sha256", "part_sha256", "part_start_s", "start_time", "sample_rate_hz",
+        "reading_remarks",
+    )  # fmt: skip
     return {
         **software_attributes(f"{what} of {name}", RECORDING_SCHEMA_VERSION),
         "title": f"{what[0].upper()}{what[1:]} of {name}",

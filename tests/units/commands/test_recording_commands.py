@@ -4,6 +4,7 @@ import csv
 
 import numpy as np
 import pytest
+from scipy.io import wavfile
 from support import assert_refused, command_here
 
 import vibroacoustics as va
@@ -69,6 +70,27 @@ def test_map_shows_orders_and_levels(file, tmp_path):
     assert pictures == {"speed_map_1_ring.png", "speed_map_2_front.png", "levels_2_front.png"}
 
 
+@pytest.mark.parametrize(
+    ("channel", "label", "reference"),
+    [("front", "dB re 20 µPa", np.sqrt(2.0) * 20e-6), ("ring", "dB re 1 m/s² peak", 1.0)],
+)
+def test_maps_say_their_reference(recording, channel, label, reference):
+    """A level of sound pressure is of the effective value."""
+    speed = va.SpeedChannel("speed")
+    mapped = va.speed_frequency_map(recording, speed, resolution_hz=8.0)
+    settings = va.OrderAnalysis(speed, (1.0,), maximum_order=4.0, with_map=True)
+    orders = va.analyse_orders(recording, settings)
+    for figure, values in (
+        (va.plot.speed_frequency_map(mapped, channel), mapped["speed_frequency_map"]),
+        (va.plot.order_map(orders, channel), orders["order_map"]),
+    ):
+        panel, bar = figure.axes
+        assert bar.get_ylabel() == label
+        shown = panel.collections[0].get_array()
+        top = abs(values.sel(channel=channel)).max().item()
+        assert shown.max() == pytest.approx(20.0 * np.log10(top / reference), abs=1e-9)
+
+
 @pytest.mark.parametrize("name", ["out.csv", "out.nc", "out.wav"])
 def test_export_is_read_back(file, recording, tmp_path, name):
     outcome = command_here("export", file, "--out", tmp_path / name)
@@ -86,12 +108,15 @@ def test_export_is_read_back(file, recording, tmp_path, name):
     ("words", "message"),
     [
         (("track", "--bandwidth", 2), "speed: give one of"),
-        (("track", "--bandwidth", 0, "--speed", "speed"), "bandwidth_hz = 0 Hz: must be above 0"),
+        (("track", "--bandwidth", 0, "--speed", "speed"), "--bandwidth = 0 Hz: must be above 0"),
         (("track", "--bandwidth", 2, "--rpm", 1200, "--orders", "1,x"), "'x' is no number"),
         (("track", "--bandwidth", 2, "--rpm", 1200, "--orders", "0"), "must be numbers above 0"),
-        (("track", "--bandwidth", 2, "--rpm", 1200, "--poles", 4), "poles = 4: must be 1, 2 or 3"),
-        (("map", "--speed", "speed", "--resolution", 0), "resolution_hz"),
-        (("map", "--speed", "speed", "--maximum-frequency", 0), "maximum_frequency_hz = 0 Hz"),
+        (
+            ("track", "--bandwidth", 2, "--rpm", 1200, "--poles", 4),
+            "--poles = 4: must be 1, 2 or 3",
+        ),
+        (("map", "--speed", "speed", "--resolution", 0), "--resolution = 0: must be above 0"),
+        (("map", "--speed", "speed", "--maximum-frequency", 0), "--maximum-frequency = 0 Hz"),
         (("export", "--out", "x.mp3"), "x.mp3: ending '.mp3': must be .csv, .nc or .wav"),
     ],
 )
@@ -99,6 +124,37 @@ def test_bad_words_are_one_line(file, words, message, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert_refused(command_here(words[0], file, *words[1:]), message)
     assert not list(tmp_path.rglob("*.nc"))
+
+
+def test_a_part_is_exported(file, recording, tmp_path):
+    outcome = command_here(
+        "export", file, "--from", 1.0, "--to", 2.5, "--channels", "front", "--out",
+        tmp_path / "part.nc",
+    )  # fmt: skip
+    assert outcome.returncode == 0, outcome.stderr
+    part = va.read_recording(tmp_path / "part.nc")
+    wanted = recording["signal"].sel(channel=["front"]).values[:, 2048:5120]
+    np.testing.assert_array_equal(part["signal"].values, wanted)
+
+
+def test_messages_name_the_options(recording, tmp_path):
+    """The same from Python speaks of Python's arguments."""
+    wav = va.export_recording(recording.isel(channel=[1]), tmp_path / "a.wav")
+    assert_refused(
+        command_here("export", wav, "--out", tmp_path / "b.csv"), '--unit "channel 1=Pa"'
+    )
+    with pytest.raises(ParameterError, match=r"units=\{'channel 1': 'Pa'\}"):
+        va.read_recording(wav)
+    wavfile.write(wav, 2048, np.arange(99, dtype="int16"))
+    words = ("export", wav, "--unit", "channel 1=Pa", "--out", tmp_path / "b.csv")
+    assert_refused(command_here(*words), '--calibration "channel 1=20"')
+    assert_refused(
+        command_here(*words, "--calibration", "front=2"), "--calibration: no channel 'front'"
+    )
+    table = tmp_path / "a.csv"
+    table.write_text("a [Pa]\n1\n2\n")
+    refusal = command_here("export", table, "--out", tmp_path / "b.csv")
+    assert_refused(refusal, "or give --sample-rate")
 
 
 def test_a_wav_file_needs_whole_hertz(tmp_path):

@@ -9,8 +9,11 @@ from hypothesis.extra.numpy import arrays
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.orders.pulse_edges import pulse_times
 from vibroacoustics.orders.pulse_faults import number_pulses
+from vibroacoustics.orders.recorded_speed import StandstillWarning, recorded_speed
 from vibroacoustics.orders.smoothing import smooth_curve
 from vibroacoustics.orders.tacho import rpm_motion, tacho_motion
+from vibroacoustics.recordings import label_recording
+from vibroacoustics.study.order_analysis import SpeedChannel
 
 SAMPLE_RATE_HZ = 51200.0
 
@@ -367,6 +370,38 @@ def test_recorded_speed():
 def test_recorded_speed_of_a_shaft_that_stands(speed, words):
     with pytest.raises(ParameterError, match=words):
         rpm_motion(speed, 6400.0)
+
+
+def test_recorded_speed_from_standstill():
+    """A second and a half at rest, noise about zero, a run-up, a second and a half at rest."""
+    time_s = np.arange(64000) / 6400.0
+    run = np.clip(300.0 * (time_s - 1.5), 0.0, None) * (time_s < 8.5)
+    noise = 2.0 * np.random.default_rng(0).standard_normal(time_s.size)
+    motion = rpm_motion(run + noise, 6400.0)
+    assert 1.5 < motion.start_s < 1.6  # at 1 % of 2100 rpm, 0.07 s behind the start
+    assert motion.end_s == pytest.approx(8.5, abs=1e-3)
+    inner = time_s[(time_s > 2.0) & (time_s < 8.4)]
+    exact = 300.0 * (inner - 1.5)
+    assert np.sqrt(np.mean((60.0 * motion.frequency_hz(inner) - exact) ** 2)) < 1.0
+
+
+def test_recorded_speed_with_a_stop_between_two_runs():
+    speed = np.tile(np.concatenate([np.full(3000, 600.0), np.zeros(3000)]), 2)
+    with pytest.raises(ParameterError, match="speed: falls to"):
+        rpm_motion(speed, 6400.0)
+
+
+def test_a_standstill_is_told():
+    speed = np.concatenate([np.zeros(640), np.full(6400, 600.0)])
+    recording = label_recording(
+        [np.sin(np.arange(7040.0)), speed], 6400.0, ["a", "n"], ["Pa", "rpm"]
+    )
+    with pytest.warns(
+        StandstillWarning, match=r"channel n: standstill cut off: 0\.1 s before, 0 s"
+    ):
+        found = recorded_speed(recording, SpeedChannel("n"))
+    assert found.motion.start_s == pytest.approx(0.1, abs=1e-9)
+    assert "standstill cut off: 0.1 s before" in found.source
 
 
 # --- smoothing -----------------------------------------------------------------------------------

@@ -1,5 +1,9 @@
 """Parts of recordings: only what is asked for is read."""
 
+import hashlib
+import struct
+import subprocess
+import sys
 import time
 
 import h5py
@@ -46,6 +50,68 @@ def test_a_minute_of_22_gib(tmp_path):
     assert part.attrs["part_start_s"] == 600.0
     with pytest.raises(StorageError, match="incomplete: 60 of 61 chunks stored"):
         read_recording(path, from_s=600.0, to_s=661.0, channels=["acceleration 3"])
+
+
+def long_wave(path, channels=16, seconds=3600):
+    """An hour of 16 channels of 32-bit floats, of which the file holds no more than a second."""
+    frames = seconds * int(RATE_HZ)
+    size = frames * channels * 4
+    head = b"RF64" + struct.pack("<I", 2**32 - 1) + b"WAVEds64"
+    head += struct.pack("<IQQQI", 28, size + 80, size, frames, 0)
+    rate = int(RATE_HZ)
+    head += b"fmt " + struct.pack(
+        "<IHHIIHH", 16, 3, channels, rate, rate * channels * 4, channels * 4, 32
+    )
+    head += b"data" + struct.pack("<I", 2**32 - 1)
+    second = np.tile(np.arange(channels, dtype="<f4"), (rate, 1)) + 1.0
+    with path.open("wb") as file:
+        file.write(head)
+        file.seek(630 * rate * channels * 4, 1)
+        file.write(second.astype("<f4").tobytes())
+        file.truncate(len(head) + size)
+    return path
+
+
+def test_a_minute_of_a_long_wave_file(tmp_path):
+    path = long_wave(tmp_path / "a.wav")
+    assert path.stat().st_size > 10 * GIB
+    units = {"channel 3": "Pa"}
+    with pytest.raises(StorageError, match="at once: give from_s and to_s, or channels"):
+        read_recording(path, units=units)
+    begin = time.monotonic()
+    part = read_recording(path, from_s=600.0, to_s=660.0, channels=["channel 3"], units=units)
+    assert time.monotonic() - begin < 15.0
+    expected = np.where(np.arange(60 * 51200) // 51200 == 30, 3.0, 0.0)
+    np.testing.assert_array_equal(part["signal"].values[0], expected)
+    assert "source_sha256" not in part.attrs
+    assert part.attrs["part_sha256"] == hashlib.sha256(expected.tobytes()).hexdigest()
+
+
+BLOCKS = """
+import resource, sys
+from vibroacoustics.recordings import open_recording
+units = {f"channel {number}": "Pa" for number in range(1, 17)}
+blocks = open_recording(sys.argv[1], units=units)
+total = 0.0
+for first in range(600 * 51200, 660 * 51200, 15 * 51200):
+    total += blocks.read(blocks.channels, first, first + 15 * 51200).sum()
+for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN):
+    print(resource.getrusage(who).ru_maxrss * 1024)
+print(blocks.samples, total)
+"""
+
+
+def test_blocks_take_little_memory(tmp_path):
+    """Blocks of 16 channels and 15 s, 94 MiB, of 22 GiB in 64-bit floats."""
+    path = long_wave(tmp_path / "a.wav")
+    done = subprocess.run(
+        [sys.executable, "-c", BLOCKS, str(path)], capture_output=True, text=True, check=True
+    )
+    own, reading, samples, total = done.stdout.split()
+    assert int(samples) == 3600 * 51200
+    assert float(total) == 51200.0 * sum(range(1, 17))
+    assert int(own) < 600 * 2**20
+    assert int(reading) < 600 * 2**20
 
 
 def test_blocks_of_a_file(tmp_path):

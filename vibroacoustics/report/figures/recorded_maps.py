@@ -8,7 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ...base.decibel import level_of_amplitude
+from .map_levels import map_level
 from .needs import chosen, needs
 from .style import Picture, draw, legend_below, line_looks, numbered_file_name, png, shortened
 
@@ -21,7 +21,7 @@ _GUIDES: Final = (1, 2, 5, 10, 20, 50)
 
 @needs("speed_frequency_map", from_="`speed_frequency_map`, command `map`")
 def speed_frequency_map(mapped: xr.Dataset, channel: str | None = None) -> Figure:
-    """Spectra of a channel over speed and frequency (Campbell map), dB re 1 unit peak.
+    """Spectra of a channel over speed and frequency (Campbell map), dB re 20 µPa or 1 unit peak.
 
     Thin lines: shaft orders 1, 2, 5, 10 … Of a steady speed over the time instead.
 
@@ -44,7 +44,7 @@ def speed_frequency_map(mapped: xr.Dataset, channel: str | None = None) -> Figur
     varies = _varies(mapped["block_speed"])
     along = "block_speed" if varies else "block_time"
     spectra = mapped["speed_frequency_map"].sel(channel=name).sortby(along)
-    level = level_of_amplitude(np.abs(spectra.values))
+    level, label = map_level(spectra.values, str(mapped["channel_unit"].sel(channel=name).item()))
     top = float(level.max())
 
     def paint(panels: Sequence[Axes]) -> None:
@@ -55,8 +55,7 @@ def speed_frequency_map(mapped: xr.Dataset, channel: str | None = None) -> Figur
         )  # fmt: skip
         figure = axes.get_figure()
         if figure is not None:
-            unit = mapped["channel_unit"].sel(channel=name).item()
-            figure.colorbar(shown, ax=axes, label=f"dB re 1 {unit} peak")
+            figure.colorbar(shown, ax=axes, label=label)
         axes.grid(visible=False)
         if varies:
             _guides(axes, spectra)
@@ -171,7 +170,7 @@ def speed_map_figures(mapped: xr.Dataset) -> list[Picture]:
             Picture(
                 f"speed_map_{file}",
                 f"Spectra of {name} over speed and frequency.",
-                f"{name} over speed and frequency: peak amplitude, {_MAP_RANGE_DB:g} dB shown.",
+                f"{name} over speed and frequency: level of each line, {_MAP_RANGE_DB:g} dB shown.",
                 png(speed_frequency_map(mapped, name)),
             )
         )

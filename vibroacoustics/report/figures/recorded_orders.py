@@ -8,7 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ...base.decibel import level_of_amplitude
+from .map_levels import map_level
 from .needs import chosen, needs
 from .style import (
     COLOURS,
@@ -215,7 +215,9 @@ def _over_speed_picture(results: xr.Dataset, channel: str, name: str) -> Picture
 
 @needs("order_map", from_="`analyse_orders(..., with_map=True)`, command `orders --map`")
 def order_map(orders: xr.Dataset, channel: str | None = None) -> Figure:
-    """Order spectra of a channel over the speed of a run-up or else the time, dB re 1 unit peak.
+    """Order spectra of a channel over the speed of a run-up or else the time, dB.
+
+    Reference: 20 µPa of sound pressure, 1 unit peak of others.
 
     Parameters
     ----------
@@ -237,7 +239,7 @@ def order_map(orders: xr.Dataset, channel: str | None = None) -> Figure:
     is_run_up = _is_run_up(orders)
     spectra = _without_offset(of_channel["order_map"].transpose("block", "map_order"), of_channel)
     spectra = spectra.sortby("block_speed") if is_run_up else spectra
-    level = level_of_amplitude(np.abs(spectra.values))
+    level, label = map_level(spectra.values, _unit(of_channel))
     top = float(level.max())
 
     def paint(panels: Sequence[Axes]) -> None:
@@ -253,7 +255,7 @@ def order_map(orders: xr.Dataset, channel: str | None = None) -> Figure:
         )
         figure = axes.get_figure()
         if figure is not None:
-            figure.colorbar(shown, ax=axes, label=f"dB re 1 {_unit(of_channel)} peak")
+            figure.colorbar(shown, ax=axes, label=label)
         axes.grid(visible=False)
         whole_number_ticks(axes)
         axes.set_xlabel("Shaft order")
@@ -267,6 +269,6 @@ def _map_picture(results: xr.Dataset, channel: str, name: str) -> Picture:
     return Picture(
         f"map_{name}",
         f"Order map of {channel}.",
-        f"Order map of {channel}: peak amplitude of each line, {_MAP_RANGE_DB:g} dB shown.",
+        f"Order map of {channel}: level of each line, {_MAP_RANGE_DB:g} dB shown.",
         png(order_map(results, channel)),
     )
