@@ -26,11 +26,11 @@ def time_of(arrays: Sequence[NamedArray], columns: Sequence[Column]) -> NamedArr
         The channels have several.
     """
     times = [array for array in arrays if is_time(array.name)]
-    found = {nearest(times, column.array.name) for column in columns}
-    if len(found) > 1:
-        names = sorted("none" if one is None else one.name for one in found)
+    axes = {nearest(times, column.array.name) for column in columns}
+    if len(axes) > 1:
+        names = sorted("none" if one is None else one.name for one in axes)
         raise ParameterError(f"channels have several time axes ({listed(names)}): choose channels")
-    return found.pop()
+    return axes.pop()
 
 
 def leading_time(columns: Sequence[Column]) -> NamedArray | None:
@@ -68,8 +68,8 @@ def stated_rate_hz(
     stated = [value for name, value in attributes.items() if is_rate(name)]
     numbers = [a for a in arrays if a.is_number and np.prod(a.shape) == 1 and is_rate(a.name)]
     for column in columns:
-        own = column.array.attributes.items()
-        stated += [value for name, value in own if is_rate(name)]
+        stated_here = column.array.attributes.items()
+        stated += [value for name, value in stated_here if is_rate(name)]
         number = nearest(numbers, column.array.name)
         stated += [] if number is None else [number.values()]
     rates = {float(np.asarray(value, dtype=float).item()) for value in stated}

@@ -88,8 +88,8 @@ class FileBlocks:
         part = {"samples": [at + first, at + last], "channels": list(channels), "hashed": False}
         with naming_file(self.asked.path):
             _, samples = read_in_child(self.asked.request() | part)
-            places = [self.channels.index(name) for name in channels]
-            scale_in_place(samples, channels, [self.calibration_factors[p] for p in places])
+            rows = [self.channels.index(name) for name in channels]
+            scale_in_place(samples, channels, [self.calibration_factors[row] for row in rows])
         return samples
 
 

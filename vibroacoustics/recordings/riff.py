@@ -6,6 +6,7 @@ import struct
 from dataclasses import dataclass
 from typing import BinaryIO, Final, Literal
 
+from ..base.decibel import amplitude_of_level
 from ..base.errors import StorageError
 
 PCM, FLOAT, _EXTENSIBLE = 0x0001, 0x0003, 0xFFFE
@@ -58,7 +59,7 @@ class Wave:
         full_scale = 2.0 ** (8 * self.sample_bytes - 1)
         largest = float(match["count"] or full_scale)
         volt = float(match["volt"]) * full_scale / largest
-        return float(volt * 10.0 ** (-float(match["sensitivity"]) / 20.0) * 1e-6)
+        return float(volt * amplitude_of_level(-float(match["sensitivity"])) * 1e-6)
 
 
 def read_wave(file: BinaryIO) -> Wave:

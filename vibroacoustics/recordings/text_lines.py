@@ -78,11 +78,11 @@ def last_lines(file: BinaryIO, begin: int) -> tuple[list[tuple[int, bytes]], boo
     start = max(begin, size - 2 * MAXIMUM_LINE_BYTES)
     file.seek(start)
     content = file.read()
-    found, at = [], start
+    placed, at = [], start
     for line in content.splitlines(keepends=True):
-        found.append((at, line))
+        placed.append((at, line))
         at += len(line)
-    return found[-2:], content.endswith((b"\n", b"\r"))
+    return placed[-2:], content.endswith((b"\n", b"\r"))
 
 
 def reached(

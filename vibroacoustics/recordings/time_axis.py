@@ -74,8 +74,8 @@ def even_rate_hz(time_s: Samples, request: Request, origin_s: float | None = Non
     request : its sample rate overrides that of the axis
     origin_s : time of the recording's first sample, where that is not of the axis
     """
-    whole = Request(request.path, sample_rate_hz=request.sample_rate_hz)
-    return even_part(lambda first, last: time_s[first:last], len(time_s), whole, origin_s)[2]
+    every = Request(request.path, sample_rate_hz=request.sample_rate_hz)
+    return even_part(lambda first, last: time_s[first:last], len(time_s), every, origin_s)[2]
 
 
 def _between(

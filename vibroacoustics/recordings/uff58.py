@@ -75,7 +75,7 @@ def headers(file: BinaryIO) -> tuple[list[Header], list[int]]:
     StorageError
         There is no dataset, or one is not closed: the file is truncated.
     """
-    found, kinds = [], []
+    functions, kinds = [], []
     file.seek(0)
     for line in _lines(file):
         if not _MARK.fullmatch(line):
@@ -83,15 +83,15 @@ def headers(file: BinaryIO) -> tuple[list[Header], list[int]]:
         kind = next(_lines(file), b"")
         if not kind.strip():
             break
-        kinds.append(_whole(kind[:6], "dataset"))
+        kinds.append(_integer(kind[:6], "dataset"))
         if kinds[-1] == 58:
-            found.append(_header(file, kind))
-            _skip_values(file, found[-1], kind)
+            functions.append(_header(file, kind))
+            _skip_values(file, functions[-1], kind)
         if not _goes_on_to_mark(file):
             raise StorageError(f"its last dataset, {kinds[-1]}, has no end: truncated")
     if not kinds:
         raise StorageError("is no universal file: it holds no dataset")
-    return found, kinds
+    return functions, kinds
 
 
 def _lines(file: BinaryIO) -> Iterator[bytes]:
@@ -106,13 +106,13 @@ def _header(file: BinaryIO, kind: bytes) -> Header:
     records = [_text(file.readline(LONGEST_LINE)) for _ in range(11)]
     numbers = records[6]
     return Header(
-        function_type=_whole(records[5][:5], "function type"),
+        function_type=_integer(records[5][:5], "function type"),
         name=_given(records[0]) or _given(records[5][31:41]) or _given(records[8][_LABEL]),
         start_time=_given(records[2]),
         unit=_given(records[8][_UNIT]),
-        ordinate_type=_whole(numbers[:10], "ordinate data type"),
-        points=_whole(numbers[10:20], "number of points"),
-        is_even=_whole(numbers[20:30], "abscissa spacing") == EVEN_SPACING,
+        ordinate_type=_integer(numbers[:10], "ordinate data type"),
+        points=_integer(numbers[10:20], "number of points"),
+        is_even=_integer(numbers[20:30], "abscissa spacing") == EVEN_SPACING,
         increment=_number(numbers[_INCREMENT], "abscissa increment"),
         byte_order=_byte_order(kind),
         start=file.tell(),
@@ -123,7 +123,10 @@ def _byte_order(kind: bytes) -> str:
     """Order of the bytes of a dataset 58b, empty for text; format I6, A1, 2I6, 2I12."""
     if kind[6:7] != b"b":
         return ""
-    order, form = _whole(kind[7:13], "byte ordering"), _whole(kind[13:19], "floating point format")
+    order, form = (
+        _integer(kind[7:13], "byte ordering"),
+        _integer(kind[13:19], "floating point format"),
+    )
     if order not in _BYTE_ORDERS or form != _IEEE:
         raise StorageError(f"dataset 58b: byte ordering {order}, format {form}: only IEEE is known")
     return _BYTE_ORDERS[order]
@@ -132,7 +135,7 @@ def _byte_order(kind: bytes) -> str:
 def _skip_values(file: BinaryIO, header: Header, kind: bytes) -> None:
     """Go to the last line of the values, or stay where the lines are not of one length."""
     if header.byte_order:
-        file.seek(header.start + _whole(kind[31:43], "number of bytes"))
+        file.seek(header.start + _integer(kind[31:43], "number of bytes"))
         return
     length = len(file.readline(LONGEST_LINE))
     last = header.start + (-(-header.numbers // header.per_line) - 1) * length
@@ -141,7 +144,7 @@ def _skip_values(file: BinaryIO, header: Header, kind: bytes) -> None:
         file.seek(header.start)
 
 
-def _whole(field: str | bytes, what: str) -> int:
+def _integer(field: str | bytes, what: str) -> int:
     try:
         return int(field)
     except ValueError:

@@ -33,6 +33,7 @@ PACKAGES: Final = (
     "h5py",
     "k-wave-python",
     "pydantic",
+    "pyuff",
 )
 
 

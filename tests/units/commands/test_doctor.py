@@ -13,10 +13,13 @@ from vibroacoustics.results import provenance
     [
         (
             (),
-            "recordings: CSV (.csv .txt), HDF5 and netCDF (.h5 .hdf5 .nc), MAT (.mat), "
-            "TDMS (.tdms), UFF (.uff .unv), WAV (.wav) can be read",
+            "recordings: CSV (.csv .txt), FLAC and Wave64 (.flac .w64), HDF5 and netCDF "
+            "(.h5 .hdf5 .nc), MAT (.mat), TDMS (.tdms), UFF (.uff .unv), WAV (.wav) can be read",
         ),
-        (("pyuff",), "recordings: UFF: needs pyuff: pip install vibroacoustics[io]"),
+        (
+            ("soundfile",),
+            "recordings: FLAC and Wave64: needs soundfile: pip install vibroacoustics[io]",
+        ),
         (("pyuff", "nptdms"), "recordings: TDMS: needs nptdms: pip install vibroacoustics[io]"),
     ],
 )
@@ -24,7 +27,7 @@ def test_the_extra_for_recordings(monkeypatch, missing, told):
     def installed(name: str) -> str:
         if name in missing:
             raise PackageNotFoundError(name)
-        return version(name) if name not in ("pyuff", "nptdms") else "1.0"
+        return version(name) if name not in ("pyuff", "nptdms", "soundfile") else "1.0"
 
     monkeypatch.setattr(provenance, "version", installed)
     lines = list(doctor.findings())

@@ -82,17 +82,17 @@ def _rows(file: BinaryIO, head: Head) -> tuple[int, int]:
 
 def _complete(table: _Table) -> tuple[_Table, list[str]]:
     """The table without a last row that was cut short, and what to tell of it."""
-    found, has_end = last_lines(table.file, table.begin)
-    if has_end or len(found) < 2:
+    rows, has_end = last_lines(table.file, table.begin)
+    if has_end or len(rows) < 2:
         return table, []
-    (_, before), (place, last) = found
+    (_, before), (last_begin, last) = rows
     if not _is_cut(_split(before, table.head), _split(last, table.head)):
         return table, []
     remark = (
         f"its last row ({text(last)[:60]!r}) has no end and seems cut short: the file is "
         "truncated; that row is left out"
     )
-    return _Table(table.file, table.head, table.begin, place), [remark]
+    return _Table(table.file, table.head, table.begin, last_begin), [remark]
 
 
 def _is_cut(before: Sequence[str], last: Sequence[str]) -> bool:
@@ -138,12 +138,12 @@ def _with_time(table: _Table, time: int, columns: Sequence[int], request: Reques
 def _between(
     table: _Table, seconds: Callable[[bytes], float], start: float, request: Request
 ) -> _Table:
-    found = partial(reached, table.file, table.begin, table.end, seconds)
+    first_with = partial(reached, table.file, table.begin, table.end, seconds)
     table.file.seek(table.begin)
     two = [table.file.readline(MAXIMUM_LINE_BYTES) for _ in range(2)]
     half = 0.5 * (seconds(two[1]) - seconds(two[0]))  # the nearest sample counts
-    first = table.begin if request.from_s is None else found(start + request.from_s - half)
-    last = table.end if request.to_s is None else found(start + request.to_s - half)
+    first = table.begin if request.from_s is None else first_with(start + request.from_s - half)
+    last = table.end if request.to_s is None else first_with(start + request.to_s - half)
     if first >= last:
         raise ParameterError(
             f"from_s = {request.from_s or 0.0:g} s: holds no samples; the recording ends before"

@@ -100,10 +100,10 @@ def _check_chunks(name: str, dataset: Any, part: Part) -> None:
     number = int(np.prod([len(along) for along in needed], dtype=float))
     stored = dataset.id.get_num_chunks()
     if stored >= number and number < _count_of_chunks(dataset):
-        places = product(
+        corners = product(
             *([n * c for n in along] for along, (_, c) in zip(needed, sides, strict=True))
         )
-        stored = sum(dataset.id.get_chunk_info_by_coord(place).size > 0 for place in places)
+        stored = sum(dataset.id.get_chunk_info_by_coord(corner).size > 0 for corner in corners)
     if stored < number:
         raise StorageError(f"dataset {name!r} is incomplete: {stored} of {number} chunks stored")
 
@@ -115,11 +115,11 @@ def _count_of_chunks(dataset: Any) -> int:
 
 def _attributes(dataset: Any) -> Mapping[str, Any]:
     """Attributes of a dataset, and the sample rate of its group where it has none itself."""
-    own = _plain(dataset.attrs)
-    if any(map(is_rate, own)) or dataset.parent.name == "/":
-        return own
+    of_dataset = _plain(dataset.attrs)
+    if any(map(is_rate, of_dataset)) or dataset.parent.name == "/":
+        return of_dataset
     of_group = _plain(dataset.parent.attrs)
-    return {name: value for name, value in of_group.items() if is_rate(name)} | dict(own)
+    return {name: value for name, value in of_group.items() if is_rate(name)} | dict(of_dataset)
 
 
 def _plain(attributes: Any) -> Mapping[str, Any]:

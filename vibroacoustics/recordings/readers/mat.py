@@ -84,17 +84,17 @@ def fields(name: str, struct: Any, depth: int = 0) -> list[NamedArray]:
     """
     if depth == _MAXIMUM_DEPTH:
         return []
-    found = []
+    arrays = []
     for number, one in enumerate(struct.ravel(), 1):
         of_one = name if struct.size == 1 else f"{name}({number})"
         for field in getattr(one, "_fieldnames", ()):
             value = np.asarray(getattr(one, field))
             path = f"{of_one}.{field}"
             if value.dtype.kind in "iufc":
-                found.append(NamedArray(path, value.shape, True, value.__getitem__))
+                arrays.append(NamedArray(path, value.shape, True, value.__getitem__))
             elif value.dtype.kind == "O":
-                found += fields(path, value, depth + 1)
-    return found
+                arrays += fields(path, value, depth + 1)
+    return arrays
 
 
 def _read_hdf5(request: Request) -> Recorded:

@@ -73,4 +73,4 @@ def _full_scale_fraction(stored: Samples) -> Samples:
     return np.asarray((stored - offset) / half_range)
 
 
-register(Reader("wav", (".wav",), "WAV", read, package="soundfile"))
+register(Reader("wav", (".wav",), "WAV", read))
