@@ -10,6 +10,7 @@ import h5py
 import numpy as np
 import pytest
 import scipy.io
+import soundfile
 import xarray as xr
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -19,8 +20,8 @@ from support import ROOT
 from vibroacoustics.base.errors import ParameterError, StorageError, VibroacousticsError
 from vibroacoustics.recordings import label_recording, wav_bytes
 from vibroacoustics.recordings import read_recording as read
+from vibroacoustics.recordings.child_process import _end_of
 from vibroacoustics.recordings.reader import readers_by_suffix
-from vibroacoustics.recordings.reading import _end_of
 from vibroacoustics.recordings.recorded import (
     MAXIMUM_READING_BYTES,
     MAXIMUM_RECORDING_BYTES,
@@ -381,6 +382,7 @@ def mat(path: Path, **options) -> None:
 
 GOOD = {
     "a.wav": lambda path: write(path, wav_bytes(RECORDING)),
+    "a.flac": lambda path: soundfile.write(path, 0.1 * SAMPLES.T, 1000),
     "plain.mat": mat,
     "packed.mat": lambda path: mat(path, do_compression=True),
     "a.h5": lambda path: hdf5_claiming(path, (300,), data=SAMPLES[0], chunks=(64,)),

@@ -10,7 +10,8 @@ import xarray as xr
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
-from .reading import Asked, naming_file, read_in_child
+from .asked import Asked, naming_file
+from .child_process import read_in_child
 from .recorded import MAXIMUM_RECORDING_BYTES, Request, check_part, listed
 from .recording import scale_in_place, si_scale
 

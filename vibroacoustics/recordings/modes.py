@@ -8,7 +8,8 @@ import numpy as np
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError, VibroacousticsError
-from .reading import check_file, read_in_child
+from .asked import check_file
+from .child_process import read_in_child
 
 SUFFIXES: Final = (".uff", ".unv")
 

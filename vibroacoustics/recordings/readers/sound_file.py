@@ -2,6 +2,7 @@
 
 from typing import Final
 
+from ...base.errors import StorageError
 from ...base.registry import register
 from ..reader import Reader
 from ..recorded import Recorded, Request, check_size
@@ -28,6 +29,10 @@ def read(request: Request) -> Recorded:
         check_size(file.channels, last - first)
         file.seek(first)
         frames = file.read(last - first, dtype="float64", always_2d=True)
+        if len(frames) != last - first:
+            raise StorageError(
+                f"holds {len(frames)} of {last - first} samples that it claims: it is truncated"
+            )
         bits = _BITS.get(file.subtype)
         limits = None if bits is None else (-1.0, 1.0 - 2.0 ** (1 - bits))
         return Recorded(

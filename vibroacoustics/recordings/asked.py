@@ -1,0 +1,136 @@
+"""What is asked of a recording's file, and whether the file can be read at all."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..base.errors import ParameterError, StorageError, VibroacousticsError
+from .reader import readers_by_suffix
+from .recorded import MAXIMUM_READING_BYTES, check_rate, listed
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What is asked of a file: how its channels are to be read, in the user's words.
+
+    Attributes
+    ----------
+    path : of the file
+    units, calibration, channels, sample_rate_hz : as in `read_recording`
+    """
+
+    path: Path
+    units: Mapping[str, str]
+    calibration: Mapping[str, float]
+    channels: Sequence[str] | None
+    sample_rate_hz: float | None
+
+    def check(self, may_be_large: bool) -> bool:
+        """Refuse a file that cannot be read; see `check_file`. Whether it is above the cap."""
+        check_file(self.path, list(readers_by_suffix()), may_be_large)
+        if self.sample_rate_hz is not None:
+            check_rate(self.sample_rate_hz)
+        return self.path.stat().st_size > MAXIMUM_READING_BYTES
+
+    def request(self) -> dict[str, Any]:
+        """The request to the process that reads."""
+        plugin = readers_by_suffix()[self.path.suffix.lower()].plugin
+        return {
+            "path": str(self.path),
+            "channels": None if self.channels is None else list(self.channels),
+            "sample_rate_hz": None if self.sample_rate_hz is None else float(self.sample_rate_hz),
+            "plugin": None if plugin is None else str(plugin),
+        }
+
+    def chosen_units(self, header: Mapping[str, Any]) -> list[str]:
+        """Unit of each channel, from the user or else from the file."""
+        return _units(header, self.units, self.chosen_calibration(header), self.calibration)
+
+    def chosen_calibration(self, header: Mapping[str, Any]) -> dict[str, float]:
+        """Factor by channel, from the user or else from the file, in the file's unit."""
+        stated = zip(header["names"], header["units"], header["calibration"], strict=True)
+        of_file = {
+            name: factor
+            for name, unit, factor in stated
+            if factor is not None and self.units.get(name, unit) == unit
+        }
+        return of_file | dict(self.calibration)
+
+
+@contextmanager
+def naming_file(path: Path) -> Iterator[None]:
+    """Put the file before what goes wrong with it."""
+    try:
+        yield
+    except VibroacousticsError as error:
+        raise type(error)(f"{path}: {error}") from None
+
+
+def check_file(path: Path, suffixes: Sequence[str], may_be_large: bool = False) -> None:
+    """Refuse a file that is missing, empty, too large, or of another kind.
+
+    Parameters
+    ----------
+    path : of the file
+    suffixes : that are known
+    may_be_large : whether only a part of it is read
+
+    Raises
+    ------
+    ParameterError
+        Its name ends otherwise.
+    StorageError
+        There is no such file, or it is empty or too large.
+    """
+    if path.suffix.lower() not in suffixes:
+        raise ParameterError(f"format {path.suffix!r} is unknown; known are {', '.join(suffixes)}")
+    try:
+        size = path.stat().st_size
+    except FileNotFoundError:
+        raise StorageError("no such file") from None
+    except (OSError, ValueError) as error:  # ValueError: a name with a null byte
+        raise StorageError(f"cannot be read: {error}") from None
+    if not path.is_file():
+        raise StorageError("is no file")
+    if size == 0:
+        raise StorageError("is empty")
+    if size > MAXIMUM_READING_BYTES and not may_be_large:
+        raise StorageError(
+            f"has {size / 2**30:.3g} GiB; at most {MAXIMUM_READING_BYTES / 2**30:g} GiB are read "
+            "at once: give from_s and to_s, or channels"
+        )
+
+
+def _units(
+    header: Mapping[str, Any],
+    units: Mapping[str, str],
+    calibration: Mapping[str, float],
+    given_calibration: Mapping[str, float],
+) -> list[str]:
+    """Unit of each channel, from the user or else from the file."""
+    names = header["names"]
+    for option, given in (("units", units), ("calibration", given_calibration)):
+        for name in given:
+            if name not in names:
+                raise ParameterError(f"{option}: no channel {name!r} among {listed(names)}")
+    if header["full_scale"]:
+        _check_calibrated(names, calibration)
+    chosen = [units.get(name, stated) for name, stated in zip(names, header["units"], strict=True)]
+    missing = [name for name, unit in zip(names, chosen, strict=True) if not unit]
+    if missing:
+        raise ParameterError(
+            f"the file states no unit for {listed(missing)}: give it, as in "
+            f"units={{{missing[0]!r}: 'Pa'}}"
+        )
+    return chosen
+
+
+def _check_calibrated(names: Sequence[str], calibration: Mapping[str, float]) -> None:
+    missing = [name for name in names if name not in calibration]
+    if missing:
+        raise ParameterError(
+            f"samples of {listed(missing)} are fractions of full scale: give the calibration "
+            f"factor, unit at full scale, as in calibration={{{missing[0]!r}: 20.0}}"
+        )
