@@ -260,7 +260,7 @@ def test_a_refusal_is_no_traceback(cache: Path, tmp_path: Path) -> None:
         ([], ["give one of --speed CHANNEL, --rpm NUMBER and --tacholess"]),
         (["--speed", "tacho", "--rpm", 2900], ["give one of --speed"]),
         (["--tacholess", 1000, 4000, "--rpm", 2900], ["give one of --speed"]),
-        (["--rpm", 0], ["speed_rpm = 0 rpm"]),
+        (["--rpm", 0], ["--rpm = 0 rpm"]),
         (["--rpm", "inf"], ["--rpm = inf rpm"]),
         (["--rpm", 2900, "--index", "tacho"], ["--index, --pulses: belong to a tacho"]),
         (["--rpm", 2900, "--pulses", 60], ["--index, --pulses: belong to a tacho"]),
