@@ -7,6 +7,7 @@ from typing import Any, Final
 import numpy as np
 
 from ..base.errors import ParameterError, StorageError
+from .by_channel import by_channel
 from .named_arrays import UNIT_NAMES, NamedArray, Part, as_text, is_time
 from .packing import PACKING_NAMES, is_packed, missing, unsigned
 from .recorded import Samples, check_size, listed, numbered
@@ -126,13 +127,17 @@ def stored_samples(columns: Sequence[Column], first: int, last: int) -> list[Sam
 
 def _rows(one: Column, low: int, high: int, first: int, last: int) -> Samples:
     """Stored values of the columns from `low` up to `high` of a table, shape (channel, time)."""
-    part = [slice(first, last)]
-    if len(one.array.shape) == 2:
-        part.insert(1 - one.time_axis, slice(low, high))
-    sides = [side.stop - side.start for side in part]
-    values = np.asarray(one.array.load(tuple(part))).reshape(sides)
-    values = unsigned(values, one.array.attributes)
-    return np.atleast_2d(np.moveaxis(values, one.time_axis, -1))
+
+    def load(start: int, end: int) -> Samples:
+        part = [slice(start, end)]
+        if len(one.array.shape) == 2:
+            part.insert(1 - one.time_axis, slice(low, high))
+        values = np.asarray(one.array.load(tuple(part)))
+        return values.reshape([side.stop - side.start for side in part])
+
+    if len(one.array.shape) == 2 and one.time_axis == 0:
+        return unsigned(by_channel(load, first, last, high - low), one.array.attributes)
+    return unsigned(np.atleast_2d(load(first, last)), one.array.attributes)
 
 
 def check_present(column: Column, stored: Samples, first: int, rate_hz: float) -> None:

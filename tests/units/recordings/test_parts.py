@@ -42,11 +42,12 @@ def test_a_minute_of_22_gib(tmp_path):
     claimed = 16 * 3600 * 51200 * 8
     assert claimed > 21.9 * GIB
     begin = time.monotonic()
-    part = read_recording(path, from_s=600.0, to_s=660.0, channels=["acceleration 3"])
+    part = read_recording(path, from_s=600.0, to_s=660.0)
     assert time.monotonic() - begin < 15.0
-    assert part.sizes == {"channel": 1, "time": 60 * 51200}
-    expected = np.repeat(np.arange(600.0, 660.0), 51200) + 2.0
-    np.testing.assert_array_equal(part["signal"].values[0], expected)
+    assert part.sizes == {"channel": 16, "time": 60 * 51200}
+    expected = np.repeat(np.arange(600.0, 660.0), 51200)
+    for channel, found in enumerate(part["signal"].values):
+        np.testing.assert_array_equal(found, expected + channel)
     assert part.attrs["part_start_s"] == 600.0
     with pytest.raises(StorageError, match="incomplete: 60 of 61 chunks stored"):
         read_recording(path, from_s=600.0, to_s=661.0, channels=["acceleration 3"])
@@ -95,8 +96,9 @@ blocks = open_recording(sys.argv[1], units=units)
 total = 0.0
 for first in range(600 * 51200, 660 * 51200, 15 * 51200):
     total += blocks.read(blocks.channels, first, first + 15 * 51200).sum()
-for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN):
-    print(resource.getrusage(who).ru_maxrss * 1024)
+status = open("/proc/self/status").read()  # ru_maxrss holds that of the process before, too
+print(1024 * int(status.split("VmHWM:")[1].split()[0]))
+print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024)
 print(blocks.samples, total)
 """
 

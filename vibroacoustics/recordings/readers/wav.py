@@ -1,9 +1,13 @@
 """WAV: PCM and IEEE float. Integers are fractions of full scale; few files state a unit."""
 
+from collections.abc import Sequence
+from functools import partial
+
 import numpy as np
 
 from ...base.errors import StorageError
 from ...base.registry import register
+from ..by_channel import by_channel
 from ..reader import Reader
 from ..recorded import Recorded, Request, Samples, check_rate, check_size
 from ..riff import FLOAT, PCM, Wave, read_wave
@@ -28,14 +32,14 @@ def read(request: Request) -> Recorded:
     chosen = request.chosen(names)
     first, last = request.part(wave.frames, rate_hz)
     check_size(len(chosen), last - first)
-    frames = _frames(request, wave, first, last)
+    stored = by_channel(partial(_frames, request, wave, chosen), first, last, len(chosen))
     is_whole = wave.kind == PCM
     pascal = wave.pascal_at_full_scale if is_whole else None
     highest = 1.0 - 2.0 ** (1 - 8 * wave.sample_bytes)
     return Recorded(
         names=[names[column] for column in chosen],
         units=["" if pascal is None else "Pa"] * len(chosen),
-        samples=[_full_scale_fraction(frames[:, column]) for column in chosen],
+        samples=[_full_scale_fraction(samples) for samples in stored],
         sample_rate_hz=rate_hz,
         full_scale=is_whole,
         first_sample=first,
@@ -45,8 +49,8 @@ def read(request: Request) -> Recorded:
     )
 
 
-def _frames(request: Request, wave: Wave, first: int, last: int) -> Samples:
-    """Stored samples, shape (time, channel); 24 bits as the upper ones of 32."""
+def _frames(request: Request, wave: Wave, chosen: Sequence[int], first: int, last: int) -> Samples:
+    """Stored samples of some channels, shape (time, channel); 24 bits as the upper ones of 32."""
     width = wave.sample_bytes
     kinds = {1: "u1", 2: "i2", 4: "i4", 8: "i8"} if wave.kind == PCM else {4: "f4", 8: "f8"}
     is_24 = wave.kind == PCM and width == 3
@@ -57,11 +61,11 @@ def _frames(request: Request, wave: Wave, first: int, last: int) -> Samples:
     if not is_24:
         kind = np.dtype(kinds[width]).newbyteorder(wave.order)
         stored = np.fromfile(request.path, kind, values, offset=offset)
-        return stored.reshape(-1, wave.channels)
+        return stored.reshape(-1, wave.channels)[:, chosen]
     raw = np.fromfile(request.path, "u1", 3 * values, offset=offset).reshape(-1, 3)
     padded = np.zeros((values, 4), dtype="u1")
     padded[:, 1:] = raw if wave.order == "<" else raw[:, ::-1]
-    return padded.view("<i4").reshape(-1, wave.channels)
+    return padded.view("<i4").reshape(-1, wave.channels)[:, chosen]
 
 
 def _full_scale_fraction(stored: Samples) -> Samples:
