@@ -86,8 +86,8 @@ def tiny_run(options: str = "", criteria: str = "") -> xr.Dataset:
 
 
 def command(*arguments: object, cache: Path) -> subprocess.CompletedProcess[str]:
-    """The command line in a process of its own."""
-    return subprocess.run(
+    """The command line in a process of its own; its stderr without its advance."""
+    outcome = subprocess.run(
         [sys.executable, "-m", "vibroacoustics", *map(str, arguments)],
         capture_output=True,
         text=True,
@@ -95,10 +95,18 @@ def command(*arguments: object, cache: Path) -> subprocess.CompletedProcess[str]
         check=False,
         timeout=300,
     )
+    outcome.stderr = without_progress(outcome.stderr)
+    return outcome
+
+
+def without_progress(errors: str) -> str:
+    """What a command says on stderr apart from its advance, which depends on the machine."""
+    lines = errors.splitlines(keepends=True)
+    return "".join(line for line in lines if not line.startswith("progress: "))
 
 
 def command_here(*arguments: object) -> subprocess.CompletedProcess[str]:
-    """The command line in this process, which saves seconds of imports."""
+    """The same in this process, which saves seconds of imports."""
     words = ["vibroacoustics", *map(str, arguments)]
     code: object = 0
     with (
@@ -110,7 +118,9 @@ def command_here(*arguments: object) -> subprocess.CompletedProcess[str]:
             cli.main()
         except SystemExit as ended:
             code = ended.code or 0
-    return subprocess.CompletedProcess(words, int(str(code)), output.getvalue(), errors.getvalue())
+    return subprocess.CompletedProcess(
+        words, int(str(code)), output.getvalue(), without_progress(errors.getvalue())
+    )
 
 
 def assert_refused(outcome: subprocess.CompletedProcess[str], *words: str) -> None:

@@ -46,6 +46,13 @@ def listens(process: int) -> bool:
     return bool(caught >> (signal.SIGALRM - 1) & 1)  # the last one of the three
 
 
+def said(process: subprocess.Popen[str]) -> str:
+    """What it said on stderr until its end, apart from its advance."""
+    _, errors = process.communicate()
+    lines = errors.splitlines(keepends=True)
+    return "".join(line for line in lines if not line.startswith("progress: "))
+
+
 @cache
 def reference() -> tuple[xr.Dataset, float, float]:
     """Results of a run that nothing disturbs, and the seconds of a cold and of a warm one."""
@@ -53,7 +60,7 @@ def reference() -> tuple[xr.Dataset, float, float]:
     with tempfile.TemporaryDirectory() as folder:
         for _ in range(2):
             begin = time.monotonic()
-            _, errors = start(Path(folder), WARM_CACHE).communicate()
+            errors = said(start(Path(folder), WARM_CACHE))
             assert errors == "", errors
             seconds.append(time.monotonic() - begin)
         return open_results(Path(folder) / "results.nc").drop_attrs(), seconds[0], seconds[1]
@@ -82,7 +89,7 @@ def after(folder: Path, cache_folder: Path) -> list[str]:
     """What is wrong now, and after one more run."""
     now = seen(folder)
     process = start(folder / "out", cache_folder)
-    _, errors = process.communicate()
+    errors = said(process)
     again = [] if process.returncode == 0 and errors == "" else [f"lost: {errors}"]
     again += [f"wrong: {line}" for line in manifest.mixed(folder / "out")]
     return [*now, *again, *seen(folder), *left(folder)]
@@ -102,7 +109,7 @@ def signal_a_command(folder: Path, chance: random.Random) -> list[str]:
     process, _ = begin(folder, chance)
     number = chance.choice((signal.SIGINT, signal.SIGTERM))
     process.send_signal(number)
-    _, errors = process.communicate()
+    errors = said(process)
     expected = [(128 + number, f"ended by {number.name}\n"), (0, "")]
     outcome = (process.returncode, errors)
     bad = [] if outcome in expected else [f"traceback: {outcome}"]

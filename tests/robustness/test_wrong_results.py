@@ -1,28 +1,49 @@
 """Well-hashed results that are no run: `report` and `score` work or refuse them in one line."""
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
+from typing import Any, Final
 from unittest.mock import patch
 
 import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.figure import Figure
+from sources_study import SOURCES_STUDY, run_made_up
 from support import TINY, assert_refused, command_here, made_up_radiation, tiny_run
 
-from vibroacoustics import pipeline
-from vibroacoustics.base.hashing import canonical_json, sha256
+from vibroacoustics import pipeline, report
+from vibroacoustics.base.errors import SchemaError
+from vibroacoustics.base.hashing import sha256
+from vibroacoustics.base.vocabulary import REFERENCE_OPTION
 from vibroacoustics.commands import outputs
 from vibroacoustics.results import hashed
-from vibroacoustics.results.complete import VARIABLES_OF_A_RUN, WORDS_OF_A_RUN
+from vibroacoustics.results.complete import check_run
+from vibroacoustics.results.run_attributes import Parameters, Words
+from vibroacoustics.results.run_variables import (
+    COORDINATES_OF,
+    EMPTY_WHERE_NONE,
+    ONLY_DRAWS_THAT_COUNT,
+    needed_variables,
+)
 from vibroacoustics.results.storage import write_results
 from vibroacoustics.study.loading import load_study
 
-Change = Callable[[xr.Dataset], xr.Dataset]
+RUNS: Final = {
+    "rigid": tiny_run,
+    "sources": lambda: run_made_up(load_study(SOURCES_STUDY)),  # with draws and a stop
+}
+ATTRIBUTES: Final = {"parameters": Parameters, "words": Words}
+GONE: Final = object()
+EMPTY: Final = EMPTY_WHERE_NONE | ONLY_DRAWS_THAT_COUNT
+both = pytest.mark.parametrize("name", RUNS)
 
-run = cache(tiny_run)
+
+@cache
+def run(name: str = "rigid") -> xr.Dataset:
+    return RUNS[name]()
 
 
 @pytest.fixture(autouse=True)
@@ -32,13 +53,35 @@ def quick_figures() -> Iterator[None]:
         yield
 
 
-def filled(results: xr.Dataset, name: str, value: float) -> xr.Dataset:
-    """One variable or coordinate with the same value everywhere."""
+def refused_or_made(results: xr.Dataset, folder: Path) -> list[int]:
+    """Exit codes of both commands; a refusal is one line that names the file."""
+    (folder / "files.json").unlink(missing_ok=True)  # it would name the files of the last change
+    path = folder / "results.nc"
+    with patch.object(outputs.storage, "open_with_hash", lambda _: (results, "0" * 64)):
+        outcomes = [command_here(name, path) for name in ("score", "report")]
+    for outcome in outcomes:
+        if outcome.returncode:
+            assert_refused(outcome, "results.nc")
+            assert outcome.stderr.count("\n") == 1, outcome.stderr
+    return [outcome.returncode for outcome in outcomes]
+
+
+def assert_no_run(results: xr.Dataset) -> None:
+    with pytest.raises(SchemaError):
+        check_run(results)
+
+
+def with_values(results: xr.Dataset, name: str, values: Any, dims: Any = None) -> xr.Dataset:
+    """Other values of a variable or coordinate, with its attributes."""
     old = results[name].variable
-    new = old.copy(data=np.full(old.shape, value, old.dtype))
-    return results.assign({name: new}) if name in results.data_vars else (
-        results.drop_vars(name).assign_coords({name: new})
-    )  # fmt: skip
+    new = xr.Variable(old.dims if dims is None else dims, values, old.attrs)
+    if name in results.data_vars:
+        return results.assign({name: new})
+    return results.drop_vars(name).assign_coords({name: new})
+
+
+def filled(results: xr.Dataset, name: str, value: Any) -> xr.Dataset:
+    return with_values(results, name, np.full(results[name].shape, value))
 
 
 def without_attribute(results: xr.Dataset, name: str) -> xr.Dataset:
@@ -47,66 +90,179 @@ def without_attribute(results: xr.Dataset, name: str) -> xr.Dataset:
     return kept
 
 
-def with_entry(results: xr.Dataset, attribute: str, key: str, value: object) -> xr.Dataset:
-    """An entry of a JSON attribute changed; the hash of the parameters fits."""
-    text = canonical_json({**json.loads(results.attrs[attribute]), key: value})
-    changed = results.assign_attrs({attribute: text})
+def with_json(results: xr.Dataset, attribute: str, value: object) -> xr.Dataset:
+    """A JSON attribute replaced; the hash of the parameters fits."""
+    changed = results.assign_attrs({attribute: json.dumps(value)})
     return changed.assign_attrs(parameters_sha256=sha256(changed.attrs["parameters"].encode()))
 
 
-def refused_or_made(results: xr.Dataset, folder: Path) -> list[int]:
-    """Exit codes of both commands; a refusal is one line."""
-    (folder / "files.json").unlink(missing_ok=True)  # it would name the files of the last change
-    path = write_results(results, folder / "results.nc")
-    outcomes = [command_here(name, path) for name in ("score", "report")]
-    for outcome in outcomes:
-        if outcome.returncode:
-            assert_refused(outcome, "results.nc")
-    return [outcome.returncode for outcome in outcomes]
+def leaves(value: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], Any]]:
+    """Everything in a JSON value with its path; of a list the first item alone."""
+    if path:
+        yield path, value
+    items = list(enumerate(value))[:1] if isinstance(value, list) else ()
+    for key, item in value.items() if isinstance(value, dict) else items:
+        yield from leaves(item, (*path, key))
 
 
-def test_the_run_itself_is_made(tmp_path: Path) -> None:
-    assert refused_or_made(run(), tmp_path) == [0, 0]
+def replaced(value: Any, path: tuple[Any, ...], new: object) -> Any:
+    """A JSON value with another one at a path, or without it."""
+    key, *rest = path
+    copied = value.copy()
+    if rest:
+        copied[key] = replaced(value[key], tuple(rest), new)
+    elif new is GONE:
+        del copied[key]
+    else:
+        copied[key] = new
+    return copied
 
 
-@pytest.mark.parametrize("name", VARIABLES_OF_A_RUN)
+def known_keys(results: xr.Dataset, attribute: str) -> Any:
+    """A JSON attribute without the keys that no report reads."""
+    model = ATTRIBUTES[attribute].model_validate_json(results.attrs[attribute])
+    return model.model_dump(mode="json", exclude_unset=True)
+
+
+@both
+def test_the_run_itself_is_made(name: str, tmp_path: Path) -> None:
+    results = run(name)
+    path = write_results(results, tmp_path / "results.nc")
+    assert [command_here(verb, path).returncode for verb in ("score", "report")] == [0, 0]
+    assert refused_or_made(results, tmp_path) == [0, 0]
+
+
+@both
+def test_what_is_checked_is_all_that_a_report_reads(name: str) -> None:
+    """Without the variables and keys that no check knows it is the same."""
+    results = run(name)
+    optional = {"supply_frequency", "projection_error", "force", "transfer_vector_closed_form",
+                "transfer_vector_error", "stopping_order_map"}  # fmt: skip
+    needed = {*needed_variables(results), *optional} & results.keys()
+    reduced = results[sorted(needed)]
+    beside = {*reduced.dims, *(name for one in needed for name in COORDINATES_OF.get(one, ()))}
+    reduced = reduced.drop_vars([name for name in reduced.coords if name not in beside])
+    for attribute in ("parameters", "words"):
+        reduced = with_json(reduced, attribute, known_keys(results, attribute))
+    check_run(reduced)
+    files = [report.render(one) for one in (results, reduced)]
+    assert files[0].keys() == files[1].keys()
+    for file in ("comparison.csv", "scores.csv"):
+        assert files[0][file] == files[1][file]
+    assert "sources.csv" in files[0] or name == "rigid"
+
+
+@both
 def test_a_variable_is_missing(name: str, tmp_path: Path) -> None:
-    assert refused_or_made(run().drop_vars(name), tmp_path) == [2, 2]
+    results = run(name)
+    for variable in needed_variables(results):
+        assert_no_run(results.drop_vars(variable))
+    assert refused_or_made(results.drop_vars("level_total"), tmp_path) == [2, 2]
 
 
-def test_any_variable_or_coordinate_is_missing(tmp_path: Path) -> None:
-    for name in (
-        "transfer_vector_error",
-        "speed",
-        "dof",
-        "line_order",
-        "criterion_label",
-        "distance",
-    ):
-        refused_or_made(run().drop_vars(name), tmp_path)
+@both
+def test_a_coordinate_is_missing(name: str, tmp_path: Path) -> None:
+    results = run(name)
+    beside = {one for key, names in COORDINATES_OF.items() for one in names if key in results}
+    for coordinate in {*results[list(needed_variables(results))].dims, *beside}:
+        assert_no_run(results.drop_vars(coordinate))
+    refused_or_made(results.drop_vars([*set(results.coords) - set(results.dims)]), tmp_path)
 
 
-@pytest.mark.parametrize("value", [np.nan, 0.0])
-def test_a_variable_or_coordinate_holds_one_value(value: float, tmp_path: Path) -> None:
-    for name in ("force_amplitude", "transfer_vector", "speed", "natural_frequency"):
-        refused_or_made(filled(run(), name, value), tmp_path)
+@both
+def test_a_variable_or_coordinate_holds_other_things(name: str) -> None:
+    """No numbers, one that is not finite, dims in another order, all of them text or complex."""
+    results = run(name)
+    for key, variable in results.variables.items():
+        wrong: list[xr.Dataset] = [
+            with_values(results, str(key), variable.values[None], ("new", *variable.dims))
+        ]
+        if variable.dtype.kind == "U":
+            wrong.append(filled(results, str(key), 1.0))
+        else:
+            wrong += [filled(results, str(key), "x"), filled(results, str(key), True)]
+            wrong += [filled(results, str(key), np.inf)] * (key not in EMPTY)
+            spoilt = variable.values.astype(complex if variable.dtype.kind == "c" else float)
+            spoilt.flat[-1] = np.nan
+            wrong += [with_values(results, str(key), spoilt)] * (key not in EMPTY)
+        if len(set(variable.dims)) > 1:
+            wrong.append(with_values(results, str(key), variable.values.T, variable.dims[::-1]))
+        if key in results.data_vars:
+            wrong.append(filled(results, str(key), 1.0 if variable.dtype.kind == "c" else 1j))
+        for changed in wrong:
+            assert_no_run(changed)
 
 
-def test_a_dimension_is_empty(tmp_path: Path) -> None:
-    for dim in ("option", "speed", "receiver", "mode", "criterion"):
-        refused_or_made(run().isel({dim: slice(0)}), tmp_path)
+@both
+@pytest.mark.parametrize("value", [np.nan, 0.0, -1.0, 999.0, 1e300])
+def test_all_that_may_be_so_holds_one_value(name: str, value: float, tmp_path: Path) -> None:
+    """Together; numbers of orders and labels of dimensions stay."""
+    results = run(name)
+    for key, variable in run(name).data_vars.items():
+        if np.isfinite(value) or key in EMPTY_WHERE_NONE:
+            results = filled(results, str(key), np.full((), value, variable.dtype))
+    refused_or_made(results, tmp_path)
 
 
-def test_no_option_and_no_reference(tmp_path: Path) -> None:
-    assert refused_or_made(run().isel(option=[]), tmp_path) == [2, 2]
-    assert refused_or_made(run().isel(option=[1]), tmp_path) == [2, 2]
+@pytest.mark.parametrize("value", [0.0, -1.0, 1e29, 1e300])
+@pytest.mark.parametrize("key", ["force_amplitude", "transfer_vector", "natural_frequency"])
+def test_a_variable_holds_one_value(key: str, value: float, tmp_path: Path) -> None:
+    refused_or_made(filled(run(), key, np.full((), value, run()[key].dtype)), tmp_path)
+
+
+@pytest.mark.parametrize("value", [0.0, -1.0, 1e29, 1e300])
+def test_a_speed_is_none(value: float, tmp_path: Path) -> None:
+    refused_or_made(filled(run(), "speed", value), tmp_path)
+
+
+@both
+def test_a_dimension_is_empty_or_holds_a_label_twice(name: str) -> None:
+    results = run(name)
+    for dim in results[list(needed_variables(results))].dims:
+        assert_no_run(results.isel({dim: slice(0)}))
+        assert_no_run(results.isel({dim: [0, *range(results.sizes[dim])]}))
+
+
+@both
+def test_options_are_gone(name: str, tmp_path: Path) -> None:
+    results = run(name)
+    assert refused_or_made(results.isel(option=[]), tmp_path) == [2, 2]
+    assert refused_or_made(results.isel(option=[1]), tmp_path) == [2, 2]
+    assert refused_or_made(results.sel(option=[REFERENCE_OPTION]), tmp_path) == [0, 0]
+
+
+def test_no_draw_counts() -> None:
+    results = run("sources")
+    assert_no_run(filled(results, "draw_weight", 0.0))
+    unsolved = results.copy(deep=True)
+    unsolved["level_total_by_draw"][0] = np.nan
+    unsolved["draw_weight"][0] = 1.0
+    assert_no_run(unsolved)
+    unsolved["draw_weight"][0] = 0.0
+    unsolved["draw_weight"][1:] = 1.0
+    check_run(unsolved)
 
 
 def test_an_attribute_is_missing_or_wrong(tmp_path: Path) -> None:
-    for name in ("parameters", "words", "created_utc", "radiation"):
-        refused_or_made(without_attribute(run(), name), tmp_path)
-        for value in ("x", "[]", 7.0):
-            refused_or_made(run().assign_attrs({name: value}), tmp_path)
+    numbers = np.array([1.0, 2.0])
+    for name in ("parameters", "words", "created_utc"):
+        assert_no_run(without_attribute(run(), name))
+        assert_no_run(run().assign_attrs({name: numbers}))
+    for name in ("parameters", "words", "radiation", "plugins", "package_versions"):
+        for value in ("x", "[]", 7.0, numbers, "[" * 100_000, '{"a":"\\ud800"}', "1" * 5000):
+            changed = run().assign_attrs({name: value})
+            digest = sha256(str(changed.attrs["parameters"]).encode())
+            assert_no_run(changed.assign_attrs(parameters_sha256=digest))
+    refused_or_made(without_attribute(run(), "radiation"), tmp_path)
+    assert refused_or_made(run().assign_attrs(words="{}"), tmp_path) == [2, 2]
+
+
+def test_an_attribute_of_a_variable_is_missing_or_wrong() -> None:
+    for name, attribute in (("level_total", "units"), ("supply_frequency", "source")):
+        for value in (None, 7.0, np.array([1.0, 2.0])):
+            changed = run("sources").copy()
+            changed[name].attrs = {**changed[name].attrs, attribute: value}
+            assert_no_run(changed)
 
 
 @pytest.mark.parametrize("text", ["no JSON", "[1]", "{}", "[" * 100_000])
@@ -115,9 +271,71 @@ def test_parameters_are_no_parameters(text: str, tmp_path: Path) -> None:
     assert refused_or_made(changed, tmp_path) == [2, 2]
 
 
-@pytest.mark.parametrize("key", WORDS_OF_A_RUN)
-def test_words_are_incomplete(key: str, tmp_path: Path) -> None:
-    assert refused_or_made(with_entry(run(), "words", key, None), tmp_path) == [2, 2]
+@both
+@pytest.mark.parametrize("attribute", ATTRIBUTES)
+def test_a_key_is_missing_or_of_another_type(name: str, attribute: str, tmp_path: Path) -> None:
+    """Refused, or made where the key can be missing."""
+    results = run(name)
+    stored = json.loads(results.attrs[attribute])
+    made = {}
+    for path, value in leaves(known_keys(results, attribute)):
+        number = isinstance(value, float | int) and not isinstance(value, bool)
+        wrong = ["x"] if not isinstance(value, str) else [7]
+        for new in (GONE, *wrong, float("nan"), *([[]] if number else [[7]]), {"a": 7}):
+            changed = with_json(results, attribute, replaced(stored, path, new))
+            try:
+                check_run(changed)
+            except SchemaError:
+                continue
+            made[path[:-1], new is GONE] = changed
+    for what, changed in list(made.items()):
+        assert refused_or_made(changed, tmp_path) == [0, 0], what
+
+
+@both
+@pytest.mark.parametrize("value", [0, -1, 1e29, 1e300, 10**400])
+def test_every_number_of_the_parameters_is(name: str, value: float, tmp_path: Path) -> None:
+    """But the catalogue's speed, at which results with sources must be."""
+    results = run(name)
+    stored = json.loads(results.attrs["parameters"])
+    for path, old in leaves(known_keys(results, "parameters")):
+        number = isinstance(old, float | int) and not isinstance(old, bool)
+        if number and path[-1] != "speed_rpm" and path[0] != "scoring":
+            stored = replaced(stored, path, value)
+    refused_or_made(with_json(results, "parameters", stored), tmp_path)
+    for path, old in leaves(known_keys(results, "parameters")):
+        if path[-1] in ("mass_kg", "level_dba") or str(path[-1]).startswith("inertia_"):
+            stored = replaced(stored, path, old)
+    assert refused_or_made(with_json(results, "parameters", stored), tmp_path) == (
+        [0, 0] if abs(value) < 1e30 else [2, 2]
+    )
+
+
+def test_scoring_is_no_scoring(tmp_path: Path) -> None:
+    stored = json.loads(run().attrs["parameters"])
+    for path in (("scoring", "criteria"), ("scoring", "seed")):
+        for new in (GONE, "x", [], {}, {"loudness": {}}):
+            changed = with_json(run(), "parameters", replaced(stored, path, new))
+            assert refused_or_made(changed, tmp_path)[0] in (0, 2)
+
+
+@pytest.mark.parametrize(
+    "kept",
+    ["x", {}, [1], [{}], [{"name": "a"}],
+     [{"name": "a", "title": "A", "position": 1.0, "blocks": [{"block": "text"}]}],
+     [{"name": "a", "title": "A", "position": "x", "blocks": []}]],
+)  # fmt: skip
+def test_kept_sections_are_none(kept: object, tmp_path: Path) -> None:
+    changed = run().assign_attrs(report_sections=json.dumps(kept))
+    assert refused_or_made(changed, tmp_path) == [2, 2]
+
+
+@pytest.mark.parametrize("changed", [{}, {"texts": []}, {"head": 7}, {"position": None}])
+def test_kept_columns_are_none(changed: dict[str, object], tmp_path: Path) -> None:
+    column = {"name": "a", "head": "A", "terminal": None, "texts": {}, "change_of": "",
+              "position": 1.0, **changed}  # fmt: skip
+    results = run().assign_attrs(report_columns=json.dumps([column]))  # without its values
+    assert refused_or_made(results, tmp_path) == [2, 2]
 
 
 def test_a_hashed_file_that_netcdf_cannot_read(tmp_path: Path) -> None:

@@ -112,14 +112,18 @@ def ended(number: int) -> int:
 
 
 def slow_down() -> None:
-    """A disk that takes its time between two files, so that half of all blows fall there."""
-    replace = os.replace
+    """A disk that takes its time with each file, so that half of all blows fall there."""
+    replace, remove = os.replace, manifest._remove
 
     def slow(source: Path, target: Path) -> None:
         replace(source, target)
         time.sleep(0.01)
 
-    os.replace = slow
+    def late(path: Path) -> None:
+        time.sleep(0.01)
+        remove(path)
+
+    os.replace, manifest._remove = slow, late
 
 
 def write_many(folder: Path, first: int, count: int = 1000) -> None:

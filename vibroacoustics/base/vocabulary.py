@@ -177,9 +177,8 @@ def _check_variable(name: str, array: xr.DataArray) -> None:
     variable = _look_up(VARIABLES, name)
     if array.dims != variable.dims:
         raise SchemaError(f"{name}: dims are {array.dims}, must be {variable.dims}")
-    if array.attrs.get("units") != variable.units:
-        raise SchemaError(
-            f"{name}: unit is {array.attrs.get('units')!r}, must be {variable.units!r}"
-        )
+    unit = array.attrs.get("units")
+    if not isinstance(unit, str) or unit != variable.units:
+        raise SchemaError(f"{name}: unit is {unit!r}, must be {variable.units!r}")
     if np.iscomplexobj(array.data) != variable.complex_peak:
         raise SchemaError(f"{name}: must {'' if variable.complex_peak else 'not '}be complex")

@@ -14,7 +14,7 @@ import typer
 from ..base.errors import VibroacousticsError
 from . import curve_commands, messages, recording_commands
 from .options import Plugins, load_plugins
-from .progress import progress_bar
+from .progress import progress_on_stderr
 
 if TYPE_CHECKING:
     from ..study.study import Study
@@ -73,7 +73,7 @@ def run_command(
     from . import outputs
 
     study, folder = _study_and_folder(study_file, out, plugin)
-    with _cache(no_cache), progress_bar() as progress:
+    with _cache(no_cache), progress_on_stderr() as progress:
         results = pipeline.run(study, progress)
     written = outputs.write_report(results, folder)
     typer.echo(report.comparison_text(results))
@@ -93,7 +93,7 @@ def radiation_command(
     from . import outputs
 
     study, folder = _study_and_folder(study_file, out, plugin)
-    with _cache(no_cache), progress_bar() as progress:
+    with _cache(no_cache), progress_on_stderr() as progress:
         radiated = pipeline.radiate(study, progress)
     written = outputs.write_radiation(radiated, folder)
     typer.echo(report.radiation_text(radiated))
@@ -136,9 +136,9 @@ def score_command(
     results, _ = outputs.open_run(results_file)
     messages.warn(manifest.mixed(results_file.parent))
     settings = loading.load_study(scoring_of).scoring if scoring_of else None
-    with outputs.refusing(results_file):
-        ranking = scoring.ranking_text(scoring.score(results, settings))
-    typer.echo(ranking)
+    with outputs.naming(scoring_of or results_file):
+        scores = scoring.score(results, settings)
+    typer.echo(scoring.ranking_text(scores))
 
 
 @app.command("cache")

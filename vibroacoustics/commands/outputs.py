@@ -9,7 +9,7 @@ from typing import Final
 import xarray as xr
 
 from .. import report
-from ..base.errors import StorageError, VibroacousticsError
+from ..base.errors import ParameterError, SchemaError, StorageError
 from ..report.figures import Picture
 from ..results import manifest, storage
 from ..results.complete import check_run
@@ -46,26 +46,21 @@ def open_run(path: str | Path) -> tuple[xr.Dataset, str]:
     results, digest = _open_of_this_version(path)
     if "criterion_value" not in results:
         raise StorageError(f"{path}: holds no run: {results.attrs.get('title', 'other results')}")
-    check_run(results, str(path))
+    try:
+        check_run(results)
+        report.check_kept(results)
+    except SchemaError as error:
+        raise StorageError(f"{path}: holds no complete run: {error}; make it again") from None
     return results, digest
 
 
 @contextmanager
-def refusing(path: Path) -> Iterator[None]:
-    """What results that are complete by their names still hold too strangely to show.
-
-    Raises
-    ------
-    StorageError
-        Names the file; its cause is what went wrong.
-    """
+def naming(path: Path) -> Iterator[None]:
+    """Put a file before what is wrong with the values that it holds."""
     try:
         yield
-    except VibroacousticsError:
-        raise
-    except Exception as error:
-        reason = f"{type(error).__name__}: {error}"[:200]
-        raise StorageError(f"{path}: holds values that cannot be shown: {reason}") from error
+    except ParameterError as error:
+        raise ParameterError(f"{path}: {error}") from None
 
 
 def open_orders(path: str | Path) -> xr.Dataset:
@@ -154,8 +149,7 @@ def write_report_again(results_file: Path, folder: Path) -> Path:
     path of the report
     """
     results, digest = open_run(results_file)
-    with refusing(results_file):
-        files = report.render(results, digest)
+    files = report.render(results, digest)
     with manifest.replacing(folder, results_file.name, digest) as staged:
         _stage(files, staged)
     return folder / REPORT_NAME
@@ -163,12 +157,11 @@ def write_report_again(results_file: Path, folder: Path) -> Path:
 
 def older_files(folder: Path) -> list[str]:
     """Files of a report that are of another run or of nobody knows which, a line each."""
-    known = manifest.listed(folder)
+    mixed, known = manifest.mixed(folder), manifest.listed(folder)
     present = {p.relative_to(folder).as_posix() for name in REPORT_FILES for p in folder.glob(name)}
-    return [
-        *manifest.mixed(folder),
-        *(f"{folder / name}: is not of these results" for name in sorted(present - known)),
-    ]
+    named = {line.partition(": ")[0] for line in mixed}
+    strange = [path for name in sorted(present - known) if str(path := folder / name) not in named]
+    return [*mixed, *(f"{path}: is not of these results" for path in strange)]
 
 
 def write_radiation(radiated: xr.Dataset, folder: str | Path) -> Path:

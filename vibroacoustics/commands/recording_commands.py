@@ -10,7 +10,7 @@ import typer
 
 from .option_words import in_own_words
 from .options import LimitsFile, Plugins, load_plugins
-from .progress import progress_bar
+from .progress import progress_on_stderr
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -93,7 +93,7 @@ def orders_command(
     recording = _read(
         recording_file, unit, calibration, channels, sample_rate, from_s, to_s, plugin
     )
-    with progress_bar() as progress:
+    with progress_on_stderr() as progress:
         results = pipeline.analyse_orders(recording, settings, progress)
         results = checking.held_against(results, allowed)
         written = outputs.write_orders(results, folder)

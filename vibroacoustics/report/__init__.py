@@ -14,7 +14,9 @@ from .figures.recorded_maps import speed_map_figures, tracked_order_figures
 from .figures.recorded_orders import recorded_order_figures
 from .html import html
 from .kept_columns import keep_columns
+from .kept_columns import kept as kept_columns
 from .kept_sections import keep_sections
+from .kept_sections import kept as kept_sections
 from .limit_tables import limits_csv, limits_text
 from .markdown import markdown
 from .order_tables import (
@@ -33,6 +35,7 @@ from .study import has_sources
 from .tracked_tables import tracked_csv, tracked_text
 
 __all__ = [
+    "check_kept",
     "compared_order_figures",
     "comparison_of_orders_csv",
     "comparison_of_orders_text",
@@ -83,3 +86,15 @@ def keep(results: xr.Dataset) -> xr.Dataset:
     kept = keep_sections(keep_columns(results))
     known = json.loads(kept.attrs.get("plugins") or "{}")
     return kept.assign_attrs(plugins=canonical_json({**known, **plugins()}))
+
+
+def check_kept(results: xr.Dataset) -> None:
+    """Refuse results whose kept sections or columns are none.
+
+    Raises
+    ------
+    SchemaError
+        Names the attribute.
+    """
+    kept_sections(results)
+    kept_columns(results)

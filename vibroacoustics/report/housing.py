@@ -80,7 +80,8 @@ def block_table(results: xr.Dataset) -> Table | None:
 def _spring_displacement_mm(results: xr.Dataset, option: str) -> Array:
     """At the spring that moves most, peak over a revolution, shape (speed,)."""
     study = parameters(results)
-    suspension = study["options"][option].get("machine", study["machine"])["suspension"]
+    machine = study["options"][option].get("machine") or study["machine"]
+    suspension = machine["suspension"]
     half, low = 0.5 * suspension["springs"]["pitch_m"], suspension["springs_height_m"]
     moved = {}
     for body, height in (("block", low), ("shell", low + suspension["height_m"])):

@@ -9,7 +9,10 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
+from ..base.errors import SchemaError
 from ..base.vocabulary import stamp
+from ..results.complete import read_attribute
+from ..results.run_attributes import Part
 from . import left_out
 from .columns import COLUMNS, Column, Write
 from .study import few_speeds
@@ -40,7 +43,7 @@ def columns_of(results: xr.Dataset) -> ColumnsOf:
             columns += _checked(COLUMNS[name], results, names)
         except Exception as error:
             lines.append(left_out.failure(f"column {name}", error))
-    columns += [column for column in _kept(results) if column.name not in COLUMNS]
+    columns += [column for column in kept(results) if column.name not in COLUMNS]
     absent = left_out.missing(results, "column", ATTRIBUTE)
     lines += [line for name, line in absent.items() if name not in COLUMNS]
     return ColumnsOf(tuple(sorted(columns, key=lambda column: column.position)), tuple(lines))
@@ -53,11 +56,11 @@ def keep_columns(results: xr.Dataset) -> xr.Dataset:
         for column in columns_of(results).columns
         if COLUMNS.origin(column.name) or column.name not in COLUMNS
     ]
-    kept = results.drop_vars(["column_value", "column"], errors="ignore")
+    held = results.drop_vars(["column_value", "column"], errors="ignore")
     if not others:
-        return kept.assign_attrs({ATTRIBUTE: "[]"}) if COLUMNS.origins() else kept
+        return held.assign_attrs({ATTRIBUTE: "[]"}) if COLUMNS.origins() else held
     arrays = [_values(column, results).astype(float) for column in others]
-    kept.attrs[ATTRIBUTE] = json.dumps(
+    held.attrs[ATTRIBUTE] = json.dumps(
         [_as_json(column, values, results) for column, values in zip(others, arrays, strict=True)]
     )
     values = np.stack([array.values for array in arrays])
@@ -65,8 +68,8 @@ def keep_columns(results: xr.Dataset) -> xr.Dataset:
         "column": [column.name for column in others],
         **{dim: results[dim] for dim in _DIMENSIONS},
     }
-    kept["column_value"] = stamp("column_value", values, coords)
-    return kept
+    held["column_value"] = stamp("column_value", values, coords)
+    return held
 
 
 def _checked(column: Column, results: xr.Dataset, names: frozenset[str]) -> list[Column]:
@@ -107,19 +110,46 @@ def _as_json(column: Column, values: xr.DataArray, results: xr.Dataset) -> dict[
     }
 
 
-def _kept(results: xr.Dataset) -> list[Column]:
-    return [
-        Column(
-            entry["name"],
-            partial(_kept_values, entry["name"]),
-            entry["head"],
-            entry["terminal"],
-            _writer(entry["texts"]),
-            entry["change_of"],
-            position=entry["position"],
+class KeptColumn(Part):
+    """A column in the results: head and texts; its values are in `column_value`."""
+
+    name: str
+    head: str | None
+    terminal: str | None
+    texts: dict[str, str]
+    change_of: str
+    position: float
+
+    def column(self) -> Column:
+        """The column with these texts."""
+        values = partial(_kept_values, self.name)
+        return Column(
+            self.name,
+            values,
+            self.head,
+            self.terminal,
+            _writer(self.texts),
+            self.change_of,
+            position=self.position,
         )
-        for entry in json.loads(results.attrs.get(ATTRIBUTE) or "[]")
-    ]
+
+
+def kept(results: xr.Dataset) -> list[Column]:
+    """Columns that the results hold.
+
+    Raises
+    ------
+    SchemaError
+        What they hold is no column, or its values are missing.
+    """
+    if ATTRIBUTE not in results.attrs:
+        return []
+    entries: list[KeptColumn] = read_attribute(results, ATTRIBUTE, list[KeptColumn])
+    names = results["column"].values if "column_value" in results else ()
+    for entry in entries:
+        if entry.name not in names:
+            raise SchemaError(f"column_value: holds no column {entry.name}")
+    return [entry.column() for entry in entries]
 
 
 def _kept_values(name: str, results: xr.Dataset) -> xr.DataArray:

@@ -1,10 +1,13 @@
 """Sections of strangers: guarded, and kept in the results for a report without the plug-in."""
 
 import json
-from typing import Final
+from typing import Any, Final
 
 import xarray as xr
 
+from ..base.errors import SchemaError
+from ..results.complete import read_attribute
+from ..results.run_attributes import Part
 from . import left_out
 from .blocks import Block, Text, from_json, to_json
 from .sections import SECTIONS, Section
@@ -25,7 +28,7 @@ def sections_of(results: xr.Dataset) -> list[Section]:
     ]
     for name in strangers:
         sections += _guarded(SECTIONS[name], results)
-    sections += [section for section in _kept(results) if section.name not in SECTIONS]
+    sections += [section for section in kept(results) if section.name not in SECTIONS]
     for name, line in left_out.missing(results, "section", ATTRIBUTE).items():
         if name not in SECTIONS:
             sections.append(_fixed(name, name, (Text(line, "note"),)))
@@ -34,7 +37,7 @@ def sections_of(results: xr.Dataset) -> list[Section]:
 
 def keep_sections(results: xr.Dataset) -> xr.Dataset:
     """The results with the blocks of every section that is not built in."""
-    kept = [
+    sections = [
         {
             "name": section.name,
             "title": section.title,
@@ -44,9 +47,9 @@ def keep_sections(results: xr.Dataset) -> xr.Dataset:
         for section in sections_of(results)
         if section.name not in SECTIONS or SECTIONS.origin(section.name)
     ]
-    if not kept and not SECTIONS.origins():
+    if not sections and not SECTIONS.origins():
         return results
-    return results.assign_attrs({ATTRIBUTE: json.dumps(kept)})
+    return results.assign_attrs({ATTRIBUTE: json.dumps(sections)})
 
 
 def _guarded(section: Section, results: xr.Dataset) -> list[Section]:
@@ -60,13 +63,35 @@ def _guarded(section: Section, results: xr.Dataset) -> list[Section]:
     return [_fixed(section.name, section.title, blocks, section.position)]
 
 
-def _kept(results: xr.Dataset) -> list[Section]:
-    return [
-        _fixed(
-            entry["name"], entry["title"], from_json(json.dumps(entry["blocks"])), entry["position"]
-        )
-        for entry in json.loads(results.attrs.get(ATTRIBUTE) or "[]")
-    ]
+class KeptSection(Part):
+    """A section in the results: its blocks in place of what made them."""
+
+    name: str
+    title: str
+    position: float
+    blocks: list[dict[str, Any]]
+
+    def section(self) -> Section:
+        """The section with these blocks."""
+        blocks = from_json(json.dumps(self.blocks))
+        return _fixed(self.name, self.title, blocks, self.position)
+
+
+def kept(results: xr.Dataset) -> list[Section]:
+    """Sections that the results hold.
+
+    Raises
+    ------
+    SchemaError
+        What they hold is no section.
+    """
+    if ATTRIBUTE not in results.attrs:
+        return []
+    entries: list[KeptSection] = read_attribute(results, ATTRIBUTE, list[KeptSection])
+    try:
+        return [entry.section() for entry in entries]
+    except ValueError as error:
+        raise SchemaError(f"attribute {ATTRIBUTE}: {str(error).splitlines()[0]}") from None
 
 
 def _fixed(name: str, title: str, blocks: tuple[Block, ...], position: float = 1e9) -> Section:

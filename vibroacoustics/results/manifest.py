@@ -32,11 +32,20 @@ Name = Annotated[str, AfterValidator(_below)]
 
 
 class Entry(BaseModel):
-    """Hash of a dataset, whether it lies in the folder, and the hash of each file made of it."""
+    """A dataset and what was made of it.
+
+    Attributes
+    ----------
+    sha256 : hash of the dataset
+    beside : whether it lies in the folder
+    files : hash of each file made of it
+    older : hash of each file that older ones left, which goes once the new ones are there
+    """
 
     sha256: str
     beside: bool
     files: dict[Name, str]
+    older: dict[Name, str] = {}
 
 
 Manifest = dict[Name, Entry]
@@ -68,16 +77,23 @@ def replacing(folder: Path, dataset: str, dataset_sha256: str = "") -> Iterator[
         digest = dataset_sha256 or hashed.stored_hash(staged / dataset)
         before = _read(folder) or {}
         beside = any((at / dataset).is_file() for at in (staged, folder))
-        entry = Entry(sha256=str(digest), beside=beside, files=made)
+        older = _older(before.get(dataset), made)
+        entry = Entry(sha256=str(digest), beside=beside, files=made, older=older)
         after = dict(sorted({**_without(before, made), dataset: entry}.items()))
         write(staged / MANIFEST_NAME, _MANIFEST.dump_json(after, indent=1) + b"\n")
         with uninterrupted():
             replace_all(staged, folder, first=MANIFEST_NAME)  # killed from here on: it is seen
             if not dataset_sha256:
                 _remove(hashed.hash_path(folder / dataset))  # earlier versions'
-            for name, old in before[dataset].files.items() if dataset in before else ():
-                if name not in made and _hash(folder / name) == old:
+            for name, digest in older.items():
+                if _hash(folder / name) == digest:
                     _remove(folder / name)
+
+
+def _older(before: Entry | None, made: Container[str]) -> dict[str, str]:
+    """Files that are no longer made, those too that a run that was killed did not remove."""
+    known = {**before.older, **before.files} if before else {}
+    return {name: digest for name, digest in known.items() if name not in made}
 
 
 def _remove(path: Path) -> None:
@@ -92,6 +108,7 @@ def _without(manifest: Manifest, names: Container[str]) -> Manifest:
             sha256=entry.sha256,
             beside=entry.beside,
             files={n: h for n, h in entry.files.items() if n not in names},
+            older={n: h for n, h in entry.older.items() if n not in names},
         )
         for dataset, entry in manifest.items()
     }
@@ -126,6 +143,9 @@ def _mixed(folder: Path, dataset: str, entry: Entry) -> Iterator[str]:
         if (there := _hash(folder / name)) != digest:
             state = f"is not that of {dataset}" if there else "is missing"
             yield f"{folder / name}: {state}"
+    for name, digest in entry.older.items():
+        if _hash(folder / name) == digest:
+            yield f"{folder / name}: is of older results than {dataset}"
 
 
 def _hash(path: Path) -> str:

@@ -110,6 +110,7 @@ def _unescape_attributes(results: xr.Dataset) -> xr.Dataset:
     for attrs in _attributes(results):
         for name in str(attrs.pop(ESCAPED, "")).split():
             attrs[name] = attrs[name].encode().decode("unicode_escape")
+            attrs[name].encode()  # refuses half a character, which nothing can write
     return results
 
 

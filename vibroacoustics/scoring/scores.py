@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import xarray as xr
+from pydantic import ValidationError
 
 from ..base.errors import ParameterError
 from ..base.vocabulary import check, stamp
@@ -76,5 +77,9 @@ def _stored_settings(results: xr.Dataset) -> Scoring:
     try:
         stored = json.loads(results.attrs["parameters"])["scoring"]
         return Scoring.model_validate_json(json.dumps(stored))
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ".".join(map(str, ("scoring", *first["loc"])))
+        raise ParameterError(f"results hold no scoring settings: {where}: {first['msg']}") from None
     except (KeyError, ValueError) as error:
         raise ParameterError(f"results hold no scoring settings: {error}") from None

@@ -26,6 +26,7 @@ def cases_of(study: Study, progress: Progress) -> dict[CaseKey, Case]:
     supplies = operation.supply_frequency_hz or (None,) * len(operation.speed_rpm)
     points = list(product(zip(operation.speed_rpm, supplies, strict=True), study.options))
     cases: dict[CaseKey, Case] = {}
+    progress("forces", 0, len(points))
     for number, ((speed, supply), name) in enumerate(points):
         machine = study.options[name].applied_to(study.machine)
         shared = cases.get((speed, REFERENCE_OPTION)) if machine is study.machine else None

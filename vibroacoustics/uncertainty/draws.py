@@ -42,6 +42,7 @@ def of_every_draw(
 
     results: list[Result] = []
     failures: list[str] = []
+    progress("sources", 0, len(draws))
     with ThreadPoolExecutor(processors()) as pool:  # the keys run without the interpreter's lock
         for result, failure in pool.map(solved, draws):
             results.append(result)

@@ -1,5 +1,6 @@
 """`vibroacoustics cache`, `--no-cache` and what `score`, `report` and `doctor` say of a folder."""
 
+import json
 import os
 from pathlib import Path
 
@@ -8,6 +9,7 @@ import xarray as xr
 from support import TINY, assert_refused, command_here, tiny_run
 
 from vibroacoustics import open_results, write_report
+from vibroacoustics.base.hashing import sha256
 from vibroacoustics.results import cache, storage
 
 
@@ -104,6 +106,21 @@ def test_a_mixed_folder_is_named_and_mended(results, tmp_path):
     left = f"{tmp_path}/sources.csv: is not of these results"
     assert (outcome.returncode, outcome.stderr) == (0, f"warning: {left}\n")
     assert command_here("score", tmp_path / "results.nc").stderr == ""
+
+
+def test_a_file_of_an_older_run_is_named_by_readers(results, tmp_path, monkeypatch):
+    """Left by a run that was killed before it removed what it no longer makes."""
+    write_report(results, tmp_path)
+    path, entry = tmp_path / "sources.csv", tmp_path / "files.json"
+    path.write_text("of an older run\n")
+    known = json.loads(entry.read_text())
+    known["results.nc"]["older"] = {"sources.csv": sha256(path.read_bytes())}
+    entry.write_text(json.dumps(known))
+    line = f"{path}: is of older results than results.nc"
+    assert command_here("score", tmp_path / "results.nc").stderr == f"warning: {line}\n"
+    assert command_here("doctor", tmp_path).stdout.count(str(path)) == 1
+    outcome = command_here("report", tmp_path / "results.nc")
+    assert (outcome.returncode, outcome.stderr, path.exists()) == (0, "", False)
 
 
 def test_a_report_that_fails_leaves_the_older_run(results, tmp_path, monkeypatch):

@@ -151,3 +151,35 @@ def test_results_elsewhere_whose_name_is_no_utf_8(tmp_path):
         write(staged / "a.csv", b"a")
     assert manifest.mixed(tmp_path) == []
     assert "a.csv" in manifest.listed(tmp_path)
+
+
+def test_killed_before_what_an_older_run_wrote_is_removed(tmp_path, monkeypatch):
+    """It is named, and the next run removes it; what the user has changed since stays."""
+    make(tmp_path, "first", "a.csv", "b.csv", "c.csv")
+
+    def kill(path: Path) -> None:
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(manifest, "_remove", kill)
+        with pytest.raises(KeyboardInterrupt):
+            make(tmp_path, "second", "a.csv")
+    assert manifest.mixed(tmp_path) == [
+        f"{tmp_path}/b.csv: is of older results than results.nc",
+        f"{tmp_path}/c.csv: is of older results than results.nc",
+    ]
+    (tmp_path / "c.csv").write_text("changed by the user")
+    make(tmp_path, "third", "a.csv")
+    assert manifest.mixed(tmp_path) == []
+    assert names(tmp_path) == {"results.nc", "a.csv", "c.csv", "files.json"}
+
+
+def test_what_other_results_have_written_since_stays(tmp_path, monkeypatch):
+    make(tmp_path, "first", "a.csv", "b.csv")
+    with monkeypatch.context() as patch:
+        patch.setattr(manifest, "_remove", lambda path: None)
+        make(tmp_path, "second", "a.csv")
+    make(tmp_path, "first", "b.csv", dataset="other.nc")
+    make(tmp_path, "third", "a.csv")
+    assert manifest.mixed(tmp_path) == []
+    assert "b.csv" in names(tmp_path)

@@ -1,0 +1,158 @@
+"""Parameters and words of a run as a report reads them: their keys and JSON types.
+
+Further keys are free: machines, options and sources have their own.
+"""
+
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from .run_variables import LARGEST, LARGEST_LEVEL_DB
+
+Level = Annotated[float, Field(ge=-LARGEST_LEVEL_DB, le=LARGEST_LEVEL_DB)]
+Number = Annotated[float, Field(ge=-LARGEST, le=LARGEST)]
+Positive = Annotated[float, Field(gt=1.0 / LARGEST, le=LARGEST)]
+
+
+class Part(BaseModel):
+    """A JSON object with these keys at least."""
+
+    model_config = ConfigDict(strict=True, allow_inf_nan=False)
+
+
+class Noise(Part):
+    level_dba: Level
+    speed_rpm: Number
+    distance_m: Number
+
+
+class Erratum(Part):
+    item: str
+    printed: str
+    finding: str
+
+
+class RigidBody(Part):
+    mass_kg: Positive
+    inertia_xx_kg_m2: Positive
+    inertia_yy_kg_m2: Positive
+    inertia_zz_kg_m2: Positive
+
+
+class Springs(Part):
+    pitch_m: Number
+
+
+class Suspension(Part):
+    block: RigidBody
+    springs: Springs
+    springs_height_m: Number
+    height_m: Number
+
+
+class Stopping(Part):
+    shift_rad: Number
+    shift_duration_s: Number
+    gas_share_ratio: Number
+
+
+class RedesignedMachine(Part):
+    suspension: Suspension | None = None
+
+
+class Machine(RedesignedMachine):
+    name: str
+    overall_noise: Noise
+    errata: list[Erratum]
+    housing: RigidBody
+    stopping: Stopping | None = None
+
+
+class Option(Part):
+    kind: str
+    machine: RedesignedMachine | None = None
+
+
+class Position(Part):
+    x_m: Number
+    y_m: Number
+    height_m: Number
+
+
+class Record(Part):
+    field: str
+    value: str
+    unit: str
+    lowest: Number | None
+    highest: Number | None
+    source: str
+    file: str
+
+
+class DrawnRange(Part):
+    table: str
+    field: str
+    independent_of: list[str] = []
+
+
+class HeldRange(Part):
+    table: str
+    field: str
+    reason: str
+    lowest: Number
+    highest: Number
+
+
+class PublishedScores(Part):
+    source: str
+
+
+class Scoring(Part):
+    random_weightings: int
+    published: PublishedScores | None = None
+
+
+class Radiation(Part):
+    maximum_frequency_hz: Number | None = None
+
+
+class Parameters(Part):
+    """Attribute `parameters`."""
+
+    title: str
+    source_file: str
+    catalogue_receiver: str
+    machine: Machine
+    options: dict[str, Option]
+    receivers: dict[str, Position]
+    records: list[Record]
+    ranges: list[DrawnRange] | None = None
+    held_ranges: list[HeldRange] = []
+    scoring: Scoring
+    radiation: Radiation
+
+
+class Words(Part):
+    """Attribute `words`."""
+
+    axes: str
+    orders: str
+    leaves_out: list[str]
+    labels: dict[str, str]
+    shell_bends: bool
+    units: dict[str, str] = {}
+    source_figures: list[str]
+    sources: dict[str, str]
+    sentences: dict[str, list[str]]
+
+
+class Plugin(Part):
+    file: str
+
+
+JSON_ATTRIBUTES: dict[str, Any] = {
+    "plugins": dict[str, Plugin],
+    "package_versions": dict[str, str],
+    "radiation": dict[str, Any],
+}
+"""Further attributes, where they are there."""
