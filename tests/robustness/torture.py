@@ -10,6 +10,7 @@ try ends with a look at what lies on the disk:
 """
 
 import argparse
+import functools
 import os
 import random
 import resource
@@ -23,6 +24,7 @@ from collections import Counter
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
+from types import FrameType
 from typing import Final
 
 import numpy as np
@@ -37,6 +39,8 @@ KINDS: Final = ("lost", "wrong", "traceback", "left")
 NAMES: Final = ("report.html", "comparison.csv", "figures/a.png")
 FAILED: Final = 70
 """Exit code of a child whose error is no `StorageError`."""
+INTERRUPTED: Final = ("files.py", "lock.py", "interruption.py", "manifest.py", "contextlib.py")
+"""Files of code in which signals fall at every step."""
 Trial = Callable[[Path, random.Random], list[str]]
 """From an empty folder to what went wrong, each word one of `KINDS` or followed by its reason."""
 
@@ -174,6 +178,50 @@ def signal_a_writer(folder: Path, chance: random.Random) -> list[str]:
     return [*bad, *left(folder), *after(folder)]
 
 
+def signal_at(step: int) -> list[int]:
+    """Send SIGTERM to this process at a step of Python, 0 for none; how many there were."""
+    steps = [0]
+
+    def traced(frame: FrameType, event: str, _: object) -> object:
+        frame.f_trace_opcodes = True
+        if event == "opcode":
+            steps[0] += 1
+            if steps[0] == step:
+                os.kill(os.getpid(), signal.SIGTERM)
+        return traced if frame.f_code.co_filename.endswith(INTERRUPTED) else None
+
+    sys.settrace(traced)
+    return steps
+
+
+@functools.cache
+def steps_of_a_run() -> int:
+    """In which a signal can come while a run is written."""
+    with tempfile.TemporaryDirectory() as folder:
+        before = sys.gettrace()
+        steps = signal_at(0)
+        write_run(Path(folder), 1)
+        sys.settrace(before)
+    return steps[0]
+
+
+def signal_at_a_step(folder: Path, chance: random.Random) -> list[str]:
+    """SIGTERM between any two steps of Python in the code that writes."""
+    write_run(folder, 0)
+    step = chance.randrange(1, steps_of_a_run())
+
+    def work() -> None:
+        with ended_by_signals():
+            signal_at(step)
+            write_run(folder, 1)
+            sys.settrace(None)
+
+    code = ended(child(work, os.open(os.devnull, os.O_WRONLY)))
+    bad = [] if code == 128 + signal.SIGTERM else [f"traceback: code {code} at step {step}"]
+    bad += [f"wrong: {line}" for line in manifest.mixed(folder)]
+    return [*bad, *left(folder), *after(folder)]
+
+
 def fill_the_disk(folder: Path, chance: random.Random) -> list[str]:
     """No file may be longer than so much: the run is whole, or the older one is."""
     write_run(folder, 0)
@@ -282,6 +330,7 @@ def damage(path: Path, chance: random.Random) -> None:
 TRIALS: Final[tuple[Trial, ...]] = (
     kill_a_writer,
     signal_a_writer,
+    signal_at_a_step,
     fill_the_disk,
     fill_the_disk_of_the_cache,
     read_beside_writers,

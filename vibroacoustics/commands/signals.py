@@ -11,6 +11,8 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Final
 
+from ..results.interruption import clear_up
+
 _SIGNALS: Final = (signal.SIGINT, signal.SIGTERM, signal.SIGALRM)
 _AGAIN_S: Final = 2.0
 """A library may swallow the exception, or wait for its threads: then it is raised once more."""
@@ -41,6 +43,7 @@ def ended_by_signals() -> Iterator[None]:
         _ignore()
         if not came:
             raise
+        clear_up()
         print(f"ended by {signal.Signals(came[0]).name}", file=sys.stderr, flush=True)
         os._exit(128 + came[0])  # worker threads are not waited for
 

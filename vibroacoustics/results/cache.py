@@ -9,7 +9,7 @@ from typing import Final, NamedTuple
 import platformdirs
 
 from .hashed import hash_path
-from .lock import acquire, is_held, release
+from .lock import is_held, taken
 
 DEFAULT_LIMIT_BYTES: Final = 2_000_000_000
 LIMIT_NAME: Final = "limit_bytes"
@@ -108,12 +108,8 @@ def _remove_leftovers(at: Path) -> None:
             continue
         if path == hash_path(entry) and entry.exists():
             continue
-        if (descriptor := acquire(lock)) is None:
-            continue
-        try:
-            if path.is_dir():
+        with taken(lock) as held:
+            if held and path.is_dir():
                 shutil.rmtree(path, ignore_errors=True)
-            elif path != lock:
+            elif held and path != lock:
                 path.unlink(missing_ok=True)
-        finally:
-            release(lock, descriptor)

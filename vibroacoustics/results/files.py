@@ -6,13 +6,14 @@ before stays as it is. A folder has one writer at a time.
 
 import os
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from functools import partial
 from pathlib import Path
 from typing import Final
 
 from ..base.errors import StorageError
-from .interruption import uninterrupted
+from .interruption import cleared, uninterrupted
 from .lock import locked
 
 STAGING_NAME: Final = ".writing"
@@ -32,31 +33,29 @@ def only_writer(folder: Path) -> Iterator[Path]:
     """
     made = [path for path in (folder, *folder.parents) if not path.exists()]
     with ExitStack() as stack:
-        try:
-            with naming(folder):
-                folder.mkdir(parents=True, exist_ok=True)
-                stack.enter_context(locked(folder / LOCK_NAME, str(folder)))
-            with staging(folder / STAGING_NAME) as staged:
-                yield staged
-        except BaseException:
-            stack.close()
-            with suppress(OSError):  # others wrote something there
-                for path in made:
-                    path.rmdir()
-            raise
+        stack.enter_context(cleared(partial(_remove_empty, made)))
+        with naming(folder):
+            folder.mkdir(parents=True, exist_ok=True)
+            stack.enter_context(locked(folder / LOCK_NAME, str(folder)))
+        with staging(folder / STAGING_NAME) as staged:
+            yield staged
+
+
+def _remove_empty(folders: Iterable[Path]) -> None:
+    with suppress(OSError):  # written to
+        for path in folders:
+            path.rmdir()
 
 
 @contextmanager
 def staging(staged: Path) -> Iterator[Path]:
     """An empty folder, which is gone in the end; its lock is held."""
-    shutil.rmtree(staged, ignore_errors=True)  # of a writer that was killed
-    try:
+    remove = partial(shutil.rmtree, staged, ignore_errors=True)
+    remove()  # of a writer that was killed
+    with cleared(remove):
         with naming(staged.parent):
             staged.mkdir()
         yield staged
-    finally:
-        with uninterrupted():
-            shutil.rmtree(staged, ignore_errors=True)
 
 
 def write(path: Path, content: bytes) -> None:

@@ -1,9 +1,9 @@
-"""Short steps that a signal must not cut in two."""
+"""Short steps that a signal must not cut in two, and what must be cleared up after one."""
 
 import signal
 import threading
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from typing import Final
 
 _HELD_BACK: Final = (signal.SIGINT, signal.SIGTERM, signal.SIGALRM)
@@ -28,3 +28,29 @@ def uninterrupted() -> Iterator[None]:
             signal.signal(number, handler)
         for caught in dict.fromkeys(came):
             signal.raise_signal(caught)
+
+
+_CLEARING: Final[dict[object, Callable[[], object]]] = {}
+
+
+@contextmanager
+def cleared(clear: Callable[[], object]) -> Iterator[None]:
+    """Call `clear` in the end, however it comes.
+
+    A signal that comes just before it is called cuts it off; `clear_up` then does it.
+    """
+    key = object()
+    _CLEARING[key] = clear
+    try:
+        yield
+    finally:
+        with uninterrupted():
+            del _CLEARING[key]
+            clear()
+
+
+def clear_up() -> None:
+    """Do what a signal cut off, before the process ends."""
+    for clear in reversed(list(_CLEARING.values())):
+        with suppress(Exception):
+            clear()

@@ -14,10 +14,11 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from datetime import datetime
+from functools import partial
 from pathlib import Path
 from typing import Final
 
-from .interruption import uninterrupted
+from .interruption import cleared, uninterrupted
 
 PATIENCE_S: Final = 0.3
 """A wait that is shorter is not worth a line."""
@@ -41,39 +42,48 @@ def locked(path: Path, what: str) -> Iterator[None]:
         The file cannot be made.
     """
     begin, announced = time.monotonic(), False
-    while (descriptor := acquire(path)) is None:
+    while True:
+        with taken(path) as held:
+            if held:
+                yield
+                return
         if not announced and time.monotonic() - begin > PATIENCE_S:
             warnings.warn(f"{what}: waiting for {holder(path)}", stacklevel=3)
             announced = True
         time.sleep(_PAUSE_S)
-    try:
-        yield
-    finally:
-        release(path, descriptor)
 
 
-def acquire(path: Path) -> int | None:
-    """Descriptor of the lock; None while another holds it."""
+@contextmanager
+def taken(path: Path) -> Iterator[bool]:
+    """Hold a lock where no other holds it; whether it is held."""
+    descriptors: list[int] = []
+    with cleared(partial(_release, path, descriptors)):
+        _acquire(path, descriptors)
+        yield bool(descriptors)
+
+
+def _acquire(path: Path, descriptors: list[int]) -> None:
+    """Add the descriptor of the lock, but while another holds it."""
     with uninterrupted():
         while True:
             descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
             if not _take(descriptor):
                 os.close(descriptor)
-                return None
+                return
             if _is_at(path, descriptor):
                 break
             os.close(descriptor)  # who held it has taken the file away meanwhile
+        descriptors.append(descriptor)
         with suppress(OSError):  # a full disk: who waits then learns less
             os.truncate(descriptor, 0)
             os.write(descriptor, json.dumps(_this_process()).encode())
-    return descriptor
 
 
-def release(path: Path, descriptor: int) -> None:
+def _release(path: Path, descriptors: list[int]) -> None:
     """Take the file away, then give the lock back."""
-    with uninterrupted():
+    while descriptors:
         path.unlink(missing_ok=True)
-        os.close(descriptor)
+        os.close(descriptors.pop())
 
 
 def is_held(path: Path) -> bool:

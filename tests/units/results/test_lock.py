@@ -37,7 +37,8 @@ def test_the_file_is_there_while_the_lock_is_held(tmp_path):
     with lock.locked(path, "it"):
         assert lock.is_held(path)
         assert f"process {os.getpid()} on " in lock.holder(path)
-        assert lock.acquire(path) is None
+        with lock.taken(path) as held:
+            assert not held
     assert not path.exists()
     assert not lock.is_held(path)
 
