@@ -263,7 +263,9 @@ def _hashes_of_files(settings: RadiationSettings) -> dict[str, str]:
 
 def _source_hash() -> str:
     """Hash of this package's source: a change of the solver never meets an old cache."""
-    return _hash(b"".join(file.read_bytes() for file in sorted(Path(__file__).parent.glob("*.py"))))
+    return _hash(
+        b"".join(file.read_bytes() for file in sorted(Path(__file__).parent.rglob("*.py")))
+    )
 
 
 def _hash_of_velocity(motion: SurfaceMotion, points: Array) -> str:
