@@ -1,0 +1,125 @@
+"""Few frequencies solved, the others interpolated, with an error that is estimated.
+
+T exp(j omega d)/(j omega), with d the travel time from the body and its image to the receiver, is
+smooth and conjugate symmetric about 0 Hz: splines of fifth degree run through it on both sides.
+Leaving out every other solved frequency shows the error of splines twice as coarse there.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from scipy.interpolate import make_interp_spline
+
+from ..arrays import Array, ComplexArray, IndexArray
+
+TOLERANCE: Final = 1e-3
+"""Largest estimated error of interpolation over each pattern's largest pressure: 0.01 dB."""
+_FIRST_HZ: Final = 200.0
+"""Distance of the frequencies solved first."""
+_GAIN: Final = 32.0
+"""Error at a solved frequency that is left out over that beside it, about; 2⁶ for fine steps."""
+_DEGREE: Final = 5
+
+Solve = Callable[[IndexArray], tuple[ComplexArray, Array]]
+"""From indices of tabulated frequencies to pressures and their errors, (index, receiver, pattern)."""
+
+
+@dataclass(frozen=True)
+class Sampled:
+    """Pressures at all tabulated frequencies, (frequency, receiver, pattern)."""
+
+    pressure: ComplexArray
+    error: Array
+    """Estimated error: of the meshes, and of the interpolation where it is no solved frequency."""
+    solved: IndexArray
+    """Indices of the solved frequencies."""
+
+
+def sample(table_hz: Array, delay_s: Array, solve: Solve) -> Sampled:
+    """Solve as few of evenly spaced frequencies as `TOLERANCE` allows; `delay_s` (receiver,)."""
+    solved = _first(table_hz)
+    pressure, error = solve(solved)
+    while True:
+        smooth = pressure / _trend(table_hz[solved], delay_s)
+        beside = _left_out(table_hz[solved], smooth) / _GAIN
+        beside *= np.abs(_trend(table_hz[solved], delay_s))
+        # Nor do more frequencies help where the meshes' error is larger.
+        allowed = TOLERANCE * np.abs(pressure).max(axis=1) + error.max(axis=1)
+        wrong = np.any(beside.max(axis=1) > allowed, axis=1)
+        more = _between(solved, np.flatnonzero(wrong))
+        if more.size == 0:
+            return _everywhere(table_hz, delay_s, solved, smooth, error, beside)
+        new_pressure, new_error = solve(more)
+        order = np.argsort(np.concatenate([solved, more]))
+        solved = np.concatenate([solved, more])[order]
+        pressure = np.concatenate([pressure, new_pressure])[order]
+        error = np.concatenate([error, new_error])[order]
+
+
+def _first(table_hz: Array) -> IndexArray:
+    """Even steps, half and a quarter of the first one, and both ends."""
+    last = table_hz.size - 1
+    step = max(1, round(_FIRST_HZ / table_hz[0]))
+    below = [step // 4 - 1, step // 2 - 1]
+    steps = [0, *(i for i in below if i > 0), *range(step - 1, last, step), last]
+    return np.unique(np.array(steps, dtype=np.intp))
+
+
+def _between(solved: IndexArray, wrong: IndexArray) -> IndexArray:
+    """Middles of the intervals on both sides of some solved frequencies."""
+    neighbours = np.unique(np.concatenate([wrong - 1, wrong]))
+    neighbours = neighbours[(neighbours >= 0) & (neighbours < solved.size - 1)]
+    low, high = solved[neighbours], solved[neighbours + 1]
+    middles: IndexArray = ((low + high) // 2)[high - low > 1]
+    return middles
+
+
+def _trend(frequency_hz: Array, delay_s: Array) -> ComplexArray:
+    """Delay and growth that are taken out: j omega exp(-j omega d), (frequency, receiver, 1)."""
+    omega = 2.0 * np.pi * frequency_hz[:, None, None]
+    trend: ComplexArray = 1j * omega * np.exp(-1j * omega * delay_s[:, None])
+    return trend
+
+
+def _spline(frequency_hz: Array, smooth: ComplexArray, wanted_hz: Array) -> ComplexArray:
+    """Through both halves of the spectrum."""
+    both = np.concatenate([-frequency_hz[::-1], frequency_hz])
+    values = np.concatenate([smooth[::-1].conj(), smooth])
+    degree = min(_DEGREE, both.size - 1)
+    result: ComplexArray = make_interp_spline(both, values, k=degree - 1 + degree % 2)(wanted_hz)
+    return result
+
+
+def _left_out(frequency_hz: Array, smooth: ComplexArray) -> Array:
+    """What every solved frequency but the last errs by where it is left out with every other."""
+    error = np.zeros(smooth.shape)
+    for start in (0, 1):
+        out = np.arange(start, frequency_hz.size - 1, 2)
+        kept = np.setdiff1d(np.arange(frequency_hz.size), out)
+        estimate = _spline(frequency_hz[kept], smooth[kept], frequency_hz[out])
+        error[out] = np.abs(estimate - smooth[out])
+    if frequency_hz.size > 1:
+        error[-1] = error[-2]
+    return error
+
+
+def _everywhere(
+    table_hz: Array,
+    delay_s: Array,
+    solved: IndexArray,
+    smooth: ComplexArray,
+    error: Array,
+    beside: Array,
+) -> Sampled:
+    """Interpolated pressures; the larger error of both solved neighbours."""
+    solved_hz = table_hz[solved]
+    pressure = _spline(solved_hz, smooth, table_hz) * _trend(table_hz, delay_s)
+    upper = np.minimum(np.searchsorted(solved, np.arange(table_hz.size)), solved.size - 1)
+    lower = np.where(solved[upper] > np.arange(table_hz.size), upper - 1, upper)
+    share = (table_hz / solved_hz[lower])[:, None, None]
+    total = share * np.maximum(error[lower], error[upper])
+    between = (lower != upper)[:, None, None]
+    total = total + between * share * np.maximum(beside[lower], beside[upper])
+    return Sampled(pressure, total, solved)
