@@ -1,5 +1,6 @@
 """The machine side on two grids: what every pattern sends through the box, and how sure it is."""
 
+import itertools
 import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -27,6 +28,7 @@ COARSENING: Final = _UNIT_CELLS / (_UNIT_CELLS - 1)
 """Spacing of the coarser grid over that of the finer one."""
 EXTRAPOLATION: Final = 1.0 / (COARSENING**2 - 1.0)
 """Richardson: the finer grid errs by this share of the difference at second order."""
+_POINTS_PER_TASK: Final = 16
 
 Result = TypeVar("Result")
 
@@ -81,6 +83,27 @@ class MachineSide:
         )
         correction = EXTRAPOLATION * (fine - coarse)
         return fine + correction, correction
+
+    def clear(self, points: Array) -> NDArray[np.bool_]:
+        """Whether points (point, 3) lie outside the boxes and in front of every wall."""
+        return outside(self.near, self.walls, points)
+
+    def at_points(
+        self, points: Array, chosen: slice, name: str, progress: Progress
+    ) -> ComplexArray:
+        """Extrapolated pressure at points (point, 3), (point, pattern, frequency), Pa."""
+        shape = (len(points), len(self.fields[0]), self.frequency_hz[chosen].size)
+        result = np.zeros(shape, dtype=complex)
+        parts = np.array_split(np.arange(len(points)), -(-len(points) // _POINTS_PER_TASK))
+        done = itertools.count(1)
+
+        def fill(indices: NDArray[np.intp]) -> None:
+            for index in indices:
+                result[index] = self.pressures(points[index], chosen)[0]
+            progress(name, next(done), len(parts))
+
+        in_threads([partial(fill, part) for part in parts])
+        return result
 
     def joined(self, green: BoxField, chosen: slice = slice(None)) -> ComplexArray:
         """Pressure (pattern, frequency), Pa, where a Green's function on the finer box leads."""

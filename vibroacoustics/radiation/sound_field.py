@@ -1,9 +1,8 @@
 """The sound field besides the microphones: measurement surface, map, sphere of directions."""
 
-import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
-from typing import Any, Final
+from typing import Any, Final, Protocol
 
 import numpy as np
 import xarray as xr
@@ -24,10 +23,8 @@ from .arrangements import (
     sound_power_points,
 )
 from .arrays import Array, ComplexArray
-from .machine_side import MachineSide, in_threads, outside
+from .mirrors import Mirror
 from .scene import Scene
-
-_POINTS_PER_TASK: Final = 16
 
 
 @dataclass(frozen=True)
@@ -63,8 +60,28 @@ class SoundField:
 NO_SOUND_FIELD: Final = SoundField()
 
 
+class Side(Protocol):
+    """A machine side: sound pressure of every pattern, in the room of its walls."""
+
+    @property
+    def frequency_hz(self) -> Array:
+        """Frequencies of the table and, after them, those of the lines."""
+
+    @property
+    def walls(self) -> Sequence[Mirror]:
+        """Of the room."""
+
+    def clear(self, points: Array) -> NDArray[np.bool_]:
+        """Whether pressures at points (point, 3) can be had."""
+
+    def at_points(
+        self, points: Array, chosen: slice, name: str, progress: Progress
+    ) -> ComplexArray:
+        """Pressure at points (point, 3), (point, pattern, frequency), Pa."""
+
+
 def elsewhere(
-    side: MachineSide,
+    side: Side,
     surroundings: Scene,
     floor_level_m: float,
     sound_field: SoundField,
@@ -131,27 +148,20 @@ def _map_places(points: Array) -> dict[str, Any]:
 
 
 def _at_points(
-    side: MachineSide, points: Array, chosen: slice, name: str, progress: Progress
+    side: Side, points: Array, chosen: slice, name: str, progress: Progress
 ) -> ComplexArray:
     """Pressures (..., dof, frequency) at points (..., 3); not a number in the box, behind walls."""
     flat = points.reshape(-1, 3)
     dofs, frequencies = len(RIGID_BODY_DOFS), side.frequency_hz[chosen].size
     result = np.full((flat.shape[0], dofs, frequencies), np.nan, dtype=complex)
-    clear = np.flatnonzero(outside(side.near, side.walls, flat))
-    parts = np.array_split(clear, -(-clear.size // _POINTS_PER_TASK)) if clear.size else []
-    done = itertools.count(1)
-
-    def fill(indices: NDArray[np.intp]) -> None:
-        for index in indices:
-            result[index] = side.pressures(flat[index], chosen)[0][:dofs]
-        progress(name, next(done), len(parts))
-
-    in_threads([partial(fill, part) for part in parts])
+    clear = np.flatnonzero(side.clear(flat))
+    if clear.size:
+        result[clear] = side.at_points(flat[clear], chosen, name, progress)[:, :dofs]
     return result.reshape(*points.shape[:-1], dofs, frequencies)
 
 
-def _check_surface(points: Array, surroundings: Scene, side: MachineSide) -> None:
-    wrong = points[~outside(side.near, side.walls, points)]
+def _check_surface(points: Array, surroundings: Scene, side: Side) -> None:
+    wrong = points[~side.clear(points)]
     if wrong.size:
         check_outside("sound_power", wrong[0], surroundings.body)
         raise ParameterError(

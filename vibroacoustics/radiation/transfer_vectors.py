@@ -3,16 +3,13 @@
 import hashlib
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from functools import partial
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
-import psutil
 import xarray as xr
 
 from ..base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
-from ..base.errors import ParameterError
 from ..base.progress import Progress, no_progress
 from ..base.regular_file import read_bytes
 from ..base.vocabulary import RIGID_BODY_DOFS, check, stamp
@@ -24,29 +21,14 @@ from . import room_grid
 from .arrangements import check_outside
 from .arrays import Array, ComplexArray
 from .bodies import LARGEST_FILE_BYTES
-from .box import Box, BoxField
+from .by_cut_cells import ByCutCells
 from .interpolation import interpolate
 from .kwave import kwave_version
-from .machine_side import (
-    COARSENING,
-    MachineSide,
-    check_memory,
-    in_threads,
-    near_fields,
-    outside,
-    processors,
-)
-from .near_field import NearField
 from .patterns import SurfaceMotion, rigid_body, surface_motion
-from .room_green import check_receiver, green_difference_db, kwave_green, memory_bytes
-from .scene import Scene, file_patterns, machine_body, position_m, scene
+from .revolution.method import by_revolution
+from .scene import file_patterns, machine_body, position_m, scene
 from .sound_field import NO_SOUND_FIELD, SoundField, elsewhere
-
-_SHARE_OF_MEMORY: Final = 0.7
-_SOLVERS: Final = {
-    "k-wave": "cut cells, k-wave-python {}",
-    "closed-form": "cut cells, image sources",
-}
+from .task import Task
 
 
 def transfer_vectors(
@@ -83,123 +65,25 @@ def transfer_vectors(
         *(surface_motion(motion) for motion in motions),
     ]
     positions = {name: position_m(shell, receiver) for name, receiver in receivers.items()}
-    table = frequencies_hz(settings)
-    near = near_fields(surroundings, settings.near_field_spacing_m, settings.maximum_frequency_hz)
-    patterns = [*map(rigid_body, RIGID_BODY_DOFS), *extra]
-    frequency_hz = np.concatenate([table, sound_field.line_frequency_hz])
-    check_memory(near, len(patterns), frequency_hz.size)
-    _check_receivers(surroundings, near, positions, settings, table.size)
-    side = MachineSide(surroundings, near, patterns, frequency_hz, progress)
-    microphones = _at_receivers(side, positions, settings, table, progress)
-    dataset = _labelled(microphones, positions, table, [pattern.name for pattern in extra])
-    dataset = dataset.merge(
-        elsewhere(side, surroundings, shell.floor_z_m, sound_field, table.size, progress)
-    )
-    grid = near[0].grid
-    return check(dataset).assign_attrs(
-        solver=_SOLVERS[settings.room_solver].format(kwave_version()),
-        room_solver=settings.room_solver,
-        surroundings=settings.surroundings.model_dump_json(),
-        near_field_cells=" x ".join(map(str, grid.shape)),
-        near_field_spacing_m=grid.spacing_m,
-        near_field_time_step_s=grid.time_step_s,
-        near_field_extrapolation=f"from {COARSENING:g} times the spacing, second order",
-        room_time_step_courant_number=room_grid.COURANT_NUMBER,
-        neglected="echoes of absorbing or distant walls, scattered again by the shell",
-    )
-
-
-def _check_receivers(
-    surroundings: Scene,
-    near: Sequence[NearField],
-    positions: Mapping[str, Array],
-    settings: RadiationSettings,
-    number: int,
-) -> None:
-    """Refuse what cannot be computed before anything is computed."""
-    walls = surroundings.walls
     for name, position in positions.items():
         check_outside(f"receivers.{name}", position, surroundings.body)
-        if settings.room_solver == "k-wave":
-            check_receiver(name, position, near[0].box, settings.room_spacing_m, walls, number)
-        if not outside(near, walls, position[None, :])[0]:
-            raise ParameterError(
-                f"receivers.{name}: stands behind a wall or within "
-                f"{1e3 * near[-1].margin_m:.0f} mm of the machine or its cabinet"
-            )
-
-
-def _at_receivers(
-    side: MachineSide,
-    positions: Mapping[str, Array],
-    settings: RadiationSettings,
-    table: Array,
-    progress: Progress,
-) -> dict[str, Array | ComplexArray]:
-    """Pressures (receiver, pattern, frequency) and errors; with k-Wave its check besides."""
-    chosen = slice(0, table.size)
-    closed, corrections = (
-        np.array(part)
-        for part in zip(
-            *in_threads([partial(side.pressures, p, chosen) for p in positions.values()]),
-            strict=True,
-        )
+    table = frequencies_hz(settings)
+    patterns = [*map(rigid_body, RIGID_BODY_DOFS), *extra]
+    frequency_hz = np.concatenate([table, sound_field.line_frequency_hz])
+    task = Task(surroundings, patterns, positions, settings, frequency_hz, table.size)
+    method = by_revolution(shell, task) if settings.revolution else ByCutCells(task, progress)
+    dataset = _labelled(
+        method.at_receivers(progress), positions, table, [pattern.name for pattern in extra]
     )
-    error = np.abs(corrections)
-    if settings.room_solver == "closed-form":
-        return {"transfer_vector": closed, "transfer_vector_error": error}
-    greens = _room_greens(side.near[0].box, positions, side, settings, table, progress)
-    difference = [
-        green_difference_db(green, side.green(position, chosen))
-        for position, green in zip(positions.values(), greens, strict=True)
-    ]
-    return {
-        "transfer_vector": corrections + [side.joined(green, chosen) for green in greens],
-        "transfer_vector_error": error,
-        "transfer_vector_closed_form": closed,
-        "green_difference": np.array(difference),
-    }
-
-
-def _room_greens(
-    box: Box,
-    positions: Mapping[str, Array],
-    side: MachineSide,
-    settings: RadiationSettings,
-    table: Array,
-    progress: Progress,
-) -> list[BoxField]:
-    """Green's functions of the receivers by k-Wave, several at a time."""
-    workers = _workers(box, positions, settings, side, table.size)
-    threads = max(1, processors() // workers)
-    arguments = (table, settings.maximum_frequency_hz, settings.room_spacing_m, side.walls)
-    return in_threads(
-        [
-            partial(kwave_green, box, position, *arguments, name, progress, threads)
-            for name, position in positions.items()
-        ],
-        workers,
+    dataset = dataset.merge(
+        elsewhere(method.side, surroundings, shell.floor_z_m, sound_field, table.size, progress)
     )
-
-
-def _workers(
-    box: Box,
-    positions: Mapping[str, Array],
-    settings: RadiationSettings,
-    side: MachineSide,
-    frequencies: int,
-) -> int:
-    """How many k-Wave runs the processors and the memory carry at a time."""
-    largest = max(
-        memory_bytes(
-            room_grid.room_grid(position, box, settings.room_spacing_m, side.walls),
-            box,
-            frequencies,
-        )
-        for position in positions.values()
+    return check(dataset).assign_attrs(
+        room_solver=settings.room_solver,
+        surroundings=settings.surroundings.model_dump_json(),
+        room_time_step_courant_number=room_grid.COURANT_NUMBER,
+        **method.attributes(),
     )
-    affordable = int(_SHARE_OF_MEMORY * psutil.virtual_memory().available / largest)
-    return max(1, min(processors(), len(positions), affordable))
 
 
 def interpolate_transfer_vector(

@@ -15,6 +15,9 @@ class RadiationSettings(Parameters):
 
     body: RadiatingBody = ShellBody()
     surroundings: Surroundings = Surroundings()
+    method: Literal["automatic", "revolution", "cut-cells"] = "cut-cells"
+    """How the machine's wall radiates: boundary elements on the meridian of a shell or a sphere in
+    free field or over the floor, or cut cells; automatic takes the first where it can."""
     room_solver: Literal["k-wave", "closed-form"] = "k-wave"
     """How sound travels from the box to the receivers; the closed form is for very many."""
     near_field_spacing_m: float = Field(default=0.006, ge=0.002, le=0.05)
@@ -25,10 +28,32 @@ class RadiationSettings(Parameters):
     frequency_step_hz: float = Field(default=25.0, ge=1.0, le=100.0)
     """Spacing of the frequencies at which the transfer vectors are tabulated."""
 
+    @property
+    def revolution(self) -> bool:
+        """Whether boundary elements on the meridian take the place of cut cells."""
+        return self.method == "revolution" or (self.method == "automatic" and self._turned)
+
+    @property
+    def _turned(self) -> bool:
+        """Whether body and surroundings are of revolution about the shell's axis."""
+        alone = not self.surroundings.walls and self.surroundings.cabinet is None
+        return alone and self.body.kind in ("shell", "sphere")
+
+    @model_validator(mode="after")
+    def _method_fits(self) -> "RadiationSettings":
+        if self.method == "revolution" and not self._turned:
+            raise ValueError(
+                'method = "revolution": needs a body of kind shell or sphere, no walls and no '
+                'cabinet; take "automatic" or "cut-cells"'
+            )
+        return self
+
     @model_validator(mode="after")
     def _grids_resolve_the_wave(self) -> "RadiationSettings":
         shortest_wave_m = SPEED_OF_SOUND_M_PER_S / self.maximum_frequency_hz
         for name, nodes in (("near_field_spacing_m", 8.0), ("room_spacing_m", 3.5)):
+            if name == "near_field_spacing_m" and self.revolution:
+                continue
             largest = shortest_wave_m / nodes
             if getattr(self, name) > largest:
                 raise ValueError(

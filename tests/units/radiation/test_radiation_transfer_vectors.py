@@ -34,6 +34,7 @@ RECEIVERS = {
     "front": Receiver(x_m=0.0, y_m=0.9, height_m=0.25),
 }
 SETTINGS = RadiationSettings(
+    method="cut-cells",
     near_field_spacing_m=0.035, room_spacing_m=0.06, maximum_frequency_hz=1000.0,
     frequency_step_hz=50.0,
 )  # fmt: skip
@@ -198,7 +199,10 @@ def test_receiver_too_close_is_refused_before_any_run():
 def test_receiver_in_the_coarser_grids_box_is_refused_before_any_run():
     """Its box is wider where three cells are more than 40 mm; inside it the join gives nothing."""
     settings = RadiationSettings(
-        near_field_spacing_m=0.05, room_spacing_m=0.005, maximum_frequency_hz=800.0
+        method="cut-cells",
+        near_field_spacing_m=0.05,
+        room_spacing_m=0.005,
+        maximum_frequency_hz=800.0,
     )
     receivers = {"close": Receiver(x_m=0.0825 + 0.225, y_m=0.0, height_m=0.2)}
     with pytest.raises(ParameterError, match=r"receivers\.close: "):

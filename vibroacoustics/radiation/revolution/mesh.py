@@ -39,6 +39,16 @@ class Mesh:
         total: Array = self.weights.reshape(-1, NODES).sum(axis=1)
         return total
 
+    def depth_m(self, points: Array) -> Array:
+        """Distance of points (point, 2) from the nodes, m; negative outside the body."""
+        gap = points[:, None] - self.points
+        distance = np.linalg.norm(gap, axis=2)
+        nearest = np.argmin(distance, axis=1)
+        rows = np.arange(len(points))
+        facing = np.einsum("pi,pi->p", gap[rows, nearest], self.normals[nearest])
+        depth: Array = -np.sign(facing) * distance[rows, nearest]
+        return depth
+
 
 def mesh(profile: Profile, longest_m: float, gradings: int) -> Mesh:
     """Elements of at most a length, with some gradings towards each edge of the profile."""

@@ -29,9 +29,5 @@ def null_points(mesh: Mesh) -> Array:
     points = np.stack(
         [upper[0] * np.sqrt(share[:, 0]), lower[1] + (upper[1] - lower[1]) * share[:, 1]], axis=1
     )
-    gap = points[:, None] - mesh.points
-    nearest = np.argmin(np.linalg.norm(gap, axis=2), axis=1)
-    rows = np.arange(len(points))
-    depth = -np.einsum("pi,pi->p", gap[rows, nearest], mesh.normals[nearest])
-    chosen: Array = points[depth > _CLEARANCE * upper[0]][:wanted]
+    chosen: Array = points[mesh.depth_m(points) > _CLEARANCE * upper[0]][:wanted]
     return chosen

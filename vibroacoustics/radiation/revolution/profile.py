@@ -7,6 +7,8 @@ from typing import Final
 
 import numpy as np
 
+from ...machine.shell import Shell
+from ...study.body import RadiatingBody, ShellBody, SphereBody
 from ..arrays import Array
 
 Curve = Callable[[Array], Array]
@@ -111,3 +113,13 @@ def above_floor(profile: Profile, floor_z_m: float | None) -> Profile:
     samples = np.linspace(0.0, 1.0, 5)
     kept = [c for c in profile.curves if np.ptp([floor_z_m, *c(samples)[:, 1]]) > 1e-9]
     return Profile(tuple(kept))
+
+
+def shell_profile(shell: Shell, body: RadiatingBody) -> Profile | None:
+    """Meridian of a study's body about the machine's centre of mass; none if it has none."""
+    bottom = -shell.centre_of_mass_height_m
+    if isinstance(body, SphereBody):
+        return sphere(body.diameter_m / 2.0, bottom + body.diameter_m / 2.0)
+    if isinstance(body, ShellBody):
+        return capped_cylinder(shell.radius_m, bottom, bottom + shell.height_m, shell.dome_height_m)
+    return None

@@ -36,6 +36,16 @@ class Radiator:
         self._velocity = [column.velocity for column in self._columns]
         self._null_points = null_points(mesh)
 
+    @property
+    def orders(self) -> int:
+        """Number of orders around, from 0."""
+        return len(self._columns)
+
+    @property
+    def columns(self) -> int:
+        """Number of velocities over all orders."""
+        return sum(column.pattern.size for column in self._columns)
+
     def solve(self, frequency_hz: float) -> WallPressure:
         """Pressure on the wall at a frequency."""
         k = float(wavenumber(np.array(frequency_hz)))
@@ -46,6 +56,9 @@ class Radiator:
         """Sound pressure at points (point, 3) outside, Pa per unit, (point, pattern)."""
         k = float(wavenumber(np.array(wall.frequency_hz)))
         meridian = np.stack([np.hypot(points[:, 0], points[:, 1]), points[:, 2]], axis=1)
-        fields = radiated(self.mesh, meridian, k, self._velocity, wall.orders, self.floor_z_m)
+        # Points of a box, a map or a sphere share circles about the axis.
+        circles, circle = np.unique(np.round(meridian, 10), axis=0, return_inverse=True)
+        fields = radiated(self.mesh, circles, k, self._velocity, wall.orders, self.floor_z_m)
         angle = np.arctan2(points[:, 1], points[:, 0])
-        return at_angles(self._columns, fields, angle, self._patterns)
+        around = [field[circle.ravel()] for field in fields]
+        return at_angles(self._columns, around, angle, self._patterns)

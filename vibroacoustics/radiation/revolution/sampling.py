@@ -18,12 +18,12 @@ TOLERANCE: Final = 1e-3
 """Largest estimated error of interpolation over each pattern's largest pressure: 0.01 dB."""
 _FIRST_HZ: Final = 200.0
 """Distance of the frequencies solved first."""
-_GAIN: Final = 32.0
+_GAIN: Final = 16.0
 """Error at a solved frequency that is left out over that beside it, about; 2⁶ for fine steps."""
 _DEGREE: Final = 5
 
 Solve = Callable[[IndexArray], tuple[ComplexArray, Array]]
-"""From indices of tabulated frequencies to pressures and their errors, (index, receiver, pattern)."""
+"""From indices of frequencies to pressures and their errors, (index, receiver, pattern)."""
 
 
 @dataclass(frozen=True)

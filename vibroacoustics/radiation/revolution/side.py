@@ -5,24 +5,36 @@ from functools import partial
 from typing import Final
 
 import numpy as np
+import psutil
+from numpy.typing import NDArray
 
 from ...base.constants import SPEED_OF_SOUND_M_PER_S
+from ...base.errors import ParameterError
 from ...base.progress import Progress, no_progress
 from ..arrays import Array, ComplexArray, IndexArray
-from ..machine_side import in_threads
+from ..machine_side import in_threads, processors
 from ..patterns import Pattern
 from .mesh import mesh
 from .profile import Profile, above_floor
 from .radiator import Radiator, WallPressure
 from .sampling import Sampled, sample
 
-ELEMENTS: Final = 20
+_ELEMENTS: Final = 20
 """On the meridian, at least."""
-ELEMENTS_PER_WAVE: Final = 1.5
-GRADINGS: Final = 2
+_ELEMENTS_PER_WAVE: Final = 1.5
+_GRADINGS: Final = 2
 _COARSENING: Final = 1.25
-_ERROR: Final = 1.2
-"""Error of the finer mesh over the difference of both, which is the coarser one's: measured."""
+_ERROR: Final = 0.75
+"""Estimated error of the finer mesh over the difference of both, which is the coarser one's."""
+_QUADRATURE: Final = 3e-8
+"""Error of the rules that both meshes share, over the largest pressure."""
+_CLOSEST_M: Final = 1e-3
+"""To the wall that pressures are asked for."""
+_FREQUENCIES: Final = 200
+"""Whose wall pressures memory is reckoned with."""
+
+Addition = Callable[[int], ComplexArray]
+"""From the index of a tabulated frequency to pressures that are interpolated as well."""
 
 
 class RevolutionSide:
@@ -34,6 +46,11 @@ class RevolutionSide:
     patterns : velocities of its wall
     maximum_frequency_hz : that the meshes resolve
     floor_z_m : height of a hard floor
+
+    Raises
+    ------
+    ParameterError
+        The body is so large against the wave that memory does not suffice.
     """
 
     def __init__(
@@ -46,26 +63,48 @@ class RevolutionSide:
         meridian = above_floor(profile, floor_z_m)
         length = float(mesh(meridian, 1e3, 0).lengths.sum())
         wave = SPEED_OF_SOUND_M_PER_S / maximum_frequency_hz
-        longest = min(length / ELEMENTS, wave / ELEMENTS_PER_WAVE)
+        longest = min(length / _ELEMENTS, wave / _ELEMENTS_PER_WAVE)
         meshes = [
-            mesh(meridian, longest, GRADINGS),
-            mesh(meridian, _COARSENING * longest, GRADINGS - 1),
+            mesh(meridian, longest, _GRADINGS),
+            mesh(meridian, _COARSENING * longest, _GRADINGS - 1),
         ]
-        self.radiators = [Radiator(one, patterns, floor_z_m) for one in meshes]
+        self.longest_m = longest
         self.floor_z_m = floor_z_m
+        self.radiators = [Radiator(one, patterns, floor_z_m) for one in meshes]
+        _check_memory(self.radiators[0])
         heights = meshes[0].points[:, 1]
         self._middle_z_m = float(heights.min() + heights.max()) / 2.0
         self._solved: dict[float, list[WallPressure]] = {}
 
+    @property
+    def solved_frequencies(self) -> int:
+        """Number of frequencies solved so far."""
+        return len(self._solved)
+
+    def clear(self, points: Array) -> NDArray[np.bool_]:
+        """Whether points (point, 3) lie off the body and above the floor."""
+        meridian = np.stack([np.hypot(points[:, 0], points[:, 1]), points[:, 2]], axis=1)
+        free = self.radiators[0].mesh.depth_m(meridian) < -_CLOSEST_M
+        if self.floor_z_m is not None:
+            free &= points[:, 2] > self.floor_z_m - 1e-9
+        return free
+
     def pressures(self, frequency_hz: float, points: Array) -> tuple[ComplexArray, Array]:
         """Pressure at points (point, 3) and its estimated error, (point, pattern), Pa."""
-        if frequency_hz not in self._solved:
-            self._solved[frequency_hz] = [one.solve(frequency_hz) for one in self.radiators]
         fine, coarse = (
             radiator.pressures(wall, points)
-            for radiator, wall in zip(self.radiators, self._solved[frequency_hz], strict=True)
+            for radiator, wall in zip(self.radiators, self._walls(frequency_hz), strict=True)
         )
-        return fine, _ERROR * np.abs(fine - coarse)
+        return fine, error_of(fine, coarse)
+
+    def finer_pressures(self, frequency_hz: float, points: Array) -> ComplexArray:
+        """Pressure at points (point, 3), (point, pattern), Pa."""
+        return self.radiators[0].pressures(self._walls(frequency_hz)[0], points)
+
+    def _walls(self, frequency_hz: float) -> list[WallPressure]:
+        if frequency_hz not in self._solved:
+            self._solved[frequency_hz] = [one.solve(frequency_hz) for one in self.radiators]
+        return self._solved[frequency_hz]
 
     def spectrum(
         self,
@@ -73,26 +112,59 @@ class RevolutionSide:
         table_hz: Array,
         name: str = "boundary elements",
         progress: Progress = no_progress,
+        addition: Addition | None = None,
     ) -> Sampled:
-        """Pressures at points (point, 3) at evenly spaced frequencies, (frequency, point, pattern)."""
+        """Pressures at points (point, 3) at evenly spaced frequencies.
+
+        With an addition (point, pattern) twice as many: without and with it.
+        """
+        delay_s = self.delays_s(points)
+
+        def at(index: int) -> tuple[ComplexArray, Array]:
+            pressure, error = self.pressures(float(table_hz[index]), points)
+            if addition is None:
+                return pressure, error
+            added = np.concatenate([pressure, pressure + addition(index)])
+            return added, np.concatenate([error, error])
 
         def solve(indices: IndexArray) -> tuple[ComplexArray, Array]:
-            tasks: list[Callable[[], tuple[ComplexArray, Array]]] = [
-                partial(self.pressures, float(table_hz[index]), points) for index in indices
-            ]
             progress(name, int(indices[0]), table_hz.size)
-            pressure, error = zip(*in_threads(tasks), strict=True)
+            pressure, error = zip(*in_threads([partial(at, int(i)) for i in indices]), strict=True)
             return np.array(pressure), np.array(error)
 
-        sampled = sample(table_hz, self.delays_s(points), solve)
+        delays = delay_s if addition is None else np.concatenate([delay_s, delay_s])
+        sampled = sample(table_hz, delays, solve)
         progress(name, table_hz.size, table_hz.size)
         return sampled
 
     def delays_s(self, points: Array) -> Array:
-        """Travel time from the body to points (point, 3), the mean of the body's and its image's."""
+        """Travel time to points (point, 3), the mean of that from the body and from its image."""
         middles = [self._middle_z_m]
         if self.floor_z_m is not None:
             middles.append(2.0 * self.floor_z_m - self._middle_z_m)
         distances = [np.linalg.norm(points - [0.0, 0.0, z], axis=1) for z in middles]
         delay: Array = np.mean(distances, axis=0) / SPEED_OF_SOUND_M_PER_S
         return delay
+
+
+def error_of(fine: ComplexArray, coarse: ComplexArray) -> Array:
+    """Estimated error of the finer mesh's pressures (point, pattern)."""
+    size = np.abs(fine).max(axis=0, initial=0.0)
+    error: Array = _ERROR * np.abs(fine - coarse) + _QUADRATURE * size
+    return error
+
+
+def _check_memory(radiator: Radiator) -> None:
+    """Refuse meshes that do not fit."""
+    nodes = len(radiator.mesh.points)
+    layers = 2.0 * radiator.orders * 1.2 * nodes**2
+    needed = 16.0 * (
+        processors() * (layers + 4.0 * nodes**2) + _FREQUENCIES * radiator.columns * nodes
+    )
+    available = float(psutil.virtual_memory().available)
+    if needed > available:
+        raise ParameterError(
+            f"radiation.maximum_frequency_hz: boundary elements with {nodes} nodes and "
+            f"{radiator.orders} orders need {needed / 2**30:.3g} GiB, {available / 2**30:.3g} GiB "
+            "are available"
+        )
