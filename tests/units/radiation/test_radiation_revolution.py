@@ -2,11 +2,13 @@
 
 import numpy as np
 import pytest
+from radiation_parts import normal_velocity
+from ring_sources import hemisphere, ring_field
 from scipy import special
+from sphere_sound import sphere_pressure
 
-from tests.ring_sources import hemisphere, ring_field
-from vibroacoustics.radiation.exact import free_green, sphere_pressure, wavenumber
-from vibroacoustics.radiation.patterns import Pattern, normal_velocity, rigid_body
+from vibroacoustics.radiation.exact import free_green, wavenumber
+from vibroacoustics.radiation.patterns import Pattern, rigid_body
 from vibroacoustics.radiation.revolution.layers import layers
 from vibroacoustics.radiation.revolution.mesh import mesh
 from vibroacoustics.radiation.revolution.null_field import null_points

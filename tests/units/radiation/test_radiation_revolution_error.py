@@ -1,11 +1,12 @@
 """Interpolation between solved frequencies, and how true the estimated errors are."""
 
 import numpy as np
+from radiation_parts import normal_velocity
+from ring_sources import hemisphere, ring_field
 from scipy import special
+from sphere_sound import sphere_pressure
 
-from tests.ring_sources import hemisphere, ring_field
-from vibroacoustics.radiation.exact import sphere_pressure
-from vibroacoustics.radiation.patterns import Pattern, normal_velocity, rigid_body
+from vibroacoustics.radiation.patterns import Pattern, rigid_body
 from vibroacoustics.radiation.revolution.profile import capped_cylinder, polygon, sphere
 from vibroacoustics.radiation.revolution.sampling import TOLERANCE, sample
 from vibroacoustics.radiation.revolution.side import RevolutionSide, error_of
@@ -67,18 +68,18 @@ def _ring_errors(profile, frequency_hz, floor_z_m, source):
 
 
 def test_estimated_errors_cover_those_of_rings():
-    """216 manufactured cases: 95 % covered, in the median at most five times too large."""
+    """144 manufactured cases: 95 % covered, in the median at most five times too large."""
     rng = np.random.default_rng(5)
     true, estimated = [], []
     for profile in BODIES.values():
         for floor_z_m in (None, FLOOR_Z_M):
-            for frequency_hz in (1000.0, 4000.0, 10000.0):
+            for frequency_hz in (1500.0, 10000.0):
                 source = (rng.uniform(0.03, 0.05), rng.uniform(-0.06, 0.04))
                 errors = _ring_errors(profile, frequency_hz, floor_z_m, source)
                 true.append(errors[0])
                 estimated.append(errors[1])
     true, estimated = np.concatenate(true), np.concatenate(estimated)
-    assert true.size == 216
+    assert true.size == 144
     assert true.max() < 2e-3
     print(
         np.mean(estimated >= true),
@@ -116,11 +117,11 @@ def test_spectra_of_a_sphere():
 def test_few_frequencies_are_solved_and_the_rest_lies_between():
     """Wall motions on the floor: some of the table solved, the others within the tolerance."""
     patterns = [rigid_body(dof) for dof in ("tx", "tz", "ry")]
-    side = RevolutionSide(BODIES["flat"], patterns, 2000.0, FLOOR_Z_M)
+    side = RevolutionSide(BODIES["flat"], patterns, 1000.0, FLOOR_Z_M)
     points = np.array([[0.9, 0.1, 0.2], [0.3, -0.8, 0.5], [-0.5, 0.5, -0.1], [0.0, 0.0, 1.2]])
-    table_hz = 25.0 * np.arange(1, 81)
+    table_hz = 25.0 * np.arange(1, 41)
     sampled = side.spectrum(points, table_hz)
-    assert sampled.solved.size < 65
+    assert sampled.solved.size < 33
     between = np.setdiff1d(np.arange(table_hz.size), sampled.solved)[::9]
     for index in between:
         exact = side.finer_pressures(float(table_hz[index]), points)

