@@ -52,12 +52,11 @@ class ByRevolution:
         fine, coarse = (radiator.mesh for radiator in side.radiators)
         return {
             "solver": _SOLVERS[self._task.settings.room_solver].format(kwave_version()),
-            "boundary_elements": len(fine.lengths),
-            "boundary_elements_coarser": len(coarse.lengths),
+            "boundary_elements": f"{len(fine.lengths)}, coarser {len(coarse.lengths)}",
             "boundary_element_longest_m": float(fine.lengths.max()),
             "boundary_element_shortest_m": float(fine.lengths.min()),
-            "orders_around": side.radiators[0].orders,
-            "frequencies_solved": side.solved_frequencies,
+            "orders_around": f"0 to {side.radiators[0].orders - 1}",
+            "frequencies_solved": f"{side.solved_frequencies} of {self._task.frequency_hz.size}",
             "neglected": "the air's load on the shell, absorption in the air",
         }
 
