@@ -4,6 +4,8 @@ from collections.abc import Sequence
 
 from ..base.errors import ParameterError
 from ..study.order_analysis import (
+    BAND_METHODS,
+    BandMethod,
     NominalSpeed,
     OrderAnalysis,
     SpeedChannel,
@@ -22,6 +24,7 @@ def order_analysis(
     resolution: float,
     speed_step: float,
     with_map: bool,
+    bands: str,
 ) -> OrderAnalysis:
     """Settings of an analysis from the options of `orders`.
 
@@ -32,7 +35,23 @@ def order_analysis(
     """
     source = speed_source(speed, pulses, index, rpm, tacholess)
     numbers = order_numbers(orders)
-    return OrderAnalysis(source, numbers, maximum_order, resolution, speed_step, with_map)
+    return OrderAnalysis(
+        source, numbers, maximum_order, resolution, speed_step, with_map, band_method(bands)
+    )
+
+
+def band_method(text: str) -> BandMethod:
+    """How third octaves come about.
+
+    Raises
+    ------
+    ParameterError
+        In neither way.
+    """
+    for method in BAND_METHODS:
+        if text == method:
+            return method
+    raise ParameterError(f"--bands {text!r}: must be one of {', '.join(BAND_METHODS)}")
 
 
 def speed_source(

@@ -69,6 +69,9 @@ def orders_command(
     resolution: Annotated[float, typer.Option(help="Coarsest resolution, orders.")] = 0.25,
     speed_step: Annotated[float, typer.Option(help="Of a run-up's operating points, rpm.")] = 100.0,
     with_map: Annotated[bool, typer.Option("--map", help="Keep and draw the order map.")] = False,
+    bands: Annotated[
+        str, typer.Option(help="Third octaves: sums of lines, or filters of IEC 61260-1.")
+    ] = "sums",
     unit: Units = None,
     calibration: Calibration = None,
     channels: Channels = None,
@@ -85,7 +88,7 @@ def orders_command(
 
     settings = arguments.order_analysis(
         speed, pulses, index, rpm, tacholess, orders, maximum_order, resolution, speed_step,
-        with_map,
+        with_map, bands,
     )  # fmt: skip
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)

@@ -118,18 +118,41 @@ def band_mean_square(signal: Array, sample_rate_hz: float, bands: Sequence[Band]
     """
     check_measurable(bands, sample_rate_hz)
     samples = signal.shape[-1]
-    energy = np.abs(fft.rfft(signal)) ** 2 / samples**2
+    spectrum = fft.rfft(signal)
+    energy = (spectrum.real**2 + spectrum.imag**2) / samples**2
     energy[..., 1 : (samples + 1) // 2] *= 2.0
-    line_width = sample_rate_hz / samples
-    below = np.concatenate([[0.0], (np.arange(1, energy.shape[-1]) - 0.5) * line_width])
-    width = np.diff(below, append=0.5 * sample_rate_hz)
-    cumulative = np.insert(np.cumsum(energy, axis=-1), 0, 0.0, axis=-1)
+    return band_sums(energy, sample_rate_hz, samples, bands)
 
-    def up_to(frequency_hz: Array) -> Array:
-        line = np.searchsorted(below, frequency_hz, side="right") - 1
-        share = (frequency_hz - below[line]) / width[line]
-        return np.asarray(cumulative[..., line] + share * energy[..., line])
 
-    lower = np.array([band.lower_hz for band in bands])
-    upper = np.array([band.upper_hz for band in bands])
-    return np.maximum(up_to(upper) - up_to(lower), 0.0)
+def band_sums(energy: Array, sample_rate_hz: float, samples: int, bands: Sequence[Band]) -> Array:
+    """Energy in bands from that of the lines of a transform; a line that an edge cuts is shared.
+
+    Parameters
+    ----------
+    energy : of the lines from 0 Hz to half the sample rate, shape (..., line), any unit
+    sample_rate_hz : of the signal
+    samples : of the transform
+    bands : below half the sample rate
+
+    Returns
+    -------
+    shape (..., band), same unit
+    """
+    edges = {edge for band in bands for edge in (band.lower_hz, band.upper_hz)}
+    lines = {edge: _line(edge, sample_rate_hz, samples) for edge in edges}
+    sums = np.empty((*energy.shape[:-1], len(bands)))
+    for number, band in enumerate(bands):
+        first, below = lines[band.lower_hz]
+        last, share = lines[band.upper_hz]
+        cut = share * energy[..., last] - below * energy[..., first]
+        sums[..., number] = energy[..., first:last].sum(axis=-1) + cut
+    return np.maximum(sums, 0.0)
+
+
+def _line(frequency_hz: float, sample_rate_hz: float, samples: int) -> tuple[int, float]:
+    """Line in whose interval a frequency lies, and the share of the interval below it."""
+    width_hz = sample_rate_hz / samples
+    line = int(np.floor(frequency_hz / width_hz + 0.5))
+    lower = max((line - 0.5) * width_hz, 0.0)
+    upper = min((line + 0.5) * width_hz, 0.5 * sample_rate_hz)
+    return line, (frequency_hz - lower) / (upper - lower)

@@ -5,6 +5,7 @@ Jacomussi and the documents of phonometry, J. M. Requena-Plens); the standard's 
 hand.
 """
 
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -86,6 +87,29 @@ def band_filter(band: Band, sample_rate_hz: float) -> Array:
             f"{0.5 * sample_rate_hz:g} Hz, for a class 1 filter"
         )
     return np.asarray(sections)
+
+
+def filtered_energy(
+    energy: Array, frequency_hz: Array, sample_rate_hz: float, bands: Sequence[Band]
+) -> Array:
+    """Energy that the bands' filters let through of lines, shape (..., band), same unit.
+
+    A filter's skirts let in what lies beside its band: beside a strong tone it reads 15 to 20 dB
+    more than the sum of the lines within the band (`bands.band_sums`).
+
+    Parameters
+    ----------
+    energy : of lines, shape (..., line), any unit
+    frequency_hz : of the lines, shape (line,)
+    sample_rate_hz : of the signal
+    bands : below half the sample rate
+    """
+    passed = np.empty((*energy.shape[:-1], len(bands)))
+    for number, band in enumerate(bands):
+        filter_ = band_filter(band, sample_rate_hz)
+        response = scipy.signal.sosfreqz(filter_, frequency_hz, fs=sample_rate_hz)[1]
+        passed[..., number] = energy @ np.abs(response) ** 2
+    return passed
 
 
 def band_signal(signal: Array, sample_rate_hz: float, band: Band) -> Array:

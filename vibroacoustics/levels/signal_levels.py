@@ -10,15 +10,13 @@ import numpy as np
 
 from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
-from ..base.decibel import mean_square_level
+from ..base.decibel import mean_square_level, power_of_level
 from ..base.errors import ParameterError
-from .bands import Band, band_mean_square
-from .time_weighting import (
-    FAST_TIME_CONSTANT_S,
-    SLOW_TIME_CONSTANT_S,
-    time_weighted_mean_square,
-)
-from .weighting import weighted_signal
+from ..study.order_analysis import BAND_METHODS, BandMethod
+from .bands import Band, band_mean_square, band_sums, check_measurable
+from .filter_bank import filtered_energy
+from .level_meter import LevelMeter, MeterPlan
+from .weighting import WEIGHTING, check_weighting
 
 
 @dataclass(frozen=True)
@@ -63,29 +61,36 @@ def recorded_levels(
 ) -> RecordedLevels:
     """Equivalent level and greatest Fast and Slow levels of a recording.
 
+    With A and C the first and last 0.1 s are left out, at most a quarter of the recording at either
+    end: the weighting runs in there, and what is cut off at the ends would click.
+
     Parameters
     ----------
     signal : shape (..., time), in the reference's unit
     sample_rate_hz : of the signal
     reference : see level_reference
     weighting : A, C or Z
+
+    Raises
+    ------
+    ParameterError
+        A sample is not finite, or the weighting is unknown.
     """
-    weighted = weighted_signal(signal, sample_rate_hz, weighting)
-    fast, slow = (
-        np.max(time_weighted_mean_square(weighted, sample_rate_hz, constant), axis=-1)
-        for constant in (FAST_TIME_CONSTANT_S, SLOW_TIME_CONSTANT_S)
-    )
-    return RecordedLevels(
-        equivalent_db=equivalent_level(weighted, reference),
-        fast_maximum_db=mean_square_level(fast, reference),
-        slow_maximum_db=mean_square_level(slow, reference),
-    )
+    check_weighting(weighting)
+    squares = np.array([meter.mean_square(weighting) for meter in _meters(signal, sample_rate_hz)])
+    levels = mean_square_level(squares.reshape(*signal.shape[:-1], 3), reference)
+    return RecordedLevels(levels[..., 0], levels[..., 1], levels[..., 2])
 
 
 def band_levels(
-    signal: Array, sample_rate_hz: float, bands: Sequence[Band], reference: float, weighting: str
+    signal: Array,
+    sample_rate_hz: float,
+    bands: Sequence[Band],
+    reference: float,
+    weighting: str,
+    method: BandMethod = "sums",
 ) -> Array:
-    """Levels in bands from the Fourier transform of all of the recording, dB.
+    """Equivalent levels in bands of a recording, dB.
 
     Parameters
     ----------
@@ -94,10 +99,58 @@ def band_levels(
     bands : below half the sample rate
     reference : see level_reference
     weighting : A, C or Z
+    method : "sums" of the lines within a band; or "filters" of IEC 61260-1 of class 1, whose skirts
+        let in what lies beside the band
 
     Returns
     -------
     shape (..., band)
+
+    Raises
+    ------
+    ParameterError
+        A sample is not finite, a band reaches half the sample rate, weighting or method is unknown.
     """
-    weighted = weighted_signal(signal, sample_rate_hz, weighting)
-    return mean_square_level(band_mean_square(weighted, sample_rate_hz, bands), reference)
+    check_weighting(weighting)
+    check_measurable(bands, sample_rate_hz)
+    if weighting == "Z" and method == "sums":
+        return mean_square_level(band_mean_square(signal, sample_rate_hz, bands), reference)
+    meters = _meters(signal, sample_rate_hz)
+    shape = (*signal.shape[:-1], len(bands))
+    return mean_square_level(in_bands(meters, bands, weighting, method).reshape(shape), reference)
+
+
+def in_bands(
+    meters: Sequence[LevelMeter], bands: Sequence[Band], weighting: str, method: BandMethod
+) -> Array:
+    """Mean squares in bands from the lines of meters, shape (meter, band), unit squared.
+
+    Parameters
+    ----------
+    meters : of one plan, to which all samples have been added
+    bands : below half the sample rate
+    weighting, method : see band_levels
+
+    Raises
+    ------
+    ParameterError
+        The method is unknown.
+    """
+    if method not in BAND_METHODS:
+        raise ParameterError(f"method = {method!r}: must be one of {', '.join(BAND_METHODS)}")
+    plan = meters[0].plan
+    gain = power_of_level(WEIGHTING[weighting](plan.frequency_hz))
+    energy = gain * np.array([meter.lines / meter.weight for meter in meters])
+    if method == "filters":
+        return filtered_energy(energy, plan.frequency_hz, plan.sample_rate_hz, bands)
+    return band_sums(energy, plan.sample_rate_hz, plan.length, bands)
+
+
+def _meters(signal: Array, sample_rate_hz: float) -> list[LevelMeter]:
+    """A meter of each channel, with all of its samples."""
+    plan = MeterPlan(signal.shape[-1], sample_rate_hz)
+    meters = []
+    for samples in signal.reshape(-1, signal.shape[-1]):
+        meters.append(LevelMeter(plan, 0.0))
+        meters[-1].add(samples)
+    return meters

@@ -44,6 +44,18 @@ WEIGHTING: Final[dict[str, Callable[[Array | float], Array]]] = {
 }
 
 
+def check_weighting(weighting: str) -> None:
+    """Refuse a weighting that is unknown.
+
+    Raises
+    ------
+    ParameterError
+        It is not in WEIGHTING.
+    """
+    if weighting not in WEIGHTING:
+        raise ParameterError(f"weighting {weighting!r}: must be one of {', '.join(WEIGHTING)}")
+
+
 def weighted_signal(signal: Array, sample_rate_hz: float, weighting: str) -> Array:
     """Signal with its spectrum weighted, by magnitude only: no phase, no delay.
 
@@ -68,8 +80,7 @@ def weighted_signal(signal: Array, sample_rate_hz: float, weighting: str) -> Arr
     ParameterError
         The weighting is not in WEIGHTING.
     """
-    if weighting not in WEIGHTING:
-        raise ParameterError(f"weighting {weighting!r}: must be one of {', '.join(WEIGHTING)}")
+    check_weighting(weighting)
     samples = signal.shape[-1]
     length = fft.next_fast_len(samples + int(np.ceil(_RINGING_S * sample_rate_hz)), real=True)
     gain = amplitude_of_level(WEIGHTING[weighting](fft.rfftfreq(length, 1.0 / sample_rate_hz)))

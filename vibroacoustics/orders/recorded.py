@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array, ComplexArray, IndexArray
+from ..base.errors import ParameterError
 from ..base.vocabulary import stamp
 from ..study.order_analysis import OrderAnalysis
 from .angular import AngularSignal, angular_resample
@@ -106,8 +107,14 @@ def _at_points(
 
 
 def synchronous_average(signal: xr.DataArray, angular: AngularSignal) -> xr.Dataset:
-    """Mean revolution of the channels and its standard error."""
-    average = time_synchronous_average(angular)
+    """Mean revolution of the channels and its standard error.
+
+    Where there are fewer than two revolutions it is left out: the attribute `left_out` says why.
+    """
+    try:
+        average = time_synchronous_average(angular)
+    except ParameterError as error:
+        return xr.Dataset(attrs={"left_out": f"synchronous average: {error}"})
     samples = angular.samples_per_revolution
     angle = 2.0 * np.pi * np.arange(samples) / samples
     coords = {"channel": signal["channel"], "average_angle": angle}

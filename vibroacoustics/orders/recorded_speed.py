@@ -94,14 +94,13 @@ def channels_without_speed(signal: xr.DataArray, speed: SpeedSource) -> xr.DataA
     """
     if not isinstance(speed, SpeedChannel):
         return signal
-    others = [
-        name
-        for name in signal["channel"].values
-        if name not in (speed.channel, speed.index_channel)
-    ]
-    if not others:
+    of_speed = np.isin(signal["channel"].values, [speed.channel, str(speed.index_channel)])
+    others = np.flatnonzero(~of_speed)
+    if not others.size:
         raise ParameterError("there is no channel besides that of the speed")
-    return signal.sel(channel=others)
+    if others[-1] - others[0] == others.size - 1:  # side by side: nothing is copied
+        return signal.isel(channel=slice(others[0], others[-1] + 1))
+    return signal.isel(channel=others)
 
 
 def _from_signal(channel: xr.DataArray, rate_hz: float, speed: TacholessSpeed) -> RecordedSpeed:

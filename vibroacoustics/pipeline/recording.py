@@ -56,15 +56,19 @@ def analyse_orders(
         progress("orders", 2, _STAGES)
         spectra = analysis.order_map(angular, settings.resolution_order, of_recording.WINDOW)
         results = of_recording.recorded_orders(signal, angular, spectra, settings)
-        results = results.merge(of_recording.synchronous_average(signal, angular))
+        average = of_recording.synchronous_average(signal, angular)
+        results = results.merge(average)
         results = results.merge(of_recording.fault_times(speed.faults))
         progress("orders", 3, _STAGES)
-        results = results.merge(channel_levels(signal, rate_hz))
+        levels = channel_levels(signal, rate_hz, settings.bands)
         progress("orders", 4, _STAGES)
+        results = results.merge(levels)
         results.attrs = {
             **provenance.recording_attributes(recording, settings),
             **speed.attributes(),
             **of_recording.resolution(spectra),
+            **average.attrs,
+            **levels.attrs,
         }
         return check(label_coordinates(results))
 

@@ -65,6 +65,8 @@ def orders_text(results: xr.Dataset) -> str:
     ]
     if "fault_time" in results:
         facts.append(_faults_line(results["fault_time"]))
+    if "left_out" in attrs:
+        facts.append(f"left out: {attrs['left_out']}")
     tables = [_orders_table(results)]
     if "equivalent_level" in results:
         tables.append(_levels_table(results))
@@ -77,19 +79,30 @@ def orders_csv(results: xr.Dataset) -> bytes:
 
 
 def levels_csv(results: xr.Dataset) -> bytes:
-    """Leq, LFmax, LSmax and third-octave levels of every channel of sound pressure."""
-    names = ("leq_db", "lfmax_db", "lsmax_db")
+    """Leq, LFmax, LSmax and third-octave levels of every channel of sound pressure.
+
+    Column `left_out_s`: what is left out at either end of the recording; `bands`: "sums" of the
+    lines within a third octave, or "filters" of IEC 61260-1.
+    """
+    names = ("leq_db", "lfmax_db", "lsmax_db", "left_out_s", "bands")
     bands = [f"leq_{band:g}_hz_db" for band in results["band"].values]
     rows: list[list[str | float]] = [
         [
             channel,
             weighting,
             *(float(levels[name]) for name in _LEVELS),
+            _left_out_s(results, weighting),
+            str(results.attrs.get("band_method", "sums")),
             *map(float, levels.band_level),
         ]
         for channel, weighting, levels in _level_rows(results)
     ]
     return to_csv(("channel", "weighting", *names, *bands), rows)
+
+
+def _left_out_s(results: xr.Dataset, weighting: str) -> float:
+    """What a level leaves out at either end: the run-in of the weighting's filter."""
+    return 0.0 if weighting == "Z" else float(results.attrs.get("levels_left_out_s", 0.0))
 
 
 def comparison_of_orders_text(compared: xr.Dataset) -> str:
@@ -151,20 +164,26 @@ def _faults_line(times: xr.DataArray) -> str:
 
 
 def _order_rows(results: xr.Dataset) -> Iterator[_Order]:
-    for at in _labels_of_orders(results):
-        of_order = results.sel(at)
-        value = complex(of_order["channel_order"].item())
+    dims = ("channel", "speed", "order")
+    peak, rms, coherence = (
+        results[f"channel_order{part}"].transpose(*dims).values
+        for part in ("", "_rms", "_coherence")
+    )
+    channel, speed, order = (results[dim].values for dim in dims)
+    unit, blocks = results["channel_unit"].values, results["block_count"].values
+    for c, s, o in np.ndindex(peak.shape):
+        value = complex(peak[c, s, o])
         yield _Order(
-            channel=str(at["channel"]),
-            unit=str(of_order["channel_unit"].item()),
-            speed_rpm=float(at["speed"]),
-            blocks=int(of_order["block_count"]),
-            order=float(at["order"]),
-            frequency_hz=float(at["order"] * at["speed"] / 60.0),
+            channel=str(channel[c]),
+            unit=str(unit[c]),
+            speed_rpm=float(speed[s]),
+            blocks=int(blocks[s]),
+            order=float(order[o]),
+            frequency_hz=float(order[o] * speed[s] / 60.0),
             amplitude_peak=abs(value),
             phase_deg=float(np.degrees(np.angle(value))),
-            rms_in_band=float(of_order["channel_order_rms"]),
-            coherence=float(of_order["channel_order_coherence"]),
+            rms_in_band=float(rms[c, s, o]),
+            coherence=float(coherence[c, s, o]),
         )
 
 
@@ -225,7 +244,13 @@ def _levels_table(results: xr.Dataset) -> Table:
         for channel, weighting, levels in _level_rows(results)
     )
     head = ("Channel", "weighting", "Leq, dB", "LFmax, dB", "LSmax, dB")
-    return Table("Sound pressure levels, dB re 20 µPa", head, rows, frozenset({0, 1}))
+    method = "IEC 61260-1 filters" if results.attrs.get("band_method") == "filters" else "band sums"
+    caption = (
+        "Sound pressure levels, dB re 20 µPa; A and C leave out the first and last "
+        f"{_left_out_s(results, 'A'):.3g} s, the filters' run-in; third octaves in levels.csv by "
+        f"{method}"
+    )
+    return Table(caption, head, rows, frozenset({0, 1}))
 
 
 def _compared_rows(compared: xr.Dataset) -> Iterator[_ComparedOrder]:

@@ -1,8 +1,13 @@
 """How a recording's orders are to be found."""
 
 from dataclasses import dataclass
+from typing import Final, Literal, get_args
 
 from ..base.errors import ParameterError
+
+BandMethod = Literal["sums", "filters"]
+"""Third octaves as sums of the lines within a band, or through the filters of IEC 61260-1."""
+BAND_METHODS: Final[tuple[BandMethod, ...]] = get_args(BandMethod)
 
 
 @dataclass(frozen=True)
@@ -99,11 +104,13 @@ class OrderAnalysis:
     resolution_order : coarsest noise bandwidth of a line, orders
     speed_step_rpm : of the operating points of a run-up
     with_map : whether the order map of every block is kept
+    bands : third octaves of sound pressure as "sums" of the lines within a band, or through the
+        "filters" of IEC 61260-1, whose skirts let in what lies beside the band
 
     Raises
     ------
     ParameterError
-        A number is not above zero, or the orders do not rise.
+        A number is not above zero, the orders do not rise, or `bands` is neither.
 
     Examples
     --------
@@ -122,6 +129,7 @@ class OrderAnalysis:
     """Of the operating points of a run-up."""
     with_map: bool = False
     """Keep the order map of every block."""
+    bands: BandMethod = "sums"
 
     def __post_init__(self) -> None:
         for order in self.orders:
@@ -131,6 +139,8 @@ class OrderAnalysis:
         _check_positive("maximum_order", self.maximum_order, "")
         _check_positive("resolution_order", self.resolution_order, "")
         _check_positive("speed_step_rpm", self.speed_step_rpm, "rpm")
+        if self.bands not in BAND_METHODS:
+            raise ParameterError(f"bands = {self.bands!r}: must be one of sums, filters")
 
 
 def _check_positive(name: str, value: float, unit: str) -> None:

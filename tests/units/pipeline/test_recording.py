@@ -1,5 +1,6 @@
 """A recording from file to orders: against the pipeline that made it, and by every speed source."""
 
+import csv
 import json
 
 import numpy as np
@@ -11,8 +12,9 @@ from support import tiny_run
 from vibroacoustics import analyse_orders, label_recording, read_recording
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.orders import OrderResolutionWarning
-from vibroacoustics.orders.recorded_speed import UncertainSpeedWarning
+from vibroacoustics.orders.recorded_speed import UncertainSpeedWarning, channels_without_speed
 from vibroacoustics.recordings import csv_bytes, wav_bytes
+from vibroacoustics.report import levels_csv, orders_text
 from vibroacoustics.results import storage
 from vibroacoustics.study.order_analysis import (
     NominalSpeed,
@@ -410,3 +412,50 @@ def test_resolution_that_the_recording_does_not_allow():
     settings = OrderAnalysis(NominalSpeed(3000.0), resolution_order=0.001)
     with pytest.raises(ParameterError, match=r"^recording: resolution_order = 0\.001: needs block"):
         analyse_orders(shaker(), settings)
+
+
+# --- what is left out ----------------------------------------------------------------------------
+
+
+def test_synchronous_average_that_lacks_revolutions_is_left_out():
+    """One and a half revolutions: blocks of one are enough for the orders."""
+    recording = shaker(speed_rpm=3000.0, duration_s=0.062, rate_hz=25600.0)
+    settings = OrderAnalysis(
+        NominalSpeed(3000.0), orders=(2.0,), maximum_order=8.0, resolution_order=1.5
+    )
+    results = analyse_orders(recording, settings)
+    assert "synchronous_average" not in results
+    assert results.attrs["left_out"].startswith("synchronous average: revolutions = 1: the signal")
+    assert "left out: synchronous average: revolutions = 1" in orders_text(results)
+
+
+def test_levels_say_what_they_leave_out_and_how_bands_come_about():
+    angle = even_angle(3000.0, 3.0, 6400.0)
+    recording = recorded({"microphone": ("Pa", np.cos(angle))}, 6400.0)
+    sums, filters = (
+        analyse_orders(recording, OrderAnalysis(NominalSpeed(3000.0), bands=method))
+        for method in ("sums", "filters")
+    )
+    assert sums.attrs["levels_left_out_s"] == pytest.approx(0.1)
+    assert "A and C leave out the first and last 0.1 s" in orders_text(sums)
+    assert "third octaves in levels.csv by band sums" in orders_text(sums)
+    assert "third octaves in levels.csv by IEC 61260-1 filters" in orders_text(filters)
+    weightings = {
+        row["weighting"]: row for row in csv.DictReader(levels_csv(filters).decode().splitlines())
+    }
+    assert weightings["A"]["left_out_s"] == "0.1"
+    assert weightings["Z"]["left_out_s"] == "0"
+    assert weightings["Z"]["bands"] == "filters"
+    skirt = filters["band_level"] - sums["band_level"]
+    assert skirt.sel(channel="microphone", weighting="Z", band=40.0) > 15.0
+
+
+def test_channels_beside_each_other_are_not_copied():
+    recording = shaker(tacho=("V", tacho), other=("N", np.cos))
+    signal = recording["signal"]
+    first = channels_without_speed(signal.isel(channel=[1, 0, 2]), SpeedChannel("tacho"))
+    assert list(first["channel"].values) == ["force", "other"]
+    last = signal.sel(channel=["force", "other", "tacho"])
+    assert np.shares_memory(channels_without_speed(last, SpeedChannel("tacho")).values, last.values)
+    between = channels_without_speed(signal, SpeedChannel("tacho"))
+    assert list(between["channel"].values) == ["force", "other"]

@@ -1,0 +1,201 @@
+"""Levels of a channel that comes in pieces: weightings, Fast and Slow, lines for bands.
+
+Blocks under ramps that add up to one are transformed once each; weighted by A and by C they are put
+together again, and their lines add up to the spectrum from which band levels come.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Final
+
+import numba
+import numpy as np
+from scipy import fft
+
+from ..base.arrays import Array, ComplexArray
+from ..base.decibel import amplitude_of_level
+from ..base.errors import ParameterError
+from .time_weighting import FAST_TIME_CONSTANT_S, SLOW_TIME_CONSTANT_S
+from .weighting import WEIGHTING
+
+RUN_IN_S: Final = 0.1
+"""Left out at either end of A- and C-weighted signals: the slowest part of the weightings,
+exp(-2π 20.6 Hz t), has then fallen to 2e-6."""
+_BLOCK_S: Final = 2.5
+"""Of a transform: its lines lie 0.4 Hz apart, a fifteenth of the third octave at 25 Hz."""
+_SHORTEST_SHARE: Final = 4
+"""At either end at most a quarter of a recording is left out."""
+
+
+@dataclass(frozen=True)
+class MeterPlan:
+    """How a recording of a length is measured; the same for all its channels.
+
+    Attributes
+    ----------
+    samples : of the recording
+    sample_rate_hz : of the recording
+    """
+
+    samples: int
+    sample_rate_hz: float
+
+    @cached_property
+    def run_in(self) -> int:
+        """Samples left out at either end where there is a weighting."""
+        return min(round(RUN_IN_S * self.sample_rate_hz), self.samples // _SHORTEST_SHARE)
+
+    @property
+    def run_in_s(self) -> float:
+        """The same in s."""
+        return self.run_in / self.sample_rate_hz
+
+    @cached_property
+    def length(self) -> int:
+        """Samples of a transform: of a block and of a run-in of silence on both sides."""
+        most = min(self.samples, round(_BLOCK_S * self.sample_rate_hz))
+        return int(fft.next_fast_len(most + 2 * self.run_in, real=True))
+
+    @property
+    def block(self) -> int:
+        """Samples of a block, with its ramps."""
+        return self.length - 2 * self.run_in
+
+    @property
+    def ramp(self) -> int:
+        """Samples over which a block begins, and ends."""
+        return self.run_in // 2
+
+    def window(self, samples: int) -> Array:
+        """Of a block: one but for halves of a cosine, which add up to one with its neighbours'."""
+        rise = np.sin(0.5 * np.pi * (np.arange(self.ramp) + 0.5) / max(self.ramp, 1)) ** 2
+        window = np.ones(samples)
+        window[: self.ramp] *= rise
+        window[samples - self.ramp :] *= rise[::-1]
+        return window
+
+    @cached_property
+    def frequency_hz(self) -> Array:
+        """Of the lines of a transform."""
+        return np.asarray(fft.rfftfreq(self.length, 1.0 / self.sample_rate_hz))
+
+    @cached_property
+    def gain(self) -> ComplexArray:
+        """Of all lines, those below 0 Hz too: A as the real and C as the imaginary part."""
+        frequency = np.abs(fft.fftfreq(self.length, 1.0 / self.sample_rate_hz))
+        weighted = (amplitude_of_level(WEIGHTING[name](frequency)) for name in "AC")
+        real, imaginary = weighted
+        return np.asarray(real + 1j * imaginary)
+
+    @cached_property
+    def kept(self) -> Array:
+        """Share of the Fast and of the Slow mean square that is left after a sample."""
+        constants = np.array([FAST_TIME_CONSTANT_S, SLOW_TIME_CONSTANT_S])
+        return np.asarray(np.exp(-1.0 / (self.sample_rate_hz * constants)))
+
+
+class LevelMeter:
+    """Mean squares of a channel by weighting, after all its samples have been added.
+
+    Parameters
+    ----------
+    plan : of the recording
+    offset : mean of all samples of the channel, which is no sound
+
+    Attributes
+    ----------
+    plan, offset : as given
+    lines : sum over the blocks of the squares under their ramps, by line, unit squared
+    weight : sum of the squares of the ramps; `lines` over it add up to the mean square
+    """
+
+    def __init__(self, plan: MeterPlan, offset: float) -> None:
+        self.plan, self.offset = plan, offset
+        self.lines = np.zeros(plan.frequency_hz.size)
+        self.weight = 0.0
+        self._state = {name: np.zeros(5) for name in "ZAC"}
+        self._added = 0
+        self._start = 0  # of the next block
+        self._pending: Array = np.empty(0)  # samples from there on
+        self._output = np.zeros(plan.length, dtype=complex)  # from a run-in before there on
+
+    def add(self, piece: Array) -> None:
+        """Take the next samples of the channel.
+
+        Raises
+        ------
+        ParameterError
+            A sample is not finite, or there are more than planned.
+        """
+        if not np.isfinite(piece.sum()) and not np.all(np.isfinite(piece)):
+            raise ParameterError("signal: holds values that are not finite numbers")
+        self._added += piece.size
+        if self._added > self.plan.samples:
+            raise ParameterError(f"signal: more than the {self.plan.samples} samples planned")
+        self._pending = np.concatenate([self._pending, piece]) if self._pending.size else piece
+        step = self.plan.block - self.plan.ramp
+        while self._pending.size >= self.plan.block and self._rest > self.plan.block:
+            self._add_block(self._pending[: self.plan.block], step)
+            self._pending = self._pending[step:]
+        if self._added == self.plan.samples and self._pending.size:
+            self._add_block(self._pending, self._pending.size)
+            self._pending = np.empty(0)
+
+    @property
+    def _rest(self) -> int:
+        """Samples of the recording from the start of the next block on."""
+        return self.plan.samples - self._start
+
+    def _add_block(self, samples: Array, step: int) -> None:
+        """Measure a block of which `step` samples come before the next one."""
+        plan = self.plan
+        sound = samples - self.offset
+        _detect(sound[:step], plan.kept, self._state["Z"])
+        window = plan.window(samples.size)
+        spectrum = fft.rfft(sound * window, plan.length)
+        self.lines += _one_sided(spectrum, plan.length)
+        self.weight += float(window @ window)
+        mirrored = np.conj(spectrum[1 : plan.length - spectrum.size + 1][::-1])
+        both = plan.gain * np.concatenate([spectrum, mirrored])
+        # Silence before the block is behind it in a transform, which is a circle.
+        self._output += np.roll(fft.ifft(both, overwrite_x=True), plan.run_in)
+        self._detect_weighted(step)
+
+    def _detect_weighted(self, step: int) -> None:
+        """Detect what no later block changes, without the run-ins of the recording."""
+        plan, lead = self.plan, self.plan.run_in
+        is_last = step == self._rest
+        first, end = self._start - lead, self._start + step - lead
+        wanted = slice(max(first, lead) - first, (plan.samples - lead if is_last else end) - first)
+        for name, part in (("A", self._output.real), ("C", self._output.imag)):
+            _detect(part[wanted], plan.kept, self._state[name])
+        self._output = np.concatenate([self._output[step:], np.zeros(step, dtype=complex)])
+        self._start += step
+
+    def mean_square(self, weighting: str) -> tuple[float, float, float]:
+        """Mean over the recording, and greatest Fast and Slow mean square, unit squared."""
+        samples = self.plan.samples - (0 if weighting == "Z" else 2 * self.plan.run_in)
+        total, _, _, fast, slow = self._state[weighting]
+        return float(total / samples), float(fast), float(slow)
+
+
+def _one_sided(spectrum: ComplexArray, length: int) -> Array:
+    """Square of each line over the length: together the sum of the squares of the samples."""
+    energy = (spectrum.real**2 + spectrum.imag**2) / length
+    energy[1 : (length + 1) // 2] *= 2.0
+    return np.asarray(energy)
+
+
+@numba.njit(cache=True, nogil=True)
+def _detect(signal: Array, kept: Array, state: Array) -> None:
+    """Take samples into (sum of squares, Fast, Slow, greatest Fast, greatest Slow)."""
+    total, fast, slow, most_fast, most_slow = state
+    keep_fast, keep_slow = kept
+    for value in signal:
+        square = value * value
+        total += square
+        fast = keep_fast * fast + (1.0 - keep_fast) * square
+        slow = keep_slow * slow + (1.0 - keep_slow) * square
+        most_fast = max(most_fast, fast)
+        most_slow = max(most_slow, slow)
+    state[:] = (total, fast, slow, most_fast, most_slow)
