@@ -5,20 +5,18 @@ from collections.abc import Sequence
 from ..base.errors import ParameterError
 from ..study.order_analysis import (
     BAND_METHODS,
+    DEFAULT_COMB,
     BandMethod,
     NominalSpeed,
     OrderAnalysis,
     SpeedChannel,
+    SpeedSource,
     TacholessSpeed,
 )
 
 
 def order_analysis(
-    speed: str | None,
-    pulses: int,
-    index: str | None,
-    rpm: float | None,
-    tacholess: tuple[float, float] | None,
+    source: SpeedSource,
     orders: str,
     maximum_order: float,
     resolution: float,
@@ -31,9 +29,8 @@ def order_analysis(
     Raises
     ------
     ParameterError
-        The speed comes from nowhere or from two places, or the orders are no numbers.
+        The orders are no numbers, or `bands` is neither way.
     """
-    source = speed_source(speed, pulses, index, rpm, tacholess)
     numbers = order_numbers(orders)
     return OrderAnalysis(
         source, numbers, maximum_order, resolution, speed_step, with_map, band_method(bands)
@@ -60,7 +57,9 @@ def speed_source(
     index: str | None,
     rpm: float | None,
     tacholess: tuple[float, float] | None,
-) -> SpeedChannel | NominalSpeed | TacholessSpeed:
+    comb: str | None = None,
+    mains_hz: float | None = None,
+) -> SpeedSource:
     """Where the speed of a recording comes from.
 
     Raises
@@ -75,12 +74,15 @@ def speed_source(
         )
     if (index is not None or pulses != 1) and (rpm is not None or tacholess is not None):
         raise ParameterError("--index, --pulses: belong to a tacho, --speed CHANNEL")
+    if (comb is not None or mains_hz is not None) and tacholess is None:
+        raise ParameterError("--comb, --mains: belong to --tacholess LOWEST HIGHEST")
     if tacholess is not None:
-        return TacholessSpeed(speed, *tacholess)
+        orders = DEFAULT_COMB if comb is None else order_numbers(comb, "--comb")
+        return TacholessSpeed(speed, *tacholess, orders, mains_hz)
     return SpeedChannel(str(speed), pulses, index) if rpm is None else NominalSpeed(rpm)
 
 
-def order_numbers(text: str) -> tuple[float, ...]:
+def order_numbers(text: str, option: str = "--orders") -> tuple[float, ...]:
     """Orders, rising, from a text with commas.
 
     Raises
@@ -88,7 +90,7 @@ def order_numbers(text: str) -> tuple[float, ...]:
     ParameterError
         One of them is no number.
     """
-    return tuple(sorted(_number("--orders", part) for part in text.split(",")))
+    return tuple(sorted(_number(option, part) for part in text.split(",")))
 
 
 def assignments(option: str, texts: Sequence[str] | None) -> dict[str, str]:

@@ -33,6 +33,16 @@ Tacholess = Annotated[
     tuple[float, float] | None,
     typer.Option(metavar="LOWEST HIGHEST", help="Find the speed in the signal, rpm."),
 ]
+Comb = Annotated[
+    str | None,
+    typer.Option(
+        help="With --tacholess: orders that the machine has, with commas; default: 1 to 10."
+    ),
+]
+Mains = Annotated[
+    float | None,
+    typer.Option(help="With --tacholess: frequency of the mains, Hz; its multiples are left out."),
+]
 Units = Annotated[
     list[str] | None,
     typer.Option("--unit", metavar="CHANNEL=UNIT", help="Where the file states none."),
@@ -64,6 +74,8 @@ def orders_command(
     index: Index = None,
     rpm: Rpm = None,
     tacholess: Tacholess = None,
+    comb: Comb = None,
+    mains: Mains = None,
     orders: Annotated[str, typer.Option(help="Orders wanted, with commas.")] = "1,2,3,4",
     maximum_order: Annotated[float, typer.Option(help="Highest order of spectra and map.")] = 20.0,
     resolution: Annotated[float, typer.Option(help="Coarsest resolution, orders.")] = 0.25,
@@ -86,10 +98,10 @@ def orders_command(
     from .. import pipeline, report
     from . import arguments, checking, outputs
 
+    source = arguments.speed_source(speed, pulses, index, rpm, tacholess, comb, mains)
     settings = arguments.order_analysis(
-        speed, pulses, index, rpm, tacholess, orders, maximum_order, resolution, speed_step,
-        with_map, bands,
-    )  # fmt: skip
+        source, orders, maximum_order, resolution, speed_step, with_map, bands
+    )
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
     allowed = checking.read(limits)
@@ -158,6 +170,8 @@ def track_command(
     index: Index = None,
     rpm: Rpm = None,
     tacholess: Tacholess = None,
+    comb: Comb = None,
+    mains: Mains = None,
     orders: Annotated[str, typer.Option(help="Orders to track, with commas.")] = "1,2,3,4",
     poles: Annotated[int, typer.Option(help="1, 2 or 3: steepness of the filter.")] = 2,
     unit: Units = None,
@@ -173,7 +187,7 @@ def track_command(
     from .. import pipeline, report
     from . import arguments, outputs, recorded_outputs
 
-    source = arguments.speed_source(speed, pulses, index, rpm, tacholess)
+    source = arguments.speed_source(speed, pulses, index, rpm, tacholess, comb, mains)
     numbers = arguments.order_numbers(orders)
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
@@ -195,6 +209,8 @@ def map_command(
     index: Index = None,
     rpm: Rpm = None,
     tacholess: Tacholess = None,
+    comb: Comb = None,
+    mains: Mains = None,
     resolution: Annotated[float, typer.Option(help="Coarsest resolution, Hz.")] = 5.0,
     maximum_frequency: Annotated[
         float | None, typer.Option(help="Highest frequency, Hz; default: all.")
@@ -212,7 +228,7 @@ def map_command(
     from .. import pipeline
     from . import arguments, outputs, recorded_outputs
 
-    source = arguments.speed_source(speed, pulses, index, rpm, tacholess)
+    source = arguments.speed_source(speed, pulses, index, rpm, tacholess, comb, mains)
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
     recording = _read(

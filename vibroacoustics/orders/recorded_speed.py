@@ -11,17 +11,17 @@ import xarray as xr
 from ..base.errors import ParameterError
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import NO_ANGLE_ZERO
-from ..study.order_analysis import NominalSpeed, SpeedChannel, TacholessSpeed
+from ..study.order_analysis import NominalSpeed, SpeedChannel, SpeedSource, TacholessSpeed
 from .crank_motion import CrankMotion, constant_speed
 from .pulse_edges import pulse_times
 from .pulse_faults import PulseFault
+from .pulse_pattern import sampling_note
+from .speed_check import MOSTLY, WIDE_LINE
 from .tacho import rpm_motion, tacho_motion
-from .tacholess import tacholess_motion
+from .tacholess import TacholessResult, tacholess_motion
 
-SpeedSource = SpeedChannel | NominalSpeed | TacholessSpeed
-
-_LEAST_CONFIDENCE: Final = 0.5
-"""Mean confidence of a speed without a tacho; noise gives 0.3 to 0.5 (`TacholessResult`)."""
+LEAST_CONFIDENCE: Final = 0.8
+"""Of a speed without a tacho that is not warned of (`SpeedCheck`)."""
 
 
 class UncertainSpeedWarning(UserWarning):
@@ -30,6 +30,8 @@ class UncertainSpeedWarning(UserWarning):
 
 class StandstillWarning(UserWarning):
     """A part of the recording in which the shaft stands is not analysed."""
+class PulseWarning(UserWarning):
+    """Pulses of a tacho are not what is stated of them, or too quick for the sample rate."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +45,7 @@ class RecordedSpeed:
     """The mark on the shaft at which the crank angle is zero."""
     faults: tuple[PulseFault, ...] = ()
     quality: Mapping[str, float] = field(default_factory=dict)
-    """`jitter` of a tacho in periods, or mean `confidence` without one."""
+    """`jitter` of a tacho in periods, or `confidence` without one."""
 
     def attributes(self) -> dict[str, Any]:
         """What the results say of the speed."""
@@ -69,6 +71,8 @@ def recorded_speed(recording: xr.Dataset, speed: SpeedSource) -> RecordedSpeed:
         Other speeds explain the signal as well as the one that was tracked.
     StandstillWarning
         The shaft stands at the begin or the end: that part is left out.
+    PulseWarning
+        Teeth are left out, pulses unequally spaced, or too quick for the sample rate.
     """
     signal = recording["signal"]
     rate_hz = float(recording.attrs["sample_rate_hz"])
@@ -109,20 +113,39 @@ def _from_signal(channel: xr.DataArray, rate_hz: float, speed: TacholessSpeed) -
         rate_hz,
         shaft_frequency_hz(speed.minimum_rpm),
         shaft_frequency_hz(speed.maximum_rpm),
+        speed.comb,
+        mains_hz=speed.mains_hz,
     )
-    confidence = float(np.mean(tracked.confidence))
-    if confidence < _LEAST_CONFIDENCE:
-        warnings.warn(
-            f"the speed found is uncertain: mean confidence {confidence:.2f} of 1, as in noise; "
-            "give a tacho or narrower limits",
-            UncertainSpeedWarning,
-            stacklevel=2,
-        )
+    check = tracked.check
+    if check.confidence < LEAST_CONFIDENCE:
+        warnings.warn(_uncertain(tracked, speed), UncertainSpeedWarning, stacklevel=2)
+    mains = "" if speed.mains_hz is None else f", without mains of {speed.mains_hz:g} Hz"
     source = (
-        f"from the signal, within {speed.minimum_rpm:g} to {speed.maximum_rpm:g} rpm; "
-        f"mean confidence {confidence:.2f} of 1"
+        f"from the signal, within {speed.minimum_rpm:g} to {speed.maximum_rpm:g} rpm{mains}; "
+        f"lines at {check.in_place} of {check.orders} orders of the comb, confidence "
+        f"{check.confidence:.2f} of 1"
     )
-    return RecordedSpeed(tracked.motion, source, quality={"confidence": confidence})
+    return RecordedSpeed(tracked.motion, source, quality={"confidence": check.confidence})
+
+
+def _uncertain(tracked: TacholessResult, speed: TacholessSpeed) -> str:
+    """Warning of a speed that need not be the shaft's, with its rival."""
+    check = tracked.check
+    mean_rpm = 60.0 * float(np.mean(tracked.motion.frequency_hz(tracked.time_s)))
+    reasons = [f"lines at {check.in_place} of {check.orders} orders of the comb"]
+    if check.width > WIDE_LINE:
+        reasons.append(f"{check.width:.1f} times as wide as those of a steady speed")
+    if check.followed < MOSTLY:
+        reasons.append(f"followed for {100.0 * check.followed:.0f} % of the time")
+    if check.rival_hz is not None:
+        reasons.append(f"{60.0 * check.rival_hz:.0f} rpm is the next best")
+    advice = "give the comb of the machine, narrower limits or a tacho"
+    if speed.mains_hz is None:
+        advice = "name the mains frequency, " + advice
+    return (
+        f"the speed found, {mean_rpm:.0f} rpm, is uncertain: confidence {check.confidence:.2f} of "
+        f"1; {', '.join(reasons)}; {advice}"
+    )
 
 
 def _from_rpm(channel: xr.DataArray, rate_hz: float) -> RecordedSpeed:
@@ -143,7 +166,13 @@ def _from_pulses(signal: xr.DataArray, rate_hz: float, speed: SpeedChannel) -> R
         index = pulse_times(_channel(signal, speed.index_channel).values, rate_hz)
         angle_zero = f"pulse of {speed.index_channel}"
     pulses = pulse_times(_channel(signal, speed.channel).values, rate_hz)
-    tracked = tacho_motion(pulses, speed.pulses_per_revolution, index)
+    too_quick = sampling_note(pulses, rate_hz)
+    try:
+        tracked = tacho_motion(pulses, speed.pulses_per_revolution, index)
+    except ParameterError as error:
+        raise ParameterError(f"{error}; {too_quick}" if too_quick else str(error)) from None
+    for note in (*((too_quick,) if too_quick else ()), *tracked.notes):
+        warnings.warn(f"tacho {speed.channel}: {note}", PulseWarning, stacklevel=2)
     number = speed.pulses_per_revolution
     source = (
         f"tacho {speed.channel}, {number} pulse{'s' if number > 1 else ''} a revolution, "

@@ -10,6 +10,7 @@ from ..base.arrays import Array
 from ..base.errors import ParameterError
 from .crank_motion import CrankMotion, from_angle, from_curve
 from .pulse_faults import PulseFault, number_pulses
+from .pulse_pattern import pulse_notes
 from .smoothing import smooth_curve
 
 _POINTS_PER_S: Final = 20
@@ -25,9 +26,11 @@ class TachoResult:
 
     motion: CrankMotion
     faults: tuple[PulseFault, ...]
-    """Missing and double pulses in the order of time."""
+    """Missing and double pulses in the order of time, without teeth that are always left out."""
     jitter: float
     """Standard deviation of the pulses about the motion, in pulse periods."""
+    notes: tuple[str, ...] = ()
+    """What the pulses say of the wheel: teeth left out, unequal pitches."""
 
 
 def tacho_motion(
@@ -39,7 +42,7 @@ def tacho_motion(
     as smooth as their jitter asks for (`smooth_curve`). Within one knot distance of its ends the
     speed is less certain than inside. The pulses are taken to be equally spaced on the shaft: a
     pitch error of theirs shows as a fluctuation of the speed that repeats every revolution, from
-    which nothing in the pulses can tell it.
+    which nothing in the pulses can tell it; a large one is noted.
 
     Parameters
     ----------
@@ -64,7 +67,9 @@ def tacho_motion(
     motion = from_curve(smooth.curve)
     if index_times_s is not None:
         motion = _from_index(motion, index_times_s, pitch_rad)
-    return TachoResult(motion, pulses.faults, smooth.scatter / pitch_rad)
+    notes, are_teeth = pulse_notes(pulses, pulses_per_revolution)
+    faults = [fault for fault in pulses.faults if not (are_teeth and fault.kind == "missing")]
+    return TachoResult(motion, tuple(faults), smooth.scatter / pitch_rad, notes)
 
 
 def rpm_motion(speed_rpm: Array, sample_rate_hz: float) -> CrankMotion:

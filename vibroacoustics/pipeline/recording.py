@@ -12,10 +12,10 @@ from ..levels.block_levels import labelled_block_levels
 from ..levels.recorded import channel_levels
 from ..orders import recorded as of_recording
 from ..orders.labelled_map import labelled_map, mapped_spectra
-from ..orders.recorded_speed import SpeedSource, channels_without_speed, recorded_speed
+from ..orders.recorded_speed import channels_without_speed, recorded_speed
 from ..orders.tracked import tracked_orders
 from ..results import provenance
-from ..study.order_analysis import OrderAnalysis
+from ..study.order_analysis import OrderAnalysis, SpeedSource
 
 _STAGES: Final = 4
 

@@ -7,6 +7,8 @@ from ..base.errors import ParameterError
 
 BandMethod = Literal["sums", "filters"]
 """Third octaves as sums of the lines within a band, or through the filters of IEC 61260-1."""
+DEFAULT_COMB: Final = tuple(float(order) for order in range(1, 11))
+"""Orders of a machine of which nothing is known."""
 BAND_METHODS: Final[tuple[BandMethod, ...]] = get_args(BandMethod)
 
 
@@ -65,11 +67,14 @@ class TacholessSpeed:
     ----------
     channel : name, or None for the recording's only channel
     minimum_rpm, maximum_rpm : limits within which the speed is looked for
+    comb : rising orders that the machine is known to have; one or two may be silent
+    mains_hz : nominal frequency of the mains, whose multiples are left out; None: nothing is
 
     Raises
     ------
     ParameterError
-        The limits are not above zero, or do not rise.
+        The limits are not above zero, or do not rise; the comb does not rise from above zero; the
+        mains frequency is not above zero.
 
     Examples
     --------
@@ -81,8 +86,16 @@ class TacholessSpeed:
     """None: the recording's only channel."""
     minimum_rpm: float
     maximum_rpm: float
+    comb: tuple[float, ...] = DEFAULT_COMB
+    mains_hz: float | None = None
 
     def __post_init__(self) -> None:
+        for order in self.comb:
+            _check_positive("comb", order, "")
+        if not self.comb or sorted(set(self.comb)) != list(self.comb):
+            raise ParameterError(f"comb = {self.comb}: must be at least one order, and rise")
+        if self.mains_hz is not None:
+            _check_positive("mains_hz", self.mains_hz, "Hz")
         _check_positive("minimum_rpm", self.minimum_rpm, "rpm")
         _check_positive("maximum_rpm", self.maximum_rpm, "rpm")
         if not self.minimum_rpm < self.maximum_rpm:
@@ -90,6 +103,9 @@ class TacholessSpeed:
                 f"minimum_rpm = {self.minimum_rpm:g} rpm: must be below maximum_rpm = "
                 f"{self.maximum_rpm:g} rpm"
             )
+
+
+SpeedSource = SpeedChannel | NominalSpeed | TacholessSpeed
 
 
 @dataclass(frozen=True)
@@ -118,7 +134,7 @@ class OrderAnalysis:
     20.0
     """
 
-    speed: SpeedChannel | NominalSpeed | TacholessSpeed
+    speed: SpeedSource
     orders: tuple[float, ...] = (1.0, 2.0, 3.0, 4.0)
     """Rising."""
     maximum_order: float = 20.0

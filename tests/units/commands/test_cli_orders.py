@@ -106,7 +106,9 @@ def test_a_real_recording_without_a_tacho(cache: Path, tmp_path: Path) -> None:
     outcome = command("orders", MOTOR, "--tacholess", 500, 6000, "--out", tmp_path, cache=cache)
     assert outcome.returncode == 0, outcome.stderr
     (line,) = outcome.stderr.splitlines()
-    assert line.startswith("warning: the speed found is uncertain: mean confidence 0.")
+    assert line.startswith("warning: the speed found, ")
+    assert " rpm, is uncertain: confidence 0." in line
+    assert " rpm is the next best; name the mains frequency, give the comb" in line
     assert "crank angle zero: none" in outcome.stdout
     results = open_results(tmp_path / "orders.nc")
     assert results.attrs["source_file"] == MOTOR.name
@@ -327,3 +329,27 @@ def test_orders_are_no_run(analysed: Path) -> None:
     for name in ("report", "score"):
         outcome = command_here(name, analysed / "orders.nc")
         assert_refused(outcome, "orders.nc: holds no run")
+
+
+def test_comb_and_mains_belong_to_tacholess(recording: Path, tmp_path: Path) -> None:
+    outcome = command_here("orders", recording, "--rpm", 2900, "--comb", "1,2", "--out", tmp_path)
+    assert_refused(outcome, "--comb, --mains: belong to --tacholess LOWEST HIGHEST")
+
+
+def test_comb_and_bands_that_are_none(recording: Path, tmp_path: Path) -> None:
+    speed = ("--speed", "shell", "--tacholess", 2000, 4000)
+    outcome = command_here("orders", recording, *speed, "--comb", "1,x", "--out", tmp_path)
+    assert_refused(outcome, "--comb: 'x' is no number")
+    outcome = command_here("orders", recording, *speed, "--bands", "x", "--out", tmp_path)
+    assert_refused(outcome, "--bands 'x': must be one of sums, filters")
+
+
+def test_comb_and_mains_of_the_user(recording: Path, tmp_path: Path) -> None:
+    outcome = command_here(
+        "orders", recording, "--speed", "shell", "--tacholess", 2000, 4000, "--comb", "1,2",
+        "--mains", 50, "--bands", "filters", "--out", tmp_path,
+    )  # fmt: skip
+    assert (
+        "within 2000 to 4000 rpm, without mains of 50 Hz; lines at 2 of 2 orders" in outcome.stdout
+    )
+    assert "third octaves in levels.csv by IEC 61260-1 filters" in outcome.stdout

@@ -10,6 +10,7 @@ from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.orders.pulse_edges import pulse_times
 from vibroacoustics.orders.pulse_faults import number_pulses
 from vibroacoustics.orders.recorded_speed import StandstillWarning, recorded_speed
+from vibroacoustics.orders.pulse_pattern import sampling_note
 from vibroacoustics.orders.smoothing import smooth_curve
 from vibroacoustics.orders.tacho import rpm_motion, tacho_motion
 from vibroacoustics.recordings import label_recording
@@ -464,3 +465,68 @@ def test_random_noise_is_no_tacho(seed):
     noise = np.random.default_rng(seed).standard_normal(51200)
     with pytest.raises(ParameterError, match="tacho: "):
         tacho_motion(pulse_times(noise, SAMPLE_RATE_HZ))
+
+
+# --- what the pulses say of their wheel ----------------------------------------------------------
+
+
+def test_teeth_left_out_are_counted_and_noted():
+    """60 - 2 teeth in a run-up: no faults, a note, and the angle of 60 teeth."""
+    shaft = Shaft(run_up, 20.0)
+    pulses = shaft.pulse_times(60)
+    result = tacho_motion(pulses[np.arange(pulses.size) % 60 < 58], 60)
+    assert result.faults == ()
+    (note,) = result.notes
+    assert note.startswith("2 of 60 pulses are left out regularly, as on a wheel of 60 - 2 teeth")
+    assert np.abs(shaft.speed_error(result.motion, 0.5)).max() < 1e-3
+
+
+def test_teeth_left_out_that_are_not_stated_are_noted():
+    pulses = Shaft(run_up, 20.0).pulse_times(60)
+    result = tacho_motion(pulses[np.arange(pulses.size) % 60 < 58], 58)
+    assert result.notes[0].endswith("58 pulses a revolution are stated: give 60")
+
+
+def unequal(marks_degrees, duration_s=20.0):
+    """Pulses of marks at these angles in a run-up."""
+    shaft = Shaft(run_up, duration_s)
+    turns = np.arange(int(shaft.revolutions[-1]))[:, None] + np.array(marks_degrees) / 360.0
+    return np.interp(turns.ravel(), shaft.revolutions, shaft.time_s)
+
+
+def test_two_unequal_marks_are_noted():
+    """170° and 190°: 2 · 20/360 of a pitch, 11 %."""
+    stated = tacho_motion(unequal([0.0, 170.0]), 2)
+    assert (
+        "the 2 pulses of a revolution are unequally spaced, by 11 % of a pitch" in stated.notes[0]
+    )
+    as_one = tacho_motion(unequal([0.0, 170.0]), 1)
+    assert "intervals repeat every 2 pulses and differ by 11 %" in as_one.notes[0]
+
+
+def test_unequal_teeth_of_a_wheel_are_noted():
+    marks = 6.0 * np.arange(60)
+    marks[20] += 0.3  # 5 % of a pitch: one pitch 5 % longer, the next one shorter
+    assert "unequally spaced, by 10 % of a pitch" in tacho_motion(unequal(marks, 5.0), 60).notes[0]
+
+
+@pytest.mark.parametrize("per_revolution", [1, 2, 60])
+@pytest.mark.parametrize("speed", [run_up, slow_swing, quick_swing])
+def test_even_pulses_need_no_note(speed, per_revolution):
+    pulses = Shaft(speed, 30.0).pulse_times(per_revolution)
+    assert tacho_motion(pulses, per_revolution).notes == ()
+    rng = np.random.default_rng(1)
+    assert tacho_motion(spoiled(pulses, rng)[0], per_revolution).notes == ()
+
+
+def test_aliasing_encoder_is_noted():
+    """1024 pulses a revolution at 6.4 kHz pass half the sample rate at 3.1 rev/s."""
+    rate = 6400.0
+    time_s = np.arange(int(10.0 * rate)) / rate
+    turns = time_s + 0.25 * time_s**2  # 1 to 6 rev/s
+    encoder = np.where((1024.0 * turns) % 1.0 < 0.5, 5.0, 0.0)
+    note = sampling_note(pulse_times(encoder, rate), rate)
+    assert "4 are needed: pulses are missed or alias" in note
+    slow = np.where((16.0 * turns) % 1.0 < 0.5, 5.0, 0.0)
+    assert sampling_note(pulse_times(slow, rate), rate) is None
+    assert sampling_note(np.array([1.0]), rate) is None

@@ -12,7 +12,12 @@ from support import tiny_run
 from vibroacoustics import analyse_orders, label_recording, read_recording
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.orders import OrderResolutionWarning
-from vibroacoustics.orders.recorded_speed import UncertainSpeedWarning, channels_without_speed
+from vibroacoustics.orders.recorded_speed import (
+    PulseWarning,
+    UncertainSpeedWarning,
+    channels_without_speed,
+    recorded_speed,
+)
 from vibroacoustics.recordings import csv_bytes, wav_bytes
 from vibroacoustics.report import levels_csv, orders_text
 from vibroacoustics.results import storage
@@ -35,9 +40,9 @@ damping_ratio = { value = 0.02, source = "given" }
 """
 
 
-def tacho(angle_rad, pulses=1):
+def tacho(angle_rad, pulses=1, width=0.1):
     """A pulse of 5 V that rises at every multiple of the pitch, crank angle zero among them."""
-    return np.where((pulses * angle_rad) % REVOLUTION < 0.1 * REVOLUTION, 5.0, 0.0)
+    return np.where((pulses * angle_rad) % REVOLUTION < width * REVOLUTION, 5.0, 0.0)
 
 
 def even_angle(speed_rpm, duration_s, rate_hz=RATE_HZ):
@@ -258,8 +263,44 @@ def test_tacholess():
 def test_speed_found_in_noise_is_warned_of():
     noise = np.random.default_rng(2).standard_normal(6400 * 4)
     recording = recorded({"noise": ("N", noise)}, 6400.0)
-    with pytest.warns(UncertainSpeedWarning, match=r"mean confidence 0\.[0-4]\d of 1"):
+    with pytest.warns(UncertainSpeedWarning, match=r"confidence 0\.[0-4]\d of 1"):
         analyse_orders(recording, OrderAnalysis(TacholessSpeed("noise", 1000.0, 4000.0)))
+
+
+def test_rival_of_a_speed_is_named():
+    """Hum at 50, 100 and 150 Hz beside orders 1 to 3 of 1458 rpm: without its name a rival."""
+    time_s = np.arange(int(15.0 * 6400.0)) / 6400.0
+    rng = np.random.default_rng(3)
+    turn = 2.0 * np.pi * time_s
+    force = np.sum([0.3 * np.cos(k * 24.3 * turn + k) for k in (2, 4, 6)], axis=0)
+    force += np.sum([np.cos(k * 50.0 * turn + k) for k in (1, 2, 3)], axis=0)
+    force += 0.05 * rng.standard_normal(time_s.size)
+    recording = recorded({"force": ("N", force)}, 6400.0)
+    comb = (1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
+    with pytest.warns(UncertainSpeedWarning, match=r"1(458|49\d|50\d) rpm is the next best"):
+        analyse_orders(recording, OrderAnalysis(TacholessSpeed(None, 1200.0, 1800.0, comb)))
+    named = TacholessSpeed(None, 1200.0, 1800.0, (2.0, 4.0, 6.0), mains_hz=50.0)
+    results = analyse_orders(recording, OrderAnalysis(named))
+    assert results["speed"].item() == pytest.approx(1458.0, rel=1e-3)
+    assert results.attrs["confidence"] > 0.8
+    assert "without mains of 50 Hz" in results.attrs["speed_source"]
+
+
+@pytest.mark.parametrize("wheel", ["10 - 2", "two marks", "aliasing"])
+def test_pulses_that_are_not_what_is_stated_are_warned_of(wheel):
+    angle = run_up_angle(1000.0, 1500.0, 10.0, 25600.0)
+    turns = angle / REVOLUTION
+    if wheel == "10 - 2":
+        pulses = np.where(turns % 1.0 < 0.8, tacho(angle, 10, 0.5), 0.0)
+        stated, words = 10, "on a wheel of 10 - 2 teeth"
+    elif wheel == "two marks":
+        pulses = np.where((turns % 1.0 < 0.05) | (abs(turns % 1.0 - 0.5) < 0.05), 5.0, 0.0)
+        stated, words = 2, "the 2 pulses of a revolution are unequally spaced"
+    else:
+        pulses, stated, words = tacho(angle, 300, 0.5), 300, "pulses are missed or alias"
+    recording = recorded({"force": ("N", np.cos(angle)), "tacho": ("V", pulses)}, 25600.0)
+    with pytest.warns(PulseWarning, match=words):
+        recorded_speed(recording, SpeedChannel("tacho", stated))
 
 
 @pytest.mark.parametrize(
@@ -292,6 +333,10 @@ def test_only_the_speed_is_no_recording():
         (lambda: NominalSpeed(np.inf), "speed_rpm = inf rpm"),
         (lambda: TacholessSpeed(None, 3e3, 1e3), "minimum_rpm = 3000 rpm: must be below"),
         (lambda: TacholessSpeed(None, np.nan, 1e3), "minimum_rpm = nan rpm"),
+        (lambda: TacholessSpeed(None, 1e3, 3e3, ()), "comb = .*: must be at least one order"),
+        (lambda: TacholessSpeed(None, 1e3, 3e3, (2.0, 1.0)), "comb = .* and rise"),
+        (lambda: TacholessSpeed(None, 1e3, 3e3, mains_hz=0.0), "mains_hz = 0 Hz"),
+        (lambda: OrderAnalysis(NominalSpeed(1.0), bands="both"), "must be one of sums, filters"),
         (lambda: OrderAnalysis(NominalSpeed(1.0), orders=()), "must be at least one"),
         (lambda: OrderAnalysis(NominalSpeed(1.0), orders=(2.0, 1.0)), "and rise"),
         (lambda: OrderAnalysis(NominalSpeed(1.0), orders=(1.0, 1.0)), "and rise"),

@@ -1,0 +1,174 @@
+"""Speeds held against each other, and checked, in the order spectra that they make."""
+
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+from scipy.interpolate import PPoly
+
+from .comb_evidence import best_speeds, lines_in_place, sharpness
+from .speed_courses import Course, Search
+from .unrolled import Unrolled
+
+MOSTLY: Final = 0.95
+"""Share of a recording over which the orders of the shaft stand out."""
+WIDE_LINE: Final = 1.2
+"""Width of lines over that of a steady tone's that says that the speed was not followed."""
+_SHARP_LINE: Final = 1.08
+"""The same of a speed that was followed."""
+_LEAST_IN_PLACE: Final = 0.6
+"""Share of the comb's orders that have a clear line where the speed is sure."""
+_APART: Final = 0.004
+"""Relative distance from which a speed is another one."""
+_NEAR: Final = 0.02
+"""Relative distance up to which courses follow the same shaft."""
+_CHANCE: Final = 5.0
+"""Evidence that the best of all speeds gets where no shaft turns: about ln of the number of speeds
+that can be told apart, over which the best was looked for."""
+_FRAMES: Final = (24, 12, 24, 48, 24, 12)
+"""Revolutions of the frames in which a course is refined, one after the other."""
+_SHORT_SPECTRA: Final = 3.0
+"""Evidence of the short spectra for the course that explains them best."""
+_CAUTION: Final = 2.0
+"""Evidence that counts as a factor e of odds: the teeth are not independent of each other."""
+_LOOKED_INTO: Final = 2
+"""Scales of a course of which it is known how long their orders stand out."""
+_LOST: Final = 8.0
+"""Evidence that is lost with a factor e of time in which the orders do not stand out."""
+
+
+@dataclass(frozen=True)
+class SpeedCheck:
+    """How sure a speed is, from the order spectrum that it makes.
+
+    Attributes
+    ----------
+    confidence : 0 to 1: evidence for the speed over that for it, for all others within the limits
+        and for no shaft at all
+    rival_hz : mean of the speed that explains the lines next best; None where there is none
+    in_place : orders of the comb at which there is a clear line
+    orders : of the comb that lie below half the sample rate
+    width : mean width of those lines, by order, over that of a steady tone's
+    followed : share of the recording in which the orders stand out as they mostly do
+    """
+
+    confidence: float
+    rival_hz: float | None
+    in_place: int
+    orders: int
+    width: float
+    followed: float
+
+
+@dataclass(frozen=True)
+class _Hypothesis:
+    """A course at a scale, and the evidence for it."""
+
+    course: Course
+    scale: float
+    evidence: float
+
+    def scaled(self) -> Course:
+        curve = self.course.curve
+        return replace(self.course, curve=PPoly(self.scale * curve.c, curve.x))
+
+
+def checked_course(search: Search, courses: list[Course]) -> tuple[Course, SpeedCheck]:
+    """The course with the most evidence in its order spectrum, at the scale that it asks for.
+
+    A course that follows the shaft makes its lines sharp, whichever of them it follows; the comb
+    tells the scale. An even speed is a course too. The best one is refined in the order spectra of
+    short blocks. Rivals are other scales of it, and what other courses explain of what is left when
+    the lines of the best one are taken out.
+
+    Parameters
+    ----------
+    search : what is looked for
+    courses : that explain the signal's short spectra
+    """
+    first = courses[0]
+    mean_hz = float(np.mean(first.curve(first.time_s)))
+    even = PPoly(np.array([[mean_hz]]), first.time_s[[0, -1]])
+    courses = [*courses, replace(first, curve=even)]
+    hypotheses = [one for course in courses for one in _hypotheses(Unrolled(search, course))]
+    if not hypotheses:
+        return first, SpeedCheck(0.0, None, 0, search.orders.size, np.nan, 0.0)
+    if max(one.evidence for one in hypotheses) < _CHANCE:  # too little to overrule short spectra
+        hypotheses = [_Hypothesis(first, 1.0, 0.0)]
+    hypotheses = [
+        replace(one, evidence=one.evidence + _SHORT_SPECTRA)
+        if one.course is first and abs(np.log(one.scale)) < _APART
+        else one
+        for one in hypotheses
+    ]
+    best = _refined(search, hypotheses)
+    at_scales = _hypotheses(best)
+    own = [one for one in at_scales if abs(np.log(one.scale)) < _APART]
+    if own:
+        best = Unrolled(search, own[0].scaled())
+    rest = best.without_orders()
+    others = [one for course in courses for one in _hypotheses(Unrolled(rest, course))]
+    rivals = [one for one in [*at_scales, *others] if _apart(one.scaled(), best.course) > _APART]
+    near = [course for course in courses[:-1] if _apart(course, best.course) < _NEAR]
+    surest = max(near or [best.course], key=lambda course: float(np.mean(course.confidence)))
+    course = replace(best.course, confidence=surest.confidence)
+    return course, _check(best, own[0].evidence if own else -np.inf, rivals)
+
+
+def _refined(search: Search, hypotheses: list[_Hypothesis]) -> Unrolled:
+    """The course of the most evidence, the sharpest one of it, of others near it, and refined."""
+    best = max(hypotheses, key=lambda one: one.evidence).scaled()
+    near = [one.scaled() for one in hypotheses if one.evidence > 0.0]
+    near = [course for course in near if 0.0 < _apart(course, best) < _APART]
+    trials = [Unrolled(search, best)]
+    for revolutions in _FRAMES:
+        trials.append(Unrolled(search, trials[-1].polished(revolutions)))
+    for course in near:
+        trials.append(Unrolled(search, course))
+        trials.append(Unrolled(search, trials[-1].polished()))
+    rising = [trial for trial in trials if trial.is_rising]
+    return max(rising or trials[:1], key=lambda trial: sharpness(trial.lines, search.orders))
+
+
+def _hypotheses(unrolled: Unrolled) -> list[_Hypothesis]:
+    """Scales of a course that its order spectrum speaks for, the best one first."""
+    search, course = unrolled.search, unrolled.course
+    if not unrolled.is_rising or unrolled.lines.frequency.size == 0:
+        return []
+    speed = course.curve(course.time_s)
+    lowest, highest = search.minimum_hz / speed.min(), search.maximum_hz / speed.max()
+    pairs = zip(*best_speeds(unrolled.lines, search.orders, lowest, highest, _APART), strict=True)
+    listed = []
+    for number, (scale, evidence) in enumerate(pairs):
+        share = unrolled.followed(scale) if number < _LOOKED_INTO else 1.0
+        lost = _LOST * np.log(min(1.0, max(share, 0.01) / MOSTLY))
+        listed.append(_Hypothesis(course, float(scale), float(evidence + lost)))
+    return sorted(listed, key=lambda one: -one.evidence)
+
+
+def _apart(course: Course, other: Course) -> float:
+    """Relative distance of two courses."""
+    time_s = course.time_s
+    return float(np.median(np.abs(np.log(course.curve(time_s) / other.curve(time_s)))))
+
+
+def _check(best: Unrolled, worth: float, rivals: list[_Hypothesis]) -> SpeedCheck:
+    distinct: list[_Hypothesis] = []
+    for one in sorted(rivals, key=lambda one: -one.evidence):
+        if all(_apart(one.scaled(), other.scaled()) > _APART for other in distinct):
+            distinct.append(one)
+    against = np.array([_CHANCE, *(one.evidence for one in distinct)])
+    odds = np.exp(np.clip((against - worth) / _CAUTION, -50.0, 50.0))
+    in_place, orders, width = lines_in_place(best.lines, best.search.orders)
+    followed = best.followed()
+    known = min(1.0, followed / MOSTLY) * min(1.0, in_place / (_LEAST_IN_PLACE * max(orders, 1)))
+    known *= min(1.0, _SHARP_LINE / width) ** 4 if in_place else 0.0
+    time_s = best.course.time_s
+    return SpeedCheck(
+        confidence=float(known / (1.0 + odds.sum())),
+        rival_hz=float(np.mean(distinct[0].scaled().curve(time_s))) if distinct else None,
+        in_place=in_place,
+        orders=orders,
+        width=width,
+        followed=followed,
+    )
