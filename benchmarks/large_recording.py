@@ -2,8 +2,8 @@
 
     OMP_NUM_THREADS=1 python benchmarks/large_recording.py
 
-Fifteen microphones and a tacho in one HDF5 file, at an even speed and in a run-up, which has a second
-figure for each channel. The processes that read the file count.
+Fifteen microphones and a tacho in an HDF5 file, at an even speed and in a run-up, of which each
+channel has a second figure. The processes that read the file count.
 """
 
 import argparse

@@ -119,7 +119,10 @@ def band_mean_square(signal: Array, sample_rate_hz: float, bands: Sequence[Band]
     check_measurable(bands, sample_rate_hz)
     samples = signal.shape[-1]
     spectrum = fft.rfft(signal)
-    energy = (spectrum.real**2 + spectrum.imag**2) / samples**2
+    for part in (spectrum.real, spectrum.imag):  # in place: of a long recording it is large
+        np.square(part, out=part)
+    energy = spectrum.real + spectrum.imag
+    energy /= samples**2
     energy[..., 1 : (samples + 1) // 2] *= 2.0
     return band_sums(energy, sample_rate_hz, samples, bands)
 

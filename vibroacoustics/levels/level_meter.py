@@ -101,16 +101,12 @@ class LevelMeter:
     ----------
     plan : of the recording
     offset : mean of all samples of the channel, which is no sound
-
-    Attributes
-    ----------
-    plan, offset : as given
-    lines : sum over the blocks of the squares under their ramps, by line, unit squared
-    weight : sum of the squares of the ramps; `lines` over it add up to the mean square
     """
 
     def __init__(self, plan: MeterPlan, offset: float) -> None:
         self.plan, self.offset = plan, offset
+        # Squares under the ramps of the blocks by line, and those of the ramps: `lines` over
+        # `weight` add up to the mean square.
         self.lines = np.zeros(plan.frequency_hz.size)
         self.weight = 0.0
         self._state = {name: np.zeros(5) for name in "ZAC"}
@@ -139,7 +135,7 @@ class LevelMeter:
             self._pending = self._pending[step:]
         if self._added == self.plan.samples and self._pending.size:
             self._add_block(self._pending, self._pending.size)
-            self._pending = np.empty(0)
+            self._pending, self._output = np.empty(0), np.empty(0, dtype=complex)
 
     @property
     def _rest(self) -> int:

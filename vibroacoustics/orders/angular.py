@@ -26,6 +26,8 @@ HIGHEST_PASS_BAND_RATIO: Final = 0.9
 _CHUNK_OUTPUTS: Final = 2**14
 """Work arrays of a few channels then stay in the cache."""
 _THREADS: Final = 2
+_PIECE: Final = 2**18
+"""Samples of which the motion is worked out at a time."""
 
 
 @dataclass(frozen=True)
@@ -107,8 +109,7 @@ def angular_resample(
     """
     check_finite(signal)
     start, stop = known_samples(motion, sample_rate_hz, signal.shape[-1])
-    time_s = np.arange(start, stop) / sample_rate_hz
-    frequency_hz = motion.frequency_hz(time_s)
+    turned, frequency_hz = _motion_at_samples(motion, sample_rate_hz, start, stop)
     highest_hz = float(np.max(frequency_hz))
     _check_maximum_order(maximum_order, sample_rate_hz, highest_hz)
     samples_per_revolution = 2 * int(scipy.fft.next_fast_len(int(np.ceil(2.0 * maximum_order))))
@@ -116,8 +117,8 @@ def angular_resample(
     low_pass = kaiser_low_pass(
         maximum_order / samples_per_revolution, stop_order / samples_per_revolution, ATTENUATION_DB
     )
-    position = motion.angle_rad(time_s) * (samples_per_revolution / (2.0 * np.pi))
-    width = frequency_hz * (samples_per_revolution / sample_rate_hz)
+    position = np.multiply(turned, samples_per_revolution / (2.0 * np.pi), out=turned)
+    width = np.multiply(frequency_hz, samples_per_revolution / sample_rate_hz, out=frequency_hz)
     first, last = _grid_within(position, low_pass.half_length, samples_per_revolution)
     rows = signal.reshape(-1, signal.shape[-1])[:, start:stop]
     values = _weighted_sums(rows, position, width, low_pass, first, last)
@@ -126,8 +127,29 @@ def angular_resample(
         samples_per_revolution=samples_per_revolution,
         first_sample=first,
         maximum_order=maximum_order,
-        time_s=np.interp(np.arange(first, last + 1), position, time_s),
+        time_s=(start + _sample_at(np.arange(first, last + 1, dtype=float), position))
+        / sample_rate_hz,
     )
+
+
+def _motion_at_samples(
+    motion: CrankMotion, sample_rate_hz: float, start: int, stop: int
+) -> tuple[Array, Array]:
+    """Crank angle and frequency at samples, worked out in pieces: a spline takes memory."""
+    angle, frequency = np.empty(stop - start), np.empty(stop - start)
+    for first in range(start, stop, _PIECE):
+        last = min(first + _PIECE, stop)
+        time_s = np.arange(first, last) / sample_rate_hz
+        angle[first - start : last - start] = motion.angle_rad(time_s)
+        frequency[first - start : last - start] = motion.frequency_hz(time_s)
+    return angle, frequency
+
+
+def _sample_at(index: Array, position: Array) -> Array:
+    """Samples, and parts of them, at which the angular grid has these indices."""
+    lower = np.clip(np.searchsorted(position, index, side="right") - 1, 0, position.size - 2)
+    share = (index - position[lower]) / (position[lower + 1] - position[lower])
+    return np.asarray(lower + share)
 
 
 def known_samples(motion: CrankMotion, sample_rate_hz: float, samples: int) -> tuple[int, int]:

@@ -103,16 +103,16 @@ def checked_course(search: Search, courses: list[Course]) -> tuple[Course, Speed
     ]
     best = _refined(search, hypotheses)
     at_scales = _hypotheses(best)
-    own = [one for one in at_scales if abs(np.log(one.scale)) < _APART]
-    if own:
-        best = Unrolled(search, own[0].scaled())
+    nearest = [one for one in at_scales if abs(np.log(one.scale)) < _APART]
+    if nearest:
+        best = Unrolled(search, nearest[0].scaled())
     rest = best.without_orders()
     others = [one for course in courses for one in _hypotheses(Unrolled(rest, course))]
     rivals = [one for one in [*at_scales, *others] if _apart(one.scaled(), best.course) > _APART]
     near = [course for course in courses[:-1] if _apart(course, best.course) < _NEAR]
     surest = max(near or [best.course], key=lambda course: float(np.mean(course.confidence)))
     course = replace(best.course, confidence=surest.confidence)
-    return course, _check(best, own[0].evidence if own else -np.inf, rivals)
+    return course, _check(best, nearest[0].evidence if nearest else -np.inf, rivals)
 
 
 def _refined(search: Search, hypotheses: list[_Hypothesis]) -> Unrolled:

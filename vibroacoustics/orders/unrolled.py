@@ -39,10 +39,6 @@ class Unrolled:
     ----------
     search : with the signal
     course : whose speed is above zero
-
-    Attributes
-    ----------
-    search, course : as given
     """
 
     def __init__(self, search: Search, course: Course) -> None:
