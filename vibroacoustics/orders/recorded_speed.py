@@ -30,6 +30,8 @@ class UncertainSpeedWarning(UserWarning):
 
 class StandstillWarning(UserWarning):
     """A part of the recording in which the shaft stands is not analysed."""
+
+
 class PulseWarning(UserWarning):
     """Pulses of a tacho are not what is stated of them, or too quick for the sample rate."""
 

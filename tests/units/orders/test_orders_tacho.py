@@ -9,8 +9,8 @@ from hypothesis.extra.numpy import arrays
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.orders.pulse_edges import pulse_times
 from vibroacoustics.orders.pulse_faults import number_pulses
-from vibroacoustics.orders.recorded_speed import StandstillWarning, recorded_speed
 from vibroacoustics.orders.pulse_pattern import sampling_note
+from vibroacoustics.orders.recorded_speed import StandstillWarning, recorded_speed
 from vibroacoustics.orders.smoothing import smooth_curve
 from vibroacoustics.orders.tacho import rpm_motion, tacho_motion
 from vibroacoustics.recordings import label_recording
