@@ -1,15 +1,13 @@
 """Bad input: each mistake gives a line with file, field, value, unit and allowed range."""
 
-import copy
-import math
 import re
 import shutil
-import tomllib
 from pathlib import Path
 
 import pytest
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
+from mutated_studies import PATHS, make_tree, write_changed
 from support import MACHINE_FILE, PIPELINES, ROOT
 
 from vibroacoustics.base.errors import LONGEST_LINE, ParameterError
@@ -212,6 +210,18 @@ def test_missing_key(tree, old, words):
     message = refuse_study(tree, old, "lost_" + old)
     says(message, "copeland_thesis.toml", *words)
     assert "missing" in message or "unknown key" in message
+
+
+@pytest.mark.parametrize("key", ["", " ", "\t"])
+def test_a_blank_key_is_shown(tree, key):
+    shown = '"\\t"' if key == "\t" else f'"{key}"'
+    root = make_tree(tree / "changed")
+    for path in (("motor", "auxiliary_resistance_ohm", "source"), ("motor",)):
+        with pytest.raises(ParameterError) as caught:
+            load_study(write_changed(root, ("machine", path), key, True))
+        message = str(caught.value)
+        check_lines(message, root)
+        assert shown in message
 
 
 def test_missing_table(tree):
@@ -503,44 +513,9 @@ anything = st.recursive(
 )  # fmt: skip
 
 
-def _leaves(content, prefix=()):
-    """Paths of all values, those inside quantities too, and of all tables."""
-    items = content.items() if isinstance(content, dict) else []
-    for key, value in items:
-        yield (*prefix, key)
-        yield from _leaves(value, (*prefix, key))
-
-
-def _toml(value) -> str:
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, float):
-        return repr(value) if math.isfinite(value) else str(value)
-    if isinstance(value, int):
-        return str(value)
-    if isinstance(value, str):
-        return _quoted(value)
-    if isinstance(value, list):
-        return "[" + ", ".join(_toml(item) for item in value if item is not None) + "]"
-    items = ((key, item) for key, item in value.items() if item is not None)
-    return "{" + ", ".join(f"{_quoted(key)} = {_toml(item)}" for key, item in items) + "}"
-
-
-def _quoted(text: str) -> str:
-    return '"' + "".join(f"\\U{ord(character):08X}" for character in text) + '"'
-
-
-CONTENTS = {"study": tomllib.loads(THESIS), "machine": tomllib.loads(MACHINE)}
-PATHS = [(name, path) for name, content in CONTENTS.items() for path in _leaves(content)]
-
-
 @pytest.fixture(scope="module")
 def module_tree(tmp_path_factory) -> Path:
-    root = tmp_path_factory.mktemp("studies")
-    shutil.copytree(ROOT / "data" / "validation", root / "data" / "validation")
-    (root / "data" / "machines").mkdir()
-    (root / "pipelines").mkdir()
-    return root
+    return make_tree(tmp_path_factory.mktemp("studies"))
 
 
 # One change is small as it is, and shrinking it takes minutes.
@@ -552,27 +527,10 @@ UNSHRUNK = (Phase.explicit, Phase.reuse, Phase.generate)
 @given(place=st.sampled_from(PATHS), value=anything, rename=st.booleans())
 def test_any_value_anywhere_loads_or_is_refused_in_lines(module_tree, place, value, rename):
     """Replace, remove or rename one value or table of the study or of its machine."""
-    contents = copy.deepcopy(CONTENTS)
-    table = contents[place[0]]
-    *parents, last = place[1]
-    for key in parents:
-        table = table[key]
-    if value is None:
-        del table[last]
-    elif rename and isinstance(value, str):
-        table[value] = table.pop(last)
-    else:
-        table[last] = value
-    files = {
-        "machine": module_tree / "data" / "machines" / MACHINE_FILE.name,
-        "study": module_tree / "pipelines" / "study.toml",
-    }
-    for name, file in files.items():
-        lines = (f"{_quoted(key)} = {_toml(item)}" for key, item in contents[name].items())
-        file.write_text("\n".join(lines), encoding="utf-8")
+    path = write_changed(module_tree, place, value, rename)
     message = None
     try:
-        load_study(files["study"])
+        load_study(path)
     except ParameterError as error:
         message = str(error)
     if message is not None:

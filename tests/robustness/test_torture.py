@@ -24,7 +24,7 @@ def test_of_storage() -> None:
     print(outcome.stdout)
     assert (outcome.returncode, outcome.stderr) == (0, ""), outcome.stdout
     rows = [line.split() for line in outcome.stdout.splitlines()[1:]]
-    assert len(rows) == 9
+    assert len(rows) == 13
     assert all(row[1:] == [str(TRIES), "0", "0", "0", "0"] for row in rows), outcome.stdout
 
 

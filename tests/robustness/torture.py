@@ -1,11 +1,12 @@
-"""Kills, full disks, writers beside readers, flipped bits and signals, counted.
+"""Kills, full disks, writers beside readers, flipped bits, signals and hostile input, counted.
 
 `python tests/robustness/torture.py --minutes 60` is the long form, `--tries 20` the short one. Each
 try ends with a look at what lies on the disk:
 
 - lost: results that were whole before cannot be read, or a value that was computed did not come
 - wrong: other values than were written, or files of two runs and nobody says so
-- traceback: an error that is no `StorageError`, or a command that ends otherwise than it should
+- traceback: an error of another kind than it should be, a command that ends otherwise, a try that
+  takes too much memory or time
 - left: files of a writer that is gone, after the next one
 """
 
@@ -369,13 +370,18 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--minutes", type=float, default=0.0)
     parser.add_argument("--tries", type=int, default=1)
+    parser.add_argument("--only", nargs="*", help="names of trials")
     parser.add_argument("--seed", type=int, default=20061)
     arguments = parser.parse_args()
-    trials = TRIALS
+    from input_torture import INPUT_TRIALS
+
+    trials = TRIALS + INPUT_TRIALS
     if arguments.minutes:
         from commands_torture import COMMAND_TRIALS
 
         trials += COMMAND_TRIALS
+    if arguments.only:
+        trials = tuple(trial for trial in trials if trial.__name__ in arguments.only)
     sys.exit(bool(torture(trials, arguments.tries, arguments.minutes, arguments.seed)))
 
 

@@ -8,7 +8,7 @@ from typing import Any, Final
 from ..base.errors import ParameterError
 from ..base.units import si_key, split_key
 from .study import ParameterRecord
-from .toml_files import is_quantity
+from .toml_files import is_quantity, shown_key
 
 QUANTITY_KEYS: Final = {"value", "source", "range"}
 
@@ -59,7 +59,7 @@ class Reader:
     def file_and_key(self, keys: tuple[str, ...]) -> str:
         """File and dotted key as written; a changed machine value stands in the study."""
         prefix = self.overridden.get(keys, ())
-        dotted = ".".join((*prefix, *keys))
+        dotted = ".".join(map(shown_key, (*prefix, *keys)))
         return f"{self.file(keys)}: {dotted}" if dotted else f"{self.file(keys)}"
 
     def number(self, keys: tuple[str, ...], value: Any, unit: str = "") -> Any:
@@ -78,7 +78,7 @@ class Reader:
             return tuple(value) if isinstance(value, list) else value
         unknown = set(value) - QUANTITY_KEYS
         if unknown:
-            raise ParameterError(f"{where}: unknown key {sorted(unknown)[0]}")
+            raise ParameterError(f"{where}: unknown key {shown_key(min(unknown))}")
         source = value.get("source")
         if not isinstance(source, str) or not source.strip():
             raise ParameterError(f"{where}: source is missing")

@@ -1,5 +1,6 @@
 """TOML files as plain tables: reading, extension of one study by another, origin of values."""
 
+import json
 import os
 import tomllib
 from collections.abc import Mapping
@@ -110,3 +111,8 @@ def leaves(content: Mapping[str, Any], prefix: tuple[str, ...] = ()) -> list[tup
         else:
             paths.append((*prefix, key))
     return paths
+
+
+def shown_key(key: str) -> str:
+    """A key as it is shown: in quotes where it is blank."""
+    return key if key.strip() else json.dumps(key)
