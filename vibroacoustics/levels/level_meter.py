@@ -23,6 +23,7 @@ RUN_IN_S: Final = 0.1
 exp(-2π 20.6 Hz t), has then fallen to 2e-6."""
 _BLOCK_S: Final = 2.5
 """Of a transform: its lines lie 0.4 Hz apart, a fifteenth of the third octave at 25 Hz."""
+_FILTERED: Final = ("A", "C")
 _SHORTEST_SHARE: Final = 4
 """At either end at most a quarter of a recording is left out."""
 
@@ -66,12 +67,18 @@ class MeterPlan:
         """Samples over which a block begins, and ends."""
         return self.run_in // 2
 
+    @cached_property
+    def rise(self) -> Array:
+        """Half of a cosine over a ramp, which adds up to one with the fall of the block before."""
+        return np.asarray(
+            np.sin(0.5 * np.pi * (np.arange(self.ramp) + 0.5) / max(self.ramp, 1)) ** 2
+        )
+
     def window(self, samples: int) -> Array:
-        """Of a block: one but for halves of a cosine, which add up to one with its neighbours'."""
-        rise = np.sin(0.5 * np.pi * (np.arange(self.ramp) + 0.5) / max(self.ramp, 1)) ** 2
+        """Of a block: one but for its ramps."""
         window = np.ones(samples)
-        window[: self.ramp] *= rise
-        window[samples - self.ramp :] *= rise[::-1]
+        window[: self.ramp] *= self.rise
+        window[samples - self.ramp :] *= self.rise[::-1]
         return window
 
     @cached_property
@@ -80,12 +87,12 @@ class MeterPlan:
         return np.asarray(fft.rfftfreq(self.length, 1.0 / self.sample_rate_hz))
 
     @cached_property
-    def gain(self) -> ComplexArray:
-        """Of all lines, those below 0 Hz too: A as the real and C as the imaginary part."""
-        frequency = np.abs(fft.fftfreq(self.length, 1.0 / self.sample_rate_hz))
-        weighted = (amplitude_of_level(WEIGHTING[name](frequency)) for name in "AC")
-        real, imaginary = weighted
-        return np.asarray(real + 1j * imaginary)
+    def gain(self) -> dict[str, Array]:
+        """Of the lines of a transform, by weighting."""
+        return {
+            name: np.asarray(amplitude_of_level(WEIGHTING[name](self.frequency_hz)))
+            for name in _FILTERED
+        }
 
     @cached_property
     def kept(self) -> Array:
@@ -113,7 +120,8 @@ class LevelMeter:
         self._added = 0
         self._start = 0  # of the next block
         self._pending: Array = np.empty(0)  # samples from there on
-        self._output = np.zeros(plan.length, dtype=complex)  # from a run-in before there on
+        # Of the blocks before: from a run-in before there on.
+        self._tail = {name: np.zeros(0) for name in _FILTERED}
 
     def add(self, piece: Array) -> None:
         """Take the next samples of the channel.
@@ -135,7 +143,7 @@ class LevelMeter:
             self._pending = self._pending[step:]
         if self._added == self.plan.samples and self._pending.size:
             self._add_block(self._pending, self._pending.size)
-            self._pending, self._output = np.empty(0), np.empty(0, dtype=complex)
+            self._pending = np.empty(0)
 
     @property
     def _rest(self) -> int:
@@ -144,28 +152,22 @@ class LevelMeter:
 
     def _add_block(self, samples: Array, step: int) -> None:
         """Measure a block of which `step` samples come before the next one."""
-        plan = self.plan
-        sound = samples - self.offset
+        plan, window = self.plan, self.plan.window(samples.size)
+        padded = np.zeros(plan.length)
+        sound = padded[plan.run_in : plan.run_in + samples.size]
+        np.subtract(samples, self.offset, out=sound)
         _detect(sound[:step], plan.kept, self._state["Z"])
-        window = plan.window(samples.size)
-        spectrum = fft.rfft(sound * window, plan.length)
+        sound *= window
+        spectrum = fft.rfft(padded)
         self.lines += _one_sided(spectrum, plan.length)
         self.weight += float(window @ window)
-        mirrored = np.conj(spectrum[1 : plan.length - spectrum.size + 1][::-1])
-        both = plan.gain * np.concatenate([spectrum, mirrored])
-        # Silence before the block is behind it in a transform, which is a circle.
-        self._output += np.roll(fft.ifft(both, overwrite_x=True), plan.run_in)
-        self._detect_weighted(step)
-
-    def _detect_weighted(self, step: int) -> None:
-        """Detect what no later block changes, without the run-ins of the recording."""
-        plan, lead = self.plan, self.plan.run_in
-        is_last = step == self._rest
-        first, end = self._start - lead, self._start + step - lead
-        wanted = slice(max(first, lead) - first, (plan.samples - lead if is_last else end) - first)
-        for name, part in (("A", self._output.real), ("C", self._output.imag)):
-            _detect(part[wanted], plan.kept, self._state[name])
-        self._output = np.concatenate([self._output[step:], np.zeros(step, dtype=complex)])
+        begin = 0 if self._start else 2 * plan.run_in  # of silence and of the recording
+        for name in _FILTERED:
+            weighted = fft.irfft(spectrum * plan.gain[name], plan.length)
+            tail = self._tail[name]
+            weighted[: tail.size] += tail
+            self._tail[name] = weighted[step:].copy()
+            _detect(weighted[begin:step], plan.kept, self._state[name])
         self._start += step
 
     def mean_square(self, weighting: str) -> tuple[float, float, float]:
@@ -182,7 +184,7 @@ def _one_sided(spectrum: ComplexArray, length: int) -> Array:
     return np.asarray(energy)
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, fastmath={"contract"})
 def _detect(signal: Array, kept: Array, state: Array) -> None:
     """Take samples into (sum of squares, Fast, Slow, greatest Fast, greatest Slow)."""
     total, fast, slow, most_fast, most_slow = state

@@ -40,7 +40,7 @@ def channel_levels(signal: xr.DataArray, rate_hz: float, method: BandMethod = "s
         meters[number] = LevelMeter(plan, float(np.mean(samples)))
         meters[number].add(samples)
         if method == "sums":  # of all of the recording at once: its lines lie closest
-            sums[number] = band_mean_square(samples - meters[number].offset, rate_hz, bands)
+            sums[number] = band_mean_square(samples, rate_hz, bands)  # an offset is line 0 alone
     return labelled_levels(signal["channel"], meters, bands, method, sums)
 
 

@@ -50,7 +50,7 @@ def kaiser_low_pass(pass_band: float, stop_band: float, attenuation_db: float) -
     )
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
 def add_samples(signal: Array, position: Array, width: Array, table: Array, output: Array) -> None:
     """Add y(i) += Σ_n x_n h(i - u_n) Δu_n to outputs i = 1 - H, 2 - H, ...
 
