@@ -1,6 +1,6 @@
 # make run   sets up, runs the main job, prints the table and where the report is
 # make test  sets up and runs every test, the slow physics included
-# make long  kills, full disks, writers beside readers, flipped bits and signals, for an hour
+# make long  tests that take minutes; kills, full disks, flipped bits and signals for an hour
 # make docs  sets up and builds the site into docs/_build/html
 PYTHON ?= python3
 VENV := .venv
@@ -17,6 +17,7 @@ test: $(VENV)/.dev
 	$(BIN)/pytest -n auto --dist loadfile
 
 long: $(VENV)/.dev
+	$(BIN)/pytest -n auto -m long
 	$(BIN)/python -W ignore tests/robustness/torture.py --minutes $(MINUTES)
 
 # Light tests on every Python that is promised, as far as it is here; not part of `make test`.

@@ -59,7 +59,7 @@ def speed_error(motion, speed, margin=0.0):
     return np.sqrt(np.mean((motion.frequency_hz(at) / speed(at) - 1.0) ** 2))
 
 
-@pytest.mark.parametrize("ratio_db", [20.0, 0.0, -10.0])
+@pytest.mark.parametrize("ratio_db", [20.0, pytest.param(0.0, marks=pytest.mark.long), -10.0])
 @pytest.mark.parametrize("orders", [FALLING, SECOND_STRONGEST, RICH, TWO])
 @pytest.mark.parametrize("speed", [run_up, swing, run_down, steady])
 def test_speed_in_noise(speed, orders, ratio_db):
@@ -136,14 +136,17 @@ def test_motion_reaches_from_the_first_frame_to_the_last():
     assert motion.start_s == pytest.approx(0.5 * 8.0 / 15.0, rel=0.02)
 
 
-@pytest.mark.slow
-def test_fifty_machines_with_hum_mesh_lines_and_a_weak_first_order():
-    """None is wrong without a warning; most are right within 0.3 % rms, and sure.
+@pytest.mark.parametrize(
+    ("numbers", "least"),
+    [(range(10), 8), pytest.param(range(2000, 2050), 40, marks=pytest.mark.long)],
+)
+def test_machines_with_hum_mesh_lines_and_a_weak_first_order(numbers, least):
+    """None is wrong without a warning; four in five are right within 0.3 % rms, and sure.
 
     Off the ends by a twentieth, as with a tacho within a knot: there is less to average.
     """
     sure = 0
-    for number in range(50):
+    for number in numbers:
         machine = synthetic_machine(number)
         limits = (machine.minimum_hz, machine.maximum_hz)
         result = tacholess_motion(
@@ -155,7 +158,7 @@ def test_fifty_machines_with_hum_mesh_lines_and_a_weak_first_order():
         is_sure = result.check.confidence >= LEAST_CONFIDENCE
         assert error < 3e-3 or not is_sure, number
         sure += error < 3e-3 and is_sure
-    assert sure >= 40
+    assert sure >= least
 
 
 def test_mains_are_left_out():

@@ -81,12 +81,6 @@ def test_estimated_errors_cover_those_of_rings():
     true, estimated = np.concatenate(true), np.concatenate(estimated)
     assert true.size == 144
     assert true.max() < 2e-3
-    print(
-        np.mean(estimated >= true),
-        np.median(estimated / true),
-        np.quantile(estimated / true, [0.02, 0.05, 0.1]),
-        true.max(),
-    )
     assert np.mean(estimated >= true) >= 0.95
     assert 1.0 <= np.median(estimated / true) <= 5.0
 
