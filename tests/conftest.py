@@ -1,6 +1,10 @@
 """Fixtures that all tests share."""
 
+import os
 from collections.abc import Iterator
+
+# Workers of pytest share the cores already; threads of linear algebra beside them double its time.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
 from support import PIPELINES

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 HERE = Path(__file__).parent
-TRIES = 6
+TRIES = 3
 
 
 def test_of_storage() -> None:

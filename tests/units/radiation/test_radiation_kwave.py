@@ -242,7 +242,9 @@ def test_memory_is_checked_before_the_run(box, monkeypatch):
     sys.platform != "linux" or kwave.array_namespace() is not np,
     reason="reads the peak memory of the processor as Linux tells it",
 )
-@pytest.mark.parametrize(("spacing_m", "frequencies"), [(0.03, 20), (0.025, 100)])
+@pytest.mark.parametrize(
+    ("spacing_m", "frequencies"), [(0.03, 20), pytest.param(0.025, 100, marks=pytest.mark.long)]
+)
 def test_predicted_memory_is_what_a_run_takes(spacing_m, frequencies):
     """Within 20 %, against the peak of a child process beyond what a small run left behind."""
     measured, predicted = in_child(f"""

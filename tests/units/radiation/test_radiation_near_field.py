@@ -229,7 +229,10 @@ def test_memory_is_checked_before_the_run(monkeypatch):
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="reads the peak memory as Linux tells it")
-@pytest.mark.parametrize(("spacing_m", "frequencies", "patterns"), [(0.006, 80, 6), (0.005, 20, 2)])
+@pytest.mark.parametrize(
+    ("spacing_m", "frequencies", "patterns"),
+    [pytest.param(0.006, 80, 6, marks=pytest.mark.long), (0.005, 20, 2)],
+)
 def test_predicted_memory_is_what_it_takes(spacing_m, frequencies, patterns):
     """Within 20 %, the default settings first, against the peak beyond a small run's.
 
