@@ -11,18 +11,17 @@ import csv
 import statistics
 import subprocess
 import time
-from functools import partial
 from pathlib import Path
 from typing import Final
 
 import numpy as np
 
 from vibroacoustics.base.vocabulary import RIGID_BODY_DOFS
-from vibroacoustics.radiation.arrays import no_progress
 from vibroacoustics.radiation.bodies import cylinder
-from vibroacoustics.radiation.machine_side import MachineSide, in_threads, near_fields
+from vibroacoustics.radiation.machine_side import MachineSide, near_fields
 from vibroacoustics.radiation.patterns import rigid_body
 from vibroacoustics.radiation.scene import Scene
+from vibroacoustics.radiation.task import Microphones
 
 FOLDER: Final = Path(__file__).parent
 RESULTS: Final = FOLDER.parent / "tests" / "oracles" / "boundary_elements" / "results.csv"
@@ -57,8 +56,8 @@ def transfer_vectors(spacing_m: float, frequency_hz: np.ndarray, points: np.ndar
     patterns = [rigid_body(dof) for dof in RIGID_BODY_DOFS]
     alone = Scene(body, (), ())
     near = near_fields(alone, spacing_m, MAXIMUM_HZ)
-    side = MachineSide(alone, near, patterns, frequency_hz, no_progress)
-    return np.array([one for one, _ in in_threads([partial(side.pressures, p) for p in points])])
+    side = MachineSide(alone, near, patterns, frequency_hz, [Microphones(points)])
+    return side.closed[0].pressure
 
 
 def main() -> None:

@@ -30,6 +30,7 @@ from vibroacoustics.radiation.box import Box, BoxField, closed_box
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.patterns import Pattern
 from vibroacoustics.radiation.surface_points import SurfacePoints, surface_points
+from vibroacoustics.radiation.symmetry import signs
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.study import Study
 
@@ -45,9 +46,17 @@ def radiated(
     frequency_hz: Array,
     progress: Progress = no_progress,
 ) -> BoxField:
-    """Field of one pattern on the box."""
+    """Field of one pattern on the box, from runs that end by microphones around it."""
     (flux,) = near.wall_fluxes([pattern])
-    return near.radiate(flux, frequency_hz, pattern.name, progress)
+    recorded = near.recording
+    layers = np.zeros((2, frequency_hz.size, recorded.columns.shape[1]), dtype=complex)
+    middle = (near.box.lower + near.box.upper) / 2.0
+    around = middle + 1.2 * np.array([[1, 0, 0.2], [0, 1, 0.3], [-0.7, -0.6, 0.4], [0, 0.2, 1]])
+    for part in near.radiate(flux, frequency_hz, around, pattern.name, progress):
+        sign = signs(recorded.across, part.parity)
+        for side, columns in enumerate(recorded.columns):
+            layers[side] += sign[side] * part.spectrum[:, columns]
+    return BoxField(*layers)
 
 
 def made_up_transfer_vectors(study: Study, gain: float = 1.0) -> xr.Dataset:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from radiation_parts import floor, normal_velocity
+from radiation_parts import floor, join, normal_velocity
 from sphere_sound import sphere_pressure
 from support import (
     CRANK_ANGLE,
@@ -31,7 +31,6 @@ from vibroacoustics.mechanisms.oldham_scroll.rotating_set import (
 from vibroacoustics.orders import order_spectrum, semi_major_axis
 from vibroacoustics.radiation.bodies import sphere
 from vibroacoustics.radiation.exact import box_green
-from vibroacoustics.radiation.join import join
 from vibroacoustics.radiation.machine_side import EXTRAPOLATION
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.near_step import Fields

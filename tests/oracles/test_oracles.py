@@ -14,7 +14,7 @@ from scipy.special import iv
 from support import CRANK_ANGLE, balancing, turning, wrench_orders
 
 from vibroacoustics.balancers.spring_mass import sprung_mass_response, tuned_mass
-from vibroacoustics.base.progress import no_progress
+from vibroacoustics.base.arrays import ComplexArray
 from vibroacoustics.levels import a_weighting, sound_pressure_level
 from vibroacoustics.mechanics.moving_parts import (
     MovingPart,
@@ -27,6 +27,7 @@ from vibroacoustics.radiation.bodies import cylinder
 from vibroacoustics.radiation.machine_side import MachineSide, near_fields
 from vibroacoustics.radiation.patterns import Pattern, rigid_body
 from vibroacoustics.radiation.scene import Scene
+from vibroacoustics.radiation.task import Microphones
 from vibroacoustics.scoring import topsis
 from vibroacoustics.transfer import MachineOnMounts
 
@@ -385,9 +386,19 @@ def _oval(at):
     return np.stack([size * np.cos(angle), size * np.sin(angle), 0.0 * x], axis=1)
 
 
+ALONG_THE_SHELL = np.array([[1.0825, 0.0, height] for height in np.linspace(-0.2, 0.2, 9)])
+"""Along the stroke, 1 m from the shell."""
+
+
 @pytest.fixture(scope="module")
-def free_field() -> dict[str, MachineSide]:
-    """Machine side of both shells in free field, both grids, at all frequencies asked for."""
+def free_field(
+    boundary_elements: list[dict[str, str]],
+) -> dict[str, tuple[ComplexArray, ComplexArray]]:
+    """Pressures of both shells in free field, (point, pattern, frequency).
+
+    At the boundary elements' microphones in their order and frequencies, and along a line 1 m from
+    the shell at the shaft's.
+    """
     rigid = [rigid_body(name) for name in PATTERNS[:3]]
     patterns = [*rigid, Pattern("beam", _beam), Pattern("oval", _oval)]
     frequency = np.concatenate([TABLE_HZ, SHAFT_HZ])
@@ -396,8 +407,23 @@ def free_field() -> dict[str, MachineSide]:
         body = cylinder(0.0825, bottom, top, dome)
         alone = Scene(body, (), ())
         near = near_fields(alone, DEFAULT_SPACING_M, MAXIMUM_HZ)
-        sides[name] = MachineSide(alone, near, patterns, frequency, no_progress)
+        places = microphones(boundary_elements, name)
+        asked = [
+            Microphones(np.array(list(places.values())), slice(0, TABLE_HZ.size)),
+            Microphones(ALONG_THE_SHELL, slice(TABLE_HZ.size, None)),
+        ]
+        side = MachineSide(alone, near, patterns, frequency, asked)
+        sides[name] = (side.closed[0].pressure, side.closed[1].pressure)
     return sides
+
+
+def microphones(rows: list[dict[str, str]], body: str) -> dict[str, list[float]]:
+    """Where the boundary elements listen to a body, by name."""
+    return {
+        row["microphone"]: [float(row[f"{axis}_m"]) for axis in "xyz"]
+        for row in rows
+        if row["body"] == body
+    }
 
 
 @pytest.fixture(scope="module")
@@ -416,13 +442,10 @@ def test_level_at_one_metre_against_boundary_elements(thesis_study, free_field, 
     frequency = np.array([speed_rpm / 60.0])
     wrench = np.concatenate([force[:, 1], moment[:, 1]])
     velocity = body.response(wrench[None], frequency).velocity[0]
-    row = TABLE_HZ.size + list(SHAFT_HZ).index(speed_rpm / 60.0)
-    levels = []
-    for height in np.linspace(-0.2, 0.2, 9):  # along the stroke, 1 m from the shell
-        place = np.array([1.0825, 0.0, height])
-        pressures, _ = free_field["cylinder"].pressures(place, slice(row, row + 1))
-        pressure = velocity[0] * pressures[0] + velocity[4] * pressures[2]
-        levels.append(sound_pressure_level(pressure) + a_weighting(frequency))
+    column = list(SHAFT_HZ).index(speed_rpm / 60.0)
+    pressures = free_field["cylinder"][1][:, :, column]
+    pressure = velocity[0] * pressures[:, 0] + velocity[4] * pressures[:, 2]
+    levels = sound_pressure_level(pressure) + a_weighting(frequency)
     assert np.max(levels) == pytest.approx(BOUNDARY_ELEMENTS_DBA[option, speed_rpm], abs=0.3)
 
 
@@ -436,7 +459,7 @@ def test_shells_against_boundary_elements(free_field, boundary_elements, body, p
     where the boundary elements are sure to 0.034 dB (oracles/boundary_elements/README.md).
     """
     rows = [row for row in boundary_elements if (row["body"], row["pattern"]) == (body, pattern)]
-    places = {row["microphone"]: [float(row[f"{axis}_m"]) for axis in "xyz"] for row in rows}
+    places = microphones(boundary_elements, body)
     table = {
         (row["microphone"], float(row["frequency_hz"])): complex(
             float(row["pressure_real_pa"]), float(row["pressure_imaginary_pa"])
@@ -445,12 +468,7 @@ def test_shells_against_boundary_elements(free_field, boundary_elements, body, p
     }
     expected = np.array([[table[name, hertz] for hertz in TABLE_HZ] for name in places])
     assert expected.shape == (10, 7)
-    ours = np.array(
-        [
-            free_field[body].pressures(np.array(place), slice(0, 7))[0][PATTERNS.index(pattern)]
-            for place in places.values()
-        ]
-    )
+    ours = free_field[body][0][:, PATTERNS.index(pattern)]
     mean = 10.0 * np.log10(np.mean(np.abs(ours) ** 2, 0) / np.mean(np.abs(expected) ** 2, 0))
     each = np.abs(20.0 * np.log10(np.abs(ours) / np.abs(expected)))
     each[np.abs(expected) < 0.1 * np.abs(expected).max(axis=0)] = 0.0

@@ -1,26 +1,29 @@
 """Transfer vectors by cut cells: any body, any surroundings."""
 
+from collections.abc import Sequence
 from functools import partial
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..base.errors import ParameterError
 from ..base.progress import Progress
 from .arrays import Array, ComplexArray
+from .box import BoxField
+from .exact import box_green
 from .kwave import kwave_version
 from .machine_side import (
     COARSENING,
     MachineSide,
     check_memory,
-    in_threads,
     near_fields,
     outside,
 )
 from .near_field import NearField
 from .room_green import check_receiver, green_difference_db
 from .room_greens import room_greens
-from .task import Task
+from .task import Microphones, Task
 
 _SOLVERS: Final = {
     "k-wave": "cut cells, k-wave-python {}",
@@ -35,46 +38,69 @@ class ByCutCells:
     ------
     ParameterError
         A receiver lies too close to the machine or behind a wall, or memory does not suffice.
-    SolverError
-        A field is not finite or has not died down.
     """
 
-    def __init__(self, task: Task, progress: Progress) -> None:
+    def __init__(self, task: Task) -> None:
         settings = task.settings
-        near = near_fields(task.scene, settings.near_field_spacing_m, settings.maximum_frequency_hz)
-        check_memory(near, len(task.patterns), task.frequency_hz.size)
-        _check_receivers(task, near)
         self._task = task
-        self.side = MachineSide(task.scene, near, task.patterns, task.frequency_hz, progress)
-
-    def at_receivers(self, progress: Progress) -> dict[str, Array | ComplexArray]:
-        """Pressures (receiver, pattern, frequency) and errors; with k-Wave its check besides."""
-        task, side = self._task, self.side
-        positions, chosen = task.positions.values(), slice(0, task.tabulated)
-        closed, corrections = (
-            np.array(part)
-            for part in zip(
-                *in_threads([partial(side.pressures, p, chosen) for p in positions]), strict=True
-            )
+        self._near = near_fields(
+            task.scene, settings.near_field_spacing_m, settings.maximum_frequency_hz
         )
-        error = np.abs(corrections)
-        if task.settings.room_solver == "closed-form":
-            return {"transfer_vector": closed, "transfer_vector_error": error}
-        greens = room_greens(side.near[0].box, task, progress)
-        difference = [
-            green_difference_db(green, side.green(position, chosen))
-            for position, green in zip(positions, greens, strict=True)
-        ]
-        return {
-            "transfer_vector": corrections + [side.joined(green, chosen) for green in greens],
-            "transfer_vector_error": error,
-            "transfer_vector_closed_form": closed,
-            "green_difference": np.array(difference),
+        check_memory(self._near, len(task.patterns), task.frequency_hz.size)
+        _check_receivers(task, self._near)
+
+    def clear(self, points: Array) -> NDArray[np.bool_]:
+        """Whether points (point, 3) lie outside the boxes and in front of every wall."""
+        return outside(self._near, self._task.scene.walls, points)
+
+    def pressures(
+        self, elsewhere: Sequence[Microphones], progress: Progress
+    ) -> tuple[dict[str, Array | ComplexArray], list[ComplexArray]]:
+        """Pressures (receiver, pattern, frequency) and errors; with k-Wave its check besides.
+
+        And pressures (point, pattern, frequency) elsewhere.
+
+        Raises
+        ------
+        SolverError
+            A field is not finite or has not died down.
+        """
+        task, near = self._task, self._near
+        greens = partial(room_greens, near[0].box, task, progress)
+        side = MachineSide(
+            task.scene,
+            near,
+            task.patterns,
+            task.frequency_hz,
+            [task.receivers, *elsewhere],
+            progress,
+            greens if task.settings.room_solver == "k-wave" else None,
+        )
+        closed, *others = side.closed
+        vectors = {
+            "transfer_vector": closed.pressure,
+            "transfer_vector_error": np.abs(closed.correction),
         }
+        if side.room is not None:
+            vectors |= {
+                "transfer_vector": closed.correction + side.room,
+                "transfer_vector_closed_form": closed.pressure,
+                "green_difference": self._green_difference_db(side.greens),
+            }
+        return vectors, [radiated.pressure for radiated in others]
+
+    def _green_difference_db(self, greens: Sequence[BoxField]) -> Array:
+        """Of k-Wave's from the closed form, where it is largest on the box."""
+        task, box = self._task, self._near[0].box
+        expected = (
+            box_green(box, position, task.table_hz, task.scene.walls)
+            for position in task.positions.values()
+        )
+        return np.array(list(map(green_difference_db, greens, expected)))
 
     def attributes(self) -> dict[str, Any]:
         """What the result says about its solution."""
-        grid = self.side.near[0].grid
+        grid = self._near[0].grid
         return {
             "solver": _SOLVERS[self._task.settings.room_solver].format(kwave_version()),
             "near_field_cells": " x ".join(map(str, grid.shape)),

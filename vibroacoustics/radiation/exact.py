@@ -1,6 +1,6 @@
 """Green's functions in closed form. Time factor exp(+j omega t)."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -38,6 +38,39 @@ def green(
     for position, strength in zip(*images(source, mirrors), strict=True):
         total += strength * free_green(points, position, frequency_hz)
     return total
+
+
+def green_rows(
+    points: Array, sources: Array, frequency_hz: Array, mirrors: Sequence[Mirror] = ()
+) -> Iterator[ComplexArray]:
+    """The same of several sources (source, 3): (source, point), one frequency after the other.
+
+    Equal steps of frequency turn each image's phase by equal angles: a product takes the place of
+    an exponential.
+    """
+    distance, strength = (
+        np.stack(each)
+        for each in zip(
+            *(_distances(points, *images(source, mirrors)) for source in sources), strict=True
+        )
+    )
+    numbers = wavenumber(frequency_hz)
+    steps = np.append(np.diff(numbers), np.nan)
+    value = turn = np.zeros(0, dtype=complex)
+    turned = np.nan
+    for k, before, after in zip(numbers, np.append(np.nan, steps), steps, strict=False):
+        if abs(before - turned) <= 1e-12 * k:
+            value *= turn
+        else:
+            value = strength * np.exp(-1j * k * distance) / (4 * np.pi * distance)
+            turn, turned = np.exp(-1j * np.nan_to_num(after) * distance), after
+        yield value.sum(axis=1)
+
+
+def _distances(points: Array, positions: Array, strengths: Array) -> tuple[Array, Array]:
+    """Distances (image, point) of points from images, and their strengths (image, 1)."""
+    distance = np.linalg.norm(points - positions[:, None], axis=-1)
+    return distance, strengths[:, None]
 
 
 def box_green(

@@ -1,10 +1,10 @@
 """The machine side on two grids: what every pattern sends through the box, and how sure it is."""
 
-import itertools
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from functools import partial
+from dataclasses import dataclass
+from functools import cached_property, partial
 from typing import Final, TypeVar
 
 import numpy as np
@@ -12,15 +12,17 @@ import psutil
 from numpy.typing import NDArray
 
 from ..base.errors import ParameterError
-from ..base.progress import Progress
+from ..base.progress import Progress, no_progress
 from .arrays import Array, ComplexArray
 from .box import BoxField
-from .exact import box_green
-from .join import join
+from .exact import green_rows
+from .join import join, rows_of
 from .mirrors import Mirror
 from .near_field import NearField
 from .patterns import Pattern
+from .recording import PartField
 from .scene import Scene
+from .task import Microphones
 
 _UNIT_CELLS: Final = 3
 """Cells of the finer grid where the coarser one has one less, so that both have the same planes."""
@@ -28,18 +30,44 @@ COARSENING: Final = _UNIT_CELLS / (_UNIT_CELLS - 1)
 """Spacing of the coarser grid over that of the finer one."""
 EXTRAPOLATION: Final = 1.0 / (COARSENING**2 - 1.0)
 """Richardson: the finer grid errs by this share of the difference at second order."""
-_POINTS_PER_TASK: Final = 16
+FIELDS_BYTES: Final = 0.75 * 2**30
+"""Fields on the box that are kept at a time, unless one alone is larger."""
+_POINTS_PER_TASK: Final = 4
 
 Result = TypeVar("Result")
 
 
+@dataclass(frozen=True)
+class Radiated:
+    """Pressures at microphones with Green's functions in closed form, on both grids."""
+
+    finer: ComplexArray
+    """(point, pattern, frequency), Pa."""
+    coarser: ComplexArray
+
+    @property
+    def correction(self) -> ComplexArray:
+        """The estimated error of the finer grid, (point, pattern, frequency), Pa."""
+        difference: ComplexArray = EXTRAPOLATION * (self.finer - self.coarser)
+        return difference
+
+    @property
+    def pressure(self) -> ComplexArray:
+        """Extrapolated; what is left of the error is not known."""
+        extrapolated: ComplexArray = self.finer + self.correction
+        return extrapolated
+
+
 class MachineSide:
-    """Sound pressure of every pattern on the boxes of the finer and the coarser grid.
+    """Sound pressure of every pattern at microphones, from the finer and the coarser grid.
+
+    The patterns' fields on the boxes are joined with Green's functions and forgotten a few at a
+    time: all of them together need not fit the memory.
 
     Raises
     ------
     SolverError
-        A field is not finite or has not died down.
+        A field is not finite or rings on for longer than is simulated.
     """
 
     def __init__(
@@ -48,75 +76,122 @@ class MachineSide:
         near: Sequence[NearField],
         patterns: Sequence[Pattern],
         frequency_hz: Array,
-        progress: Progress,
+        microphones: Sequence[Microphones],
+        progress: Progress = no_progress,
+        room_greens: Callable[[], Sequence[BoxField]] | None = None,
     ) -> None:
-        self.frequency_hz = frequency_hz
-        self.walls = scene.walls
-        self.near = near
-        moving = [scene.moving(pattern) for pattern in patterns]
-        fluxes = in_threads([partial(grid.wall_fluxes, moving) for grid in near])
-        tasks = [
-            partial(grid.radiate, flux, frequency_hz, pattern.name, progress)
-            for grid, by_pattern in zip(near, fluxes, strict=True)
-            for pattern, flux in zip(patterns, by_pattern, strict=True)
-        ]
-        fields = in_threads(tasks)
-        self.fields: list[list[BoxField]] = [fields[: len(moving)], fields[len(moving) :]]
+        """`room_greens` gives Green's functions besides, on the box of the finer grid.
 
-    def green(self, point: Array, chosen: slice = slice(None)) -> BoxField:
-        """Closed-form Green's function of a point on the box of the finer grid."""
-        return box_green(self.near[0].box, point, self.frequency_hz[chosen], self.walls)
-
-    def pressures(
-        self, point: Array, chosen: slice = slice(None)
-    ) -> tuple[ComplexArray, ComplexArray]:
-        """Extrapolated pressure at a point and its correction, (pattern, frequency), Pa.
-
-        With the closed-form Green's function on both boxes. The correction, which the pressure
-        holds, is the estimated error of the finer grid; no bound of what is left is known.
+        They lead to the first microphones. It is called after the first runs, so that what these
+        refuse is refused soon.
         """
-        fine, coarse = (
-            self._joined(
-                number, box_green(near.box, point, self.frequency_hz[chosen], self.walls), chosen
-            )
-            for number, near in enumerate(self.near)
+        self._scene, self._near, self._names = scene, near, [pattern.name for pattern in patterns]
+        self._frequency_hz, self._microphones = frequency_hz, microphones
+        self._progress, self._room_greens = progress, room_greens
+        self._points = np.concatenate([asked.points for asked in microphones])
+        moving = [scene.moving(pattern) for pattern in patterns]
+        self._fluxes = in_threads([partial(grid.wall_fluxes, moving) for grid in near])
+        finer, coarser = (list(map(self._nothing, microphones)) for _ in near)
+        self.closed = [Radiated(*both) for both in zip(finer, coarser, strict=True)]
+        """What each of the microphones gets with Green's functions in closed form."""
+        self.room = self._nothing(microphones[0]) if room_greens else None
+        """(point, pattern, frequency), Pa, on the finer grid with `room_greens`."""
+        for batch in self._batches():
+            self._radiate(batch)
+
+    def _nothing(self, asked: Microphones) -> ComplexArray:
+        names, frequencies = (
+            self._names[: asked.patterns],
+            self._frequency_hz[asked.frequencies],
         )
-        correction = EXTRAPOLATION * (fine - coarse)
-        return fine + correction, correction
+        shape = (asked.points.shape[0], len(names), frequencies.size)
+        return np.zeros(shape, dtype=complex)
 
-    def clear(self, points: Array) -> NDArray[np.bool_]:
-        """Whether points (point, 3) lie outside the boxes and in front of every wall."""
-        return outside(self.near, self.walls, points)
+    def _batches(self) -> Iterator[list[tuple[int, int]]]:
+        """Grids and patterns whose fields are kept at the same time."""
+        batch: list[tuple[int, int]] = []
+        kept = 0.0
+        for grid, near in enumerate(self._near):
+            for number, flux in enumerate(self._fluxes[grid]):
+                size = near.field_bytes(self._frequency_hz.size, len(near.parts(flux)))
+                if batch and kept + size > FIELDS_BYTES:
+                    yield batch
+                    batch, kept = [], 0.0
+                batch.append((grid, number))
+                kept += size
+        yield batch
 
-    def at_points(
-        self, points: Array, chosen: slice, name: str, progress: Progress
-    ) -> ComplexArray:
-        """Extrapolated pressure at points (point, 3), (point, pattern, frequency), Pa."""
-        shape = (len(points), len(self.fields[0]), self.frequency_hz[chosen].size)
-        result = np.zeros(shape, dtype=complex)
-        parts = np.array_split(np.arange(len(points)), -(-len(points) // _POINTS_PER_TASK))
-        done = itertools.count(1)
-
-        def fill(indices: NDArray[np.intp]) -> None:
-            for index in indices:
-                result[index] = self.pressures(points[index], chosen)[0]
-            progress(name, next(done), len(parts))
-
-        in_threads([partial(fill, part) for part in parts])
-        return result
-
-    def joined(self, green: BoxField, chosen: slice = slice(None)) -> ComplexArray:
-        """Pressure (pattern, frequency), Pa, where a Green's function on the finer box leads."""
-        return self._joined(0, green, chosen)
-
-    def _joined(self, grid: int, green: BoxField, chosen: slice) -> ComplexArray:
-        box = self.near[grid].box
-        return np.stack(
+    def _radiate(self, batch: Sequence[tuple[int, int]]) -> None:
+        """Run grids and patterns and join what they send out."""
+        fields = in_threads(
             [
-                join(box, BoxField(field.inner[chosen], field.outer[chosen]), green)
-                for field in self.fields[grid]
+                partial(
+                    self._near[grid].radiate,
+                    self._fluxes[grid][number],
+                    self._frequency_hz,
+                    self._points,
+                    self._names[number],
+                    self._progress,
+                )
+                for grid, number in batch
             ]
         )
+        tasks = []
+        for grid in sorted({grid for grid, _ in batch}):
+            members = {
+                number: parts
+                for (other, number), parts in zip(batch, fields, strict=True)
+                if other == grid
+            }
+            for asked, result in zip(self._microphones, self.closed, strict=True):
+                values = (result.finer, result.coarser)[grid]
+                chosen = [number for number in members if number < values.shape[1]]
+                parts = [members[number] for number in chosen]
+                tasks += [
+                    partial(self._join_closed, grid, parts, asked, points, values, chosen)
+                    for points in _in_tasks(asked.points.shape[0])
+                ]
+            if grid == 0 and self.room is not None:
+                tasks.append(partial(self._join_room, members))
+        in_threads(tasks)
+
+    def _join_room(self, members: Mapping[int, Sequence[PartField]]) -> None:
+        """Fill in the pressures of some patterns with the Green's functions of the room."""
+        if self.room is not None:
+            fields, greens = list(members.values()), rows_of(self.greens)
+            joined = join(
+                self._near[0].recording, fields, self._indices(self._microphones[0]), greens
+            )
+            self.room[:, list(members)] = joined
+
+    @cached_property
+    def greens(self) -> Sequence[BoxField]:
+        """What `room_greens` gives."""
+        return self._room_greens() if self._room_greens else []
+
+    def _indices(self, asked: Microphones) -> range:
+        return range(*asked.frequencies.indices(self._frequency_hz.size))
+
+    def _join_closed(
+        self,
+        grid: int,
+        fields: Sequence[Sequence[PartField]],
+        asked: Microphones,
+        points: slice,
+        values: ComplexArray,
+        chosen: Sequence[int],
+    ) -> None:
+        """Fill in the values of some points and patterns."""
+        near = self._near[grid]
+        layers = np.concatenate([near.box.inner, near.box.outer])
+        frequency_hz = self._frequency_hz[asked.frequencies]
+        greens = green_rows(layers, asked.points[points], frequency_hz, self._scene.walls)
+        values[points, chosen] = join(near.recording, fields, self._indices(asked), greens)
+
+
+def _in_tasks(points: int) -> list[slice]:
+    """Points that are joined at a time."""
+    return [slice(first, first + _POINTS_PER_TASK) for first in range(0, points, _POINTS_PER_TASK)]
 
 
 def near_fields(scene: Scene, spacing_m: float, maximum_frequency_hz: float) -> list[NearField]:
@@ -154,8 +229,9 @@ def check_memory(near: Sequence[NearField], patterns: int, frequencies: int) -> 
 
 def memory_bytes(near: Sequence[NearField], patterns: int, frequencies: int) -> float:
     """Memory that a `MachineSide` takes at its peak, beside what is loaded before."""
-    geometry, result, run = np.transpose([grid.memory_bytes(frequencies) for grid in near])
-    return float(geometry.sum() + patterns * result.sum() + run.max() * min(processors(), patterns))
+    geometry, field, run = np.transpose([grid.memory_bytes(frequencies) for grid in near])
+    fields = max(field.max(), min(FIELDS_BYTES, patterns * field.sum()))
+    return float(geometry.sum() + fields + run.max() * min(processors(), patterns))
 
 
 def outside(near: Sequence[NearField], walls: Sequence[Mirror], points: Array) -> NDArray[np.bool_]:

@@ -19,42 +19,26 @@ from itertools import product
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
-from ..base.errors import SolverError
+from ..base.constants import SPEED_OF_SOUND_M_PER_S
 from ..base.progress import Progress, no_progress
-from .arrays import Array, ComplexArray, IndexArray
+from .arrays import Array, ComplexArray
 from .bodies import Body
-from .box import Box, BoxField, closed_box, open_sides
+from .box import Box, closed_box
 from .cut_cells import GEOMETRY_BYTES_PER_CELL, CutCells, cut_cells
-from .exact import wavenumber
+from .exact import green_rows
 from .mirrors import Mirror
 from .near_grid import BOX_MARGIN_M, NearGrid, near_grid
-from .near_step import BYTES_PER_CELL, Fields
+from .near_run import Run, Watch, advance_run
+from .near_step import BYTES_PER_CELL
 from .patterns import Pattern
-from .pulse import (
-    RunningTransform,
-    pulse,
-    pulse_duration_s,
-    pulse_width_s,
-    sampling_steps,
-    transform,
-    transform_bytes,
-)
+from .pulse import pulse_width_s, transform_bytes
+from .recording import Parity, PartField, Recording, recording
+from .settling import MOST_WATCHED, spread_points, watched_frequencies
 from .surface_points import surface_in_parts
-from .symmetry import images, signs, upper_half
+from .symmetry import images, signs
 from .wall_flux import wall_fluxes
 
-_PROGRESS_STEPS: Final = 50
-_MOST_DIAGONALS: Final = 250.0
-"""Longest recording after the pulse, in passages of sound through the box's diagonal."""
-_QUIET: Final = 3e-8
-"""A run ends when the pressure on the box has fallen to this share of its largest value."""
-_NOT_QUIET: Final = 1e-3
-"""Share that is refused at the end of the longest recording."""
-_ENVELOPE_DECAY_PER_CELL: Final = 0.933
-"""Decay of the envelope of the pressure during the passage of one cell."""
 _NO_PART: Final = 1e-4
 """Parts of a flux that are at most this share of it come from the surface's division: up to 9e-5
 on a sphere of an icosahedron."""
@@ -87,28 +71,21 @@ class NearField:
         return closed_box(grid.edges, grid.box_start, grid.box_stop, grid.on_walls)
 
     @cached_property
-    def layers(self) -> IndexArray:
-        """Flat indices of the cells inside and outside of each face of the box, (2, pair)."""
-        return _recording_layers(self.grid)
+    def recording(self) -> Recording:
+        """What the upper half of the mirrored axes records of the box."""
+        return recording(self.grid, self.box)
 
-    @cached_property
-    def recorded(self) -> tuple[IndexArray, IndexArray, NDArray[np.bool_]]:
-        """What the upper half of the mirrored axes records of the layers.
-
-        Flat indices of its cells (cell,), the column among them of every cell of the layers'
-        image (2, pair), and whether that cell lies across the middle of each axis (axis, 2, pair).
-        """
-        image, across = images(self.layers, self.grid.shape, self.grid.mirrored)
-        cells, columns = np.unique(image, return_inverse=True)
-        return cells, columns.reshape(image.shape), across
+    def field_bytes(self, frequencies: int, parts: int) -> float:
+        """Memory of a field of so many parts."""
+        return 16.0 * frequencies * parts * 2.0 * self.grid.upper_half.box_pairs
 
     def memory_bytes(self, frequencies: int) -> tuple[float, float, float]:
-        """Memory of the geometry, of a pattern's result, and of a run besides its result."""
+        """Memory of the geometry, of a pattern's field at most, and of a run besides."""
         cells, upper = self.grid, self.grid.upper_half
-        result = 32.0 * frequencies * self.grid.box_pairs
-        run = BYTES_PER_CELL * float(np.prod(upper.shape)) + transform_bytes(
-            frequencies, 2.0 * upper.box_pairs
-        )
+        recorded = 2.0 * upper.box_pairs
+        result = self.field_bytes(frequencies, 2 ** len(cells.mirrored))
+        run = BYTES_PER_CELL * float(np.prod(upper.shape)) + transform_bytes(frequencies, recorded)
+        run += 16.0 * recorded * MOST_WATCHED
         return GEOMETRY_BYTES_PER_CELL * float(np.prod(cells.shape)), result, run
 
     @cached_property
@@ -140,46 +117,73 @@ class NearField:
         outer = self.box.outer
         return float(max((lower - outer.min(axis=0)).max(), (outer.max(axis=0) - upper).max()))
 
-    @property
-    def most_steps(self) -> int:
-        """Largest number of time steps of a run."""
-        diagonal = float(np.linalg.norm(self.box.upper - self.box.lower))
-        duration = pulse_duration_s(self.pulse_width_s)
-        duration += _MOST_DIAGONALS * diagonal / SPEED_OF_SOUND_M_PER_S
-        return int(np.ceil(duration / self.grid.time_step_s))
+    def parts(self, flux: Array) -> list[tuple[Parity, Array]]:
+        """Even and odd parts of a flux (wall,), those that count, in cells of the upper half."""
+        grid = self.grid
+        image, beyond = images(self.cells.wall_cells, grid.shape, grid.mirrored)
+        parts = (
+            (parity, np.bincount(image, signs(beyond, parity) * flux) / 2 ** len(parity))
+            for parity in product((1, -1), repeat=len(grid.mirrored))
+        )
+        least = _NO_PART * np.abs(flux).max()
+        return [(parity, part) for parity, part in parts if not np.abs(part).max() <= least]
 
     def radiate(
-        self, flux: Array, frequency_hz: Array, name: str, progress: Progress = no_progress
-    ) -> BoxField:
-        """Pressure (Pa) on both layers of the box per unit velocity of a pattern.
+        self,
+        flux: Array,
+        frequency_hz: Array,
+        microphones: Array,
+        name: str,
+        progress: Progress = no_progress,
+    ) -> list[PartField]:
+        """Pressure (Pa) in the recorded cells per unit velocity of a pattern, by parity.
 
         Parameters
         ----------
         flux : what the pattern pushes into the wall cells, (wall,), m³/s
         frequency_hz : (frequency,)
+        microphones : points outside the box, (point, 3); a run ends when it is over for them
         name : of the pattern, for progress and errors
         progress : told of the steps
 
         Raises
         ------
         SolverError
-            The field is not finite or has not died down at the end of the run.
+            The field is not finite, or rings on for longer than is simulated.
         """
-        grid, cells = self.grid, self.cells.wall_cells
-        image, beyond = images(cells, grid.shape, grid.mirrored)
-        _, columns, across = self.recorded
-        layers = np.zeros((2, frequency_hz.size, columns.shape[1]), dtype=complex)
-        for parity in product((1, -1), repeat=len(grid.mirrored)):
-            part = np.bincount(image, signs(beyond, parity) * flux) / 2 ** len(parity)
-            if np.abs(part).max() <= _NO_PART * np.abs(flux).max():
-                continue
-            odd = [axis for axis, sign in zip(grid.mirrored, parity, strict=True) if sign < 0]
-            spectrum = _run(self, part, odd, frequency_hz, name, progress)
-            for layer, layer_columns, sign in zip(
-                range(2), columns, signs(across, parity), strict=True
-            ):
-                layers[layer] += sign * spectrum[:, layer_columns]
-        return BoxField(*layers)
+        grid = self.grid
+        watched = watched_frequencies(frequency_hz)
+        points = spread_points(microphones)
+        largest: Array = np.zeros(watched.size)
+        fields = []
+        for parity, part in self.parts(flux):
+            run = Run(
+                name=name,
+                flux=part,
+                odd=[axis for axis, sign in zip(grid.mirrored, parity, strict=True) if sign < 0],
+                frequency_hz=frequency_hz,
+                recorded=self.recording.cells,
+                watch=Watch(watched, self._to_points(parity, points, frequency_hz[watched])),
+                other_parts=largest,
+                pulse_width_s=self.pulse_width_s,
+                passage_s=self._passage_s,
+                progress=progress,
+            )
+            spectrum, largest = advance_run(run, grid, self.cells)
+            fields.append(PartField(parity, spectrum))
+        return fields
+
+    def _to_points(self, parity: Parity, points: Array, frequency_hz: Array) -> ComplexArray:
+        """From a part in the recorded cells to pressures at points, (frequency, cell, point)."""
+        layers = np.concatenate([self.box.inner, self.box.outer])
+        matrix = self.recording.join_matrix(parity)
+        greens = green_rows(layers, points, frequency_hz, self._walls)
+        return np.stack([matrix @ green.T for green in greens])
+
+    @property
+    def _passage_s(self) -> float:
+        diagonal = float(np.linalg.norm(self.box.upper - self.box.lower))
+        return diagonal / SPEED_OF_SOUND_M_PER_S
 
 
 def _divided(edges: Array, parts: int) -> Array:
@@ -187,89 +191,3 @@ def _divided(edges: Array, parts: int) -> Array:
     cells = np.arange(edges.size)
     planes: Array = np.interp(np.arange(parts * cells[-1] + 1) / parts, cells, edges)
     return planes
-
-
-def _grid_frequency(frequency_hz: Array, grid: NearGrid) -> tuple[Array, Array]:
-    """Frequency at which the grid's waves have the true length, and the gain that goes with it.
-
-    Averaged over directions, local differences see k² (1 - k² dx²/20) instead of k², so a lower
-    frequency f' with (2/dt) sin(pi f' dt) = omega sqrt(1 - k² dx²/20) has the wavelength of f. The
-    wall's acceleration is lower by the same root, which the gain makes up for.
-    """
-    phase = wavenumber(frequency_hz) * grid.spacing_m
-    root = np.sqrt(1.0 - phase**2 / 20.0)
-    half_step = np.pi * grid.time_step_s
-    shifted: Array = np.arcsin(half_step * frequency_hz * root) / half_step
-    return shifted, 1.0 / root
-
-
-def _recording_layers(grid: NearGrid) -> IndexArray:
-    layers = []
-    for axis, sign in open_sides(grid.on_walls):
-        ranges: list[IndexArray] = [
-            np.arange(a, b) for a, b in zip(grid.box_start, grid.box_stop, strict=True)
-        ]
-        inner_cell = grid.box_stop[axis] - 1 if sign > 0 else grid.box_start[axis]
-        side = []
-        for cell in (inner_cell, inner_cell + sign):
-            ranges[axis] = np.array([cell])
-            side.append(np.ravel_multi_index(np.ix_(*ranges), grid.shape).ravel())
-        layers.append(np.stack(side))
-    return np.concatenate(layers, axis=1)
-
-
-def _run(
-    near: NearField,
-    flux: Array,
-    odd: Sequence[int],
-    frequency_hz: Array,
-    name: str,
-    progress: Progress,
-) -> ComplexArray:
-    """Pressure (frequency, recorded cell) per unit spectrum of the wall velocity.
-
-    From the flux into the wall cells of the upper half of the grid, which is odd along some axes.
-    """
-    grid, time_step, steps = near.grid.upper_half, near.grid.time_step_s, near.most_steps
-    volumes = upper_half(near.cells.volumes, near.grid.mirrored)
-    areas = [upper_half(area, near.grid.mirrored) for area in near.cells.open_areas]
-    fields = Fields(grid, areas, volumes, odd)
-    recorded = fields.flat_indices(near.recorded[0])
-    shifted_hz, gain = _grid_frequency(frequency_hz, near.grid)
-    transformer = RunningTransform(shifted_hz, recorded.size)
-    pulse_steps = int(np.ceil(pulse_duration_s(near.pulse_width_s) / time_step))
-    velocity_time = time_step * (np.arange(pulse_steps) + 0.5)
-    velocity = pulse(velocity_time, near.pulse_width_s)
-    full = [grid.widths(axis) for axis in range(3)]
-    wall_cells = np.flatnonzero(flux)
-    volume = (volumes * np.einsum("i,j,k->ijk", *full)).reshape(-1)[wall_cells]
-    walls = fields.flat_indices(wall_cells)
-    stiffness = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S**2
-    wall_pressure = -stiffness * time_step * flux[wall_cells] / volume
-    every = sampling_steps(near.pulse_width_s, time_step)
-    decay = _ENVELOPE_DECAY_PER_CELL ** (every * near.grid.courant_number)
-    largest = envelope = 0.0
-    for step in range(steps):
-        fields.advance()
-        if step < pulse_steps:
-            fields.add(walls, velocity[step] * wall_pressure)
-        if step % _PROGRESS_STEPS == 0:
-            progress(f"near field {name}", step, steps)
-        if step % every:
-            continue
-        row = transformer.next_row((step + 1) * time_step)
-        row[...] = fields.pressure(recorded)
-        peak = float(np.abs(row).max())
-        largest, envelope = max(largest, peak), max(peak, decay * envelope)
-        if step > pulse_steps and not envelope > _QUIET * largest:
-            break
-    progress(f"near field {name}", steps, steps)
-    if not envelope <= _NOT_QUIET * largest:
-        raise SolverError(
-            f"near field {name}: the pressure has not died down at the end of the run "
-            f"({envelope:.3g} Pa against a largest of {largest:.3g} Pa)"
-        )
-    source = transform(shifted_hz, velocity_time, velocity) / gain
-    spectrum = transformer.spectrum()
-    spectrum *= (every / source)[:, None]
-    return spectrum

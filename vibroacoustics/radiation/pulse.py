@@ -4,7 +4,7 @@ from typing import Final
 
 import numpy as np
 
-from .arrays import Array, ComplexArray
+from .arrays import Array, ComplexArray, IndexArray
 
 _LEAD_WIDTHS: Final = 6.0
 _BLOCK_STEPS: Final = 64
@@ -82,9 +82,10 @@ class RunningTransform:
         self._sum += kernel @ self._block[: self._filled]
         self._filled = 0
 
-    def spectrum(self) -> ComplexArray:
-        """Sum of samples times exp(-j 2 pi f t), shape (frequency, point)."""
+    def spectrum(self, chosen: IndexArray | slice = slice(None)) -> ComplexArray:
+        """Sum of the samples so far times exp(-j 2 pi f t), (chosen frequency, point)."""
         self._flush()
-        result = np.empty((self._frequency.size, self._sum.shape[1]), dtype=complex)
-        result.real, result.imag = np.split(self._sum, 2)
+        count = self._frequency.size
+        result: ComplexArray = np.empty(self._sum[:count][chosen].shape, dtype=complex)
+        result.real, result.imag = self._sum[:count][chosen], self._sum[count:][chosen]
         return result

@@ -1,15 +1,14 @@
 """The sound field besides the microphones: measurement surface, map, sphere of directions."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Final, Protocol
+from typing import Any, Final
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from ..base.errors import ParameterError
-from ..base.progress import Progress
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import RIGID_BODY_DOFS, stamp
 from ..study.sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
@@ -22,9 +21,12 @@ from .arrangements import (
     reference_box,
     sound_power_points,
 )
-from .arrays import Array, ComplexArray
-from .mirrors import Mirror
+from .arrays import Array, ComplexArray, IndexArray
 from .scene import Scene
+from .task import Microphones
+
+Clear = Callable[[Array], NDArray[np.bool_]]
+"""Whether a method of radiation has pressures at points (point, 3)."""
 
 
 @dataclass(frozen=True)
@@ -60,79 +62,110 @@ class SoundField:
 NO_SOUND_FIELD: Final = SoundField()
 
 
-class Side(Protocol):
-    """A machine side: sound pressure of every pattern, in the room of its walls."""
+@dataclass(frozen=True)
+class FieldPart:
+    """Points of the sound field and how their transfer vectors are labelled."""
+
+    name: str
+    points: Array
+    """(..., 3), m."""
+    coordinates: dict[str, Any]
+    dimension: str
+    """Of the frequencies."""
+    frequencies: slice
+    clear: IndexArray
+    """Those of the points, in one row, at which there are pressures."""
 
     @property
-    def frequency_hz(self) -> Array:
-        """Frequencies of the table and, after them, those of the lines."""
+    def microphones(self) -> Microphones:
+        """What is asked of the method of radiation."""
+        return Microphones(
+            self.points.reshape(-1, 3)[self.clear], self.frequencies, len(RIGID_BODY_DOFS)
+        )
 
-    @property
-    def walls(self) -> Sequence[Mirror]:
-        """Of the room."""
+    def labelled(self, pressure: ComplexArray, frequency_hz: Array) -> xr.DataArray:
+        """Transfer vectors (..., dof, frequency) of the clear points; not a number at the others.
 
-    def clear(self, points: Array) -> NDArray[np.bool_]:
-        """Whether pressures at points (point, 3) can be had."""
+        Parameters
+        ----------
+        pressure : (clear point, dof, frequency), Pa
+        frequency_hz : those of the table and, after them, those of the lines
+        """
+        shape = (self.points.size // 3, *pressure.shape[1:])
+        values = np.full(shape, np.nan, dtype=complex)
+        values[self.clear] = pressure
+        coordinates = {
+            **self.coordinates,
+            "dof": list(RIGID_BODY_DOFS),
+            self.dimension: frequency_hz[self.frequencies],
+        }
+        by_point = values.reshape(*self.points.shape[:-1], *shape[1:])
+        return stamp(self.name, by_point, coordinates)
 
-    def at_points(
-        self, points: Array, chosen: slice, name: str, progress: Progress
-    ) -> ComplexArray:
-        """Pressure at points (point, 3), (point, pattern, frequency), Pa."""
 
-
-def elsewhere(
-    side: Side,
+def field_parts(
+    clear: Clear,
     surroundings: Scene,
     floor_level_m: float,
     sound_field: SoundField,
     tabulated: int,
-    progress: Progress,
-) -> xr.Dataset:
-    """Transfer vectors wherever the sound field is asked for, by the closed-form Green's function.
+) -> list[FieldPart]:
+    """Wherever the sound field is asked for.
 
-    The first `tabulated` of the machine side's frequencies are those of the table, the others those
-    of the lines.
+    The first `tabulated` of the frequencies are those of the table, the others those of the lines.
 
     Raises
     ------
     ParameterError
         A position of the measurement surface lies in the machine, too close to it or behind a wall.
     """
-    floor = next((wall.position_m for wall in side.walls if wall.axis == 2), None)
-    table, lines = slice(0, tabulated), slice(tabulated, None)
-    parts: dict[str, tuple[ComplexArray, dict[str, Any], str, slice]] = {}
+    floor = _floor_m(surroundings)
+    asked: list[tuple[str, Array, dict[str, Any], str]] = []
     if sound_field.sound_power is not None:
         points = sound_power_points(sound_field.sound_power, surroundings.machine, floor)
-        _check_surface(points, surroundings, side)
-        values = _at_points(side, points, table, "sound power", progress)
-        distances = ("position", np.linalg.norm(points, axis=1))
+        _check_surface(points, surroundings, clear)
         coordinates = {
             "position": np.arange(1, points.shape[0] + 1),
-            "position_distance": distances,
+            "position_distance": ("position", np.linalg.norm(points, axis=1)),
         }
-        parts["surface_transfer_vector"] = (values, coordinates, "frequency", table)
+        asked.append(("surface_transfer_vector", points, coordinates, "frequency"))
     if sound_field.map is not None:
         points = map_points(sound_field.map, floor_level_m)
-        values = _at_points(side, points, lines, "map", progress)
-        parts["map_transfer_vector"] = (values, _map_places(points), "line_frequency", lines)
+        asked.append(("map_transfer_vector", points, _map_places(points), "line_frequency"))
     if sound_field.directivity is not None:
         points = directivity_points(sound_field.directivity, floor)
-        values = _at_points(side, points, lines, "directivity", progress)
         angles = directivity_angles(sound_field.directivity, floor is not None)
         directions = dict(zip(("polar_angle", "azimuth"), angles, strict=True))
-        parts["directivity_transfer_vector"] = (values, directions, "line_frequency", lines)
+        asked.append(("directivity_transfer_vector", points, directions, "line_frequency"))
+    chosen = {"frequency": slice(0, tabulated), "line_frequency": slice(tabulated, None)}
+    return [
+        FieldPart(
+            name,
+            points,
+            coordinates,
+            dimension,
+            chosen[dimension],
+            np.flatnonzero(clear(points.reshape(-1, 3))),
+        )
+        for name, points, coordinates, dimension in asked
+    ]
+
+
+def labelled_fields(
+    parts: Sequence[FieldPart],
+    pressures: Sequence[ComplexArray],
+    frequency_hz: Array,
+    surroundings: Scene,
+) -> xr.Dataset:
+    """Transfer vectors of the parts of the sound field, from their pressures (see `FieldPart`)."""
     dataset = xr.Dataset(
         {
-            name: stamp(
-                name,
-                values,
-                {**coords, "dof": list(RIGID_BODY_DOFS), dimension: side.frequency_hz[chosen]},
-            )
-            for name, (values, coords, dimension, chosen) in parts.items()
+            part.name: part.labelled(pressure, frequency_hz)
+            for part, pressure in zip(parts, pressures, strict=True)
         }
     )
     if "surface_transfer_vector" in dataset:
-        machine = reference_box(surroundings.machine, floor)
+        machine = reference_box(surroundings.machine, _floor_m(surroundings))
         dataset["surface_transfer_vector"].attrs |= {
             "reference_length_m": machine.length_m,
             "reference_width_m": machine.width_m,
@@ -141,27 +174,18 @@ def elsewhere(
     return dataset
 
 
+def _floor_m(surroundings: Scene) -> float | None:
+    return next((wall.position_m for wall in surroundings.walls if wall.axis == 2), None)
+
+
 def _map_places(points: Array) -> dict[str, Any]:
     shape = ("map_row", "map_column")
     indices = {name: np.arange(size) for name, size in zip(shape, points.shape[:2], strict=True)}
     return {**indices, **{f"map_{axis}": (shape, points[..., i]) for i, axis in enumerate("xyz")}}
 
 
-def _at_points(
-    side: Side, points: Array, chosen: slice, name: str, progress: Progress
-) -> ComplexArray:
-    """Pressures (..., dof, frequency) at points (..., 3); not a number in the box, behind walls."""
-    flat = points.reshape(-1, 3)
-    dofs, frequencies = len(RIGID_BODY_DOFS), side.frequency_hz[chosen].size
-    result = np.full((flat.shape[0], dofs, frequencies), np.nan, dtype=complex)
-    clear = np.flatnonzero(side.clear(flat))
-    if clear.size:
-        result[clear] = side.at_points(flat[clear], chosen, name, progress)[:, :dofs]
-    return result.reshape(*points.shape[:-1], dofs, frequencies)
-
-
-def _check_surface(points: Array, surroundings: Scene, side: Side) -> None:
-    wrong = points[~side.clear(points)]
+def _check_surface(points: Array, surroundings: Scene, clear: Clear) -> None:
+    wrong = points[~clear(points)]
     if wrong.size:
         check_outside("sound_power", wrong[0], surroundings.body)
         raise ParameterError(

@@ -1,12 +1,25 @@
-"""What a method of radiation is given."""
+"""What a method of radiation is given, and what it is asked for."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+
+import numpy as np
 
 from ..study.radiation import RadiationSettings
 from .arrays import Array
 from .patterns import Pattern
 from .scene import Scene
+
+
+@dataclass(frozen=True)
+class Microphones:
+    """Points where some of the patterns are asked for, at some of the frequencies."""
+
+    points: Array
+    """(point, 3), m."""
+    frequencies: slice = field(default_factory=lambda: slice(None))
+    patterns: int | None = None
+    """How many of them, from the first on; None: all."""
 
 
 @dataclass(frozen=True)
@@ -26,4 +39,14 @@ class Task:
     @property
     def table_hz(self) -> Array:
         """Frequencies of the table."""
-        return self.frequency_hz[: self.tabulated]
+        return self.frequency_hz[self.table]
+
+    @property
+    def table(self) -> slice:
+        """Where the frequencies of the table are."""
+        return slice(0, self.tabulated)
+
+    @property
+    def receivers(self) -> Microphones:
+        """The microphones: all patterns at the frequencies of the table."""
+        return Microphones(np.array(list(self.positions.values())), self.table)

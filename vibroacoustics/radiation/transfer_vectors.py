@@ -27,7 +27,7 @@ from .kwave import kwave_version
 from .patterns import SurfaceMotion, rigid_body, surface_motion
 from .revolution.method import by_revolution
 from .scene import file_patterns, machine_body, position_m, scene
-from .sound_field import NO_SOUND_FIELD, SoundField, elsewhere
+from .sound_field import NO_SOUND_FIELD, SoundField, field_parts, labelled_fields
 from .task import Task
 
 
@@ -71,13 +71,11 @@ def transfer_vectors(
     patterns = [*map(rigid_body, RIGID_BODY_DOFS), *extra]
     frequency_hz = np.concatenate([table, sound_field.line_frequency_hz])
     task = Task(surroundings, patterns, positions, settings, frequency_hz, table.size)
-    method = by_revolution(shell, task) if settings.revolution else ByCutCells(task, progress)
-    dataset = _labelled(
-        method.at_receivers(progress), positions, table, [pattern.name for pattern in extra]
-    )
-    dataset = dataset.merge(
-        elsewhere(method.side, surroundings, shell.floor_z_m, sound_field, table.size, progress)
-    )
+    method = by_revolution(shell, task) if settings.revolution else ByCutCells(task)
+    parts = field_parts(method.clear, surroundings, shell.floor_z_m, sound_field, task.tabulated)
+    vectors, elsewhere = method.pressures([part.microphones for part in parts], progress)
+    dataset = _labelled(vectors, positions, table, [pattern.name for pattern in extra])
+    dataset = dataset.merge(labelled_fields(parts, elsewhere, frequency_hz, surroundings))
     return check(dataset).assign_attrs(
         room_solver=settings.room_solver,
         surroundings=settings.surroundings.model_dump_json(),

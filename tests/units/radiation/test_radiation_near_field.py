@@ -4,17 +4,15 @@ import sys
 
 import numpy as np
 import pytest
-from radiation_parts import floor, normal_velocity
+from radiation_parts import floor, join, normal_velocity
 from sphere_sound import sphere_pressure
 from support import PEAK_MEMORY, in_child, radiated
 
 from vibroacoustics.base.errors import ParameterError, SolverError
-from vibroacoustics.base.progress import no_progress
-from vibroacoustics.radiation import near_field
+from vibroacoustics.radiation import near_run
 from vibroacoustics.radiation.bodies import Body, cylinder, join_bodies, sphere
 from vibroacoustics.radiation.box import BoxField
 from vibroacoustics.radiation.exact import box_green
-from vibroacoustics.radiation.join import join
 from vibroacoustics.radiation.machine_side import MachineSide, check_memory, near_fields
 from vibroacoustics.radiation.mirrors import Mirror
 from vibroacoustics.radiation.near_field import NearField
@@ -24,6 +22,7 @@ from vibroacoustics.radiation.patterns import (
     rigid_body_velocity,
 )
 from vibroacoustics.radiation.scene import Scene
+from vibroacoustics.radiation.task import Microphones
 
 RADIUS = 0.12
 ANGLES = np.linspace(0.0, np.pi, 11)
@@ -63,11 +62,10 @@ def simulated():
     body = sphere(RADIUS)
     patterns = [legendre(order) for order in range(4)]
     alone = Scene(body, (), ())
-    side = MachineSide(
-        alone, near_fields(alone, 0.006, 4000.0), patterns, FREQUENCY_HZ, no_progress
-    )
     points = np.stack([np.sin(ANGLES), 0.0 * ANGLES, np.cos(ANGLES)], axis=1)
-    return np.stack([side.pressures(point)[0] for point in points], axis=1)
+    near = near_fields(alone, 0.006, 4000.0)
+    side = MachineSide(alone, near, patterns, FREQUENCY_HZ, [Microphones(points)])
+    return side.closed[0].pressure.transpose(1, 0, 2)
 
 
 class TestDefaultSettings:
@@ -234,46 +232,48 @@ def test_memory_is_checked_before_the_run(monkeypatch):
     [pytest.param(0.006, 80, 6, marks=pytest.mark.long), (0.005, 20, 2)],
 )
 def test_predicted_memory_is_what_it_takes(spacing_m, frequencies, patterns):
-    """Within 20 %, the default settings first, against the peak beyond a small run's.
+    """The default settings first, against the peak beyond a small run's; on one processor.
 
-    On one processor: with several, peaks of runs side by side meet or not, and it is a bound.
+    A bound: a rigid motion has one or two of the four parts that any pattern may have.
     """
     measured, predicted = in_child(f"""
         {PEAK_MEMORY}
         import os
         os.sched_setaffinity(0, {{min(os.sched_getaffinity(0))}})
         import numpy as np
-        from vibroacoustics.radiation import near_field
-        from vibroacoustics.base.progress import no_progress
+        from vibroacoustics.radiation import near_run
         from vibroacoustics.radiation.bodies import cylinder
         from vibroacoustics.radiation.machine_side import MachineSide, memory_bytes, near_fields
         from vibroacoustics.radiation.mirrors import Mirror
         from vibroacoustics.radiation.patterns import rigid_body
         from vibroacoustics.radiation.scene import Scene
+        from vibroacoustics.radiation.task import Microphones
         from vibroacoustics.base.vocabulary import RIGID_BODY_DOFS
         # Short runs that would not be accepted: their length takes no memory.
-        near_field._MOST_DIAGONALS, near_field._NOT_QUIET = 2.0, 1.0
+        near_run._MOST_PASSAGES, near_run._NOT_QUIET = 2, 1.0
         scene = Scene(cylinder(0.0825, -0.19, 0.227), (), (Mirror(2, -1, -0.21),))
         motions = [rigid_body(dof) for dof in RIGID_BODY_DOFS[:{patterns}]]
         frequency = np.linspace(25.0, 2000.0, {frequencies})
-        MachineSide(scene, near_fields(scene, 0.024, 4000.0), motions, frequency[:2], no_progress)
+        microphones = [Microphones(np.array([[1.0, 0.2, 0.1], [-0.5, 0.8, 0.6]]))]
+        small = near_fields(scene, 0.024, 4000.0)
+        MachineSide(scene, small, motions, frequency[:2], microphones)
         before = peak()
         near = near_fields(scene, {spacing_m}, 4000.0)
-        MachineSide(scene, near, motions, frequency, no_progress)
+        MachineSide(scene, near, motions, frequency, microphones)
         print(peak(forget=False) - before, memory_bytes(near, {patterns}, {frequencies}))
     """)
-    assert float(predicted) == pytest.approx(float(measured), rel=0.2)
+    assert 0.9 * float(measured) < float(predicted) < 4.0 * float(measured)
 
 
 def test_a_run_that_has_not_died_down_is_refused(monkeypatch):
-    monkeypatch.setattr(near_field, "_MOST_DIAGONALS", 0.0)
+    monkeypatch.setattr(near_run, "_MOST_PASSAGES", 0)
     with pytest.raises(SolverError, match="near field tx: the pressure has not died down"):
         radiated(NearField(sphere(0.1), 0.02, 1000.0), rigid_body("tx"), LOW_HZ)
 
 
 def test_a_velocity_that_is_no_number_is_refused():
     pattern = normal_velocity("bad", lambda points: np.where(points[:, 2] > 0.09, np.nan, 1.0))
-    with pytest.raises(SolverError, match="near field bad: the pressure has not died down"):
+    with pytest.raises(SolverError, match="near field bad: the pressure is no number"):
         radiated(NearField(sphere(0.1), 0.02, 1000.0), pattern, LOW_HZ)
 
 

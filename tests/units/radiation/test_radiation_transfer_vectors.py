@@ -1,6 +1,9 @@
 """Transfer vectors: both sides joined, labelled, interpolated."""
 
 import json
+import shutil
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -8,13 +11,13 @@ import xarray as xr
 from sphere_sound import sphere_pressure
 
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.base.progress import no_progress
 from vibroacoustics.machine.shell import Shell
 from vibroacoustics.radiation.interpolation import interpolate
 from vibroacoustics.radiation.machine_side import MachineSide, near_fields
 from vibroacoustics.radiation.patterns import rigid_body
 from vibroacoustics.radiation.scene import position_m, scene
 from vibroacoustics.radiation.sound_field import SoundField
+from vibroacoustics.radiation.task import Microphones
 from vibroacoustics.radiation.transfer_vectors import (
     cache_key_material,
     interpolate_transfer_vector,
@@ -133,8 +136,9 @@ def test_interpolation_is_exact_between_the_table(closed):
     surroundings = scene(SHELL, SETTINGS)
     patterns = [rigid_body("tx"), rigid_body("tz")]
     near = near_fields(surroundings, 0.035, 1000.0)
-    side = MachineSide(surroundings, near, patterns, wanted, no_progress)
-    direct, _ = side.pressures(position_m(SHELL, RECEIVERS["side"]))
+    microphones = Microphones(position_m(SHELL, RECEIVERS["side"])[None, :])
+    side = MachineSide(surroundings, near, patterns, wanted, [microphones])
+    (direct,) = side.closed[0].pressure
     interpolated = interpolate_transfer_vector(
         closed["transfer_vector"], xr.DataArray(wanted, dims="order")
     )
@@ -231,6 +235,17 @@ def test_cache_key_covers_what_shapes_the_result():
     assert text != json.dumps(cache_key_material(thicker, RECEIVERS, SETTINGS), sort_keys=True)
     assert text != json.dumps(cache_key_material(SHELL, RECEIVERS, finer), sort_keys=True)
     assert text == json.dumps(cache_key_material(SHELL, dict(RECEIVERS), SETTINGS), sort_keys=True)
+
+
+def test_cache_key_covers_the_source_in_subfolders(tmp_path, monkeypatch):
+    """A change of the boundary elements, a folder below, never meets an old cache."""
+    module = sys.modules[cache_key_material.__module__]
+    copy = shutil.copytree(Path(module.__file__).parent, tmp_path / "radiation")
+    monkeypatch.setattr(module, "__file__", str(copy / "transfer_vectors.py"))
+    before = cache_key_material(SHELL, RECEIVERS, SETTINGS)["solver"]
+    with (copy / "revolution" / "solving.py").open("a") as source:
+        source.write("# changed")
+    assert cache_key_material(SHELL, RECEIVERS, SETTINGS)["solver"] != before
 
 
 def test_cache_key_covers_the_content_of_files(tmp_path):

@@ -1,5 +1,6 @@
 """Transfer vectors by boundary elements on the meridian: bodies of revolution, floor or none."""
 
+from collections.abc import Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -13,7 +14,7 @@ from ..exact import box_green
 from ..kwave import kwave_version
 from ..room_green import check_receiver
 from ..room_greens import room_greens
-from ..task import Task
+from ..task import Microphones, Task
 from .profile import shell_profile
 from .receivers import addition, by_images, by_kwave, join_box
 from .side import RevolutionSide
@@ -28,15 +29,26 @@ class ByRevolution:
     """Boundary elements on two meshes, and the microphones."""
 
     def __init__(self, side: RevolutionSide, task: Task) -> None:
-        self._elements = side
+        self._side = side
         self._task = task
-        self.side = _Everywhere(side, task)
         _check_receivers(side, task)
 
-    def at_receivers(self, progress: Progress) -> dict[str, Array | ComplexArray]:
-        """Pressures (receiver, pattern, frequency) and errors; with k-Wave its check besides."""
-        task, side = self._task, self._elements
-        points = np.array(list(task.positions.values()))
+    def clear(self, points: Array) -> NDArray[np.bool_]:
+        """Whether points (point, 3) lie off the body and above the floor."""
+        return self._side.clear(points)
+
+    def pressures(
+        self, elsewhere: Sequence[Microphones], progress: Progress
+    ) -> tuple[dict[str, Array | ComplexArray], list[ComplexArray]]:
+        """Pressures (receiver, pattern, frequency) and errors; with k-Wave its check besides.
+
+        And pressures (point, pattern, frequency) elsewhere.
+        """
+        return self._at_receivers(progress), [self._at(asked, progress) for asked in elsewhere]
+
+    def _at_receivers(self, progress: Progress) -> dict[str, Array | ComplexArray]:
+        task, side = self._task, self._side
+        points = task.receivers.points
         arguments = (points, task.table_hz, "boundary elements", progress)
         if task.settings.room_solver == "closed-form":
             return by_images(side.spectrum(*arguments))
@@ -46,9 +58,22 @@ class ByRevolution:
         added = addition(side, box, task.table_hz, greens, expected)
         return by_kwave(side.spectrum(*arguments, added), greens, expected)
 
+    def _at(self, asked: Microphones, progress: Progress) -> ComplexArray:
+        """Pressures (point, pattern, frequency); those of the table are interpolated."""
+        frequency_hz = self._task.frequency_hz[asked.frequencies]
+        if asked.frequencies == self._task.table:
+            sampled = self._side.spectrum(asked.points, frequency_hz, "sound field", progress)
+            pressure = np.moveaxis(sampled.pressure, 0, -1)
+        else:
+            by_line = [
+                self._side.finer_pressures(float(line), asked.points) for line in frequency_hz
+            ]
+            pressure = np.stack(by_line, axis=-1)
+        return pressure[:, : asked.patterns]
+
     def attributes(self) -> dict[str, Any]:
         """What the result says about its solution."""
-        side = self._elements
+        side = self._side
         fine, coarse = (radiator.mesh for radiator in side.radiators)
         return {
             "solver": _SOLVERS[self._task.settings.room_solver].format(kwave_version()),
@@ -76,32 +101,6 @@ def by_revolution(shell: Shell, task: Task) -> ByRevolution:
     floor = next((wall.position_m for wall in task.scene.walls), None)
     highest = float(task.frequency_hz.max())
     return ByRevolution(RevolutionSide(profile, task.patterns, highest, floor), task)
-
-
-class _Everywhere:
-    """The boundary elements as the sound field asks for them."""
-
-    def __init__(self, side: RevolutionSide, task: Task) -> None:
-        self.frequency_hz = task.frequency_hz
-        self.walls = task.scene.walls
-        self._side = side
-        self._tabulated = task.tabulated
-
-    def clear(self, points: Array) -> NDArray[np.bool_]:
-        """Whether points (point, 3) lie off the body and above the floor."""
-        return self._side.clear(points)
-
-    def at_points(
-        self, points: Array, chosen: slice, name: str, progress: Progress
-    ) -> ComplexArray:
-        """Pressure at points (point, 3), (point, pattern, frequency), Pa."""
-        frequency_hz = self.frequency_hz[chosen]
-        if chosen.stop == self._tabulated:
-            return np.moveaxis(
-                self._side.spectrum(points, frequency_hz, name, progress).pressure, 0, -1
-            )
-        by_line = [self._side.finer_pressures(float(line), points) for line in frequency_hz]
-        return np.stack(by_line, axis=-1)
 
 
 def _check_receivers(side: RevolutionSide, task: Task) -> None:
