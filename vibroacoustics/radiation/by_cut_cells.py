@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 from ..base.errors import ParameterError
 from ..base.progress import Progress
+from ..base.vocabulary import RIGID_BODY_DOFS
+from ..study.radiation import RadiationSettings
 from .arrays import Array, ComplexArray
 from .box import BoxField
 from .exact import box_green
@@ -16,6 +18,7 @@ from .kwave import kwave_version
 from .machine_side import (
     COARSENING,
     MachineSide,
+    Radiated,
     check_memory,
     near_fields,
     outside,
@@ -24,7 +27,10 @@ from .near_field import NearField
 from .room_green import check_receiver, green_difference_db
 from .room_greens import room_greens
 from .task import Microphones, Task
+from .thin_walls import check_walls
 
+_LARGEST_MEAN_ERROR: Final = 0.3
+"""Share of a translation's pressure that its estimated error may be, in the mean: 2.3 dB."""
 _SOLVERS: Final = {
     "k-wave": "cut cells, k-wave-python {}",
     "closed-form": "cut cells, image sources",
@@ -37,7 +43,8 @@ class ByCutCells:
     Raises
     ------
     ParameterError
-        A receiver lies too close to the machine or behind a wall, or memory does not suffice.
+        A receiver lies too close to the machine or behind a wall, memory does not suffice, or
+        walls are too thin for the grids.
     """
 
     def __init__(self, task: Task) -> None:
@@ -48,6 +55,7 @@ class ByCutCells:
         )
         check_memory(self._near, len(task.patterns), task.frequency_hz.size)
         _check_receivers(task, self._near)
+        check_walls(task.scene.body, self._near[-1].grid, settings.near_field_spacing_m)
 
     def clear(self, points: Array) -> NDArray[np.bool_]:
         """Whether points (point, 3) lie outside the boxes and in front of every wall."""
@@ -62,6 +70,8 @@ class ByCutCells:
 
         Raises
         ------
+        ParameterError
+            The grids do not resolve walls or gaps.
         SolverError
             A field is not finite or has not died down.
         """
@@ -77,6 +87,7 @@ class ByCutCells:
             greens if task.settings.room_solver == "k-wave" else None,
         )
         closed, *others = side.closed
+        check_grids_agree(closed, task.settings)
         vectors = {
             "transfer_vector": closed.pressure,
             "transfer_vector_error": np.abs(closed.correction),
@@ -123,4 +134,28 @@ def _check_receivers(task: Task, near: list[NearField]) -> None:
             raise ParameterError(
                 f"receivers.{name}: stands behind a wall or within "
                 f"{1e3 * near[-1].margin_m:.0f} mm of the machine or its cabinet"
+            )
+
+
+def check_grids_agree(radiated: Radiated, settings: RadiationSettings) -> None:
+    """Refuse the strong motions of which the finer and the coarser grid tell different things.
+
+    Raises
+    ------
+    ParameterError
+        The estimated error of a translation is too large in the mean over the frequencies.
+    """
+    for number, dof in enumerate(RIGID_BODY_DOFS[:3]):
+        error, pressure = (
+            np.linalg.norm(values[:, number], axis=0)
+            for values in (radiated.correction, radiated.pressure)
+        )
+        loud = pressure > 0.0
+        shares = np.minimum(error[loud] / pressure[loud], 1.0)
+        if shares.size and shares.mean() > _LARGEST_MEAN_ERROR:
+            raise ParameterError(
+                f"radiation.near_field_spacing_mm = {1e3 * settings.near_field_spacing_m:g} mm: "
+                f"resolves walls or gaps too badly: the estimated error of {dof} is in the mean "
+                f"over the frequencies {100.0 * shares.mean():.0f} % of its pressure, must be at "
+                f"most {100.0 * _LARGEST_MEAN_ERROR:g} %"
             )

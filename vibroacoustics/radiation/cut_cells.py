@@ -11,7 +11,7 @@ import numpy as np
 from .arrays import Array, IndexArray
 from .bodies import Body
 from .lines import fluid_on_lines
-from .near_grid import NearGrid
+from .near_grid import COURANT_NUMBER, MOST_OPEN, NearGrid
 from .symmetry import both_halves, images
 
 GEOMETRY_BYTES_PER_CELL: Final = 32
@@ -22,11 +22,6 @@ _BESIDE_FACE: Final = 1e-4
 """A face is cut by both planes at this share of a cell beside it, and the smaller opening counts.
 
 So a wall that lies in a plane of faces closes them, whichever side it is on.
-"""
-_SMALLEST_VOLUME_PER_AREA: Final = 1.0 / 18.0
-"""Lower bound of the volume fraction over the sum of open-area fractions, for stability.
-
-With it every run at a Courant number of 0.3 or less was stable; there is no proof.
 """
 
 
@@ -65,12 +60,14 @@ def cut_cells(body: Body, grid: NearGrid) -> CutCells:
             )
         ] = _open_fractions(body, part, axis)
         open_areas.append(area)
-    volumes = np.ones(upper.shape)
+    volumes: Array = np.ones(upper.shape)
     volumes[tuple(map(slice, start, stop))] = _volume_fractions(body, part)
-    total_area: Array = np.sum(
-        [area[_lower(axis)] + area[_upper(axis)] for axis, area in enumerate(open_areas)], axis=0
-    )
-    volumes = np.maximum(volumes * (total_area > 0), total_area * _SMALLEST_VOLUME_PER_AREA)
+    both_faces: list[Array] = [
+        area[_lower(axis)] + area[_upper(axis)] for axis, area in enumerate(open_areas)
+    ]
+    total_area: Array = np.sum(both_faces, axis=0)
+    smallest = _smallest_volumes(both_faces, grid)
+    volumes = np.where(total_area > 0, np.maximum(volumes, smallest), 0.0)
     wall = _wall_areas(open_areas, upper)
     has_wall = np.any(np.abs(wall) > 1e-12 * grid.spacing_m**2, axis=1) & (total_area.ravel() > 0)
     wall_cells = np.flatnonzero(both_halves(has_wall.reshape(upper.shape), grid.mirrored))
@@ -80,6 +77,17 @@ def cut_cells(body: Body, grid: NearGrid) -> CutCells:
         wall_areas[across, axis] *= -1.0
     x, y, z = (both_halves(area, grid.mirrored, axis) for axis, area in enumerate(open_areas))
     return CutCells((x, y, z), both_halves(volumes, grid.mirrored), wall_cells, wall_areas)
+
+
+def _smallest_volumes(open_areas: list[Array], grid: NearGrid) -> Array:
+    """Lower bound of the cells' fluid fractions, for stability, from the areas by axis."""
+    upper = grid.upper_half
+    total = np.zeros(upper.shape)
+    for axis, area in enumerate(open_areas):
+        shape = [-1 if other == axis else 1 for other in range(3)]
+        total += area * upper.stiffness(axis).reshape(shape)
+    smallest: Array = total * (grid.courant_number / COURANT_NUMBER) ** 2 / MOST_OPEN
+    return smallest
 
 
 def _wall_areas(open_areas: list[Array], grid: NearGrid) -> Array:

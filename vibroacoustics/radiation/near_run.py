@@ -142,7 +142,7 @@ class _Peaks:
         if len(self._by_passage) <= _FORECAST_PASSAGES or not passages:
             return self.share() if not passages else 0.0
         fall = self._by_passage[-1] / self._by_passage[-1 - _FORECAST_PASSAGES // 2]
-        return float(self.share() * fall ** (2.0 * passages / _FORECAST_PASSAGES))
+        return float(self.share() * min(1.0, fall) ** (2.0 * passages / _FORECAST_PASSAGES))
 
 
 def _ends(run: Run, settling: Settling, peaks: _Peaks, passages: int) -> bool:

@@ -54,8 +54,8 @@ def transfer_vectors(
     Raises
     ------
     ParameterError
-        A receiver lies in or too close to the shell, a mesh is not closed, things overlap, or a
-        grid needs more memory than is available.
+        A receiver lies in or too close to the shell, a mesh is not closed, things overlap, a grid
+        needs more memory than is available, or walls or gaps are too thin for it.
     SolverError
         A field is not finite, not plausible or has not died down.
     """

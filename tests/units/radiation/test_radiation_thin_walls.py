@@ -1,0 +1,105 @@
+"""Walls too thin for the grid are refused, not leaked through; narrow cells keep the time step."""
+
+import numpy as np
+import pytest
+from radiation_parts import floor, revolved
+from support import radiated
+
+from vibroacoustics.base.errors import ParameterError, SolverError
+from vibroacoustics.radiation import near_grid as near_grid_module
+from vibroacoustics.radiation.bodies import block, cylinder, join_bodies, sphere
+from vibroacoustics.radiation.by_cut_cells import check_grids_agree
+from vibroacoustics.radiation.machine_side import Radiated, near_fields
+from vibroacoustics.radiation.near_field import NearField
+from vibroacoustics.radiation.near_grid import COURANT_NUMBER, near_grid
+from vibroacoustics.radiation.patterns import rigid_body
+from vibroacoustics.radiation.scene import Scene
+from vibroacoustics.radiation.thin_walls import check_walls
+from vibroacoustics.study.radiation import RadiationSettings
+
+MACHINE = cylinder(0.0825, -0.19, 0.1)
+
+
+def cup(wall_m, radius_m=0.15, bottom_m=-0.26, height_m=0.5):
+    """Round cup with an open top."""
+    inner, top = radius_m - wall_m, bottom_m + height_m
+    outline = [(radius_m, bottom_m), (radius_m, top), (inner, top), (inner, bottom_m + wall_m)]
+    return revolved(outline, bottom_m, bottom_m + wall_m)
+
+
+def coarser(body, spacing_m):
+    return near_fields(Scene(body, (), ()), spacing_m, 1000.0)[1].grid
+
+
+class TestThinWalls:
+    @pytest.mark.parametrize("wall_m", [0.001, 0.004, 0.012])
+    def test_a_cup_of_a_wall_thinner_than_a_cell_is_refused(self, wall_m):
+        body = join_bodies([MACHINE, cup(wall_m)])
+        with pytest.raises(ParameterError, match=r"spacing_mm = 12 mm: .* % of the cells .*leak"):
+            check_walls(body, coarser(body, 0.012), 0.012)
+
+    @pytest.mark.parametrize(("wall_m", "spacing_m"), [(0.036, 0.0138), (0.02, 0.0076)])
+    def test_the_spacing_that_is_asked_for_will_do(self, wall_m, spacing_m):
+        body = join_bodies([MACHINE, cup(wall_m)])
+        check_walls(body, coarser(body, spacing_m), spacing_m)
+
+    @pytest.mark.parametrize(
+        "body",
+        [
+            MACHINE,
+            sphere(0.1, (0.003, 0.001, 0.002)),
+            join_bodies([MACHINE, block(np.array([-0.12, 0.01, -0.1]), np.array([0, 0.014, 0.1]))]),
+            join_bodies(
+                [MACHINE, block(np.array([-0.12, -0.1, -0.19]), np.array([0, 0.1, -0.187]))]
+            ),
+        ],
+        ids=["can", "ball", "fin", "foot"],
+    )
+    def test_what_air_goes_round_is_not(self, body):
+        check_walls(body, coarser(body, 0.012), 0.012)
+
+
+@pytest.mark.slow
+def test_a_machine_in_a_hard_cup_is_refused():
+    """36 mm of wall, a gap of a cell and a half at 24 mm: sideways a mode rings on between them."""
+    surroundings = Scene(MACHINE, (cup(0.036),), ())
+    near = NearField(surroundings.body, 0.024, 1500.0)
+    moving = surroundings.moving(rigid_body("tx"))
+    with pytest.raises(SolverError, match=r"tx: the pressure has not died down: a mode .* % after"):
+        radiated(near, moving, np.arange(100.0, 1501.0, 100.0))
+
+
+def test_grids_that_disagree_are_refused():
+    finer = np.ones((2, 6, 10), dtype=complex)
+    coarser_one = finer.copy()
+    settings = RadiationSettings(near_field_spacing_m=0.024, maximum_frequency_hz=1500.0)
+    coarser_one[:, 3:] = 0.0  # weak motions
+    check_grids_agree(Radiated(finer, coarser_one), settings)
+    coarser_one[:, 2, :7] = 2.5
+    with pytest.raises(ParameterError, match=r"mm = 24 mm: .* error of tz .* 70 % of its pressure"):
+        check_grids_agree(Radiated(finer, coarser_one), settings)
+
+
+class TestNarrowCells:
+    def test_a_gap_does_not_shorten_the_time_step(self):
+        """14 mm cells between floor and bottom among those of 20 mm."""
+        grid = near_grid(MACHINE, 0.02, (floor(-0.19 - 0.042),))
+        assert grid.widths(2).min() == pytest.approx(0.014)
+        assert grid.courant_number == COURANT_NUMBER
+        assert grid.time_step_s == pytest.approx(COURANT_NUMBER * 0.02 / 343.0)
+
+    def test_the_narrowest_cells_shorten_it_a_little(self):
+        """6.7 mm of 20 mm: 4 + 2 · 3² = 22 instead of at most 18."""
+        grid = near_grid(MACHINE, 0.02, (floor(-0.21),))
+        assert grid.courant_number == pytest.approx(COURANT_NUMBER * np.sqrt(18.0 / 22.0), rel=1e-3)
+
+    @pytest.mark.parametrize("gap_m", [0.042, 0.02])
+    def test_the_step_does_not_matter(self, gap_m, monkeypatch):
+        """Half the time step changes the field on the box by less than 1 %: it is stable."""
+        fields = []
+        for courant in (COURANT_NUMBER, COURANT_NUMBER / 2.0):
+            monkeypatch.setattr(near_grid_module, "COURANT_NUMBER", courant)
+            near = NearField(MACHINE, 0.02, 1000.0, (floor(-0.19 - gap_m),))
+            fields.append(radiated(near, rigid_body("tz"), np.array([100.0, 400.0])).outer)
+        change = np.abs(fields[0] - fields[1]).max(axis=1) / np.abs(fields[1]).max(axis=1)
+        assert np.all(change < 0.01), change
