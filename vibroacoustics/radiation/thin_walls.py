@@ -41,7 +41,7 @@ def check_walls(body: Body, grid: NearGrid, spacing_m: float) -> None:
     if leaks.shape[0] <= _SMALLEST_LEAK * walls:
         return
     middle = leaks[leaks.shape[0] // 2] + start
-    place = [
+    middle_m = [
         float(edges[cell] + edges[cell + 1]) / 2.0
         for edges, cell in zip(grid.upper_half.edges, middle, strict=True)
     ]
@@ -49,7 +49,7 @@ def check_walls(body: Body, grid: NearGrid, spacing_m: float) -> None:
         f"radiation.near_field_spacing_mm = {1e3 * spacing_m:g} mm: "
         f"{100.0 * leaks.shape[0] / walls:.2g} % of the cells with wall ({1e3 * grid.spacing_m:g} "
         f"mm, the coarser grid) hold air of both sides of a thin wall, as at "
-        f"{np.round(place, 3).tolist()} m: sound would leak through it; must be at most the wall's "
+        f"{np.round(middle_m, 3).tolist()} m: sound would leak; must be at most the wall's "
         f"thickness / {THICKNESS_PER_SPACING:g}"
     )
 
