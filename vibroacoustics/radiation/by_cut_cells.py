@@ -19,11 +19,11 @@ from .machine_side import (
     COARSENING,
     MachineSide,
     Radiated,
-    check_memory,
     near_fields,
     outside,
 )
 from .near_field import NearField
+from .near_memory import check_memory
 from .room_green import check_receiver, green_difference_db
 from .room_greens import room_greens
 from .task import Microphones, Task
@@ -53,7 +53,8 @@ class ByCutCells:
         self._near = near_fields(
             task.scene, settings.near_field_spacing_m, settings.maximum_frequency_hz
         )
-        check_memory(self._near, len(task.patterns), task.frequency_hz.size)
+        greens = len(task.positions) if settings.room_solver == "k-wave" else 0
+        check_memory(self._near, len(task.patterns), task.frequency_hz.size, greens)
         _check_receivers(task, self._near)
         check_walls(task.scene.body, self._near[-1].grid, settings.near_field_spacing_m)
 

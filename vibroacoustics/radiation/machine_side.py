@@ -1,24 +1,22 @@
 """The machine side on two grids: what every pattern sends through the box, and how sure it is."""
 
-import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import Final, TypeVar
+from typing import Final
 
 import numpy as np
-import psutil
 from numpy.typing import NDArray
 
-from ..base.errors import ParameterError
 from ..base.progress import Progress, no_progress
+from ..base.threads import in_threads
 from .arrays import Array, ComplexArray
 from .box import BoxField
 from .exact import green_rows
 from .join import join, rows_of
 from .mirrors import Mirror
 from .near_field import NearField
+from .near_memory import FIELDS_BYTES
 from .patterns import Pattern
 from .recording import PartField
 from .scene import Scene
@@ -30,11 +28,7 @@ COARSENING: Final = _UNIT_CELLS / (_UNIT_CELLS - 1)
 """Spacing of the coarser grid over that of the finer one."""
 EXTRAPOLATION: Final = 1.0 / (COARSENING**2 - 1.0)
 """Richardson: the finer grid errs by this share of the difference at second order."""
-FIELDS_BYTES: Final = 0.75 * 2**30
-"""Fields on the box that are kept at a time, unless one alone is larger."""
 _POINTS_PER_TASK: Final = 4
-
-Result = TypeVar("Result")
 
 
 @dataclass(frozen=True)
@@ -208,32 +202,6 @@ def near_fields(scene: Scene, spacing_m: float, maximum_frequency_hz: float) -> 
     ]
 
 
-def check_memory(near: Sequence[NearField], patterns: int, frequencies: int) -> None:
-    """Refuse grids that do not fit.
-
-    Raises
-    ------
-    ParameterError
-        They need more memory than is available.
-    """
-    needed = memory_bytes(near, patterns, frequencies) / 2**30
-    available = psutil.virtual_memory().available / 2**30
-    if needed > available:
-        x, y, z = near[0].grid.shape
-        raise ParameterError(
-            f"radiation.near_field_spacing_mm: the grid of {x}×{y}×{z} cells for {patterns} motions"
-            f" and {frequencies} frequencies needs {needed:.3g} GiB, {available:.3g} GiB are "
-            "available"
-        )
-
-
-def memory_bytes(near: Sequence[NearField], patterns: int, frequencies: int) -> float:
-    """Memory that a `MachineSide` takes at its peak, beside what is loaded before."""
-    geometry, field, run = np.transpose([grid.memory_bytes(frequencies) for grid in near])
-    fields = max(field.max(), min(FIELDS_BYTES, patterns * field.sum()))
-    return float(geometry.sum() + fields + run.max() * min(processors(), patterns))
-
-
 def outside(near: Sequence[NearField], walls: Sequence[Mirror], points: Array) -> NDArray[np.bool_]:
     """Whether points (point, 3) lie outside the boxes of all grids and in front of every wall."""
     in_box = []
@@ -245,22 +213,3 @@ def outside(near: Sequence[NearField], walls: Sequence[Mirror], points: Array) -
     behind = [wall.depth_m(points) < -1e-9 for wall in walls]
     clear: NDArray[np.bool_] = ~np.any([*in_box, *behind], axis=0)
     return clear
-
-
-def in_threads(tasks: Sequence[Callable[[], Result]], workers: int | None = None) -> list[Result]:
-    """Results of tasks that mostly compute without the interpreter's lock, in their order.
-
-    The first error ends what has not begun.
-    """
-    with ThreadPoolExecutor(workers or processors()) as pool:
-        futures = [pool.submit(task) for task in tasks]
-        try:
-            return [future.result() for future in futures]
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
-
-
-def processors() -> int:
-    """Processors that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -6,9 +6,9 @@ from typing import Final
 import psutil
 
 from ..base.progress import Progress
+from ..base.threads import in_threads, processors
 from . import room_grid
 from .box import Box, BoxField
-from .machine_side import in_threads, processors
 from .room_green import kwave_green, memory_bytes
 from .task import Task
 

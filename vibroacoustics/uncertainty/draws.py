@@ -10,8 +10,8 @@ import xarray as xr
 
 from ..base.errors import ParameterError, SolverError
 from ..base.progress import Progress
+from ..base.threads import processors
 from ..base.vocabulary import check, stamp
-from ..radiation.machine_side import processors
 from ..study.draws import Draw
 from ..study.uncertainty import Range
 

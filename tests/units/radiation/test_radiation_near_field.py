@@ -13,9 +13,10 @@ from vibroacoustics.radiation import near_run
 from vibroacoustics.radiation.bodies import Body, cylinder, join_bodies, sphere
 from vibroacoustics.radiation.box import BoxField
 from vibroacoustics.radiation.exact import box_green
-from vibroacoustics.radiation.machine_side import MachineSide, check_memory, near_fields
+from vibroacoustics.radiation.machine_side import MachineSide, near_fields
 from vibroacoustics.radiation.mirrors import Mirror
 from vibroacoustics.radiation.near_field import NearField
+from vibroacoustics.radiation.near_memory import check_memory, memory_bytes
 from vibroacoustics.radiation.patterns import (
     Pattern,
     rigid_body,
@@ -225,6 +226,14 @@ def test_memory_is_checked_before_the_run(monkeypatch):
         check_memory(near, 6, 10)
 
 
+def test_green_functions_of_the_room_count():
+    """16 B for each of 240 frequencies, 40 microphones and points of both layers of the box."""
+    near = near_fields(Scene(sphere(0.1), (), ()), 0.0125, 1000.0)
+    more = memory_bytes(near, 6, 240, 40) - memory_bytes(near, 6, 240)
+    kept = 16 * 240 * 40 * 2 * near[0].box.weights.size
+    assert kept < more < 1.2 * kept
+
+
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="reads the peak memory as Linux tells it")
 @pytest.mark.parametrize(
@@ -243,7 +252,8 @@ def test_predicted_memory_is_what_it_takes(spacing_m, frequencies, patterns):
         import numpy as np
         from vibroacoustics.radiation import near_run
         from vibroacoustics.radiation.bodies import cylinder
-        from vibroacoustics.radiation.machine_side import MachineSide, memory_bytes, near_fields
+        from vibroacoustics.radiation.machine_side import MachineSide, near_fields
+        from vibroacoustics.radiation.near_memory import memory_bytes
         from vibroacoustics.radiation.mirrors import Mirror
         from vibroacoustics.radiation.patterns import rigid_body
         from vibroacoustics.radiation.scene import Scene

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from ...base.constants import SPEED_OF_SOUND_M_PER_S
 from ...base.errors import ParameterError
 from ...base.progress import Progress, no_progress
+from ...base.threads import in_threads, processors
 from ..arrays import Array, ComplexArray, IndexArray
-from ..machine_side import in_threads, processors
 from ..patterns import Pattern
 from .mesh import mesh
 from .profile import Profile, above_floor
