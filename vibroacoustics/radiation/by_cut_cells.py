@@ -36,6 +36,9 @@ _SOLVERS: Final = {
     "closed-form": "cut cells, image sources",
 }
 
+_LOUD: Final = 0.1
+"""Share of the loudest translation's pressure above which a translation is loud."""
+
 
 class ByCutCells:
     """The machine side on two grids, and the microphones.
@@ -141,17 +144,20 @@ def _check_receivers(task: Task, near: list[NearField]) -> None:
 def check_grids_agree(radiated: Radiated, settings: RadiationSettings) -> None:
     """Refuse the strong motions of which the finer and the coarser grid tell different things.
 
+    A motion counts at the frequencies at which it is loud at the microphones: by symmetry, one
+    along y is silent at microphones in the plane y = 0.
+
     Raises
     ------
     ParameterError
         The estimated error of a translation is too large in the mean over the frequencies.
     """
-    for number, dof in enumerate(RIGID_BODY_DOFS[:3]):
-        error, pressure = (
-            np.linalg.norm(values[:, number], axis=0)
-            for values in (radiated.correction, radiated.pressure)
-        )
-        loud = pressure > 0.0
+    errors, pressures = (
+        np.linalg.norm(values[:, :3], axis=0) for values in (radiated.correction, radiated.pressure)
+    )
+    loudest = pressures.max(axis=0)
+    for dof, error, pressure in zip(RIGID_BODY_DOFS, errors, pressures, strict=False):
+        loud = (pressure > _LOUD * loudest) & (loudest > 0.0)
         shares = np.minimum(error[loud] / pressure[loud], 1.0)
         if shares.size and shares.mean() > _LARGEST_MEAN_ERROR:
             raise ParameterError(

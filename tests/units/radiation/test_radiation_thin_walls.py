@@ -74,6 +74,7 @@ def test_grids_that_disagree_are_refused():
     coarser_one = finer.copy()
     settings = RadiationSettings(near_field_spacing_m=0.024, maximum_frequency_hz=1500.0)
     coarser_one[:, 3:] = 0.0  # weak motions
+    finer[:, 1], coarser_one[:, 1] = 0.01, 0.03  # silent by symmetry but for the grid's errors
     check_grids_agree(Radiated(finer, coarser_one), settings)
     coarser_one[:, 2, :7] = 2.5
     with pytest.raises(ParameterError, match=r"mm = 24 mm: .* error of tz .* 70 % of its pressure"):
