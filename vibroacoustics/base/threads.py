@@ -5,15 +5,17 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
 
+from .linear_algebra import one_thread_of_linear_algebra
+
 Result = TypeVar("Result")
 
 
 def in_threads(tasks: Sequence[Callable[[], Result]], workers: int | None = None) -> list[Result]:
     """Results of tasks that mostly compute without the interpreter's lock, in their order.
 
-    The first error ends what has not begun.
+    Linear algebra in them takes one thread each. The first error ends what has not begun.
     """
-    with ThreadPoolExecutor(workers or processors()) as pool:
+    with one_thread_of_linear_algebra(), ThreadPoolExecutor(workers or processors()) as pool:
         futures = [pool.submit(task) for task in tasks]
         try:
             return [future.result() for future in futures]

@@ -77,6 +77,7 @@ def run_command(
         results = pipeline.run(study, progress)
     written = outputs.write_report(results, folder)
     typer.echo(report.comparison_text(results))
+    typer.echo(report.kwave_text(results), nl=False)
     typer.echo(f"report: {written}")
     messages.warn(outputs.older_files(folder))
 

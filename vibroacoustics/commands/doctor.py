@@ -40,13 +40,14 @@ def _fft() -> str:
 
 def _kwave() -> str:
     """Whether k-Wave's solver loads, without running its package's import-time download."""
-    from ..radiation import kwave
+    from ..radiation import device, kwave
 
     try:
         kwave.check_kwave()
     except VibroacousticsError as error:
         return f"not usable: {error}"
-    return "solver loads, without a network"
+    trouble = device.device_trouble()
+    return f"solver loads, without a network; {trouble or device.engine_name()}"
 
 
 def _recordings() -> Iterator[str]:

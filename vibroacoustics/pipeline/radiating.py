@@ -22,7 +22,9 @@ def transfer_vectors(
 ) -> tuple[xr.Dataset, bool]:
     """Pressure per velocity of the housing and of the motions; from the cache if it is there."""
     sound_field = radiation.SoundField.of_study(study)
-    inputs = (study.machine.shell, study.receivers, study.radiation, sound_field, motions)
+    at_all = study.radiation.kwave_receivers == "all"
+    by_kwave = tuple(study.receivers) if at_all else (study.catalogue_receiver,)
+    inputs = (study.machine.shell, study.receivers, study.radiation, sound_field, motions, by_kwave)
     return storage.cached(
         "transfer-vectors",
         radiation.cache_key_material(*inputs),

@@ -1,5 +1,6 @@
 """Transfer vectors by cut cells: any body, any surroundings."""
 
+import json
 from collections.abc import Sequence
 from functools import partial
 from typing import Any, Final
@@ -12,29 +13,24 @@ from ..base.progress import Progress
 from ..base.vocabulary import RIGID_BODY_DOFS
 from ..study.radiation import RadiationSettings
 from .arrays import Array, ComplexArray
-from .box import BoxField
-from .exact import box_green
-from .kwave import kwave_version
+from .at_kwave import Vectors, closed_greens, differences_db, solver, with_kwave
 from .machine_side import (
     COARSENING,
     MachineSide,
     Radiated,
+    Room,
     near_fields,
     outside,
 )
 from .near_field import NearField
 from .near_memory import check_memory
-from .room_green import check_receiver, green_difference_db
+from .room_green import check_receiver
 from .room_greens import room_greens
 from .task import Microphones, Task
 from .thin_walls import check_walls
 
 _LARGEST_MEAN_ERROR: Final = 0.3
 """Share of a translation's pressure that its estimated error may be, in the mean: 2.3 dB."""
-_SOLVERS: Final = {
-    "k-wave": "cut cells, k-wave-python {}",
-    "closed-form": "cut cells, image sources",
-}
 
 _LOUD: Final = 0.1
 """Share of the loudest translation's pressure above which a translation is loud."""
@@ -56,8 +52,7 @@ class ByCutCells:
         self._near = near_fields(
             task.scene, settings.near_field_spacing_m, settings.maximum_frequency_hz
         )
-        greens = len(task.positions) if settings.room_solver == "k-wave" else 0
-        check_memory(self._near, len(task.patterns), task.frequency_hz.size, greens)
+        check_memory(self._near, len(task.patterns), task.frequency_hz.size, len(task.kwave))
         _check_receivers(task, self._near)
         check_walls(task.scene.body, self._near[-1].grid, settings.near_field_spacing_m)
 
@@ -67,7 +62,7 @@ class ByCutCells:
 
     def pressures(
         self, elsewhere: Sequence[Microphones], progress: Progress
-    ) -> tuple[dict[str, Array | ComplexArray], list[ComplexArray]]:
+    ) -> tuple[Vectors, list[ComplexArray]]:
         """Pressures (receiver, pattern, frequency) and errors; with k-Wave its check besides.
 
         And pressures (point, pattern, frequency) elsewhere.
@@ -80,7 +75,7 @@ class ByCutCells:
             A field is not finite or has not died down.
         """
         task, near = self._task, self._near
-        greens = partial(room_greens, near[0].box, task, progress)
+        room = Room(task.kwave_microphones, partial(room_greens, near[0].box, task, progress))
         side = MachineSide(
             task.scene,
             near,
@@ -88,36 +83,27 @@ class ByCutCells:
             task.frequency_hz,
             [task.receivers, *elsewhere],
             progress,
-            greens if task.settings.room_solver == "k-wave" else None,
+            room if task.kwave else None,
         )
         closed, *others = side.closed
         check_grids_agree(closed, task.settings)
-        vectors = {
+        vectors: Vectors = {
             "transfer_vector": closed.pressure,
             "transfer_vector_error": np.abs(closed.correction),
         }
-        if side.room is not None:
-            vectors |= {
-                "transfer_vector": closed.correction + side.room,
-                "transfer_vector_closed_form": closed.pressure,
-                "green_difference": self._green_difference_db(side.greens),
-            }
+        if side.in_room is not None:
+            correction = closed.correction[task.kwave_rows, :, task.kwave_table]
+            difference_db = differences_db(side.greens, closed_greens(near[0].box, task))
+            kwave: Vectors = {"transfer_vector": correction + side.in_room}
+            vectors = with_kwave(task, vectors, kwave, difference_db)
         return vectors, [radiated.pressure for radiated in others]
-
-    def _green_difference_db(self, greens: Sequence[BoxField]) -> Array:
-        """Of k-Wave's from the closed form, where it is largest on the box."""
-        task, box = self._task, self._near[0].box
-        expected = (
-            box_green(box, position, task.table_hz, task.scene.walls)
-            for position in task.positions.values()
-        )
-        return np.array(list(map(green_difference_db, greens, expected)))
 
     def attributes(self) -> dict[str, Any]:
         """What the result says about its solution."""
         grid = self._near[0].grid
         return {
-            "solver": _SOLVERS[self._task.settings.room_solver].format(kwave_version()),
+            "solver": solver("cut cells", "image sources", self._task),
+            "receiver_solvers": json.dumps(self._task.solvers("image sources")),
             "near_field_cells": " x ".join(map(str, grid.shape)),
             "near_field_spacing_m": grid.spacing_m,
             "near_field_time_step_s": grid.time_step_s,
@@ -130,10 +116,9 @@ def _check_receivers(task: Task, near: list[NearField]) -> None:
     """Refuse what cannot be computed before anything is computed."""
     walls, settings = task.scene.walls, task.settings
     for name, position in task.positions.items():
-        if settings.room_solver == "k-wave":
-            check_receiver(
-                name, position, near[0].box, settings.room_spacing_m, walls, task.tabulated
-            )
+        if name in task.kwave:
+            frequencies = task.kwave_table.stop
+            check_receiver(name, position, near[0].box, settings.room_spacing_m, walls, frequencies)
         if not outside(near, walls, position[None, :])[0]:
             raise ParameterError(
                 f"receivers.{name}: stands behind a wall or within "

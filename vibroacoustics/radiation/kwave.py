@@ -23,6 +23,7 @@ import numpy as np
 
 from ..base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from ..base.errors import SolverError
+from . import device
 from .arrays import Array
 from .room_grid import PML_ALPHA, PML_NODES, RoomGrid
 from .spectral_step import AxisOperators, PressureSource, SpectralStep
@@ -113,16 +114,6 @@ class StockEngine:
         """Nothing is held."""
 
 
-@functools.cache
-def array_namespace() -> Any:
-    """CuPy, where it is installed and finds a device, else NumPy."""
-    try:
-        cupy: Any = importlib.import_module("cupy")
-        return cupy if cupy.cuda.runtime.getDeviceCount() > 0 else np
-    except Exception:  # no CuPy, no driver or no device: CuPy has an exception for each
-        return np
-
-
 def build_engine(
     grid: RoomGrid, volume_velocity: Array, steps: int, threads: int = 1, dtype: Any = np.float64
 ) -> Engine:
@@ -131,8 +122,8 @@ def build_engine(
     On a device it is k-Wave's own; on this computer's processor the same equations, restated.
     """
     source = pressure_source(grid, volume_velocity)
-    if array_namespace() is not np:
-        simulation = build_simulation(grid, source, steps, array_namespace(), dtype)
+    if device.array_namespace() is not np:
+        simulation = build_simulation(grid, source, steps, device.array_namespace(), dtype)
         return StockEngine(simulation)
     return SpectralStep(
         axis_operators(grid),

@@ -52,6 +52,15 @@ class Radiated:
         return extrapolated
 
 
+@dataclass(frozen=True)
+class Room:
+    """Green's functions that are computed, on the box of the finer grid, to some microphones."""
+
+    microphones: Microphones
+    greens: Callable[[], Sequence[BoxField]]
+    """Called after the first runs, so that what these refuse is refused soon."""
+
+
 class MachineSide:
     """Sound pressure of every pattern at microphones, from the finer and the coarser grid.
 
@@ -72,24 +81,19 @@ class MachineSide:
         frequency_hz: Array,
         microphones: Sequence[Microphones],
         progress: Progress = no_progress,
-        room_greens: Callable[[], Sequence[BoxField]] | None = None,
+        room: Room | None = None,
     ) -> None:
-        """`room_greens` gives Green's functions besides, on the box of the finer grid.
-
-        They lead to the first microphones. It is called after the first runs, so that what these
-        refuse is refused soon.
-        """
         self._scene, self._near, self._names = scene, near, [pattern.name for pattern in patterns]
         self._frequency_hz, self._microphones = frequency_hz, microphones
-        self._progress, self._room_greens = progress, room_greens
+        self._progress, self._room = progress, room
         self._points = np.concatenate([asked.points for asked in microphones])
         moving = [scene.moving(pattern) for pattern in patterns]
         self._fluxes = in_threads([partial(grid.wall_fluxes, moving) for grid in near])
         finer, coarser = (list(map(self._nothing, microphones)) for _ in near)
         self.closed = [Radiated(*both) for both in zip(finer, coarser, strict=True)]
         """What each of the microphones gets with Green's functions in closed form."""
-        self.room = self._nothing(microphones[0]) if room_greens else None
-        """(point, pattern, frequency), Pa, on the finer grid with `room_greens`."""
+        self.in_room = self._nothing(room.microphones) if room else None
+        """What the microphones of the room get on the finer grid, (point, pattern, frequency)."""
         for batch in self._batches():
             self._radiate(batch)
 
@@ -145,23 +149,22 @@ class MachineSide:
                     partial(self._join_closed, grid, parts, asked, points, values, chosen)
                     for points in _in_tasks(asked.points.shape[0])
                 ]
-            if grid == 0 and self.room is not None:
+            if grid == 0 and self._room is not None:
                 tasks.append(partial(self._join_room, members))
         in_threads(tasks)
 
     def _join_room(self, members: Mapping[int, Sequence[PartField]]) -> None:
         """Fill in the pressures of some patterns with the Green's functions of the room."""
-        if self.room is not None:
+        if self._room is not None and self.in_room is not None:
             fields, greens = list(members.values()), rows_of(self.greens)
-            joined = join(
-                self._near[0].recording, fields, self._indices(self._microphones[0]), greens
-            )
-            self.room[:, list(members)] = joined
+            frequencies = self._indices(self._room.microphones)
+            joined = join(self._near[0].recording, fields, frequencies, greens)
+            self.in_room[:, list(members)] = joined
 
     @cached_property
     def greens(self) -> Sequence[BoxField]:
-        """What `room_greens` gives."""
-        return self._room_greens() if self._room_greens else []
+        """Those of the room."""
+        return self._room.greens() if self._room else []
 
     def _indices(self, asked: Microphones) -> range:
         return range(*asked.frequencies.indices(self._frequency_hz.size))

@@ -13,13 +13,12 @@ from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
-import psutil
 
 from ..base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from ..base.decibel import amplitude_of_level, level_of_amplitude
 from ..base.errors import ParameterError, SolverError
 from ..base.progress import Progress, no_progress
-from . import kwave
+from . import device, kwave
 from .arrays import Array
 from .band_limited import STENCIL_NODES
 from .box import Box, BoxField
@@ -171,7 +170,7 @@ def check_receiver(
 
 def _check_memory(name: str, grid: RoomGrid, box: Box, frequencies: int) -> None:
     needed = memory_bytes(grid, box, frequencies) / 2**30
-    available = _available_bytes() / 2**30
+    available = device.available_bytes() / 2**30
     if needed > available:
         raise ParameterError(
             f"radiation.room_spacing_mm: the k-Wave grid of {grid.shape[0]}×{grid.shape[1]}×"
@@ -183,14 +182,7 @@ def _check_memory(name: str, grid: RoomGrid, box: Box, frequencies: int) -> None
 def memory_bytes(grid: RoomGrid, box: Box, frequencies: int) -> float:
     """Memory that a run takes at its peak, beside what is loaded before."""
     recorder = recorder_bytes(box, frequencies)
-    if kwave.array_namespace() is np:
+    if device.array_namespace() is np:
         return step_bytes(grid.shape, PRECISION) + recorder
     values = _STOCK_VALUES_PER_NODE * np.prod(grid.shape, dtype=float)
     return float(values * np.dtype(PRECISION).itemsize) + recorder
-
-
-def _available_bytes() -> float:
-    namespace = kwave.array_namespace()
-    if namespace is np:
-        return float(psutil.virtual_memory().available)
-    return float(namespace.cuda.runtime.memGetInfo()[0])

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..study.radiation import RadiationSettings
+from ..study.radiation import KWAVE_LIMIT_HZ, RadiationSettings
 from .arrays import Array
 from .patterns import Pattern
 from .scene import Scene
@@ -35,6 +35,8 @@ class Task:
     """Those of the table and, after them, those of the lines."""
     tabulated: int
     """Number of frequencies of the table."""
+    kwave: tuple[str, ...] = ()
+    """Names of the microphones to which k-Wave computes the room."""
 
     @property
     def table_hz(self) -> Array:
@@ -50,3 +52,26 @@ class Task:
     def receivers(self) -> Microphones:
         """The microphones: all patterns at the frequencies of the table."""
         return Microphones(np.array(list(self.positions.values())), self.table)
+
+    @property
+    def kwave_rows(self) -> list[int]:
+        """Which of the microphones k-Wave computes."""
+        return [row for row, name in enumerate(self.positions) if name in self.kwave]
+
+    @property
+    def kwave_table(self) -> slice:
+        """Frequencies of the table up to the highest that k-Wave computes."""
+        return slice(0, int((self.table_hz <= KWAVE_LIMIT_HZ).sum()))
+
+    @property
+    def kwave_microphones(self) -> Microphones:
+        """Those that k-Wave computes."""
+        return Microphones(self.receivers.points[self.kwave_rows], self.kwave_table)
+
+    def solvers(self, other: str) -> dict[str, str]:
+        """What computes each of the microphones; `other` where it is not k-Wave."""
+        highest = self.kwave_table.stop
+        kwave = "k-Wave"
+        if highest < self.tabulated:
+            kwave += f" to {self.table_hz[highest - 1]:g} Hz, {other} above"
+        return {name: kwave if name in self.kwave else other for name in self.positions}

@@ -1,7 +1,7 @@
 """Sound pressure per unit velocity of the shell at microphones and other points, labelled."""
 
 import hashlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -22,6 +22,7 @@ from .arrangements import check_outside
 from .arrays import Array, ComplexArray
 from .bodies import LARGEST_FILE_BYTES
 from .by_cut_cells import ByCutCells
+from .device import engine_name
 from .interpolation import interpolate
 from .kwave import kwave_version
 from .patterns import SurfaceMotion, rigid_body, surface_motion
@@ -37,9 +38,15 @@ def transfer_vectors(
     settings: RadiationSettings,
     sound_field: SoundField = NO_SOUND_FIELD,
     motions: Sequence[SurfaceMotion] = (),
+    kwave_receivers: Collection[str] | None = None,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
     """Complex pressure at each receiver per unit complex-peak velocity of each degree of freedom.
+
+    Parameters
+    ----------
+    kwave_receivers : microphones at which k-Wave computes the room where the settings name it as
+        the solver; none for all of them
 
     Returns
     -------
@@ -48,8 +55,9 @@ def transfer_vectors(
         standard error `transfer_vector_error`; coordinate `distance` (receiver) from the origin, m.
         Where that solver is k-Wave: `transfer_vector_closed_form`, the same near field with the
         closed-form Green's function; `green_difference` (receiver, frequency), the level difference
-        of the two Green's functions where it is largest on the box, dB. What the sound field asks
-        for besides, with the closed-form Green's function.
+        of the two Green's functions where it is largest on the box, dB, not a number where k-Wave
+        did not run. What the sound field asks for besides, with the closed-form Green's function.
+        The attribute `receiver_solvers` says what computed each microphone.
 
     Raises
     ------
@@ -70,7 +78,8 @@ def transfer_vectors(
     table = frequencies_hz(settings)
     patterns = [*map(rigid_body, RIGID_BODY_DOFS), *extra]
     frequency_hz = np.concatenate([table, sound_field.line_frequency_hz])
-    task = Task(surroundings, patterns, positions, settings, frequency_hz, table.size)
+    kwave = kwave_names(receivers, settings, kwave_receivers)
+    task = Task(surroundings, patterns, positions, settings, frequency_hz, table.size, kwave)
     method = by_revolution(shell, task) if settings.revolution else ByCutCells(task)
     parts = field_parts(method.clear, surroundings, shell.floor_z_m, sound_field, task.tabulated)
     vectors, elsewhere = method.pressures([part.microphones for part in parts], progress)
@@ -80,6 +89,7 @@ def transfer_vectors(
         room_solver=settings.room_solver,
         surroundings=settings.surroundings.model_dump_json(),
         room_time_step_courant_number=room_grid.COURANT_NUMBER,
+        **({"room_engine": engine_name()} if kwave else {}),
         **method.attributes(),
     )
 
@@ -115,6 +125,7 @@ def cache_key_material(
     settings: RadiationSettings,
     sound_field: SoundField = NO_SOUND_FIELD,
     motions: Sequence[SurfaceMotion] = (),
+    kwave_receivers: Collection[str] | None = None,
 ) -> dict[str, Any]:
     """Everything that shapes the transfer vectors, as plain data to be hashed."""
     points = machine_body(shell, settings.body).vertices if motions else np.zeros((0, 3))
@@ -123,6 +134,7 @@ def cache_key_material(
         "shell": shell.model_dump(),
         "receivers": {name: receiver.model_dump() for name, receiver in receivers.items()},
         "settings": settings.model_dump(),
+        "kwave_receivers": kwave_names(receivers, settings, kwave_receivers),
         "files": _hashes_of_files(settings),
         "sound_field": sound_field.key_material(),
         "speed_of_sound_m_per_s": SPEED_OF_SOUND_M_PER_S,
@@ -130,6 +142,15 @@ def cache_key_material(
         "solver": _source_hash(),
         "k_wave": kwave_version(),
     }
+
+
+def kwave_names(
+    receivers: Collection[str], settings: RadiationSettings, asked: Collection[str] | None
+) -> tuple[str, ...]:
+    """Microphones at which k-Wave computes the room."""
+    if settings.room_solver == "closed-form":
+        return ()
+    return tuple(name for name in receivers if asked is None or name in asked)
 
 
 def _hashes_of_files(settings: RadiationSettings) -> dict[str, str]:

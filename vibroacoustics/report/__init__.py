@@ -28,7 +28,7 @@ from .order_tables import (
 )
 from .page import page_of
 from .radiation_figures import radiation_figures
-from .radiation_tables import radiation_text
+from .radiation_tables import kwave_text, radiation_text
 from .scores import scores_csv
 from .source_tables import sources_csv
 from .study import has_sources
@@ -43,6 +43,7 @@ __all__ = [
     "curve_csv",
     "curve_figures",
     "keep",
+    "kwave_text",
     "levels_csv",
     "limits_csv",
     "limits_text",

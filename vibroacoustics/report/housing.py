@@ -1,5 +1,6 @@
 """The housing on its mounts, and the places of the microphones."""
 
+import json
 from typing import Final
 
 import numpy as np
@@ -9,12 +10,17 @@ from ..base import rounding
 from ..base.arrays import Array
 from ..base.decibel import level_of_amplitude
 from . import labels
+from .kwave_words import kwave_to_hz
 from .study import first_order_hz, options, parameters, speeds
 from .tables import Table
 
 DOMINANT: Final = 0.02
 """Degrees of freedom with a smaller share of the mode's kinetic energy are not named."""
 
+_HOW_ERROR: Final = {
+    False: "Two grids estimate the error of the finer one, which the result extrapolates away",
+    True: "Two meshes of boundary elements estimate the error of the finer one",
+}
 STEPS: Final = 360
 """Instants of a revolution at which a displacement is looked at."""
 
@@ -113,28 +119,25 @@ def isolation_sentence(results: xr.Dataset) -> str:
 def receivers_table(results: xr.Dataset) -> Table:
     """Where the microphones stand."""
     receivers = parameters(results)["receivers"]
+    to_hz = kwave_to_hz(results)
     rows = tuple(
         (
             str(name),
             *(rounding.fixed(receivers[str(name)][key], 3) for key in ("x_m", "y_m", "height_m")),
+            f"{to_hz[str(name)]:g}" if str(name) in to_hz else "–",
         )
         for name in results["receiver"].values
     )
-    head = ("Microphone", "x, m", "y, m", "Height above the floor, m")
+    head = ("Microphone", "x, m", "y, m", "Height above the floor, m", "k-Wave to, Hz")
     return Table("Microphones; x and y from the shaft", head, rows)
 
 
-def green_sentence(results: xr.Dataset) -> str:
-    """Largest difference between k-Wave and the closed form, and where."""
-    if "green_difference" not in results:
-        return "The Green's functions are the closed form of image sources; k-Wave did not run."
-    gap = abs(results["green_difference"])
-    worst = gap.where(gap == gap.max(), drop=True).isel(receiver=0, frequency=0)
+def line_difference_sentence(results: xr.Dataset) -> str:
+    """How far k-Wave moves the level of the 1x line."""
+    if "line_difference" not in results:
+        return ""
     return (
-        f"k-Wave's Green's function differs from the closed form by at most "
-        f"{rounding.fixed(float(gap.max()), 2)} dB (at {worst['receiver'].item()}, "
-        f"{worst['frequency'].item():g} Hz), over {results['frequency'].values.min():g} to "
-        f"{results['frequency'].values.max():g} Hz. The level of the 1× line differs by at most "
+        "The level of the 1× line differs by at most "
         f"{rounding.fixed(_audible_line_difference(results), 3)} dB between the two, over all "
         "options, speeds and microphones where the line is not silent."
     )
@@ -151,10 +154,15 @@ def grid_error_sentence(results: xr.Dataset) -> str:
     error = level_of_amplitude(1.0 + results["transfer_vector_error"].values[loud] / size[loud])
     typical, worst = float(np.median(error)), float(np.quantile(error, 0.95))
     return (
-        "Two grids estimate the error of the finer one, which the result extrapolates away: "
+        f"{_HOW_ERROR[_by_elements(results)]}: "
         f"{rounding.fixed(typical, 2)} dB in the middle, below {rounding.fixed(worst, 2)} dB in "
         "95 % of the microphones, motions and frequencies within 20 dB of the loudest microphone."
     )
+
+
+def _by_elements(results: xr.Dataset) -> bool:
+    """Whether boundary elements computed the radiation."""
+    return "boundary_elements" in json.loads(results.attrs.get("radiation") or "{}")
 
 
 def sound_power_table(results: xr.Dataset) -> Table | None:

@@ -53,9 +53,10 @@ ATTRIBUTES_OF: Final = {
 }
 EMPTY_WHERE_NONE: Final = frozenset(
     ("reported_figure", "given_value", "projection_error", "tone_frequency", "line_order",
-     "map_level", "map_transfer_vector")
+     "map_level", "map_transfer_vector", "green_difference")
 )  # fmt: skip
-"""Not a number where there is nothing: an option without such a figure, a point in the machine."""
+"""Not a number where there is nothing: an option without such a figure, a point in the machine, a
+microphone that k-Wave did not compute."""
 ONLY_DRAWS_THAT_COUNT: Final = frozenset(TOGETHER[0][1:])
 """Not a number in a draw without solution, whose weight is 0."""
 ADDED_MASS: Final = "added_mass_kg"

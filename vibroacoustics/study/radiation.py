@@ -1,6 +1,6 @@
 """Settings of the radiation step: body, surroundings, grids, frequencies."""
 
-from typing import Literal
+from typing import Final, Literal
 
 from pydantic import Field, model_validator
 
@@ -9,17 +9,22 @@ from ..base.parameters import Parameters
 from .body import RadiatingBody, ShellBody
 from .surroundings import Surroundings
 
+KWAVE_LIMIT_HZ: Final = 4000.0
+"""Highest frequency at which k-Wave computes the room."""
+
 
 class RadiationSettings(Parameters):
     """Grid spacings and frequency range of the near field and of the room."""
 
     body: RadiatingBody = ShellBody()
     surroundings: Surroundings = Surroundings()
-    method: Literal["automatic", "revolution", "cut-cells"] = "cut-cells"
+    method: Literal["automatic", "revolution", "cut-cells"] = "automatic"
     """How the machine's wall radiates: boundary elements on the meridian of a shell or a sphere in
     free field or over the floor, or cut cells; automatic takes the first where it can."""
     room_solver: Literal["k-wave", "closed-form"] = "k-wave"
-    """How sound travels from the box to the receivers; the closed form is for very many."""
+    """How sound travels from the box to the receivers of `kwave_receivers`, up to 4 kHz."""
+    kwave_receivers: Literal["catalogue", "all"] = "catalogue"
+    """Where k-Wave computes the room: at the microphone of the catalogue's noise, or at all."""
     near_field_spacing_m: float = Field(default=0.006, ge=0.002, le=0.05)
     """Cell size of the finer cut-cell grid around the body; the coarser one has 1.5 times it."""
     room_spacing_m: float = Field(default=0.024, ge=0.005, le=0.1)
@@ -50,16 +55,18 @@ class RadiationSettings(Parameters):
 
     @model_validator(mode="after")
     def _grids_resolve_the_wave(self) -> "RadiationSettings":
-        shortest_wave_m = SPEED_OF_SOUND_M_PER_S / self.maximum_frequency_hz
-        for name, nodes in (("near_field_spacing_m", 8.0), ("room_spacing_m", 3.5)):
+        for name, nodes, highest_hz in (
+            ("near_field_spacing_m", 8.0, self.maximum_frequency_hz),
+            ("room_spacing_m", 3.5, min(self.maximum_frequency_hz, KWAVE_LIMIT_HZ)),
+        ):
             if name == "near_field_spacing_m" and self.revolution:
                 continue
-            largest = shortest_wave_m / nodes
+            largest = SPEED_OF_SOUND_M_PER_S / highest_hz / nodes
             if getattr(self, name) > largest:
                 raise ValueError(
                     f"{name.removesuffix('_m')}_mm = {1e3 * getattr(self, name):g} mm: fewer than "
-                    f"{nodes:g} nodes per wavelength at maximum_frequency_hz = "
-                    f"{self.maximum_frequency_hz:g} Hz; allowed up to {1e3 * largest:.4g} mm"
+                    f"{nodes:g} nodes per wavelength at {highest_hz:g} Hz; allowed up to "
+                    f"{1e3 * largest:.4g} mm"
                 )
         return self
 

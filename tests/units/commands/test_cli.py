@@ -161,7 +161,7 @@ def test_doctor(cache: Path) -> None:
         (
             "near_field_spacing_mm = 35.0",
             "[receivers.far]\nx_mm = 19000.0\ny_mm = 19000.0\nheight_mm = 19000.0\n"
-            "[radiation]\nnear_field_spacing_mm = 2.0\n",
+            '[radiation]\nkwave_receivers = "all"\n',
             None,
         ),
     ],

@@ -11,7 +11,7 @@ from radiation_parts import floor
 from support import PEAK_MEMORY, cube_box, in_child
 
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.radiation import kwave, room_green, room_grid
+from vibroacoustics.radiation import device, kwave, room_green, room_grid
 from vibroacoustics.radiation.exact import box_green
 from vibroacoustics.radiation.mirrors import Mirror
 from vibroacoustics.radiation.pulse import pulse, pulse_duration_s
@@ -229,7 +229,7 @@ def test_impossible_microphones_are_refused(box, microphone, mirrors, message):
 
 
 def test_memory_is_checked_before_the_run(box, monkeypatch):
-    monkeypatch.setattr(kwave, "array_namespace", lambda: np)
+    monkeypatch.setattr(device, "array_namespace", lambda: np)
     monkeypatch.setattr("psutil.virtual_memory", lambda: SimpleNamespace(available=2**20))
     with pytest.raises(
         ParameterError, match=r"room_spacing_mm: the k-Wave grid of .* GiB are avail"
@@ -239,7 +239,7 @@ def test_memory_is_checked_before_the_run(box, monkeypatch):
 
 @pytest.mark.slow
 @pytest.mark.skipif(
-    sys.platform != "linux" or kwave.array_namespace() is not np,
+    sys.platform != "linux" or device.array_namespace() is not np,
     reason="reads the peak memory of the processor as Linux tells it",
 )
 @pytest.mark.parametrize(
@@ -264,39 +264,6 @@ def test_predicted_memory_is_what_a_run_takes(spacing_m, frequencies):
         print(after - before, room_green.memory_bytes(grid, box, {frequencies}))
     """)
     assert float(predicted) == pytest.approx(float(measured), rel=0.2)
-
-
-def test_device_memory_is_asked_for_where_there_is_a_device(box, monkeypatch):
-    """With a stand-in for CuPy: its memory counts, not that of this computer."""
-    runtime = SimpleNamespace(memGetInfo=lambda: (2**20, 2**30))
-    device = SimpleNamespace(cuda=SimpleNamespace(runtime=runtime))
-    monkeypatch.setattr(kwave, "array_namespace", lambda: device)
-    with pytest.raises(ParameterError, match=r"0\.000977 GiB are available"):
-        room_green.check_receiver("far", np.array([0.5, 0.0, 0.0]), box, 0.03, (FLOOR,), 100)
-
-
-@pytest.mark.parametrize("devices", [0, 1, None])
-def test_cupy_is_used_where_there_is_a_device(monkeypatch, devices):
-    def count():
-        if devices is None:
-            raise RuntimeError("no driver")
-        return devices
-
-    runtime = SimpleNamespace(getDeviceCount=count)
-    cupy = SimpleNamespace(cuda=SimpleNamespace(runtime=runtime))
-    monkeypatch.setitem(sys.modules, "cupy", cupy)
-    assert kwave.array_namespace.__wrapped__() is (cupy if devices else np)
-
-
-def test_a_run_on_a_device_is_k_wave_s_own(box, monkeypatch):
-    """NumPy under another name takes CuPy's way."""
-    expected, _ = simulated(box, (0.65, 0.1, 0.0), (FLOOR,), 0.05, 500.0)
-    device = SimpleNamespace(
-        **vars(np), cuda=SimpleNamespace(runtime=SimpleNamespace(memGetInfo=lambda: (2**40, 0)))
-    )
-    monkeypatch.setattr(kwave, "array_namespace", lambda: device)
-    field, _ = simulated(box, (0.65, 0.1, 0.0), (FLOOR,), 0.05, 500.0)
-    np.testing.assert_allclose(field.outer, expected.outer, atol=1e-10 * np.abs(field.outer).max())
 
 
 def test_importing_and_running_kwave_touches_no_network():

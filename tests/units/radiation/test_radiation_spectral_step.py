@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from vibroacoustics.base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
-from vibroacoustics.radiation import fft, kwave, spectral_step
+from vibroacoustics.radiation import device, fft, kwave, spectral_step
 from vibroacoustics.radiation.room_grid import RoomGrid
 from vibroacoustics.radiation.spectral_step import PressureSource, SpectralStep
 
@@ -50,9 +50,9 @@ def stock(grid, source, namespace=None, dtype=np.float64):
 
 
 def on_device(grid, source):
-    if kwave.array_namespace() is np:
+    if device.array_namespace() is np:
         pytest.skip("no CuPy or no device")
-    return stock(grid, source, kwave.array_namespace())
+    return stock(grid, source, device.array_namespace())
 
 
 def scipy_slabs(grid, source):

@@ -1,5 +1,6 @@
 """Transfer vectors by boundary elements on the meridian: bodies of revolution, floor or none."""
 
+import json
 from collections.abc import Sequence
 from typing import Any, Final
 
@@ -10,19 +11,15 @@ from ...base.errors import ParameterError
 from ...base.progress import Progress
 from ...machine.shell import Shell
 from ..arrays import Array, ComplexArray
-from ..exact import box_green
-from ..kwave import kwave_version
+from ..at_kwave import Vectors, closed_greens, differences_db, solver, with_kwave
 from ..room_green import check_receiver
 from ..room_greens import room_greens
 from ..task import Microphones, Task
 from .profile import shell_profile
-from .receivers import addition, by_images, by_kwave, join_box
+from .receivers import addition, by_name, join_box
 from .side import RevolutionSide
 
-_SOLVERS: Final = {
-    "k-wave": "boundary elements, k-wave-python {}",
-    "closed-form": "boundary elements, image sources",
-}
+_NAME: Final = "boundary elements"
 
 
 class ByRevolution:
@@ -39,24 +36,25 @@ class ByRevolution:
 
     def pressures(
         self, elsewhere: Sequence[Microphones], progress: Progress
-    ) -> tuple[dict[str, Array | ComplexArray], list[ComplexArray]]:
+    ) -> tuple[Vectors, list[ComplexArray]]:
         """Pressures (receiver, pattern, frequency) and errors; with k-Wave its check besides.
 
         And pressures (point, pattern, frequency) elsewhere.
         """
         return self._at_receivers(progress), [self._at(asked, progress) for asked in elsewhere]
 
-    def _at_receivers(self, progress: Progress) -> dict[str, Array | ComplexArray]:
+    def _at_receivers(self, progress: Progress) -> Vectors:
         task, side = self._task, self._side
-        points = task.receivers.points
-        arguments = (points, task.table_hz, "boundary elements", progress)
-        if task.settings.room_solver == "closed-form":
-            return by_images(side.spectrum(*arguments))
+        closed = by_name(side.spectrum(task.receivers.points, task.table_hz, _NAME, progress))
+        if not task.kwave:
+            return closed
         box = join_box(side, task.settings.room_spacing_m)
-        greens = room_greens(box, task, progress)
-        expected = [box_green(box, point, task.table_hz, task.scene.walls) for point in points]
-        added = addition(side, box, task.table_hz, greens, expected)
-        return by_kwave(side.spectrum(*arguments, added), greens, expected)
+        greens, expected = room_greens(box, task, progress), list(closed_greens(box, task))
+        asked = task.kwave_microphones
+        table_hz = task.frequency_hz[asked.frequencies]
+        added = addition(side, box, table_hz, greens, expected)
+        kwave = by_name(side.spectrum(asked.points, table_hz, _NAME, progress, added))
+        return with_kwave(task, closed, kwave, differences_db(greens, iter(expected)))
 
     def _at(self, asked: Microphones, progress: Progress) -> ComplexArray:
         """Pressures (point, pattern, frequency); those of the table are interpolated."""
@@ -76,7 +74,8 @@ class ByRevolution:
         side = self._side
         fine, coarse = (radiator.mesh for radiator in side.radiators)
         return {
-            "solver": _SOLVERS[self._task.settings.room_solver].format(kwave_version()),
+            "solver": solver(_NAME, "image sources", self._task),
+            "receiver_solvers": json.dumps(self._task.solvers(_NAME)),
             "boundary_elements": f"{len(fine.lengths)}, coarser {len(coarse.lengths)}",
             "boundary_element_longest_m": float(fine.lengths.max()),
             "boundary_element_shortest_m": float(fine.lengths.min()),
@@ -107,14 +106,14 @@ def _check_receivers(side: RevolutionSide, task: Task) -> None:
     """Refuse what cannot be computed before anything is computed."""
     box = join_box(side, task.settings.room_spacing_m)
     for name, position in task.positions.items():
-        if task.settings.room_solver == "k-wave":
+        if name in task.kwave:
             check_receiver(
                 name,
                 position,
                 box,
                 task.settings.room_spacing_m,
                 task.scene.walls,
-                task.tabulated,
+                task.kwave_table.stop,
             )
         if not side.clear(position[None, :])[0]:
             raise ParameterError(

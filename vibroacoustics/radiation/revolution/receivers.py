@@ -12,8 +12,8 @@ from typing import Final
 import numpy as np
 
 from ..arrays import Array, ComplexArray
+from ..at_kwave import Vectors
 from ..box import Box, BoxField, closed_box
-from ..room_green import green_difference_db
 from .sampling import Sampled
 from .side import Addition, RevolutionSide
 
@@ -38,26 +38,11 @@ def join_box(side: RevolutionSide, spacing_m: float) -> Box:
     return closed_box(edges, [1, 1, 1], [count + 1 for count in cells], on_floor)
 
 
-def by_images(sampled: Sampled) -> dict[str, Array | ComplexArray]:
-    """Pressures and errors (receiver, pattern, frequency) of the boundary elements alone."""
+def by_name(sampled: Sampled) -> Vectors:
+    """Pressures and errors, (receiver, pattern, frequency)."""
     return {
         "transfer_vector": np.moveaxis(sampled.pressure, 0, -1),
         "transfer_vector_error": np.moveaxis(sampled.error, 0, -1),
-    }
-
-
-def by_kwave(
-    sampled: Sampled, greens: Sequence[BoxField], expected: Sequence[BoxField]
-) -> dict[str, Array | ComplexArray]:
-    """The same with k-Wave's Green's functions, beside those of the boundary elements alone."""
-    receivers = len(greens)
-    both = by_images(sampled)
-    difference = [green_difference_db(*pair) for pair in zip(greens, expected, strict=True)]
-    return {
-        "transfer_vector": both["transfer_vector"][receivers:],
-        "transfer_vector_error": both["transfer_vector_error"][receivers:],
-        "transfer_vector_closed_form": both["transfer_vector"][:receivers],
-        "green_difference": np.array(difference),
     }
 
 

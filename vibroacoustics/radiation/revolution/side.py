@@ -34,7 +34,7 @@ _FREQUENCIES: Final = 200
 """Whose wall pressures memory is reckoned with."""
 
 Addition = Callable[[int], ComplexArray]
-"""From the index of a tabulated frequency to pressures that are interpolated as well."""
+"""From the index of a tabulated frequency to what is added to pressures, (point, pattern)."""
 
 
 class RevolutionSide:
@@ -114,26 +114,19 @@ class RevolutionSide:
         progress: Progress = no_progress,
         addition: Addition | None = None,
     ) -> Sampled:
-        """Pressures at points (point, 3) at evenly spaced frequencies.
-
-        With an addition (point, pattern) twice as many: without and with it.
-        """
+        """Pressures at points (point, 3) at evenly spaced frequencies, with an addition to them."""
         delay_s = self.delays_s(points)
 
         def at(index: int) -> tuple[ComplexArray, Array]:
             pressure, error = self.pressures(float(table_hz[index]), points)
-            if addition is None:
-                return pressure, error
-            added = np.concatenate([pressure, pressure + addition(index)])
-            return added, np.concatenate([error, error])
+            return (pressure if addition is None else pressure + addition(index)), error
 
         def solve(indices: IndexArray) -> tuple[ComplexArray, Array]:
             progress(name, int(indices[0]), table_hz.size)
             pressure, error = zip(*in_threads([partial(at, int(i)) for i in indices]), strict=True)
             return np.array(pressure), np.array(error)
 
-        delays = delay_s if addition is None else np.concatenate([delay_s, delay_s])
-        sampled = sample(table_hz, delays, solve)
+        sampled = sample(table_hz, delay_s, solve)
         progress(name, table_hz.size, table_hz.size)
         return sampled
 

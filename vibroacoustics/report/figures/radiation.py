@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from ...base import rounding
 from ..comparison import comparison
+from ..kwave_words import computed_by_kwave, kwave_to_hz
 from ..study import catalogue_receiver, few_speeds, has_sources, options, speeds
 from .first_order import first_order_marks, mark_first_order
 from .needs import chosen, needs
@@ -35,7 +36,7 @@ _KINDS: Final = (("translations", "t", "Pa per m/s"), ("rotations", "r", "Pa per
 def transfer_figures(results: xr.Dataset) -> list[Picture]:
     """Transfer vectors at the catalogue's microphone; where k-Wave ran, its check at all."""
     pictures = [_transfer(results, catalogue_receiver(results))]
-    return [*pictures, _difference(results)] if "green_difference" in results else pictures
+    return [*pictures, _difference(results)] if kwave_to_hz(results) else pictures
 
 
 @needs("level_total", "level_modelled", "order_level")
@@ -134,7 +135,7 @@ def transfer(results: xr.Dataset, receiver: str | None = None) -> Figure:
     """
     receiver = chosen(results, "receiver", receiver or catalogue_receiver(results))
     simulated = abs(results["transfer_vector"].sel(receiver=receiver))
-    compared = "transfer_vector_closed_form" in results
+    compared = receiver in kwave_to_hz(results)
     closed = (
         abs(results["transfer_vector_closed_form"].sel(receiver=receiver)) if compared else None
     )
@@ -151,7 +152,7 @@ def transfer(results: xr.Dataset, receiver: str | None = None) -> Figure:
 
 
 def _transfer(results: xr.Dataset, receiver: str) -> Picture:
-    compared = "transfer_vector_closed_form" in results
+    compared = receiver in kwave_to_hz(results)
     greens = (
         ": coloured lines with k-Wave's Green's function, black dots with the closed form"
         if compared
@@ -189,7 +190,7 @@ def _transfer_panel(
 
 @needs("green_difference", from_="`run` of a study whose room k-Wave computes")
 def green_difference(results: xr.Dataset) -> Figure:
-    """k-Wave's Green's function against the closed form over frequency, dB, at every microphone.
+    """k-Wave's Green's function against the closed form over frequency, dB.
 
     Parameters
     ----------
@@ -205,7 +206,7 @@ def green_difference(results: xr.Dataset) -> Figure:
     >>> results = va.open_results("results.nc")
     >>> va.plot.green_difference(results).savefig("green_difference.png")
     """
-    gap = results["green_difference"].transpose("receiver", "frequency")
+    gap = computed_by_kwave(results)
     names = [str(name) for name in gap["receiver"].values]
 
     def paint(panels: Sequence[Axes]) -> None:
@@ -225,7 +226,7 @@ def _difference(results: xr.Dataset) -> Picture:
     return Picture(
         "green_difference",
         "Difference between k-Wave's Green's function and the closed form against frequency, at "
-        f"every microphone; at most {float(abs(gap).max()):.2f} dB.",
-        "k-Wave's Green's function against the closed form, level difference at every microphone.",
+        f"its microphones; at most {float(abs(gap).max()):.2f} dB.",
+        "k-Wave's Green's function against the closed form, level difference at its microphones.",
         png(green_difference(results)),
     )

@@ -5,17 +5,25 @@ import xarray as xr
 from ...base.registry import register
 from ..blocks import Block, Heading, Pictures, Text
 from ..figures import level_figures, line_map_figures, transfer_figures
-from ..housing import green_sentence, grid_error_sentence, receivers_table, sound_power_table
+from ..housing import (
+    grid_error_sentence,
+    line_difference_sentence,
+    receivers_table,
+    sound_power_table,
+)
+from ..kwave_words import kwave_sentence
 from ..speeds import chosen_speeds
 from ..study import few_speeds
 from . import Section
+
+_SENTENCES = (kwave_sentence, line_difference_sentence, grid_error_sentence)
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
     power = sound_power_table(few_speeds(results))
     transfer, *difference = transfer_figures(results)
     return [
-        Text(f"{green_sentence(results)} {grid_error_sentence(results)}"),
+        Text(" ".join(filter(None, (part(results) for part in _SENTENCES)))),
         receivers_table(results),
         *chosen_speeds(results, "comparison.csv"),
         *([power] if power else []),
