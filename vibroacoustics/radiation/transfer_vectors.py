@@ -45,8 +45,14 @@ def transfer_vectors(
 
     Parameters
     ----------
+    shell : of the machine
+    receivers : the microphones, by name
+    settings : of the radiation
+    sound_field : what is asked for besides the microphones
+    motions : surface velocities besides the rigid motions
     kwave_receivers : microphones at which k-Wave computes the room where the settings name it as
         the solver; none for all of them
+    progress : told of the advance
 
     Returns
     -------

@@ -18,7 +18,7 @@ DOMINANT: Final = 0.02
 """Degrees of freedom with a smaller share of the mode's kinetic energy are not named."""
 
 _HOW_ERROR: Final = {
-    False: "Two grids estimate the error of the finer one, which the result extrapolates away",
+    False: "Two grids estimate the error of what is extrapolated from them",
     True: "Two meshes of boundary elements estimate the error of the finer one",
 }
 STEPS: Final = 360

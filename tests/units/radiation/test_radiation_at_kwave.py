@@ -26,7 +26,7 @@ OTHER = {"revolution": "boundary elements", "cut-cells": "image sources"}
 def both(request):
     """k-Wave at one of two microphones, up to a seam; and the name of the method."""
     settings = RadiationSettings(
-        method=request.param, near_field_spacing_m=0.035, room_spacing_m=0.08,
+        method=request.param, near_field_spacing_m=0.035, room_spacing_m=0.06,
         maximum_frequency_hz=1000.0, frequency_step_hz=100.0,
     )  # fmt: skip
     with pytest.MonkeyPatch.context() as patch:
