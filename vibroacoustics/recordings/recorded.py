@@ -180,8 +180,8 @@ def check_size(channels: int, samples: int) -> None:
     if size > MAXIMUM_RECORDING_BYTES:
         raise TooLargeError(
             f"{channels} channels of {samples} samples and their times take {size / 2**30:.3g} "
-            f"GiB; at most {MAXIMUM_RECORDING_BYTES / 2**30:g} GiB: choose fewer channels or a "
-            "shorter part"
+            f"GiB; at most {MAXIMUM_RECORDING_BYTES / 2**30:g} GiB are read at once: give from_s "
+            "and to_s, or channels"
         )
 
 
