@@ -124,6 +124,8 @@ def _uncertain(tracked: TacholessResult, speed: TacholessSpeed) -> str:
         reasons.append(f"{check.width:.1f} times as wide as those of a steady speed")
     if check.followed < MOSTLY:
         reasons.append(f"followed for {100.0 * check.followed:.0f} % of the time")
+    if check.mains_hz is not None:
+        reasons.append(f"which never leave multiples of {check.mains_hz:g} Hz, as hum of the mains")
     if check.rival_hz is not None:
         reasons.append(f"{60.0 * check.rival_hz:.0f} rpm is the next best")
     advice = "give the comb of the machine, narrower limits or a tacho"
