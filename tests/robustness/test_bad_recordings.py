@@ -310,7 +310,7 @@ def test_claims_are_refused_before_anything_is_allocated(tmp_path):
 
 def test_size_cap():
     check_size(1, MAXIMUM_RECORDING_BYTES // 16)
-    with pytest.raises(StorageError, match="at most 2 GiB: choose fewer channels"):
+    with pytest.raises(StorageError, match="at most 2 GiB are read at once: give from_s"):
         check_size(1, MAXIMUM_RECORDING_BYTES // 16 + 1)
 
 

@@ -4,16 +4,13 @@ Heavy imports wait until a command needs them.
 """
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from .option_words import in_own_words
-from .options import LimitsFile, Plugins, load_plugins
+from .options import LimitsFile, Plugins
 from .progress import progress_on_stderr
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 commands = typer.Typer()
 
@@ -96,7 +93,7 @@ def orders_command(
 ) -> None:
     """Find the orders of a recording: netCDF, CSV, figures and a table."""
     from .. import pipeline, report
-    from . import arguments, checking, outputs
+    from . import arguments, checking, outputs, reading
 
     source = arguments.speed_source(speed, pulses, index, rpm, tacholess, comb, mains)
     settings = arguments.order_analysis(
@@ -105,9 +102,9 @@ def orders_command(
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
     allowed = checking.read(limits)
-    recording = _read(
+    recording = reading.Reading(
         recording_file, unit, calibration, channels, sample_rate, from_s, to_s, plugin
-    )
+    ).in_blocks()
     with progress_on_stderr() as progress:
         results = pipeline.analyse_orders(recording, settings, progress)
         results = checking.held_against(results, allowed)
@@ -185,15 +182,15 @@ def track_command(
 ) -> None:
     """Track orders over the time of a recording (Vold-Kalman): netCDF, figures and a table."""
     from .. import pipeline, report
-    from . import arguments, outputs, recorded_outputs
+    from . import arguments, outputs, reading, recorded_outputs
 
     source = arguments.speed_source(speed, pulses, index, rpm, tacholess, comb, mains)
     numbers = arguments.order_numbers(orders)
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
-    recording = _read(
+    recording = reading.Reading(
         recording_file, unit, calibration, channels, sample_rate, from_s, to_s, plugin
-    )
+    ).at_once()
     tracked = pipeline.track_orders(recording, source, numbers, bandwidth, poles)
     written = recorded_outputs.write_tracked(tracked, folder)
     typer.echo(report.tracked_text(tracked))
@@ -226,14 +223,14 @@ def map_command(
 ) -> None:
     """Draw a recording over speed and frequency (Campbell), and its level over the speed."""
     from .. import pipeline
-    from . import arguments, outputs, recorded_outputs
+    from . import arguments, outputs, reading, recorded_outputs
 
     source = arguments.speed_source(speed, pulses, index, rpm, tacholess, comb, mains)
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
-    recording = _read(
+    recording = reading.Reading(
         recording_file, unit, calibration, channels, sample_rate, from_s, to_s, plugin
-    )
+    ).at_once()
     mapped = pipeline.speed_frequency_map(recording, source, resolution, maximum_frequency)
     typer.echo(f"speed-frequency map: {recorded_outputs.write_speed_map(mapped, folder)}")
 
@@ -252,36 +249,10 @@ def export_command(
     plugin: Plugins = None,
 ) -> None:
     """Write a recording as CSV, WAV or netCDF in SI units."""
-    from . import exporting, outputs
+    from . import exporting, outputs, reading
 
     outputs.check_folder(out.parent)
-    recording = _read(
+    recording = reading.Reading(
         recording_file, unit, calibration, channels, sample_rate, from_s, to_s, plugin
-    )
+    ).at_once()
     typer.echo(f"recording: {exporting.export_recording(recording, out)}")
-
-
-def _read(
-    file: Path,
-    unit: list[str] | None,
-    calibration: list[str] | None,
-    channels: str | None,
-    sample_rate_hz: float | None,
-    from_s: float | None,
-    to_s: float | None,
-    plugins: list[Path] | None,
-) -> "xr.Dataset":
-    """The recording as the options of a command say."""
-    from ..recordings import read_recording
-    from . import arguments
-
-    load_plugins(plugins)
-    return read_recording(
-        file,
-        units=arguments.assignments("--unit", unit),
-        calibration=arguments.numbers("--calibration", calibration),
-        channels=None if channels is None else channels.split(","),
-        sample_rate_hz=sample_rate_hz,
-        from_s=from_s,
-        to_s=to_s,
-    )

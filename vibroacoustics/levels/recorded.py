@@ -11,7 +11,8 @@ from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level
 from ..base.vocabulary import WEIGHTINGS, stamp
 from ..study.order_analysis import BandMethod
-from .bands import Band, band_mean_square, bands_between, measurable_bands
+from .band_meter import BandMeter
+from .bands import Band, bands_between, measurable_bands
 from .level_meter import LevelMeter, MeterPlan
 from .signal_levels import in_bands
 
@@ -20,28 +21,56 @@ HIGHEST_BAND_HZ: Final = 20e3
 _DETECTORS: Final = ("equivalent", "fast_maximum", "slow_maximum")
 
 
-def channel_levels(signal: xr.DataArray, rate_hz: float, method: BandMethod = "sums") -> xr.Dataset:
-    """Levels of the channels of sound pressure; not a number for others, which have no reference.
+class PressureLevels:
+    """Levels of the channels of sound pressure of a recording that comes in blocks.
 
-    A recording without sound pressure has none. An offset is no sound and is taken off. Attribute
-    `levels_left_out_s`: what A- and C-weighted levels leave out at either end.
+    A recording without sound pressure has none; other channels have no reference. An offset is no
+    sound and is taken off.
 
     Parameters
     ----------
-    signal : (channel, time), with the coordinate `channel_unit`
+    channel : names of the channels, with the coordinate `channel_unit`
+    samples : of the recording, a channel
     rate_hz : sample rate
+    offsets : means of all samples, by position of the channels of sound pressure
     method : of the third octaves, see `band_levels`
     """
-    plan = MeterPlan(signal.sizes["time"], rate_hz)
-    bands = measurable_bands(bands_between(3, LOWEST_BAND_HZ, HIGHEST_BAND_HZ), rate_hz)
-    meters, sums = {}, {}
-    for number in np.flatnonzero(signal["channel_unit"].values == "Pa"):
-        samples = signal.values[number]
-        meters[number] = LevelMeter(plan, float(np.mean(samples)))
-        meters[number].add(samples)
-        if method == "sums":  # of all of the recording at once: its lines lie closest
-            sums[number] = band_mean_square(samples, rate_hz, bands)  # an offset is line 0 alone
-    return labelled_levels(signal["channel"], meters, bands, method, sums)
+
+    def __init__(
+        self,
+        channel: xr.DataArray,
+        samples: int,
+        rate_hz: float,
+        offsets: Mapping[int, float],
+        method: BandMethod = "sums",
+    ) -> None:
+        self._channel, self._method = channel, method
+        plan = MeterPlan(samples, rate_hz)
+        bands = measurable_bands(bands_between(3, LOWEST_BAND_HZ, HIGHEST_BAND_HZ), rate_hz)
+        self._bands = bands
+        self._meters = {row: LevelMeter(plan, offset) for row, offset in offsets.items()}
+        summed = offsets if method == "sums" else {}
+        self._sums = {
+            row: BandMeter(samples, rate_hz, bands, offset) for row, offset in summed.items()
+        }
+
+    def add(self, block: Array) -> None:
+        """Take the next samples, shape (channel, time).
+
+        Raises
+        ------
+        ParameterError
+            A sample is not finite.
+        """
+        for row, meter in self._meters.items():
+            meter.add(block[row])
+        for row, sums in self._sums.items():
+            sums.add(block[row])
+
+    def result(self) -> xr.Dataset:
+        """Of all that has been added; attribute `levels_left_out_s`: see `labelled_levels`."""
+        sums = {row: meter.mean_square() for row, meter in self._sums.items()}
+        return labelled_levels(self._channel, self._meters, self._bands, self._method, sums)
 
 
 def labelled_levels(
@@ -52,6 +81,8 @@ def labelled_levels(
     unweighted: Mapping[int, Array],
 ) -> xr.Dataset:
     """Levels from the meters of the channels of sound pressure; empty where there are none.
+
+    Attribute `levels_left_out_s`: what A- and C-weighted levels leave out at either end.
 
     Parameters
     ----------

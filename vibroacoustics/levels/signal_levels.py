@@ -13,7 +13,8 @@ from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level, power_of_level
 from ..base.errors import ParameterError
 from ..study.order_analysis import BAND_METHODS, BandMethod
-from .bands import Band, band_mean_square, band_sums, check_measurable
+from .band_meter import BandMeter
+from .bands import Band, band_sums, check_measurable
 from .filter_bank import filtered_energy
 from .level_meter import LevelMeter, MeterPlan
 from .weighting import WEIGHTING, check_weighting
@@ -114,7 +115,7 @@ def band_levels(
     check_weighting(weighting)
     check_measurable(bands, sample_rate_hz)
     if weighting == "Z" and method == "sums":
-        return mean_square_level(band_mean_square(signal, sample_rate_hz, bands), reference)
+        return mean_square_level(_unweighted(signal, sample_rate_hz, bands), reference)
     meters = _meters(signal, sample_rate_hz)
     shape = (*signal.shape[:-1], len(bands))
     return mean_square_level(in_bands(meters, bands, weighting, method).reshape(shape), reference)
@@ -144,6 +145,16 @@ def in_bands(
     if method == "filters":
         return filtered_energy(energy, plan.frequency_hz, plan.sample_rate_hz, bands)
     return band_sums(energy, plan.sample_rate_hz, plan.length, bands)
+
+
+def _unweighted(signal: Array, sample_rate_hz: float, bands: Sequence[Band]) -> Array:
+    """Mean square in bands, shape (..., band)."""
+    sums = []
+    for samples in signal.reshape(-1, signal.shape[-1]):
+        meter = BandMeter(samples.size, sample_rate_hz, bands)
+        meter.add(samples)
+        sums.append(meter.mean_square())
+    return np.array(sums).reshape(*signal.shape[:-1], len(bands))
 
 
 def _meters(signal: Array, sample_rate_hz: float) -> list[LevelMeter]:

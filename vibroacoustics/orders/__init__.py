@@ -9,7 +9,8 @@ array([0.707])
 """
 
 from ..mechanics.ellipse import semi_major_axis
-from .angular import AngularSignal, angular_resample, whole_revolutions
+from .angular import AngularSignal, whole_revolutions
+from .angular_stream import angular_resample
 from .crank_motion import CrankMotion, constant_speed, from_angle, from_speed
 from .fourier import FFT_ENGINE
 from .frequency_map import FrequencyMap, frequency_map
@@ -18,12 +19,8 @@ from .order_map import OrderMap, block_phasors, mean_order_spectrum, order_map
 from .pulse_edges import pulse_times
 from .pulse_faults import PulseFault
 from .spectrum import order_spectra, order_spectrum, order_spectrum_at_speed
-from .synchronous import (
-    OrderEnvelope,
-    SynchronousAverage,
-    synchronous_demodulation,
-    time_synchronous_average,
-)
+from .synchronous import OrderEnvelope, synchronous_demodulation
+from .synchronous_average import SynchronousAverage, time_synchronous_average
 from .tacho import TachoResult, rpm_motion, tacho_motion
 from .tacholess import TacholessResult, tacholess_motion
 from .vold_kalman import Track, TrackedOrders, vold_kalman

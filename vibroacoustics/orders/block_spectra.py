@@ -30,10 +30,20 @@ def block_starts(samples: int, length: int, overlap_ratio: float) -> NDArray[np.
     ParameterError
         The overlap is outside its range.
     """
+    return np.arange(0, samples - length + 1, block_hop(length, overlap_ratio))
+
+
+def block_hop(length: int, overlap_ratio: float) -> int:
+    """Samples from the start of a block to that of the next.
+
+    Raises
+    ------
+    ParameterError
+        The overlap is outside its range.
+    """
     if not 0.0 <= overlap_ratio < 1.0:
         raise ParameterError(f"overlap_ratio = {overlap_ratio:g}: must be from 0 to below 1")
-    hop = max(round(length * (1.0 - overlap_ratio)), 1)
-    return np.arange(0, samples - length + 1, hop)
+    return max(round(length * (1.0 - overlap_ratio)), 1)
 
 
 def block_spectra(

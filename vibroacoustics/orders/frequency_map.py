@@ -6,7 +6,8 @@ import numpy as np
 
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
-from .angular import check_finite, known_samples
+from .angular import check_finite
+from .angular_plan import known_samples
 from .block_spectra import block_spectra, block_starts, check_positive
 from .crank_motion import CrankMotion
 from .windows import window_by_name

@@ -9,6 +9,10 @@ from ..base.arrays import Array
 
 _DEVIATION: Final = 0.004
 """Largest of the mains frequency from its nominal value, relative: 0.2 Hz in 50 Hz."""
+_NOMINAL_HZ: Final = (50.0, 60.0, 100.0, 120.0)
+"""Lowest lines of hum: of the mains themselves, and of what hums twice in a period."""
+_AS_EVEN: Final = 0.002
+"""As near as the mains keep to their frequency, relative."""
 _TRIALS: Final = 401
 _HALF_WIDTH_LINES: Final = 2.5
 """Lines of the transform that a steady line fills to each side, with a Hann window."""
@@ -41,6 +45,19 @@ def without_mains(signal: Array, sample_rate_hz: float, nominal_hz: float) -> Ar
         level = np.median(power[around])
         spectrum[near] *= np.minimum(1.0, level / np.maximum(power[near], 1e-300))
     return np.asarray(fft.irfft(spectrum, signal.size))
+
+
+def mains_of(speed_hz: Array) -> float | None:
+    """Nominal frequency of which the lines of a speed may be hum: it lies there and never moves.
+
+    Parameters
+    ----------
+    speed_hz : over the time, shape (time,)
+    """
+    for nominal in _NOMINAL_HZ:
+        if np.all(np.abs(speed_hz / nominal - 1.0) < _AS_EVEN):
+            return nominal
+    return None
 
 
 def mains_frequency_hz(signal: Array, sample_rate_hz: float, nominal_hz: float) -> float:

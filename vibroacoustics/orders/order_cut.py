@@ -63,6 +63,21 @@ def order_cut(
     OrderResolutionWarning
         The main lobe of one of the orders reaches into the band of another.
     """
+    bands = order_bands(spectra, orders, bandwidth_order)
+    return OrderCut(
+        rms=rms_in_bands(spectra, bands),
+        order=np.asarray(orders, dtype=float),
+        bandwidth_order=np.array([len(band) for band in bands]) / spectra.revolutions,
+        resolution_order=spectra.resolution_order,
+        time_s=spectra.time_s,
+        shaft_frequency_hz=spectra.shaft_frequency_hz,
+    )
+
+
+def order_bands(
+    spectra: OrderMap, orders: Sequence[float] | Array, bandwidth_order: float | None = None
+) -> list[range]:
+    """Lines of the bands around some orders; see `order_cut`."""
     wanted = np.asarray(orders, dtype=float)
     bandwidth = spectra.main_lobe_order if bandwidth_order is None else bandwidth_order
     _check_bands(spectra, wanted, bandwidth)
@@ -72,20 +87,17 @@ def order_cut(
         (bandwidth + spectra.main_lobe_order) / 2.0,
         f"for bands of {bandwidth:.3g} with main lobes of {spectra.main_lobe_order:.3g} "
         f"(resolution obtained {spectra.resolution_order:.3g})",
+        stacklevel=4,
     )
     reach = bandwidth / 2.0 + _SAME_LINE / spectra.revolutions
-    bands = [np.flatnonzero(np.abs(spectra.order - order) <= reach) for order in wanted]
-    power = np.stack(
-        [_band_power(spectra.amplitude[..., band[0] : band[-1] + 1]) for band in bands], axis=-1
-    )
-    return OrderCut(
-        rms=np.sqrt(power / spectra.window.noise_bandwidth_lines),
-        order=wanted,
-        bandwidth_order=np.array([band.size for band in bands]) / spectra.revolutions,
-        resolution_order=spectra.resolution_order,
-        time_s=spectra.time_s,
-        shaft_frequency_hz=spectra.shaft_frequency_hz,
-    )
+    within = [np.flatnonzero(np.abs(spectra.order - order) <= reach) for order in wanted]
+    return [range(int(lines[0]), int(lines[-1]) + 1) for lines in within]
+
+
+def rms_in_bands(spectra: OrderMap, bands: Sequence[range]) -> Array:
+    """RMS in bands of lines, shape (..., block, band), in the signal's unit."""
+    power = [_band_power(spectra.amplitude[..., band.start : band.stop]) for band in bands]
+    return np.asarray(np.sqrt(np.stack(power, axis=-1) / spectra.window.noise_bandwidth_lines))
 
 
 def order_lines(spectra: OrderMap, orders: Sequence[float] | Array) -> ComplexArray:
@@ -127,7 +139,7 @@ def _check_bands(spectra: OrderMap, orders: Array, bandwidth: float) -> None:
             )
 
 
-def warn_of_neighbours(orders: Array, needed: float, why: str) -> None:
+def warn_of_neighbours(orders: Array, needed: float, why: str, stacklevel: int = 3) -> None:
     """Warn of orders that are nearer to each other than is needed to tell them apart."""
     for lower, upper in pairwise(np.unique(orders)):
         if upper - lower < needed * (1.0 - _SAME_LINE):
@@ -135,5 +147,5 @@ def warn_of_neighbours(orders: Array, needed: float, why: str) -> None:
                 f"orders {lower:g} and {upper:g} leak into each other: they are "
                 f"{upper - lower:.3g} apart and need {needed:.3g} {why}",
                 OrderResolutionWarning,
-                stacklevel=3,
+                stacklevel=stacklevel,
             )

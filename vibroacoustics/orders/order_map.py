@@ -67,17 +67,9 @@ def order_map(
         The resolution is finer than the signal allows, or a value is outside its range.
     """
     shape = window_by_name(window)
-    check_positive("resolution_order", resolution_order)
-    # A resolution of 1.5 / 12 asks for 12 revolutions, whatever its last bit.
-    needed = np.ceil(shape.noise_bandwidth_lines / resolution_order * (1.0 - 1e-12))
-    spanned = signal.time_s.size / signal.samples_per_revolution
-    if spanned < needed:
-        raise ParameterError(
-            f"resolution_order = {resolution_order:g}: needs blocks of {needed:.6g} revolutions, "
-            f"the signal has {spanned:.3g}"
-        )
-    revolutions = int(needed)
-    length = revolutions * signal.samples_per_revolution
+    per_revolution = signal.samples_per_revolution
+    revolutions = block_revolutions(shape, resolution_order, signal.time_s.size / per_revolution)
+    length = revolutions * per_revolution
     starts = block_starts(signal.time_s.size, length, overlap_ratio)
     lines = int(np.floor(signal.maximum_order * revolutions * (1.0 + 1e-12))) + 1
     amplitude = block_spectra(
@@ -91,8 +83,33 @@ def order_map(
         window=shape,
         starts=starts,
         time_s=np.asarray((start_s + end_s) / 2.0),
-        shaft_frequency_hz=(length - 1) / (signal.samples_per_revolution * (end_s - start_s)),
+        shaft_frequency_hz=(length - 1) / (per_revolution * (end_s - start_s)),
     )
+
+
+def block_revolutions(window: Window, resolution_order: float, spanned: float) -> int:
+    """Fewest whole revolutions of a block that resolve the orders.
+
+    Parameters
+    ----------
+    window : of the blocks
+    resolution_order : coarsest noise bandwidth of a line, orders
+    spanned : revolutions of the signal
+
+    Raises
+    ------
+    ParameterError
+        The resolution is not above zero, or finer than the signal allows.
+    """
+    check_positive("resolution_order", resolution_order)
+    # A resolution of 1.5 / 12 asks for 12 revolutions, whatever its last bit.
+    needed = np.ceil(window.noise_bandwidth_lines / resolution_order * (1.0 - 1e-12))
+    if spanned < needed:
+        raise ParameterError(
+            f"resolution_order = {resolution_order:g}: needs blocks of {needed:.6g} revolutions, "
+            f"the signal has {spanned:.3g}"
+        )
+    return int(needed)
 
 
 def block_phasors(
@@ -140,6 +157,11 @@ def mean_order_spectrum(spectra: OrderMap) -> Array:
     Divided by the square root of `resolution_order` it is the root of the power density of noise
     (Heinzel, Rüdiger & Schilling 2002, equation 24). Order 0 is |X_0|, its own RMS.
     """
-    power = np.mean(np.abs(spectra.amplitude) ** 2, axis=-2) / 2.0
+    return rms_of_lines(np.mean(np.abs(spectra.amplitude) ** 2, axis=-2))
+
+
+def rms_of_lines(mean_square: Array) -> Array:
+    """RMS of lines from the mean squares of their peaks, from order 0 on, (..., order)."""
+    power = mean_square / 2.0
     power[..., 0] *= 2.0
     return np.asarray(np.sqrt(power))

@@ -1,5 +1,6 @@
 """Times of tacho pulses in a sampled signal."""
 
+from collections.abc import Callable, Iterator
 from typing import Final, Literal
 
 import numba
@@ -7,17 +8,11 @@ import numpy as np
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
+from .tacho_states import TachoStates
 
 _HYSTERESIS: Final = 0.4
 """Of the swing: noise has to cross the middle 40 % to make a pulse, and a pulse of two or three
 samples, which a converter's filter rounds, still reaches 70 % of the swing."""
-_BLOCKS: Final = 1000
-_EXTREME_BLOCK: Final = 3
-"""The highest and lowest levels are the third extreme of those of the blocks, so that spikes in two
-blocks do not count; three pulses are the fewest that a speed can be told from."""
-_TWO_STATES: Final = 0.3
-"""Share of the extremes' swing that lies between the two states' medians. White noise has 0.14, a
-pulse with noise of 0.2 of the swing 0.34; a pulse to both sides of a rest has about 0."""
 
 
 def pulse_times(
@@ -51,63 +46,81 @@ def pulse_times(
     ParameterError
         The signal is empty, not finite, constant, or has no pulse.
     """
-    _check_signal(signal)
-    signal = np.asarray(signal, dtype=float)
-    low, high = _levels(signal)
+    if signal.ndim != 1 or signal.size == 0:
+        raise ParameterError(f"tacho: needs samples of one channel, got shape {signal.shape}")
+    once = (np.asarray(signal, dtype=float),)
+    return pulse_times_of(
+        lambda: iter(once), signal.size, sample_rate_hz, edge, threshold, hysteresis
+    )
+
+
+def pulse_times_of(
+    blocks: Callable[[], Iterator[Array]],
+    samples: int,
+    sample_rate_hz: float,
+    edge: Literal["rising", "falling"] = "rising",
+    threshold: float | None = None,
+    hysteresis: float | None = None,
+) -> Array:
+    """Times of the pulses of a tacho that comes in blocks; see `pulse_times`.
+
+    Parameters
+    ----------
+    blocks : starts over with the channel's blocks, each of shape (time,): they are read twice
+    samples : of all blocks
+    sample_rate_hz, edge, threshold, hysteresis : of `pulse_times`
+    """
+    states = TachoStates(samples)
+    for block in blocks():
+        states.add(block)
+    low, high = states.levels()
     middle = 0.5 * (low + high) if threshold is None else threshold
     band = _HYSTERESIS * (high - low) if hysteresis is None else hysteresis
     sign = 1.0 if edge == "rising" else -1.0
-    upward, at = sign * signal, sign * middle
-    crossings: Array = _crossings(upward, at - 0.5 * band, at, at + 0.5 * band)
-    if crossings.size == 0:
+    levels = sign * middle - 0.5 * band, sign * middle, sign * middle + 0.5 * band
+    state, first, crossings = np.array([np.nan, 0.0, 0.0]), 0, []
+    for block in blocks():
+        crossings.append(_crossings(block, first, sign, levels, state))
+        first += block.size
+    times = np.concatenate(crossings) / sample_rate_hz
+    if times.size == 0:
         raise ParameterError(
-            f"tacho: no {edge} edge in {signal.size} samples; the signal goes from "
-            f"{np.min(signal):.4g} to {np.max(signal):.4g}, the threshold is {middle:.4g} "
+            f"tacho: no {edge} edge in {samples} samples; the signal goes from "
+            f"{states.lowest:.4g} to {states.highest:.4g}, the threshold is {middle:.4g} "
             f"with a hysteresis of {band:.4g}"
         )
-    return crossings / sample_rate_hz
-
-
-def _check_signal(signal: Array) -> None:
-    if signal.ndim != 1 or signal.size == 0:
-        raise ParameterError(f"tacho: needs samples of one channel, got shape {signal.shape}")
-    if not np.all(np.isfinite(signal)):
-        raise ParameterError(
-            f"tacho: {np.count_nonzero(~np.isfinite(signal))} of {signal.size} samples are not "
-            "finite numbers"
-        )
-    if np.ptp(signal) == 0.0:
-        raise ParameterError(f"tacho: no pulses: the signal is constant at {signal[0]:.4g}")
-
-
-def _levels(signal: Array) -> tuple[float, float]:
-    """Low and high state, however short the pulses are."""
-    starts = np.arange(0, signal.size, -(-signal.size // _BLOCKS))
-    nth = min(_EXTREME_BLOCK, starts.size)
-    bottom = float(np.sort(np.minimum.reduceat(signal, starts))[nth - 1])
-    top = float(np.sort(np.maximum.reduceat(signal, starts))[-nth])
-    above = signal >= 0.5 * (bottom + top)
-    if top <= bottom or above.all() or not above.any():
-        return float(signal.min()), float(signal.max())
-    low, high = float(np.median(signal[~above])), float(np.median(signal[above]))
-    return (low, high) if high - low > _TWO_STATES * (top - bottom) else (bottom, top)
+    return np.asarray(times)
 
 
 @numba.njit(cache=True, nogil=True)
-def _crossings(signal: Array, lower: float, middle: float, upper: float) -> Array:
-    """Upward crossings of the middle in samples, one for each way from lower to upper."""
+def _crossings(
+    signal: Array, first: int, sign: float, levels: tuple[float, float, float], state: Array
+) -> Array:
+    """Upward crossings of the middle in samples, one for each way from lower to upper.
+
+    Parameters
+    ----------
+    signal : the next samples; times `sign` they are what goes upward
+    first : number of its first sample
+    sign : 1 or -1
+    levels : lower, middle, upper
+    state : the sample before, not a number at the start; 1 where the signal has been below the
+        lower level since the last crossing; the last crossing of the middle. It is changed
+    """
+    lower, middle, upper = levels
     crossings = np.empty(signal.size // 2 + 1)
     count = 0
-    armed = signal[0] <= lower
-    crossing = 0.0
-    for k in range(1, signal.size):
-        before, after = signal[k - 1], signal[k]
+    before, armed, crossing = state[0], state[1] > 0.0, state[2]
+    for k in range(signal.size):
+        after = sign * signal[k]
         if armed and before < middle <= after:
-            crossing = k - 1 + (middle - before) / (after - before)
+            crossing = first + k - 1 + (middle - before) / (after - before)
         if armed and after >= upper:
             crossings[count] = crossing
             count += 1
             armed = False
         elif after <= lower:
             armed = True
+        before = after
+    state[:] = (before, 1.0 if armed else 0.0, crossing)
     return crossings[:count].copy()

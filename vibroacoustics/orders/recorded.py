@@ -10,69 +10,64 @@ from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.errors import ParameterError
 from ..base.vocabulary import stamp
 from ..study.order_analysis import OrderAnalysis
-from .angular import AngularSignal, angular_resample
+from .angular_plan import AngularPlan
+from .block_orders import WINDOW, OrdersOfBlocks
 from .crank_motion import CrankMotion
-from .order_cut import order_cut
-from .order_map import OrderMap, block_phasors, mean_order_spectrum
 from .pulse_faults import PulseFault
-from .synchronous import time_synchronous_average
+from .synchronous_average import RevolutionAverage
 
 STEADY_RATIO: Final = 0.02
 """A speed that stays within this share of its mean makes one operating point."""
-WINDOW: Final = "hann"
 _HALF_LOBE: Final = 4.0 / 3.0
 """Half of the window's main lobe over its noise bandwidth: room for the highest order's band."""
 
 
-def resampled(
-    signal: xr.DataArray, rate_hz: float, motion: CrankMotion, settings: OrderAnalysis
-) -> AngularSignal:
-    """The channels over the crank angle, up to the highest order that the settings need."""
+def angular_plan(
+    rate_hz: float, samples: int, motion: CrankMotion, settings: OrderAnalysis
+) -> AngularPlan:
+    """Plan of a recording over the crank angle, up to the highest order that the settings need."""
     highest = max(
         settings.maximum_order, max(settings.orders) + _HALF_LOBE * settings.resolution_order
     )
-    return angular_resample(signal.values, rate_hz, motion, highest)
+    return AngularPlan(rate_hz, samples, motion, highest)
 
 
 def recorded_orders(
-    signal: xr.DataArray, angular: AngularSignal, spectra: OrderMap, settings: OrderAnalysis
+    channel: xr.DataArray, blocks: OrdersOfBlocks, settings: OrderAnalysis
 ) -> xr.Dataset:
     """Orders of every block and at every operating point, and the mean spectrum.
 
     Parameters
     ----------
-    signal : channels over time
-    angular : the same over the crank angle
-    spectra : of its blocks
+    channel : names, with `channel_unit` and `calibration_factor`
+    blocks : of the recording
     settings : the orders that are wanted
     """
-    phasors = block_phasors(angular, spectra, settings.orders)
-    rms = order_cut(spectra, settings.orders).rms
-    block_speed = 60.0 * spectra.shaft_frequency_hz
+    block_speed = 60.0 * blocks.shaft_frequency_hz
     speeds, point = operating_points(block_speed, settings.speed_step_rpm)
-    at_points = _at_points(phasors, rms, point, speeds.size)
-    by_line = {"channel": signal["channel"], "map_order": spectra.order}
+    at_points = _at_points(blocks.phasor, blocks.rms, point, speeds.size)
+    by_line = {"channel": channel["channel"], "map_order": blocks.map_order}
     by_block = {
-        "channel": signal["channel"],
-        "block": np.arange(spectra.time_s.size),
+        "channel": channel["channel"],
+        "block": np.arange(blocks.time_s.size),
         "order": np.array(settings.orders),
     }
-    by_speed = {"channel": signal["channel"], "speed": speeds, "order": by_block["order"]}
+    by_speed = {"channel": channel["channel"], "speed": speeds, "order": by_block["order"]}
     labelled = {
         **{name: stamp(name, values, by_speed) for name, values in at_points.items()},
-        "block_order": stamp("block_order", phasors, by_block),
-        "block_order_rms": stamp("block_order_rms", rms, by_block),
-        "mean_order_spectrum": stamp("mean_order_spectrum", mean_order_spectrum(spectra), by_line),
+        "block_order": stamp("block_order", blocks.phasor, by_block),
+        "block_order_rms": stamp("block_order_rms", blocks.rms, by_block),
+        "mean_order_spectrum": stamp("mean_order_spectrum", blocks.mean_spectrum, by_line),
     }
-    if settings.with_map:
+    if blocks.amplitude is not None:
         by_map = {**by_line, "block": by_block["block"]}
-        labelled["order_map"] = stamp("order_map", spectra.amplitude, by_map)
+        labelled["order_map"] = stamp("order_map", blocks.amplitude, by_map)
     coords = {
-        "block_time": ("block", spectra.time_s),
+        "block_time": ("block", blocks.time_s),
         "block_speed": ("block", block_speed),
         "block_count": ("speed", np.bincount(point, minlength=speeds.size)),
-        "channel_unit": signal["channel_unit"],
-        "calibration_factor": signal["calibration_factor"],
+        "channel_unit": channel["channel_unit"],
+        "calibration_factor": channel["calibration_factor"],
     }
     return xr.Dataset(labelled, coords=coords)
 
@@ -106,18 +101,18 @@ def _at_points(
     }
 
 
-def synchronous_average(signal: xr.DataArray, angular: AngularSignal) -> xr.Dataset:
+def synchronous_average(channel: xr.DataArray, revolutions: RevolutionAverage) -> xr.Dataset:
     """Mean revolution of the channels and its standard error.
 
     Where there are fewer than two revolutions it is left out: the attribute `left_out` says why.
     """
     try:
-        average = time_synchronous_average(angular)
+        average = revolutions.result()
     except ParameterError as error:
         return xr.Dataset(attrs={"left_out": f"synchronous average: {error}"})
-    samples = angular.samples_per_revolution
+    samples = average.mean.shape[-1]
     angle = 2.0 * np.pi * np.arange(samples) / samples
-    coords = {"channel": signal["channel"], "average_angle": angle}
+    coords = {"channel": channel["channel"], "average_angle": angle}
     values = {
         "synchronous_average": average.mean,
         "synchronous_average_error": average.standard_error,
@@ -134,11 +129,11 @@ def fault_times(faults: Sequence[PulseFault]) -> xr.Dataset:
     return xr.Dataset({"fault_time": stamp("fault_time", times, {"fault": names})})
 
 
-def resolution(spectra: OrderMap) -> dict[str, Any]:
+def resolution(blocks: OrdersOfBlocks) -> dict[str, Any]:
     """Attributes that say how finely the blocks tell orders apart."""
     return {
         "window": WINDOW,
-        "revolutions_per_block": spectra.revolutions,
-        "resolution_order": spectra.resolution_order,
-        "band_order": spectra.main_lobe_order,
+        "revolutions_per_block": blocks.revolutions,
+        "resolution_order": blocks.resolution_order,
+        "band_order": blocks.band_order,
     }

@@ -6,14 +6,15 @@ from dataclasses import dataclass, field
 from typing import Any, Final
 
 import numpy as np
-import xarray as xr
 
+from ..base.arrays import Array
 from ..base.errors import ParameterError
+from ..base.recording_blocks import RecordingBlocks, block_by_block
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import NO_ANGLE_ZERO
 from ..study.order_analysis import NominalSpeed, SpeedChannel, SpeedSource, TacholessSpeed
 from .crank_motion import CrankMotion, constant_speed
-from .pulse_edges import pulse_times
+from .pulse_edges import pulse_times_of
 from .pulse_faults import PulseFault
 from .pulse_pattern import sampling_note
 from .speed_check import MOSTLY, WIDE_LINE
@@ -22,6 +23,9 @@ from .tacholess import TacholessResult, tacholess_motion
 
 LEAST_CONFIDENCE: Final = 0.8
 """Of a speed without a tacho that is not warned of (`SpeedCheck`)."""
+
+MOST_SPEED_SAMPLES: Final = 2**26
+"""Of a channel in rpm, or in which the speed is looked for: half a GiB, 22 min at 51.2 kHz."""
 
 
 class UncertainSpeedWarning(UserWarning):
@@ -59,13 +63,14 @@ class RecordedSpeed:
         }
 
 
-def recorded_speed(recording: xr.Dataset, speed: SpeedSource) -> RecordedSpeed:
-    """Crank angle over the time of a recording.
+def recorded_speed(recording: RecordingBlocks, speed: SpeedSource) -> RecordedSpeed:
+    """Crank angle over the time of a recording, of which one channel is read.
 
     Raises
     ------
     ParameterError
-        There is no such channel, no pulse, or the shaft stops.
+        There is no such channel, no pulse, or the shaft stops; a channel that is no tacho is too
+        long to be held at once.
 
     Warns
     -----
@@ -76,42 +81,22 @@ def recorded_speed(recording: xr.Dataset, speed: SpeedSource) -> RecordedSpeed:
     PulseWarning
         Teeth are left out, pulses unequally spaced, or too quick for the sample rate.
     """
-    signal = recording["signal"]
-    rate_hz = float(recording.attrs["sample_rate_hz"])
+    rate_hz = recording.sample_rate_hz
     if isinstance(speed, NominalSpeed):
-        end_s = (signal.sizes["time"] - 1) / rate_hz
+        end_s = (recording.samples - 1) / rate_hz
         motion = constant_speed(shaft_frequency_hz(speed.speed_rpm), 0.0, end_s)
         return RecordedSpeed(motion, f"nominal {speed.speed_rpm:g} rpm")
+    name = _channel(recording, speed.channel)
     if isinstance(speed, TacholessSpeed):
-        return _from_signal(_channel(signal, speed.channel), rate_hz, speed)
-    channel = _channel(signal, speed.channel)
-    if channel["channel_unit"].item() == "rpm":
-        return _from_rpm(channel, rate_hz)
-    return _from_pulses(signal, rate_hz, speed)
+        return _from_signal(_samples(recording, name), rate_hz, speed)
+    if recording.channel_units[recording.channels.index(name)] == "rpm":
+        return _from_rpm(name, _samples(recording, name), rate_hz)
+    return _from_pulses(recording, speed)
 
 
-def channels_without_speed(signal: xr.DataArray, speed: SpeedSource) -> xr.DataArray:
-    """The channels that are analysed.
-
-    Raises
-    ------
-    ParameterError
-        There is none besides that of the speed.
-    """
-    if not isinstance(speed, SpeedChannel):
-        return signal
-    of_speed = np.isin(signal["channel"].values, [speed.channel, str(speed.index_channel)])
-    others = np.flatnonzero(~of_speed)
-    if not others.size:
-        raise ParameterError("there is no channel besides that of the speed")
-    if others[-1] - others[0] == others.size - 1:  # side by side: nothing is copied
-        return signal.isel(channel=slice(others[0], others[-1] + 1))
-    return signal.isel(channel=others)
-
-
-def _from_signal(channel: xr.DataArray, rate_hz: float, speed: TacholessSpeed) -> RecordedSpeed:
+def _from_signal(samples: Array, rate_hz: float, speed: TacholessSpeed) -> RecordedSpeed:
     tracked = tacholess_motion(
-        channel.values,
+        samples,
         rate_hz,
         shaft_frequency_hz(speed.minimum_rpm),
         shaft_frequency_hz(speed.maximum_rpm),
@@ -139,6 +124,8 @@ def _uncertain(tracked: TacholessResult, speed: TacholessSpeed) -> str:
         reasons.append(f"{check.width:.1f} times as wide as those of a steady speed")
     if check.followed < MOSTLY:
         reasons.append(f"followed for {100.0 * check.followed:.0f} % of the time")
+    if check.mains_hz is not None:
+        reasons.append(f"which never leave multiples of {check.mains_hz:g} Hz, as hum of the mains")
     if check.rival_hz is not None:
         reasons.append(f"{60.0 * check.rival_hz:.0f} rpm is the next best")
     advice = "give the comb of the machine, narrower limits or a tacho"
@@ -150,24 +137,24 @@ def _uncertain(tracked: TacholessResult, speed: TacholessSpeed) -> str:
     )
 
 
-def _from_rpm(channel: xr.DataArray, rate_hz: float) -> RecordedSpeed:
-    motion = rpm_motion(channel.values, rate_hz)
-    source = f"channel {channel['channel'].item()}, rpm"
-    before, behind = motion.start_s, (channel.size - 1) / rate_hz - motion.end_s
+def _from_rpm(name: str, speed_rpm: Array, rate_hz: float) -> RecordedSpeed:
+    motion = rpm_motion(speed_rpm, rate_hz)
+    source = f"channel {name}, rpm"
+    before, behind = motion.start_s, (speed_rpm.size - 1) / rate_hz - motion.end_s
     if max(before, behind) < 0.5 / rate_hz:
         return RecordedSpeed(motion, source)
     cut = f"standstill cut off: {before:.3g} s before, {behind:.3g} s behind"
-    warnings.warn(f"channel {channel['channel'].item()}: {cut}", StandstillWarning, stacklevel=3)
+    warnings.warn(f"channel {name}: {cut}", StandstillWarning, stacklevel=3)
     return RecordedSpeed(motion, f"{source}; {cut}")
 
 
-def _from_pulses(signal: xr.DataArray, rate_hz: float, speed: SpeedChannel) -> RecordedSpeed:
-    index = None
+def _from_pulses(recording: RecordingBlocks, speed: SpeedChannel) -> RecordedSpeed:
+    index, rate_hz = None, recording.sample_rate_hz
     angle_zero = f"pulse of {speed.channel}" if speed.pulses_per_revolution == 1 else NO_ANGLE_ZERO
     if speed.index_channel is not None:
-        index = pulse_times(_channel(signal, speed.index_channel).values, rate_hz)
+        index = _pulse_times(recording, _channel(recording, speed.index_channel))
         angle_zero = f"pulse of {speed.index_channel}"
-    pulses = pulse_times(_channel(signal, speed.channel).values, rate_hz)
+    pulses = _pulse_times(recording, speed.channel)
     too_quick = sampling_note(pulses, rate_hz)
     try:
         tracked = tacho_motion(pulses, speed.pulses_per_revolution, index)
@@ -185,13 +172,33 @@ def _from_pulses(signal: xr.DataArray, rate_hz: float, speed: SpeedChannel) -> R
     )
 
 
-def _channel(signal: xr.DataArray, name: str | None) -> xr.DataArray:
-    """One channel by name, or the only one."""
-    names = [str(channel) for channel in signal["channel"].values]
+def _pulse_times(recording: RecordingBlocks, name: str) -> Array:
+    return pulse_times_of(
+        lambda: (block[0] for block in block_by_block(recording, [name])),
+        recording.samples,
+        recording.sample_rate_hz,
+    )
+
+
+def _samples(recording: RecordingBlocks, name: str) -> Array:
+    """All samples of a channel."""
+    if recording.samples > MOST_SPEED_SAMPLES:
+        raise ParameterError(
+            f"speed: {recording.samples} samples of channel {name!r} are too many, at most "
+            f"{MOST_SPEED_SAMPLES} are taken: choose a part by from_s and to_s, or a tacho's "
+            "pulses, of which there may be any number"
+        )
+    blocks = [block[0] for block in block_by_block(recording, [name])]
+    return blocks[0] if len(blocks) == 1 else np.concatenate(blocks)
+
+
+def _channel(recording: RecordingBlocks, name: str | None) -> str:
+    """Name of a channel that is there; the only one where none is given."""
+    names = recording.channels
     if name is None and len(names) == 1:
-        return signal.isel(channel=0)
+        return names[0]
     if name is None:
         raise ParameterError(f"speed: name the channel to find it in, one of {', '.join(names)}")
     if name not in names:
         raise ParameterError(f"speed: no channel {name!r}; there are {', '.join(names)}")
-    return signal.sel(channel=name)
+    return name

@@ -7,6 +7,7 @@ import numpy as np
 from scipy.interpolate import PPoly
 
 from .comb_evidence import best_speeds, lines_in_place, sharpness
+from .mains import mains_of
 from .speed_courses import Course, Search
 from .unrolled import Unrolled
 
@@ -33,6 +34,8 @@ _CAUTION: Final = 2.0
 """Evidence that counts as a factor e of odds: the teeth are not independent of each other."""
 _LOOKED_INTO: Final = 2
 """Scales of a course of which it is known how long their orders stand out."""
+_HUM: Final = 0.5
+"""How sure a shaft is that turns as fast as the mains: hum has its lines."""
 _LOST: Final = 8.0
 """Evidence that is lost with a factor e of time in which the orders do not stand out."""
 
@@ -50,6 +53,7 @@ class SpeedCheck:
     orders : of the comb that lie below half the sample rate
     width : mean width of those lines, by order, over that of a steady tone's
     followed : share of the recording in which the orders stand out as they mostly do
+    mains_hz : where the speed never leaves that of the mains, whose hum has the same lines
     """
 
     confidence: float
@@ -58,6 +62,7 @@ class SpeedCheck:
     orders: int
     width: float
     followed: float
+    mains_hz: float | None = None
 
 
 @dataclass(frozen=True)
@@ -164,6 +169,8 @@ def _check(best: Unrolled, worth: float, rivals: list[_Hypothesis]) -> SpeedChec
     known = min(1.0, followed / MOSTLY) * min(1.0, in_place / (_LEAST_IN_PLACE * max(orders, 1)))
     known *= min(1.0, _SHARP_LINE / width) ** 4 if in_place else 0.0
     time_s = best.course.time_s
+    mains_hz = mains_of(best.course.curve(time_s))
+    known *= 1.0 if mains_hz is None else _HUM
     return SpeedCheck(
         confidence=float(known / (1.0 + odds.sum())),
         rival_hz=float(np.mean(distinct[0].scaled().curve(time_s))) if distinct else None,
@@ -171,4 +178,5 @@ def _check(best: Unrolled, worth: float, rivals: list[_Hypothesis]) -> SpeedChec
         orders=orders,
         width=width,
         followed=followed,
+        mains_hz=mains_hz,
     )

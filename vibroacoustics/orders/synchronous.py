@@ -1,4 +1,4 @@
-"""What repeats with the shaft: its average over the revolutions and the envelopes of its orders."""
+"""Envelopes of orders along a run-up."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -23,17 +23,6 @@ would need a longer kernel, of 20 at 0.75."""
 
 
 @dataclass(frozen=True)
-class SynchronousAverage:
-    """Mean over the revolutions at each crank angle, and how well it is known."""
-
-    mean: Array
-    """Shape (..., angle), from crank angle zero."""
-    standard_error: Array
-    """Of the mean, from what is left after subtracting it, shape (..., angle)."""
-    averages: int
-
-
-@dataclass(frozen=True)
 class OrderEnvelope:
     """Complex amplitude of orders along a run-up."""
 
@@ -48,40 +37,6 @@ class OrderEnvelope:
     """Crank angle of the samples in revolutions, shape (sample,)."""
     time_s: Array
     """Shape (sample,)."""
-
-
-def time_synchronous_average(signal: AngularSignal, revolutions: int = 1) -> SynchronousAverage:
-    """Average over blocks of revolutions that begin at multiples of the block's angle.
-
-    The standard error is s / √n with the n - 1 of the sample variance.
-
-    Parameters
-    ----------
-    signal : over the crank angle
-    revolutions : after which the signal repeats: 2 with half orders
-
-    Raises
-    ------
-    ParameterError
-        The signal holds fewer than two whole blocks.
-    """
-    if revolutions < 1:
-        raise ParameterError(f"revolutions = {revolutions}: must be at least 1")
-    length = revolutions * signal.samples_per_revolution
-    begin = -signal.first_sample % length
-    averages = max(signal.time_s.size - begin, 0) // length
-    if averages < 2:
-        raise ParameterError(
-            f"revolutions = {revolutions}: the signal holds {averages} whole blocks of them; an "
-            "average needs two"
-        )
-    blocks = signal.values[..., begin : begin + averages * length]
-    blocks = blocks.reshape(*blocks.shape[:-1], averages, length)
-    return SynchronousAverage(
-        mean=np.mean(blocks, axis=-2),
-        standard_error=np.std(blocks, axis=-2, ddof=1) / np.sqrt(averages),
-        averages=averages,
-    )
 
 
 def synchronous_demodulation(

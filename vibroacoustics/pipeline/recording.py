@@ -1,33 +1,39 @@
 """What is computed from a recording: orders and levels, tracked orders, a map over the speed."""
 
 from collections.abc import Sequence
-from typing import Final
 
+import numpy as np
 import xarray as xr
 
-from .. import orders as analysis
 from ..base.progress import Progress, no_progress
+from ..base.recording_blocks import RecordingBlocks, block_by_block
 from ..base.vocabulary import check, label_coordinates
 from ..levels.block_levels import labelled_block_levels
-from ..levels.recorded import channel_levels
+from ..levels.recorded import PressureLevels
 from ..orders import recorded as of_recording
+from ..orders.analysed import analysed_channels, channels_without_speed
+from ..orders.angular_stream import AngularStream
+from ..orders.block_orders import BlockOrders
+from ..orders.crank_motion import CrankMotion
 from ..orders.labelled_map import labelled_map, mapped_spectra
-from ..orders.recorded_speed import channels_without_speed, recorded_speed
+from ..orders.recorded_speed import recorded_speed
+from ..orders.synchronous_average import RevolutionAverage
 from ..orders.tracked import tracked_orders
+from ..recordings import LabelledBlocks
 from ..results import provenance
 from ..study.order_analysis import OrderAnalysis, SpeedSource
 
-_STAGES: Final = 4
-
 
 def analyse_orders(
-    recording: xr.Dataset, settings: OrderAnalysis, progress: Progress = no_progress
+    recording: xr.Dataset | RecordingBlocks,
+    settings: OrderAnalysis,
+    progress: Progress = no_progress,
 ) -> xr.Dataset:
     """Orders and levels of every channel of a recording.
 
     Parameters
     ----------
-    recording : from `read_recording` or `label_recording`
+    recording : from `read_recording` or `label_recording`; or from `open_recording`, of any length
     settings : where the speed comes from, and which orders are wanted
     progress : called with the advance
 
@@ -46,31 +52,77 @@ def analyse_orders(
     >>> abs(orders["channel_order"]).sel(channel="ring", order=1.0).round(3).values
     array([3.])
     """
-    with provenance.naming(recording):
-        progress("orders", 0, _STAGES)
-        speed = recorded_speed(recording, settings.speed)
-        signal = channels_without_speed(recording["signal"], settings.speed)
-        rate_hz = float(recording.attrs["sample_rate_hz"])
-        progress("orders", 1, _STAGES)
-        angular = of_recording.resampled(signal, rate_hz, speed.motion, settings)
-        progress("orders", 2, _STAGES)
-        spectra = analysis.order_map(angular, settings.resolution_order, of_recording.WINDOW)
-        results = of_recording.recorded_orders(signal, angular, spectra, settings)
-        average = of_recording.synchronous_average(signal, angular)
-        results = results.merge(average)
-        results = results.merge(of_recording.fault_times(speed.faults))
-        progress("orders", 3, _STAGES)
-        levels = channel_levels(signal, rate_hz, settings.bands)
-        progress("orders", 4, _STAGES)
-        results = results.merge(levels)
+    blocks = LabelledBlocks(recording) if isinstance(recording, xr.Dataset) else recording
+    with provenance.naming(blocks.attributes):
+        speed = recorded_speed(blocks, settings.speed)
+        names = analysed_channels(blocks.channels, settings.speed)
+        passed = _passed_over(blocks, names, speed.motion, settings, progress)
+        results = passed.merge(of_recording.fault_times(speed.faults))
         results.attrs = {
-            **provenance.recording_attributes(recording, settings),
+            **provenance.recording_attributes(blocks.attributes, settings),
             **speed.attributes(),
-            **of_recording.resolution(spectra),
-            **average.attrs,
-            **levels.attrs,
+            **passed.attrs,
         }
         return check(label_coordinates(results))
+
+
+def _passed_over(
+    recording: RecordingBlocks,
+    names: Sequence[str],
+    motion: CrankMotion,
+    settings: OrderAnalysis,
+    progress: Progress,
+) -> xr.Dataset:
+    """Orders, average and levels of the channels, in one pass over the blocks of a recording.
+
+    Attributes: the resolution, what is left out.
+    """
+    rate_hz, samples = recording.sample_rate_hz, recording.samples
+    channel = _labels(recording, names)
+    plan = of_recording.angular_plan(rate_hz, samples, motion, settings)
+    stream = AngularStream(plan, len(names))
+    orders = BlockOrders(plan, len(names), settings)
+    average = RevolutionAverage(plan.samples_per_revolution)
+    offsets = _offsets(recording, names)
+    levels = PressureLevels(channel, samples, rate_hz, offsets, settings.bands)
+    passed = 0
+    for block in block_by_block(recording, names):
+        progress("orders", passed, samples)
+        angular = stream.add(block)
+        orders.add(angular)
+        average.add(angular)
+        levels.add(block)
+        passed += block.shape[1]
+    progress("orders", samples, samples)
+    of_blocks = orders.result()
+    results = of_recording.recorded_orders(channel, of_blocks, settings)
+    averages = of_recording.synchronous_average(channel, average)
+    in_db = levels.result()
+    results = results.merge(averages).merge(in_db)
+    results.attrs = {**of_recording.resolution(of_blocks), **averages.attrs, **in_db.attrs}
+    return results
+
+
+def _labels(recording: RecordingBlocks, names: Sequence[str]) -> xr.DataArray:
+    """Names of channels, with their units and calibration factors."""
+    rows = [recording.channels.index(name) for name in names]
+    coords = {
+        "channel": list(names),
+        "channel_unit": ("channel", [recording.channel_units[row] for row in rows]),
+        "calibration_factor": ("channel", [recording.calibration_factors[row] for row in rows]),
+    }
+    return xr.Dataset(coords=coords)["channel"]
+
+
+def _offsets(recording: RecordingBlocks, names: Sequence[str]) -> dict[int, float]:
+    """Means of the channels of sound pressure, by position among the names."""
+    units = dict(zip(recording.channels, recording.channel_units, strict=True))
+    pressures = [name for name in names if units[name] == "Pa"]
+    if not pressures:
+        return {}
+    sums = [block.sum(axis=1) for block in block_by_block(recording, pressures)]
+    means = np.sum(sums, axis=0) / recording.samples
+    return {names.index(name): float(mean) for name, mean in zip(pressures, means, strict=True)}
 
 
 def track_orders(
@@ -118,12 +170,12 @@ def track_orders(
     >>> round(abs(at_2_s.item()), 2)
     3.0
     """
-    with provenance.naming(recording):
-        of_shaft = recorded_speed(recording, speed)
+    with provenance.naming(recording.attrs):
+        of_shaft = recorded_speed(LabelledBlocks(recording), speed)
         signal = channels_without_speed(recording["signal"], speed)
         rate_hz = float(recording.attrs["sample_rate_hz"])
         tracked = tracked_orders(signal, rate_hz, of_shaft.motion, orders, bandwidth_hz, poles)
-        about = provenance.of_recording(recording, "tracked orders")
+        about = provenance.of_recording(recording.attrs, "tracked orders")
         tracked.attrs = {**about, **of_shaft.attributes(), **tracked.attrs}
         return check(label_coordinates(tracked))
 
@@ -170,8 +222,8 @@ def speed_frequency_map(
     >>> mapped["block_level"].sel(channel="front", weighting="Z").mean().round(1).item()
     91.0
     """
-    with provenance.naming(recording):
-        of_shaft = recorded_speed(recording, speed)
+    with provenance.naming(recording.attrs):
+        of_shaft = recorded_speed(LabelledBlocks(recording), speed)
         signal = channels_without_speed(recording["signal"], speed)
         rate_hz = float(recording.attrs["sample_rate_hz"])
         mapped = mapped_spectra(signal, rate_hz, of_shaft.motion, resolution_hz)
@@ -181,6 +233,6 @@ def speed_frequency_map(
                 mapped.amplitude, mapped.frequency_hz, mapped.resolution_hz, signal["channel_unit"]
             )
         )
-        about = provenance.of_recording(recording, "speed-frequency map")
+        about = provenance.of_recording(recording.attrs, "speed-frequency map")
         spectra.attrs = {**about, **of_shaft.attributes(), **spectra.attrs}
         return check(label_coordinates(spectra))

@@ -8,7 +8,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .blocks import FileBlocks, LabelledBlocks, RecordingBlocks, open_recording
+    from .blocks import FileBlocks, LabelledBlocks, open_recording
     from .export import csv_bytes, wav_bytes
     from .modes import MeasuredModes, read_modes
     from .reading import read_recording
@@ -18,7 +18,6 @@ __all__ = [
     "FileBlocks",
     "LabelledBlocks",
     "MeasuredModes",
-    "RecordingBlocks",
     "csv_bytes",
     "label_recording",
     "open_recording",
@@ -30,7 +29,6 @@ __all__ = [
 _HOME = {
     "FileBlocks": "blocks",
     "LabelledBlocks": "blocks",
-    "RecordingBlocks": "blocks",
     "open_recording": "blocks",
     "MeasuredModes": "modes",
     "csv_bytes": "export",

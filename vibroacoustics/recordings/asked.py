@@ -8,7 +8,7 @@ from typing import Any
 
 from ..base.errors import ParameterError, StorageError, VibroacousticsError
 from .reader import readers_by_suffix
-from .recorded import MAXIMUM_READING_BYTES, check_rate, listed
+from .recorded import MAXIMUM_READING_BYTES, TooLargeError, check_rate, listed
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ def check_file(path: Path, suffixes: Sequence[str], may_be_large: bool = False) 
     if size == 0:
         raise StorageError("is empty")
     if size > MAXIMUM_READING_BYTES and not may_be_large:
-        raise StorageError(
+        raise TooLargeError(
             f"has {size / 2**30:.3g} GiB; at most {MAXIMUM_READING_BYTES / 2**30:g} GiB are read "
             "at once: give from_s and to_s, or channels"
         )

@@ -1,50 +1,21 @@
 """A recording that is read in blocks, for analyses of more than memory holds."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
+from ..base.recording_blocks import RecordingBlocks
 from .asked import Asked, naming_file
 from .child_process import read_in_child
 from .recorded import MAXIMUM_RECORDING_BYTES, Request, check_part, listed
 from .recording import scale_in_place, si_scale
-
-
-class RecordingBlocks(Protocol):
-    """Channels of one sample rate and length that are read a block at a time."""
-
-    @property
-    def sample_rate_hz(self) -> float:
-        """Actual sample rate."""
-
-    @property
-    def samples(self) -> int:
-        """Of a channel, all in all."""
-
-    @property
-    def channels(self) -> Sequence[str]:
-        """Names, each once."""
-
-    @property
-    def channel_units(self) -> Sequence[str]:
-        """SI unit of each channel's samples."""
-
-    @property
-    def calibration_factors(self) -> Sequence[float]:
-        """SI unit per unit stored, already applied, of each channel."""
-
-    @property
-    def attributes(self) -> Mapping[str, Any]:
-        """Those of the recording in the labelled form, where known: `source_file`, …"""
-
-    def read(self, channels: Sequence[str], first: int, last: int) -> Array:
-        """Samples `first` up to, but not with, `last`; shape (channel, time), SI units."""
+from .remarks import overload_lines, remark
 
 
 @dataclass(frozen=True)
@@ -57,6 +28,8 @@ class FileBlocks:
     samples: int
     channel_units: Sequence[str]
     calibration_factors: Sequence[float]
+    remarks: dict[str, str] = field(default_factory=dict)
+    """What the user must know: of the file, and of overloads the first of each channel."""
 
     @property
     def sample_rate_hz(self) -> float:
@@ -71,8 +44,17 @@ class FileBlocks:
     @property
     def attributes(self) -> Mapping[str, Any]:
         """Attributes as `read_recording` gives them, but no hash."""
-        start = {"start_time": self.header["start_time"]} if self.header["start_time"] else {}
-        return {"sample_rate_hz": self.sample_rate_hz, "source_file": self.asked.path.name} | start
+        known: dict[str, Any] = {
+            "sample_rate_hz": self.sample_rate_hz,
+            "source_file": self.asked.path.name,
+        }
+        if self.header["start_time"]:
+            known["start_time"] = self.header["start_time"]
+        if self.samples < self.header["total_samples"]:
+            known["part_start_s"] = self.first_sample / self.sample_rate_hz
+        if self.remarks:
+            known["reading_remarks"] = "; ".join(self.remarks.values())
+        return known
 
     def read(self, channels: Sequence[str], first: int, last: int) -> Array:
         """Samples of some channels; see `RecordingBlocks`.
@@ -88,10 +70,19 @@ class FileBlocks:
         at = self.first_sample
         part = {"samples": [at + first, at + last], "channels": list(channels), "hashed": False}
         with naming_file(self.asked.path):
-            _, samples = read_in_child(self.asked.request() | part)
+            header, samples = read_in_child(self.asked.request() | part)
             rows = [self.channels.index(name) for name in channels]
+            units = [self.channel_units[row] for row in rows]
             scale_in_place(samples, channels, [self.calibration_factors[row] for row in rows])
+        self._remark(overload_lines(header, units))
         return samples
+
+    def _remark(self, lines: Sequence[str]) -> None:
+        """Warn of a channel's overload once, not in every block."""
+        new = {line.partition(": ")[0]: line for line in lines}
+        new = {about: line for about, line in new.items() if about not in self.remarks}
+        remark(self.asked.path, new.values())
+        self.remarks.update(new)
 
 
 @dataclass(frozen=True)
@@ -133,8 +124,11 @@ class LabelledBlocks:
     def read(self, channels: Sequence[str], first: int, last: int) -> Array:
         """Samples of some channels; see `RecordingBlocks`."""
         _check_block(self, channels, first, last)
-        chosen = self.recording["signal"].sel(channel=list(channels))
-        return np.asarray(chosen.values[:, first:last])
+        rows = [self.channels.index(name) for name in channels]
+        samples = self.recording["signal"].values[:, first:last]
+        if rows == list(range(rows[0], rows[0] + len(rows))):  # side by side: nothing is copied
+            return np.asarray(samples[rows[0] : rows[0] + len(rows)])
+        return np.asarray(samples[rows])
 
 
 def open_recording(
@@ -160,6 +154,11 @@ def open_recording(
     ParameterError, StorageError
         As `read_recording`; samples are checked when they are read.
 
+    Warns
+    -----
+    RecordingWarning
+        As `read_recording`; of overloads when they are read, once a channel.
+
     Examples
     --------
     >>> recording = va.label_recording([np.arange(8.0)], 1000.0, ["front"], ["Pa"])
@@ -179,7 +178,9 @@ def open_recording(
         )
         request = Request(asked.path, from_s=from_s, to_s=to_s)
         first, last = request.part(header["total_samples"], rate_hz)
-    return FileBlocks(asked, header, first, last - first, si_units, factors)
+    remark(asked.path, header["remarks"])
+    remarks = {line: line for line in header["remarks"]}
+    return FileBlocks(asked, header, first, last - first, si_units, factors, remarks)
 
 
 def _check_block(blocks: RecordingBlocks, channels: Sequence[str], first: int, last: int) -> None:

@@ -14,8 +14,11 @@ import numpy as np
 from ..base.arrays import Array
 from ..base.errors import ParameterError, PluginError, StorageError
 from .child import MAXIMUM_CPU_S
+from .recorded import TooLargeError
 
-_ERRORS: Final = {error.__name__: error for error in (ParameterError, PluginError, StorageError)}
+_ERRORS: Final = {
+    error.__name__: error for error in (ParameterError, PluginError, StorageError, TooLargeError)
+}
 
 
 def read_in_child(request: Mapping[str, Any]) -> tuple[dict[str, Any], Array]:

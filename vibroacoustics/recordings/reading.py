@@ -1,10 +1,8 @@
 """A recording from a file of any format, in the labelled form."""
 
 import hashlib
-import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Final
 
 import xarray as xr
 
@@ -12,6 +10,7 @@ from .asked import Asked, naming_file
 from .child_process import read_in_child
 from .recorded import check_part
 from .recording import label_in_place
+from .remarks import overload_lines, remark
 
 
 def read_recording(
@@ -82,41 +81,13 @@ def read_recording(
             asked.chosen_units(header),
             asked.chosen_calibration(header),
         )
-    _warn(recording, asked.path, header)
+    lines = [*header["remarks"], *overload_lines(header, recording["channel_unit"].values)]
+    remark(asked.path, lines)
+    if lines:
+        recording.attrs["reading_remarks"] = "; ".join(lines)
     recording.attrs |= {"source_file": asked.path.name, **digest}
     if is_part:
         recording.attrs["part_start_s"] = header["first_sample"] / header["sample_rate_hz"]
     if header["start_time"]:
         recording.attrs["start_time"] = header["start_time"]
     return recording
-
-
-_NEVER_OVERLOADED: Final = ("rpm", "rad/s", "rad", "1")
-"""Units of channels that stay at one value, or jump from one to another."""
-
-
-class RecordingWarning(UserWarning):
-    """A recording was read, but its file holds something that its user must know."""
-
-
-def _warn(recording: xr.Dataset, path: Path, header: Mapping[str, Any]) -> None:
-    """Tell what the user must know, and keep it with the recording."""
-    lines = [*header["remarks"], *_overloads(recording, header)]
-    for line in lines:
-        warnings.warn(f"{path}: {line}", RecordingWarning, stacklevel=3)
-    if lines:
-        recording.attrs["reading_remarks"] = "; ".join(lines)
-
-
-def _overloads(recording: xr.Dataset, header: Mapping[str, Any]) -> Iterator[str]:
-    """A line for each channel with samples at full scale."""
-    for name, unit, overload in zip(
-        header["names"], recording["channel_unit"].values, header["overloads"], strict=True
-    ):
-        if overload is None or str(unit) in _NEVER_OVERLOADED:
-            continue
-        time_s = (header["first_sample"] + overload["first"]) / header["sample_rate_hz"]
-        yield (
-            f"channel {name!r}: {overload['samples']} samples are at full scale, the first at "
-            f"{time_s:.9g} s: the recorder may have been overloaded"
-        )

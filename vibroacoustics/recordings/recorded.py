@@ -13,6 +13,11 @@ from ..base.errors import ParameterError, StorageError
 
 Samples = NDArray[Any]
 
+
+class TooLargeError(StorageError):
+    """A recording is larger than is read at once; `open_recording` may still read it in blocks."""
+
+
 MAXIMUM_RECORDING_BYTES: Final = 2 * 2**30
 """Largest recording: samples of all channels and the time axis, 8 bytes each."""
 MAXIMUM_READING_BYTES: Final = 2 * MAXIMUM_RECORDING_BYTES
@@ -168,15 +173,15 @@ def check_size(channels: int, samples: int) -> None:
 
     Raises
     ------
-    StorageError
+    TooLargeError
         The recording would be larger than the cap.
     """
     size = 8 * (channels + 1) * samples
     if size > MAXIMUM_RECORDING_BYTES:
-        raise StorageError(
+        raise TooLargeError(
             f"{channels} channels of {samples} samples and their times take {size / 2**30:.3g} "
-            f"GiB; at most {MAXIMUM_RECORDING_BYTES / 2**30:g} GiB: choose fewer channels or a "
-            "shorter part"
+            f"GiB; at most {MAXIMUM_RECORDING_BYTES / 2**30:g} GiB are read at once: give from_s "
+            "and to_s, or channels"
         )
 
 

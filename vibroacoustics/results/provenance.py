@@ -1,7 +1,7 @@
 """Where a result comes from: software, versions, parameters, time."""
 
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict
 from datetime import UTC, datetime
@@ -67,18 +67,18 @@ def radiation_attributes(study: Study, radiated: xr.Dataset, was_cached: bool) -
     }
 
 
-def recording_attributes(recording: xr.Dataset, settings: OrderAnalysis) -> dict[str, Any]:
+def recording_attributes(recording: Mapping[str, Any], settings: OrderAnalysis) -> dict[str, Any]:
     """Global attributes of the orders of a recording: its file and the settings."""
     parameters = asdict(settings) | {"orders": [float(order) for order in settings.orders]}
     return {**of_recording(recording, "orders"), "analysis": canonical_json(parameters)}
 
 
-def of_recording(recording: xr.Dataset, what: str) -> dict[str, Any]:
+def of_recording(recording: Mapping[str, Any], what: str) -> dict[str, Any]:
     """Global attributes of what is computed from a recording.
 
     Parameters
     ----------
-    recording : with its attributes
+    recording : its attributes
     what : the result in plain words, lower case
     """
     name = recording_name(recording)
@@ -90,22 +90,22 @@ def of_recording(recording: xr.Dataset, what: str) -> dict[str, Any]:
         **software_attributes(f"{what} of {name}", RECORDING_SCHEMA_VERSION),
         "title": f"{what[0].upper()}{what[1:]} of {name}",
         "source_file": name,
-        **{key: recording.attrs[key] for key in kept if key in recording.attrs},
+        **{key: recording[key] for key in kept if key in recording},
     }
 
 
 @contextmanager
-def naming(recording: xr.Dataset) -> Iterator[None]:
-    """Put the file of a recording before what goes wrong with it."""
+def naming(recording: Mapping[str, Any]) -> Iterator[None]:
+    """Put the file of a recording with these attributes before what goes wrong with it."""
     try:
         yield
     except VibroacousticsError as error:
         raise type(error)(f"{recording_name(recording)}: {error}") from None
 
 
-def recording_name(recording: xr.Dataset) -> str:
+def recording_name(recording: Mapping[str, Any]) -> str:
     """File of a recording, or `recording` where it is from none."""
-    return str(recording.attrs.get("source_file", "recording"))
+    return str(recording.get("source_file", "recording"))
 
 
 def software_attributes(command: str, schema_version: str = SCHEMA_VERSION) -> dict[str, Any]:

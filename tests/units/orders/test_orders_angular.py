@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.orders import angular_resample, whole_revolutions
-from vibroacoustics.orders.angular import ATTENUATION_DB, HIGHEST_PASS_BAND_RATIO
+from vibroacoustics.orders.angular_plan import ATTENUATION_DB, HIGHEST_PASS_BAND_RATIO
 from vibroacoustics.orders.crank_motion import constant_speed, from_angle, from_speed
 
 RIPPLE = 10.0 ** (-ATTENUATION_DB / 20.0)

@@ -233,3 +233,12 @@ def test_any_signal_gives_a_rising_motion_or_one_clear_line(signal):
         pass
     else:
         assert np.all(motion.frequency_hz(np.linspace(motion.start_s, motion.end_s, 99)) > 0.0)
+
+
+@pytest.mark.parametrize(("speed_hz", "mains_hz"), [(50.03, 50.0), (50.4, None)])
+def test_a_speed_that_may_be_hum_is_not_sure(speed_hz, mains_hz):
+    """A steady comb at the mains frequency could be either; one 0.8 % off is a shaft."""
+    signal = sound(lambda t: np.full_like(t, speed_hz), RICH, 10.0)
+    check = tacholess_motion(signal, SAMPLE_RATE_HZ, *LIMITS_HZ).check
+    assert check.mains_hz == mains_hz
+    assert (check.confidence < LEAST_CONFIDENCE) == (mains_hz is not None)

@@ -12,13 +12,13 @@ from support import tiny_run
 from vibroacoustics import analyse_orders, label_recording, read_recording
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.orders import OrderResolutionWarning
+from vibroacoustics.orders.analysed import channels_without_speed
 from vibroacoustics.orders.recorded_speed import (
     PulseWarning,
     UncertainSpeedWarning,
-    channels_without_speed,
     recorded_speed,
 )
-from vibroacoustics.recordings import csv_bytes, wav_bytes
+from vibroacoustics.recordings import LabelledBlocks, csv_bytes, wav_bytes
 from vibroacoustics.report import levels_csv, orders_text
 from vibroacoustics.results import storage
 from vibroacoustics.study.order_analysis import (
@@ -300,7 +300,7 @@ def test_pulses_that_are_not_what_is_stated_are_warned_of(wheel):
         pulses, stated, words = tacho(angle, 300, 0.5), 300, "pulses are missed or alias"
     recording = recorded({"force": ("N", np.cos(angle)), "tacho": ("V", pulses)}, 25600.0)
     with pytest.warns(PulseWarning, match=words):
-        recorded_speed(recording, SpeedChannel("tacho", stated))
+        recorded_speed(LabelledBlocks(recording), SpeedChannel("tacho", stated))
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from scipy.io import wavfile
 from vibroacoustics.base.errors import ParameterError, StorageError
 from vibroacoustics.recordings import open_recording, read_recording
 from vibroacoustics.recordings.quantities import quantity
-from vibroacoustics.recordings.reading import RecordingWarning
+from vibroacoustics.recordings.remarks import RecordingWarning
 
 RATE_HZ = 1024.0
 SIGNAL = np.random.default_rng(8).standard_normal(500)

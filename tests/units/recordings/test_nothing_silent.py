@@ -10,7 +10,7 @@ from scipy.io import wavfile
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.recordings import read_recording
 from vibroacoustics.recordings.overload import overload
-from vibroacoustics.recordings.reading import RecordingWarning
+from vibroacoustics.recordings.remarks import RecordingWarning
 
 RATE_HZ = 1000.0
 TIME_S = np.arange(2000) / RATE_HZ

@@ -26,8 +26,8 @@ from vibroacoustics.recordings import (
 )
 from vibroacoustics.recordings.quantities import QUANTITIES, find_quantity, quantity
 from vibroacoustics.recordings.readers import csv_table
-from vibroacoustics.recordings.reading import RecordingWarning
 from vibroacoustics.recordings.recorded import Request
+from vibroacoustics.recordings.remarks import RecordingWarning
 from vibroacoustics.recordings.time_axis import even_rate_hz
 from vibroacoustics.results import storage
 

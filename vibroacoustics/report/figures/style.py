@@ -85,7 +85,9 @@ def draw(
     height_inch = panel_height_inch * panels + LEGEND_ROW_INCH * (legend_rows + 1)
 
     def paint_panels(figure: Figure) -> None:
-        paint(figure.subplots(panels, 1, squeeze=False, **share)[:, 0])
+        # Titles stand on their panels: looking for what they could meet takes a sixth of the time.
+        with matplotlib.rc_context({"axes.titley": 1.0}):
+            paint(figure.subplots(panels, 1, squeeze=False, **share)[:, 0])
 
     return render(WIDTH_INCH, height_inch, paint_panels)
 

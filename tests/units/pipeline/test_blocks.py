@@ -1,0 +1,119 @@
+"""A recording that is analysed in blocks: the same results as in one piece."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from vibroacoustics import analyse_orders, label_recording, open_recording, track_orders
+from vibroacoustics.base import recording_blocks
+from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.orders import recorded_speed
+from vibroacoustics.study.order_analysis import (
+    NominalSpeed,
+    OrderAnalysis,
+    SpeedChannel,
+    TacholessSpeed,
+)
+
+RATE_HZ = 4096.0
+DURATION_S = 23.0
+"""Three transforms of the bands, ten of the meters."""
+
+
+def turned(time_s):
+    """Revolutions from 20 to 45 a second, that swing."""
+    return 20.0 * time_s + 0.5 * 25.0 / DURATION_S * time_s**2 + 0.3 * np.sin(1.3 * time_s)
+
+
+@pytest.fixture(scope="module")
+def run_up() -> xr.Dataset:
+    """Two microphones, one with an offset, a sensor between them, a tacho and an rpm channel."""
+    rng = np.random.default_rng(4)
+    time_s = np.arange(int(DURATION_S * RATE_HZ)) / RATE_HZ
+    turns = turned(time_s)
+    angle = 2.0 * np.pi * turns
+    noise = 0.1 * rng.standard_normal((3, time_s.size))
+    speed_rpm = 60.0 * np.gradient(turns, 1.0 / RATE_HZ)
+    signals = [
+        np.cos(angle + 0.3) + 0.2 * time_s / DURATION_S * np.cos(2.5 * angle) + noise[0],
+        2.0 * np.cos(2.0 * angle) + noise[1],
+        3.0 + 0.5 * np.cos(4.0 * angle) + noise[2],
+        np.where(turns % 1.0 < 0.2, 5.0, 0.0),
+        speed_rpm,
+    ]
+    names = ["front", "housing", "rear", "tacho", "speed"]
+    units = ["Pa", "m/s²", "Pa", "V", "rpm"]
+    return label_recording(signals, RATE_HZ, names, units)
+
+
+def assert_same(blocks: xr.Dataset, once: xr.Dataset) -> None:
+    """To 1e-9 of the largest value of each variable of each channel."""
+    assert list(blocks.variables) == list(once.variables)
+    for name, variable in once.data_vars.items():
+        channels = once["channel"].values if "channel" in variable.dims else [None]
+        for channel in channels:
+            at = {} if channel is None else {"channel": channel}
+            wanted, found = variable.sel(at).values, blocks[name].sel(at).values
+            largest = np.nanmax(np.abs(wanted)) if np.isfinite(wanted).any() else 1.0
+            np.testing.assert_allclose(
+                found, wanted, rtol=0.0, atol=1e-9 * largest, err_msg=f"{name} {channel}"
+            )
+    np.testing.assert_allclose(blocks["block_speed"], once["block_speed"], rtol=1e-9)
+    np.testing.assert_array_equal(blocks["block_count"], once["block_count"])
+
+
+@pytest.mark.parametrize("method", ["sums", "filters"])
+@pytest.mark.parametrize("samples", [997, 20_000])
+def test_any_length_of_a_block_gives_the_same_result(run_up, monkeypatch, samples, method):
+    """Orders, map, mean spectrum, average over the revolutions, levels and third octaves.
+
+    997 samples are shorter than a block of revolutions and than a transform of the levels.
+    """
+    recording = run_up.sel(channel=["front", "housing", "rear", "tacho"])
+    settings = OrderAnalysis(
+        SpeedChannel("tacho"), orders=(1.0, 2.0, 3.5), with_map=True, bands=method
+    )
+    once = analyse_orders(recording, settings)
+    assert once.sizes["block"] > 200
+    assert {"order_map", "band_level", "synchronous_average"} <= set(once)
+    monkeypatch.setattr(recording_blocks, "BLOCK_BYTES", 8 * 3 * samples)
+    assert_same(analyse_orders(recording, settings), once)
+
+
+@pytest.mark.parametrize("speed", [SpeedChannel("speed"), NominalSpeed(1500.0)])
+def test_other_sources_of_speed_go_in_blocks(run_up, monkeypatch, speed):
+    once = analyse_orders(run_up, OrderAnalysis(speed))
+    monkeypatch.setattr(recording_blocks, "BLOCK_BYTES", 8 * 5000)
+    assert_same(analyse_orders(run_up, OrderAnalysis(speed)), once)
+
+
+def test_a_file_in_blocks(run_up, tmp_path, monkeypatch):
+    """Read in two parts, each by a process of its own, and worked on in smaller ones."""
+    from vibroacoustics import export_recording
+
+    path = export_recording(run_up, tmp_path / "run_up.nc")
+    settings = OrderAnalysis(SpeedChannel("tacho"))
+    once = analyse_orders(run_up, settings)
+    monkeypatch.setattr(recording_blocks, "READ_BYTES", 8 * 4 * 50_000)
+    monkeypatch.setattr(recording_blocks, "BLOCK_BYTES", 8 * 4 * 6_000)
+    found = analyse_orders(open_recording(path), settings)
+    assert_same(found, once)
+    assert found.attrs["source_file"] == "run_up.nc"
+
+
+def test_a_speed_that_needs_the_signal_at_once_is_limited(run_up, monkeypatch):
+    monkeypatch.setattr(recorded_speed, "MOST_SPEED_SAMPLES", 50_000)
+    for speed in (SpeedChannel("speed"), TacholessSpeed("housing", 1000.0, 3000.0)):
+        with pytest.raises(ParameterError, match=r"too many, at most 50000 .* by from_s and to_s"):
+            analyse_orders(run_up, OrderAnalysis(speed))
+    with pytest.raises(ParameterError, match="by from_s and to_s"):
+        track_orders(run_up, SpeedChannel("speed"), [1.0], 2.0)
+
+
+def test_a_map_that_is_too_large_is_refused(run_up, monkeypatch):
+    from vibroacoustics.orders import block_orders
+
+    monkeypatch.setattr(block_orders, "MOST_MAP_BYTES", 10_000)
+    settings = OrderAnalysis(SpeedChannel("tacho"), with_map=True)
+    with pytest.raises(ParameterError, match=r"order map: \d+ blocks of 4 channels take .* from_s"):
+        analyse_orders(run_up, settings)

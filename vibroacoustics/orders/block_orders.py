@@ -1,0 +1,145 @@
+"""Orders of blocks of revolutions, from a signal over the crank angle that comes in pieces."""
+
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from ..base.arrays import Array, ComplexArray
+from ..base.errors import ParameterError
+from ..study.order_analysis import OrderAnalysis
+from .angular import AngularSignal, joined
+from .angular_plan import AngularPlan
+from .block_spectra import block_hop, block_starts
+from .order_cut import order_bands, rms_in_bands
+from .order_map import OrderMap, block_phasors, block_revolutions, order_map, rms_of_lines
+from .windows import window_by_name
+
+WINDOW: Final = "hann"
+OVERLAP_RATIO: Final = 0.5
+MOST_MAP_BYTES: Final = 2**30
+"""Of an order map that is kept: 16 a line, block and channel."""
+
+
+@dataclass(frozen=True)
+class OrdersOfBlocks:
+    """What is found in the blocks of a recording.
+
+    Attributes
+    ----------
+    phasor : complex peak of the orders wanted, shape (channel, block, order)
+    rms : in their bands, shape (channel, block, order)
+    mean_spectrum : RMS of each line from the mean power over the blocks, (channel, line)
+    map_order : of the lines
+    amplitude : complex peaks, shape (channel, block, line); None where no map is wanted
+    time_s : middle of the blocks, shape (block,)
+    shaft_frequency_hz : mean over each block, shape (block,)
+    revolutions : of a block
+    resolution_order : noise bandwidth of a line, orders
+    band_order : width of the bands, orders
+    """
+
+    phasor: ComplexArray
+    rms: Array
+    mean_spectrum: Array
+    map_order: Array
+    amplitude: ComplexArray | None
+    time_s: Array
+    shaft_frequency_hz: Array
+    revolutions: int
+    resolution_order: float
+    band_order: float
+
+
+class BlockOrders:
+    """Phasors and RMS of orders in every block, and the mean spectrum of all.
+
+    Parameters
+    ----------
+    plan : of the recording
+    channels : number of its channels
+    settings : the orders that are wanted
+
+    Raises
+    ------
+    ParameterError
+        The recording has too few revolutions for the resolution, or too many for the map.
+    """
+
+    def __init__(self, plan: AngularPlan, channels: int, settings: OrderAnalysis) -> None:
+        self._settings = settings
+        first, last = plan.grid
+        samples = last + 1 - first
+        per_revolution = plan.samples_per_revolution
+        self._revolutions = block_revolutions(
+            window_by_name(WINDOW), settings.resolution_order, samples / per_revolution
+        )
+        self._length = self._revolutions * per_revolution
+        if settings.with_map:
+            blocks = block_starts(samples, self._length, OVERLAP_RATIO).size
+            _check_map(channels, blocks, int(plan.maximum_order * self._revolutions) + 1)
+        self._pending: AngularSignal | None = None
+        self._spectra: list[OrderMap] = []  # without amplitudes where no map is wanted
+        self._bands: list[range] = []
+        self._phasors: list[ComplexArray] = []
+        self._rms: list[Array] = []
+        self._squares: list[Array] = []  # of the lines, summed over blocks
+
+    def add(self, signal: AngularSignal) -> None:
+        """Take the next samples over the angle.
+
+        Raises
+        ------
+        ParameterError
+            An order's band lies beyond the orders of the signal.
+
+        Warns
+        -----
+        OrderResolutionWarning
+            Orders that are wanted leak into each other.
+        """
+        signal = joined(self._pending, signal)
+        self._pending = signal
+        if signal.time_s.size < self._length:
+            return
+        spectra = order_map(signal, self._settings.resolution_order, WINDOW, OVERLAP_RATIO)
+        self._phasors.append(block_phasors(signal, spectra, self._settings.orders))
+        self._bands = self._bands or order_bands(spectra, self._settings.orders)
+        self._rms.append(rms_in_bands(spectra, self._bands))
+        self._squares.append(np.sum(np.abs(spectra.amplitude) ** 2, axis=-2))
+        if not self._settings.with_map:
+            spectra = replace(spectra, amplitude=np.empty(0, dtype=complex))
+        self._spectra.append(spectra)
+        hop = block_hop(self._length, OVERLAP_RATIO)
+        self._pending = signal.behind(int(spectra.starts[-1]) + hop)
+
+    def result(self) -> OrdersOfBlocks:
+        """Of all that has been added."""
+        last = self._spectra[-1]
+        time_s = np.concatenate([spectra.time_s for spectra in self._spectra])
+        amplitude = None
+        if self._settings.with_map:
+            amplitude = np.concatenate([spectra.amplitude for spectra in self._spectra], axis=-2)
+        return OrdersOfBlocks(
+            phasor=np.concatenate(self._phasors, axis=-2),
+            rms=np.concatenate(self._rms, axis=-2),
+            mean_spectrum=rms_of_lines(np.sum(self._squares, axis=0) / time_s.size),
+            map_order=last.order,
+            amplitude=amplitude,
+            time_s=time_s,
+            shaft_frequency_hz=np.concatenate(
+                [spectra.shaft_frequency_hz for spectra in self._spectra]
+            ),
+            revolutions=last.revolutions,
+            resolution_order=last.resolution_order,
+            band_order=last.main_lobe_order,
+        )
+
+
+def _check_map(channels: int, blocks: int, lines: int) -> None:
+    size = 16 * channels * blocks * lines
+    if size > MOST_MAP_BYTES:
+        raise ParameterError(
+            f"order map: {blocks} blocks of {channels} channels take {size / 2**30:.3g} GiB; at "
+            f"most {MOST_MAP_BYTES / 2**30:g} GiB: choose channels, or a part by from_s and to_s"
+        )

@@ -1,0 +1,39 @@
+"""What the user must know of a file that was read."""
+
+import warnings
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any, Final
+
+_NEVER_OVERLOADED: Final = ("rpm", "rad/s", "rad", "1")
+"""Units of channels that stay at one value, or jump from one to another."""
+
+
+class RecordingWarning(UserWarning):
+    """A recording was read, but its file holds something that its user must know."""
+
+
+def remark(path: Path, lines: Iterable[str]) -> None:
+    """Warn of each line, with the file before it."""
+    for line in lines:
+        warnings.warn(f"{path}: {line}", RecordingWarning, stacklevel=3)
+
+
+def overload_lines(header: Mapping[str, Any], units: Iterable[str]) -> list[str]:
+    """A line for each channel with samples at full scale.
+
+    Parameters
+    ----------
+    header : that the process which reads has handed over
+    units : SI unit of each of its channels
+    """
+    lines = []
+    for name, unit, overload in zip(header["names"], units, header["overloads"], strict=True):
+        if overload is None or str(unit) in _NEVER_OVERLOADED:
+            continue
+        time_s = (header["first_sample"] + overload["first"]) / header["sample_rate_hz"]
+        lines.append(
+            f"channel {name!r}: {overload['samples']} samples are at full scale, the first at "
+            f"{time_s:.9g} s: the recorder may have been overloaded"
+        )
+    return lines
