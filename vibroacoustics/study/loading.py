@@ -12,7 +12,13 @@ from ..machine.source import SOURCES
 from .draws import warn_of_contradictions
 from .given_values import take_given
 from .kinds import validate_kinds
-from .machine_file import change_of, read_machine, read_redesign, take_changes
+from .machine_file import (
+    change_of,
+    operating_points,
+    read_machine,
+    read_redesign,
+    take_changes,
+)
 from .published_table import read_published_table
 from .ranges import is_used, ranges_of, tables_used
 from .reader import Reader
@@ -55,10 +61,11 @@ def study_of(written: Written) -> Study:
     reader = Reader(path, written.origin)
     machine_file, overrides = _machine_table(content, reader)
     changes: dict[tuple[str, ...], Any] = {("machine", "override"): overrides}
-    machine, machine_reader = read_machine(machine_file, changes, reader)
+    point = _point(content, reader)
+    machine, machine_reader = read_machine(machine_file, changes, reader, point)
     machine_records = machine_reader.records
     redesigns = {
-        name: read_redesign(machine_file, {**changes, change_of(name): change}, reader)
+        name: read_redesign(machine_file, {**changes, change_of(name): change}, reader, point)
         for name, change in take_changes(content, path)
     }
     _read_published(content, reader)
@@ -77,7 +84,7 @@ def study_of(written: Written) -> Study:
     validate_kinds(content, "sources", SOURCES, reader)
     if reader.problems:
         validated(Study, content, reader)  # raises, with what else is wrong
-    used = tables_used(content)
+    used = tables_used(content, machine)
     machine_records = [record for record in machine_records if is_used(record, machine, used)]
     content["records"] = (*machine_records, *reader.records)
     ranges, held = ranges_of(machine, machine_records, content, machine_reader)
@@ -105,6 +112,8 @@ def load_machine(path: str | Path) -> Machine:
     'reciprocating'
     """
     path = Path(path)
+    for point in operating_points(path):  # refused here, not where a study first names them
+        read_machine(path, {}, Reader(path, {}), point)
     return read_machine(path, {}, Reader(path, {}))[0]
 
 
@@ -123,6 +132,16 @@ def _machine_table(content: dict[str, Any], reader: Reader) -> tuple[Path, Any]:
     if table:
         raise ParameterError(f"{path}: machine.{next(iter(table))}: unknown key")
     return file, overrides
+
+
+def _point(content: Mapping[str, Any], reader: Reader) -> str | None:
+    """Name of the operating point that a study chooses."""
+    operation = content.get("operation")
+    point = operation.get("point") if isinstance(operation, dict) else None
+    if point is not None and not isinstance(point, str):
+        where = reader.file_and_key(("operation", "point"))
+        raise ParameterError(f"{where} = {point!r}: must be the name of an operating point")
+    return point
 
 
 def _read_published(content: Mapping[str, Any], reader: Reader) -> None:

@@ -38,6 +38,8 @@ class Operation(Parameters):
     """Forces and moments over crank angle in the results; none for up to 100 speeds only."""
     supply_frequency_hz: tuple[float, ...] | None = None
     """Of the motor's supply, one for each speed; where a source needs it."""
+    point: str | None = None
+    """Operating point of the machine's file, whose values hold; none for the machine's as given."""
     stopping: bool = False
     """Whether a stop from each speed is computed, where the machine has a table of that name."""
 

@@ -79,7 +79,7 @@ def drawn_cases(
 def moves_otherwise(machine: Machine, given: Machine, study: Study) -> bool:
     """Whether two machines differ in more than the shell and what sources alone read."""
     fields = type(machine).model_fields
-    of_sources = {name for source in study.sources.values() for name in source.tables}
+    of_sources = {name for source in study.sources.values() for name in source.tables_read(machine)}
     still = _SHELL | {name for name in of_sources & set(fields) if not fields[name].is_required()}
     return any(
         getattr(machine, name) != getattr(given, name) for name in fields if name not in still
