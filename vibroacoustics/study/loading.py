@@ -1,6 +1,6 @@
 """TOML to a validated `Study`. Every refusal is one line: file, field, value, unit, range."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from copy import deepcopy
 from pathlib import Path
 from typing import Any, Final
@@ -61,9 +61,14 @@ def study_of(written: Written) -> Study:
     reader = Reader(path, written.origin)
     machine_file, overrides = _machine_table(content, reader)
     changes: dict[tuple[str, ...], Any] = {("machine", "override"): overrides}
-    point = _point(content, reader)
+    points = operating_points(machine_file)
+    point = _point_named(content, ("operation", "point"), points, reader)
     machine, machine_reader = read_machine(machine_file, changes, reader, point)
     machine_records = machine_reader.records
+    catalogue_point = _point_named(content, ("catalogue_point",), points, reader)
+    at_catalogue = None
+    if catalogue_point not in (None, point):
+        at_catalogue, _ = read_machine(machine_file, changes, reader, catalogue_point)
     redesigns = {
         name: read_redesign(machine_file, {**changes, change_of(name): change}, reader, point)
         for name, change in take_changes(content, path)
@@ -77,6 +82,7 @@ def study_of(written: Written) -> Study:
     given = take_given(content, reader)
     content = reader.to_si(content, ())
     content.update(machine=machine, source_file=path.name, given=given)
+    content["catalogue_machine"] = at_catalogue
     for name, (redesigned, change_records) in redesigns.items():
         content["options"][name]["machine"] = redesigned
         machine_records += change_records
@@ -117,7 +123,9 @@ def load_machine(path: str | Path) -> Machine:
     return read_machine(path, {}, Reader(path, {}))[0]
 
 
-_FILLED_IN: Final = ("records", "ranges", "held_ranges", "source_file", "given")
+_FILLED_IN: Final = (
+    "records", "ranges", "held_ranges", "source_file", "given", "catalogue_machine",
+)  # fmt: skip
 """Here, not by a file."""
 
 
@@ -134,13 +142,20 @@ def _machine_table(content: dict[str, Any], reader: Reader) -> tuple[Path, Any]:
     return file, overrides
 
 
-def _point(content: Mapping[str, Any], reader: Reader) -> str | None:
-    """Name of the operating point that a study chooses."""
-    operation = content.get("operation")
-    point = operation.get("point") if isinstance(operation, dict) else None
-    if point is not None and not isinstance(point, str):
-        where = reader.file_and_key(("operation", "point"))
-        raise ParameterError(f"{where} = {point!r}: must be the name of an operating point")
+def _point_named(
+    content: Mapping[str, Any], keys: tuple[str, ...], points: Collection[str], reader: Reader
+) -> str | None:
+    """Operating point of the machine's file that a study names; none where it does not."""
+    table = _table_at(content, keys[:-1])
+    point = None if table is None else table.get(keys[-1])
+    if point is None:
+        return None
+    where = f"{reader.file_and_key(keys)} = {point}"
+    if not isinstance(point, str):
+        raise ParameterError(f"{where}: must be the name of an operating point")
+    if point not in points:
+        allowed = ", ".join(points) or "none, as the machine's file has no operating_points"
+        raise ParameterError(f"{where}: unknown; allowed {allowed}")
     return point
 
 

@@ -32,17 +32,13 @@ def read_machine(
     changes : tables of values that replace the machine's, one after the other, by their place in
         the study
     study : reader of the study
-    point : operating point of the file, whose values replace the machine's before the changes do
+    point : one of the file's operating points; its values replace the machine's before the changes
     """
     content = read_toml(path)
     reader = Reader(path, {}, sources_required=True)
     points = _taken_points(content, path)
     reader.origin = dict.fromkeys(leaves(content), path)
     if point is not None:
-        if point not in points:
-            allowed = ", ".join(points) or "none, the machine's file has no operating_points"
-            where = study.file_and_key(("operation", "point"))
-            raise ParameterError(f"{where} = {point}: unknown; allowed {allowed}")
         _apply(content, (POINTS, point), points[point], reader, Reader(path, {}))
     for prefix, change in changes.items():
         _apply(content, prefix, change, reader, study)
