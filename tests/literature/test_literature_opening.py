@@ -1,4 +1,7 @@
-"""The opening of a pocket against a stiff integration, a nozzle's law and a published trend."""
+"""The opening of a pocket against a stiff integration, a nozzle's law and a published trend.
+
+Expected figures are those of a computation apart from this code; the nozzle's law is one more.
+"""
 
 import numpy as np
 import pytest

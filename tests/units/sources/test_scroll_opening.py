@@ -92,6 +92,16 @@ def test_course_converges_with_the_step():
     assert off_taken[3:].max() < 1e-4
 
 
+@pytest.mark.parametrize("speed_rpm", [60.0, 20000.0])
+def test_slow_and_fast_shafts_have_a_course(speed_rpm):
+    """A slow one lets the gas come to rest, so that the pressure is even before the turn ends."""
+    opened = steady_opening(WRAPS, GAS, OPENING, speed_rpm)
+    over = np.abs(opened.chamber_pa[-1] / GAS.discharge_pressure_pa - 1.0)
+    assert np.all(np.isfinite(opened.pair_pa))
+    assert over < (1e-3 if speed_rpm < 100.0 else 0.2)
+    assert opened.since_opening.size - 1 >= max(STEPS, 200_000.0 * 60.0 / speed_rpm)
+
+
 @pytest.mark.parametrize("point", POINTS)
 def test_mass_and_state_are_the_same_after_a_turn(point):
     """What flows through the port is what two pockets hold when they open."""

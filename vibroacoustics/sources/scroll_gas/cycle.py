@@ -96,10 +96,10 @@ def scroll_gas_cycle(
     count = contact_count(wraps, gas.equalisation_angle_rad if opened is None else np.pi)
     since_closing = np.mod(crank_angle - wraps.closing_crank_angle_rad, turn)
     inner_angle = since_closing + turn * np.arange(count)[:, None]
-    inside, outside = (
+    inner, outer = (
         pocket_pressure(wraps, gas, angle, opened) for angle in (inner_angle, inner_angle - turn)
     )
-    step = inside - outside
+    step = inner - outer
     contact = contact_angle(wraps, inner_angle)
     width = 2.0 * wraps.base_radius_m * wraps.height_m
     return ScrollGasCycle(

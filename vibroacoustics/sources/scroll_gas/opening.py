@@ -1,5 +1,6 @@
 """The opening of a pocket: pressures and flow of the gas over a turn, in its steady course."""
 
+import math
 from typing import Final
 
 import numpy as np
@@ -29,7 +30,9 @@ from .parameters import ScrollGas, ScrollOpening, ScrollWraps
 from .pressures import built_in_pressure_pa
 
 STEPS: Final = 8192
-"""A turn; 200 000 of them change no pressure by more than 1e-5 of the discharge pressure."""
+"""A turn at least; 200 000 change no pressure by more than 1e-6 of the discharge pressure."""
+STEPS_PER_S: Final = 200_000.0
+"""At least, as the gas swings in its passages at some kHz, however slowly the shaft turns."""
 MOST_TURNS: Final = 200
 REPEATED: Final = 1e-8
 """Change of the state over a turn, of its own size, below which it repeats."""
@@ -91,7 +94,7 @@ def steady_opening(
     gas: ScrollGas,
     opening: ScrollOpening,
     speed_rpm: float,
-    steps: int = STEPS,
+    steps: int | None = None,
 ) -> OpenedGas:
     """Pressures and flows over a turn that repeats.
 
@@ -101,7 +104,7 @@ def steady_opening(
     gas : pressures, polytropic index and state at discharge
     opening : passages and volumes
     speed_rpm : constant
-    steps : of a turn, an even number
+    steps : of a turn, an even number; none for as many as the gas needs
 
     Raises
     ------
@@ -111,6 +114,7 @@ def steady_opening(
         The gas does not come to a course that repeats.
     """
     constants = opening_constants(wraps, gas, opening, speed_rpm)
+    steps = steps or STEPS * math.ceil(STEPS_PER_S / shaft_frequency_hz(speed_rpm) / STEPS)
     states = _steady_turn(constants, built_in_pressure_pa(wraps, gas), steps)
     angle = np.linspace(0.0, 2.0 * np.pi, steps + 1, dtype=np.float64)
     return OpenedGas(

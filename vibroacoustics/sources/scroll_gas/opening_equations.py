@@ -80,23 +80,27 @@ def opening_rate(
     rate : shape (5,); it is changed
     """
     pair, chamber, plenum = state[PAIR], state[CHAMBER], state[PLENUM]
-    inside, outside = density(chamber, c), density(plenum, c)
+    chamber_density, plenum_density = density(chamber, c), density(plenum, c)
     through_port, through_gap = state[PORT_FLOW], 0.0 if joined else state[GAP_FLOW]
     ends_at = (c.outer_contact if joined else c.inner_contact) - angle
     volume = c.chamber_volume + 0.5 * c.swept_volume * (ends_at**2 - c.inner_contact**2)
     swelling = -c.swept_volume * ends_at * c.angular_speed
-    rate[CHAMBER] = pressure_rise(chamber, inside, volume, swelling, through_gap - through_port, c)
+    rate[CHAMBER] = pressure_rise(
+        chamber, chamber_density, volume, swelling, through_gap - through_port, c
+    )
     rate[PAIR], rate[GAP_FLOW] = rate[CHAMBER], 0.0
     if not joined:
         around = 2.0 * np.pi * c.swept_volume
         volume, rho = around * (c.outer_contact - np.pi - angle), density(pair, c)
         rate[PAIR] = pressure_rise(pair, rho, volume, -around * c.angular_speed, -through_gap, c)
         area = c.gap_area * (1.0 - np.cos(angle))
-        rho = rho if through_gap > 0.0 else inside
+        rho = rho if through_gap > 0.0 else chamber_density
         rate[GAP_FLOW] = flow_rise(through_gap, pair - chamber, rho, area, c.gap_length, c)
     out = c.mean_flow + c.tube_admittance * (plenum - c.pressure)
-    rate[PLENUM] = pressure_rise(plenum, outside, c.plenum_volume, 0.0, through_port - out, c)
-    rho = inside if through_port > 0.0 else outside
+    rate[PLENUM] = pressure_rise(
+        plenum, plenum_density, c.plenum_volume, 0.0, through_port - out, c
+    )
+    rho = chamber_density if through_port > 0.0 else plenum_density
     rate[PORT_FLOW] = flow_rise(through_port, chamber - plenum, rho, c.port_area, c.port_length, c)
     for n in range(STATES):
         rate[n] /= c.angular_speed
