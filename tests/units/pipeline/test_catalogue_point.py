@@ -4,6 +4,8 @@ import pytest
 from sources_study import SOURCES_STUDY, run_made_up
 
 from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.report.assumptions import remainder_sentence
+from vibroacoustics.report.source_words import left_out_sentence, shares_sentence
 from vibroacoustics.study.loading import load_study
 
 GAS_ALONE = {
@@ -41,6 +43,18 @@ def test_remainder_is_that_of_the_point_of_the_published_level(study, at_ari):
     off = results["level_modelled"].values - at_ari["level_modelled"].values
     assert abs(off).max() > 1.0
     assert list(results["option"].values) == ["none"]
+    said = "rpm at the operating point ari; the machine runs at the values of its file. What"
+    assert said in remainder_sentence(results)
+    assert "Not modelled is what is left of it at the operating point ari, " in shares_sentence(
+        results
+    )
+    assert left_out_sentence(results).endswith("exceeds 90 dB(A) alone at the operating point ari.")
+
+
+def test_a_report_at_the_point_itself_names_it_once(at_ari):
+    assert "2900 rpm at the operating point ari. What the model" in remainder_sentence(at_ari)
+    assert "Not modelled is the rest, " in shares_sentence(at_ari)
+    assert left_out_sentence(at_ari).endswith("exceeds 90 dB(A) alone.")
 
 
 def test_a_study_at_the_point_itself_needs_no_second_machine(study):
