@@ -17,11 +17,15 @@ FILES: Final = {
     "estupinan_hermetic": 2980.0,
 }
 """Study or machine, and the speed of its curves in rpm."""
+AS_THE_THESIS: Final = {"operation.point": None, "machine.gas.opening_law": "equalisation-angle"}
+"""The pressures that it prints; a pocket opens without a course of its own."""
 
 
 @cache
 def inner(name: str) -> xr.Dataset:
     """Curves of a study with sources, or of a machine file."""
     is_study = name == "copeland_sources"
-    file = PIPELINES / f"{name}.toml" if is_study else machine_file(name)
-    return va.curves(va.load_study(file) if is_study else va.load_machine(file), FILES[name])
+    if is_study:
+        study = va.load_study(PIPELINES / f"{name}.toml")
+        return va.curves(study.replace(AS_THE_THESIS), FILES[name])
+    return va.curves(va.load_machine(machine_file(name)), FILES[name])

@@ -38,6 +38,8 @@ SHOWN = {
         "highest_film_pressure", "whirl_frequency",
     ),
 }  # fmt: skip
+AS_PRINTED = {"operation.point": None, "machine.gas.opening_law": "equalisation-angle"}
+"""Of a study: the thesis's pressures."""
 SPEEDS = {"data/machines/zhao_minicrank.toml": 1500.0}
 
 
@@ -45,8 +47,9 @@ def main() -> None:
     FOLDER.mkdir(exist_ok=True)
     for file, names in SHOWN.items():
         path = ROOT / file
-        load = va.load_machine if "machines" in file else va.load_study
-        inner = va.curves(load(path), SPEEDS.get(file))
+        is_study = "machines" not in file
+        shown = va.load_study(path).replace(AS_PRINTED) if is_study else va.load_machine(path)
+        inner = va.curves(shown, SPEEDS.get(file))
         for name in names:
             figure = va.plot.curves(inner, name)
             add_printed(path.stem, name, figure)

@@ -9,7 +9,6 @@ from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level, power_of_level
 from ..base.errors import ParameterError, SolverError
-from ..base.vocabulary import REFERENCE_OPTION
 from ..machine.source import CaseKey
 from ..study.study import Study
 from .axes import LevelAxes
@@ -28,7 +27,7 @@ def remainder(
     ----------
     study : with the published level
     axes : with its receiver
-    sound : of the reference option at its speed, and of other cases
+    sound : of the case without a balancer at its speed and operating point, and of other cases
     may_be_none : whether none is left where the model alone is louder, as in a draw
 
     Raises
@@ -38,7 +37,7 @@ def remainder(
     """
     published = study.machine.overall_noise
     receiver = list(axes.receivers).index(study.catalogue_receiver)
-    alone = sound[published.speed_rpm, REFERENCE_OPTION].total[0, receiver]
+    alone = sound[study.catalogue_case].total[0, receiver]
     rest = REFERENCE_PRESSURE_PA**2 * power_of_level(published.level_dba) - alone
     if rest <= 0.0 and not may_be_none:
         level = mean_square_level(alone, REFERENCE_PRESSURE_PA)

@@ -117,10 +117,15 @@ class Source(KindOfParameters):
         """Why a machine cannot have this source; None where it can."""
         if cls.needs is not None and machine.capability(cls.needs) is None:
             return f"needs {cls.needs.words}; the machine is {machine.kind}"
-        for name, table in cls.tables.items():
+        for name, table in cls.tables_read(machine).items():
             if not machine.has_table(table):
                 return f"needs the machine's table {name}, which its file does not have"
         return None
+
+    @classmethod
+    def tables_read(cls, machine: Machine) -> Mapping[str, type[Parameters]]:
+        """Tables of a machine that it reads: `tables`, and those that a choice in them asks for."""
+        return cls.tables
 
     def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
         """What the source does in one case.

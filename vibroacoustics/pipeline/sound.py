@@ -98,12 +98,16 @@ def sound_of_draws(
 
 
 def _at_catalogue_speed(study: Study, motion: Motion) -> Motion:
-    """The reference option at the speed of the published level, where that is no other's."""
-    speed = study.machine.overall_noise.speed_rpm
-    if speed in study.operation.speed_rpm:
+    """The case of the published level, without a balancer, where it is none of the study's."""
+    key = study.catalogue_case
+    if key in motion.cases:
         return replace(motion, cases={}, loads={})
+    machine = study.catalogue_machine or study.machine
+    there = study.model_copy(update={"machine": machine})
     reference = {REFERENCE_OPTION: study.options[REFERENCE_OPTION]}
-    return motion_of(at_speeds(study, (speed,), reference), no_progress)
+    motion = motion_of(at_speeds(there, key[:1], reference), no_progress)
+    (case,), (loads,) = motion.cases.values(), motion.loads.values()
+    return replace(motion, cases={key: case}, loads={key: loads})
 
 
 def _transmission(
@@ -116,8 +120,15 @@ def _transmission(
         pressure_per_velocity(vectors),
         None if shell is None else pressure_per_shell_velocity(results),
         shell,
-        {**_of_wrenches(at_catalogue), **_of_wrenches(motion)},
+        {**_at_its_case(_of_wrenches(at_catalogue), catalogue), **_of_wrenches(motion)},
     )
+
+
+def _at_its_case(
+    pressure: Mapping[CaseKey, BySource], catalogue: Motion
+) -> dict[CaseKey, BySource]:
+    """Pressure of the only case of the published level, by its key; as it is where it has none."""
+    return dict(zip(catalogue.cases, pressure.values(), strict=True)) if catalogue.cases else {}
 
 
 def _of_wrenches(motion: Motion) -> dict[CaseKey, BySource]:

@@ -7,7 +7,14 @@ import xarray as xr
 from ..base import rounding
 from ..base.decibel import level_of_power, power_of_level
 from .bands import band, band_words
-from .study import catalogue_receiver, has_draws, overall_noise, parameters, words
+from .study import (
+    catalogue_receiver,
+    has_draws,
+    operating_points,
+    overall_noise,
+    parameters,
+    words,
+)
 from .tables import Table
 
 ASSUMED: Final = "assumed"
@@ -88,11 +95,22 @@ def remainder_sentence(results: xr.Dataset) -> str:
         left = f"{rounding.fixed(results['level_remainder'].item(), 3)} dB(A)"
     return (
         f"{who} {noise['level_dba']:g} dB(A) at {noise['distance_m']:g} m and "
-        f"{noise['speed_rpm']:g} rpm. What the model leaves of it at {catalogue_receiver(results)} "
+        f"{noise['speed_rpm']:g} rpm{_point_words(results)}. What the model leaves of "
+        f"it at {catalogue_receiver(results)} "
         f"without a balancer, {left}, is "
         "added as energy to the modelled level at every speed, option and microphone. That it "
         "stays constant is an assumption, not a result."
     )
+
+
+def _point_words(results: xr.Dataset) -> str:
+    """Operating point of the overall noise, and where the machine runs elsewhere."""
+    runs_at, point = operating_points(results)
+    if point is None:
+        return ""
+    here = f"the operating point {runs_at}" if runs_at else "the values of its file"
+    other = "" if point == runs_at else f"; the machine runs at {here}"
+    return f" at the operating point {point}{other}"
 
 
 def structure_borne_sentence(results: xr.Dataset) -> str:

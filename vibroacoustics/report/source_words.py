@@ -10,6 +10,7 @@ from .bands import Band, band, band_words, draws, energy_share, percent
 from .drawn_words import drawn_sentences
 from .study import (
     catalogue_receiver,
+    elsewhere,
     first_order_hz,
     has_draws,
     many_speeds,
@@ -71,11 +72,12 @@ def shares_sentence(results: xr.Dataset) -> str:
         for source, level in ranked(results, speed)
     ]
     together = band(results, "level_modelled", **at).share_of(overall)
-    rest = band(results, "level_remainder").share_of(overall)
+    rest, there = band(results, "level_remainder").share_of(overall), elsewhere(results)
+    what = f"what is left of it{there}" if there else "the rest"
     return (
         f"Of the energy of {overall:g} dB(A) there, in the middle of the draws with the "
         f"{band_words(results)} in brackets: {'; '.join(shares)}; all modelled sources together "
-        f"{together.middle_and_ends(percent)}. Not modelled is the rest, "
+        f"{together.middle_and_ends(percent)}. Not modelled is {what}, "
         f"{rest.middle_and_ends(percent)}."
     )
 
@@ -96,7 +98,8 @@ def left_out_sentence(results: xr.Dataset) -> str:
     failed = f" {unsolved} further draws have no solution." if unsolved else ""
     if not louder:
         return (
-            f"The bands rest on {kept} draws, none of which exceeds {overall:g} dB(A) alone."
+            f"The bands rest on {kept} draws, none of which exceeds {overall:g} dB(A) "
+            f"alone{elsewhere(results)}."
             f"{failed}"
         )
     tends = (
@@ -104,7 +107,8 @@ def left_out_sentence(results: xr.Dataset) -> str:
     )
     return (
         f"{louder} of {kept + louder + unsolved} draws are left out because their modelled sources "
-        f"alone exceed {overall:g} dB(A), which they cannot{tends} only what agrees with the "
+        f"alone exceed {overall:g} dB(A){elsewhere(results)}, which they "
+        f"cannot{tends} only what agrees with the "
         f"published level. They rest on {kept} draws.{failed}"
     )
 

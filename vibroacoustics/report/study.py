@@ -50,6 +50,22 @@ def other_receivers(results: xr.Dataset) -> list[str]:
     return [name for name in names if name != catalogue_receiver(results)]
 
 
+def operating_points(results: xr.Dataset) -> tuple[str | None, str | None]:
+    """Operating point at which the machine runs, and that of its overall noise; none for no name.
+
+    They are none where the values of the machine's file hold; files of older versions have none.
+    """
+    study = parameters(results)
+    runs_at = study.get("operation", {}).get("point")
+    return runs_at, study.get("catalogue_point") or runs_at
+
+
+def elsewhere(results: xr.Dataset) -> str:
+    """Words for the operating point of the overall noise, where the machine runs at another one."""
+    runs_at, point = operating_points(results)
+    return "" if point == runs_at else f" at the operating point {point}"
+
+
 def overall_noise(results: xr.Dataset) -> dict[str, float]:
     """Published level of the whole machine with its speed and distance."""
     return dict(parameters(results)["machine"]["overall_noise"])

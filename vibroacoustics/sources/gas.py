@@ -15,7 +15,9 @@ from ..orders import order_spectrum
 from .joint_loads import gas_loads
 from .scroll_gas.curves import scroll_gas_curves
 from .scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
-from .scroll_gas.parameters import ScrollGas, ScrollWraps
+from .scroll_gas.opened_gas import OpenedGas
+from .scroll_gas.opening import steady_opening, why_no_opening
+from .scroll_gas.parameters import ScrollGas, ScrollOpening, ScrollWraps
 
 GAS_SAMPLES: Final = 8192
 """Crank angles a revolution: the step of the force where a pocket opens makes an error of the
@@ -36,10 +38,15 @@ class ScrollGasForces(Source):
     drives_shell: ClassVar[bool] = True
 
     @classmethod
+    def tables_read(cls, machine: Machine) -> Mapping[str, type[Parameters]]:
+        """Wraps, gas and, where it has inertia, the opening."""
+        return gas_tables(machine)
+
+    @classmethod
     def why_not(cls, machine: Machine) -> str | None:
         """A table is missing, or the wraps orbit at another radius than the machine."""
         ring = machine.capability(OldhamRing)
-        reason = super().why_not(machine)
+        reason = super().why_not(machine) or _why_no_opening(machine)
         if reason or ring is None:
             return reason
         wraps = machine.table(ScrollWraps).orbit_radius_m
@@ -52,7 +59,8 @@ class ScrollGasForces(Source):
 
     def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
         """Orders of the gas forces on the joints, and the torque that the shaft needs."""
-        cycle, highest = gas_cycle(case.machine, case.shared), case.maximum_order
+        cycle = gas_cycle(case.machine, case.shared, case.speed_rpm)
+        highest = case.maximum_order
         return Loads(
             joints=order_spectrum(gas_loads(cycle), highest),
             shaft_torque_n_m=order_spectrum(cycle.torque_n_m, highest),
@@ -60,13 +68,54 @@ class ScrollGasForces(Source):
 
     def curves(self, case: Case) -> Iterable[Curve]:
         """Pressure of a pocket, forces and torque; see `scroll_gas_curves`."""
-        return scroll_gas_curves(case.machine.table(ScrollWraps), case.machine.table(ScrollGas))
+        machine, opened = case.machine, opened_gas(case.machine, case.speed_rpm)
+        return scroll_gas_curves(machine.table(ScrollWraps), machine.table(ScrollGas), opened)
 
 
-def gas_cycle(machine: Machine, shared: Shared) -> ScrollGasCycle:
-    """One revolution of the machine's gas, over GAS_SAMPLES crank angles."""
+def gas_cycle(machine: Machine, shared: Shared, speed_rpm: float) -> ScrollGasCycle:
+    """One revolution of the machine's gas, over GAS_SAMPLES crank angles.
+
+    Parameters
+    ----------
+    machine : with wraps and gas
+    shared : with what else needs the cycle
+    speed_rpm : constant; only a flow with inertia depends on it
+
+    Raises
+    ------
+    ParameterError, SolverError
+        As `steady_opening`.
+    """
     wraps, gas = machine.table(ScrollWraps), machine.table(ScrollGas)
+    opening = (machine.table(ScrollOpening), speed_rpm) if gas.opens_with_inertia else ()
     return shared(
-        ("gas cycle", wraps, gas),
-        lambda: scroll_gas_cycle(wraps, gas, uniform_crank_angle(GAS_SAMPLES)),
+        ("gas cycle", wraps, gas, *opening),
+        lambda: scroll_gas_cycle(
+            wraps, gas, uniform_crank_angle(GAS_SAMPLES), opened_gas(machine, speed_rpm)
+        ),
     )
+
+
+def opened_gas(machine: Machine, speed_rpm: float) -> OpenedGas | None:
+    """Gas of a pocket that opens with inertia; none where it opens by an angle."""
+    gas = machine.table(ScrollGas)
+    if not gas.opens_with_inertia:
+        return None
+    wraps, opening = machine.table(ScrollWraps), machine.table(ScrollOpening)
+    return steady_opening(wraps, gas, opening, speed_rpm)
+
+
+def gas_tables(machine: Machine) -> Mapping[str, type[Parameters]]:
+    """Tables of a machine that its gas needs: that of the opening where this has inertia."""
+    tables: dict[str, type[Parameters]] = {"wraps": ScrollWraps, "gas": ScrollGas}
+    if machine.has_table(ScrollGas) and machine.table(ScrollGas).opens_with_inertia:
+        tables["opening"] = ScrollOpening
+    return tables
+
+
+def _why_no_opening(machine: Machine) -> str | None:
+    """Why the machine's pockets cannot open with inertia; none where they can, or do not."""
+    gas = machine.table(ScrollGas)
+    if not gas.opens_with_inertia:
+        return None
+    return why_no_opening(machine.table(ScrollWraps), gas, machine.table(ScrollOpening))

@@ -11,13 +11,14 @@ from ..base.arrays import Array, ComplexArray
 from ..base.curves import Curve
 from ..base.parameters import Parameters
 from ..base.registry import register
+from ..machine.machine import Machine
 from ..machine.shell_structure import BEARING_HOUSING, JOINTS, STATOR
 from ..machine.source import Case, Source
 from ..mechanics.added import FurtherRing, RingForce
 from ..mechanics.capabilities import Capability, OldhamRing
 from ..mechanics.loads import JOINT_COMPONENTS, Loads, Noise
 from ..orders import order_spectrum
-from .gas import gas_cycle
+from .gas import gas_cycle, gas_tables
 from .joint_loads import key_loads, key_torque_n_m
 from .oldham_keys.contact_loss import contact_loss_speed_rpm
 from .oldham_keys.curves import oldham_key_curves
@@ -67,6 +68,11 @@ class OldhamKeyForces(Source):
     drives_shell: ClassVar[bool] = True
     revolutions: int = Field(default=8, ge=1, le=1000)
     """Over which the forces are taken."""
+
+    @classmethod
+    def tables_read(cls, machine: Machine) -> Mapping[str, type[Parameters]]:
+        """Keys, and what the gas that presses them needs."""
+        return {"keys": OldhamKeys, **gas_tables(machine)}
 
     def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
         """Loads of the ring's keys on the bearing housing, of further rings' on the stator."""
@@ -129,7 +135,7 @@ class OldhamKeyForces(Source):
 def _turning(case: Case) -> _Ring:
     """The machine's ring with the gas moment that presses its keys and what hangs on it."""
     ring = case.machine.require(OldhamRing)
-    moment = gas_cycle(case.machine, case.shared).self_rotation_moment_n_m
+    moment = gas_cycle(case.machine, case.shared, case.speed_rpm).self_rotation_moment_n_m
     return _Ring(ring.mass_kg, ring.stroke_m, moment, (case.added.on_ring or NOTHING_HUNG).force_n)
 
 

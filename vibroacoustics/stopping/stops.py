@@ -6,7 +6,6 @@ from typing import Final
 
 import numpy as np
 
-from ..base.arrays import Array
 from ..base.units import shaft_frequency_hz
 from ..machine.machine import Machine
 from ..machine.source import Shared
@@ -30,19 +29,18 @@ class Stops:
     ----------
     stopping : inertia, drag, shift
     parts : moving parts over a revolution
-    gas_torque_n_m : against the rotation over a revolution, shape (samples,)
+    machine : with its gas, whose torque is that of steady running at the speed before the stop
     """
 
     stopping: Stopping
     parts: Sequence[MovingPart]
-    gas_torque_n_m: Array
+    machine: Machine
 
     @classmethod
     def of(cls, machine: Machine) -> "Stops":
         """Of a machine with gas and a table of stopping."""
-        gas = gas_cycle(machine, Shared())
         parts = machine.moving_parts(uniform_crank_angle(PATH_SAMPLES))
-        return cls(machine.table(Stopping), parts, gas.torque_n_m)
+        return cls(machine.table(Stopping), parts, machine)
 
     def run_down(self, speed_rpm: float, rate_hz: float, steady_revolutions: int) -> RunDown:
         """From a speed to rest.
@@ -53,11 +51,12 @@ class Stops:
         rate_hz : samples of the result
         steady_revolutions : before switch-off, at constant speed
         """
+        gas = gas_cycle(self.machine, Shared(), speed_rpm)
         return run_down(
             self.stopping,
             self.parts,
             SHIFTED,
-            self.gas_torque_n_m,
+            gas.torque_n_m,
             2.0 * np.pi * shaft_frequency_hz(speed_rpm),
             rate_hz,
             steady_revolutions,

@@ -1,6 +1,6 @@
 """TOML to a validated `Study`. Every refusal is one line: file, field, value, unit, range."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from copy import deepcopy
 from pathlib import Path
 from typing import Any, Final
@@ -12,7 +12,13 @@ from ..machine.source import SOURCES
 from .draws import warn_of_contradictions
 from .given_values import take_given
 from .kinds import validate_kinds
-from .machine_file import change_of, read_machine, read_redesign, take_changes
+from .machine_file import (
+    change_of,
+    operating_points,
+    read_machine,
+    read_redesign,
+    take_changes,
+)
 from .published_table import read_published_table
 from .ranges import is_used, ranges_of, tables_used
 from .reader import Reader
@@ -55,10 +61,16 @@ def study_of(written: Written) -> Study:
     reader = Reader(path, written.origin)
     machine_file, overrides = _machine_table(content, reader)
     changes: dict[tuple[str, ...], Any] = {("machine", "override"): overrides}
-    machine, machine_reader = read_machine(machine_file, changes, reader)
+    points = operating_points(machine_file)
+    point = _point_named(content, ("operation", "point"), points, reader)
+    machine, machine_reader = read_machine(machine_file, changes, reader, point)
     machine_records = machine_reader.records
+    catalogue_point = _point_named(content, ("catalogue_point",), points, reader)
+    at_catalogue = None
+    if catalogue_point not in (None, point):
+        at_catalogue, _ = read_machine(machine_file, changes, reader, catalogue_point)
     redesigns = {
-        name: read_redesign(machine_file, {**changes, change_of(name): change}, reader)
+        name: read_redesign(machine_file, {**changes, change_of(name): change}, reader, point)
         for name, change in take_changes(content, path)
     }
     _read_published(content, reader)
@@ -70,6 +82,7 @@ def study_of(written: Written) -> Study:
     given = take_given(content, reader)
     content = reader.to_si(content, ())
     content.update(machine=machine, source_file=path.name, given=given)
+    content["catalogue_machine"] = at_catalogue
     for name, (redesigned, change_records) in redesigns.items():
         content["options"][name]["machine"] = redesigned
         machine_records += change_records
@@ -77,7 +90,7 @@ def study_of(written: Written) -> Study:
     validate_kinds(content, "sources", SOURCES, reader)
     if reader.problems:
         validated(Study, content, reader)  # raises, with what else is wrong
-    used = tables_used(content)
+    used = tables_used(content, machine)
     machine_records = [record for record in machine_records if is_used(record, machine, used)]
     content["records"] = (*machine_records, *reader.records)
     ranges, held = ranges_of(machine, machine_records, content, machine_reader)
@@ -105,10 +118,14 @@ def load_machine(path: str | Path) -> Machine:
     'reciprocating'
     """
     path = Path(path)
+    for point in operating_points(path):  # refused here, not where a study first names them
+        read_machine(path, {}, Reader(path, {}), point)
     return read_machine(path, {}, Reader(path, {}))[0]
 
 
-_FILLED_IN: Final = ("records", "ranges", "held_ranges", "source_file", "given")
+_FILLED_IN: Final = (
+    "records", "ranges", "held_ranges", "source_file", "given", "catalogue_machine",
+)  # fmt: skip
 """Here, not by a file."""
 
 
@@ -123,6 +140,23 @@ def _machine_table(content: dict[str, Any], reader: Reader) -> tuple[Path, Any]:
     if table:
         raise ParameterError(f"{path}: machine.{next(iter(table))}: unknown key")
     return file, overrides
+
+
+def _point_named(
+    content: Mapping[str, Any], keys: tuple[str, ...], points: Collection[str], reader: Reader
+) -> str | None:
+    """Operating point of the machine's file that a study names; none where it does not."""
+    table = _table_at(content, keys[:-1])
+    point = None if table is None else table.get(keys[-1])
+    if point is None:
+        return None
+    where = f"{reader.file_and_key(keys)} = {point}"
+    if not isinstance(point, str):
+        raise ParameterError(f"{where}: must be the name of an operating point")
+    if point not in points:
+        allowed = ", ".join(points) or "none, as the machine's file has no operating_points"
+        raise ParameterError(f"{where}: unknown; allowed {allowed}")
+    return point
 
 
 def _read_published(content: Mapping[str, Any], reader: Reader) -> None:

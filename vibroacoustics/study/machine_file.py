@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from ..base.errors import ParameterError
 from ..base.units import si_key
@@ -14,9 +14,15 @@ from .study import ParameterRecord
 from .toml_files import leaves, read_toml
 from .wording import validated
 
+POINTS: Final = "operating_points"
+"""Table of a machine file: by name, tables of values that stand in place of the machine's."""
+
 
 def read_machine(
-    path: Path, changes: Mapping[tuple[str, ...], Any], study: Reader
+    path: Path,
+    changes: Mapping[tuple[str, ...], Any],
+    study: Reader,
+    point: str | None = None,
 ) -> tuple[Machine, Reader]:
     """The machine of the file with the study's changes; every value of it needs a source.
 
@@ -26,14 +32,31 @@ def read_machine(
     changes : tables of values that replace the machine's, one after the other, by their place in
         the study
     study : reader of the study
+    point : one of the file's operating points; its values replace the machine's before the changes
     """
     content = read_toml(path)
     reader = Reader(path, {}, sources_required=True)
+    points = _taken_points(content, path)
     reader.origin = dict.fromkeys(leaves(content), path)
+    if point is not None:
+        _apply(content, (POINTS, point), points[point], reader, Reader(path, {}))
     for prefix, change in changes.items():
         _apply(content, prefix, change, reader, study)
     model, values = of_kind(MACHINES, reader.to_si(content, ()), f"{path}: machine")
     return validated(model, values, reader), reader
+
+
+def operating_points(path: Path) -> tuple[str, ...]:
+    """Names of the operating points of a machine file."""
+    return tuple(_taken_points(read_toml(path), path))
+
+
+def _taken_points(content: dict[str, Any], path: Path) -> dict[str, Any]:
+    """Take the table of operating points out of a machine's content."""
+    points = content.pop(POINTS, {})
+    if not isinstance(points, dict):
+        raise ParameterError(f"{path}: {POINTS}: must be a table")
+    return points
 
 
 def change_of(option: str) -> tuple[str, ...]:
@@ -58,10 +81,10 @@ def take_changes(content: Mapping[str, Any], path: Path) -> list[tuple[str, dict
 
 
 def read_redesign(
-    path: Path, changes: Mapping[tuple[str, ...], Any], study: Reader
+    path: Path, changes: Mapping[tuple[str, ...], Any], study: Reader, point: str | None = None
 ) -> tuple[Machine, list[ParameterRecord]]:
     """The changed machine, and the records of the change, which is the last one."""
-    machine, reader = read_machine(path, changes, study)
+    machine, reader = read_machine(path, changes, study, point)
     prefix = list(changes)[-1]
     changed = {".".join(keys) for keys in leaves(changes[prefix])}
     dotted = ".".join(prefix)

@@ -24,10 +24,10 @@ def _sources(content: Mapping[str, Any]) -> list[Source]:
     return [source for source in values if isinstance(source, Source)]
 
 
-def tables_used(content: Mapping[str, Any]) -> set[str]:
+def tables_used(content: Mapping[str, Any], machine: Machine) -> set[str]:
     """Tables of the machine that the study's sources and stops read."""
     sources, operation = _sources(content), content.get("operation")
-    used = {name for source in sources for name in source.tables}
+    used = {name for source in sources for name in source.tables_read(machine)}
     if any(source.drives_shell for source in sources):
         used |= {"structure", "variation"}
     if isinstance(operation, dict) and operation.get("stopping"):
@@ -36,9 +36,12 @@ def tables_used(content: Mapping[str, Any]) -> set[str]:
 
 
 def is_used(record: ParameterRecord, machine: Machine, used: set[str]) -> bool:
-    """Whether the study reads a value: not those of a table that only sources read."""
-    table = record.field.partition(".")[0]
+    """Whether the study reads a value: not those of a table that only sources read,
+    nor those that a choice in their table leaves `unread`."""
+    table, _, key = record.field.partition(".")
     field = type(machine).model_fields.get(table)
+    if si_key(key)[0] in getattr(getattr(machine, table, None), "unread", ()):
+        return False
     return field is None or field.is_required() or table in used | _ALWAYS_READ
 
 

@@ -12,7 +12,7 @@ from ..base.vocabulary import REFERENCE_OPTION
 from ..machine.machine import AnyMachine
 from ..machine.option import AnyOption, Option
 from ..machine.shell_structure import ShellStructure, ShellVariation
-from ..machine.source import AnySource
+from ..machine.source import AnySource, CaseKey
 from ..machine.stopping import Stopping
 from .radiation import RadiationSettings
 from .receivers import Receiver
@@ -26,6 +26,8 @@ MOST_SPEEDS_WITH_TIME_SERIES: Final = 100
 LEAST_ORDERS: Final = 2
 """Which every result holds."""
 ROUNDING: Final = 1e-9
+AT_CATALOGUE_POINT: Final = "none at the catalogue's point"
+"""Name of the case without a balancer at the operating point of the overall noise."""
 
 
 class Operation(Parameters):
@@ -38,6 +40,8 @@ class Operation(Parameters):
     """Forces and moments over crank angle in the results; none for up to 100 speeds only."""
     supply_frequency_hz: tuple[float, ...] | None = None
     """Of the motor's supply, one for each speed; where a source needs it."""
+    point: str | None = None
+    """Operating point of the machine's file, whose values hold; none for the machine's as given."""
     stopping: bool = False
     """Whether a stop from each speed is computed, where the machine has a table of that name."""
 
@@ -111,6 +115,11 @@ class Study(Parameters):
     options: dict[str, AnyOption]
     receivers: dict[str, Receiver] = Field(min_length=1)
     catalogue_receiver: str
+    catalogue_point: str | None = None
+    """Operating point of the machine's file at which its overall noise holds; none for the values
+    of the study."""
+    catalogue_machine: AnyMachine | None = None
+    """At that point; none where it is the study's. Filled in by `load_study`."""
     radiation: RadiationSettings
     scoring: Scoring
     given: dict[str, dict[str, float]] = Field(default={})
@@ -170,6 +179,18 @@ class Study(Parameters):
                 "radiation.surroundings has walls or a cabinet"
             )
         return self
+
+    @property
+    def catalogue_case(self) -> CaseKey:
+        """Speed and name of the case whose level the overall noise is."""
+        elsewhere = self.catalogue_machine is not None
+        name = AT_CATALOGUE_POINT if elsewhere else REFERENCE_OPTION
+        return self.machine.overall_noise.speed_rpm, name
+
+    def option_of(self, case: CaseKey) -> Option:
+        """Option of a case: the reference at the point of the overall noise too."""
+        name = REFERENCE_OPTION if case[1] == AT_CATALOGUE_POINT else case[1]
+        return self.options[name]
 
     def highest_order(self, speed_rpm: float) -> int:
         """The highest shaft order that is taken along at a speed."""

@@ -56,7 +56,7 @@ class Transmission:
         path = SoundPath(self.rigid, self._bending_shell(machine))
         return {
             key: self._of_case(case, loads[key], self.wrench_pressure[key], path).behind(
-                self.study.options[key[1]].insertion_loss()
+                self.study.option_of(key).insertion_loss()
             )
             for key, case in cases.items()
         }

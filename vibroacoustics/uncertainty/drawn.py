@@ -67,7 +67,7 @@ def drawn_cases(
             )
             case = replace(given, machine=machine, shared=shared)
             if moves_otherwise(machine, given.machine, study):
-                case = _turned(case, study, key[1], turned)
+                case = _turned(case, study, key, turned)
             loads = loads_of(study, case)
             if case.revolution.wrenches:
                 highest = study.highest_order(case.speed_rpm)
@@ -79,19 +79,19 @@ def drawn_cases(
 def moves_otherwise(machine: Machine, given: Machine, study: Study) -> bool:
     """Whether two machines differ in more than the shell and what sources alone read."""
     fields = type(machine).model_fields
-    of_sources = {name for source in study.sources.values() for name in source.tables}
+    of_sources = {name for source in study.sources.values() for name in source.tables_read(machine)}
     still = _SHELL | {name for name in of_sources & set(fields) if not fields[name].is_required()}
     return any(
         getattr(machine, name) != getattr(given, name) for name in fields if name not in still
     )
 
 
-def _turned(case: Case, study: Study, option: str, turned: Shared) -> Case:
+def _turned(case: Case, study: Study, key: CaseKey, turned: Shared) -> Case:
     """A case with the revolution of its machine, which options that leave the machine share."""
     turn = partial(case.machine.revolution, case.speed_rpm, study.operation.crank_angle_samples)
     revolution = turned(id(case.machine), turn)
     try:
-        added = study.options[option].added(case.machine, revolution)
+        added = study.option_of(key).added(case.machine, revolution)
     except ParameterError as error:
-        raise ParameterError(f"options.{option}: {error}") from None
+        raise ParameterError(f"options.{key[1]}: {error}") from None
     return replace(case, revolution=revolution, added=added)

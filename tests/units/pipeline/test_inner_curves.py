@@ -50,6 +50,22 @@ def test_curves_are_finite_and_say_what_they_are(name):
     assert curves.attrs["speed_rpm"] > 0.0
 
 
+def test_opening_with_inertia_has_curves_of_its_own():
+    """They pass from one to the other: pocket from its compression, the chamber as it began."""
+    curves = va.curves(va.load_study(PIPELINES / "copeland_sources.toml"))
+    pressure, flow = curves["opening_pressure"], curves["opening_flow"]
+    pocket, chamber = pressure.sel(volume="opened pocket"), pressure.sel(volume="chamber inside")
+    opening = np.argmin(abs(curves["pocket_pressure"]["pocket_angle"].values - np.radians(480.0)))
+    assert float(pocket[0]) == pytest.approx(float(curves["pocket_pressure"][opening]), rel=0.01)
+    assert float(chamber[-1]) == pytest.approx(float(chamber[0]), rel=1e-6)
+    assert abs(flow.sel(passage="gap, pockets to chamber").values[[0, -1]]).max() == 0.0
+    assert float(flow.sel(passage="port, chamber to plenum").mean()) == pytest.approx(
+        0.068, rel=0.02
+    )
+    for name in ("opening_pressure", "opening_flow"):
+        assert "Crank angle since a pocket has opened" in figure(curves, name).axes[0].get_xlabel()
+
+
 @pytest.mark.parametrize("name", FILES)
 def test_every_curve_has_a_picture_with_labels(name):
     curves = inner(name)

@@ -43,6 +43,7 @@ for _unit in (
     Unit("n_m_s", "N m s", "n_m_s", 1.0),
     Unit("w", "W", "w", 1.0),
     Unit("kw", "kW", "w", 1e3),
+    Unit("kg_per_s", "kg/s", "kg_per_s", 1.0),
     Unit("rpm", "rpm", "rpm", 1.0),  # the label of a speed; see shaft_frequency_hz
     Unit("db", "dB", "db", 1.0),
     Unit("dba", "dB(A)", "dba", 1.0),

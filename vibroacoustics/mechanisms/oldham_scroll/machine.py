@@ -25,7 +25,7 @@ from ...mechanics.moving_parts import MovingPart, Revolution
 from ...mechanics.scroll_shaft import ScrollShaft
 from ...sources.induction_motor.parameters import CapacitorMotor, TurningRotor
 from ...sources.oldham_keys.parameters import OldhamKeys
-from ...sources.scroll_gas.parameters import ScrollGas, ScrollWraps
+from ...sources.scroll_gas.parameters import ScrollGas, ScrollOpening, ScrollWraps
 
 STROKES: Final = Held("may be printed or derived: two studies, no range")
 
@@ -78,6 +78,8 @@ class OldhamScroll(Machine):
     """The mass moments follow from two-plane balance of the orbiting parts."""
     wraps: ScrollWraps | None = None
     gas: ScrollGas | None = None
+    opening: ScrollOpening | None = None
+    """Where a pocket opens with inertia."""
     keys: OldhamKeys | None = None
     motor: CapacitorMotor | None = None
     """At its own line frequency; a study names those of its speeds."""

@@ -1,6 +1,6 @@
 """Curves of the gas in a scroll: pressure of a pocket, forces and their direction, torque."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Final
 
 import numpy as np
@@ -9,6 +9,7 @@ from ...base.arrays import Array
 from ...base.curves import CRANK_ANGLES, Curve, CurveAxis, angle_axis
 from ...mechanics.rotation import uniform_crank_angle
 from .cycle import ScrollGasCycle, scroll_gas_cycle
+from .opened_gas import OpenedGas
 from .parameters import ScrollGas, ScrollWraps
 from .pockets import pocket_volume
 from .pressures import pocket_pressure
@@ -17,16 +18,21 @@ AFTER_OPENING: Final = np.pi / 3.0
 """How far the pressure of a pocket is shown beyond its opening, rad."""
 
 
-def scroll_gas_curves(wraps: ScrollWraps, gas: ScrollGas) -> Iterator[Curve]:
+def scroll_gas_curves(
+    wraps: ScrollWraps, gas: ScrollGas, opened: OpenedGas | None = None
+) -> Iterator[Curve]:
     """Pressure and volume of one pocket; forces on the fixed scroll, their direction, torques.
 
     Parameters
     ----------
     wraps : geometry, m and rad
     gas : pressures in Pa and polytropic index
+    opened : gas after the opening, where it has inertia
     """
-    yield from _of_a_pocket(wraps, gas)
-    cycle = scroll_gas_cycle(wraps, gas, uniform_crank_angle(CRANK_ANGLES))
+    yield from _of_a_pocket(wraps, gas, opened)
+    if opened is not None:
+        yield from _of_the_opening(opened)
+    cycle = scroll_gas_cycle(wraps, gas, uniform_crank_angle(CRANK_ANGLES), opened)
     angle = angle_axis(cycle.crank_angle)
     yield from _forces(cycle, angle)
     yield Curve(
@@ -37,13 +43,14 @@ def scroll_gas_curves(wraps: ScrollWraps, gas: ScrollGas) -> Iterator[Curve]:
     )  # fmt: skip
 
 
-def _of_a_pocket(wraps: ScrollWraps, gas: ScrollGas) -> Iterator[Curve]:
+def _of_a_pocket(wraps: ScrollWraps, gas: ScrollGas, opened: OpenedGas | None) -> Iterator[Curve]:
     """Figure 18."""
-    end = wraps.opening_angle_rad + max(AFTER_OPENING, 1.5 * gas.equalisation_angle_rad)
+    shown = max(AFTER_OPENING, 1.5 * gas.equalisation_angle_rad) if opened is None else np.pi
+    end = wraps.opening_angle_rad + shown
     since = np.linspace(0.0, end, CRANK_ANGLES + 1, dtype=np.float64)
     yield Curve(
         "pocket_pressure", "Pressure of one pocket from its closing to its discharge",
-        pocket_pressure(wraps, gas, since), (_since_closing(since),), "bar",
+        pocket_pressure(wraps, gas, since, opened), (_since_closing(since),), "bar",
         "thesis, section 6.1 and figure 18",
     )  # fmt: skip
     trapped = np.linspace(0.0, wraps.opening_angle_rad, CRANK_ANGLES + 1, dtype=np.float64)
@@ -52,6 +59,35 @@ def _of_a_pocket(wraps: ScrollWraps, gas: ScrollGas) -> Iterator[Curve]:
         "pocket_volume", "Volume of one pocket from its closing to its opening",
         pocket_volume(wraps, trapped), (axis,), "cm3", "thesis, (4.1), (4.2) and figure 7",
     )  # fmt: skip
+
+
+def _of_the_opening(opened: OpenedGas) -> Iterator[Curve]:
+    """Pressures and flows while a pair of pockets empties into the chamber."""
+    angle = np.linspace(0.0, 2.0 * np.pi, CRANK_ANGLES + 1, dtype=np.float64)
+    axis = angle_axis(angle, "opening_angle", "Crank angle since a pocket has opened")
+    pressures = {
+        "opened pocket": opened.pair_pa,
+        "chamber inside": opened.chamber_pa,
+        "plenum": opened.plenum_pa,
+    }
+    flows = {
+        "gap, pockets to chamber": opened.gap_flow_kg_per_s,
+        "port, chamber to plenum": opened.port_flow_kg_per_s,
+    }
+    yield Curve(
+        "opening_pressure", "Pressure in opened pocket, chamber and plenum",
+        _at(opened, angle, pressures), (CurveAxis("volume", list(pressures)), axis), "bar",
+        "derived: unsteady flow through gap and port",
+    )  # fmt: skip
+    yield Curve(
+        "opening_flow", "Mass flow out of a pair of opened pockets and through the port",
+        _at(opened, angle, flows), (CurveAxis("passage", list(flows)), axis), "kg_per_s",
+        "derived: unsteady flow through gap and port",
+    )  # fmt: skip
+
+
+def _at(opened: OpenedGas, angle: Array, courses: Mapping[str, Array]) -> Array:
+    return np.array([np.interp(angle, opened.since_opening, one) for one in courses.values()])
 
 
 def _since_closing(angle: Array) -> CurveAxis:

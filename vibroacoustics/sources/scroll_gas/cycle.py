@@ -6,6 +6,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...mechanics.moving_parts import path
+from .opened_gas import OpenedGas
 from .parameters import ScrollGas, ScrollWraps
 from .pockets import area_inside, contact_angle, contact_count
 from .pressures import pocket_pressure
@@ -27,6 +28,8 @@ class ScrollGasCycle:
         (samples,)
     axial_force_n : parts the plates of the scrolls, over suction pressure on their backs, shape
         (samples,)
+    port_flow_kg_per_s : gas through the discharge port, shape (samples,); none where pockets open
+        by an angle
     """
 
     crank_angle: Array
@@ -34,6 +37,7 @@ class ScrollGasCycle:
     tangential_force_n: Array
     radial_force_n: Array
     axial_force_n: Array
+    port_flow_kg_per_s: Array | None = None
 
     @property
     def on_orbiting_scroll_n(self) -> Array:
@@ -69,7 +73,9 @@ class ScrollGasCycle:
         return 0.5 * self.torque_n_m
 
 
-def scroll_gas_cycle(wraps: ScrollWraps, gas: ScrollGas, crank_angle: Array) -> ScrollGasCycle:
+def scroll_gas_cycle(
+    wraps: ScrollWraps, gas: ScrollGas, crank_angle: Array, opened: OpenedGas | None = None
+) -> ScrollGasCycle:
     """Gas forces of the pressure steps at the contacts, in closed form.
 
     F_t = 2 r_b h Σ Δp t, F_r = 2 r_b h Σ Δp, F_z = Σ Δp A(t): the half turn of wrap between the
@@ -84,14 +90,16 @@ def scroll_gas_cycle(wraps: ScrollWraps, gas: ScrollGas, crank_angle: Array) -> 
     wraps : geometry
     gas : pressures and polytropic index
     crank_angle : shape (samples,), rad
+    opened : gas after the opening, of the law `inertia`; none for the equalisation angle
     """
     turn = 2.0 * np.pi
-    count = contact_count(wraps, gas.equalisation_angle_rad)
+    count = contact_count(wraps, gas.equalisation_angle_rad if opened is None else np.pi)
     since_closing = np.mod(crank_angle - wraps.closing_crank_angle_rad, turn)
     inner_angle = since_closing + turn * np.arange(count)[:, None]
-    step = pocket_pressure(wraps, gas, inner_angle) - pocket_pressure(
-        wraps, gas, inner_angle - turn
+    inner, outer = (
+        pocket_pressure(wraps, gas, angle, opened) for angle in (inner_angle, inner_angle - turn)
     )
+    step = inner - outer
     contact = contact_angle(wraps, inner_angle)
     width = 2.0 * wraps.base_radius_m * wraps.height_m
     return ScrollGasCycle(
@@ -100,4 +108,11 @@ def scroll_gas_cycle(wraps: ScrollWraps, gas: ScrollGas, crank_angle: Array) -> 
         tangential_force_n=np.sum(width * step * contact, axis=0),
         radial_force_n=np.sum(width * step, axis=0),
         axial_force_n=np.sum(step * area_inside(wraps, contact), axis=0),
+        port_flow_kg_per_s=None if opened is None else _port_flow(wraps, opened, since_closing),
     )
+
+
+def _port_flow(wraps: ScrollWraps, opened: OpenedGas, since_closing: Array) -> Array:
+    since_opening = np.mod(since_closing - wraps.opening_angle_rad, 2.0 * np.pi)
+    flow = np.interp(since_opening, opened.since_opening, opened.port_flow_kg_per_s)
+    return np.asarray(flow)

@@ -1,8 +1,11 @@
 """Wraps and gas of a scroll compressor: what its gas forces follow from."""
 
+from typing import Literal
+
 import numpy as np
 from pydantic import Field, model_validator
 
+from ...base.errors import ParameterError
 from ...base.parameters import Parameters
 
 PRESSURE = Field(gt=0.0, le=1e9)
@@ -73,7 +76,39 @@ class ScrollGas(Parameters):
     discharge_pressure_pa: float = PRESSURE
     polytropic_index: float = Field(gt=1.0, le=2.0)
     equalisation_angle_rad: float = Field(default=0.0, ge=0.0, le=6.283185307179586)
-    """Crank angle over which an opened pocket comes to the discharge pressure; 0 is at once."""
+    """Crank angle over which an opened pocket comes to the discharge pressure; 0 is at once. Of
+    the law of that name only."""
+    opening_law: Literal["equalisation-angle", "inertia"] = "equalisation-angle"
+    """How an opened pocket comes to the discharge pressure: by the angle above, or by the flow out
+    of it, with the table `opening`."""
+    discharge_density_kg_per_m3: float | None = Field(default=None, gt=0.0, le=2000.0)
+    discharge_sound_speed_m_per_s: float | None = Field(default=None, ge=50.0, le=2000.0)
+
+    @property
+    def opens_with_inertia(self) -> bool:
+        """Whether a pocket opens by the flow out of it."""
+        return self.opening_law == "inertia"
+
+    @property
+    def unread(self) -> frozenset[str]:
+        """Values that the law of the opening does not need."""
+        state = {"discharge_density_kg_per_m3", "discharge_sound_speed_m_per_s"}
+        return frozenset({"equalisation_angle_rad"} if self.opens_with_inertia else state)
+
+    @property
+    def discharge_state(self) -> tuple[float, float]:
+        """Density and speed of sound of the gas at discharge, kg/m³ and m/s.
+
+        Raises
+        ------
+        ParameterError
+            They are not given.
+        """
+        density, sound = self.discharge_density_kg_per_m3, self.discharge_sound_speed_m_per_s
+        if density is None or sound is None:
+            missing = "density_kg_per_m3" if density is None else "sound_speed_m_per_s"
+            raise ParameterError(f"gas.discharge_{missing}: is missing; the law inertia needs it")
+        return density, sound
 
     @model_validator(mode="after")
     def _compresses(self) -> "ScrollGas":
@@ -83,3 +118,23 @@ class ScrollGas(Parameters):
                 f"suction_pressure_bar = {1e-5 * self.suction_pressure_pa:g} bar"
             )
         return self
+
+
+class ScrollOpening(Parameters):
+    """Passages and volumes between an opened pocket and the tube, for the law `inertia`.
+
+    The gap of a pair of pockets leads into the chamber inside all closed pockets, its port into the
+    plenum, which the tube leaves without reflection. Lengths count the gas that moves along with
+    that in the passage.
+    """
+
+    gap_length_m: float = Field(ge=1e-3, le=0.05)
+    port_length_m: float = Field(ge=1e-3, le=0.2)
+    port_diameter_m: float = Field(ge=2e-3, le=0.1)
+    discharge_coefficient_ratio: float = Field(ge=0.3, le=1.0)
+    """Of gap and port."""
+    chamber_volume_m3: float = Field(gt=0.0, le=1e-3)
+    """When a pocket opens; it shrinks at first."""
+    plenum_volume_m3: float = Field(ge=1e-5, le=0.1)
+    tube_diameter_m: float = Field(ge=2e-3, le=0.2)
+    """Inner, of the discharge tube."""

@@ -5,6 +5,7 @@ from typing import Final
 import numpy as np
 
 from ...base.arrays import Array
+from .opened_gas import OpenedGas
 from .parameters import ScrollGas, ScrollWraps
 from .pockets import pocket_volume
 
@@ -13,24 +14,49 @@ OPENED_BEFORE: Final = 1e-9
 on which side of the step a sample lies that falls on it."""
 
 
-def pocket_pressure(wraps: ScrollWraps, gas: ScrollGas, angle_since_closing: Array) -> Array:
+def pocket_pressure(
+    wraps: ScrollWraps, gas: ScrollGas, angle_since_closing: Array, opened: OpenedGas | None = None
+) -> Array:
     """Pressure in a pocket: suction, polytropic from its closing, discharge from its opening, Pa.
 
-    p = p_s (V_s/V)^n (thesis 6.1, Appendix A). When the pocket opens, its pressure becomes that of
-    the discharge, from above (over-compression) or from below (under-compression), along half a
-    cosine over the equalisation angle: the gap grows from nothing.
+    p = p_s (V_s/V)^n (thesis 6.1, Appendix A) until the pocket opens. Then, without `opened`, its
+    pressure becomes that of the discharge, from above (over-compression) or from below
+    (under-compression), along half a cosine over the equalisation angle: the gap grows from
+    nothing. With it, it is that of the opened pair for a turn, of the chamber inside from then on.
 
     Parameters
     ----------
     wraps : geometry
     gas : pressures and polytropic index
     angle_since_closing : crank angle since the pocket has closed, any shape, rad; negative before
+    opened : gas after the opening, of the law `inertia`
     """
-    opening = wraps.opening_angle_rad
-    volume = pocket_volume(wraps, np.clip(angle_since_closing, 0.0, opening))
+    since_opening = angle_since_closing - wraps.opening_angle_rad + OPENED_BEFORE
+    compressed = _compressed_pa(wraps, gas, angle_since_closing)
+    if opened is None:
+        return _over_equalisation_angle(gas, compressed, np.maximum(since_opening, 0.0))
+    in_turn = np.mod(since_opening, 2.0 * np.pi)
+    pair, chamber = (
+        np.interp(in_turn, opened.since_opening, pressure)
+        for pressure in (opened.pair_pa, opened.chamber_pa)
+    )
+    after = np.where(since_opening < 2.0 * np.pi, pair, chamber)
+    return np.asarray(np.where(since_opening < 0.0, compressed, after))
+
+
+def built_in_pressure_pa(wraps: ScrollWraps, gas: ScrollGas) -> float:
+    """Pressure in a pocket just before it opens, Pa."""
+    return float(_compressed_pa(wraps, gas, np.asarray(wraps.opening_angle_rad)))
+
+
+def _compressed_pa(wraps: ScrollWraps, gas: ScrollGas, angle_since_closing: Array) -> Array:
+    """Polytropic pressure from the closing, constant after the opening, Pa."""
+    volume = pocket_volume(wraps, np.clip(angle_since_closing, 0.0, wraps.opening_angle_rad))
     ratio = pocket_volume(wraps, np.zeros(())) / volume
-    compressed = gas.suction_pressure_pa * ratio**gas.polytropic_index
-    since_opening = np.maximum(angle_since_closing - opening + OPENED_BEFORE, 0.0)
+    return np.asarray(gas.suction_pressure_pa * ratio**gas.polytropic_index)
+
+
+def _over_equalisation_angle(gas: ScrollGas, compressed: Array, since_opening: Array) -> Array:
     width = max(gas.equalisation_angle_rad, OPENED_BEFORE)
     left = 0.5 + 0.5 * np.cos(np.pi * np.minimum(since_opening / width, 1.0))
     return np.asarray(gas.discharge_pressure_pa + left * (compressed - gas.discharge_pressure_pa))

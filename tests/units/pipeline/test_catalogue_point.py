@@ -1,0 +1,72 @@
+"""The published level is met at its own operating point, whatever the study's is."""
+
+import pytest
+from sources_study import SOURCES_STUDY, run_made_up
+
+from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.report.assumptions import remainder_sentence
+from vibroacoustics.report.source_words import left_out_sentence, shares_sentence
+from vibroacoustics.study.loading import load_study
+
+GAS_ALONE = {
+    **{f"sources.{name}": None for name in ("keys", "torque_ripple", "motor")},
+    **{f"options.{name}": None for name in ("counterweight-half", "twin-oldham", "damping")},
+    "operation.stopping": False,
+    "operation.supply_frequency_hz": None,
+    "machine.gas.opening_law": "inertia",
+    "machine.overall_noise.level_dba": 90.0,
+    "uncertainty.seed": 8,
+}
+BY_DRAW = ("level_remainder_by_draw", "draw_weight")
+
+
+@pytest.fixture(scope="module")
+def study():
+    return load_study(SOURCES_STUDY).replace(GAS_ALONE)
+
+
+@pytest.fixture(scope="module")
+def at_ari(study):
+    """Without the index's range: what is drawn is then the same at both points."""
+    return run_made_up(study.replace({"operation.point": "ari"}))
+
+
+def test_remainder_is_that_of_the_point_of_the_published_level(study, at_ari):
+    """It is the same at both points, as given and in each draw; what the machine makes is not."""
+    here = study.replace({"catalogue_point": "ari"})
+    assert here.catalogue_machine.gas.discharge_pressure_pa == pytest.approx(33.86e5)
+    values = {"value": 1.067, "source": "test"}  # and with it, not of it, the same values are drawn
+    results = run_made_up(here.replace({"machine.gas.polytropic_index": values}))
+    assert results["level_remainder"].item() == pytest.approx(at_ari["level_remainder"].item())
+    for name in BY_DRAW:
+        assert results[name].values == pytest.approx(at_ari[name].values, rel=1e-9), name
+    off = results["level_modelled"].values - at_ari["level_modelled"].values
+    assert abs(off).max() > 1.0
+    assert list(results["option"].values) == ["none"]
+    said = "rpm at the operating point ari; the machine runs at the values of its file. What"
+    assert said in remainder_sentence(results)
+    assert "Not modelled is what is left of it at the operating point ari, " in shares_sentence(
+        results
+    )
+    assert left_out_sentence(results).endswith("exceeds 90 dB(A) alone at the operating point ari.")
+
+
+def test_a_report_at_the_point_itself_names_it_once(at_ari):
+    assert "2900 rpm at the operating point ari. What the model" in remainder_sentence(at_ari)
+    assert "Not modelled is the rest, " in shares_sentence(at_ari)
+    assert left_out_sentence(at_ari).endswith("exceeds 90 dB(A) alone.")
+
+
+def test_a_study_at_the_point_itself_needs_no_second_machine(study):
+    named = study.replace({"operation.point": "ari", "catalogue_point": "ari"})
+    assert named.catalogue_machine is None
+    assert named.catalogue_case == (2900.0, "none")
+
+
+def test_an_unknown_point_is_refused(study):
+    with pytest.raises(ParameterError, match=r"catalogue_point = sun: unknown; allowed ari"):
+        study.replace({"catalogue_point": "sun"})
+    with pytest.raises(ParameterError, match=r"catalogue_point = \[1\]: must be the name"):
+        study.replace({"catalogue_point": [1]})
+    with pytest.raises(ParameterError, match="catalogue_machine: unknown key"):
+        study.replace({"catalogue_machine": "x"})

@@ -1,0 +1,152 @@
+"""The opening of a pocket: pressures and flow of the gas over a turn, in its steady course."""
+
+import math
+from typing import Final
+
+import numpy as np
+
+from ...base.arrays import Array
+from ...base.errors import ParameterError, SolverError
+from ...base.units import shaft_frequency_hz
+from .chambers import (
+    contacts_at_opening,
+    full_gap_area_m2,
+    least_chamber_volume_m3,
+    pair_volume_m3,
+    swept_volume_m3,
+)
+from .opened_gas import OpenedGas
+from .opening_equations import (
+    CHAMBER,
+    GAP_FLOW,
+    PAIR,
+    PLENUM,
+    PORT_FLOW,
+    OpeningConstants,
+    density,
+    one_turn,
+)
+from .parameters import ScrollGas, ScrollOpening, ScrollWraps
+from .pressures import built_in_pressure_pa
+
+STEPS: Final = 8192
+"""A turn at least; 200 000 change no pressure by more than 1e-6 of the discharge pressure."""
+STEPS_PER_S: Final = 200_000.0
+"""At least, as the gas swings in its passages at some kHz, however slowly the shaft turns."""
+MOST_TURNS: Final = 200
+REPEATED: Final = 1e-8
+"""Change of the state over a turn, of its own size, below which it repeats."""
+
+
+def opening_constants(
+    wraps: ScrollWraps, gas: ScrollGas, opening: ScrollOpening, speed_rpm: float
+) -> OpeningConstants:
+    """Constants of the equations; the mean flow is the mass of the pair at its opening a turn.
+
+    Raises
+    ------
+    ParameterError
+        The chamber would vanish within the turn, or the gas's state at discharge is not given.
+    """
+    least = least_chamber_volume_m3(wraps)
+    if opening.chamber_volume_m3 <= least:
+        raise ParameterError(
+            f"opening.chamber_volume_cm3 = {1e6 * opening.chamber_volume_m3:.4g} cm³: must exceed "
+            f"{1e6 * least:.4g} cm³, which these wraps sweep of it while a pair is open"
+        )
+    rho, sound = gas.discharge_state
+    outer, inner = contacts_at_opening(wraps)
+    frequency = shaft_frequency_hz(speed_rpm)
+    constants = OpeningConstants(
+        angular_speed=2.0 * np.pi * frequency,
+        swept_volume=swept_volume_m3(wraps),
+        outer_contact=outer,
+        inner_contact=inner,
+        chamber_volume=opening.chamber_volume_m3,
+        plenum_volume=opening.plenum_volume_m3,
+        gap_area=full_gap_area_m2(wraps),
+        gap_length=opening.gap_length_m,
+        port_area=0.25 * np.pi * opening.port_diameter_m**2,
+        port_length=opening.port_length_m,
+        discharge_coefficient=opening.discharge_coefficient_ratio,
+        tube_admittance=0.25 * np.pi * opening.tube_diameter_m**2 / sound,
+        mean_flow=0.0,
+        pressure=gas.discharge_pressure_pa,
+        density=rho,
+        stiffness_exponent=rho * sound**2 / gas.discharge_pressure_pa,
+    )
+    trapped = float(pair_volume_m3(wraps, np.zeros(())))
+    mass = trapped * density(built_in_pressure_pa(wraps, gas), constants)
+    return constants._replace(mean_flow=mass * frequency)
+
+
+def why_no_opening(wraps: ScrollWraps, gas: ScrollGas, opening: ScrollOpening) -> str | None:
+    """Why a pocket cannot open with inertia, at any speed; None where it can."""
+    try:
+        opening_constants(wraps, gas, opening, speed_rpm=60.0)
+    except ParameterError as error:
+        return str(error)
+    return None
+
+
+def steady_opening(
+    wraps: ScrollWraps,
+    gas: ScrollGas,
+    opening: ScrollOpening,
+    speed_rpm: float,
+    steps: int | None = None,
+) -> OpenedGas:
+    """Pressures and flows over a turn that repeats.
+
+    Parameters
+    ----------
+    wraps : geometry
+    gas : pressures, polytropic index and state at discharge
+    opening : passages and volumes
+    speed_rpm : constant
+    steps : of a turn, an even number; none for as many as the gas needs
+
+    Raises
+    ------
+    ParameterError
+        As `opening_constants`.
+    SolverError
+        The gas does not come to a course that repeats.
+    """
+    constants = opening_constants(wraps, gas, opening, speed_rpm)
+    steps = steps or STEPS * math.ceil(STEPS_PER_S / shaft_frequency_hz(speed_rpm) / STEPS)
+    states = _steady_turn(constants, built_in_pressure_pa(wraps, gas), steps)
+    angle = np.linspace(0.0, 2.0 * np.pi, steps + 1, dtype=np.float64)
+    return OpenedGas(
+        angle, states[PAIR], states[CHAMBER], states[PLENUM], states[GAP_FLOW], states[PORT_FLOW]
+    )
+
+
+def _steady_turn(constants: OpeningConstants, opens_at_pa: float, steps: int) -> Array:
+    """States of the turn that ends as it began, but for the pair, which is a new one.
+
+    Every second turn what is left of the change is taken as a geometric series (Irons and Tuck
+    1969): the plenum empties slowly.
+    """
+    size = np.array([constants.pressure, constants.pressure, constants.mean_flow])
+    kept = [CHAMBER, PLENUM, PORT_FLOW]
+    start = np.array([opens_at_pa, *size[:2], 0.0, size[2]])
+    before = None
+    for _ in range(MOST_TURNS):
+        states = one_turn(start, steps, constants)
+        change = (states[kept, -1] - states[kept, 0]) / size
+        if not np.all(np.isfinite(change)):
+            break
+        if np.abs(change).max() < REPEATED:
+            return states
+        start[kept] = states[kept, -1]
+        if before is None:
+            before = change
+            continue
+        ratio = float(change @ before) / float(before @ before)
+        if abs(ratio) < 1.0:
+            start[kept] += ratio / (1.0 - ratio) * change * size
+        before = None
+    raise SolverError(
+        "opening: the pressures after a pocket opens do not come to a course that repeats"
+    )
