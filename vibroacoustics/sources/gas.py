@@ -12,7 +12,7 @@ from ..mechanics.capabilities import Capability, OldhamRing
 from ..mechanics.loads import Loads
 from ..mechanics.rotation import uniform_crank_angle
 from ..orders import order_spectrum
-from .joint_loads import gas_loads
+from .part_loads import gas_loads
 from .scroll_gas.curves import scroll_gas_curves
 from .scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
 from .scroll_gas.parameters import ScrollGas, ScrollWraps
@@ -26,7 +26,7 @@ ORBIT_TOLERANCE: Final = 0.01
 
 @register
 class ScrollGasForces(Source):
-    """Pressure in the pockets, on fixed scroll and bearing housing."""
+    """Pressure in the pockets, on the two scrolls."""
 
     kind: ClassVar[str] = "scroll-gas"
     position: ClassVar[float] = 1.0
@@ -51,10 +51,10 @@ class ScrollGasForces(Source):
         )
 
     def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
-        """Orders of the gas forces on the joints, and the torque that the shaft needs."""
+        """Orders of the gas forces on the scrolls, and the torque that the shaft needs."""
         cycle, highest = gas_cycle(case.machine, case.shared), case.maximum_order
         return Loads(
-            joints=order_spectrum(gas_loads(cycle), highest),
+            on_parts=order_spectrum(gas_loads(cycle), highest),
             shaft_torque_n_m=order_spectrum(cycle.torque_n_m, highest),
         )
 

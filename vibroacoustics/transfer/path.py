@@ -10,7 +10,16 @@ import numpy as np
 from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.decibel import amplitude_of_level
 from ..machine.shell import Shell
-from ..machine.shell_structure import JOINTS, Joint, ShellStructure, ShellVariation
+from ..machine.shell_structure import (
+    BEARING_HOUSING,
+    FIXED_SCROLL,
+    JOINTS,
+    STATOR,
+    Joint,
+    ShellStructure,
+    ShellVariation,
+)
+from ..mechanics.loads import ORBITING_SCROLL, PART_COMPONENTS, PARTS
 from .shell_modes import (
     ElasticShell,
     JointLoads,
@@ -22,6 +31,11 @@ from .shell_modes import (
 )
 from .shell_modes.projection import ProjectedModes, least_frequency_factor
 
+JOINT_OF_PART: Final = (FIXED_SCROLL, BEARING_HOUSING, BEARING_HOUSING, STATOR, STATOR)
+"""Where each of the parts hands its load on to a shell without a frame: the orbiting scroll through
+pin and main bearing, a second ring below through the motor's stator."""
+JOINT_COMPONENTS: Final = (0, 1, 2, 5)
+"""Of a part's load: force along x, y, z and moment about z."""
 MODES_BEYOND: Final = 1.1
 """Modes up to this many times the highest frequency take part."""
 
@@ -147,6 +161,19 @@ def _of_measured(modes: Sequence[SampledMode], joints: Sequence[Joint], radius_m
     return np.array([[mode.modal_forces(joint, radius_m) for joint in joints] for mode in modes])
 
 
+def joint_of_part() -> Array:
+    """Load on the joints per load on the parts, (joint, joint's component, part, component).
+
+    What turns the orbiting scroll presses the keys, which are a source.
+    """
+    share = np.zeros((len(JOINTS), len(JOINT_COMPONENTS), len(PARTS), PART_COMPONENTS))
+    for part, joint in enumerate(JOINT_OF_PART):
+        for row, component in enumerate(JOINT_COMPONENTS):
+            share[joint, row, part, component] = 1.0
+    share[:, 3, ORBITING_SCROLL] = 0.0
+    return share
+
+
 def pressure_per_load(
     path: ShellPath,
     pressure_per_velocity: ComplexArray,
@@ -154,7 +181,7 @@ def pressure_per_load(
     loss_factor_ratio: float,
     variation: ShellVariation,
 ) -> ComplexArray:
-    """Pressure per unit load on a joint, shape (receiver, joint, component, frequency).
+    """Pressure per unit load on a part, shape (receiver, part, component, frequency).
 
     Σ over the modes of transfer vector, velocity per force and force per load.
 
@@ -170,4 +197,5 @@ def pressure_per_load(
     moving = velocity_per_force(natural_hz, path.modal_mass_kg, loss_factor_ratio, frequency_hz)
     sound = pressure_per_velocity * moving
     gain = amplitude_of_level(variation.mobility_change_db)
-    return np.asarray(gain * np.einsum("rmf,mjc->rjcf", sound, path.joint_forces, optimize=True))
+    forces = np.einsum("mjc,jcpl->mpl", path.joint_forces, joint_of_part())
+    return np.asarray(gain * np.einsum("rmf,mpl->rplf", sound, forces, optimize=True))

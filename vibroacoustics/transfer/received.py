@@ -8,7 +8,7 @@ import xarray as xr
 
 from ..base.arrays import ComplexArray
 from ..machine.machine import Machine
-from ..machine.shell_structure import JOINTS, ShellStructure, ShellVariation
+from ..machine.shell_structure import ShellStructure, ShellVariation
 from ..machine.source import Case, CaseKey
 from ..mechanics.loads import Lines, Loads, lines_of
 from ..mechanics.received_sound import NoisePower, ReceivedSound
@@ -92,7 +92,7 @@ class Transmission:
         highest = orders - 1
         if self.study.drives_shell:
             highest = max(highest, case.maximum_order)
-        return lines_of(loads, case.shaft_frequency_hz, highest, len(JOINTS))
+        return lines_of(loads, case.shaft_frequency_hz, highest)
 
 
 def by_case_and_source(

@@ -34,7 +34,7 @@ class BendingShell:
     _known: dict[bytes, ComplexArray] = field(default_factory=dict, repr=False)
 
     def per_load(self, frequency_hz: Array) -> ComplexArray:
-        """Pressure per load on a joint, (receiver, joint, component, frequency).
+        """Pressure per load on a part, (receiver, part, component, frequency).
 
         Kept, as cases share their frequencies.
         """
@@ -71,23 +71,24 @@ class SoundPath:
         return {source: self._of_source(body, lines, source) for source in lines.rigid}
 
     def _of_source(self, body: MachineOnMounts, lines: Lines, source: str) -> ComplexArray:
-        frequency, wrench, joints = lines.frequency_hz, lines.rigid[source], lines.joints[source]
+        frequency, wrench, parts = lines.frequency_hz, lines.rigid[source], lines.on_parts[source]
         pressure = np.zeros((1, frequency.size), dtype=complex)
         if wrench.any():
             velocity = body.response(wrench.T, frequency).velocity
             pressure = pressure + np.einsum("rdf,fd->rf", self.rigid(frequency), velocity)
-        if self.shell is not None and joints.any():
+        if self.shell is not None and parts.any():
             per_load = self.shell.per_load(frequency)
-            pressure = pressure + np.einsum("rjcf,jcf->rf", per_load, joints, optimize=True)
+            pressure = pressure + np.einsum("rpcf,pcf->rf", per_load, parts, optimize=True)
         return pressure
 
     def noise_power(self, noise: Noise) -> Array:
         """Mean square of the pressure that a random load makes, (receiver, frequency), Pa²."""
         if self.shell is None:
-            raise ValueError("a random load on a joint needs an elastic shell")
+            raise ValueError("a random load on a part needs an elastic shell")
         frequency = noise.frequency_hz
-        per_load = self.shell.per_load(frequency)[:, noise.joint][:, noise.components]
+        per_load = self.shell.per_load(frequency)
+        per_force = np.einsum("rpcf,pci->rif", per_load, noise.on_parts, optimize=True)
         density = np.einsum(
-            "rif,ijf,rjf->rf", per_load.conj(), noise.density, per_load, optimize=True
+            "rif,ijf,rjf->rf", per_force.conj(), noise.density, per_force, optimize=True
         ).real
         return np.asarray(density * (frequency[1] - frequency[0]))
