@@ -105,3 +105,9 @@ class Frame(Parameters):
     contacts: ContactStiffness
     legs: Joint
     """Of the lower bearing's bracket on the wall."""
+
+    @property
+    def mass_kg(self) -> float:
+        """Of all bodies."""
+        parts = (self.fixed_scroll, self.bearing_housing, self.orbiting_scroll)
+        return sum(part.mass_kg for part in (*parts, self.lower_bearing, self.stator))

@@ -6,6 +6,7 @@ from typing import ClassVar, Final
 from ..base.curves import Curve
 from ..base.parameters import Parameters
 from ..base.registry import register
+from ..machine.frame import Frame
 from ..machine.machine import Machine
 from ..machine.source import Case, Shared, Source
 from ..mechanics.capabilities import Capability, OldhamRing
@@ -53,14 +54,23 @@ class ScrollGasForces(Source):
     def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
         """Orders of the gas forces on the scrolls, and the torque that the shaft needs."""
         cycle, highest = gas_cycle(case.machine, case.shared), case.maximum_order
+        on_parts = gas_loads(cycle, *_of_frame(case.machine))
         return Loads(
-            on_parts=order_spectrum(gas_loads(cycle), highest),
+            on_parts=order_spectrum(on_parts, highest),
             shaft_torque_n_m=order_spectrum(cycle.torque_n_m, highest),
         )
 
     def curves(self, case: Case) -> Iterable[Curve]:
         """Pressure of a pocket, forces and torque; see `scroll_gas_curves`."""
         return scroll_gas_curves(case.machine.table(ScrollWraps), case.machine.table(ScrollGas))
+
+
+def _of_frame(machine: Machine) -> tuple[float, bool]:
+    """Height of the wraps, and whether the flanks take the radial force."""
+    if not machine.has_table(Frame):
+        return 0.0, False
+    frame = machine.table(Frame)
+    return frame.wraps_height_m, frame.radially_compliant
 
 
 def gas_cycle(machine: Machine, shared: Shared) -> ScrollGasCycle:

@@ -11,10 +11,19 @@ from ..base.arrays import Array, ComplexArray
 from ..base.curves import Curve
 from ..base.parameters import Parameters
 from ..base.registry import register
+from ..machine.frame import Frame
+from ..machine.machine import Machine
 from ..machine.source import Case, Source
 from ..mechanics.added import FurtherRing, RingForce
 from ..mechanics.capabilities import Capability, OldhamRing
-from ..mechanics.loads import BEARING_HOUSING, LOWER_BEARING, ORBITING_SCROLL, Loads, Noise
+from ..mechanics.loads import (
+    BEARING_HOUSING,
+    FIXED_SCROLL,
+    LOWER_BEARING,
+    ORBITING_SCROLL,
+    Loads,
+    Noise,
+)
 from ..orders import order_spectrum
 from .gas import gas_cycle
 from .oldham_keys.contact_loss import contact_loss_speed_rpm
@@ -71,15 +80,18 @@ class OldhamKeyForces(Source):
         turning, hung = _turning(case), case.added.on_ring or NOTHING_HUNG
         moment = turning.moment_n_m
         forces = self._forces(case, turning)
-        on_parts = key_parts(BEARING_HOUSING, ORBITING_SCROLL, ring.height_m)
+        standing = _standing(case.machine)
+        on_parts = key_parts(standing, ORBITING_SCROLL, ring.height_m)
         spectra = [_spectra(case, keys, turning, forces, on_parts)]
+        if case.machine.has_table(Frame):  # the gas source turns the scroll against the keys
+            spectra[0][0][standing, 5] -= order_spectrum(turning.moment_n_m, case.maximum_order)
         figures = {
             "key_impacts_per_revolution": forces.impacts_per_revolution,
             "key_force_peak_n": float(forces.peak_n.max()),
         }
         first = order_spectrum(hung.force_n, 1)[1] if hung.force_n.size > 1 else 0.0j
         if hung.from_housing:
-            spectra[0][0][BEARING_HOUSING, [0, 4], 1] -= first * np.array([1.0, ring.height_m])
+            spectra[0][0][standing, [0, 4], 1] -= first * np.array([1.0, ring.height_m])
         if hung.inertial:
             omega = 2.0 * np.pi * case.shaft_frequency_hz
             carried = ring.mass_kg + first.real / (ring.stroke_m * omega**2)
@@ -124,6 +136,13 @@ class OldhamKeyForces(Source):
                 keys, *numbers, case.speed_rpm, ring.moment_n_m, ring.hung_n, self.revolutions
             ),
         )
+
+
+def _standing(machine: Machine) -> int:
+    """Part with the slots that stand."""
+    if machine.has_table(Frame) and machine.table(Frame).keys_on == "fixed-scroll":
+        return FIXED_SCROLL
+    return BEARING_HOUSING
 
 
 def _turning(case: Case) -> _Ring:

@@ -1,6 +1,6 @@
 """A machine file, with the values that a study or a redesign replaces."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +16,10 @@ from .wording import validated
 
 
 def read_machine(
-    path: Path, changes: Mapping[tuple[str, ...], Any], study: Reader
+    path: Path,
+    changes: Mapping[tuple[str, ...], Any],
+    study: Reader,
+    without: Iterable[str] = (),
 ) -> tuple[Machine, Reader]:
     """The machine of the file with the study's changes; every value of it needs a source.
 
@@ -26,8 +29,20 @@ def read_machine(
     changes : tables of values that replace the machine's, one after the other, by their place in
         the study
     study : reader of the study
+    without : tables of the file that are left out
+
+    Raises
+    ------
+    ParameterError
+        The file has no such table, or a value is refused.
     """
     content = read_toml(path)
+    for name in without:
+        if not isinstance(content.get(name), dict):
+            raise ParameterError(
+                f"{study.path}: machine.without = {name}: {path.name} has no such table"
+            )
+        del content[name]
     reader = Reader(path, {}, sources_required=True)
     reader.origin = dict.fromkeys(leaves(content), path)
     for prefix, change in changes.items():
@@ -58,10 +73,13 @@ def take_changes(content: Mapping[str, Any], path: Path) -> list[tuple[str, dict
 
 
 def read_redesign(
-    path: Path, changes: Mapping[tuple[str, ...], Any], study: Reader
+    path: Path,
+    changes: Mapping[tuple[str, ...], Any],
+    study: Reader,
+    without: Iterable[str],
 ) -> tuple[Machine, list[ParameterRecord]]:
     """The changed machine, and the records of the change, which is the last one."""
-    machine, reader = read_machine(path, changes, study)
+    machine, reader = read_machine(path, changes, study, without)
     prefix = list(changes)[-1]
     changed = {".".join(keys) for keys in leaves(changes[prefix])}
     dotted = ".".join(prefix)

@@ -75,6 +75,21 @@ class ShellPath:
         """Shape (mode,)."""
         return self.mass_factor * np.array([mode.modal_mass_kg for mode in self.modes])
 
+    def forces_of_parts(self) -> Array:
+        """Generalised force of each mode per load on a part that its joint hands on.
+
+        What turns the orbiting scroll presses the keys, which are a source.
+
+        Returns
+        -------
+        shape (mode, part, component, 1), the same at every frequency
+        """
+        forces = np.zeros((len(self.modes), len(PARTS), PART_COMPONENTS, 1))
+        for part, joint in enumerate(JOINT_OF_PART):
+            forces[:, part, JOINT_COMPONENTS, 0] = self.joint_forces[:, joint]
+        forces[:, ORBITING_SCROLL, 5] = 0.0
+        return forces
+
     def with_structure(self, structure: ShellStructure) -> "ShellPath":
         """The path with drawn values of joints and wall.
 
@@ -161,27 +176,15 @@ def _of_measured(modes: Sequence[SampledMode], joints: Sequence[Joint], radius_m
     return np.array([[mode.modal_forces(joint, radius_m) for joint in joints] for mode in modes])
 
 
-def joint_of_part() -> Array:
-    """Load on the joints per load on the parts, (joint, joint's component, part, component).
-
-    What turns the orbiting scroll presses the keys, which are a source.
-    """
-    share = np.zeros((len(JOINTS), len(JOINT_COMPONENTS), len(PARTS), PART_COMPONENTS))
-    for part, joint in enumerate(JOINT_OF_PART):
-        for row, component in enumerate(JOINT_COMPONENTS):
-            share[joint, row, part, component] = 1.0
-    share[:, 3, ORBITING_SCROLL] = 0.0
-    return share
-
-
 def pressure_per_load(
     path: ShellPath,
     pressure_per_velocity: ComplexArray,
     frequency_hz: Array,
     loss_factor_ratio: float,
     variation: ShellVariation,
+    forces: Array | ComplexArray,
 ) -> ComplexArray:
-    """Pressure per unit load on a part, shape (receiver, part, component, frequency).
+    """Pressure of the modes per unit load on a part, (receiver, part, component, frequency).
 
     Σ over the modes of transfer vector, velocity per force and force per load.
 
@@ -192,10 +195,11 @@ def pressure_per_load(
     frequency_hz : shape (frequency,)
     loss_factor_ratio : of the shell
     variation : how the real shell differs
+    forces : generalised, per load, shape (mode, part, component, frequency or 1)
     """
     natural_hz = variation.frequency_factor_ratio * path.natural_hz
     moving = velocity_per_force(natural_hz, path.modal_mass_kg, loss_factor_ratio, frequency_hz)
     sound = pressure_per_velocity * moving
     gain = amplitude_of_level(variation.mobility_change_db)
-    forces = np.einsum("mjc,jcpl->mpl", path.joint_forces, joint_of_part())
-    return np.asarray(gain * np.einsum("rmf,mpl->rplf", sound, forces, optimize=True))
+    each: ComplexArray = np.broadcast_to(forces, (*forces.shape[:-1], frequency_hz.size))
+    return np.asarray(gain * np.einsum("rmf,mplf->rplf", sound, each, optimize=True))

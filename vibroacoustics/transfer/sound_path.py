@@ -8,6 +8,7 @@ import numpy as np
 from ..base.arrays import Array, ComplexArray
 from ..machine.shell_structure import ShellVariation
 from ..mechanics.loads import Lines, Noise
+from .frame import FrameOnShell
 from .machine import MachineOnMounts
 from .path import ShellPath, pressure_per_load
 
@@ -23,14 +24,18 @@ class BendingShell:
     ----------
     path : modes and joints
     pressure_per_velocity : of the modes
+    rigid : pressure per velocity of the six rigid motions
     loss_factor_ratio : of the shell
     variation : how the real shell differs
+    frame : what the parts do to the shell; none where they hand their loads on as they are
     """
 
     path: ShellPath
     pressure_per_velocity: PressurePerVelocity
+    rigid: PressurePerVelocity
     loss_factor_ratio: float
     variation: ShellVariation
+    frame: FrameOnShell | None = None
     _known: dict[bytes, ComplexArray] = field(default_factory=dict, repr=False)
 
     def per_load(self, frequency_hz: Array) -> ComplexArray:
@@ -40,14 +45,23 @@ class BendingShell:
         """
         key = frequency_hz.tobytes()
         if key not in self._known:
-            self._known[key] = pressure_per_load(
-                self.path,
-                self.pressure_per_velocity(frequency_hz),
-                frequency_hz,
-                self.loss_factor_ratio,
-                self.variation,
-            )
+            self._known[key] = self._per_load(frequency_hz)
         return self._known[key]
+
+    def _per_load(self, frequency_hz: Array) -> ComplexArray:
+        forces = self.frame and self.frame.forces(frequency_hz)
+        pressure = pressure_per_load(
+            self.path,
+            self.pressure_per_velocity(frequency_hz),
+            frequency_hz,
+            self.loss_factor_ratio,
+            self.variation,
+            forces.on_modes if forces else self.path.forces_of_parts(),
+        )
+        if forces:
+            velocity = forces.rigid_velocity
+            pressure += np.einsum("rdf,dplf->rplf", self.rigid(frequency_hz), velocity)
+        return pressure
 
 
 @dataclass(frozen=True)
@@ -86,6 +100,8 @@ class SoundPath:
         if self.shell is None:
             raise ValueError("a random load on a part needs an elastic shell")
         frequency = noise.frequency_hz
+        if not noise.density.any():  # keys that do not strike
+            return np.zeros((1, frequency.size))
         per_load = self.shell.per_load(frequency)
         per_force = np.einsum("rpcf,pci->rif", per_load, noise.on_parts, optimize=True)
         density = np.einsum(

@@ -332,6 +332,7 @@ def noise_by_loops(results, study, keys):
             part.frequency_hz,
             machine.structure.loss_factor_ratio,
             machine.variation,
+            path.forces_of_parts(),
         )
         step = part.frequency_hz[1] - part.frequency_hz[0]
         for line in range(1, part.frequency_hz.size):

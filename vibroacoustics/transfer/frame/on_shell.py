@@ -119,16 +119,14 @@ def frame_on_shell(machine: Machine, path: ShellPath) -> FrameOnShell | None:
     Raises
     ------
     ParameterError
-        The parts weigh more than the machine, or a contact lies beyond the wall.
+        The modes are measured, the parts weigh more than the machine, or a contact lies beyond the
+        wall.
     """
     if not machine.has_table(Frame):
         return None
     frame, wall = machine.table(Frame), path.wall
     if wall is None:
-        raise ParameterError(
-            "shell_modes: measured modes do not hold the flexibility between the parts of the "
-            'frame; leave the frame out: machine.without = ["frame"]'
-        )
+        raise ParameterError("shell_modes: measured modes and a frame do not go together")
     contacts = contacts_of(frame, path.structure, wall.shell.meridian.wall_radius_m)
     shaft = free_scroll_shaft(machine.table(ScrollShaft), SHAFT_ELEMENT_M)
     inner = inner_set(frame, shaft, contacts)
