@@ -93,7 +93,9 @@ def test_keys_stand_on_the_part_that_the_machine_says(study):
 
 
 def test_frame_changes_the_sound_and_is_drawn(study):
-    results = run_made_up(study)
+    alone = {"sources": {"gas": study.sources["gas"]}, "options": {"none": study.options["none"]}}
+    operation = study.operation.model_copy(update={"stopping": False})
+    results = run_made_up(study.model_copy(update={**alone, "operation": operation}))
     names = set(results["drawn_parameter"].values.tolist())
     assert {"frame.bolts.lateral_stiffness_n_per_m", "shaft.bearing_stiffness_n_per_m"} <= names
     by_draw = results["source_level_by_draw"].sel(sound_source="gas", option="none")
