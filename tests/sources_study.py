@@ -6,7 +6,6 @@ from support import ROOT, made_up_transfer_vectors
 
 from vibroacoustics import pipeline
 from vibroacoustics.base.vocabulary import REFERENCE_OPTION, stamp
-from vibroacoustics.machine.shell_structure import JOINTS
 from vibroacoustics.machine.source import Case
 from vibroacoustics.mechanics.loads import Lines, Loads, lines_of
 from vibroacoustics.pipeline.shell import shell_path
@@ -51,7 +50,7 @@ def case_of(study: Study, option: str = REFERENCE_OPTION) -> Case:
 
 def all_lines(case: Case, loads: dict[str, Loads]) -> Lines:
     """The lines of all sources up to the highest frequency."""
-    return lines_of(loads, case.shaft_frequency_hz, case.maximum_order, len(JOINTS))
+    return lines_of(loads, case.shaft_frequency_hz, case.maximum_order)
 
 
 def with_tables(study: Study, **tables: dict[str, object]) -> Study:

@@ -37,15 +37,12 @@ class TwinOldham(Option):
         """
         ring = machine.require(OldhamRing)
         amplitude = self.stroke_ratio * ring.stroke_m
-        course = path(
-            -amplitude * np.cos(revolution.rotation.crank_angle),
-            0.0,
-            ring.height_m - self.distance_below_ring_m,
-        )
+        height_m = ring.height_m - self.distance_below_ring_m
+        course = path(-amplitude * np.cos(revolution.rotation.crank_angle), 0.0, height_m)
         return Added(
             (MovingPart("balancer", self.mass_kg, course),),
             {"added_mass_kg": self.mass_kg},
-            rings=(FurtherRing(self.mass_kg, amplitude),),
+            rings=(FurtherRing(self.mass_kg, amplitude, height_m),),
         )
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:

@@ -106,7 +106,7 @@ class Source(KindOfParameters):
     needs: ClassVar[type[Capability] | None] = None
     """What a machine must have for it beside the tables."""
     drives_shell: ClassVar[bool] = False
-    """Whether it loads the joints of an elastic shell."""
+    """Whether it loads parts in an elastic shell."""
     label: ClassVar[str] = ""
     """Plain words for it; its name in the study where there are none."""
     labels: ClassVar[Mapping[str, str]] = {}

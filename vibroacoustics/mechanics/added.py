@@ -35,10 +35,12 @@ class FurtherRing:
     ----------
     mass_kg : mass
     stroke_m : amplitude of its stroke
+    height_m : from the centre of mass at rest
     """
 
     mass_kg: float
     stroke_m: float
+    height_m: float
 
 
 @dataclass(frozen=True)

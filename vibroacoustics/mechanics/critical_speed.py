@@ -1,6 +1,6 @@
 """Critical speeds of a shaft in round bearings, and the thesis's estimate from a deflection."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Final
 
@@ -58,19 +58,51 @@ def forward_critical_speeds(rotor: RotorMatrices) -> Array:
     return np.asarray(1.0 / np.sqrt(inverse_squares[inverse_squares > rounding][::-1]))
 
 
-def scroll_shaft_rotor(shaft: ScrollShaft) -> RotorMatrices:
-    """Beam model of the scroll compressor's shaft on its two bearings."""
+@dataclass(frozen=True)
+class FreeShaft:
+    """The scroll compressor's shaft without its bearings and without what the pin carries.
+
+    Attributes
+    ----------
+    rotor : beam with the motor's rotor
+    heights_m : of the nodes above the lower bearing, the first's, shape (node,)
+    main_node, pin_node : at the main bearing and at the crank pin
+    bearing_stiffness_n_per_m : of each bearing
+    """
+
+    rotor: RotorMatrices
+    heights_m: Array
+    main_node: int
+    pin_node: int
+    bearing_stiffness_n_per_m: float
+
+
+def free_scroll_shaft(shaft: ScrollShaft, element_length_m: float = ELEMENT_LENGTH_M) -> FreeShaft:
+    """Beam model of the scroll compressor's shaft, free.
+
+    Parameters
+    ----------
+    shaft : sizes, rotor, bearings
+    element_length_m : at most
+    """
     slices = shaft.rotor_length_m * (np.arange(ROTOR_SLICES) + 0.5) / ROTOR_SLICES
     discs = shaft.rotor_height_m - 0.5 * shaft.rotor_length_m + slices
-    nodes = _nodes(np.array([0.0, *discs, shaft.main_bearing_height_m, shaft.length_m]))
+    fixed = np.array([0.0, *discs, shaft.main_bearing_height_m, shaft.length_m])
+    nodes = _nodes(fixed, element_length_m)
     section = Section(shaft.diameter_m, shaft.youngs_modulus_pa, shaft.density_kg_per_m3)
     rotor = assemble(section, nodes)
     mass, inertias = _slice_of_rotor(shaft)
     for height in discs:
         rotor = with_disc(rotor, _node_at(nodes, height), mass, *inertias)
-    rotor = with_disc(rotor, nodes.size - 1, shaft.pin_mass_kg, 0.0, 0.0)
-    bearings = np.array([0, _node_at(nodes, shaft.main_bearing_height_m)])
-    return on_bearings(rotor, bearings, shaft.bearing_stiffness_n_per_m)
+    main = _node_at(nodes, shaft.main_bearing_height_m)
+    return FreeShaft(rotor, nodes, main, nodes.size - 1, shaft.bearing_stiffness_n_per_m)
+
+
+def scroll_shaft_rotor(shaft: ScrollShaft) -> RotorMatrices:
+    """Beam model of the scroll compressor's shaft on its two bearings."""
+    free = free_scroll_shaft(shaft)
+    rotor = with_disc(free.rotor, free.pin_node, shaft.pin_mass_kg, 0.0, 0.0)
+    return on_bearings(rotor, np.array([0, free.main_node]), shaft.bearing_stiffness_n_per_m)
 
 
 def sag_under_weight_m(rotor: RotorMatrices) -> Array:
@@ -94,10 +126,10 @@ def _slice_of_rotor(shaft: ScrollShaft) -> tuple[float, tuple[float, float]]:
     return mass, (mass * (0.25 * squares + length**2 / 12.0), 0.5 * mass * squares)
 
 
-def _nodes(fixed: Array) -> Array:
+def _nodes(fixed: Array, element_length_m: float) -> Array:
     """Nodes at the given places and no farther apart than an element's length."""
     spans = [
-        np.linspace(start, end, int(np.ceil((end - start) / ELEMENT_LENGTH_M)), endpoint=False)
+        np.linspace(start, end, int(np.ceil((end - start) / element_length_m)), endpoint=False)
         for start, end in pairwise(fixed)
     ]
     return np.append(np.concatenate(spans), fixed[-1])

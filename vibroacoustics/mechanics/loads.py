@@ -1,15 +1,20 @@
-"""What a source does to the machine: on the rigid machine and on the joints of its shell."""
+"""What a source does to the machine: on the rigid machine and on the parts in its shell."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from typing import Final
 
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
 from .moving_parts import Wrench
 
-JOINT_COMPONENTS = 4
-"""Force along x, y, z and moment about z, on each joint of the shell."""
+PARTS: Final = ("fixed_scroll", "bearing_housing", "orbiting_scroll", "lower_bearing", "stator")
+"""Parts in the shell that sources load."""
+FIXED_SCROLL, BEARING_HOUSING, ORBITING_SCROLL, LOWER_BEARING, STATOR = range(len(PARTS))
+"""Their indices."""
+PART_COMPONENTS: Final = 6
+"""Force along x, y, z and moment about the centre of mass at rest, which lies on the axis."""
 
 
 @dataclass(frozen=True)
@@ -22,31 +27,29 @@ class Tone:
     frequency_hz : above zero
     rigid : force and moment on the rigid machine about its centre of mass, complex peaks, shape
         (6,), N and N m
-    joints : on the joints of the shell, shape (joint, component), N and N m
+    on_parts : on the parts in the shell, shape (part, component), N and N m
     figure : name of the reported figure of the largest force that it makes in a foot; none for none
     """
 
     name: str
     frequency_hz: float
     rigid: ComplexArray
-    joints: ComplexArray
+    on_parts: ComplexArray
     figure: str | None = None
 
 
 @dataclass(frozen=True)
 class Noise:
-    """What does not repeat with the revolution, on one joint.
+    """What does not repeat with the revolution.
 
     Attributes
     ----------
-    joint : index of the joint
-    components : indices of the loaded components, shape (loaded,)
+    on_parts : load on the parts per unit of each random force, shape (part, component, force)
     frequency_hz : shape (line,)
-    density : shape (loaded, loaded, line), N²/Hz, N² m/Hz and N² m²/Hz
+    density : of the random forces, shape (force, force, line), N²/Hz, N² m/Hz and N² m²/Hz
     """
 
-    joint: int
-    components: tuple[int, ...]
+    on_parts: Array
     frequency_hz: Array
     density: ComplexArray
 
@@ -59,7 +62,7 @@ class Loads:
     ----------
     wrenches : on the rigid machine over uniform crank angles, by what makes them
     rigid : further wrench on it by order from zero, complex peaks, shape (6, order), N and N m
-    joints : on the joints of the shell by order, shape (joint, component, order), N and N m
+    on_parts : on the parts in the shell by order, shape (part, component, order), N and N m
     tones : lines that are no orders
     noise : random loads
     shaft_torque_n_m : that the shaft needs, mean and complex peaks by order, shape (order,)
@@ -76,7 +79,7 @@ class Loads:
 
     wrenches: Mapping[str, Wrench] = field(default_factory=dict)
     rigid: ComplexArray | None = None
-    joints: ComplexArray | None = None
+    on_parts: ComplexArray | None = None
     tones: tuple[Tone, ...] = ()
     noise: tuple[Noise, ...] = ()
     shaft_torque_n_m: ComplexArray | None = None
@@ -92,16 +95,16 @@ class Lines:
     names : of the lines
     frequency_hz : shape (line,)
     rigid : wrench on the rigid machine by source but for what `wrenches` give, shape (6, line)
-    joints : on the joints of the shell by source, shape (joint, component, line)
+    on_parts : on the parts in the shell by source, shape (part, component, line)
     """
 
     names: tuple[str, ...]
     frequency_hz: Array
     rigid: Mapping[str, ComplexArray]
-    joints: Mapping[str, ComplexArray]
+    on_parts: Mapping[str, ComplexArray]
 
 
-def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int, joints: int) -> Lines:
+def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int) -> Lines:
     """Lay the loads of all sources on one axis of lines; every tone is a line of its own.
 
     Parameters
@@ -109,30 +112,29 @@ def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int, joints: 
     loads : by source
     shaft_hz : frequency of the first order
     highest : order
-    joints : number of joints of the shell
     """
     tones = [(source, tone) for source, given in loads.items() for tone in given.tones]
     orders, count = highest + 1, highest + 1 + len(tones)
-    rigid, on_joints = {}, {}
+    rigid, on_parts = {}, {}
     for source, given in loads.items():
         wrench = np.zeros((6, count), dtype=complex)
-        joint = np.zeros((joints, JOINT_COMPONENTS, count), dtype=complex)
+        parts = np.zeros((len(PARTS), PART_COMPONENTS, count), dtype=complex)
         if given.rigid is not None:
             held = min(orders, given.rigid.shape[-1])
             wrench[:, :held] = given.rigid[:, :held]
-        if given.joints is not None:
-            held = min(orders, given.joints.shape[-1])
-            joint[..., :held] = given.joints[..., :held]
+        if given.on_parts is not None:
+            held = min(orders, given.on_parts.shape[-1])
+            parts[..., :held] = given.on_parts[..., :held]
         for number, (maker, tone) in enumerate(tones, orders):
             if maker == source:
-                wrench[:, number], joint[..., number] = tone.rigid, tone.joints
-        rigid[source], on_joints[source] = wrench, joint
+                wrench[:, number], parts[..., number] = tone.rigid, tone.on_parts
+        rigid[source], on_parts[source] = wrench, parts
     frequency = [*(shaft_hz * np.arange(orders)), *(tone.frequency_hz for _, tone in tones)]
     names = (
         *(f"order {order}" for order in range(orders)),
         *(f"{source}: {tone.name}" for source, tone in tones),
     )
-    return Lines(names, np.array(frequency), rigid, on_joints)
+    return Lines(names, np.array(frequency), rigid, on_parts)
 
 
 def total_torque_n_m(loads: Iterable[Loads], highest: int) -> ComplexArray:

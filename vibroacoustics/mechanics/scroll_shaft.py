@@ -1,5 +1,7 @@
 """The scroll compressor's shaft as a rotor: section, bearings, motor rotor, overhung mass."""
 
+from math import pi
+
 from pydantic import Field, model_validator
 
 from ..base.parameters import Parameters
@@ -27,6 +29,12 @@ class ScrollShaft(Parameters):
     """With the counterweights; its stiffness is left out."""
     pin_mass_kg: float = Field(ge=0.0, le=100.0)
     """Scroll and brake as a point mass on the crank pin, as in the thesis's model."""
+
+    @property
+    def mass_kg(self) -> float:
+        """Of shaft and rotor."""
+        volume = 0.25 * pi * self.diameter_m**2 * self.length_m
+        return self.density_kg_per_m3 * volume + self.rotor_mass_kg
 
     @model_validator(mode="after")
     def _in_place(self) -> "ScrollShaft":

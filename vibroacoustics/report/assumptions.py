@@ -30,9 +30,9 @@ RIGID_SHELL: Final = (
 
 ELASTIC_SHELL: Final = (
     "Gas forces, Oldham keys and motor torque drive the modes of an elastic shell, which is empty: "
-    "machine, oil and gas inside are not in its modes, but for a range of their frequencies and "
-    "mobility. Bearing housing, fixed scroll and stator are rigid and touch the shell at welds "
-    "only; feet, tubes and terminal box are left out.",
+    "oil and gas inside are not in its modes, but for a range of their frequencies and mobility. "
+    "The parts inside are rigid and touch the shell at welds only; they load it through the "
+    "machine's frame where its file has one. Feet, tubes and terminal box are left out.",
     "Contact of the wraps' flanks and tips, noise of the bearings, magnetic forces of the motor "
     "other than its torque, the flow through the discharge port and sound in the gas of the shell "
     "are not modelled; they are part of the remainder.",

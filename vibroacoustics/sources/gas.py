@@ -6,13 +6,14 @@ from typing import ClassVar, Final
 from ..base.curves import Curve
 from ..base.parameters import Parameters
 from ..base.registry import register
+from ..machine.frame import Frame
 from ..machine.machine import Machine
 from ..machine.source import Case, Shared, Source
 from ..mechanics.capabilities import Capability, OldhamRing
 from ..mechanics.loads import Loads
 from ..mechanics.rotation import uniform_crank_angle
 from ..orders import order_spectrum
-from .joint_loads import gas_loads
+from .part_loads import gas_loads
 from .scroll_gas.curves import scroll_gas_curves
 from .scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
 from .scroll_gas.opened_gas import OpenedGas
@@ -28,7 +29,7 @@ ORBIT_TOLERANCE: Final = 0.01
 
 @register
 class ScrollGasForces(Source):
-    """Pressure in the pockets, on fixed scroll and bearing housing."""
+    """Pressure in the pockets, on the two scrolls."""
 
     kind: ClassVar[str] = "scroll-gas"
     position: ClassVar[float] = 1.0
@@ -58,11 +59,12 @@ class ScrollGasForces(Source):
         )
 
     def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
-        """Orders of the gas forces on the joints, and the torque that the shaft needs."""
+        """Orders of the gas forces on the scrolls, and the torque that the shaft needs."""
         cycle = gas_cycle(case.machine, case.shared, case.speed_rpm)
         highest = case.maximum_order
+        on_parts = gas_loads(cycle, *_of_frame(case.machine))
         return Loads(
-            joints=order_spectrum(gas_loads(cycle), highest),
+            on_parts=order_spectrum(on_parts, highest),
             shaft_torque_n_m=order_spectrum(cycle.torque_n_m, highest),
         )
 
@@ -70,6 +72,14 @@ class ScrollGasForces(Source):
         """Pressure of a pocket, forces and torque; see `scroll_gas_curves`."""
         machine, opened = case.machine, opened_gas(case.machine, case.speed_rpm)
         return scroll_gas_curves(machine.table(ScrollWraps), machine.table(ScrollGas), opened)
+
+
+def _of_frame(machine: Machine) -> tuple[float, bool]:
+    """Height of the wraps, and whether the flanks take the radial force."""
+    if not machine.has_table(Frame):
+        return 0.0, False
+    frame = machine.table(Frame)
+    return frame.wraps_height_m, frame.radially_compliant
 
 
 def gas_cycle(machine: Machine, shared: Shared, speed_rpm: float) -> ScrollGasCycle:

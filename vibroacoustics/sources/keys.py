@@ -11,24 +11,29 @@ from ..base.arrays import Array, ComplexArray
 from ..base.curves import Curve
 from ..base.parameters import Parameters
 from ..base.registry import register
+from ..machine.frame import Frame
 from ..machine.machine import Machine
-from ..machine.shell_structure import BEARING_HOUSING, JOINTS, STATOR
 from ..machine.source import Case, Source
 from ..mechanics.added import FurtherRing, RingForce
 from ..mechanics.capabilities import Capability, OldhamRing
-from ..mechanics.loads import JOINT_COMPONENTS, Loads, Noise
+from ..mechanics.loads import (
+    BEARING_HOUSING,
+    FIXED_SCROLL,
+    LOWER_BEARING,
+    ORBITING_SCROLL,
+    Loads,
+    Noise,
+)
 from ..orders import order_spectrum
 from .gas import gas_cycle, gas_tables
-from .joint_loads import key_loads, key_torque_n_m
 from .oldham_keys.contact_loss import contact_loss_speed_rpm
 from .oldham_keys.curves import oldham_key_curves
 from .oldham_keys.parameters import OldhamKeys
 from .oldham_keys.rattle import KeyForces, steady_key_forces
 from .oldham_keys.spectra import spectral_density, split_periodic
+from .part_loads import key_parts, key_resultants, key_torque_n_m
 from .scroll_gas.parameters import ScrollGas, ScrollWraps
 
-KEY_COMPONENTS: Final = (0, 1, 3)
-"""Components that the keys load: along x and y, about z."""
 NOTHING_HUNG: Final = RingForce(np.zeros(1))
 """Force on a ring that carries nothing."""
 
@@ -44,7 +49,7 @@ class _Ring:
 
 
 _Spectra = tuple[ComplexArray, ComplexArray, Noise]
-"""Orders of the load on the joints and of the shaft's torque, and the load's noise."""
+"""Orders of the load on the parts and of the shaft's torque, and the load's noise."""
 
 
 @register
@@ -75,19 +80,23 @@ class OldhamKeyForces(Source):
         return {"keys": OldhamKeys, **gas_tables(machine)}
 
     def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
-        """Loads of the ring's keys on the bearing housing, of further rings' on the stator."""
+        """Loads of the keys on housing and scroll, of a second ring's on the lower bearing."""
         ring, keys = case.machine.require(OldhamRing), case.machine.table(OldhamKeys)
         turning, hung = _turning(case), case.added.on_ring or NOTHING_HUNG
         moment = turning.moment_n_m
         forces = self._forces(case, turning)
-        spectra = [_spectra(case, keys, turning, forces, BEARING_HOUSING, 1.0)]
+        standing = _standing(case.machine)
+        on_parts = key_parts(standing, ORBITING_SCROLL, ring.height_m)
+        spectra = [_spectra(case, keys, turning, forces, on_parts)]
+        if case.machine.has_table(Frame):  # the gas source turns the scroll against the keys
+            spectra[0][0][standing, 5] -= order_spectrum(turning.moment_n_m, case.maximum_order)
         figures = {
             "key_impacts_per_revolution": forces.impacts_per_revolution,
             "key_force_peak_n": float(forces.peak_n.max()),
         }
         first = order_spectrum(hung.force_n, 1)[1] if hung.force_n.size > 1 else 0.0j
         if hung.from_housing:
-            spectra[0][0][BEARING_HOUSING, 0, 1] -= first
+            spectra[0][0][standing, [0, 4], 1] -= first * np.array([1.0, ring.height_m])
         if hung.inertial:
             omega = 2.0 * np.pi * case.shaft_frequency_hz
             carried = ring.mass_kg + first.real / (ring.stroke_m * omega**2)
@@ -97,9 +106,9 @@ class OldhamKeyForces(Source):
             twin, seen = self._further(case, further)
             spectra.append(twin)
             figures |= seen
-        joints, torques, noise = zip(*spectra, strict=True)
+        of_rings, torques, noise = zip(*spectra, strict=True)
         return Loads(
-            joints=np.sum(joints, axis=0),
+            on_parts=np.sum(of_rings, axis=0),
             shaft_torque_n_m=np.sum(torques, axis=0),
             noise=noise,
             figures=figures,
@@ -114,8 +123,10 @@ class OldhamKeyForces(Source):
         """Spectra and figures of the keys of a second ring, which no gas presses."""
         free = _Ring(ring.mass_kg, ring.stroke_m, np.zeros(1), np.zeros(1))
         forces, keys = self._forces(case, free), case.machine.table(OldhamKeys)
+        on_parts = key_parts(LOWER_BEARING, LOWER_BEARING, ring.height_m)
         # In opposite phase: all is turned by half a turn about the shaft.
-        return _spectra(case, keys, free, forces, STATOR, -1.0), {
+        on_parts[:, :5] *= -1.0
+        return _spectra(case, keys, free, forces, on_parts), {
             "twin_key_impacts_per_revolution": forces.impacts_per_revolution,
             "twin_key_force_peak_n": float(forces.peak_n.max()),
         }
@@ -132,6 +143,13 @@ class OldhamKeyForces(Source):
         )
 
 
+def _standing(machine: Machine) -> int:
+    """Part with the slots that stand."""
+    if machine.has_table(Frame) and machine.table(Frame).keys_on == "fixed-scroll":
+        return FIXED_SCROLL
+    return BEARING_HOUSING
+
+
 def _turning(case: Case) -> _Ring:
     """The machine's ring with the gas moment that presses its keys and what hangs on it."""
     ring = case.machine.require(OldhamRing)
@@ -140,28 +158,25 @@ def _turning(case: Case) -> _Ring:
 
 
 def _spectra(
-    case: Case, keys: OldhamKeys, ring: _Ring, forces: KeyForces, joint: int, sense: float
+    case: Case, keys: OldhamKeys, ring: _Ring, forces: KeyForces, on_parts: Array
 ) -> _Spectra:
-    """Orders of the load on the joints and of the shaft's torque, and the load's noise.
+    """Orders of the load on the parts and of the shaft's torque, and the load's noise.
 
     Parameters
     ----------
     case : for the highest frequency
     keys, ring : that made the forces
     forces : of all four keys
-    joint : that they load
-    sense : -1 for a ring in opposite phase
+    on_parts : load on the parts per unit of each resultant
     """
     highest = case.maximum_order
-    load = key_loads(forces, keys.radius_m, ring.stroke_m)
-    load[:2] *= sense
-    mean, rest = split_periodic(load, forces.revolutions)
-    orders = np.zeros((len(JOINTS), JOINT_COMPONENTS, highest + 1), dtype=complex)
-    orders[joint, KEY_COMPONENTS] = order_spectrum(mean, highest)
+    resultants = key_resultants(forces, keys.radius_m, ring.stroke_m)
+    mean, rest = split_periodic(resultants, forces.revolutions)
     torque_n_m = key_torque_n_m(forces, ring.stroke_m)
     torque = order_spectrum(split_periodic(torque_n_m, forces.revolutions)[0], highest)
     torque[0] = 0.0  # all friction is left out of the mean
     block = 2 * mean.shape[-1] if forces.revolutions > 1 else mean.shape[-1]
     frequency, density = spectral_density(rest, forces.sample_rate_hz, block)
     kept = frequency <= case.maximum_frequency_hz
-    return orders, torque, Noise(joint, KEY_COMPONENTS, frequency[kept], density[..., kept])
+    noise = Noise(on_parts, frequency[kept], density[..., kept])
+    return on_parts @ order_spectrum(mean, highest), torque, noise

@@ -14,7 +14,7 @@ from ..mechanics.loads import Loads, Tone, total_torque_n_m
 from .induction_motor.parameters import CapacitorMotor, TurningRotor
 from .induction_motor.supply import on_supply, supply_frequency_hz
 from .induction_motor.torque_lines import TorqueLine, TorqueLines, torque_lines
-from .joint_loads import stator_loads
+from .part_loads import stator_loads
 
 TWICE_LINE: Final = "2 x line"
 TWICE_LINE_FIGURE: Final = "foot_force_2x_line_n"
@@ -45,9 +45,10 @@ class TorqueRipple(_MotorTorque):
 
     def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
         """Torque on the stator and roll moment of the rotor's swing, by order."""
-        joints, roll = stator_loads(_balance(case, before).shaft)
+        on_parts, roll = stator_loads(_balance(case, before).shaft)
         return Loads(
-            rigid=_about_z(np.pad(roll, (1, 0))), joints=np.pad(joints, ((0, 0), (0, 0), (1, 0)))
+            rigid=_about_z(np.pad(roll, (1, 0))),
+            on_parts=np.pad(on_parts, ((0, 0), (0, 0), (1, 0))),
         )
 
 
@@ -74,9 +75,9 @@ class MotorPulsation(_MotorTorque):
 
 
 def _tone(line: TorqueLine) -> Tone:
-    joints, roll = stator_loads([line])
+    on_parts, roll = stator_loads([line])
     figure = TWICE_LINE_FIGURE if line.name == TWICE_LINE else None
-    return Tone(line.name, line.frequency_hz, _about_z(roll)[:, 0], joints[..., 0], figure)
+    return Tone(line.name, line.frequency_hz, _about_z(roll)[:, 0], on_parts[..., 0], figure)
 
 
 def _about_z(moment: ComplexArray) -> ComplexArray:

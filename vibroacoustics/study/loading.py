@@ -59,18 +59,20 @@ def study_of(written: Written) -> Study:
     """
     path, content = written.path, deepcopy(written.content)
     reader = Reader(path, written.origin)
-    machine_file, overrides = _machine_table(content, reader)
+    machine_file, overrides, without = _machine_table(content, reader)
     changes: dict[tuple[str, ...], Any] = {("machine", "override"): overrides}
     points = operating_points(machine_file)
     point = _point_named(content, ("operation", "point"), points, reader)
-    machine, machine_reader = read_machine(machine_file, changes, reader, point)
+    machine, machine_reader = read_machine(machine_file, changes, reader, point, without)
     machine_records = machine_reader.records
     catalogue_point = _point_named(content, ("catalogue_point",), points, reader)
     at_catalogue = None
     if catalogue_point not in (None, point):
-        at_catalogue, _ = read_machine(machine_file, changes, reader, catalogue_point)
+        at_catalogue, _ = read_machine(machine_file, changes, reader, catalogue_point, without)
     redesigns = {
-        name: read_redesign(machine_file, {**changes, change_of(name): change}, reader, point)
+        name: read_redesign(
+            machine_file, {**changes, change_of(name): change}, reader, point, without
+        )
         for name, change in take_changes(content, path)
     }
     _read_published(content, reader)
@@ -129,17 +131,19 @@ _FILLED_IN: Final = (
 """Here, not by a file."""
 
 
-def _machine_table(content: dict[str, Any], reader: Reader) -> tuple[Path, Any]:
-    """Take the table `machine` out of a study: the machine's file, and the values it replaces."""
+def _machine_table(content: dict[str, Any], reader: Reader) -> tuple[Path, Any, list[str]]:
+    """Take the table `machine` out of a study: its file, values it replaces, tables left out."""
     path = reader.path
     table = content.pop("machine", None)
     if not isinstance(table, dict) or not isinstance(table.get("file"), str):
         raise ParameterError(f"{path}: machine.file = missing: name the machine's TOML file")
     file = beside(reader.file(("machine", "file")), table.pop("file"))
-    overrides = table.pop("override", {})
+    overrides, without = table.pop("override", {}), table.pop("without", [])
     if table:
         raise ParameterError(f"{path}: machine.{next(iter(table))}: unknown key")
-    return file, overrides
+    if not isinstance(without, list) or not all(isinstance(name, str) for name in without):
+        raise ParameterError(f"{path}: machine.without = {without!r}: must be a list of tables")
+    return file, overrides, without
 
 
 def _point_named(

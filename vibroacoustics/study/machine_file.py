@@ -1,6 +1,6 @@
 """A machine file, with the values that a study or a redesign replaces."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, Final
 
@@ -23,6 +23,7 @@ def read_machine(
     changes: Mapping[tuple[str, ...], Any],
     study: Reader,
     point: str | None = None,
+    without: Iterable[str] = (),
 ) -> tuple[Machine, Reader]:
     """The machine of the file with the study's changes; every value of it needs a source.
 
@@ -33,8 +34,20 @@ def read_machine(
         the study
     study : reader of the study
     point : one of the file's operating points; its values replace the machine's before the changes
+    without : tables of the file that are left out
+
+    Raises
+    ------
+    ParameterError
+        The file has no such table, or a value is refused.
     """
     content = read_toml(path)
+    for name in without:
+        if not isinstance(content.get(name), dict):
+            raise ParameterError(
+                f"{study.path}: machine.without = {name}: {path.name} has no such table"
+            )
+        del content[name]
     reader = Reader(path, {}, sources_required=True)
     points = _taken_points(content, path)
     reader.origin = dict.fromkeys(leaves(content), path)
@@ -81,10 +94,14 @@ def take_changes(content: Mapping[str, Any], path: Path) -> list[tuple[str, dict
 
 
 def read_redesign(
-    path: Path, changes: Mapping[tuple[str, ...], Any], study: Reader, point: str | None = None
+    path: Path,
+    changes: Mapping[tuple[str, ...], Any],
+    study: Reader,
+    point: str | None = None,
+    without: Iterable[str] = (),
 ) -> tuple[Machine, list[ParameterRecord]]:
     """The changed machine, and the records of the change, which is the last one."""
-    machine, reader = read_machine(path, changes, study, point)
+    machine, reader = read_machine(path, changes, study, point, without)
     prefix = list(changes)[-1]
     changed = {".".join(keys) for keys in leaves(changes[prefix])}
     dotted = ".".join(prefix)

@@ -7,6 +7,7 @@ from pydantic import ValidationError
 
 from ..base.parameters import Held, Parameters
 from ..base.units import si_key
+from ..machine.frame import Frame
 from ..machine.machine import Machine
 from ..machine.shell_structure import ShellStructure
 from ..machine.source import Source
@@ -29,10 +30,16 @@ def tables_used(content: Mapping[str, Any], machine: Machine) -> set[str]:
     sources, operation = _sources(content), content.get("operation")
     used = {name for source in sources for name in source.tables_read(machine)}
     if any(source.drives_shell for source in sources):
-        used |= {"structure", "variation"}
+        used |= {"structure", "variation"} | _frame_tables(content.get("machine"))
     if isinstance(operation, dict) and operation.get("stopping"):
         used |= {"stopping"}
     return used
+
+
+def _frame_tables(machine: Any) -> set[str]:
+    """Tables of the frame as load path, where the machine has one."""
+    framed = isinstance(machine, Machine) and machine.has_table(Frame)
+    return {"frame", "shaft"} if framed else set()
 
 
 def is_used(record: ParameterRecord, machine: Machine, used: set[str]) -> bool:

@@ -9,6 +9,7 @@ from ..base.errors import ParameterError
 from ..base.parameters import Parameters
 from ..base.units import orders_below, shaft_frequency_hz
 from ..base.vocabulary import REFERENCE_OPTION
+from ..machine.frame import Frame
 from ..machine.machine import AnyMachine
 from ..machine.option import AnyOption, Option
 from ..machine.shell_structure import ShellStructure, ShellVariation
@@ -247,6 +248,11 @@ class Study(Parameters):
         if self.drives_shell and not bends:
             raise ValueError(
                 "sources: drive an elastic shell; the machine has no tables structure and variation"
+            )
+        if self.drives_shell and self.shell_modes is not None and self.machine.has_table(Frame):
+            raise ValueError(
+                "shell_modes: measured modes do not hold the wall's flexibility at the welds of a "
+                'frame; leave it out: machine.without = ["frame"]'
             )
         if self.operation.stopping and not self.machine.has_table(Stopping):
             raise ValueError("operation.stopping: the machine has no table stopping")

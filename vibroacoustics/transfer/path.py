@@ -10,7 +10,16 @@ import numpy as np
 from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.decibel import amplitude_of_level
 from ..machine.shell import Shell
-from ..machine.shell_structure import JOINTS, Joint, ShellStructure, ShellVariation
+from ..machine.shell_structure import (
+    BEARING_HOUSING,
+    FIXED_SCROLL,
+    JOINTS,
+    STATOR,
+    Joint,
+    ShellStructure,
+    ShellVariation,
+)
+from ..mechanics.loads import ORBITING_SCROLL, PART_COMPONENTS, PARTS
 from .shell_modes import (
     ElasticShell,
     JointLoads,
@@ -22,6 +31,11 @@ from .shell_modes import (
 )
 from .shell_modes.projection import ProjectedModes, least_frequency_factor
 
+JOINT_OF_PART: Final = (FIXED_SCROLL, BEARING_HOUSING, BEARING_HOUSING, STATOR, STATOR)
+"""Where each of the parts hands its load on to a shell without a frame: the orbiting scroll through
+pin and main bearing, a second ring below through the motor's stator."""
+JOINT_COMPONENTS: Final = (0, 1, 2, 5)
+"""Of a part's load: force along x, y, z and moment about z."""
 MODES_BEYOND: Final = 1.1
 """Modes up to this many times the highest frequency take part."""
 
@@ -60,6 +74,21 @@ class ShellPath:
     def modal_mass_kg(self) -> Array:
         """Shape (mode,)."""
         return self.mass_factor * np.array([mode.modal_mass_kg for mode in self.modes])
+
+    def forces_of_parts(self) -> Array:
+        """Generalised force of each mode per load on a part that its joint hands on.
+
+        What turns the orbiting scroll presses the keys, which are a source.
+
+        Returns
+        -------
+        shape (mode, part, component, 1), the same at every frequency
+        """
+        forces = np.zeros((len(self.modes), len(PARTS), PART_COMPONENTS, 1))
+        for part, joint in enumerate(JOINT_OF_PART):
+            forces[:, part, JOINT_COMPONENTS, 0] = self.joint_forces[:, joint]
+        forces[:, ORBITING_SCROLL, 5] = 0.0
+        return forces
 
     def with_structure(self, structure: ShellStructure) -> "ShellPath":
         """The path with drawn values of joints and wall.
@@ -153,8 +182,9 @@ def pressure_per_load(
     frequency_hz: Array,
     loss_factor_ratio: float,
     variation: ShellVariation,
+    forces: Array | ComplexArray,
 ) -> ComplexArray:
-    """Pressure per unit load on a joint, shape (receiver, joint, component, frequency).
+    """Pressure of the modes per unit load on a part, (receiver, part, component, frequency).
 
     Σ over the modes of transfer vector, velocity per force and force per load.
 
@@ -165,9 +195,11 @@ def pressure_per_load(
     frequency_hz : shape (frequency,)
     loss_factor_ratio : of the shell
     variation : how the real shell differs
+    forces : generalised, per load, shape (mode, part, component, frequency or 1)
     """
     natural_hz = variation.frequency_factor_ratio * path.natural_hz
     moving = velocity_per_force(natural_hz, path.modal_mass_kg, loss_factor_ratio, frequency_hz)
     sound = pressure_per_velocity * moving
     gain = amplitude_of_level(variation.mobility_change_db)
-    return np.asarray(gain * np.einsum("rmf,mjc->rjcf", sound, path.joint_forces, optimize=True))
+    each: ComplexArray = np.broadcast_to(forces, (*forces.shape[:-1], frequency_hz.size))
+    return np.asarray(gain * np.einsum("rmf,mplf->rplf", sound, each, optimize=True))

@@ -8,11 +8,12 @@ import xarray as xr
 
 from ..base.arrays import ComplexArray
 from ..machine.machine import Machine
-from ..machine.shell_structure import JOINTS, ShellStructure, ShellVariation
+from ..machine.shell_structure import ShellStructure, ShellVariation
 from ..machine.source import Case, CaseKey
 from ..mechanics.loads import Lines, Loads, lines_of
 from ..mechanics.received_sound import NoisePower, ReceivedSound
 from ..study.study import Study
+from .frame import frame_on_shell
 from .machine import on_mounts
 from .path import ShellPath
 from .sound_path import BendingShell, PressurePerVelocity, SoundPath
@@ -66,7 +67,9 @@ class Transmission:
             return None
         structure, variation = machine.table(ShellStructure), machine.table(ShellVariation)
         shell = self.shell.with_structure(structure)
-        return BendingShell(shell, self.modes, structure.loss_factor_ratio, variation)
+        frame = frame_on_shell(machine, shell)
+        loss = structure.loss_factor_ratio
+        return BendingShell(shell, self.modes, self.rigid, loss, variation, frame)
 
     def _of_case(
         self, case: Case, loads: Mapping[str, Loads], of_wrenches: BySource, path: SoundPath
@@ -92,7 +95,7 @@ class Transmission:
         highest = orders - 1
         if self.study.drives_shell:
             highest = max(highest, case.maximum_order)
-        return lines_of(loads, case.shaft_frequency_hz, highest, len(JOINTS))
+        return lines_of(loads, case.shaft_frequency_hz, highest)
 
 
 def by_case_and_source(

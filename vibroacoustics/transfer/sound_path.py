@@ -8,6 +8,7 @@ import numpy as np
 from ..base.arrays import Array, ComplexArray
 from ..machine.shell_structure import ShellVariation
 from ..mechanics.loads import Lines, Noise
+from .frame import FrameOnShell
 from .machine import MachineOnMounts
 from .path import ShellPath, pressure_per_load
 
@@ -23,31 +24,44 @@ class BendingShell:
     ----------
     path : modes and joints
     pressure_per_velocity : of the modes
+    rigid : pressure per velocity of the six rigid motions
     loss_factor_ratio : of the shell
     variation : how the real shell differs
+    frame : what the parts do to the shell; none where they hand their loads on as they are
     """
 
     path: ShellPath
     pressure_per_velocity: PressurePerVelocity
+    rigid: PressurePerVelocity
     loss_factor_ratio: float
     variation: ShellVariation
+    frame: FrameOnShell | None = None
     _known: dict[bytes, ComplexArray] = field(default_factory=dict, repr=False)
 
     def per_load(self, frequency_hz: Array) -> ComplexArray:
-        """Pressure per load on a joint, (receiver, joint, component, frequency).
+        """Pressure per load on a part, (receiver, part, component, frequency).
 
         Kept, as cases share their frequencies.
         """
         key = frequency_hz.tobytes()
         if key not in self._known:
-            self._known[key] = pressure_per_load(
-                self.path,
-                self.pressure_per_velocity(frequency_hz),
-                frequency_hz,
-                self.loss_factor_ratio,
-                self.variation,
-            )
+            self._known[key] = self._per_load(frequency_hz)
         return self._known[key]
+
+    def _per_load(self, frequency_hz: Array) -> ComplexArray:
+        forces = self.frame and self.frame.forces(frequency_hz)
+        pressure = pressure_per_load(
+            self.path,
+            self.pressure_per_velocity(frequency_hz),
+            frequency_hz,
+            self.loss_factor_ratio,
+            self.variation,
+            forces.on_modes if forces else self.path.forces_of_parts(),
+        )
+        if forces:
+            velocity = forces.rigid_velocity
+            pressure += np.einsum("rdf,dplf->rplf", self.rigid(frequency_hz), velocity)
+        return pressure
 
 
 @dataclass(frozen=True)
@@ -71,23 +85,26 @@ class SoundPath:
         return {source: self._of_source(body, lines, source) for source in lines.rigid}
 
     def _of_source(self, body: MachineOnMounts, lines: Lines, source: str) -> ComplexArray:
-        frequency, wrench, joints = lines.frequency_hz, lines.rigid[source], lines.joints[source]
+        frequency, wrench, parts = lines.frequency_hz, lines.rigid[source], lines.on_parts[source]
         pressure = np.zeros((1, frequency.size), dtype=complex)
         if wrench.any():
             velocity = body.response(wrench.T, frequency).velocity
             pressure = pressure + np.einsum("rdf,fd->rf", self.rigid(frequency), velocity)
-        if self.shell is not None and joints.any():
+        if self.shell is not None and parts.any():
             per_load = self.shell.per_load(frequency)
-            pressure = pressure + np.einsum("rjcf,jcf->rf", per_load, joints, optimize=True)
+            pressure = pressure + np.einsum("rpcf,pcf->rf", per_load, parts, optimize=True)
         return pressure
 
     def noise_power(self, noise: Noise) -> Array:
         """Mean square of the pressure that a random load makes, (receiver, frequency), Pa²."""
         if self.shell is None:
-            raise ValueError("a random load on a joint needs an elastic shell")
+            raise ValueError("a random load on a part needs an elastic shell")
         frequency = noise.frequency_hz
-        per_load = self.shell.per_load(frequency)[:, noise.joint][:, noise.components]
+        if not noise.density.any():  # keys that do not strike
+            return np.zeros((1, frequency.size))
+        per_load = self.shell.per_load(frequency)
+        per_force = np.einsum("rpcf,pci->rif", per_load, noise.on_parts, optimize=True)
         density = np.einsum(
-            "rif,ijf,rjf->rf", per_load.conj(), noise.density, per_load, optimize=True
+            "rif,ijf,rjf->rf", per_force.conj(), noise.density, per_force, optimize=True
         ).real
         return np.asarray(density * (frequency[1] - frequency[0]))

@@ -22,14 +22,20 @@ from vibroacoustics import levels
 from vibroacoustics.base.constants import REFERENCE_PRESSURE_PA
 from vibroacoustics.base.errors import ParameterError, SolverError
 from vibroacoustics.levels.by_source import SourceSound, filled_thirds, source_sound
-from vibroacoustics.machine.shell_structure import (
+from vibroacoustics.machine.shell_structure import BEARING_HOUSING as HOUSING_JOINT
+from vibroacoustics.machine.shell_structure import FIXED_SCROLL as SCROLL_JOINT
+from vibroacoustics.machine.shell_structure import STATOR as STATOR_JOINT
+from vibroacoustics.mechanics.added import RingForce
+from vibroacoustics.mechanics.loads import (
     BEARING_HOUSING,
     FIXED_SCROLL,
-    JOINTS,
+    LOWER_BEARING,
+    ORBITING_SCROLL,
+    PARTS,
     STATOR,
+    Noise,
+    total_torque_n_m,
 )
-from vibroacoustics.mechanics.added import RingForce
-from vibroacoustics.mechanics.loads import Noise, total_torque_n_m
 from vibroacoustics.mechanics.received_sound import NoisePower
 from vibroacoustics.radiation.pressure import pressure_per_velocity, wrench_pressure
 from vibroacoustics.radiation.scene import machine_body
@@ -37,10 +43,10 @@ from vibroacoustics.sources.cases import cases_of, loaded_cases, loads_of
 from vibroacoustics.sources.induction_motor.parameters import CapacitorMotor
 from vibroacoustics.sources.induction_motor.revolving_fields import point_at_torque
 from vibroacoustics.sources.induction_motor.supply import on_supply
-from vibroacoustics.sources.joint_loads import key_torque_n_m
-from vibroacoustics.sources.keys import KEY_COMPONENTS, OldhamKeyForces
+from vibroacoustics.sources.keys import OldhamKeyForces
 from vibroacoustics.sources.oldham_keys.rattle import steady_key_forces
 from vibroacoustics.sources.oldham_keys.spectra import spectral_density
+from vibroacoustics.sources.part_loads import key_torque_n_m
 from vibroacoustics.study.draws import latin_hypercubes, with_draw
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.uncertainty import MeasuredModes, Range
@@ -74,6 +80,22 @@ def lines_with(study, option):
     return all_lines(case, loads_of(study, case))
 
 
+def to_joints(on_parts):
+    """Loads on the joints of a shell without a frame, one part after another."""
+    joints = np.zeros((3, 4, on_parts.shape[-1]), dtype=complex)
+    for part, joint in (
+        (FIXED_SCROLL, SCROLL_JOINT),
+        (BEARING_HOUSING, HOUSING_JOINT),
+        (ORBITING_SCROLL, HOUSING_JOINT),
+        (LOWER_BEARING, STATOR_JOINT),
+        (STATOR, STATOR_JOINT),
+    ):
+        joints[joint, :3] += on_parts[part, :3]
+        if part != ORBITING_SCROLL:  # what turns it presses the keys
+            joints[joint, 3] += on_parts[part, 5]
+    return joints
+
+
 @pytest.fixture
 def pressed_by(monkeypatch):
     """Sets the gas moment on the scroll, over uniform crank angles."""
@@ -88,10 +110,10 @@ def pressed_by(monkeypatch):
 # --- balance of the loads ------------------------------------------------------------------------
 
 
-def test_gas_pulls_at_the_two_joints_with_equal_and_opposite_forces(study):
-    load = loads_with(study, "none")["gas"].joints
-    assert np.all(load[FIXED_SCROLL, :3] == -load[BEARING_HOUSING, :3])
-    assert np.all(load[STATOR] == 0.0)
+def test_gas_pulls_at_the_two_scrolls_with_equal_and_opposite_forces(study):
+    load = loads_with(study, "none")["gas"].on_parts
+    assert np.all(load[FIXED_SCROLL, :3] == -load[ORBITING_SCROLL, :3])
+    assert not load[[BEARING_HOUSING, LOWER_BEARING, STATOR]].any()
     assert np.min(np.abs(load[FIXED_SCROLL, :3, 1])) > 10.0
 
 
@@ -110,7 +132,7 @@ def test_moments_about_the_shaft_add_up_to_the_rotors_momentum(study, option, fr
     lines, figures = all_lines(case, loads), loads["keys"].figures
     assert figures["key_impacts_per_revolution"] == 0.0
     order = np.arange(1, 9)
-    moment = sum(joints[:, 3].sum(axis=0) for joints in lines.joints.values())
+    moment = sum(to_joints(parts)[:, 3].sum(axis=0) for parts in lines.on_parts.values())
     momentum = sum(rigid[5] for rigid in lines.rigid.values())
     depth = (figures["key_force_peak_n"] / keys.contact_stiffness_n_per_m1p5) ** (2.0 / 3.0)
     turn = 2.0 * depth / keys.radius_m
@@ -152,13 +174,14 @@ def test_keys_push_the_machine_with_the_rings_inertia(study):
     inertia = study.machine.oldham.mass_kg * study.machine.kinematics.orbit_radius_m * omega**2
     push = {}
     for option in ("none", "damping", "twin-oldham"):
-        load = loads_with(study, option)["keys"].joints
+        load = loads_with(study, option)["keys"].on_parts
         push[option] = load[:, 0, 1]
-        assert np.all(load[FIXED_SCROLL] == 0.0)
-        assert np.any(load[STATOR] != 0.0) == (option == "twin-oldham")
+        assert not load[[FIXED_SCROLL, STATOR]].any()
+        assert load[LOWER_BEARING].any() == (option == "twin-oldham")
+    upper = [BEARING_HOUSING, ORBITING_SCROLL]
     for option in ("none", "damping"):
-        assert push[option][BEARING_HOUSING] == pytest.approx(inertia, rel=2e-3), option
-    assert push["twin-oldham"][BEARING_HOUSING] == push["none"][BEARING_HOUSING]
+        assert push[option].sum() == pytest.approx(inertia, rel=2e-3), option
+    assert np.all(push["twin-oldham"][upper] == push["none"][upper])
     assert abs(push["twin-oldham"].sum()) < 0.02 * inertia  # its keys rattle within 15 µm
 
 
@@ -167,15 +190,15 @@ def test_twin_is_the_ring_turned_by_half_a_turn(study, pressed_by):
     pressed_by(np.zeros(1))
     both = OldhamKeyForces(revolutions=4).loads(case_of(study, "twin-oldham"), {})
     first, second = both.noise
-    assert (first.joint, second.joint) == (BEARING_HOUSING, STATOR)
-    half_turn = np.array([-1.0, -1.0, 1.0])
-    turned = half_turn[:, None, None] * first.density * half_turn[None, :, None]
     # The ring's force over 256 angles and the twin's of one value are the same zero.
-    assert second.density == pytest.approx(turned, rel=1e-12, abs=1e-12)
+    assert second.density == pytest.approx(first.density, rel=1e-12, abs=1e-12)
     assert np.abs(first.density[0, 2]).max() > 0.0
-    sign = np.array([-1.0, -1.0, 1.0, 1.0])[:, None]
-    load = both.joints
-    assert load[STATOR] == pytest.approx(sign * load[BEARING_HOUSING], rel=1e-12)
+    sign = np.array([-1.0, -1.0, 1.0])
+    ways = [part.on_parts[:, [0, 1, 5]].sum(axis=0) for part in (first, second)]
+    assert np.all(ways[1] == sign[:, None] * ways[0])
+    load = both.on_parts[:, [0, 1, 5]]
+    upper = load[BEARING_HOUSING] + load[ORBITING_SCROLL]
+    assert load[LOWER_BEARING] == pytest.approx(sign[:, None] * upper, rel=1e-12, abs=1e-9)
 
 
 def test_hanging_pendulum_lowers_the_speed_of_contact_loss(study, pressed_by):
@@ -216,8 +239,8 @@ def test_lines_of_the_motor_and_orders_of_the_shaft_never_share_a_place(study):
     assert lines.frequency_hz[twice] == 100.0
     assert lines.frequency_hz[2] == 100.0
     for source in study.sources:
-        joints, rigid = lines.joints[source], lines.rigid[source]
-        filled = np.any(joints != 0.0, axis=(0, 1)) | np.any(rigid != 0.0, axis=0)
+        parts, rigid = lines.on_parts[source], lines.rigid[source]
+        filled = np.any(parts != 0.0, axis=(0, 1)) | np.any(rigid != 0.0, axis=0)
         own = filled[orders:] if source != "motor" else filled[:orders]
         assert not np.any(own), source
         assert np.any(filled), source
@@ -244,12 +267,12 @@ def pressure_by_loops(results, study, lines):
     assert study.machine.variation.frequency_factor_ratio == 1.0
     pressure = {}
     for source in study.sources:
-        load, wrench = lines.joints[source], lines.rigid[source]
+        load, wrench = to_joints(lines.on_parts[source]), lines.rigid[source]
         assert np.all(wrench[:5] == 0.0)
         total = np.zeros((vectors.shape[0], frequency.size), dtype=complex)
         for mode, shape in enumerate(path.modes):
             force = np.zeros(frequency.size, dtype=complex)
-            for joint in range(len(JOINTS)):
+            for joint in range(len(load)):
                 for component in range(4):
                     share = path.joint_forces[mode, joint, component]
                     force += share * load[joint, component]
@@ -303,18 +326,18 @@ def noise_by_loops(results, study, keys):
     """A-weighted mean square at the receivers of the keys' noise."""
     path, machine, total = path_of(study), study.machine, 0.0
     for part in keys.noise:
-        assert part.components == KEY_COMPONENTS
         way = pressure_per_load(
             path,
             mode_pressures(results, part.frequency_hz),
             part.frequency_hz,
             machine.structure.loss_factor_ratio,
             machine.variation,
-        )[:, part.joint]
+            path.forces_of_parts(),
+        )
         step = part.frequency_hz[1] - part.frequency_hz[0]
         for line in range(1, part.frequency_hz.size):
             weight = 10.0 ** (levels.WEIGHTING["A"](part.frequency_hz[line]) / 10.0)
-            heard = way[:, list(KEY_COMPONENTS), line]
+            heard = np.tensordot(way[..., line], part.on_parts, 2)
             power = [(h.conj() @ part.density[..., line] @ h).real for h in heard]
             total = total + weight * step * np.array(power)
     return total
@@ -330,10 +353,12 @@ def test_noise_keeps_the_phases_between_its_forces():
     phase = 2.0 * np.pi * tone * np.arange(4000) / rate
     forces = np.stack([np.cos(phase), np.sin(phase), np.zeros(4000)])
     frequency, density = spectral_density(forces, rate, 1000)
-    noise = Noise(BEARING_HOUSING, KEY_COMPONENTS, frequency, density)
+    on_parts = np.zeros((len(PARTS), 6, 3))
+    on_parts[BEARING_HOUSING, [0, 1, 5], [0, 1, 2]] = 1.0
+    noise = Noise(on_parts, frequency, density)
     for way, expected in ((1.0j, 2.0), (-1.0j, 0.0)):
-        per_load = np.zeros((1, len(JOINTS), 4, frequency.size), dtype=complex)
-        per_load[0, BEARING_HOUSING] = np.array([1.0, way, 0.0, 0.0])[:, None]
+        per_load = np.zeros((1, len(PARTS), 6, frequency.size), dtype=complex)
+        per_load[0, BEARING_HOUSING, :2] = np.array([1.0, way])[:, None]
         shell = SimpleNamespace(per_load=lambda _, per_load=per_load: per_load)
         power = SoundPath(lambda _: np.zeros((1, 6, 1)), shell).noise_power(noise)
         sound = source_sound(
@@ -368,10 +393,10 @@ def test_pair_of_forces_on_one_joint_drives_nothing(study):
     """Gas forces with the fixed scroll held where the bearing housing is."""
     held = {"fixed_scroll": study.machine.structure.bearing_housing}
     path = path_of(with_tables(study, structure=held))
-    pair = path.joint_forces[:, FIXED_SCROLL] - path.joint_forces[:, BEARING_HOUSING]
+    pair = path.joint_forces[:, SCROLL_JOINT] - path.joint_forces[:, HOUSING_JOINT]
     assert np.all(pair == 0.0)
     apart = path_of(study).joint_forces
-    assert np.abs(apart[:, FIXED_SCROLL] - apart[:, BEARING_HOUSING]).max() > 0.1
+    assert np.abs(apart[:, SCROLL_JOINT] - apart[:, HOUSING_JOINT]).max() > 0.1
 
 
 @pytest.fixture(scope="module")

@@ -52,18 +52,21 @@ def test_records_name_file_field_value_unit_source_and_range(thesis_study):
     assert (stroke.file, stroke.value) == ("copeland_thesis.toml", "6.75")
 
 
-OF_SOURCES = {"wraps", "gas", "keys", "motor", "rotor", "structure", "variation", "stopping"}
-"""Tables that only sources and stops read."""
-OF_NEITHER = {"suspension", "shaft", "opening"}
+OF_SOURCES = {
+    "wraps", "gas", "keys", "motor", "rotor", "structure", "variation", "stopping", "frame",
+    "shaft",
+}  # fmt: skip
+"""Tables that only sources and stops read, and those of the frame that they drive."""
+OF_NEITHER = {"suspension", "opening"}
 SOURCES_STUDY = ROOT / "tests" / "studies" / "sources_small.toml"
 
 
 def numbers(table, prefix):
-    """Places of all values of a table, those of tables in it too."""
+    """Places of all values of a table but switches, those of tables in it too."""
     for field, value in table.items():
         if isinstance(value, dict):
             yield from numbers(value, f"{prefix}.{field}")
-        elif value is not None and not isinstance(value, str):  # a choice is no number
+        elif value is not None and not isinstance(value, bool | str):  # a choice is no number
             yield f"{prefix}.{field.rsplit('_', 1)[0][:8]}"
 
 

@@ -3,13 +3,14 @@
 from collections.abc import Iterable
 from typing import Annotated, ClassVar, Final
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from ...base.arrays import Array
 from ...base.curves import Curve
 from ...base.parameters import Held, Parameters
 from ...base.registry import register
 from ...machine.derived import ROUND_INERTIAS, Derived, in_proportion
+from ...machine.frame import Frame
 from ...machine.machine import PART_MASS, Machine
 from ...machine.shell_structure import ShellStructure, ShellVariation
 from ...machine.stopping import Stopping
@@ -27,6 +28,8 @@ from ...sources.induction_motor.parameters import CapacitorMotor, TurningRotor
 from ...sources.oldham_keys.parameters import OldhamKeys
 from ...sources.scroll_gas.parameters import ScrollGas, ScrollOpening, ScrollWraps
 
+MOST_INNER_SHARE: Final = 0.95
+"""Of the mass; wall, feet and oil are the rest."""
 STROKES: Final = Held("may be printed or derived: two studies, no range")
 
 
@@ -68,6 +71,9 @@ class OldhamScroll(Machine):
         ),
         in_proportion("keys.ring_inertia_kg_m2", "oldham.mass_kg"),
         in_proportion("keys.scroll_inertia_kg_m2", "orbiting_scroll.mass_kg"),
+        in_proportion("frame.orbiting_scroll.mass_kg", "orbiting_scroll.mass_kg"),
+        in_proportion("frame.orbiting_scroll.height_m", "orbiting_scroll.height_m"),
+        in_proportion("frame.keys_radius_m", "keys.radius_m"),
     )
     kinematics: Kinematics
     oldham: Ring
@@ -89,6 +95,22 @@ class OldhamScroll(Machine):
     variation: ShellVariation | None = None
     stopping: Stopping | None = None
     shaft: ScrollShaft | None = None
+    frame: Frame | None = None
+    """Bodies through which the sources drive the shell; none where they do so as they are."""
+
+    @model_validator(mode="after")
+    def _frame_fits(self) -> "OldhamScroll":
+        if self.frame is None:
+            return self
+        if self.shaft is None:
+            raise ValueError("frame: needs the table shaft")
+        inner_kg = self.frame.mass_kg + self.shaft.mass_kg
+        if inner_kg > MOST_INNER_SHARE * self.housing.mass_kg:
+            raise ValueError(
+                f"housing.mass_kg = {self.housing.mass_kg:g} kg: frame, stator and shaft weigh "
+                f"{inner_kg:.4g} kg; {100.0 * MOST_INNER_SHARE:g} % of all is the most in a shell"
+            )
+        return self
 
     @property
     def capabilities(self) -> tuple[Capability, ...]:

@@ -101,6 +101,21 @@ class Harmonic:
         squares, shapes = eigh(stiffness, self.free_matrices[1], subset_by_value=(-np.inf, limit))
         return np.sqrt(squares) / (2.0 * np.pi), np.asarray(self.reduction @ shapes)
 
+    def static_flexibility(self, freedoms: IndexArray) -> Array:
+        """Displacement per steady force without the rigid motions, (freedoms, freedoms).
+
+        The force is balanced by the inertia of the rigid motions that it starts.
+
+        Parameters
+        ----------
+        freedoms : among all amplitudes
+        """
+        forces = self.reduction.T[:, freedoms].toarray()
+        momentum = self.free_matrices[1] @ self.rigid_motions
+        balanced = forces - momentum @ (self.rigid_motions.T @ forces)
+        moved = np.linalg.solve(self._held_stiffness(1.0), balanced)
+        return np.asarray(balanced.T @ moved)
+
     def _held_stiffness(self, shift: float) -> Array:
         """K + s M R Rᵀ M: the rigid motions get the eigenvalue s, the elastic modes keep theirs."""
         stiffness, mass = self.free_matrices

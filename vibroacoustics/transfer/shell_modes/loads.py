@@ -44,24 +44,9 @@ class JointLoads:
         ParameterError
             The joint reaches beyond the wall.
         """
-        heights, weights = self._heights(meridian)
-        meridian_points = np.stack([np.full(heights.size, meridian.wall_radius_m), heights], axis=1)
         parts = self._mean_parts(around)
         parts[:, 3] /= meridian.wall_radius_m
-        freedoms, shapes = _interpolation(meridian, meridian_points)
-        total = np.zeros((freedom_count(meridian), len(JOINT_LOADS)))
-        np.add.at(total, freedoms, np.einsum("p,pia,il->pal", weights, shapes, parts))
-        return total
-
-    def _heights(self, meridian: Meridian) -> tuple[Array, Array]:
-        low, high = meridian.wall_heights_m
-        middle, band = self.joint.height_m, self.joint.band_m
-        if middle - band / 2.0 < low or middle + band / 2.0 > high:
-            raise ParameterError(
-                f"joint: height_mm = {1e3 * middle:g} mm with band_mm = {1e3 * band:g} mm: the "
-                f"wall reaches from {1e3 * low:.4g} to {1e3 * high:.4g} mm"
-            )
-        return _mean_points(middle, band, _BAND_POINTS)
+        return mean_over_band(meridian, self.joint) @ parts
 
     def _mean_parts(self, around: Around) -> Array:
         """Means over the welds of the radial, axial and circumferential part, shape (3, load).
@@ -94,6 +79,57 @@ class JointLoads:
         return complex(np.exp(1j * order * joint.first_angle_rad) * spread)
 
 
+@dataclass(frozen=True)
+class PatchLoads:
+    """Unit forces outwards, up and around on each weld of a joint, one weld after another."""
+
+    joint: Joint
+
+    def generalised(self, meridian: Meridian, around: Around) -> Array:
+        """As of any `Load`."""
+        factors = patch_factors(self.joint, around)
+        loads = mean_over_band(meridian, self.joint)[:, None] * factors
+        return loads.reshape(len(loads), -1)
+
+
+def weld_angles(joint: Joint) -> Array:
+    """Middles of the welds from x, shape (weld,), rad."""
+    return joint.first_angle_rad + 2.0 * np.pi * np.arange(joint.welds) / joint.welds
+
+
+def patch_factors(joint: Joint, around: Around) -> Array:
+    """Mean over each weld of the factors of a motion: outwards, up, around; shape (weld, 3)."""
+    n, angles = around.order, weld_angles(joint)
+    radial, sideways = around.radial(angles), around.around(angles)
+    mean = np.sinc(n * joint.spread_rad / (2.0 * np.pi))
+    return np.asarray(mean * np.stack([radial, radial, sideways], axis=1))
+
+
+def mean_over_band(meridian: Meridian, joint: Joint) -> Array:
+    """Mean over a joint's band of the motion of each amplitude, shape (freedom, 3).
+
+    Outwards, up and around.
+
+    Raises
+    ------
+    ParameterError
+        The joint reaches beyond the wall.
+    """
+    low, high = meridian.wall_heights_m
+    middle, band = joint.height_m, joint.band_m
+    if middle - band / 2.0 < low or middle + band / 2.0 > high:
+        raise ParameterError(
+            f"joint: height_mm = {1e3 * middle:g} mm with band_mm = {1e3 * band:g} mm: the "
+            f"wall reaches from {1e3 * low:.4g} to {1e3 * high:.4g} mm"
+        )
+    heights, weights = _mean_points(middle, band, _BAND_POINTS)
+    points = np.stack([np.full(heights.size, meridian.wall_radius_m), heights], axis=1)
+    freedoms, shapes = _interpolation(meridian, points)
+    mean = np.zeros((freedom_count(meridian), 3))
+    np.add.at(mean, freedoms, np.einsum("p,pia->pai", weights, shapes))
+    return mean
+
+
 def _interpolation(meridian: Meridian, points: Array) -> tuple[IndexArray, Array]:
     """Freedoms (point, 12) that move places (point, 2), and by how much, (point, 3, 12)."""
     element, along = meridian.locate(points)
@@ -121,7 +157,7 @@ def joint_forces(joint: Joint, radius_m: float) -> tuple[Array, Array]:
     points, forces : shapes (point, 3), m, and (point, 3, load), N, and 1/m for the moment
     """
     spread, weight = _mean_points(0.0, joint.spread_rad, _SPREAD_POINTS)
-    welds = joint.first_angle_rad + 2.0 * np.pi * np.arange(joint.welds) / joint.welds
+    welds = weld_angles(joint)
     heights, share = _mean_points(joint.height_m, joint.band_m, _BAND_POINTS)
     angle, height = (grid.ravel() for grid in np.meshgrid(np.add.outer(welds, spread), heights))
     weights = np.multiply.outer(share, np.tile(weight / joint.welds, joint.welds)).ravel()

@@ -16,6 +16,7 @@ from ...machine.shell import Shell
 from ...machine.shell_structure import ShellStructure
 from .elements import squared_strains
 from .modes import ElasticShell, elastic_shell
+from .statics import WallFlexibility
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,11 @@ class ProjectedModes:
         for wall in walls:
             lowest *= np.minimum(self.frequency_factor(wall), 1.0)
         return np.flatnonzero(lowest <= maximum_frequency_hz)
+
+    @cached_property
+    def flexibility(self) -> WallFlexibility:
+        """Steady flexibility of the wall as given; its orders are computed once."""
+        return WallFlexibility(self.shell)
 
     @cached_property
     def _squares(self) -> Array:

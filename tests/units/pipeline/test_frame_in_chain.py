@@ -1,0 +1,148 @@
+"""Sources of a machine with a frame: balance of their loads, switches, draws, refusals."""
+
+import numpy as np
+import pytest
+from sources_study import SOURCES_STUDY, case_of, path_of, run_made_up, with_tables
+from support import ROOT
+
+from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.mechanics.loads import (
+    BEARING_HOUSING,
+    FIXED_SCROLL,
+    ORBITING_SCROLL,
+    STATOR,
+)
+from vibroacoustics.sources.cases import loads_of
+from vibroacoustics.study.loading import load_study
+from vibroacoustics.transfer.frame import frame_on_shell
+
+WITHOUT = 'without = ["frame"]\n'
+TEXT = SOURCES_STUDY.read_text(encoding="utf-8")
+MACHINE = ROOT / "data" / "machines" / "copeland_zp41k3e.toml"
+
+
+def load_text(folder, text):
+    (folder / "study.toml").write_text(text.replace("../../data", str(ROOT / "data")))
+    return load_study(folder / "study.toml")
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    assert TEXT.count(WITHOUT) == 1
+    return load_text(tmp_path_factory.mktemp("framed"), TEXT.replace(WITHOUT, ""))
+
+
+@pytest.fixture(scope="module")
+def loads(study):
+    return loads_of(study, case_of(study))
+
+
+def test_gas_is_a_pair_but_for_the_rotors_inertia(loads):
+    """Sum of all forces and moments about the centre of mass; what is left turns the shaft."""
+    gas = loads["gas"]
+    total, largest = gas.on_parts.sum(axis=0), abs(gas.on_parts).max()
+    assert largest > 2000.0
+    assert abs(total[:5]).max() < 1e-9 * largest
+    assert total[5] == pytest.approx(gas.shaft_torque_n_m, abs=1e-9 * largest)
+    assert abs(total[5, 1]) > 0.01
+    half = 0.5 * gas.shaft_torque_n_m
+    for scroll in (FIXED_SCROLL, ORBITING_SCROLL):
+        assert gas.on_parts[scroll, 5] == pytest.approx(half, abs=1e-9 * largest)
+
+
+def test_radial_force_closes_at_the_flanks(study, loads):
+    """Then what is left is tangential: across the line from the shaft to where it acts."""
+    tangential = loads["gas"].on_parts[FIXED_SCROLL]
+    fixed = with_tables(study, frame={"radially_compliant": False})
+    both = loads_of(fixed, case_of(fixed))["gas"].on_parts[FIXED_SCROLL]
+    assert both[5] == pytest.approx(tangential[5], abs=1e-9)
+    assert np.abs(both[:2, :8] - tangential[:2, :8]).max() > 100.0
+    assert both[2] == pytest.approx(tangential[2], abs=1e-9)
+
+
+def test_motor_turns_the_stator_alone(loads):
+    for part in (loads["torque_ripple"].on_parts, *(t.on_parts for t in loads["motor"].tones)):
+        assert abs(part[STATOR, 5]).max() > 0.0
+        rest = part.copy()
+        rest[STATOR, 5] = 0.0
+        assert not rest.any()
+
+
+def test_keys_hand_on_the_inertia_of_the_ring_at_its_height(study, loads):
+    """What gas presses through them is the gas source's; moments are the forces' at the ring."""
+    total = loads["keys"].on_parts.sum(axis=0)
+    omega = 2.0 * np.pi * 2900.0 / 60.0
+    machine = study.machine
+    inertia = machine.oldham.mass_kg * machine.kinematics.orbit_radius_m * omega**2
+    assert total[0, 1] == pytest.approx(inertia, rel=2e-3)
+    height = machine.oldham.height_m
+    assert total[4] == pytest.approx(height * total[0], abs=1e-9)
+    assert total[3] == pytest.approx(-height * total[1], abs=1e-9)
+    alone = study.model_copy(update={"machine": study.machine.model_copy(update={"frame": None})})
+    without = loads_of(alone, case_of(alone))["keys"].on_parts[BEARING_HOUSING, 5]
+    pressed = 0.5 * loads["gas"].shaft_torque_n_m
+    assert loads["keys"].on_parts[FIXED_SCROLL, 5] == pytest.approx(without - pressed, abs=1e-9)
+
+
+def test_keys_stand_on_the_part_that_the_machine_says(study):
+    other = with_tables(study, frame={"keys_on": "bearing-housing"})
+    of_each = [loads_of(s, case_of(s))["keys"].on_parts for s in (study, other)]
+    np.testing.assert_array_equal(of_each[0][FIXED_SCROLL], of_each[1][BEARING_HOUSING])
+    assert not of_each[0][BEARING_HOUSING].any()
+    assert not of_each[1][FIXED_SCROLL].any()
+
+
+def test_frame_changes_the_sound_and_is_drawn(study):
+    alone = {"sources": {"gas": study.sources["gas"]}, "options": {"none": study.options["none"]}}
+    operation = study.operation.model_copy(update={"stopping": False})
+    results = run_made_up(study.model_copy(update={**alone, "operation": operation}))
+    names = set(results["drawn_parameter"].values.tolist())
+    assert {"frame.bolts.lateral_stiffness_n_per_m", "shaft.bearing_stiffness_n_per_m"} <= names
+    by_draw = results["source_level_by_draw"].sel(sound_source="gas", option="none")
+    assert np.all(np.isfinite(by_draw.values))
+    assert np.ptp(by_draw.values) > 1.0
+    assert results["source_level"].sel(sound_source="gas", option="none").max() > 0.0
+
+
+def test_a_frame_as_stiff_as_can_be_is_quieter_than_separate_joints(study):
+    """The pair of gas forces closes inside; only the overhang's share reaches the shell."""
+    machine = study.machine
+    stiff = {
+        "bolts": machine.frame.bolts.model_copy(
+            update={"lateral_stiffness_n_per_m": 1e12, "guide_stiffness_n_per_m": 1e12}
+        ),
+        "pin_stiffness_n_per_m": 1e12,
+    }
+    framed = frame_on_shell(with_tables(study, frame=stiff).machine, path_of(study))
+    gas = loads_of(study, case_of(study))["gas"].on_parts[..., 2:3]
+    frequency = np.array([2.0 * 2900.0 / 60.0])
+    on_modes = np.einsum("mpcl,pcl->m", framed.forces(frequency).on_modes, gas)
+    separate = np.einsum("mpcl,pcl->m", path_of(study).forces_of_parts(), gas)
+    assert np.linalg.norm(on_modes) < 0.5 * np.linalg.norm(separate)
+
+
+# --- bad input -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("new", "words"),
+    [
+        ('without = ["frames"]\n', ["machine.without = frames", "no such table"]),
+        ('without = "frame"\n', ["machine.without = 'frame'", "list"]),
+        ('without = ["shaft"]\n', ["frame: needs the table shaft"]),
+        (
+            '[machine.override.frame.stator]\nmass_kg = { value = 30.0, source = "test" }\n',
+            ["housing.mass_kg = 35 kg", "in a shell"],
+        ),
+        (
+            '[machine.override.frame]\nkeys_on = "shaft"\n',
+            ["frame.keys_on = 'shaft'", "fixed-scroll"],
+        ),
+        ('[shell_modes]\nfile = "modes.uff"\n', ["shell_modes", 'machine.without = ["frame"]']),
+    ],
+)
+def test_bad_frames_are_one_line(tmp_path, new, words):
+    with pytest.raises(ParameterError) as refusal:
+        load_text(tmp_path, TEXT.replace(WITHOUT, new))
+    lines = str(refusal.value).splitlines()
+    assert any(all(word in line for word in words) for line in lines), lines

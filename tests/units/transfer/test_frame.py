@@ -1,0 +1,153 @@
+"""The frame as load path: exact limits on a wall at rest."""
+
+import numpy as np
+import pytest
+from frames import frame_with
+from support import ROOT
+
+from vibroacoustics.mechanics.critical_speed import free_scroll_shaft
+from vibroacoustics.mechanics.loads import (
+    BEARING_HOUSING,
+    FIXED_SCROLL,
+    LOWER_BEARING,
+    ORBITING_SCROLL,
+    PARTS,
+    STATOR,
+)
+from vibroacoustics.study.loading import load_study
+from vibroacoustics.transfer.frame import (
+    contact_forces,
+    contacts_of,
+    inner_set,
+)
+from vibroacoustics.transfer.frame.on_shell import SHAFT_ELEMENT_M
+
+MACHINE = load_study(ROOT / "tests" / "studies" / "sources_made_up.toml").machine
+STRUCTURE = MACHINE.structure.model_copy(
+    update={
+        name: getattr(MACHINE.structure, name).model_copy(update={"spread_rad": 0.0})
+        for name in ("bearing_housing", "fixed_scroll", "stator")
+    }
+)
+RADIUS = 0.081
+OVERHANG = 35.0 / 185.0
+STIFF = 1e14
+LOW = np.array([2.0])
+STIFF_FRAME = {
+    "bolts": {"lateral_stiffness_n_per_m": STIFF, "axial_stiffness_n_per_m": STIFF},
+    "thrust_face": {"stiffness_n_per_m": STIFF},
+    "keys_stiffness_n_per_m": STIFF,
+    "pin_stiffness_n_per_m": STIFF,
+    "contacts": {"weld_n_per_m": STIFF, "leg_n_per_m": STIFF, "land_n_per_m": STIFF},
+    "bearing_loss_factor_ratio": 0.0,
+    "joint_loss_factor_ratio": 0.0,
+}
+
+
+def shaft_with(**changes):
+    return free_scroll_shaft(MACHINE.shaft.model_copy(update=changes), SHAFT_ELEMENT_M)
+
+
+def on_rigid_shell(frame, frequency_hz, shaft=None):
+    """Wrench of each part on a shell at rest about the origin, (frequency, part, 6, load)."""
+    contacts = contacts_of(frame, STRUCTURE, RADIUS)
+    inner = inner_set(frame, shaft or shaft_with(), contacts)
+    still = np.zeros((frequency_hz.size, *[len(contacts.part)] * 2))
+    forces = contact_forces(inner, contacts.stiffness, still, frequency_hz)
+    return wrenches(contacts, forces)
+
+
+def wrenches(contacts, forces):
+    held = [contacts.part == part for part in range(len(PARTS))]
+    return np.stack([contacts.rigid[rows].T @ forces[:, rows] for rows in held], axis=1)
+
+
+def pair(force, at):
+    """A force on the fixed scroll and its opposite on the orbiting one, at a point."""
+    load = np.zeros((len(PARTS), 6))
+    load[FIXED_SCROLL] = *force, *np.cross(at, force)
+    load[ORBITING_SCROLL] = -load[FIXED_SCROLL]
+    return load.ravel()
+
+
+# --- exact limits --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("height", [0.11, 0.13, 0.15])
+def test_stiff_and_slow_the_lower_bearing_takes_the_overhang(height):
+    """0.1892 of the pair, whatever the height of the wraps: a lever on two bearings."""
+    got = on_rigid_shell(frame_with(**STIFF_FRAME), LOW)[0] @ pair([1.0, 0.0, 0.0], [0, 0, height])
+    assert got[LOWER_BEARING, 0] == pytest.approx(OVERHANG, abs=2e-5)
+    assert got[BEARING_HOUSING, 0] == pytest.approx(-OVERHANG, abs=2e-5)
+    assert abs(got[:, 2]).max() < 1e-6
+    assert abs(got.sum(axis=0)[3:5]).max() < 2e-5
+
+
+def test_stiff_and_slow_an_axial_pair_stays_inside():
+    for axially_compliant in (False, True):
+        frame = frame_with(**STIFF_FRAME, axially_compliant=axially_compliant)
+        got = on_rigid_shell(frame, LOW)[0] @ pair([0.0, 0.0, 1.0], [1.7e-3, 0.0, 0.13])
+        assert abs(got).max() < 1e-5
+
+
+def test_stiff_and_slow_the_joints_bear_the_torque():
+    """F_t r on all joints, half of it over the keys: the rotor is its counterpart."""
+    force, radius = 26.0, 3.46e-3
+    load = pair([0.0, force, 0.0], [radius / 2.0, 0.0, 0.13]).reshape(len(PARTS), 6)
+    load[ORBITING_SCROLL, 5] = force * radius / 2.0
+    for keys_on in ("fixed-scroll", "bearing-housing"):
+        got = on_rigid_shell(frame_with(**STIFF_FRAME, keys_on=keys_on), LOW)[0] @ load.ravel()
+        assert got[:, 5].sum() == pytest.approx(force * radius, rel=1e-5)
+
+
+def light(**changes):
+    """Nearly massless parts."""
+    bodies = {name: {"mass_kg": 1e-6} for name in PARTS}
+    return {
+        **{name: {**bodies.get(name, {}), **changes.pop(name, {})} for name in bodies},
+        **changes,
+    }
+
+
+@pytest.mark.parametrize(
+    ("overhang_m", "share"), [(0.035, 1.0 + OVERHANG), (0.005, 1.0 + 5.0 / 185.0)]
+)
+def test_without_bolts_soft_contacts_share_as_separate_joints_do(overhang_m, share):
+    """A third of the force on each contact of the fixed scroll; a quarter on each weld."""
+    soft = {"weld_n_per_m": 1.0, "leg_n_per_m": 1.0, "seal_n_per_m": 1.0, "land_n_per_m": 0.0}
+    bolts = {"lateral_stiffness_n_per_m": 0.0, "axial_stiffness_n_per_m": 0.0}
+    frame = frame_with(**light(bolts=bolts, contacts=soft, joint_loss_factor_ratio=0.0))
+    shaft = shaft_with(
+        length_m=0.185 + overhang_m,
+        density_kg_per_m3=1e-3,
+        rotor_mass_kg=1e-6,
+        youngs_modulus_pa=1e13,
+    )
+    contacts = contacts_of(frame, STRUCTURE, RADIUS)
+    inner = inner_set(frame, shaft, contacts)
+    still = np.zeros((1, *[len(contacts.part)] * 2))
+    forces = contact_forces(inner, contacts.stiffness, still, np.array([1e-3]))[0]
+    force = forces @ pair([1.0, 0.0, 0.0], [0.0, 0.0, 0.13])
+    outwards, _, around = force.reshape(-1, 3).T
+    angle = np.arctan2(*contacts.rigid[::3, [1, 0]].T)
+    along_x = outwards * np.cos(angle) - around * np.sin(angle)
+    of_part = contacts.part[::3]
+    assert along_x[of_part == FIXED_SCROLL] == pytest.approx(np.full(3, 1.0 / 3.0), abs=1e-4)
+    assert along_x[of_part == BEARING_HOUSING] == pytest.approx(np.full(4, -share / 4.0), abs=3e-4)
+
+
+def test_peaks_of_the_base_case():
+    """Shaft's bending at 512 Hz, scroll on pin at 736 Hz, from a computation of its kind."""
+    frame = frame_with(stator={"mass_kg": 1e-3}, contacts={"land_n_per_m": 0.0})
+    frequency = np.arange(400.0, 900.0, 4.0)
+    got = on_rigid_shell(frame, frequency) @ pair([1.0, 0.0, 0.0], [0.0, 0.0, 0.13])
+    lower, housing = abs(got[:, LOWER_BEARING, 0]), abs(got[:, BEARING_HOUSING, 0])
+    assert frequency[np.argmax(lower)] == pytest.approx(512.0, rel=0.04)
+    assert frequency[np.argmax(housing)] == pytest.approx(736.0, rel=0.04)
+
+
+def test_a_stator_that_nothing_holds_feels_nothing():
+    frame = frame_with(contacts={"land_n_per_m": 0.0})
+    got = on_rigid_shell(frame, np.array([48.3, 517.0, 1333.0, 2900.0]))
+    assert not got[..., 6 * STATOR :].any()
+    assert not got[:, STATOR].any()

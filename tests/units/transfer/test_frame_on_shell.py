@@ -1,0 +1,176 @@
+"""The frame in the elastic shell: conservation, reciprocity, one large system, flexibility."""
+
+import numpy as np
+import pytest
+from frames import frame_with
+from support import ROOT
+
+from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.machine.frame import Frame
+from vibroacoustics.machine.shell_structure import Joint
+from vibroacoustics.mechanics.loads import PARTS
+from vibroacoustics.study.loading import load_study
+from vibroacoustics.transfer.frame import contact_forces, frame_on_shell, shell_compliance
+from vibroacoustics.transfer.path import computed_path
+from vibroacoustics.transfer.shell_modes import elastic_shell
+from vibroacoustics.transfer.shell_modes.harmonic import Harmonic
+from vibroacoustics.transfer.shell_modes.statics import WallFlexibility, local_flexibility_factor
+
+MACHINE = load_study(ROOT / "tests" / "studies" / "sources_made_up.toml").machine
+
+
+@pytest.fixture(scope="module")
+def path():
+    return computed_path(MACHINE.shell, MACHINE.structure, 1500.0, 1.0)
+
+
+class Framed:
+    """The machine with another frame."""
+
+    def __init__(self, frame):
+        self.frame, self.housing = frame, MACHINE.housing
+
+    def has_table(self, wanted):
+        return wanted is Frame or MACHINE.has_table(wanted)
+
+    def table(self, wanted):
+        return self.frame if wanted is Frame else MACHINE.table(wanted)
+
+
+@pytest.fixture(scope="module")
+def on_shell(path):
+    seal = {"contacts": {"seal_n_per_m": 3e6}}
+    return frame_on_shell(Framed(frame_with(**seal, axially_compliant=True)), path)
+
+
+FREQUENCY = np.array([0.0, 48.3, 517.0, 1333.0, 2900.0])
+
+
+def motion_of_parts(on_shell, frequency_hz):
+    """Freedoms per load on a part, with the shell's forces put on as loads."""
+    inner, omega = on_shell.inner, 2.0 * np.pi * frequency_hz
+    forces = on_shell.forces(np.array([frequency_hz])).on_contacts[0]
+    dynamic = inner.stiffness - omega**2 * inner.mass
+    return np.linalg.solve(dynamic, inner.loads - inner.contacts.T @ forces), forces
+
+
+def test_forces_on_the_shell_are_its_mass_times_its_acceleration(on_shell):
+    """Force and moment: what is put on the parts less their own change of momentum."""
+    net = np.tile(np.eye(6), len(PARTS))
+    for frequency in FREQUENCY[1:]:
+        squares = (2.0 * np.pi * frequency) ** 2
+        moved, forces = motion_of_parts(on_shell, frequency)
+        momentum = -squares * on_shell.inner.rigid.T @ on_shell.inner.mass @ moved
+        total = on_shell.contacts.rigid.T @ forces
+        assert total == pytest.approx(net - momentum, abs=1e-7 * abs(momentum).max())
+        velocity = on_shell.forces(np.array([frequency])).rigid_velocity.reshape(6, -1)
+        together = np.linalg.solve(on_shell.machine_mass, net)
+        acceleration = 2j * np.pi * frequency * velocity + together
+        assert on_shell.shell_mass @ acceleration == pytest.approx(
+            total, abs=1e-9 * abs(total).max()
+        )
+
+
+def test_parts_answer_each_other_alike(on_shell):
+    """Motion of one part per load on another is that of the other per load on the one."""
+    for frequency in FREQUENCY[1:]:
+        moved = on_shell.inner.loads.T @ motion_of_parts(on_shell, frequency)[0]
+        assert moved == pytest.approx(moved.T, abs=1e-7 * abs(moved).max())
+        shell = on_shell.compliance(np.array([frequency]))[0]
+        assert shell == pytest.approx(shell.T, abs=1e-12 * abs(shell).max())
+
+
+def test_nothing_moves_at_frequency_zero(on_shell):
+    got = on_shell.forces(FREQUENCY)
+    for array in (got.on_modes, got.rigid_velocity):
+        assert not array[..., 0].any()
+        assert np.all(np.isfinite(array))
+
+
+def test_elimination_is_that_of_one_large_system(on_shell):
+    """Freedoms of the parts, modes and rigid motion of the shell side by side."""
+    inner, contacts = on_shell.inner, on_shell.contacts
+    bare = np.zeros_like(on_shell.residual)
+    shell = np.concatenate([on_shell.modal_forces.T, contacts.rigid], axis=1)
+    modes, loss = on_shell.natural_hz.size, on_shell.loss_factor_ratio
+    across = np.concatenate([inner.contacts, -shell], axis=1)
+    size, parts = across.shape[1], inner.mass.shape[0]
+    mass = np.zeros((size, size))
+    mass[:parts, :parts] = inner.mass
+    mass[parts : parts + modes, parts : parts + modes] = np.diag(on_shell.modal_mass_kg)
+    mass[parts + modes :, parts + modes :] = on_shell.shell_mass
+    stiffness = across.T @ (contacts.stiffness[:, None] * across)
+    stiffness[:parts, :parts] += inner.stiffness
+    own = on_shell.modal_mass_kg * (2.0 * np.pi * on_shell.natural_hz) ** 2 * (1.0 + 1j * loss)
+    rows = np.arange(parts, parts + modes)
+    stiffness[rows, rows] += own
+    rigid = contacts.rigid @ np.linalg.solve(on_shell.shell_mass, contacts.rigid.T)
+    for frequency in FREQUENCY[1:]:
+        dynamic = stiffness - (2.0 * np.pi * frequency) ** 2 * mass
+        loads = np.concatenate([inner.loads, np.zeros((size - parts, inner.loads.shape[1]))])
+        expected = contacts.stiffness[:, None] * (across @ np.linalg.solve(dynamic, loads))
+        at = np.array([frequency])
+        compliance = shell_compliance(
+            on_shell.modal_forces,
+            on_shell.natural_hz,
+            on_shell.modal_mass_kg,
+            loss,
+            bare,
+            rigid,
+            at,
+        )
+        got = contact_forces(inner, contacts.stiffness, compliance, at)[0]
+        assert got == pytest.approx(expected, abs=1e-8 * abs(expected).max())
+
+
+def test_steady_flexibility_is_the_sum_over_all_modes(path):
+    """Of one order around, all modes that the elements have."""
+    shell = path.wall.shell
+    freedoms = np.arange(300, 340)
+    for order in (0, 1, 3):
+        harmonic = Harmonic(shell.meridian, shell.structure, order)
+        frequency, shapes = harmonic.modes(1e8)
+        shapes = shapes[freedoms]
+        elastic = frequency < 3e7  # rigid motions are moved beyond
+        modes = (shapes / (2.0 * np.pi * frequency) ** 2)[:, elastic] @ shapes[:, elastic].T
+        steady = harmonic.static_flexibility(freedoms)
+        assert steady == pytest.approx(modes, rel=0.0, abs=1e-6 * abs(modes).max())
+
+
+def test_flexibility_at_a_weld():
+    """18.5 N/µm outwards and 660 N/µm along were computed elsewhere for 47 modes and the rest."""
+    weld = MACHINE.structure.bearing_housing.model_copy(update={"band_m": 0.012})
+    dome = MACHINE.shell.model_copy(update={"dome_height_m": 0.04})
+    wall = WallFlexibility(elastic_shell(dome, MACHINE.structure, 1000.0))
+    outwards, up, _ = 1e-6 / np.diag(wall.at([weld]))[:3]
+    assert outwards == pytest.approx(18.5, rel=0.15)
+    assert up == pytest.approx(660.0, rel=0.1)
+
+
+def test_what_the_modes_leave_out_only_softens(path, on_shell):
+    assert np.linalg.eigvalsh(on_shell.residual)[0] > -1e-9 * abs(on_shell.residual).max()
+    stiffness = on_shell.modal_mass_kg * (2.0 * np.pi * on_shell.natural_hz) ** 2
+    modes = on_shell.modal_forces.T @ (on_shell.modal_forces / stiffness[:, None])
+    total = path.wall.flexibility.at(on_shell.contacts.joints)
+    assert modes + on_shell.residual == pytest.approx(total, abs=1e-12 * abs(total).max())
+    assert np.trace(on_shell.residual) > 0.1 * np.trace(total)
+
+
+def test_flexibility_of_another_wall():
+    """Twice the thickness computed anew: 1/t² outwards at a weld to a fifth."""
+    wall = MACHINE.structure
+    thick = wall.model_copy(update={"thickness_m": 0.004, "youngs_modulus_pa": 2.12e11})
+    weld = Joint(height_m=0.0, band_m=0.012, welds=3, spread_rad=0.14)
+    each = [
+        WallFlexibility(elastic_shell(MACHINE.shell, w, 800.0)).at([weld]) for w in (wall, thick)
+    ]
+    outwards = each[1][0, 0] / each[0][0, 0]
+    assert outwards == pytest.approx(local_flexibility_factor(wall, thick), rel=0.2)
+
+
+def test_parts_heavier_than_the_machine_are_one_line(path):
+    with pytest.raises(
+        ParameterError, match=r"housing\.mass_kg = 35 kg: frame and shaft weigh"
+    ) as e:
+        frame_on_shell(Framed(frame_with(stator={"mass_kg": 30.0})), path)
+    assert len(str(e.value).splitlines()) == 1

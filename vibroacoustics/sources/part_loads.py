@@ -1,0 +1,114 @@
+"""What the sources of a scroll do to the parts in its shell, over crank angle."""
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from ..base.arrays import Array, ComplexArray
+from ..mechanics.loads import (
+    FIXED_SCROLL,
+    ORBITING_SCROLL,
+    PART_COMPONENTS,
+    PARTS,
+    STATOR,
+)
+from .induction_motor.torque_lines import TorqueLine
+from .oldham_keys.rattle import KeyForces
+from .scroll_gas.cycle import ScrollGasCycle
+
+KEY_FORCES: Final = 5
+"""Resultants of `key_resultants`."""
+
+
+def gas_loads(cycle: ScrollGasCycle, height_m: float = 0.0, flanks_close: bool = False) -> Array:
+    """Gas forces on the two scrolls: a pair along one line, and the torque that the keys pass on.
+
+    The pin takes the orbiting scroll's share of F_t at the orbit radius; what is left turns the
+    orbiting scroll about its own axis with F_t r/2. All moments are about the shaft's axis, at the
+    centre of mass; together they are F_t r, to which the rotor answers.
+
+    Parameters
+    ----------
+    cycle : over uniform crank angles
+    height_m : of the middle of the wraps
+    flanks_close : whether the flanks' contact takes the radial force, as with a drive bushing
+
+    Returns
+    -------
+    shape (part, component, samples), N and N m
+    """
+    (fx, fy, fz), (x, y) = cycle.on_fixed_scroll_n, cycle.line_of_action_m
+    if flanks_close:
+        across = np.stack([-np.sin(cycle.crank_angle), np.cos(cycle.crank_angle)])
+        fx, fy = cycle.tangential_force_n * across
+    loads = np.zeros((len(PARTS), PART_COMPONENTS, fx.size))
+    about_x, about_y = y * fz - height_m * fy, height_m * fx - x * fz
+    loads[FIXED_SCROLL] = fx, fy, fz, about_x, about_y, x * fy - y * fx
+    loads[ORBITING_SCROLL, :5] = -loads[FIXED_SCROLL, :5]
+    loads[ORBITING_SCROLL, 5] = cycle.self_rotation_moment_n_m
+    return loads
+
+
+def key_resultants(forces: KeyForces, radius_m: float, stroke_m: float) -> Array:
+    """Resultants of the keys, shape (KEY_FORCES, samples), N and N m.
+
+    Along x and y on the part with the standing slots and the moment about the shaft's axis, then
+    along x and y on the orbiting scroll; what the latter turn is the shaft, see `key_torque_n_m`.
+    The standing slots are loaded where the keys are, which move with the ring by r cos θ.
+
+    Parameters
+    ----------
+    forces : in all four slots
+    radius_m : of the keys
+    stroke_m : r, of the ring
+    """
+    standing, scroll = forces.on_housing_slots_n, forces.on_scroll_slots_n
+    turn = radius_m * (standing[0, 1] - standing[1, 1])
+    turn += stroke_m * np.cos(forces.crank_angle) * standing[:, 1].sum(axis=0)
+    return np.concatenate([standing.sum(axis=0), turn[None], scroll.sum(axis=0)])
+
+
+def key_parts(standing: int, orbiting: int, height_m: float) -> Array:
+    """Load on the parts per unit of each of `key_resultants`, (part, component, force).
+
+    Parameters
+    ----------
+    standing : part with the slots that stand
+    orbiting : part that the other two keys load
+    height_m : of the ring
+    """
+    loads = np.zeros((len(PARTS), PART_COMPONENTS, KEY_FORCES))
+    for part, first in ((standing, 0), (orbiting, 3)):
+        loads[part, 0, first] = loads[part, 1, first + 1] = 1.0
+        loads[part, 4, first], loads[part, 3, first + 1] = height_m, -height_m
+    loads[standing, 5, 2] = 1.0
+    return loads
+
+
+def key_torque_n_m(forces: KeyForces, stroke_m: float) -> Array:
+    """Torque that the shaft needs against the keys, shape (samples,), N m.
+
+    The scroll hands the keys' forces on to the crank pin, at r from the shaft's axis: the ring's
+    inertia to and fro at twice the speed, and the friction of all keys.
+
+    Parameters
+    ----------
+    forces : in all four slots
+    stroke_m : r, the orbit radius
+    """
+    along_x, along_y = forces.on_scroll_slots_n.sum(axis=0)
+    angle = forces.crank_angle
+    return np.asarray(stroke_m * (along_x * np.sin(angle) - along_y * np.cos(angle)))
+
+
+def stator_loads(lines: Sequence[TorqueLine]) -> tuple[ComplexArray, ComplexArray]:
+    """Torque of the motor on the stator, and the roll moment on the whole machine, by line.
+
+    Returns
+    -------
+    loads, roll_moment : complex peaks, shapes (part, component, line) and (line,), N m
+    """
+    loads = np.zeros((len(PARTS), PART_COMPONENTS, len(lines)), dtype=complex)
+    loads[STATOR, 5] = [-line.motor_torque_n_m for line in lines]
+    return loads, np.array([line.roll_moment_n_m for line in lines], dtype=complex)
