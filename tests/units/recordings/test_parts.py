@@ -1,10 +1,10 @@
 """Parts of recordings: only what is asked for is read."""
 
 import hashlib
+import resource
 import struct
 import subprocess
 import sys
-import time
 
 import h5py
 import numpy as np
@@ -20,6 +20,12 @@ from vibroacoustics.recordings import (
 
 RATE_HZ = 51200.0
 GIB = 2**30
+
+
+def processor_s():
+    """Of this process and of those that it has waited for; a full machine does not lengthen it."""
+    usages = [resource.getrusage(of) for of in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(usage.ru_utime + usage.ru_stime for usage in usages)
 
 
 def long_hdf5(path, stored_s, rate_hz=RATE_HZ, duration_s=3600.0, channels=16):
@@ -41,9 +47,9 @@ def test_a_minute_of_22_gib(tmp_path):
     path = long_hdf5(tmp_path / "a.h5", (600, 660))
     claimed = 16 * 3600 * 51200 * 8
     assert claimed > 21.9 * GIB
-    begin = time.monotonic()
+    begin = processor_s()
     part = read_recording(path, from_s=600.0, to_s=660.0)
-    assert time.monotonic() - begin < 15.0
+    assert processor_s() - begin < 15.0
     assert part.sizes == {"channel": 16, "time": 60 * 51200}
     expected = np.repeat(np.arange(600.0, 660.0), 51200)
     for channel, found in enumerate(part["signal"].values):
@@ -79,9 +85,9 @@ def test_a_minute_of_a_long_wave_file(tmp_path):
     units = {"channel 3": "Pa"}
     with pytest.raises(StorageError, match="at once: give from_s and to_s, or channels"):
         read_recording(path, units=units)
-    begin = time.monotonic()
+    begin = processor_s()
     part = read_recording(path, from_s=600.0, to_s=660.0, channels=["channel 3"], units=units)
-    assert time.monotonic() - begin < 15.0
+    assert processor_s() - begin < 15.0
     expected = np.where(np.arange(60 * 51200) // 51200 == 30, 3.0, 0.0)
     np.testing.assert_array_equal(part["signal"].values[0], expected)
     assert "source_sha256" not in part.attrs
