@@ -7,6 +7,7 @@ import sys
 import h5py
 import numpy as np
 import pytest
+from support import command_here
 
 from vibroacoustics import open_results
 from vibroacoustics.base.constants import REFERENCE_PRESSURE_PA
@@ -106,7 +107,7 @@ def test_what_does_not_go_in_blocks_says_so(tmp_path, name, options):
             claimed = file.create_dataset(f"microphone {number}", (2**29,), "f8", chunks=(CHUNK,))
             claimed.attrs["units"] = "Pa"
     out = tmp_path / ("part.nc" if name == "export" else "out")
-    code, said, _ = command(name, path, *options, "--out", out)
-    assert code == 2
-    (line,) = said.splitlines()
+    outcome = command_here(name, path, *options, "--out", out)
+    assert outcome.returncode == 2
+    (line,) = outcome.stderr.splitlines()
     assert "at most 2 GiB are read at once: give --from and --to, or --channels" in line

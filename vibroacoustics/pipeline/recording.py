@@ -2,26 +2,21 @@
 
 from collections.abc import Sequence
 
-import numpy as np
 import xarray as xr
 
 from ..base.progress import Progress, no_progress
-from ..base.recording_blocks import RecordingBlocks, block_by_block
+from ..base.recording_blocks import RecordingBlocks
 from ..base.vocabulary import check, label_coordinates
 from ..levels.block_levels import labelled_block_levels
-from ..levels.recorded import PressureLevels
 from ..orders import recorded as of_recording
 from ..orders.analysed import analysed_channels, channels_without_speed
-from ..orders.angular_stream import AngularStream
-from ..orders.block_orders import BlockOrders
-from ..orders.crank_motion import CrankMotion
 from ..orders.labelled_map import labelled_map, mapped_spectra
 from ..orders.recorded_speed import recorded_speed
-from ..orders.synchronous_average import RevolutionAverage
 from ..orders.tracked import tracked_orders
 from ..recordings import LabelledBlocks
 from ..results import provenance
 from ..study.order_analysis import OrderAnalysis, SpeedSource
+from .block_pass import passed_over
 
 
 def analyse_orders(
@@ -56,7 +51,7 @@ def analyse_orders(
     with provenance.naming(blocks.attributes):
         speed = recorded_speed(blocks, settings.speed)
         names = analysed_channels(blocks.channels, settings.speed)
-        passed = _passed_over(blocks, names, speed.motion, settings, progress)
+        passed = passed_over(blocks, names, speed.motion, settings, progress)
         results = passed.merge(of_recording.fault_times(speed.faults))
         results.attrs = {
             **provenance.recording_attributes(blocks.attributes, settings),
@@ -64,65 +59,6 @@ def analyse_orders(
             **passed.attrs,
         }
         return check(label_coordinates(results))
-
-
-def _passed_over(
-    recording: RecordingBlocks,
-    names: Sequence[str],
-    motion: CrankMotion,
-    settings: OrderAnalysis,
-    progress: Progress,
-) -> xr.Dataset:
-    """Orders, average and levels of the channels, in one pass over the blocks of a recording.
-
-    Attributes: the resolution, what is left out.
-    """
-    rate_hz, samples = recording.sample_rate_hz, recording.samples
-    channel = _labels(recording, names)
-    plan = of_recording.angular_plan(rate_hz, samples, motion, settings)
-    stream = AngularStream(plan, len(names))
-    orders = BlockOrders(plan, len(names), settings)
-    average = RevolutionAverage(plan.samples_per_revolution)
-    offsets = _offsets(recording, names)
-    levels = PressureLevels(channel, samples, rate_hz, offsets, settings.bands)
-    passed = 0
-    for block in block_by_block(recording, names):
-        progress("orders", passed, samples)
-        angular = stream.add(block)
-        orders.add(angular)
-        average.add(angular)
-        levels.add(block)
-        passed += block.shape[1]
-    progress("orders", samples, samples)
-    of_blocks = orders.result()
-    results = of_recording.recorded_orders(channel, of_blocks, settings)
-    averages = of_recording.synchronous_average(channel, average)
-    in_db = levels.result()
-    results = results.merge(averages).merge(in_db)
-    results.attrs = {**of_recording.resolution(of_blocks), **averages.attrs, **in_db.attrs}
-    return results
-
-
-def _labels(recording: RecordingBlocks, names: Sequence[str]) -> xr.DataArray:
-    """Names of channels, with their units and calibration factors."""
-    rows = [recording.channels.index(name) for name in names]
-    coords = {
-        "channel": list(names),
-        "channel_unit": ("channel", [recording.channel_units[row] for row in rows]),
-        "calibration_factor": ("channel", [recording.calibration_factors[row] for row in rows]),
-    }
-    return xr.Dataset(coords=coords)["channel"]
-
-
-def _offsets(recording: RecordingBlocks, names: Sequence[str]) -> dict[int, float]:
-    """Means of the channels of sound pressure, by position among the names."""
-    units = dict(zip(recording.channels, recording.channel_units, strict=True))
-    pressures = [name for name in names if units[name] == "Pa"]
-    if not pressures:
-        return {}
-    sums = [block.sum(axis=1) for block in block_by_block(recording, pressures)]
-    means = np.sum(sums, axis=0) / recording.samples
-    return {names.index(name): float(mean) for name, mean in zip(pressures, means, strict=True)}
 
 
 def track_orders(

@@ -3,11 +3,23 @@
 import numpy as np
 import pytest
 import xarray as xr
+from scipy.io import wavfile
+from support import command_here
 
-from vibroacoustics import analyse_orders, label_recording, open_recording, track_orders
+from vibroacoustics import (
+    analyse_orders,
+    export_recording,
+    label_recording,
+    open_recording,
+    open_results,
+    track_orders,
+)
 from vibroacoustics.base import recording_blocks
 from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.commands import reading
 from vibroacoustics.orders import recorded_speed
+from vibroacoustics.recordings.recorded import TooLargeError
+from vibroacoustics.recordings.remarks import RecordingWarning
 from vibroacoustics.study.order_analysis import (
     NominalSpeed,
     OrderAnalysis,
@@ -87,18 +99,41 @@ def test_other_sources_of_speed_go_in_blocks(run_up, monkeypatch, speed):
     assert_same(analyse_orders(run_up, OrderAnalysis(speed)), once)
 
 
-def test_a_file_in_blocks(run_up, tmp_path, monkeypatch):
-    """Read in two parts, each by a process of its own, and worked on in smaller ones."""
-    from vibroacoustics import export_recording
+def test_the_command_reads_a_large_file_in_blocks(run_up, tmp_path, monkeypatch):
+    """Two parts are read, each by a process of its own, and worked on in smaller ones."""
+
+    def refuse(*_: object, **__: object) -> None:
+        raise TooLargeError("too large")
 
     path = export_recording(run_up, tmp_path / "run_up.nc")
-    settings = OrderAnalysis(SpeedChannel("tacho"))
-    once = analyse_orders(run_up, settings)
+    once = analyse_orders(run_up, OrderAnalysis(SpeedChannel("tacho")))
+    monkeypatch.setattr(reading, "read_recording", refuse)
     monkeypatch.setattr(recording_blocks, "READ_BYTES", 8 * 4 * 50_000)
     monkeypatch.setattr(recording_blocks, "BLOCK_BYTES", 8 * 4 * 6_000)
-    found = analyse_orders(open_recording(path), settings)
-    assert_same(found, once)
+    outcome = command_here("orders", path, "--speed", "tacho", "--out", tmp_path / "out")
+    assert outcome.returncode == 0, outcome.stderr
+    found = open_results(tmp_path / "out" / "orders.nc")
+    assert_same(found[list(once.variables)], once)
     assert found.attrs["source_file"] == "run_up.nc"
+    refused = command_here("track", path, "--speed", "tacho", "--bandwidth", 2)
+    assert refused.returncode == 2
+    assert "too large" in refused.stderr
+
+
+def test_an_overload_is_told_once(tmp_path):
+    """In three blocks of which the second and the third hold full scale."""
+    signal = 0.5 * np.sin(np.arange(3000) / 7.0)
+    stored = np.round(signal * 2.0**15).astype("i2")
+    stored[[1500, 1501, 2500]] = 2**15 - 1
+    wavfile.write(tmp_path / "a.wav", 1000, stored)
+    full_scale = {"channel 1": 2.0}
+    blocks = open_recording(tmp_path / "a.wav", units={"channel 1": "Pa"}, calibration=full_scale)
+    blocks.read(["channel 1"], 0, 1000)
+    line = "channel 'channel 1': 2 samples are at full scale, the first at 1.5 s"
+    with pytest.warns(RecordingWarning, match=line):
+        blocks.read(["channel 1"], 1000, 2000)
+    blocks.read(["channel 1"], 2000, 3000)  # a second warning would be an error
+    assert line in blocks.attributes["reading_remarks"]
 
 
 def test_a_speed_that_needs_the_signal_at_once_is_limited(run_up, monkeypatch):

@@ -1,0 +1,83 @@
+"""One pass over the blocks of a recording: orders, their average and levels."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+
+from ..base.progress import Progress
+from ..base.recording_blocks import RecordingBlocks, block_by_block
+from ..levels.recorded import PressureLevels
+from ..orders import recorded as of_recording
+from ..orders.angular_stream import AngularStream
+from ..orders.block_orders import BlockOrders
+from ..orders.crank_motion import CrankMotion
+from ..orders.synchronous_average import RevolutionAverage
+from ..study.order_analysis import OrderAnalysis
+
+
+def passed_over(
+    recording: RecordingBlocks,
+    names: Sequence[str],
+    motion: CrankMotion,
+    settings: OrderAnalysis,
+    progress: Progress,
+) -> xr.Dataset:
+    """Orders, average and levels of the channels, in one pass over the blocks of a recording.
+
+    Attributes: the resolution, what is left out.
+
+    Parameters
+    ----------
+    recording : of any length
+    names : of the channels that are analysed
+    motion : of the shaft
+    settings : the orders that are wanted
+    progress : called with the samples that have been passed
+    """
+    rate_hz, samples = recording.sample_rate_hz, recording.samples
+    channel = _labels(recording, names)
+    plan = of_recording.angular_plan(rate_hz, samples, motion, settings)
+    stream = AngularStream(plan, len(names))
+    orders = BlockOrders(plan, len(names), settings)
+    average = RevolutionAverage(plan.samples_per_revolution)
+    offsets = _offsets(recording, names)
+    levels = PressureLevels(channel, samples, rate_hz, offsets, settings.bands)
+    passed = 0
+    for block in block_by_block(recording, names):
+        progress("orders", passed, samples)
+        angular = stream.add(block)
+        orders.add(angular)
+        average.add(angular)
+        levels.add(block)
+        passed += block.shape[1]
+    progress("orders", samples, samples)
+    of_blocks = orders.result()
+    results = of_recording.recorded_orders(channel, of_blocks, settings)
+    averages = of_recording.synchronous_average(channel, average)
+    in_db = levels.result()
+    results = results.merge(averages).merge(in_db)
+    results.attrs = {**of_recording.resolution(of_blocks), **averages.attrs, **in_db.attrs}
+    return results
+
+
+def _labels(recording: RecordingBlocks, names: Sequence[str]) -> xr.DataArray:
+    """Names of channels, with their units and calibration factors."""
+    rows = [recording.channels.index(name) for name in names]
+    coords = {
+        "channel": list(names),
+        "channel_unit": ("channel", [recording.channel_units[row] for row in rows]),
+        "calibration_factor": ("channel", [recording.calibration_factors[row] for row in rows]),
+    }
+    return xr.Dataset(coords=coords)["channel"]
+
+
+def _offsets(recording: RecordingBlocks, names: Sequence[str]) -> dict[int, float]:
+    """Means of the channels of sound pressure, by position among the names."""
+    units = dict(zip(recording.channels, recording.channel_units, strict=True))
+    pressures = [name for name in names if units[name] == "Pa"]
+    if not pressures:
+        return {}
+    sums = [block.sum(axis=1) for block in block_by_block(recording, pressures)]
+    means = np.sum(sums, axis=0) / recording.samples
+    return {names.index(name): float(mean) for name, mean in zip(pressures, means, strict=True)}
