@@ -20,7 +20,7 @@ from ..radiation.pressure import (
     wrench_pressure,
 )
 from ..sources.cases import sources_of
-from ..study.draws import Draw, draws_of, with_draw
+from ..study.draws import Draw, draws_of
 from ..study.selection import at_speeds
 from ..study.study import Study
 from ..transfer.path import ShellPath
@@ -55,7 +55,7 @@ def levels_of(
     cases = {**catalogue.cases, **motion.cases}
     loads = {**catalogue.loads, **motion.loads}
     axes = LevelAxes.of(study, list(sources_of(study)), motion.results)
-    received = transmission.received(cases, loads, study.machine)
+    received = transmission.received(cases, loads)
     sound = {key: sound_by_source(one, axes.bands) for key, one in received.items()}
     draws = draws_of(study).draws
     rest, share = remainder(study, axes, sound, bool(draws)), remaining_share(study.options)
@@ -87,9 +87,8 @@ def sound_of_draws(
     def sound_of(draw: Draw) -> Sound:
         drawn = drawn_cases(cases, study, draw, transmission.rigid)
         pressure = {**transmission.wrench_pressure, **drawn.wrench_pressure}
-        machine = with_draw(study.machine, study.machine, draw)
         received = replace(transmission, wrench_pressure=pressure).received(
-            drawn.cases, drawn.loads, machine
+            drawn.cases, drawn.loads
         )
         return {key: sound_by_source(one, axes.bands) for key, one in received.items()}
 

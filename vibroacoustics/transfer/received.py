@@ -2,16 +2,20 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import xarray as xr
 
 from ..base.arrays import ComplexArray
+from ..base.parameters import Parameters
+from ..machine.frame import Frame
 from ..machine.machine import Machine
 from ..machine.shell_structure import ShellStructure, ShellVariation
-from ..machine.source import Case, CaseKey
+from ..machine.source import Case, CaseKey, Shared
 from ..mechanics.loads import Lines, Loads, lines_of
 from ..mechanics.received_sound import NoisePower, ReceivedSound
+from ..mechanics.scroll_shaft import ScrollShaft
 from ..study.study import Study
 from .frame import frame_on_shell
 from .machine import on_mounts
@@ -44,23 +48,24 @@ class Transmission:
         self,
         cases: Mapping[CaseKey, Case],
         loads: Mapping[CaseKey, Mapping[str, Loads]],
-        machine: Machine,
     ) -> dict[CaseKey, ReceivedSound]:
         """Sound of every case behind its option's insertion loss.
 
         Parameters
         ----------
-        cases : speeds and options
+        cases : speeds and options, with the values of one draw
         loads : of all sources in each
-        machine : of the study, whose shell has the values of a draw
         """
-        path = SoundPath(self.rigid, self._bending_shell(machine))
-        return {
-            key: self._of_case(case, loads[key], self.wrench_pressure[key], path).behind(
-                self.study.option_of(key).insertion_loss()
-            )
-            for key, case in cases.items()
-        }
+        known, sound = Shared(), {}
+        for key, case in cases.items():
+            machine = case.machine
+            path = known(_path_tables(machine), partial(self._sound_path, machine))
+            received = self._of_case(case, loads[key], self.wrench_pressure[key], path)
+            sound[key] = received.behind(self.study.option_of(key).insertion_loss())
+        return sound
+
+    def _sound_path(self, machine: Machine) -> SoundPath:
+        return SoundPath(self.rigid, self._bending_shell(machine))
 
     def _bending_shell(self, machine: Machine) -> BendingShell | None:
         if self.shell is None or self.modes is None:
@@ -96,6 +101,12 @@ class Transmission:
         if self.study.drives_shell:
             highest = max(highest, case.maximum_order)
         return lines_of(loads, case.shaft_frequency_hz, highest)
+
+
+def _path_tables(machine: Machine) -> tuple[Parameters, ...]:
+    """What tells the paths of two machines apart."""
+    tables = (ShellStructure, ShellVariation, Frame, ScrollShaft)
+    return (machine.housing, *(machine.table(each) for each in tables if machine.has_table(each)))
 
 
 def by_case_and_source(

@@ -121,6 +121,23 @@ def test_a_frame_as_stiff_as_can_be_is_quieter_than_separate_joints(study):
     assert np.linalg.norm(on_modes) < 0.5 * np.linalg.norm(separate)
 
 
+def test_an_option_may_change_the_frame(tmp_path):
+    """Stiffer bolts by redesign: the sources' loads stay, their sound changes."""
+    change = """
+[options.locked]
+kind = "redesign"
+[options.locked.change.frame.bolts]
+lateral_stiffness_n_per_mm = { value = 4e5, source = "test" }
+[receivers.front_1m]"""
+    text = TEXT.replace(WITHOUT, "").replace("[receivers.front_1m]", change)
+    start, stop = text.index("[sources.keys]"), text.index("[radiation]")
+    study = load_text(tmp_path, (text[:start] + text[stop:]).replace("stopping = true", ""))
+    options = {name: study.options[name] for name in ("none", "locked")}
+    one = study.model_copy(update={"options": options, "ranges": ()})
+    level = run_made_up(one)["source_level"].sel(sound_source="gas", receiver="front_1m")
+    assert abs(level.sel(option="locked") - level.sel(option="none")).item() > 0.1
+
+
 # --- bad input -----------------------------------------------------------------------------------
 
 
