@@ -213,7 +213,7 @@ def test_ripple_of_the_plenum(point, expected):
 # --- a published trend ---------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("coefficient", [0.8, 1.0])
+@pytest.mark.parametrize("coefficient", [0.8, pytest.param(1.0, marks=pytest.mark.long)])
 def test_least_sound_where_the_pocket_opens_at_the_discharge_pressure(coefficient):
     """Bukac, ICEC 2008, paper 1875: least noise where dome and pocket meet at the opening.
 
