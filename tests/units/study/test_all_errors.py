@@ -97,7 +97,11 @@ def test_keys_are_asked_for_in_the_unit_of_an_example():
 def test_mistakes_of_all_sorts_come_at_once(tmp_path):
     text = MACHINE_FILE.read_text(encoding="utf-8")
     text = with_line(text, 'mass_kg = { value = 0.0727, source = "thesis 7.1" }', "mass_kg = -1.0")
-    text = with_line(text, "lateral_stiffness_n_per_mm", "latteral_stiffness_n_per_mm")
+    text = with_line(
+        text,
+        "lateral_stiffness_n_per_mm = { value = 20",
+        "latteral_stiffness_n_per_mm = { value = 20",
+    )
     text = text.replace("level_dba = ", "level = ")
     text = with_line(text, "[brake]", "[braek]")
     told = "\n".join(lines(load_machine, written(text, tmp_path)))
