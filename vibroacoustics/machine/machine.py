@@ -15,6 +15,7 @@ from ..base.parameters import AnyOf, Held, KindOfParameters, Parameters
 from ..base.registry import Registry
 from ..mechanics.capabilities import UPRIGHT, Capability, CrankFrame
 from ..mechanics.moving_parts import MovingPart, Revolution
+from .balance_quality import BalanceQuality
 from .derived import INERTIAS, Derived
 from .housing import Housing
 from .mounts import Mounts
@@ -71,6 +72,8 @@ class Machine(KindOfParameters):
     overall_noise: OverallNoise
     suspension: Suspension | None = None
     """Springs between the block with the mechanism and the shell; none where both are one."""
+    balance_quality: BalanceQuality | None = None
+    """How well its rotor is balanced; a study that names no residual unbalance leaves it out."""
     errata: tuple[Erratum, ...] = ()
 
     axes: ClassVar[str] = "x, y and z"

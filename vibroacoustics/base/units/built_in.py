@@ -13,6 +13,8 @@ for _unit in (
     Unit("m3", "m³", "m3", 1.0),
     Unit("g", "g", "kg", 1e-3),
     Unit("kg", "kg", "kg", 1.0),
+    Unit("g_mm", "g mm", "kg_m", 1e-6),
+    Unit("kg_m", "kg m", "kg_m", 1.0),
     Unit("kg_m2", "kg m²", "kg_m2", 1.0),
     Unit("n", "N", "n", 1.0),
     Unit("n_per_mm", "N/mm", "n_per_m", 1e3),
