@@ -129,20 +129,25 @@ def with_draw(machine: Machine, given: Machine, draw: Draw) -> Machine:
     }
     if not changed:
         return machine
-    return _with_derived(machine, _replaced(machine, changed), draw)
+    return _replaced(machine, changed | _derived(machine, changed, draw))
 
 
-def _with_derived(machine: Machine, drawn: Machine, draw: Draw) -> Machine:
-    """A machine with what follows from its drawn values, in the order of `derived`."""
+def _derived(machine: Machine, changed: Mapping[str, float], draw: Draw) -> dict[str, float]:
+    """What follows from the drawn values of a machine, in the order of `derived`.
+
+    They are not checked before: drawn values may contradict a given one that follows from them.
+    """
+    follows: dict[str, float] = {}
     for derived in machine.derived:
         table, _, field = derived.name.rpartition(".")
-        before, after = derived.rule(machine), derived.rule(drawn)
-        if (table, field) in draw or before is None or after is None or before == after:
-            continue
         value = _read(machine, table, field)
-        if value is not None:
-            drawn = _replaced(drawn, {derived.name: value * after / before})
-    return drawn
+        if (table, field) in draw or value is None:
+            continue
+        drawn = _unchecked(machine, {**changed, **follows})
+        before, after = derived.rule(machine), derived.rule(drawn)
+        if before is not None and after is not None and before != after:
+            follows[derived.name] = value * after / before
+    return follows
 
 
 def _read(machine: Machine, table: str, field: str) -> Any:
@@ -153,16 +158,18 @@ def _read(machine: Machine, table: str, field: str) -> Any:
         return None
 
 
+def _unchecked(table: Table, values: Mapping[str, Any]) -> Table:
+    """A table with other values by dotted name, as they are."""
+    fields, inner = _by_table(values)
+    for first, within in inner.items():
+        fields[first] = _unchecked(getattr(table, first), within)
+    return table.model_copy(update=fields)
+
+
 def _replaced(table: Table, values: Mapping[str, Any]) -> Table:
     """A table with other values by dotted name, validated as a file is."""
-    fields: dict[str, Any] = dict(iter(table))
-    inner: dict[str, dict[str, Any]] = {}
-    for name, value in values.items():
-        first, _, rest = name.partition(".")
-        if rest:
-            inner.setdefault(first, {})[rest] = value
-        else:
-            fields[first] = value
+    direct, inner = _by_table(values)
+    fields: dict[str, Any] = {**dict(iter(table)), **direct}
     for first, within in inner.items():
         fields[first] = _replaced(fields[first], within)
     try:
@@ -172,6 +179,19 @@ def _replaced(table: Table, values: Mapping[str, Any]) -> Table:
         field = ".".join(map(str, details["loc"]))
         message = str(details.get("ctx", {}).get("error", details["msg"]))
         raise ParameterError(f"{field}: {message}" if field else message) from None
+
+
+def _by_table(values: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
+    """Values of a table itself, and those of the tables in it by the table's name."""
+    direct: dict[str, Any] = {}
+    inner: dict[str, dict[str, Any]] = {}
+    for name, value in values.items():
+        first, _, rest = name.partition(".")
+        if rest:
+            inner.setdefault(first, {})[rest] = value
+        else:
+            direct[first] = value
+    return direct, inner
 
 
 def _why_not(study: Study, draw: Draw) -> str | None:

@@ -70,7 +70,6 @@ def test_planes_stand_along_the_shaft_of_a_machine_on_its_side():
     assert np.abs(shaft @ about_shaft).max() < quality().eccentricity_m * np.abs(force).max()
 
 
-@pytest.mark.filterwarnings("ignore:.*drawn anew")
 def test_a_study_names_it(tmp_path):
     path = tmp_path / "study.toml"
     path.write_text(

@@ -180,6 +180,8 @@ def test_inertias_follow_the_masses_unless_they_are_drawn_themselves(study):
     apart = with_draw(base, base, {**mass, ("housing", "inertia_xx_kg_m2"): 0.5})
     assert apart.housing.inertia_xx_kg_m2 == 0.5
     assert apart.housing.inertia_yy_kg_m2 == pytest.approx(0.5)  # round about z
+    light = {("housing", "inertia_xx_kg_m2"): 0.45, ("housing", "inertia_zz_kg_m2"): 0.10}
+    assert with_draw(base, base, light).housing.inertia_yy_kg_m2 == pytest.approx(0.45)  # not 0.57
     said = {item.name: item.independent_of for item in study.ranges if item.independent_of}
     assert said == {
         "housing.inertia_xx_kg_m2": ("housing.mass_kg",),
