@@ -18,10 +18,11 @@ from .order_cut import OrderCut, OrderResolutionWarning, order_cut, order_lines
 from .order_map import OrderMap, block_phasors, mean_order_spectrum, order_map
 from .pulse_edges import pulse_times
 from .pulse_faults import PulseFault
+from .rpm_channel import rpm_motion
 from .spectrum import order_spectra, order_spectrum, order_spectrum_at_speed
 from .synchronous import OrderEnvelope, synchronous_demodulation
 from .synchronous_average import SynchronousAverage, time_synchronous_average
-from .tacho import TachoResult, rpm_motion, tacho_motion
+from .tacho import TachoResult, tacho_motion
 from .tacholess import TacholessResult, tacholess_motion
 from .vold_kalman import Track, TrackedOrders, vold_kalman
 

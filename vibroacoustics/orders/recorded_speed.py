@@ -1,7 +1,7 @@
 """Crank angle of a recording: from a tacho, a speed channel, a given speed or the signal."""
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Final
 
@@ -17,15 +17,16 @@ from .crank_motion import CrankMotion, constant_speed
 from .pulse_edges import pulse_times_of
 from .pulse_faults import PulseFault
 from .pulse_pattern import sampling_note
+from .rpm_channel import rpm_motion_of
 from .speed_check import MOSTLY, WIDE_LINE
-from .tacho import rpm_motion, tacho_motion
+from .tacho import tacho_motion
 from .tacholess import TacholessResult, tacholess_motion
 
 LEAST_CONFIDENCE: Final = 0.8
 """Of a speed without a tacho that is not warned of (`SpeedCheck`)."""
 
 MOST_SPEED_SAMPLES: Final = 2**26
-"""Of a channel in rpm, or in which the speed is looked for: half a GiB, 22 min at 51.2 kHz."""
+"""Of a channel in which the speed is looked for: half a GiB, 22 min at 51.2 kHz."""
 
 
 class UncertainSpeedWarning(UserWarning):
@@ -90,7 +91,7 @@ def recorded_speed(recording: RecordingBlocks, speed: SpeedSource) -> RecordedSp
     if isinstance(speed, TacholessSpeed):
         return _from_signal(_samples(recording, name), rate_hz, speed)
     if recording.channel_units[recording.channels.index(name)] == "rpm":
-        return _from_rpm(name, _samples(recording, name), rate_hz)
+        return _from_rpm(recording, name)
     return _from_pulses(recording, speed)
 
 
@@ -137,10 +138,11 @@ def _uncertain(tracked: TacholessResult, speed: TacholessSpeed) -> str:
     )
 
 
-def _from_rpm(name: str, speed_rpm: Array, rate_hz: float) -> RecordedSpeed:
-    motion = rpm_motion(speed_rpm, rate_hz)
+def _from_rpm(recording: RecordingBlocks, name: str) -> RecordedSpeed:
+    samples, rate_hz = recording.samples, recording.sample_rate_hz
+    motion = rpm_motion_of(_blocks(recording, name), samples, rate_hz)
     source = f"channel {name}, rpm"
-    before, behind = motion.start_s, (speed_rpm.size - 1) / rate_hz - motion.end_s
+    before, behind = motion.start_s, (samples - 1) / rate_hz - motion.end_s
     if max(before, behind) < 0.5 / rate_hz:
         return RecordedSpeed(motion, source)
     cut = f"standstill cut off: {before:.3g} s before, {behind:.3g} s behind"
@@ -173,11 +175,13 @@ def _from_pulses(recording: RecordingBlocks, speed: SpeedChannel) -> RecordedSpe
 
 
 def _pulse_times(recording: RecordingBlocks, name: str) -> Array:
-    return pulse_times_of(
-        lambda: (block[0] for block in block_by_block(recording, [name])),
-        recording.samples,
-        recording.sample_rate_hz,
-    )
+    blocks = _blocks(recording, name)
+    return pulse_times_of(blocks, recording.samples, recording.sample_rate_hz)
+
+
+def _blocks(recording: RecordingBlocks, name: str) -> Callable[[], Iterator[Array]]:
+    """Starts over with the blocks of a channel."""
+    return lambda: (block[0] for block in block_by_block(recording, [name]))
 
 
 def _samples(recording: RecordingBlocks, name: str) -> Array:
@@ -185,10 +189,10 @@ def _samples(recording: RecordingBlocks, name: str) -> Array:
     if recording.samples > MOST_SPEED_SAMPLES:
         raise ParameterError(
             f"speed: {recording.samples} samples of channel {name!r} are too many, at most "
-            f"{MOST_SPEED_SAMPLES} are taken: choose a part by from_s and to_s, or a tacho's "
-            "pulses, of which there may be any number"
+            f"{MOST_SPEED_SAMPLES} are taken: choose a part by from_s and to_s; a tacho or "
+            "a channel in rpm may have any number"
         )
-    blocks = [block[0] for block in block_by_block(recording, [name])]
+    blocks = list(_blocks(recording, name)())
     return blocks[0] if len(blocks) == 1 else np.concatenate(blocks)
 
 

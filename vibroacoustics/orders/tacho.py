@@ -1,23 +1,16 @@
-"""Crank motion from tacho pulses or from a recorded speed."""
+"""Crank motion from tacho pulses."""
 
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 from scipy.interpolate import PPoly
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
-from .crank_motion import CrankMotion, from_angle, from_curve
+from .crank_motion import CrankMotion, from_curve
 from .pulse_faults import PulseFault, number_pulses
 from .pulse_pattern import pulse_notes
 from .smoothing import smooth_curve
-
-_POINTS_PER_S: Final = 20
-"""Of a recorded speed: it holds nothing faster than the 10 Hz that drives are controlled at."""
-_LEAST_POINTS: Final = 4
-_STANDSTILL: Final = 0.01
-"""Share of the highest speed up to which a shaft that starts or stops counts as standing."""
 
 
 @dataclass(frozen=True)
@@ -70,62 +63,6 @@ def tacho_motion(
     notes, are_teeth = pulse_notes(pulses, pulses_per_revolution)
     faults = [fault for fault in pulses.faults if not (are_teeth and fault.kind == "missing")]
     return TachoResult(motion, tuple(faults), smooth.scatter / pitch_rad, notes)
-
-
-def rpm_motion(speed_rpm: Array, sample_rate_hz: float) -> CrankMotion:
-    """Crank motion from a recorded speed channel; its angle is zero where it begins.
-
-    The speed is integrated over every sample; the angle is a cubic spline through twenty points a
-    second, so that noise of the channel averages out. A standstill before and behind is cut off:
-    the motion begins and ends there.
-
-    Parameters
-    ----------
-    speed_rpm : shape (time,)
-    sample_rate_hz : samples per second
-
-    Raises
-    ------
-    ParameterError
-        There are fewer than four samples, one is not finite, or the shaft stops.
-    """
-    if speed_rpm.ndim != 1 or speed_rpm.size < _LEAST_POINTS or not np.all(np.isfinite(speed_rpm)):
-        raise ParameterError(
-            f"speed: needs at least {_LEAST_POINTS} finite samples of one channel, got shape "
-            f"{speed_rpm.shape}"
-        )
-    first, last = turning_part(speed_rpm)
-    speed_rpm = speed_rpm[first:last]
-    step_rad = 2.0 * np.pi / 60.0 / sample_rate_hz * 0.5 * (speed_rpm[1:] + speed_rpm[:-1])
-    angle_rad = np.concatenate([[0.0], np.cumsum(step_rad)])
-    points = max(_LEAST_POINTS, int(_POINTS_PER_S * speed_rpm.size / sample_rate_hz))
-    at = np.linspace(0, speed_rpm.size - 1, min(points, speed_rpm.size)).round().astype(int)
-    return from_angle((first + at) / sample_rate_hz, angle_rad[at])
-
-
-def turning_part(speed_rpm: Array) -> tuple[int, int]:
-    """First sample of the shaft's longest run, and the one behind its last.
-
-    All of a channel that never falls to zero; else what lies above a hundredth of the highest
-    speed. A second run or one backwards, of more than a hundredth of the first, is left in: it
-    is no standstill before or behind, and the motion refuses it.
-
-    Parameters
-    ----------
-    speed_rpm : shape (time,)
-    """
-    highest = float(np.max(speed_rpm))
-    if float(np.min(speed_rpm)) > 0.0 or not highest > 0.0:
-        return 0, speed_rpm.size
-    turns = speed_rpm > _STANDSTILL * highest
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], turns, [False]]).astype(np.int8)))
-    begins, ends = edges[::2], edges[1::2]
-    longest = int(np.argmax(ends - begins))
-    first, last = int(begins[longest]), int(ends[longest])
-    others = int(np.count_nonzero(np.abs(speed_rpm) > _STANDSTILL * highest)) - (last - first)
-    if others > _STANDSTILL * (last - first) or last - first < _LEAST_POINTS:
-        return 0, speed_rpm.size
-    return first, last
 
 
 def _from_index(motion: CrankMotion, index_times_s: Array, pitch_rad: float) -> CrankMotion:

@@ -11,9 +11,10 @@ from vibroacoustics.orders.pulse_edges import pulse_times
 from vibroacoustics.orders.pulse_faults import number_pulses
 from vibroacoustics.orders.pulse_pattern import sampling_note
 from vibroacoustics.orders.recorded_speed import StandstillWarning, recorded_speed
+from vibroacoustics.orders.rpm_channel import rpm_motion
 from vibroacoustics.orders.smoothing import smooth_curve
-from vibroacoustics.orders.tacho import rpm_motion, tacho_motion
-from vibroacoustics.recordings import label_recording
+from vibroacoustics.orders.tacho import tacho_motion
+from vibroacoustics.recordings import LabelledBlocks, label_recording
 from vibroacoustics.study.order_analysis import SpeedChannel
 
 SAMPLE_RATE_HZ = 51200.0
@@ -400,7 +401,7 @@ def test_a_standstill_is_told():
     with pytest.warns(
         StandstillWarning, match=r"channel n: standstill cut off: 0\.1 s before, 0 s"
     ):
-        found = recorded_speed(recording, SpeedChannel("n"))
+        found = recorded_speed(LabelledBlocks(recording), SpeedChannel("n"))
     assert found.motion.start_s == pytest.approx(0.1, abs=1e-9)
     assert "standstill cut off: 0.1 s before" in found.source
 

@@ -165,6 +165,25 @@ def test_machines_with_hum_mesh_lines_and_a_weak_first_order(numbers, least):
     assert sure >= least
 
 
+@pytest.mark.parametrize(
+    ("numbers", "least"),
+    [((2007, 2018), 1), pytest.param(range(2000, 2050), 30, marks=pytest.mark.long)],
+)
+def test_machines_of_which_nothing_is_known(numbers, least):
+    """Neither comb nor mains are given: none is wrong without a warning, three in five are sure."""
+    sure = 0
+    for number in numbers:
+        machine = synthetic_machine(number)
+        result = tacholess_motion(machine.signal, RATE_HZ, machine.minimum_hz, machine.maximum_hz)
+        time_s = np.arange(machine.signal.size) / RATE_HZ
+        true = partial(np.interp, xp=time_s, fp=machine.speed_hz)
+        error = speed_error(result.motion, true, margin=0.05)
+        is_sure = result.check.confidence >= LEAST_CONFIDENCE
+        assert error < 3e-3 or not is_sure, number
+        sure += is_sure
+    assert sure >= least
+
+
 def test_mains_are_left_out():
     """Lines at multiples of 49.97 Hz go; an order 0.47 Hz beside one stays, and so does noise."""
     rng = np.random.default_rng(7)

@@ -1,5 +1,7 @@
 """A recording that is analysed in blocks: the same results as in one piece."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -18,6 +20,7 @@ from vibroacoustics.base import recording_blocks
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.commands import reading
 from vibroacoustics.orders import recorded_speed
+from vibroacoustics.orders.rpm_channel import rpm_motion, rpm_motion_of
 from vibroacoustics.recordings.recorded import TooLargeError
 from vibroacoustics.recordings.remarks import RecordingWarning
 from vibroacoustics.study.order_analysis import (
@@ -138,11 +141,26 @@ def test_an_overload_is_told_once(tmp_path):
 
 def test_a_speed_that_needs_the_signal_at_once_is_limited(run_up, monkeypatch):
     monkeypatch.setattr(recorded_speed, "MOST_SPEED_SAMPLES", 50_000)
-    for speed in (SpeedChannel("speed"), TacholessSpeed("housing", 1000.0, 3000.0)):
-        with pytest.raises(ParameterError, match=r"too many, at most 50000 .* by from_s and to_s"):
-            analyse_orders(run_up, OrderAnalysis(speed))
+    speed = TacholessSpeed("housing", 1000.0, 3000.0)
+    with pytest.raises(ParameterError, match=r"too many, at most 50000 .* by from_s and to_s"):
+        analyse_orders(run_up, OrderAnalysis(speed))
     with pytest.raises(ParameterError, match="by from_s and to_s"):
-        track_orders(run_up, SpeedChannel("speed"), [1.0], 2.0)
+        track_orders(run_up, speed, [1.0], 2.0)
+
+
+def test_a_standstill_is_cut_off_in_blocks_too():
+    """The shaft stands, turns, hums backwards within a hundredth, and stands again."""
+    rng = np.random.default_rng(5)
+    speed = np.concatenate([np.zeros(700), np.linspace(100.0, 3000.0, 4000), np.zeros(1300)])
+    speed += rng.uniform(-20.0, 20.0, speed.size) * (speed == 0.0)
+    once = rpm_motion(speed, 1000.0)
+    at_s = np.linspace(once.start_s, once.end_s, 500)
+    for size in (1, 699, 1000, 4999):
+        blocks = partial(np.split, speed, range(size, speed.size, size))
+        motion = rpm_motion_of(lambda blocks=blocks: iter(blocks()), speed.size, 1000.0)
+        np.testing.assert_array_equal(motion.curve.x, once.curve.x)
+        np.testing.assert_allclose(motion.angle_rad(at_s), once.angle_rad(at_s), atol=1e-9)
+    assert (once.start_s, once.end_s) == (0.7, 4.699)
 
 
 def test_a_map_that_is_too_large_is_refused(run_up, monkeypatch):
