@@ -1,6 +1,7 @@
 """Interpolation between solved frequencies, and how true the estimated errors are."""
 
 import numpy as np
+import pytest
 from radiation_parts import normal_velocity
 from ring_sources import hemisphere, ring_field
 from scipy import special
@@ -67,22 +68,33 @@ def _ring_errors(profile, frequency_hz, floor_z_m, source):
     return true.max(axis=0) / size, estimate.max(axis=0) / size
 
 
-def test_estimated_errors_cover_those_of_rings():
-    """144 manufactured cases: 95 % covered, in the median at most five times too large."""
+@pytest.mark.parametrize(
+    ("bodies", "frequencies_hz", "covered"),
+    [
+        pytest.param(("flat",), (10000.0,), 0.9, id="18 cases"),
+        pytest.param(
+            tuple(BODIES), (1500.0, 10000.0), 0.95, id="144 cases", marks=pytest.mark.long
+        ),
+    ],
+)
+def test_estimated_errors_cover_those_of_rings(bodies, frequencies_hz, covered):
+    """Orders 0 to 8, with a floor and without: most covered, at the median at most five times."""
     rng = np.random.default_rng(5)
     true, estimated = [], []
-    for profile in BODIES.values():
+    for body in bodies:
         for floor_z_m in (None, FLOOR_Z_M):
-            for frequency_hz in (1500.0, 10000.0):
+            for frequency_hz in frequencies_hz:
                 source = (rng.uniform(0.03, 0.05), rng.uniform(-0.06, 0.04))
-                errors = _ring_errors(profile, frequency_hz, floor_z_m, source)
+                errors = _ring_errors(BODIES[body], frequency_hz, floor_z_m, source)
                 true.append(errors[0])
                 estimated.append(errors[1])
     true, estimated = np.concatenate(true), np.concatenate(estimated)
-    assert true.size == 144
+    assert true.size == 18 * len(bodies) * len(frequencies_hz)
     assert true.max() < 2e-3
-    assert np.mean(estimated >= true) >= 0.95
-    assert 1.0 <= np.median(estimated / true) <= 5.0
+    ratio = estimated / true
+    print(f"{np.mean(ratio >= 1.0):.3f} covered, median {np.median(ratio):.2f}")
+    assert np.mean(ratio >= 1.0) >= covered
+    assert 1.0 <= np.median(ratio) <= 5.0
 
 
 def test_spectra_of_a_sphere():
