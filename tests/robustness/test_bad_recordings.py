@@ -301,7 +301,7 @@ def test_claims_are_refused_before_anything_is_allocated(tmp_path):
     for path, line in zip(paths, lines, strict=True):
         assert line != "read", path.name
         kind, message = json.loads(line)
-        assert kind in ("ParameterError", "StorageError"), message
+        assert kind in ("ParameterError", "StorageError", "TooLargeError"), message
         assert len(message.splitlines()) == 1
         assert message.startswith(f"{path}: ")
     assert int(own) < 400 * 2**20
