@@ -277,11 +277,11 @@ def test_parameters_are_no_parameters(text: str, tmp_path: Path) -> None:
 def test_a_key_is_missing_or_of_another_type(
     name: str, attribute: str, step: int, tmp_path: Path
 ) -> None:
-    """Refused, or made where the key can be missing: of all such, every so many."""
+    """Refused, or made where the key can be missing: every so many of all keys."""
     results = run(name)
     stored = json.loads(results.attrs[attribute])
     made = {}
-    for path, value in leaves(known_keys(results, attribute)):
+    for path, value in list(leaves(known_keys(results, attribute)))[::step]:
         number = isinstance(value, float | int) and not isinstance(value, bool)
         wrong = ["x"] if not isinstance(value, str) else [7]
         for new in (GONE, *wrong, float("nan"), *([[]] if number else [[7]]), {"a": 7}):
@@ -291,7 +291,7 @@ def test_a_key_is_missing_or_of_another_type(
             except SchemaError:
                 continue
             made[path[:-1], new is GONE] = changed
-    for what, changed in list(made.items())[::step]:
+    for what, changed in list(made.items()):
         assert refused_or_made(changed, tmp_path) == [0, 0], what
 
 

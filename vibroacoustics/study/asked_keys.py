@@ -16,6 +16,7 @@ _BY_QUANTITY: Final = {
     "bearing_stiffness_n_per_m": "n_per_m",
     "duration_s": "ms",
     "approach_speed_m_per_s": "mm_per_s",
+    "grade_m_per_s": "mm_per_s",
 }
 """By the end of a field's name, the first that fits."""
 _BY_UNIT: Final = {"m": "mm", "rad": "deg", "n_per_m": "n_per_mm", "m3": "cm3", "f": "uf"}

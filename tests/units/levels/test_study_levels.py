@@ -26,6 +26,7 @@ HOODED = {
 STUDY = SimpleNamespace(
     machine=SimpleNamespace(overall_noise=SimpleNamespace(level_dba=94.0, speed_rpm=3000.0)),
     catalogue_receiver="front",
+    catalogue_case=(3000.0, "none"),
 )
 
 
