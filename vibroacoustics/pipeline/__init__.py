@@ -1,8 +1,15 @@
-"""The jobs: sole owner of the order of stages."""
+"""The jobs: sole owner of the order of stages.
 
-from .radiating import radiate
-from .recording import analyse_orders, speed_frequency_map, track_orders
-from .study import run
+They are imported when they are first asked for: one on a recording needs no radiation.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .radiating import radiate
+    from .recording import analyse_orders, speed_frequency_map, track_orders
+    from .study import run
 
 __all__ = [
     "analyse_orders",
@@ -11,3 +18,18 @@ __all__ = [
     "speed_frequency_map",
     "track_orders",
 ]
+
+_HOME = {
+    "analyse_orders": "recording",
+    "radiate": "radiating",
+    "run": "study",
+    "speed_frequency_map": "recording",
+    "track_orders": "recording",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import a job when it is first asked for."""
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__} has no attribute {name}")
+    return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)

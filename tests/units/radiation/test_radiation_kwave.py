@@ -43,10 +43,10 @@ def simulated(box, microphone, mirrors=(FLOOR,), spacing_m=0.03, maximum_hz=2500
 @pytest.mark.parametrize(
     ("microphone", "mirrors"),
     [
-        ((0.5, 0.1, 0.0), ()),
+        pytest.param((0.5, 0.1, 0.0), (), marks=pytest.mark.long),
         ((0.2, -0.6, 0.2), (FLOOR,)),
-        ((0.05, -0.05, 0.6), (FLOOR,)),
-        ((0.2, 0.45, 0.21), (FLOOR, WALL)),
+        pytest.param((0.05, -0.05, 0.6), (FLOOR,), marks=pytest.mark.long),
+        pytest.param((0.2, 0.45, 0.21), (FLOOR, WALL), marks=pytest.mark.long),
         ((0.2, -0.43, 0.21), (FLOOR, WALL, SIDE_WALL)),
         ((0.2, -0.43, 0.21), (FLOOR, WALL, SOFT_WALL)),
     ],
@@ -147,7 +147,13 @@ def mirrored(node, walls):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "walls", [[], [(2, 37)], [(2, 37), (0, 40), (1, 36)]], ids=["free-field", "floor", "corner"]
+    "walls",
+    [
+        pytest.param([], marks=pytest.mark.long),
+        pytest.param([(2, 37)], marks=pytest.mark.long),
+        [(2, 37), (0, 40), (1, 36)],
+    ],
+    ids=["free-field", "floor", "corner"],
 )
 def test_source_and_microphone_change_places(walls):
     """Reciprocity to 1e-6 of the largest pressure.
