@@ -87,6 +87,11 @@ def flat(value: float) -> np.ndarray:
     return np.array([[0.0], [0.0], [0.0], [value]])
 
 
+def integrated(start, samples, interval_s, steps, c):
+    """From keys that touch no face, from crank angle zero."""
+    return integrate(start.copy(), np.zeros((2, 4)), 0, samples, interval_s, steps, c)
+
+
 def coupling(**changes) -> Coupling:
     """Ring and scroll at rest on a shaft at rest, without losses, moment or force."""
     given = {
@@ -257,7 +262,7 @@ def test_free_impact_rebounds_as_its_first_integral_says(law, restitution):
     hysteresis = CONTACT_LAWS[law](restitution)
     speed = 0.05
     start = np.array([0.0, 0, 0, 0, speed, 0, 0, 0])
-    motion = integrate(start, 1000, 1e-6, 2, coupling(hysteresis=hysteresis))[0]
+    motion = integrated(start, 1000, 1e-6, 2, coupling(hysteresis=hysteresis))[0]
     rebound = -motion[-1, 4] / speed
     assert rebound == pytest.approx(rebound_ratio(hysteresis), rel=1e-6)
 
@@ -275,7 +280,7 @@ def test_elastic_impact_lasts_as_long_and_pushes_as_hard_as_hertz_says():
     speed, interval = 0.05, 1e-7
     start = np.array([KEYS.clearance_m - 1e-12, 0, 0, 0, speed, 0, 0, 0])
     c = coupling()
-    _, normal, _, _ = integrate(start, 3000, interval, 1, c)
+    _, normal, _, _ = integrated(start, 3000, interval, 1, c)
     depth = (MASS_KG * speed**2 / (1.6 * c.stiffness)) ** 0.4
     # The peak lies at most half an interval from a sample: 3e-6 of the force, F = K δ^1.5.
     assert -normal[:, 0].min() == pytest.approx(c.stiffness * depth**1.5, rel=3e-6)
@@ -314,7 +319,7 @@ def free_start(seed: int) -> np.ndarray:
 def test_energy_of_free_rattling_never_grows(seed, changes):
     """From one sample to the next, 2 µs apart, by no more than rounding."""
     c = coupling(**{"hysteresis": lankarani_nikravesh(0.7), **changes})
-    energy = energy_j(integrate(free_start(seed), 20000, 2e-6, 2, c)[0], c)
+    energy = energy_j(integrated(free_start(seed), 20000, 2e-6, 2, c)[0], c)
     assert np.max(np.diff(energy)) < 1e-14 * energy[0]
     assert energy[-1] < 0.01 * energy[0]
 
@@ -327,7 +332,7 @@ def test_energy_of_elastic_rattling_is_kept_to_the_order_of_the_integration():
     c = coupling()
     drifts = []
     for steps in (1, 2, 4, 8, 16):
-        energy = energy_j(integrate(free_start(1), 5000, 8e-6, steps, c)[0], c)
+        energy = energy_j(integrated(free_start(1), 5000, 8e-6, steps, c)[0], c)
         drifts.append(np.max(np.abs(energy / energy[0] - 1.0)))
     order = -np.polyfit(np.log2([1, 2, 4, 8, 16]), np.log2(drifts), 1)[0]
     assert order > 2.4
@@ -416,7 +421,7 @@ def test_another_integrator_and_finite_rotations_give_the_same_forces(
     c = coupling(
         angular_speed=omega, stroke=STROKE_M, film=film, friction=friction, moment=flat(moment)
     )
-    _, normal, _, impacts = integrate(np.zeros(8), samples, times[0], 8, c)
+    _, normal, _, impacts = integrated(np.zeros(8), samples, times[0], 8, c)
     other = FiniteRotations(moment, friction, film)
     start = [STROKE_M, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
     span = (0.0, times[-1])
@@ -427,6 +432,29 @@ def test_another_integrator_and_finite_rotations_give_the_same_forces(
     expected = np.array([[load[0] for load in other.loads(*state)] for state in states])
     assert np.count_nonzero(impacts) >= 4
     np.testing.assert_allclose(normal, expected, atol=1e-3 * np.max(np.abs(expected)))
+
+
+@pytest.mark.parametrize(("moment", "stepped"), [(RATED_N_M, 4), (0.0, 6)])
+def test_a_revolution_that_repeats_is_not_stepped_through_again(monkeypatch, moment, stepped):
+    """Loaded keys repeat within four of six revolutions; rattling ones are stepped to the end."""
+    calls = []
+
+    def counted(*arguments):
+        calls.append(arguments)
+        return integrate(*arguments)
+
+    def forces():
+        arguments = (KEYS, MASS_KG, STROKE_M, SPEED_RPM, np.array([moment]), np.zeros(1), 2)
+        return steady_key_forces(*arguments).normal_n
+
+    monkeypatch.setattr(rattle, "integrate", counted)
+    short = forces()
+    assert len(calls) <= stepped
+    monkeypatch.setattr(rattle, "REPEATED", -1.0)
+    calls.clear()
+    whole = forces()
+    assert len(calls) == 6
+    np.testing.assert_allclose(short, whole, atol=1e-9 * np.abs(whole).max())
 
 
 def test_spectral_density_is_that_of_scipy():

@@ -163,13 +163,20 @@ def advance(
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def integrate(
-    start: Array, samples: int, sample_interval: float, steps: int, c: Coupling
+    state: Array,
+    contacts: Array,
+    first: int,
+    samples: int,
+    sample_interval: float,
+    steps: int,
+    c: Coupling,
 ) -> tuple[Array, Array, Array, Array]:
-    """Motion and key forces at equal intervals, from keys that touch no face.
+    """Motion and key forces at equal intervals.
 
     Parameters
     ----------
-    start : coordinates and their rates at time 0, shape (8,)
+    state, contacts : see `key_forces`, at the start; they are changed to those at the end
+    first : intervals from crank angle zero to the start
     samples : number of intervals
     sample_interval : s
     steps : steps in each interval
@@ -183,16 +190,14 @@ def integrate(
     motion = np.empty((samples, 2 * COORDINATES))
     normal, friction = np.empty((samples, KEYS)), np.empty((samples, KEYS))
     impact_speed = np.zeros((samples, KEYS))
-    state, contacts = np.empty(2 * COORDINATES), np.zeros((2, KEYS))
     keys, spare = np.empty((3, 4, KEYS)), np.empty((3, 2 * COORDINATES))
     work = Work(keys[0], keys[1], keys[2], spare[0], spare[1], spare[2])
-    copy(start, state)
     step = sample_interval / steps
     for sample in range(samples):
         for part in range(steps):
-            time = (sample * steps + part) * step
+            time = ((first + sample) * steps + part) * step
             advance(time, step, state, contacts, c, impact_speed[sample], work)
-        key_forces((sample + 1) * sample_interval, state, contacts, c, work.keys)
+        key_forces((first + sample + 1) * sample_interval, state, contacts, c, work.keys)
         copy(state, motion[sample])
         copy(work.keys[NORMAL], normal[sample])
         copy(work.keys[FRICTION], friction[sample])

@@ -10,13 +10,15 @@ from ...base.arrays import Array
 from ...base.errors import ParameterError, SolverError
 from ...base.units import shaft_frequency_hz
 from .contact import CONTACT_LAWS
-from .equations import COORDINATES, Coupling
+from .equations import COORDINATES, KEYS, Coupling
 from .integration import integrate
 from .parameters import OldhamKeys
 
 SETTLING_REVOLUTIONS: Final = 4
 """Left out: from the start in the middle of the slots. At rated load, at all corners of the assumed
 ranges, forces are then within 2e-8 N of those after ten."""
+REPEATED: Final = 1e-9
+"""Change of forces from one revolution to the next, of the largest, below which they repeat."""
 SAMPLE_RATE_HZ: Final = 1e5
 """At least; of an unloaded ring's 14 N rms at 3500 rpm 0.13 N rms lie above 32 kHz."""
 MOST_STEPS: Final = 1000
@@ -132,15 +134,42 @@ def steady_key_forces(
     period = 1.0 / shaft_frequency_hz(speed_rpm)
     samples = 2 ** int(np.ceil(np.log2(SAMPLE_RATE_HZ * period)))
     steps = _steps(period / samples, greatest_step_s(coupling))
-    settled, all_samples = SETTLING_REVOLUTIONS * samples, revolutions * samples
-    integrated = integrate(
-        np.zeros(2 * COORDINATES), settled + all_samples, period / samples, steps, coupling
-    )
+    turns = _turns(SETTLING_REVOLUTIONS + revolutions, samples, period / samples, steps, coupling)
     # An interval's end is its sample: the one before the first kept is at crank angle zero.
-    kept = [np.ascontiguousarray(rows[settled - 1 : -1].T) for rows in integrated[1:]]
+    settled = SETTLING_REVOLUTIONS * samples
+    kept = [
+        np.ascontiguousarray(np.concatenate(rows)[settled - 1 : -1].T)
+        for rows in zip(*turns, strict=True)
+    ]
     if not all(np.all(np.isfinite(rows)) for rows in kept):
         raise SolverError(f"Oldham keys at {speed_rpm:g} rpm: the integration diverged")
     return KeyForces(speed_rpm, revolutions, *kept)
+
+
+def _turns(
+    count: int, samples: int, interval_s: float, steps: int, coupling: Coupling
+) -> list[tuple[Array, ...]]:
+    """Normal force, friction and impact speed of each revolution, from keys that touch no face.
+
+    Once a revolution repeats the one before, so do all that follow.
+    """
+    state, contacts = np.zeros(2 * COORDINATES), np.zeros((2, KEYS))
+    turns: list[tuple[Array, ...]] = []
+    while len(turns) < count:
+        first = len(turns) * samples
+        _, *rows = integrate(state, contacts, first, samples, interval_s, steps, coupling)
+        turns.append(tuple(rows))
+        if len(turns) > 1 and _repeats(*turns[-2:]):
+            turns += [turns[-1]] * (count - len(turns))
+    return turns
+
+
+def _repeats(before: tuple[Array, ...], after: tuple[Array, ...]) -> bool:
+    """Whether forces and impacts of a revolution are those of the one before."""
+    return all(
+        np.abs(new - old).max() <= REPEATED * np.abs(new).max()
+        for old, new in zip(before, after, strict=True)
+    )
 
 
 def _coupling(
