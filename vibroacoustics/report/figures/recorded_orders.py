@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullLocator
 
 from .map_levels import map_level
 from .needs import chosen, needs
@@ -62,6 +63,10 @@ def _without_offset(lines: xr.DataArray, of_channel: xr.Dataset) -> xr.DataArray
     return lines.sel(map_order=lines["map_order"] > 0.5 * of_channel.attrs["band_order"])
 
 
+_DECADES: Final = 100.0
+"""Range of a logarithmic axis from which on it has ticks at powers of ten alone."""
+
+
 def _logarithmic(axes: Axes, shown: xr.DataArray, limits: xr.DataArray | None = None) -> None:
     """Logarithmic axis over what is shown, unless it is next to nothing, and over its limits."""
     sizes = shown.values.ravel()
@@ -69,8 +74,11 @@ def _logarithmic(axes: Axes, shown: xr.DataArray, limits: xr.DataArray | None = 
     if highest > 0.0:
         allowed = np.array([]) if limits is None else limits.values[np.isfinite(limits.values)]
         bottom = max(0.5 * float(sizes.min()), _QUIETEST * highest)
+        bottom, top = min([bottom, *0.5 * allowed]), 2.0 * max([highest, *allowed])
         axes.set_yscale("log")
-        axes.set_ylim(bottom=min([bottom, *0.5 * allowed]), top=2.0 * max([highest, *allowed]))
+        axes.set_ylim(bottom, top)
+        if top > _DECADES * bottom:
+            axes.yaxis.set_minor_locator(NullLocator())  # they take half the time of a picture
 
 
 def _limits(of_channel: xr.Dataset) -> xr.DataArray | None:
