@@ -1,7 +1,7 @@
 """Elastic modes of the closed shell as motions of its surface."""
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -184,10 +184,13 @@ def _largest_displacement(meridian: Meridian, shapes: Array) -> Array:
     return np.asarray(np.sign(largest) * size)
 
 
+@lru_cache(maxsize=2)
 def elastic_shell(
     shell: Shell, structure: ShellStructure, maximum_frequency_hz: float
 ) -> ElasticShell:
     """The elastic shell of a machine, meshed for a frequency.
+
+    Kept, as radiation and sound ask for the same one, and its modes take seconds.
 
     Raises
     ------
