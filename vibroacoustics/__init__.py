@@ -47,6 +47,8 @@ masses. A `Curve` over each `CurveAxis` shows what goes on inside. A `Variable`,
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from .base.lazy import imported
+
 if TYPE_CHECKING:
     from . import levels, orders, plot
     from .base.curves import Curve, CurveAxis
@@ -242,9 +244,7 @@ def __getattr__(name: str) -> Any:
     """Import a public name when it is first asked for: `--help` must not load k-Wave."""
     if name in _MODULES:
         return import_module(f"{__name__}.{_MODULES[name]}")
-    if name not in _HOME:
-        raise AttributeError(f"module {__name__} has no attribute {name}")
-    return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+    return imported(__name__, _HOME, name)
 
 
 def __dir__() -> list[str]:

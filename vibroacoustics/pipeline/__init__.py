@@ -3,8 +3,9 @@
 They are imported when they are first asked for: one on a recording needs no radiation.
 """
 
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
+
+from ..base.lazy import imported
 
 if TYPE_CHECKING:
     from .radiating import radiate
@@ -30,6 +31,4 @@ _HOME = {
 
 def __getattr__(name: str) -> Any:
     """Import a job when it is first asked for."""
-    if name not in _HOME:
-        raise AttributeError(f"module {__name__} has no attribute {name}")
-    return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+    return imported(__name__, _HOME, name)

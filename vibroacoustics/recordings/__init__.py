@@ -4,8 +4,9 @@ The functions are imported when they are first asked for: the process that reads
 needs no labelled arrays.
 """
 
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
+
+from ..base.lazy import imported
 
 if TYPE_CHECKING:
     from .blocks import FileBlocks, LabelledBlocks, open_recording
@@ -41,6 +42,4 @@ _HOME = {
 
 def __getattr__(name: str) -> Any:
     """Import a public function when it is first asked for."""
-    if name not in _HOME:
-        raise AttributeError(f"module {__name__} has no attribute {name}")
-    return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+    return imported(__name__, _HOME, name)

@@ -24,6 +24,7 @@ from scroll_flanks import (
     closed_area,
     force_and_moment,
 )
+from scroll_openings import WRAPS
 from support import ROOT
 
 from vibroacoustics.base.errors import ParameterError
@@ -42,14 +43,6 @@ from vibroacoustics.sources.scroll_gas.pressures import (
 
 VALIDATION_FILE = ROOT / "data" / "validation" / "scroll_gas.csv"
 CASES = ["15 to 41.159 bar", "6.78 to 30.7 bar"]
-WRAPS = ScrollWraps(
-    base_radius_m=2.15e-3,
-    height_m=0.03,
-    thickness_m=3.293e-3,
-    start_angle_rad=np.pi / 3.0,
-    turns=3.0,
-    closing_crank_angle_rad=0.5 * np.pi,
-)
 OTHER_WRAPS = ScrollWraps(
     base_radius_m=3e-3,
     height_m=0.02,
