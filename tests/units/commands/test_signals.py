@@ -30,8 +30,11 @@ def start(words: list[object], cache: Path) -> subprocess.Popen[str]:
 
 
 def assert_ended(process: subprocess.Popen[str], number: signal.Signals) -> None:
+    """Stages that end before a signal is let through may print their line of progress."""
     _, errors = process.communicate(timeout=30)
-    assert (process.returncode, errors) == (CODES[number], f"ended by {number.name}\n")
+    *progress, last = errors.splitlines()
+    assert (process.returncode, last) == (CODES[number], f"ended by {number.name}")
+    assert all(line.startswith("progress: ") for line in progress)
 
 
 def wait_for(condition, seconds: float = 30.0) -> None:
