@@ -76,7 +76,11 @@ def block_spectra(
         np.multiply(real_transform(windowed)[:, :lines], turned, out=amplitude[row, blocks])
 
     jobs = [(row, begin) for row in range(len(rows)) for begin in range(0, starts.size, chunk)]
-    with ThreadPoolExecutor(_THREADS) as pool:
-        list(pool.map(fill, jobs))
+    if rows.shape[0] * starts.size * length <= _CHUNK_SAMPLES:  # less work than threads are
+        for job in jobs:
+            fill(job)
+    else:
+        with ThreadPoolExecutor(_THREADS) as pool:
+            list(pool.map(fill, jobs))
     amplitude[..., 0] /= 2.0
     return amplitude.reshape(*signal.shape[:-1], starts.size, lines)

@@ -14,11 +14,8 @@ from ..levels.labelled import draw_variables, level_variables
 from ..levels.lines import line_pressure
 from ..levels.remainder import remainder, remainder_by_draw
 from ..machine.source import Case, CaseKey
-from ..radiation.pressure import (
-    pressure_per_shell_velocity,
-    pressure_per_velocity,
-    wrench_pressure,
-)
+from ..radiation.pressure import pressure_per_shell_velocity, wrench_pressure
+from ..radiation.transfer_vectors import pressure_per_velocity
 from ..sources.cases import sources_of
 from ..study.draws import Draw, draws_of
 from ..study.selection import at_speeds

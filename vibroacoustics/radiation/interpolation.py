@@ -1,17 +1,20 @@
 """Transfer vectors between the tabulated frequencies."""
 
+from collections.abc import Callable
+
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from ..base.arrays import Array, ComplexArray
 from ..base.constants import SPEED_OF_SOUND_M_PER_S
 from ..base.errors import ParameterError
-from .arrays import Array, ComplexArray
+
+Interpolant = Callable[[Array], ComplexArray]
+"""Of frequencies in Hz, (m,), to Pa per unit velocity, (..., m)."""
 
 
-def interpolate(
-    tabulated_hz: Array, transfer: ComplexArray, distance_m: Array, frequency_hz: Array
-) -> ComplexArray:
-    """Transfer vectors at any frequency from 0 to the highest tabulated one.
+def interpolant(tabulated_hz: Array, transfer: ComplexArray, distance_m: Array) -> Interpolant:
+    """Transfer vectors as a function of frequencies from 0 to the highest tabulated one.
 
     T exp(jkr)/(j omega), with r the distance of the receiver, is smooth: neither the delay nor the
     growth with frequency is left. A real impulse response makes it conjugate symmetric, so the
@@ -24,31 +27,33 @@ def interpolate(
     tabulated_hz : (n,), rising, above 0.
     transfer : (..., n), Pa per unit velocity.
     distance_m : (...), of each receiver from the origin; must broadcast against `transfer[..., 0]`.
-    frequency_hz : (m,).
-
-    Returns
-    -------
-    (..., m), Pa per unit velocity.
 
     Raises
     ------
     ParameterError
-        A frequency is negative or above the table.
+        The function is called with a frequency that is negative or above the table.
     """
-    lowest, highest = float(np.min(frequency_hz)), float(np.max(frequency_hz))
-    if lowest < 0.0 or highest > tabulated_hz[-1] * (1.0 + 1e-9):
-        raise ParameterError(
-            f"radiation.maximum_frequency_hz: the transfer vectors cover 0 to "
-            f"{tabulated_hz[-1]:g} Hz, {highest if lowest >= 0 else lowest:g} Hz is needed"
-        )
     smooth = transfer / _trend(tabulated_hz, distance_m)
     spline = CubicSpline(
         np.concatenate([-tabulated_hz[::-1], tabulated_hz]),
         np.concatenate([smooth[..., ::-1].conj(), smooth], axis=-1),
         axis=-1,
     )
-    result: ComplexArray = spline(frequency_hz) * _trend(frequency_hz, distance_m)
-    return result
+
+    def at(frequency_hz: Array) -> ComplexArray:
+        _check_range(frequency_hz, tabulated_hz)
+        return np.asarray(spline(frequency_hz) * _trend(frequency_hz, distance_m))
+
+    return at
+
+
+def _check_range(frequency_hz: Array, tabulated_hz: Array) -> None:
+    lowest, highest = float(np.min(frequency_hz)), float(np.max(frequency_hz))
+    if lowest < 0.0 or highest > tabulated_hz[-1] * (1.0 + 1e-9):
+        raise ParameterError(
+            f"radiation.maximum_frequency_hz: the transfer vectors cover 0 to "
+            f"{tabulated_hz[-1]:g} Hz, {highest if lowest >= 0 else lowest:g} Hz is needed"
+        )
 
 
 def _trend(frequency_hz: Array, distance_m: Array) -> ComplexArray:

@@ -1,26 +1,13 @@
 """Sound pressure of a moving housing: velocity at the lines times transfer vectors."""
 
-from collections.abc import Callable
-
-import numpy as np
 import xarray as xr
 
-from ..base.arrays import Array, ComplexArray
-from .transfer_vectors import interpolate_transfer_vector
+from .interpolation import Interpolant
+from .transfer_vectors import interpolate_transfer_vector, pressure_per_velocity
 
 
-def pressure_per_velocity(vectors: xr.DataArray) -> Callable[[Array], ComplexArray]:
-    """Transfer vectors as a function of any frequencies, (receiver, dof, frequency)."""
-
-    def at(frequency_hz: Array) -> ComplexArray:
-        lines = xr.DataArray(frequency_hz, dims="line")
-        return np.asarray(interpolate_transfer_vector(vectors, lines).values)
-
-    return at
-
-
-def pressure_per_shell_velocity(radiated: xr.Dataset) -> Callable[[Array], ComplexArray]:
-    """The same of the elastic modes of the shell."""
+def pressure_per_shell_velocity(radiated: xr.Dataset) -> Interpolant:
+    """`pressure_per_velocity` of the elastic modes of the shell."""
     return pressure_per_velocity(radiated["pattern_transfer_vector"].rename(pattern="dof"))
 
 

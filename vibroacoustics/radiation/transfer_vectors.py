@@ -23,7 +23,7 @@ from .arrays import Array, ComplexArray
 from .bodies import LARGEST_FILE_BYTES
 from .by_cut_cells import ByCutCells
 from .device import engine_name
-from .interpolation import interpolate
+from .interpolation import Interpolant, interpolant
 from .kwave import kwave_version
 from .patterns import SurfaceMotion, rigid_body, surface_motion
 from .revolution.method import by_revolution
@@ -100,20 +100,22 @@ def transfer_vectors(
     )
 
 
+def pressure_per_velocity(transfer_vector: xr.DataArray) -> Interpolant:
+    """Transfer vectors as a function of frequencies in Hz, (receiver, dof, frequency)."""
+    ordered = transfer_vector.transpose("receiver", "dof", "frequency")
+    distance = ordered["distance"].values[:, None]
+    return interpolant(ordered["frequency"].values, ordered.values, distance)
+
+
 def interpolate_transfer_vector(
     transfer_vector: xr.DataArray, frequency: xr.DataArray
 ) -> xr.DataArray:
     """Transfer vectors at frequencies (any dims, Hz): (receiver, dof, dims of `frequency`).
 
-    See `interpolation.interpolate` for method, error and what is raised.
+    See `interpolation.interpolant` for method, error and what is raised.
     """
     ordered = transfer_vector.transpose("receiver", "dof", "frequency")
-    values = interpolate(
-        ordered["frequency"].values,
-        ordered.values,
-        ordered["distance"].values[:, None],
-        frequency.values.ravel(),
-    )
+    values = pressure_per_velocity(ordered)(frequency.values.ravel())
     shape = (*ordered.shape[:2], *frequency.shape)
     coordinates = {name: ordered[name] for name in ("receiver", "dof", "distance")}
     return xr.DataArray(

@@ -12,7 +12,7 @@ from ..base.decibel import mean_square_level
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import AXES, VARIABLES, check, stamp
 from ..machine.machine import Machine
-from ..radiation.pressure import pressure_per_velocity
+from ..radiation.transfer_vectors import pressure_per_velocity
 from ..study.study import Study
 from ..transfer import MachineOnMounts
 from ..transfer.transient import LOAD_SAMPLES, RESULT_SAMPLES

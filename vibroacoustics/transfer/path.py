@@ -201,5 +201,7 @@ def pressure_per_load(
     moving = velocity_per_force(natural_hz, path.modal_mass_kg, loss_factor_ratio, frequency_hz)
     sound = pressure_per_velocity * moving
     gain = amplitude_of_level(variation.mobility_change_db)
-    each: ComplexArray = np.broadcast_to(forces, (*forces.shape[:-1], frequency_hz.size))
-    return np.asarray(gain * np.einsum("rmf,mplf->rplf", sound, each, optimize=True))
+    modes, *load, _ = forces.shape
+    each = forces.reshape(modes, -1, forces.shape[-1])
+    per_load = np.moveaxis(gain * sound, -1, 0) @ np.moveaxis(each, -1, 0)  # (frequency, r, load)
+    return np.moveaxis(per_load, 0, -1).reshape(len(sound), *load, frequency_hz.size)

@@ -37,8 +37,9 @@ from vibroacoustics.mechanics.loads import (
     total_torque_n_m,
 )
 from vibroacoustics.mechanics.received_sound import NoisePower
-from vibroacoustics.radiation.pressure import pressure_per_velocity, wrench_pressure
+from vibroacoustics.radiation.pressure import wrench_pressure
 from vibroacoustics.radiation.scene import machine_body
+from vibroacoustics.radiation.transfer_vectors import pressure_per_velocity
 from vibroacoustics.sources.cases import cases_of, loaded_cases, loads_of
 from vibroacoustics.sources.induction_motor.parameters import CapacitorMotor
 from vibroacoustics.sources.induction_motor.revolving_fields import point_at_torque

@@ -12,7 +12,7 @@ from sphere_sound import sphere_pressure
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.machine.shell import Shell
-from vibroacoustics.radiation.interpolation import interpolate
+from vibroacoustics.radiation.interpolation import interpolant
 from vibroacoustics.radiation.machine_side import MachineSide, near_fields
 from vibroacoustics.radiation.patterns import rigid_body
 from vibroacoustics.radiation.scene import position_m, scene
@@ -168,7 +168,7 @@ def test_interpolation_of_an_exact_sphere():
     """Closed form at 1 m: below 0.01 dB from 10 Hz to 2.5 kHz on a 25 Hz table."""
     table, wanted = 25.0 * np.arange(1, 101), np.linspace(10.0, 2490.0, 173)
     values = [sphere_pressure(1, 0.0825, 1.0, np.ones(1), f)[:, 0] for f in (table, wanted)]
-    ours = interpolate(table, values[0], np.array(1.0), wanted)
+    ours = interpolant(table, values[0], np.array(1.0))(wanted)
     np.testing.assert_allclose(20 * np.log10(np.abs(ours / values[1])), 0.0, atol=0.01)
     np.testing.assert_allclose(np.angle(ours / values[1]), 0.0, atol=1e-3)
 
@@ -176,15 +176,15 @@ def test_interpolation_of_an_exact_sphere():
 def test_interpolation_at_zero_and_on_the_table():
     table = 25.0 * np.arange(1, 41)
     values = sphere_pressure(0, 0.1, 1.0, np.ones(1), table)[:, 0]
-    assert interpolate(table, values, np.array(1.0), np.zeros(1))[0] == 0
-    np.testing.assert_allclose(interpolate(table, values, np.array(1.0), table), values)
+    assert interpolant(table, values, np.array(1.0))(np.zeros(1))[0] == 0
+    np.testing.assert_allclose(interpolant(table, values, np.array(1.0))(table), values)
 
 
 @pytest.mark.parametrize("frequency", [1000.1, -1.0])
 def test_frequencies_off_the_table_are_refused(frequency):
     table = 25.0 * np.arange(1, 41)
     with pytest.raises(ParameterError, match="cover 0 to 1000 Hz"):
-        interpolate(table, table + 0j, np.array(1.0), np.array([frequency]))
+        interpolant(table, table + 0j, np.array(1.0))(np.array([frequency]))
 
 
 @pytest.mark.parametrize("height_m", [0.03, 0.2, 0.43])

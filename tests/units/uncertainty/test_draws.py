@@ -15,7 +15,8 @@ from vibroacoustics.base.errors import ParameterError, SolverError
 from vibroacoustics.levels import SILENCE_DB
 from vibroacoustics.machine.machine import Machine
 from vibroacoustics.machine.source import Shared
-from vibroacoustics.radiation.pressure import pressure_per_velocity, wrench_pressure
+from vibroacoustics.radiation.pressure import wrench_pressure
+from vibroacoustics.radiation.transfer_vectors import pressure_per_velocity
 from vibroacoustics.sources.cases import without_time_series
 from vibroacoustics.sources.gas import ScrollGasForces
 from vibroacoustics.study.draws import draws_of, latin_hypercubes, with_draw

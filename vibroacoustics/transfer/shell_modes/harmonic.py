@@ -6,7 +6,8 @@ from typing import Any, Final
 
 import numpy as np
 from scipy.linalg import eigh
-from scipy.sparse import identity
+from scipy.sparse import csc_matrix, identity
+from scipy.sparse.linalg import eigsh
 
 from ...base.arrays import Array, IndexArray
 from ...machine.shell_structure import ShellStructure
@@ -90,16 +91,30 @@ class Harmonic:
     def modes(self, maximum_frequency_hz: float) -> tuple[Array, Array]:
         """Natural frequencies (mode,) in Hz and mass-normalised amplitudes (freedom, mode).
 
-        Rigid motions are moved out of the way, to four times the highest frequency.
+        The lowest motions by shifted and inverted Lanczos iteration, of which the rigid ones are
+        left out.
 
         Parameters
         ----------
         maximum_frequency_hz : modes up to here
         """
         limit = (2.0 * np.pi * maximum_frequency_hz) ** 2
-        stiffness = self._held_stiffness(16.0 * limit)
-        squares, shapes = eigh(stiffness, self.free_matrices[1], subset_by_value=(-np.inf, limit))
-        return np.sqrt(squares) / (2.0 * np.pi), np.asarray(self.reduction @ shapes)
+        squares, shapes = self._lowest(limit)
+        elastic = np.argsort(squares)[self.rigid_motions.shape[1] :]
+        elastic = elastic[squares[elastic] <= limit]
+        return np.sqrt(squares[elastic]) / (2.0 * np.pi), self.reduction @ shapes[:, elastic]
+
+    def _lowest(self, limit: float) -> tuple[Array, Array]:
+        """At least all motions with squares of angular frequency up to a limit, rigid ones too."""
+        stiffness, mass = (csc_matrix(matrix) for matrix in self.free_matrices)
+        start = np.random.default_rng(0).standard_normal(self.kept.size)  # no symmetry
+        count = _FIRST_MOTIONS
+        while count < self.kept.size // 2:
+            squares, shapes = eigsh(stiffness, count, mass, sigma=-limit, v0=start)
+            if squares.max() > limit:
+                return squares, shapes
+            count *= 2
+        return eigh(*self.free_matrices)  # type: ignore[no-any-return]
 
     def static_flexibility(self, freedoms: IndexArray) -> Array:
         """Displacement per steady force without the rigid motions, (freedoms, freedoms).
@@ -123,6 +138,8 @@ class Harmonic:
         return np.asarray(stiffness + shift * momentum @ momentum.T)
 
 
+_FIRST_MOTIONS: Final = 24
+"""Asked for at first: few orders have as many below 10 kHz."""
 _ALL: Final = (RADIAL, AXIAL, CIRCUMFERENTIAL, ROTATION)
 _ON_AXIS: Final = {
     0: (RADIAL, CIRCUMFERENTIAL, ROTATION),
