@@ -6,7 +6,6 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
-from ..base.decibel import power_of_level
 from ..machine.option import Option
 
 
@@ -29,11 +28,17 @@ def airborne_factor(options: Mapping[str, Option], order_frequency: xr.DataArray
     return xr.DataArray(factor, coords, ("option", *order_frequency.dims))
 
 
-def remaining_share(options: Mapping[str, Option]) -> Array:
-    """Share that each option leaves of the energy of sound that no source explains, (option,).
+def remaining_share(
+    options: Mapping[str, Option], frequency_hz: Array, mean_square: Array
+) -> Array:
+    """Share that each option leaves of the energy of a sound, shape (option,).
 
-    Its spectrum is not known: it is taken as spread evenly over the bands of the loss.
+    Parameters
+    ----------
+    options : by name
+    frequency_hz : middle of the bands of the sound, shape (band,)
+    mean_square : of the bands, shape (band,)
     """
     losses = [option.insertion_loss() for option in options.values()]
-    even_db = np.array([0.0 if loss is None else loss.even_db for loss in losses])
-    return power_of_level(-even_db)
+    left = [1.0 if loss is None else loss.power_factor(frequency_hz) for loss in losses]
+    return np.array([np.sum(mean_square * factor) for factor in left]) / np.sum(mean_square)

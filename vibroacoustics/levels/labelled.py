@@ -26,8 +26,8 @@ def level_variables(
     sound: Mapping[CaseKey, SourceSound],
     pressure_line: xr.DataArray,
     order_frequency: xr.DataArray,
+    remaining: Array,
     remainder: float,
-    remaining_share: Array,
 ) -> xr.Dataset:
     """Levels with the values as given.
 
@@ -37,14 +37,14 @@ def level_variables(
     sound : of every case, with totals by the weightings A_FIRST
     pressure_line : of every source, orders first, complex peaks, Pa
     order_frequency : (speed, order), Hz
-    remainder : mean square that the model does not explain, Pa²
-    remaining_share : what each option leaves of it, shape (option,)
+    remaining : mean square that the model does not explain, shape (speed, option), Pa²
+    remainder : the same at the published speed without an option, Pa²
     """
     part = axes.gathered(sound, "part")
     totals = part.sum(axis=3)  # (speed, option, weighting, receiver)
     a_total = totals[:, :, A_FIRST.index("A")]
     modelled = [level(totals[:, :, A_FIRST.index(name)]) for name in WEIGHTINGS]
-    total = level(a_total + (remainder * remaining_share)[:, None])
+    total = level(a_total + remaining[:, :, None])
     orders = pressure_line.values[..., : order_frequency.sizes["order"]].sum(axis=2)
     order_level = _order_level(orders, order_frequency.values)
     changes = {
@@ -55,7 +55,7 @@ def level_variables(
     weighted = {**axes.by_receiver, "weighting": list(WEIGHTINGS)}
     ordered = {**weighted, "order": order_frequency["order"].values}
     reference = list(axes.options).index(REFERENCE_OPTION)
-    rest = level(np.asarray(remainder * remaining_share[reference]))
+    rest = level(np.asarray(remainder))
     arrays = {
         "order_level": stamp("order_level", order_level, ordered),
         "level_modelled": stamp("level_modelled", np.stack(modelled, axis=-1), weighted),
@@ -89,8 +89,8 @@ def _of_sources(axes: LevelAxes, sound: Mapping[CaseKey, SourceSound]) -> dict[s
 def draw_variables(
     axes: LevelAxes,
     sounds: Sequence[Mapping[CaseKey, SourceSound]],
+    remaining: Array,
     remainder: Array,
-    remaining_share: Array,
 ) -> xr.Dataset:
     """A-weighted levels of every draw.
 
@@ -101,14 +101,14 @@ def draw_variables(
     ----------
     axes : of the levels
     sounds : of every case, by draw
-    remainder : mean square that each draw leaves unexplained, shape (draw,), Pa²
-    remaining_share : what each option leaves of it, shape (option,)
+    remaining : mean square that each draw leaves unexplained, shape (draw, speed, option), Pa²
+    remainder : the same at the published speed without an option, shape (draw,), Pa²
     """
     draws: dict[str, Any] = {"draw": np.arange(1, len(sounds) + 1)}
     by_receiver = {**draws, **axes.by_receiver}
     alone = np.array([axes.gathered(sound, "alone") for sound in sounds])
     modelled = np.array([axes.gathered(sound, "part")[:, :, 0].sum(axis=2) for sound in sounds])
-    total = modelled + remainder[:, None, None, None] * remaining_share[:, None]
+    total = modelled + remaining[..., None]
     arrays: dict[str, tuple[Array, dict[str, Any]]] = {
         "source_level_by_draw": (_level_or_none(alone), {**draws, **axes.by_source}),
         "level_modelled_by_draw": (_level_or_none(modelled), by_receiver),

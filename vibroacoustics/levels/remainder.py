@@ -1,4 +1,4 @@
-"""What the sources leave unexplained of the machine's published level."""
+"""What the sources leave unexplained of the machine's published level, by speed and option."""
 
 from collections.abc import Mapping, Sequence
 from typing import Final
@@ -9,11 +9,18 @@ from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level, power_of_level
 from ..base.errors import ParameterError, SolverError
+from ..machine.machine import Machine
 from ..machine.source import CaseKey
+from ..study.draws import Draw, with_draw
 from ..study.study import Study
 from .axes import LevelAxes
+from .bands import bands_between
 from .by_source import SourceSound
+from .insertion_loss import remaining_share
+from .weighting import WEIGHTING
 
+_BANDS: Final = bands_between(3, 25.0, 10000.0)
+"""Third octaves of the remainder."""
 LEAST_DRAWS: Final = 3
 """Draws that must be left for a band."""
 
@@ -48,6 +55,61 @@ def remainder(
     return float(max(rest, 0.0))
 
 
+def remaining(
+    study: Study,
+    axes: LevelAxes,
+    sound: Mapping[CaseKey, SourceSound],
+    machine: Machine,
+    rest: float,
+) -> Array:
+    """What there is of the remainder at each speed with each option, shape (speed, option), Pa².
+
+    It grows with speed, and an option takes its insertion loss off each third octave.
+
+    Parameters
+    ----------
+    study : options, speed and receiver of the published level
+    axes : speeds, bands and receivers
+    sound : of the case of the published level, and of others
+    machine : growth and spectrum of the remainder
+    rest : the remainder at the published speed without an option, Pa²
+    """
+    if rest == 0.0:
+        return np.zeros((len(axes.speeds), len(study.options)))
+    receiver = list(axes.receivers).index(study.catalogue_receiver)
+    middle_hz = np.array([band.middle_hz for band in _BANDS])
+    modelled = _a_weighted_bands(sound[study.catalogue_case].band[:, receiver].sum(axis=0), axes)
+    spectrum = spectrum_left(machine.remainder.spectrum(middle_hz), modelled, rest)
+    published_rpm = study.machine.overall_noise.speed_rpm
+    growth = machine.remainder.speed_factor(np.array(axes.speeds), published_rpm)
+    share = remaining_share(study.options, middle_hz, spectrum)
+    return np.asarray(rest * growth[:, None] * share)
+
+
+def spectrum_left(expected: Array, modelled: Array, rest: float) -> Array:
+    """Bands of the remainder: those of the machine as expected, less what is modelled in each.
+
+    max(a e - m, 0) with the factor a for which the bands sum to the remainder.
+
+    Parameters
+    ----------
+    expected : spectrum of the whole machine, of any size, shape (band,)
+    modelled : mean squares, shape (band,), Pa²
+    rest : the remainder, Pa²
+    """
+    order = np.argsort(modelled / expected)  # the more is modelled, the later a band counts
+    factor = np.min((rest + np.cumsum(modelled[order])) / np.cumsum(expected[order]))
+    return np.asarray(np.maximum(factor * expected - modelled, 0.0))
+
+
+def _a_weighted_bands(mean_square: Array, axes: LevelAxes) -> Array:
+    """A-weighted mean squares of the bands of the remainder, from those of the levels."""
+    known = dict(zip(axes.bands, mean_square.tolist(), strict=True))
+    middle_hz = np.array([band.middle_hz for band in _BANDS])
+    modelled = np.array([known.get(band, 0.0) for band in _BANDS])
+    return modelled * power_of_level(np.asarray(WEIGHTING["A"](middle_hz)))
+
+
 def remainder_by_draw(
     study: Study, axes: LevelAxes, sounds: Sequence[Mapping[CaseKey, SourceSound]]
 ) -> Array:
@@ -68,3 +130,16 @@ def remainder_by_draw(
             f"below the published level, {LEAST_DRAWS} are needed; draw more, or look at the ranges"
         )
     return rests
+
+
+def remaining_by_draw(
+    study: Study,
+    axes: LevelAxes,
+    sounds: Sequence[Mapping[CaseKey, SourceSound]],
+    draws: Sequence[Draw],
+    rests: Array,
+) -> Array:
+    """`remaining` of every draw, shape (draw, speed, option), Pa²."""
+    machines = [with_draw(study.machine, study.machine, draw) for draw in draws]
+    rows = zip(sounds, machines, rests.tolist(), strict=True)
+    return np.array([remaining(study, axes, *row) for row in rows])

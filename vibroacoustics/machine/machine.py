@@ -19,6 +19,7 @@ from .balance_quality import BalanceQuality
 from .derived import INERTIAS, Derived
 from .housing import Housing
 from .mounts import Mounts
+from .remainder import Remainder
 from .shell import Shell
 from .suspension import Suspension
 
@@ -70,6 +71,7 @@ class Machine(KindOfParameters):
     mounts: Mounts
     shell: Shell
     overall_noise: OverallNoise
+    remainder: Remainder = Remainder()
     suspension: Suspension | None = None
     """Springs between the block with the mechanism and the shell; none where both are one."""
     balance_quality: BalanceQuality | None = None

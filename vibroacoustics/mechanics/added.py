@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..base.arrays import Array
-from ..base.decibel import amplitude_of_level, energy_mean
+from ..base.decibel import amplitude_of_level
 from .moving_parts import MovingPart
 
 
@@ -94,11 +94,6 @@ class InsertionLoss:
     def power_factor(self, frequency_hz: Array) -> Array:
         """Mean square with it over mean square without it at each frequency."""
         return np.asarray(10.0 ** (-self.at(frequency_hz) / 10.0))
-
-    @property
-    def even_db(self) -> float:
-        """Loss of sound whose energy is spread evenly over the bands, dB."""
-        return -float(energy_mean(-self.loss_db))
 
 
 def third_octave_number(frequency_hz: Array) -> Array:

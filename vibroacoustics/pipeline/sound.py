@@ -9,10 +9,14 @@ from ..base.progress import Progress, no_progress
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.axes import LevelAxes
 from ..levels.by_source import SourceSound, sound_by_source
-from ..levels.insertion_loss import remaining_share
 from ..levels.labelled import draw_variables, level_variables
 from ..levels.lines import line_pressure
-from ..levels.remainder import remainder, remainder_by_draw
+from ..levels.remainder import (
+    remainder,
+    remainder_by_draw,
+    remaining,
+    remaining_by_draw,
+)
 from ..machine.source import Case, CaseKey
 from ..radiation.pressure import pressure_per_shell_velocity, wrench_pressure
 from ..radiation.transfer_vectors import pressure_per_velocity
@@ -55,16 +59,18 @@ def levels_of(
     received = transmission.received(cases, loads)
     sound = {key: sound_by_source(one, axes.bands) for key, one in received.items()}
     draws = draws_of(study).draws
-    rest, share = remainder(study, axes, sound, bool(draws)), remaining_share(study.options)
+    rest = remainder(study, axes, sound, bool(draws))
+    left = remaining(study, axes, sound, study.machine, rest)
     lines = line_pressure(axes, received)
     frequency = motion.results["order_frequency"]
-    levels = level_variables(axes, sound, lines["pressure_line"], frequency, rest, share)
+    levels = level_variables(axes, sound, lines["pressure_line"], frequency, left, rest)
     levels = levels.merge(lines)
     if not draws:
         return levels
     sounds = sound_of_draws(transmission, axes, cases, sound, draws, progress)
     rests = remainder_by_draw(study, axes, sounds)
-    levels = levels.merge(draw_variables(axes, sounds, rests, share))
+    lefts = remaining_by_draw(study, axes, sounds, draws, rests)
+    levels = levels.merge(draw_variables(axes, sounds, lefts, rests))
     levels = levels.merge(drawn_values(study.ranges, draws))
     errors = {} if shell is None else projection_errors(study, shell)
     return levels.merge(errors_of_projection(study.ranges, errors))

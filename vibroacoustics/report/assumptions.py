@@ -7,6 +7,7 @@ import xarray as xr
 from ..base import rounding
 from ..base.decibel import level_of_power, power_of_level
 from .bands import band, band_words
+from .remainder import growth_sentence
 from .study import (
     catalogue_receiver,
     has_draws,
@@ -98,8 +99,8 @@ def remainder_sentence(results: xr.Dataset) -> str:
         f"{noise['speed_rpm']:g} rpm{_point_words(results)}. What the model leaves of "
         f"it at {catalogue_receiver(results)} "
         f"without a balancer, {left}, is "
-        "added as energy to the modelled level at every speed, option and microphone. That it "
-        "stays constant is an assumption, not a result."
+        "added as energy to the modelled level at every option and microphone; an option with an "
+        f"insertion loss takes it off each third octave. {growth_sentence(results)}"
     )
 
 

@@ -50,13 +50,20 @@ def quantiles(results: xr.Dataset, name: str) -> xr.DataArray:
     if not has_draws(results):
         given = results[name]
         given = given.sel(weighting="A", drop=True) if "weighting" in given.dims else given
-        return given.expand_dims(quantile=list(QUANTILES))
+        return over_draws(results, given)
     level = results[f"{name.replace('change', 'level')}_by_draw"]
-    level = level.isel(draw=results["draw_weight"].values > 0.0)
     if name.startswith("change"):
         level = level - level.sel(option=REFERENCE_OPTION, drop=True)
-    over_draws: xr.DataArray = level.quantile(QUANTILES, "draw")
-    return over_draws
+    return over_draws(results, level)
+
+
+def over_draws(results: xr.Dataset, level: xr.DataArray) -> xr.DataArray:
+    """Quantiles of a level over the draws that count, (quantile, ...); itself without draws."""
+    if "draw" not in level.dims:
+        return level.expand_dims(quantile=list(QUANTILES))
+    counting = level.isel(draw=results["draw_weight"].values > 0.0)
+    quantile: xr.DataArray = counting.quantile(QUANTILES, "draw")
+    return quantile
 
 
 def band(results: xr.Dataset, name: str, **at: Any) -> Band:

@@ -11,6 +11,7 @@ from ..base.vocabulary import REFERENCE_OPTION
 from . import labels
 from .bands import QUANTILES, Band, band, band_words, energy_share, percent, quantiles
 from .comparison import column
+from .remainder import remainder_band
 from .source_changes import key_figure
 from .source_words import quoted_speed, ranked, source_name
 from .study import balancers, catalogue_receiver, options, overall_noise, speeds, words
@@ -122,7 +123,7 @@ def _source_table(results: xr.Dataset, speed: float) -> Table:
         (
             "Not modelled, the remainder",
             _difference(total, modelled),
-            band(results, "level_remainder"),
+            remainder_band(results, speed),
             rounding.NOTHING,
         ),
         ("Whole machine", total, _band(results, "level_total", speed), rounding.NOTHING),

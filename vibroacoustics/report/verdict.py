@@ -168,7 +168,7 @@ def _remainder(results: xr.Dataset) -> str:
     )
     return (
         f"In the model {carried}. The rest, {rounding.fixed(results['level_remainder'].item(), 2)} "
-        "dB(A), comes from sources that balancing does not touch; it is held constant."
+        "dB(A), comes from sources that balancing does not touch."
     )
 
 

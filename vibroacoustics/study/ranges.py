@@ -16,7 +16,7 @@ from .study import ParameterRecord
 from .uncertainty import HeldRange, Range
 from .wording import validated
 
-_ALWAYS_READ: Final = {"suspension"}
+_ALWAYS_READ: Final = {"suspension", "remainder"}
 
 
 def _sources(content: Mapping[str, Any]) -> list[Source]:

@@ -17,7 +17,7 @@ from ..transfer.received import BySource
 from ..transfer.sound_path import PressurePerVelocity
 from .wrenches import wrench_pressure
 
-_SHELL: Final = {"shell", "structure", "variation", "frame", "shaft", "overall_noise"}
+_SHELL: Final = {"shell", "structure", "variation", "frame", "shaft", "overall_noise", "remainder"}
 """Tables that say nothing of the motion."""
 
 

@@ -81,7 +81,6 @@ def test_insertion_loss_holds_in_its_bands_only():
     loss = hood.insertion_loss()
     frequency = np.array([0.0, 700.0, 800.0, 891.0, 892.0, 1122.0, 1123.0])
     assert list(loss.at(frequency)) == [0.0, 0.0, 3.0, 3.0, 10.0, 10.0, 0.0]
-    assert loss.even_db == pytest.approx(-10.0 * np.log10(0.5 * (10.0**-0.3 + 0.1)))
     assert loss.amplitude_factor(np.array([1000.0]))[0] == pytest.approx(10.0**-0.5)
 
 

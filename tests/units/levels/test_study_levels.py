@@ -8,10 +8,17 @@ import xarray as xr
 
 from vibroacoustics.base.errors import ParameterError, SolverError
 from vibroacoustics.levels.axes import LevelAxes
+from vibroacoustics.levels.bands import bands_between
 from vibroacoustics.levels.by_source import SourceSound
 from vibroacoustics.levels.insertion_loss import airborne_factor, remaining_share
 from vibroacoustics.levels.lines import line_pressure
-from vibroacoustics.levels.remainder import remainder, remainder_by_draw
+from vibroacoustics.levels.remainder import (
+    remainder,
+    remainder_by_draw,
+    remaining,
+    spectrum_left,
+)
+from vibroacoustics.machine.remainder import Remainder
 from vibroacoustics.mechanics.added import InsertionLoss
 from vibroacoustics.mechanics.loads import Lines
 from vibroacoustics.mechanics.received_sound import ReceivedSound
@@ -58,7 +65,8 @@ def test_option_takes_its_loss_off_lines_and_its_mean_off_the_rest():
     assert factor.dims == ("option", "speed", "order")
     assert factor.sel(option="none").values.tolist() == [[1.0, 1.0, 1.0]]
     assert factor.sel(option="hood").values[0] == pytest.approx([1.0, 0.1, 1.0])
-    assert remaining_share(HOODED) == pytest.approx([1.0, 0.5 * (0.01 + 1.0)])
+    share = remaining_share(HOODED, np.array([50.0, 63.0, 80.0]), np.array([6.0, 3.0, 1.0]))
+    assert share == pytest.approx([1.0, 0.6 * 0.01 + 0.3 + 0.1])
 
 
 def sound(square):
@@ -73,6 +81,36 @@ def test_remainder_fills_up_to_the_published_level():
     assert remainder(STUDY, AXES, sound(2.0), True) == 0.0
     with pytest.raises(ParameterError, match=r"= 94 dB\(A\): the model alone gives 97.0 dB\(A\)"):
         remainder(STUDY, AXES, sound(2.0), False)
+
+
+def test_remainder_grows_with_speed_and_passes_a_hood_band_by_band():
+    """30 dB for ten times the speed; a spectrum that is even but for a band full of the model."""
+    even = Remainder(speed_growth_db=30.0, slope_db=0.0)
+    machine = SimpleNamespace(remainder=even)
+    bands = bands_between(3, 50.0, 63.0)
+    axes = LevelAxes([3000.0, 1500.0], ["none", "hood"], ["keys"], ["front"], bands)
+    study = SimpleNamespace(**{**vars(STUDY), "options": HOODED})
+    silent = {(3000.0, "none"): SourceSound(np.zeros((1, 1, 2)), np.zeros((1, 1)), None)}
+    left = remaining(study, axes, silent, machine, 0.81)
+    bands_of_remainder = 27  # 25 Hz to 10 kHz, of which the hood takes 20 dB off that at 50 Hz
+    assert left[0] == pytest.approx([0.81, 0.81 * (1.0 - 0.99 / bands_of_remainder)])
+    assert left[1] == pytest.approx(left[0] / 8.0)
+    loud = SourceSound(np.array([[[1e9, 0.0]]]), np.zeros((1, 1)), None)
+    beside = remaining(study, axes, {(3000.0, "none"): loud}, machine, 0.81)
+    assert beside[0] == pytest.approx([0.81, 0.81])
+    assert np.all(remaining(study, axes, silent, machine, 0.0) == 0.0)
+
+
+def test_spectrum_left_sums_to_the_remainder_and_is_nowhere_negative():
+    rng = np.random.default_rng(0)
+    expected, modelled = rng.uniform(0.1, 1.0, (2, 20))
+    for rest in (1e-6, 0.3, 50.0):
+        left = spectrum_left(expected, modelled, rest)
+        assert left.sum() == pytest.approx(rest)
+        assert left.min() >= 0.0
+        factors = (left + modelled)[left > 0.0] / expected[left > 0.0]
+        assert factors == pytest.approx(np.full(factors.size, factors[0]))
+        assert np.all(modelled[left == 0.0] >= factors[0] * expected[left == 0.0] * (1.0 - 1e-12))
 
 
 def test_three_draws_below_the_published_level_are_needed():

@@ -42,7 +42,7 @@ def _changes(results: xr.Dataset) -> list[Block]:
         Text(
             "The change of all modelled sources holds the high-frequency side effects of an "
             "option: keys without preload that strike, and what pushes the ring. The total adds "
-            "the remainder, which is held constant. A band that reaches from below to above zero "
+            "the remainder. A band that reaches from below to above zero "
             "says that not even the sign is known.",
             "note",
         ),

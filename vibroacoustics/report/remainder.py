@@ -1,0 +1,64 @@
+"""What the report says of the remainder: how it goes with speed."""
+
+from collections.abc import Callable
+
+import numpy as np
+import xarray as xr
+
+from ..base import rounding
+from ..base.decibel import level_of_power, power_of_level
+from ..base.vocabulary import REFERENCE_OPTION
+from .bands import Band, over_draws
+from .study import catalogue_receiver, has_draws, overall_noise, parameters, speeds
+
+_GROWTH = "remainder.speed_growth_db"
+
+
+def remainder_band(results: xr.Dataset, speed: float) -> Band:
+    """Level of the remainder at a speed without an option, over the draws."""
+    at = {"speed": speed, "option": REFERENCE_OPTION, "receiver": catalogue_receiver(results)}
+    suffix = "_by_draw" if has_draws(results) else ""
+    levels = [results[f"level_{name}{suffix}"].sel(at) for name in ("total", "modelled")]
+    total, modelled = (
+        level.sel(weighting="A", drop=True) if "weighting" in level.dims else level
+        for level in levels
+    )
+    left = (power_of_level(total) - power_of_level(modelled)).clip(min=0.0).fillna(0.0)
+    level = xr.apply_ufunc(level_of_power, left)
+    return Band(*map(float, over_draws(results, level).values))
+
+
+def growth_sentence(results: xr.Dataset) -> str:
+    """How the remainder is assumed to go with speed."""
+    growth = parameters(results)["machine"].get("remainder", {}).get("speed_growth_db")
+    if growth is None:  # files of older versions
+        return "That it stays constant over speed is an assumption, not a result."
+    ends = _range(results) or (growth, growth)
+    return (
+        f"That it grows by {_span(growth, ends, rounding.fixed)} dB for ten times the "
+        f"speed{_at_speeds(results, growth, ends)} is an assumption, not a result."
+    )
+
+
+def _at_speeds(results: xr.Dataset, growth: float, ends: tuple[float, float]) -> str:
+    """`, which is +2.4 dB (2.0 to 2.8) at 3500 rpm`, of the speed that is furthest off."""
+    published = overall_noise(results)["speed_rpm"]
+    furthest = max(speeds(results), key=lambda speed: abs(np.log(speed / published)))
+    decades = float(np.log10(furthest / published))
+    if decades == 0.0:
+        return ""
+    at_ends = sorted(end * decades for end in ends)
+    change = _span(growth * decades, (at_ends[0], at_ends[1]), rounding.signed)
+    return f", which is {change} dB at {furthest:g} rpm,"
+
+
+def _range(results: xr.Dataset) -> tuple[float, float] | None:
+    """Of the growth, as the machine's file gives it."""
+    for record in parameters(results)["records"]:
+        if record["field"].endswith(_GROWTH) and record["lowest"] is not None:
+            return record["lowest"], record["highest"]
+    return None
+
+
+def _span(value: float, ends: tuple[float, float], write: Callable[[float], str]) -> str:
+    return Band(ends[0], value, ends[1]).middle_and_ends(write)
