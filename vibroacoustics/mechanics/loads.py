@@ -1,7 +1,7 @@
 """What a source does to the machine: on the rigid machine and on the parts in its shell."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Final
 
 import numpy as np
@@ -15,6 +15,27 @@ FIXED_SCROLL, BEARING_HOUSING, ORBITING_SCROLL, LOWER_BEARING, STATOR = range(le
 """Their indices."""
 PART_COMPONENTS: Final = 6
 """Force along x, y, z and moment about the centre of mass at rest, which lies on the axis."""
+
+
+DISCHARGE_DOME: Final = "discharge_dome"
+"""Space of gas in the shell that a source may feed, as the machine's table is named."""
+
+
+@dataclass(frozen=True)
+class GasFlow:
+    """Volume flow into a space of gas in the shell.
+
+    Attributes
+    ----------
+    into : name of the machine's table
+    density_kg_per_m3, sound_speed_m_per_s : of the gas there
+    volume_flow : complex peaks by order, or at lines, shape (order,), m³/s
+    """
+
+    into: str
+    density_kg_per_m3: float
+    sound_speed_m_per_s: float
+    volume_flow: ComplexArray
 
 
 @dataclass(frozen=True)
@@ -65,6 +86,7 @@ class Loads:
     on_parts : on the parts in the shell by order, shape (part, component, order), N and N m
     tones : lines that are no orders
     noise : random loads
+    flows : into spaces of gas by order; what the machine has no table of is silent
     shaft_torque_n_m : that the shaft needs, mean and complex peaks by order, shape (order,)
     figures : to report, by name; the unit is the suffix of the name
 
@@ -82,6 +104,7 @@ class Loads:
     on_parts: ComplexArray | None = None
     tones: tuple[Tone, ...] = ()
     noise: tuple[Noise, ...] = ()
+    flows: tuple[GasFlow, ...] = ()
     shaft_torque_n_m: ComplexArray | None = None
     figures: Mapping[str, float] = field(default_factory=dict)
 
@@ -96,12 +119,14 @@ class Lines:
     frequency_hz : shape (line,)
     rigid : wrench on the rigid machine by source but for what `wrenches` give, shape (6, line)
     on_parts : on the parts in the shell by source, shape (part, component, line)
+    flows : into spaces of gas by source, at the lines
     """
 
     names: tuple[str, ...]
     frequency_hz: Array
     rigid: Mapping[str, ComplexArray]
     on_parts: Mapping[str, ComplexArray]
+    flows: Mapping[str, tuple[GasFlow, ...]] = field(default_factory=dict)
 
 
 def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int) -> Lines:
@@ -115,7 +140,7 @@ def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int) -> Lines
     """
     tones = [(source, tone) for source, given in loads.items() for tone in given.tones]
     orders, count = highest + 1, highest + 1 + len(tones)
-    rigid, on_parts = {}, {}
+    rigid, on_parts, flows = {}, {}, {}
     for source, given in loads.items():
         wrench = np.zeros((6, count), dtype=complex)
         parts = np.zeros((len(PARTS), PART_COMPONENTS, count), dtype=complex)
@@ -129,12 +154,20 @@ def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int) -> Lines
             if maker == source:
                 wrench[:, number], parts[..., number] = tone.rigid, tone.on_parts
         rigid[source], on_parts[source] = wrench, parts
+        flows[source] = tuple(_at_lines(flow, orders, count) for flow in given.flows)
     frequency = [*(shaft_hz * np.arange(orders)), *(tone.frequency_hz for _, tone in tones)]
     names = (
         *(f"order {order}" for order in range(orders)),
         *(f"{source}: {tone.name}" for source, tone in tones),
     )
-    return Lines(names, np.array(frequency), rigid, on_parts)
+    return Lines(names, np.array(frequency), rigid, on_parts, flows)
+
+
+def _at_lines(flow: GasFlow, orders: int, count: int) -> GasFlow:
+    lines = np.zeros(count, dtype=complex)
+    held = min(orders, flow.volume_flow.size)
+    lines[:held] = flow.volume_flow[:held]
+    return replace(flow, volume_flow=lines)
 
 
 def total_torque_n_m(loads: Iterable[Loads], highest: int) -> ComplexArray:

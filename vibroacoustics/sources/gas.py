@@ -6,11 +6,12 @@ from typing import ClassVar, Final
 from ..base.curves import Curve
 from ..base.parameters import Parameters
 from ..base.registry import register
+from ..machine.cavities import DischargeDome
 from ..machine.frame import Frame
 from ..machine.machine import Machine
 from ..machine.source import Case, Shared, Source
 from ..mechanics.capabilities import Capability, OldhamRing
-from ..mechanics.loads import Loads
+from ..mechanics.loads import DISCHARGE_DOME, GasFlow, Loads
 from ..mechanics.rotation import uniform_crank_angle
 from ..orders import order_spectrum
 from .part_loads import gas_loads
@@ -65,6 +66,7 @@ class ScrollGasForces(Source):
         on_parts = gas_loads(cycle, *_of_frame(case.machine))
         return Loads(
             on_parts=order_spectrum(on_parts, highest),
+            flows=_flows(case.machine, cycle, highest),
             shaft_torque_n_m=order_spectrum(cycle.torque_n_m, highest),
         )
 
@@ -72,6 +74,15 @@ class ScrollGasForces(Source):
         """Pressure of a pocket, forces and torque; see `scroll_gas_curves`."""
         machine, opened = case.machine, opened_gas(case.machine, case.speed_rpm)
         return scroll_gas_curves(machine.table(ScrollWraps), machine.table(ScrollGas), opened)
+
+
+def _flows(machine: Machine, cycle: ScrollGasCycle, highest: int) -> tuple[GasFlow, ...]:
+    """Through the port into the dome, where the gas has inertia and the machine has a dome."""
+    if cycle.port_flow_kg_per_s is None or not machine.has_table(DischargeDome):
+        return ()
+    density, sound_speed = machine.table(ScrollGas).discharge_state
+    flow = order_spectrum(cycle.port_flow_kg_per_s, highest) / density
+    return (GasFlow(DISCHARGE_DOME, density, sound_speed, flow),)
 
 
 def _of_frame(machine: Machine) -> tuple[float, bool]:
@@ -116,10 +127,12 @@ def opened_gas(machine: Machine, speed_rpm: float) -> OpenedGas | None:
 
 
 def gas_tables(machine: Machine) -> Mapping[str, type[Parameters]]:
-    """Tables of a machine that its gas needs: that of the opening where this has inertia."""
+    """Tables of a machine that its gas reads: opening and dome where its flow has inertia."""
     tables: dict[str, type[Parameters]] = {"wraps": ScrollWraps, "gas": ScrollGas}
     if machine.has_table(ScrollGas) and machine.table(ScrollGas).opens_with_inertia:
         tables["opening"] = ScrollOpening
+        if machine.has_table(DischargeDome):
+            tables[DISCHARGE_DOME] = DischargeDome
     return tables
 
 

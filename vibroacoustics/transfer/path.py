@@ -1,7 +1,7 @@
 """The elastic shell as a path: from loads on its joints to sound at the receivers."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Final
 
@@ -20,6 +20,7 @@ from ..machine.shell_structure import (
     ShellVariation,
 )
 from ..mechanics.loads import ORBITING_SCROLL, PART_COMPONENTS, PARTS
+from .cavity.in_shell import GasInShell
 from .shell_modes import (
     ElasticShell,
     JointLoads,
@@ -54,6 +55,7 @@ class ShellPath:
     rows : the path's modes among those of the wall, shape (mode,)
     frequency_factor : natural frequencies over those of the modes as given, shape (mode,) or ()
     mass_factor : the same of the modal masses
+    gas : spaces of gas in the shell with the modes as given, by their shape, as they are asked for
     """
 
     modes: tuple[ShellMode, ...] | tuple[SampledMode, ...]
@@ -64,6 +66,7 @@ class ShellPath:
     rows: IndexArray
     frequency_factor: Array | float = 1.0
     mass_factor: float = 1.0
+    gas: dict[Hashable, GasInShell] = field(default_factory=dict, repr=False)
 
     @cached_property
     def natural_hz(self) -> Array:

@@ -9,6 +9,7 @@ import xarray as xr
 
 from ..base.arrays import ComplexArray
 from ..base.parameters import Parameters
+from ..machine.cavities import DischargeDome
 from ..machine.frame import Frame
 from ..machine.machine import Machine
 from ..machine.shell_structure import ShellStructure, ShellVariation
@@ -17,6 +18,7 @@ from ..mechanics.loads import Lines, Loads, lines_of
 from ..mechanics.received_sound import NoisePower, ReceivedSound
 from ..mechanics.scroll_shaft import ScrollShaft
 from ..study.study import Study
+from .cavity.of_machine import gas_of
 from .frame import frame_on_shell
 from .machine import on_mounts
 from .path import ShellPath
@@ -74,7 +76,8 @@ class Transmission:
         shell = self.shell.with_structure(structure)
         frame = frame_on_shell(machine, shell)
         loss = structure.loss_factor_ratio
-        return BendingShell(shell, self.modes, self.rigid, loss, variation, frame)
+        gas = gas_of(machine, self.shell)
+        return BendingShell(shell, self.modes, self.rigid, loss, variation, frame, gas)
 
     def _of_case(
         self, case: Case, loads: Mapping[str, Loads], of_wrenches: BySource, path: SoundPath
@@ -105,7 +108,7 @@ class Transmission:
 
 def _path_tables(machine: Machine) -> tuple[Parameters, ...]:
     """What tells the paths of two machines apart."""
-    tables = (ShellStructure, ShellVariation, Frame, ScrollShaft)
+    tables = (ShellStructure, ShellVariation, Frame, ScrollShaft, DischargeDome)
     return (machine.housing, *(machine.table(each) for each in tables if machine.has_table(each)))
 
 

@@ -1,14 +1,15 @@
 """From the loads of all sources in one case to sound pressure at the receivers."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
 from ..machine.shell_structure import ShellVariation
-from ..mechanics.loads import Lines, Noise
-from .frame import FrameOnShell
+from ..mechanics.loads import GasFlow, Lines, Noise
+from .cavity.response import DrivenGas
+from .frame import FrameOnShell, ShellForces
 from .machine import MachineOnMounts
 from .path import ShellPath, pressure_per_load
 
@@ -28,6 +29,7 @@ class BendingShell:
     loss_factor_ratio : of the shell
     variation : how the real shell differs
     frame : what the parts do to the shell; none where they hand their loads on as they are
+    gas : spaces of gas in the shell, by the name of their table
     """
 
     path: ShellPath
@@ -36,7 +38,8 @@ class BendingShell:
     loss_factor_ratio: float
     variation: ShellVariation
     frame: FrameOnShell | None = None
-    _known: dict[bytes, ComplexArray] = field(default_factory=dict, repr=False)
+    gas: Mapping[str, DrivenGas] = field(default_factory=dict)
+    _known: dict[Hashable, ComplexArray] = field(default_factory=dict, repr=False)
 
     def per_load(self, frequency_hz: Array) -> ComplexArray:
         """Pressure per load on a part, (receiver, part, component, frequency).
@@ -48,15 +51,39 @@ class BendingShell:
             self._known[key] = self._per_load(frequency_hz)
         return self._known[key]
 
+    def of_gas(self, flow: GasFlow, frequency_hz: Array) -> ComplexArray:
+        """Pressure of a space of gas in the shell on its wall, shape (receiver, frequency)."""
+        gas = self.gas.get(flow.into)
+        if gas is None:
+            return np.zeros((1, frequency_hz.size), dtype=complex)
+        state = flow.density_kg_per_m3, flow.sound_speed_m_per_s
+        key = (flow.into, *state, frequency_hz.tobytes())
+        if key not in self._known:
+            self._known[key] = self._per_flow(gas.wall_forces(*state, frequency_hz), frequency_hz)
+        return self._known[key] * flow.volume_flow
+
+    def _per_flow(self, per_flow: ComplexArray, frequency_hz: Array) -> ComplexArray:
+        """Of forces on the modes, shape (mode, frequency)."""
+        forces = self.frame.under_modal_forces(per_flow, frequency_hz) if self.frame else None
+        on_modes = forces.on_modes if forces else per_flow[:, None, None]
+        return np.asarray(self._of_forces(on_modes, forces, frequency_hz)[:, 0, 0])
+
     def _per_load(self, frequency_hz: Array) -> ComplexArray:
-        forces = self.frame and self.frame.forces(frequency_hz)
+        forces = self.frame.forces(frequency_hz) if self.frame else None
+        on_modes = forces.on_modes if forces else self.path.forces_of_parts()
+        return self._of_forces(on_modes, forces, frequency_hz)
+
+    def _of_forces(
+        self, on_modes: Array | ComplexArray, forces: ShellForces | None, frequency_hz: Array
+    ) -> ComplexArray:
+        """Pressure of the modes and, with a frame, of the shell's rigid motion."""
         pressure = pressure_per_load(
             self.path,
             self.pressure_per_velocity(frequency_hz),
             frequency_hz,
             self.loss_factor_ratio,
             self.variation,
-            forces.on_modes if forces else self.path.forces_of_parts(),
+            on_modes,
         )
         if forces:
             velocity = forces.rigid_velocity
@@ -86,13 +113,16 @@ class SoundPath:
 
     def _of_source(self, body: MachineOnMounts, lines: Lines, source: str) -> ComplexArray:
         frequency, wrench, parts = lines.frequency_hz, lines.rigid[source], lines.on_parts[source]
-        pressure = np.zeros((1, frequency.size), dtype=complex)
+        pressure: ComplexArray = np.zeros((1, frequency.size), dtype=complex)
         if wrench.any():
             velocity = body.response(wrench.T, frequency).velocity
             pressure = pressure + np.einsum("rdf,fd->rf", self.rigid(frequency), velocity)
         if self.shell is not None and parts.any():
             per_load = self.shell.per_load(frequency)
             pressure = pressure + np.einsum("rpcf,pcf->rf", per_load, parts, optimize=True)
+        if self.shell is not None:
+            for flow in lines.flows.get(source, ()):
+                pressure = np.asarray(pressure + self.shell.of_gas(flow, frequency))
         return pressure
 
     def noise_power(self, noise: Noise) -> Array:

@@ -9,6 +9,7 @@ from ...base.arrays import Array
 from ...base.curves import Curve
 from ...base.parameters import Held, Parameters
 from ...base.registry import register
+from ...machine.cavities import DischargeDome
 from ...machine.derived import ROUND_INERTIAS, Derived, in_proportion
 from ...machine.frame import Frame
 from ...machine.machine import PART_MASS, Machine
@@ -74,6 +75,7 @@ class OldhamScroll(Machine):
         in_proportion("frame.orbiting_scroll.mass_kg", "orbiting_scroll.mass_kg"),
         in_proportion("frame.orbiting_scroll.height_m", "orbiting_scroll.height_m"),
         in_proportion("frame.keys_radius_m", "keys.radius_m"),
+        in_proportion("discharge_dome.tube_diameter_m", "opening.tube_diameter_m"),
     )
     kinematics: Kinematics
     oldham: Ring
@@ -94,6 +96,8 @@ class OldhamScroll(Machine):
     """Of the shell, where it may bend."""
     variation: ShellVariation | None = None
     stopping: Stopping | None = None
+    discharge_dome: DischargeDome | None = None
+    """Gas under the top cap; none where it is silent."""
     shaft: ScrollShaft | None = None
     frame: Frame | None = None
     """Bodies through which the sources drive the shell; none where they do so as they are."""
@@ -110,6 +114,13 @@ class OldhamScroll(Machine):
                 f"housing.mass_kg = {self.housing.mass_kg:g} kg: frame, stator and shaft weigh "
                 f"{inner_kg:.4g} kg; {100.0 * MOST_INNER_SHARE:g} % of all is the most in a shell"
             )
+        return self
+
+    @model_validator(mode="after")
+    def _dome_fits(self) -> "OldhamScroll":
+        reason = self.discharge_dome and self.discharge_dome.why_not_in(self.shell)
+        if reason:
+            raise ValueError(f"discharge_dome.{reason}")
         return self
 
     @property

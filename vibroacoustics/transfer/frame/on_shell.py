@@ -15,13 +15,13 @@ from ...mechanics.critical_speed import free_scroll_shaft
 from ...mechanics.loads import PART_COMPONENTS, PARTS
 from ...mechanics.scroll_shaft import ScrollShaft
 from ..path import ShellPath
-from ..shell_modes import modal_forces
+from ..shell_modes import modal_forces, velocity_per_force
 from ..shell_modes.loads import PatchLoads
 from ..shell_modes.projection import ProjectedModes
 from ..shell_modes.statics import local_flexibility_factor
 from .contacts import Contacts, contacts_of
 from .inner import InnerSet, inner_set
-from .solve import contact_forces, shell_compliance
+from .solve import contact_forces, reaction_forces, shell_compliance
 
 SHAFT_ELEMENT_M: Final = 0.04
 """A sixth of the wavelength of bending at 4 kHz; cubic shapes err by 0.1 % of a frequency."""
@@ -103,9 +103,46 @@ class FrameOnShell:
         on_modes = np.moveaxis(self.modal_forces @ on_contacts, 0, -1).reshape(shape)
         together = np.tile(np.linalg.inv(self.machine_mass), len(PARTS))
         acceleration = np.linalg.solve(self.shell_mass, self.contacts.rigid.T) @ on_contacts
-        omega = np.where(moves, 2.0 * np.pi * frequency_hz, 1.0)[:, None, None]
-        velocity = np.where(moves[:, None, None], (acceleration - together) / (1j * omega), 0.0)
+        velocity = _velocity(acceleration - together, frequency_hz)
         return ShellForces(on_contacts, on_modes, np.moveaxis(velocity, 0, -1).reshape(shape))
+
+    def under_modal_forces(self, driven: ComplexArray, frequency_hz: Array) -> ShellForces:
+        """Forces on a shell whose modes something else drives: those, and the parts' reaction.
+
+        Parameters
+        ----------
+        driven : generalised forces, shape (mode, frequency)
+        frequency_hz : shape (frequency,)
+
+        Returns
+        -------
+        with one part and component in the place of a load's
+        """
+        moves = frequency_hz > 0.0
+        frequency = frequency_hz[moves]
+        elastic = velocity_per_force(
+            self.natural_hz, self.modal_mass_kg, self.loss_factor_ratio, frequency
+        )
+        moved = self.modal_forces.T @ (elastic * driven[:, moves] / (2j * np.pi * frequency))
+        on_contacts = np.zeros((moves.size, len(self.contacts.part), 1), dtype=complex)
+        on_contacts[moves] = reaction_forces(
+            self.inner,
+            self.contacts.stiffness,
+            self.compliance(frequency),
+            frequency,
+            np.asarray(moved.T[:, :, None]),
+        )
+        on_modes = driven + (self.modal_forces @ on_contacts)[..., 0].T
+        acceleration = np.linalg.solve(self.shell_mass, self.contacts.rigid.T) @ on_contacts
+        velocity = np.moveaxis(_velocity(acceleration, frequency_hz), 0, -1)
+        return ShellForces(on_contacts, on_modes[:, None, None], velocity[:, None])
+
+
+def _velocity(acceleration: ComplexArray, frequency_hz: Array) -> ComplexArray:
+    """Over frequency, the first axis; none at frequency zero."""
+    omega = 2.0 * np.pi * frequency_hz[:, None, None]
+    moves = omega > 0.0
+    return np.asarray(np.where(moves, acceleration / (1j * np.where(moves, omega, 1.0)), 0.0))
 
 
 def frame_on_shell(machine: Machine, path: ShellPath) -> FrameOnShell | None:

@@ -52,9 +52,44 @@ def contact_forces(
     compliance : C of the shell at the contacts, shape (frequency, contact, contact), m/N
     frequency_hz : above zero, shape (frequency,)
     """
-    squares = (2.0 * np.pi * frequency_hz[:, None, None]) ** 2
-    weighted = np.eye(stiffness.size) + stiffness[:, None] * compliance
-    through = np.linalg.solve(weighted, np.diag(stiffness) @ inner.contacts)
-    dynamic = inner.stiffness - squares * inner.mass + inner.contacts.T @ through
+    through = _held(stiffness, compliance, inner.contacts)
+    dynamic = _dynamic(inner, through, frequency_hz)
     loads = np.broadcast_to(inner.loads, (frequency_hz.size, *inner.loads.shape))
     return np.asarray(through @ np.linalg.solve(dynamic, loads))
+
+
+def reaction_forces(
+    inner: InnerSet,
+    stiffness: ComplexArray,
+    compliance: ComplexArray,
+    frequency_hz: Array,
+    moved: ComplexArray,
+) -> ComplexArray:
+    """Force of the parts on a shell that something else moves, (frequency, contact, load).
+
+    f = Y (B q - u) with (D + Bᵀ Y B) q = Bᵀ Y u, u the motion without the parts.
+
+    Parameters
+    ----------
+    inner, stiffness, compliance, frequency_hz : see `contact_forces`
+    moved : u of the contacts, shape (frequency, contact, load), m
+    """
+    through = _held(stiffness, compliance, inner.contacts)
+    by_motion = _held(stiffness, compliance, moved)
+    drive = inner.contacts.T @ by_motion
+    parts = np.linalg.solve(_dynamic(inner, through, frequency_hz), drive)
+    return np.asarray(through @ parts - by_motion)
+
+
+def _held(
+    stiffness: ComplexArray, compliance: ComplexArray, motion: Array | ComplexArray
+) -> ComplexArray:
+    """Y u, Y = (1 + k C)⁻¹ k: forces of contacts on the shell by their other ends' motion u."""
+    weighted = np.eye(stiffness.size) + stiffness[:, None] * compliance
+    return np.asarray(np.linalg.solve(weighted, stiffness[:, None] * motion))
+
+
+def _dynamic(inner: InnerSet, through: ComplexArray, frequency_hz: Array) -> ComplexArray:
+    """D + Bᵀ Y B."""
+    squares = (2.0 * np.pi * frequency_hz[:, None, None]) ** 2
+    return np.asarray(inner.stiffness - squares * inner.mass + inner.contacts.T @ through)

@@ -124,13 +124,13 @@ def mean_over_band(meridian: Meridian, joint: Joint) -> Array:
         )
     heights, weights = _mean_points(middle, band, _BAND_POINTS)
     points = np.stack([np.full(heights.size, meridian.wall_radius_m), heights], axis=1)
-    freedoms, shapes = _interpolation(meridian, points)
+    freedoms, shapes = interpolation(meridian, points)
     mean = np.zeros((freedom_count(meridian), 3))
     np.add.at(mean, freedoms, np.einsum("p,pia->pai", weights, shapes))
     return mean
 
 
-def _interpolation(meridian: Meridian, points: Array) -> tuple[IndexArray, Array]:
+def interpolation(meridian: Meridian, points: Array) -> tuple[IndexArray, Array]:
     """Freedoms (point, 12) that move places (point, 2), and by how much, (point, 3, 12)."""
     element, along = meridian.locate(points)
     return element_freedoms(meridian)[element], displacement_shapes(meridian, element, along)

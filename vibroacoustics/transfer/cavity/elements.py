@@ -1,0 +1,82 @@
+"""Biquadratic elements for sound in a space of revolution, per order around the axis.
+
+Galerkin's form of Helmholtz' equation for p cos nθ, ∫ (∂p/∂r ∂q/∂r + n²/r² p q + ∂p/∂z ∂q/∂z) dV =
+k² ∫ p q dV (Fahy & Gardonio, Sound and Structural Vibration, 2007, chapter 7).
+"""
+
+import numpy as np
+
+from ...base.arrays import Array
+from .profile import Profile
+
+_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(4)
+
+
+def quadratic(x: Array) -> Array:
+    """Shapes along one direction of an element that are 1 at -1, at 0 and at 1, (point, 3)."""
+    return np.stack([0.5 * x * (x - 1.0), 1.0 - x**2, 0.5 * x * (x + 1.0)], axis=-1)
+
+
+def quadratic_slope(x: Array) -> Array:
+    """Their derivatives, shape (point, 3)."""
+    return np.stack([x - 0.5, -2.0 * x, x + 0.5], axis=-1)
+
+
+def squared_around(order: int) -> float:
+    """∫ cos² nθ dθ."""
+    return 2.0 * np.pi if order == 0 else np.pi
+
+
+def matrices(profile: Profile, order: int) -> tuple[Array, Array]:
+    """Stiffness and mass of all nodes, both (node, node), m and m³.
+
+    Parameters
+    ----------
+    profile : the space
+    order : waves around the axis
+    """
+    flat, slope = quadratic(_POINTS), quadratic_slope(_POINTS)
+    weight = np.multiply.outer(_WEIGHTS, _WEIGHTS).ravel()
+    shapes, across, along = (np.kron(a, b) for a, b in ((flat, flat), (slope, flat), (flat, slope)))
+    elements = profile.elements
+    places = profile.nodes.reshape(-1, 2)[elements]
+    radius = places[..., 0] @ shapes.T
+    jacobian = np.stack([np.swapaxes(places, 1, 2) @ one.T for one in (across, along)], axis=1)
+    jacobian = np.moveaxis(jacobian, 3, 1)
+    volume = squared_around(order) * weight * radius * np.linalg.det(jacobian)
+    local = np.stack([across, along], axis=1)
+    gradient = np.linalg.solve(jacobian, np.broadcast_to(local, (len(elements), *local.shape)))
+    stiffness = np.einsum("eg,egda,egdb->eab", volume, gradient, gradient, optimize=True)
+    stiffness += order**2 * np.einsum("eg,ga,gb->eab", volume / radius**2, shapes, shapes)
+    mass = np.einsum("eg,ga,gb->eab", volume, shapes, shapes)
+    count = profile.radius.size * (2 * profile.rows + 1)
+    total = np.zeros((2, count, count))
+    at = (elements[:, :, None], elements[:, None, :])
+    np.add.at(total[0], at, stiffness)
+    np.add.at(total[1], at, mass)
+    return total[0], total[1]
+
+
+def interpolation(profile: Profile, radius_m: float, height_m: float) -> Array:
+    """What each node adds at a place of the space, shape (node,); places beyond are on its edge."""
+    ends = profile.radius[::2]
+    column = int(np.clip(np.searchsorted(ends, radius_m) - 1, 0, ends.size - 2))
+    across = _within(profile.radius[2 * column : 2 * column + 3], radius_m)
+    weights = np.zeros(profile.radius.size)
+    weights[2 * column : 2 * column + 3] = quadratic(np.asarray(across))
+    low, high = weights @ profile.lower, weights @ profile.upper
+    share = float(np.clip((height_m - low) / (high - low), 0.0, 1.0)) * profile.rows
+    row = min(int(share), profile.rows - 1)
+    upwards = np.zeros(2 * profile.rows + 1)
+    upwards[2 * row : 2 * row + 3] = quadratic(np.asarray(2.0 * (share - row) - 1.0))
+    return np.asarray(np.outer(weights, upwards).ravel())
+
+
+def _within(radii: Array, radius_m: float) -> float:
+    """Coordinate from -1 to 1 at which the three radii of an element give a radius."""
+    middle, half = radii[1], 0.5 * (radii[2] - radii[0])
+    bend = 0.5 * (radii[2] + radii[0]) - middle
+    place = 0.0
+    for _ in range(20):
+        place -= (middle + half * place + bend * place**2 - radius_m) / (half + 2.0 * bend * place)
+    return float(np.clip(place, -1.0, 1.0))

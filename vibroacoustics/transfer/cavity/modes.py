@@ -1,0 +1,92 @@
+"""Acoustic modes of a space of revolution, with one attachment mode per order for a source."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Final
+
+import numpy as np
+from scipy.linalg import cho_factor, cho_solve, eigh
+
+from ...base.arrays import Array, IndexArray
+from .elements import interpolation, matrices
+from .profile import Profile
+
+MODES: Final = 12
+"""Of each order; what higher ones do is in the attachment mode."""
+_UNIFORM: Final = 1e-6
+"""Of the largest k² of the order; below it a mode is the uniform pressure."""
+
+
+@dataclass(frozen=True)
+class GasOrder:
+    """Modes p cos n(θ - θ₀) of one order n in rigid walls, with ∫ φ² dV = 1.
+
+    Attributes
+    ----------
+    profile : the space
+    order : waves around the axis
+    """
+
+    profile: Profile
+    order: int
+
+    @cached_property
+    def modes(self) -> tuple[Array, Array]:
+        """k² (mode,) in 1/m² and pressures of the nodes (node, mode)."""
+        stiffness, mass = self._matrices
+        squares, free = eigh(stiffness, mass, subset_by_index=(0, MODES - 1))
+        shapes = np.zeros((self._count, MODES))
+        shapes[self._free] = free
+        return np.maximum(squares, 0.0), shapes
+
+    def at(self, radius_m: float, height_m: float) -> Array:
+        """What each node adds at a place where θ = θ₀, shape (node,)."""
+        return interpolation(self.profile, radius_m, height_m)
+
+    def with_attachment(self, source: Array) -> tuple[Array, Array]:
+        """The modes and the steady response to a source that they leave out, as one more.
+
+        It is orthogonal to the modes in stiffness and mass, so it acts as one (Craig & Bampton
+        1968, of structures; attachment mode). None where the source drives no pressure.
+
+        Parameters
+        ----------
+        source : its share of each node, shape (node,)
+        """
+        squares, shapes = self.modes
+        stiffness, mass = self._matrices
+        free, given = shapes[self._free], source[self._free]
+        left = given - mass @ (free @ (free.T @ given))
+        steady = cho_solve(self._held, left, check_finite=False)
+        steady -= free @ (free.T @ (mass @ steady))
+        size = float(steady @ mass @ steady)
+        if size <= 0.0 or not np.any(given):
+            return squares, shapes
+        column = np.zeros((self._count, 1))
+        column[self._free, 0] = steady / np.sqrt(size)
+        square = float(steady @ stiffness @ steady) / size
+        return np.append(squares, square), np.hstack([shapes, column])
+
+    @property
+    def _count(self) -> int:
+        return int(self.profile.nodes[..., 0].size)
+
+    @cached_property
+    def _free(self) -> IndexArray:
+        """Nodes with pressure: on the axis none from order 1 up."""
+        radius = self.profile.nodes[..., 0].ravel()
+        return np.flatnonzero((radius > 0.0) | (self.order == 0))
+
+    @cached_property
+    def _matrices(self) -> tuple[Array, Array]:
+        at = np.ix_(self._free, self._free)
+        stiffness, mass = matrices(self.profile, self.order)
+        return stiffness[at], mass[at]
+
+    @cached_property
+    def _held(self) -> Any:
+        """Factor of the stiffness, with some for the uniform pressure that order 0 has."""
+        stiffness, mass = self._matrices
+        squares, shapes = self.modes
+        uniform = mass @ shapes[self._free][:, squares < _UNIFORM * squares[-1]]
+        return cho_factor(stiffness + squares[-1] * uniform @ uniform.T)
