@@ -56,3 +56,52 @@ class DischargeDome(Parameters):
                 f"{1e3 * shell.radius_m:g} mm, the radius of the shell"
             )
         return None
+
+
+class SuctionAnnulus(Parameters):
+    """Space between the wall and the parts in it, out of which the suction pockets fill."""
+
+    inner_radius_m: Annotated[float, SHAPE] = Field(gt=0.0, le=1.0)
+    lower_height_m: Annotated[float, SHAPE] = Field(ge=-2.0, le=2.0)
+    """Of its lower face, from the centre of mass."""
+    upper_height_m: Annotated[float, SHAPE] = Field(ge=-2.0, le=2.0)
+    inlets: int = Field(ge=1, le=8)
+    """Openings from it to the pockets, alike around the axis."""
+    inlet_height_m: float = Field(ge=-2.0, le=2.0)
+    inlet_angle_rad: float = ANGLE
+    """Of one inlet, from x towards y."""
+    sound_speed_m_per_s: float = Field(ge=50.0, le=2000.0)
+    stiffness_exponent_ratio: float = Field(gt=1.0, le=2.0)
+    """κ = ρ c²/p of the gas, which gives its density at the suction pressure."""
+    quality_ratio: float = QUALITY
+
+    @model_validator(mode="after")
+    def _inlets_in_it(self) -> "SuctionAnnulus":
+        lower, inlet, upper = self.lower_height_m, self.inlet_height_m, self.upper_height_m
+        if not lower <= inlet <= upper or lower == upper:
+            raise ValueError(
+                f"inlet_height_mm = {1e3 * inlet:g} mm: must lie between lower_height_mm = "
+                f"{1e3 * lower:g} mm and upper_height_mm = {1e3 * upper:g} mm"
+            )
+        return self
+
+    def why_not_in(self, shell: Shell) -> str | None:
+        """Why a shell cannot have it; None where it can."""
+        bottom = shell.dome_height_m - shell.centre_of_mass_height_m
+        top = shell.height_m - shell.dome_height_m - shell.centre_of_mass_height_m
+        if not bottom < self.lower_height_m < self.upper_height_m < top:
+            return (
+                f"lower_height_mm, upper_height_mm = {1e3 * self.lower_height_m:g}, "
+                f"{1e3 * self.upper_height_m:g} mm: must rise and lie between "
+                f"{1e3 * bottom:g} and {1e3 * top:g} mm, the ends of the wall"
+            )
+        if self.inner_radius_m >= 0.98 * shell.radius_m:
+            return (
+                f"inner_radius_mm = {1e3 * self.inner_radius_m:g} mm: must be below "
+                f"{0.98e3 * shell.radius_m:g} mm, 0.98 of the radius of the shell"
+            )
+        return None
+
+    def density_kg_per_m3(self, pressure_pa: float) -> float:
+        """ρ = κ p/c²."""
+        return self.stiffness_exponent_ratio * pressure_pa / self.sound_speed_m_per_s**2

@@ -18,7 +18,8 @@ PART_COMPONENTS: Final = 6
 
 
 DISCHARGE_DOME: Final = "discharge_dome"
-"""Space of gas in the shell that a source may feed, as the machine's table is named."""
+SUCTION_ANNULUS: Final = "suction_annulus"
+"""Spaces of gas in the shell that a source may feed, as the machine's tables are named."""
 
 
 @dataclass(frozen=True)

@@ -6,12 +6,12 @@ from typing import ClassVar, Final
 from ..base.curves import Curve
 from ..base.parameters import Parameters
 from ..base.registry import register
-from ..machine.cavities import DischargeDome
+from ..machine.cavities import DischargeDome, SuctionAnnulus
 from ..machine.frame import Frame
 from ..machine.machine import Machine
 from ..machine.source import Case, Shared, Source
 from ..mechanics.capabilities import Capability, OldhamRing
-from ..mechanics.loads import DISCHARGE_DOME, GasFlow, Loads
+from ..mechanics.loads import DISCHARGE_DOME, SUCTION_ANNULUS, GasFlow, Loads
 from ..mechanics.rotation import uniform_crank_angle
 from ..orders import order_spectrum
 from .part_loads import gas_loads
@@ -20,12 +20,17 @@ from .scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
 from .scroll_gas.opened_gas import OpenedGas
 from .scroll_gas.opening import steady_opening, why_no_opening
 from .scroll_gas.parameters import ScrollGas, ScrollOpening, ScrollWraps
+from .scroll_gas.suction import SuctionFlow, suction_flow
 
 GAS_SAMPLES: Final = 8192
 """Crank angles a revolution: the step of the force where a pocket opens makes an error of the
 step over the samples, below 1 % of the order at 4 kHz."""
 
 ORBIT_TOLERANCE: Final = 0.01
+_IN_SHELL: Final[Mapping[str, type[Parameters]]] = {
+    DISCHARGE_DOME: DischargeDome,
+    SUCTION_ANNULUS: SuctionAnnulus,
+}
 
 
 @register
@@ -66,7 +71,7 @@ class ScrollGasForces(Source):
         on_parts = gas_loads(cycle, *_of_frame(case.machine))
         return Loads(
             on_parts=order_spectrum(on_parts, highest),
-            flows=_flows(case.machine, cycle, highest),
+            flows=_flows(case, cycle, highest),
             shaft_torque_n_m=order_spectrum(cycle.torque_n_m, highest),
         )
 
@@ -76,13 +81,40 @@ class ScrollGasForces(Source):
         return scroll_gas_curves(machine.table(ScrollWraps), machine.table(ScrollGas), opened)
 
 
-def _flows(machine: Machine, cycle: ScrollGasCycle, highest: int) -> tuple[GasFlow, ...]:
-    """Through the port into the dome, where the gas has inertia and the machine has a dome."""
-    if cycle.port_flow_kg_per_s is None or not machine.has_table(DischargeDome):
+def _flows(case: Case, cycle: ScrollGasCycle, highest: int) -> tuple[GasFlow, ...]:
+    """Into dome and annulus, where the gas has inertia and the machine has the tables."""
+    machine, flows = case.machine, []
+    if cycle.port_flow_kg_per_s is None:
         return ()
-    density, sound_speed = machine.table(ScrollGas).discharge_state
-    flow = order_spectrum(cycle.port_flow_kg_per_s, highest) / density
-    return (GasFlow(DISCHARGE_DOME, density, sound_speed, flow),)
+    if machine.has_table(DischargeDome):
+        rho, sound = machine.table(ScrollGas).discharge_state
+        flow = order_spectrum(cycle.port_flow_kg_per_s, highest) / rho
+        flows.append(GasFlow(DISCHARGE_DOME, rho, sound, flow))
+    if machine.has_table(SuctionAnnulus):
+        _, rho, sound = _suction_state(machine)
+        filling = suction_gas(machine, case.shared, case.speed_rpm)
+        wraps = machine.table(ScrollWraps)
+        flow = order_spectrum(filling.over_crank_angle(wraps, cycle.crank_angle), highest)
+        flows.append(GasFlow(SUCTION_ANNULUS, rho, sound, -flow / rho))
+    return tuple(flows)
+
+
+def suction_gas(machine: Machine, shared: Shared, speed_rpm: float) -> SuctionFlow:
+    """The filling of the machine's pockets; see `suction_flow`."""
+    wraps, opening = machine.table(ScrollWraps), machine.table(ScrollOpening)
+    passage = opening.gap_length_m, opening.discharge_coefficient_ratio
+    state = _suction_state(machine)
+    return shared(
+        ("suction", wraps, passage, state, speed_rpm),
+        lambda: suction_flow(wraps, *passage, state, speed_rpm),
+    )
+
+
+def _suction_state(machine: Machine) -> tuple[float, float, float]:
+    """Pressure, density and speed of sound."""
+    pressure = machine.table(ScrollGas).suction_pressure_pa
+    annulus = machine.table(SuctionAnnulus)
+    return pressure, annulus.density_kg_per_m3(pressure), annulus.sound_speed_m_per_s
 
 
 def _of_frame(machine: Machine) -> tuple[float, bool]:
@@ -127,12 +159,11 @@ def opened_gas(machine: Machine, speed_rpm: float) -> OpenedGas | None:
 
 
 def gas_tables(machine: Machine) -> Mapping[str, type[Parameters]]:
-    """Tables of a machine that its gas reads: opening and dome where its flow has inertia."""
+    """Tables of a machine that its gas reads; opening, dome, annulus where it has inertia."""
     tables: dict[str, type[Parameters]] = {"wraps": ScrollWraps, "gas": ScrollGas}
     if machine.has_table(ScrollGas) and machine.table(ScrollGas).opens_with_inertia:
         tables["opening"] = ScrollOpening
-        if machine.has_table(DischargeDome):
-            tables[DISCHARGE_DOME] = DischargeDome
+        tables |= {name: table for name, table in _IN_SHELL.items() if machine.has_table(table)}
     return tables
 
 

@@ -15,7 +15,7 @@ from ..machine.option import AnyOption, Option
 from ..machine.shell_structure import ShellStructure, ShellVariation
 from ..machine.source import AnySource, CaseKey
 from ..machine.stopping import Stopping
-from ..mechanics.loads import DISCHARGE_DOME
+from ..mechanics.loads import DISCHARGE_DOME, SUCTION_ANNULUS
 from .radiation import RadiationSettings
 from .receivers import Receiver
 from .scoring import Scoring, check_given, check_scales
@@ -255,17 +255,17 @@ class Study(Parameters):
                 "shell_modes: measured modes do not hold the wall's flexibility at the welds of a "
                 'frame; leave it out: machine.without = ["frame"]'
             )
-        if self.shell_modes is not None and self._flows_into_gas():
+        if self.shell_modes is not None and self._gas_flows_into():
             raise ValueError(
                 "shell_modes: measured modes do not tell what gas in the shell does to its wall; "
-                f'leave the gas out: machine.without = ["{DISCHARGE_DOME}"]'
+                f"leave the gas out: machine.without = {self._gas_flows_into()}"
             )
         if self.operation.stopping and not self.machine.has_table(Stopping):
             raise ValueError("operation.stopping: the machine has no table stopping")
 
-    def _flows_into_gas(self) -> bool:
-        sources = self.sources.values()
-        return any(DISCHARGE_DOME in source.tables_read(self.machine) for source in sources)
+    def _gas_flows_into(self) -> list[str]:
+        read = {name for one in self.sources.values() for name in one.tables_read(self.machine)}
+        return sorted(read & {DISCHARGE_DOME, SUCTION_ANNULUS})
 
     @property
     def drives_shell(self) -> bool:

@@ -9,7 +9,7 @@ import xarray as xr
 
 from ..base.arrays import ComplexArray
 from ..base.parameters import Parameters
-from ..machine.cavities import DischargeDome
+from ..machine.cavities import DischargeDome, SuctionAnnulus
 from ..machine.frame import Frame
 from ..machine.machine import Machine
 from ..machine.shell_structure import ShellStructure, ShellVariation
@@ -108,7 +108,7 @@ class Transmission:
 
 def _path_tables(machine: Machine) -> tuple[Parameters, ...]:
     """What tells the paths of two machines apart."""
-    tables = (ShellStructure, ShellVariation, Frame, ScrollShaft, DischargeDome)
+    tables = (ShellStructure, ShellVariation, Frame, ScrollShaft, DischargeDome, SuctionAnnulus)
     return (machine.housing, *(machine.table(each) for each in tables if machine.has_table(each)))
 
 

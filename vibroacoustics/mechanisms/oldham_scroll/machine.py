@@ -9,7 +9,7 @@ from ...base.arrays import Array
 from ...base.curves import Curve
 from ...base.parameters import Held, Parameters
 from ...base.registry import register
-from ...machine.cavities import DischargeDome
+from ...machine.cavities import DischargeDome, SuctionAnnulus
 from ...machine.derived import ROUND_INERTIAS, Derived, in_proportion
 from ...machine.frame import Frame
 from ...machine.machine import PART_MASS, Machine
@@ -98,6 +98,8 @@ class OldhamScroll(Machine):
     stopping: Stopping | None = None
     discharge_dome: DischargeDome | None = None
     """Gas under the top cap; none where it is silent."""
+    suction_annulus: SuctionAnnulus | None = None
+    """Gas around the parts, out of which the pockets fill; none where it is silent."""
     shaft: ScrollShaft | None = None
     frame: Frame | None = None
     """Bodies through which the sources drive the shell; none where they do so as they are."""
@@ -117,10 +119,14 @@ class OldhamScroll(Machine):
         return self
 
     @model_validator(mode="after")
-    def _dome_fits(self) -> "OldhamScroll":
-        reason = self.discharge_dome and self.discharge_dome.why_not_in(self.shell)
-        if reason:
-            raise ValueError(f"discharge_dome.{reason}")
+    def _gas_fits(self) -> "OldhamScroll":
+        for name, table in (
+            ("discharge_dome", self.discharge_dome),
+            ("suction_annulus", self.suction_annulus),
+        ):
+            reason = table and table.why_not_in(self.shell)
+            if reason:
+                raise ValueError(f"{name}.{reason}")
         return self
 
     @property

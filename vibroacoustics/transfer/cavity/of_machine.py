@@ -5,13 +5,14 @@ from collections.abc import Mapping
 import numpy as np
 
 from ...base.errors import ParameterError
-from ...machine.cavities import DischargeDome
+from ...machine.cavities import DischargeDome, SuctionAnnulus
 from ...machine.machine import Machine
-from ...mechanics.loads import DISCHARGE_DOME
+from ...machine.shell import Shell
+from ...mechanics.loads import DISCHARGE_DOME, SUCTION_ANNULUS
 from ..path import ShellPath
 from ..shell_modes.modes import ShellMode
 from .in_shell import GasInShell, Mouth
-from .profile import disc_profile
+from .profile import Profile, annulus_profile, disc_profile
 from .response import DrivenGas
 
 
@@ -28,27 +29,52 @@ def gas_of(machine: Machine, path: ShellPath) -> Mapping[str, DrivenGas]:
     ParameterError
         The modes of the wall are measured.
     """
-    if not machine.has_table(DischargeDome):
-        return {}
-    dome = machine.table(DischargeDome)
+    gas = {}
+    if machine.has_table(DischargeDome):
+        gas[DISCHARGE_DOME] = _dome(machine, machine.table(DischargeDome), path)
+    if machine.has_table(SuctionAnnulus):
+        gas[SUCTION_ANNULUS] = _annulus(machine, machine.table(SuctionAnnulus), path)
+    return gas
+
+
+def _dome(machine: Machine, dome: DischargeDome, path: ShellPath) -> DrivenGas:
     space = path.gas.get(dome.depth_m)
     if space is None:
-        space = path.gas[dome.depth_m] = _under_cap(machine, path, dome.depth_m)
+        profile = _under_cap(machine.shell, _thickness(path), dome.depth_m)
+        space = path.gas[dome.depth_m] = _in_shell(profile, True, path)
     radius, floor = float(space.profile.radius[-1]), float(space.profile.lower[-1])
     port = Mouth(dome.port_offset_m, floor, (dome.port_angle_rad,))
     tube = Mouth(radius, floor + dome.tube_height_m, (dome.tube_angle_rad,))
     area = 0.25 * np.pi * dome.tube_diameter_m**2
-    return {DISCHARGE_DOME: space.driven(port, tube, area, dome.quality_ratio)}
+    return space.driven(port, tube, area, dome.quality_ratio)
 
 
-def _under_cap(machine: Machine, path: ShellPath, depth_m: float) -> GasInShell:
-    """The gas over a partition, within the inner surface of the wall as given."""
+def _annulus(machine: Machine, annulus: SuctionAnnulus, path: ShellPath) -> DrivenGas:
+    bounds = annulus.inner_radius_m, annulus.lower_height_m, annulus.upper_height_m
+    space = path.gas.get(bounds)
+    if space is None:
+        inner, *faces = bounds
+        profile = annulus_profile(inner, machine.shell.radius_m - _thickness(path), *faces)
+        space = path.gas[bounds] = _in_shell(profile, False, path)
+    first, count = annulus.inlet_angle_rad, annulus.inlets
+    angles = tuple(first + 2.0 * np.pi * n / count for n in range(count))
+    inlets = Mouth(annulus.inner_radius_m, annulus.inlet_height_m, angles)
+    return space.driven(inlets, inlets, 0.0, annulus.quality_ratio)
+
+
+def _under_cap(shell: Shell, thickness_m: float, depth_m: float) -> Profile:
+    rim = shell.height_m - max(shell.dome_height_m, thickness_m) - shell.centre_of_mass_height_m
+    cap = max(shell.dome_height_m - thickness_m, 0.0)
+    return disc_profile(shell.radius_m - thickness_m, cap, depth_m, rim - depth_m)
+
+
+def _thickness(path: ShellPath) -> float:
+    """Of the wall as given: gas lies within its inner surface."""
     if path.wall is None:
         raise ParameterError("shell_modes: measured modes and gas in the shell do not go together")
-    shell, given = machine.shell, path.wall.shell
-    thickness = given.structure.thickness_m
-    rim = shell.height_m - max(shell.dome_height_m, thickness) - shell.centre_of_mass_height_m
-    cap = max(shell.dome_height_m - thickness, 0.0)
-    profile = disc_profile(shell.radius_m - thickness, cap, depth_m, rim - depth_m)
+    return path.wall.shell.structure.thickness_m
+
+
+def _in_shell(profile: Profile, under_cap: bool, path: ShellPath) -> GasInShell:
     modes = tuple(mode for mode in path.modes if isinstance(mode, ShellMode))
-    return GasInShell(profile, True, given.meridian, modes)
+    return GasInShell(profile, under_cap, modes[0].meridian, modes)

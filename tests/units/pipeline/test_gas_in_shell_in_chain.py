@@ -1,4 +1,4 @@
-"""Gas under the top cap in a study: it adds to the gas forces' sound, may be left out, is drawn."""
+"""Gas in the shell in a study: it adds to the gas forces' sound, may be left out, is drawn."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ from sources_study import (
 from support import ROOT
 
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.mechanics.loads import DISCHARGE_DOME
+from vibroacoustics.mechanics.loads import DISCHARGE_DOME, SUCTION_ANNULUS
 from vibroacoustics.radiation.pressure import pressure_per_shell_velocity
 from vibroacoustics.sources.cases import loads_of
 from vibroacoustics.sources.gas import gas_cycle
@@ -49,15 +49,17 @@ def study(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def without(tmp_path_factory):
-    text = text_with(without='without = ["frame", "discharge_dome"]\n')
+    text = text_with(without='without = ["frame", "discharge_dome", "suction_annulus"]\n')
     return load_text(tmp_path_factory.mktemp("bare"), text)
+
+
+def flows_of(study):
+    return {flow.into: flow for flow in loads_of(study, case_of(study))["gas"].flows}
 
 
 def test_the_port_feeds_the_dome(study):
     """Volume flow by order: its mean is that of the mass flow at the density of the discharge."""
-    case = case_of(study)
-    (flow,) = loads_of(study, case)["gas"].flows
-    assert flow.into == DISCHARGE_DOME
+    case, flow = case_of(study), flows_of(study)[DISCHARGE_DOME]
     gas = study.machine.gas
     assert flow.density_kg_per_m3 == gas.discharge_density_kg_per_m3
     assert flow.sound_speed_m_per_s == gas.discharge_sound_speed_m_per_s
@@ -65,6 +67,14 @@ def test_the_port_feeds_the_dome(study):
     assert flow.volume_flow[0] == pytest.approx(mass.mean() / 112.0)
     lines = all_lines(case, loads_of(study, case))
     assert lines.flows["gas"][0].volume_flow.shape == lines.frequency_hz.shape
+
+
+def test_the_pockets_draw_on_the_annulus(study):
+    """What they take is what they sweep, and some 3 % that closing presses in."""
+    flow = flows_of(study)[SUCTION_ANNULUS]
+    assert flow.density_kg_per_m3 == pytest.approx(33.0, rel=2e-3)
+    swept = 39.66e-6 * 2900.0 / 60.0
+    assert -flow.volume_flow[0].real / swept == pytest.approx(1.03, abs=0.01)
 
 
 def test_pressures_of_dome_and_forces_add_as_phasors(study, without):
@@ -78,22 +88,26 @@ def test_pressures_of_dome_and_forces_add_as_phasors(study, without):
     )
     case, path = case_of(study), path_of(without)
     lines = all_lines(case, loads_of(study, case))
-    (flow,), frequency = lines.flows["gas"], lines.frequency_hz
-    forces = gas_of(study.machine, path)[DISCHARGE_DOME].wall_forces(112.0, 178.0, frequency)
+    frequency, gas = lines.frequency_hz, gas_of(study.machine, path)
+    forces = 0.0
+    for flow in lines.flows["gas"]:
+        state = flow.density_kg_per_m3, flow.sound_speed_m_per_s
+        forces = forces + gas[flow.into].wall_forces(*state, frequency) * flow.volume_flow
     moving = velocity_per_force(path.natural_hz, path.modal_mass_kg, 0.01, frequency)
     vectors = pressure_per_shell_velocity(made_up_modes(without, gain))(frequency)[0]
-    expected = (vectors * moving * forces).sum(axis=0) * flow.volume_flow
+    expected = (vectors * moving * forces).sum(axis=0)
     scale = np.abs(expected).max()
     assert scale > 1e-9
     np.testing.assert_allclose(both - bare, expected, atol=1e-9 * np.abs(bare).max())
 
 
-def test_dome_is_drawn_and_left_out(study, without):
+def test_gas_is_drawn_and_left_out(study, without):
     names = {limits.name for limits in study.ranges}
-    assert {"discharge_dome.port_offset_m", "discharge_dome.quality_ratio"} <= names
-    assert "discharge_dome.depth_m" not in names
-    assert {limits.name for limits in study.held_ranges} >= {"discharge_dome.depth_m"}
-    assert not any("discharge_dome" in limits.name for limits in without.ranges)
+    assert {"discharge_dome.port_offset_m", "suction_annulus.inlets"} <= names
+    shapes = {"discharge_dome.depth_m", "suction_annulus.inner_radius_m"}
+    assert not shapes & names
+    assert shapes <= {limits.name for limits in study.held_ranges}
+    assert not any(word in limits.name for limits in without.ranges for word in ("dome", "annulus"))
     assert loads_of(without, case_of(without))["gas"].flows == ()
     by_draw = run_made_up(study, gain=0.01)["source_level_by_draw"].sel(
         sound_source="gas", option="none"
@@ -139,22 +153,26 @@ def test_parts_of_a_frame_answer_the_gas_too(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("new", "words"),
+    ("table", "key", "value", "words"),
     [
-        ("depth_mm = { value = 600.0", ["discharge_dome.depth_mm = 600 mm", "between the caps"]),
-        ("port_offset_mm = { value = 90.0", ["discharge_dome.port_offset_mm = 90 mm", "radius"]),
-        ("tube_height_mm = { value = 20.0", ["tube_height_mm = 20 mm", "at most depth_mm = 17 mm"]),
-        ("quality_ratio = { value = 0.5", ["discharge_dome.quality_ratio = 0.5", "2 to 10000"]),
+        (DISCHARGE_DOME, "depth_mm", 600, ["dome.depth_mm = 600 mm", "between the caps"]),
+        (DISCHARGE_DOME, "port_offset_mm", 90, ["dome.port_offset_mm = 90 mm", "radius"]),
+        (DISCHARGE_DOME, "tube_height_mm", 20, ["tube_height_mm = 20 mm", "depth_mm = 17 mm"]),
+        (DISCHARGE_DOME, "quality_ratio", 0.5, ["quality_ratio = 0.5", "2 to 10000"]),
+        (SUCTION_ANNULUS, "inner_radius_mm", 82, ["inner_radius_mm = 82 mm", "0.98"]),
+        (SUCTION_ANNULUS, "upper_height_mm", 400, ["92, 400 mm", "ends of the wall"]),
+        (SUCTION_ANNULUS, "inlet_height_mm", 20, ["inlet_height_mm = 20 mm", "92 mm"]),
     ],
 )
-def test_bad_domes_are_one_line(tmp_path, new, words):
-    table = f'[machine.override.discharge_dome]\n{new}, source = "test" }}\n'
+def test_bad_gas_is_one_line(tmp_path, table, key, value, words):
+    number = f'{key} = {{ value = {float(value)}, source = "test" }}'
+    text = f"[machine.override.{table}]\n{number}\n"
     with pytest.raises(ParameterError) as refusal:
-        load_text(tmp_path, text_with(tables=table))
+        load_text(tmp_path, text_with(tables=text))
     lines = str(refusal.value).splitlines()
     assert any(all(word in line for word in words) for line in lines), lines
 
 
 def test_measured_modes_and_gas_in_the_shell_are_refused(tmp_path):
-    with pytest.raises(ParameterError, match=r'without = \["discharge_dome"\]'):
+    with pytest.raises(ParameterError, match=r"without = \['discharge_dome', 'suction_annulus'\]"):
         load_text(tmp_path, text_with(tables='[shell_modes]\nfile = "modes.uff"\n'))
