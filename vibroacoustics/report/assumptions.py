@@ -35,8 +35,8 @@ ELASTIC_SHELL: Final = (
     "The parts inside are rigid and touch the shell at welds only; they load it through the "
     "machine's frame where its file has one. Feet, tubes and terminal box are left out.",
     "Contact of the wraps' flanks and tips, noise of the bearings, magnetic forces of the motor "
-    "other than its torque, the flow through the discharge port and sound in the gas of the shell "
-    "are not modelled; they are part of the remainder.",
+    "other than its torque, jets of the gas, and sound in the gas of the shell where the machine's "
+    "file has no table of it are not modelled; they are part of the remainder.",
 )
 """Instead of RIGID_SHELL where sources drive the shell."""
 
