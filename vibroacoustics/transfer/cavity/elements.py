@@ -39,9 +39,9 @@ def matrices(profile: Profile, order: int) -> tuple[Array, Array]:
     weight = np.multiply.outer(_WEIGHTS, _WEIGHTS).ravel()
     shapes, across, along = (np.kron(a, b) for a, b in ((flat, flat), (slope, flat), (flat, slope)))
     elements = profile.elements
-    places = profile.nodes.reshape(-1, 2)[elements]
-    radius = places[..., 0] @ shapes.T
-    jacobian = np.stack([np.swapaxes(places, 1, 2) @ one.T for one in (across, along)], axis=1)
+    points = profile.nodes.reshape(-1, 2)[elements]
+    radius = points[..., 0] @ shapes.T
+    jacobian = np.stack([np.swapaxes(points, 1, 2) @ one.T for one in (across, along)], axis=1)
     jacobian = np.moveaxis(jacobian, 3, 1)
     volume = squared_around(order) * weight * radius * np.linalg.det(jacobian)
     local = np.stack([across, along], axis=1)
@@ -76,7 +76,9 @@ def _within(radii: Array, radius_m: float) -> float:
     """Coordinate from -1 to 1 at which the three radii of an element give a radius."""
     middle, half = radii[1], 0.5 * (radii[2] - radii[0])
     bend = 0.5 * (radii[2] + radii[0]) - middle
-    place = 0.0
+    coordinate = 0.0
     for _ in range(20):
-        place -= (middle + half * place + bend * place**2 - radius_m) / (half + 2.0 * bend * place)
-    return float(np.clip(place, -1.0, 1.0))
+        coordinate -= (middle + half * coordinate + bend * coordinate**2 - radius_m) / (
+            half + 2.0 * bend * coordinate
+        )
+    return float(np.clip(coordinate, -1.0, 1.0))

@@ -43,10 +43,10 @@ class WallPressure:
 
     def _add_outwards(self, total: Array, meridian: Meridian, order: int, line: IndexArray) -> None:
         """∫ p u·n dS along a line of nodes whose right side is outside."""
-        place, step, weights = self._along(line)
-        freedoms, moved = interpolation(meridian, place)
+        point, step, weights = self._along(line)
+        freedoms, moved = interpolation(meridian, point)
         normal = np.stack([step[:, 1], -step[:, 0]], axis=1)
-        circle = squared_around(order) * place[:, 0]
+        circle = squared_around(order) * point[:, 0]
         force = np.einsum("pd,pda,p->pa", normal, moved[:, :2], circle)
         np.add.at(total, (freedoms[:, :, None], line), force[:, :, None] * weights[:, None])
 
@@ -54,11 +54,11 @@ class WallPressure:
         self, total: Array, meridian: Meridian, order: int, line: IndexArray
     ) -> None:
         """Downwards on a plate that goes with the wall's height, or tilts with it."""
-        place, step, weights = self._along(line)
+        point, step, weights = self._along(line)
         rim = self.profile.nodes[-1, :1]
         freedoms, moved = interpolation(meridian, rim)
-        leverage = (place[:, 0] / rim[0, 0]) ** order
-        force = squared_around(order) * weights.T @ (step[:, 0] * place[:, 0] * leverage)
+        leverage = (point[:, 0] / rim[0, 0]) ** order
+        force = squared_around(order) * weights.T @ (step[:, 0] * point[:, 0] * leverage)
         total[np.ix_(freedoms[0], line)] -= np.outer(moved[0, 1], force)
 
     def _along(self, line: IndexArray) -> tuple[Array, Array, Array]:
@@ -66,9 +66,9 @@ class WallPressure:
         shapes, slopes = quadratic(_POINTS), quadratic_slope(_POINTS)
         nodes = self.profile.nodes.reshape(-1, 2)[line]
         triples = np.arange(line.size)[:-2:2, None] + np.arange(3)
-        place = np.einsum("ga,ead->egd", shapes, nodes[triples]).reshape(-1, 2)
+        point = np.einsum("ga,ead->egd", shapes, nodes[triples]).reshape(-1, 2)
         step = np.einsum("g,ga,ead->egd", _WEIGHTS, slopes, nodes[triples]).reshape(-1, 2)
         weights = np.zeros((len(triples), _POINTS.size, line.size))
         for element, triple in enumerate(triples):
             weights[element][:, triple] = shapes
-        return place, step, weights.reshape(-1, line.size)
+        return point, step, weights.reshape(-1, line.size)
