@@ -76,9 +76,12 @@ class ScrollGasForces(Source):
         )
 
     def curves(self, case: Case) -> Iterable[Curve]:
-        """Pressure of a pocket, forces and torque; see `scroll_gas_curves`."""
+        """Pressures of pockets, flows, forces and torque; see `scroll_gas_curves`."""
         machine, opened = case.machine, opened_gas(case.machine, case.speed_rpm)
-        return scroll_gas_curves(machine.table(ScrollWraps), machine.table(ScrollGas), opened)
+        fills = opened is not None and machine.has_table(SuctionAnnulus)
+        filling = suction_gas(machine, case.shared, case.speed_rpm) if fills else None
+        wraps, gas = machine.table(ScrollWraps), machine.table(ScrollGas)
+        return scroll_gas_curves(wraps, gas, opened, filling)
 
 
 def _flows(case: Case, cycle: ScrollGasCycle, highest: int) -> tuple[GasFlow, ...]:

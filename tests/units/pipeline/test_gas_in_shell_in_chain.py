@@ -80,6 +80,7 @@ def test_the_pockets_draw_on_the_annulus(study):
 def test_pressures_of_dome_and_forces_add_as_phasors(study, without):
     """What the dome changes at a line is flow times modal force, mobility and transfer vector."""
     gain = 0.01
+    study, without = (one.model_copy(update={"ranges": ()}) for one in (study, without))
     both, bare = (
         run_made_up(one, gain)["pressure_line"]
         .sel(sound_source="gas", option="none", receiver="front_1m", speed=2900.0)

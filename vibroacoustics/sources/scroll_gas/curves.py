@@ -13,13 +13,19 @@ from .opened_gas import OpenedGas
 from .parameters import ScrollGas, ScrollWraps
 from .pockets import pocket_volume
 from .pressures import pocket_pressure
+from .suction import SuctionFlow
 
 AFTER_OPENING: Final = np.pi / 3.0
 """How far the pressure of a pocket is shown beyond its opening, rad."""
+AFTER_CLOSING: Final = np.pi / 18.0
+"""From where a suction pocket is shown, rad: before, the gap's length exceeds its own."""
 
 
 def scroll_gas_curves(
-    wraps: ScrollWraps, gas: ScrollGas, opened: OpenedGas | None = None
+    wraps: ScrollWraps,
+    gas: ScrollGas,
+    opened: OpenedGas | None = None,
+    filling: SuctionFlow | None = None,
 ) -> Iterator[Curve]:
     """Pressure and volume of one pocket; forces on the fixed scroll, their direction, torques.
 
@@ -28,10 +34,13 @@ def scroll_gas_curves(
     wraps : geometry, m and rad
     gas : pressures in Pa and polytropic index
     opened : gas after the opening, where it has inertia
+    filling : of the suction pockets, where it has inertia
     """
     yield from _of_a_pocket(wraps, gas, opened)
     if opened is not None:
         yield from _of_the_opening(opened)
+    if filling is not None:
+        yield from _of_the_filling(filling)
     cycle = scroll_gas_cycle(wraps, gas, uniform_crank_angle(CRANK_ANGLES), opened)
     angle = angle_axis(cycle.crank_angle)
     yield from _forces(cycle, angle)
@@ -84,6 +93,19 @@ def _of_the_opening(opened: OpenedGas) -> Iterator[Curve]:
         _at(opened, angle, flows), (CurveAxis("passage", list(flows)), axis), "kg_per_s",
         "derived: unsteady flow through gap and port",
     )  # fmt: skip
+
+
+def _of_the_filling(filling: SuctionFlow) -> Iterator[Curve]:
+    """Pressure and flow of a pair of suction pockets."""
+    angle = np.linspace(AFTER_CLOSING, 2.0 * np.pi, CRANK_ANGLES + 1, dtype=np.float64)
+    axis = angle_axis(angle, "filling_angle", "Crank angle since the pocket before has closed")
+    for name, label, course, unit in (
+        ("suction_pressure", "Pressure in a suction pocket", filling.pocket_pa, "bar"),
+        ("suction_flow", "Mass flow into a pair of suction pockets", filling.flow_kg_per_s,
+         "kg_per_s"),
+    ):  # fmt: skip
+        at_angle = np.interp(angle, filling.since_closing, course)
+        yield Curve(name, label, at_angle, (axis,), unit, "derived: unsteady flow through the gap")
 
 
 def _at(opened: OpenedGas, angle: Array, courses: Mapping[str, Array]) -> Array:
