@@ -105,3 +105,13 @@ class SuctionAnnulus(Parameters):
     def density_kg_per_m3(self, pressure_pa: float) -> float:
         """ρ = κ p/c²."""
         return self.stiffness_exponent_ratio * pressure_pa / self.sound_speed_m_per_s**2
+
+
+class DischargeMuffler(Parameters):
+    """An expansion chamber in the discharge tube; the tube goes on without reflection."""
+
+    distance_m: float = Field(ge=0.0, le=20.0)
+    """From the shell, along the tube."""
+    length_m: float = Field(ge=1e-3, le=5.0)
+    diameter_m: float = Field(ge=2e-3, le=1.0)
+    """Inner."""

@@ -6,7 +6,7 @@ from typing import ClassVar, Final
 from ..base.curves import Curve
 from ..base.parameters import Parameters
 from ..base.registry import register
-from ..machine.cavities import DischargeDome, SuctionAnnulus
+from ..machine.cavities import DischargeDome, DischargeMuffler, SuctionAnnulus
 from ..machine.frame import Frame
 from ..machine.machine import Machine
 from ..machine.source import Case, Shared, Source
@@ -17,6 +17,7 @@ from ..orders import order_spectrum
 from .part_loads import gas_loads
 from .scroll_gas.curves import scroll_gas_curves
 from .scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
+from .scroll_gas.discharge_line import discharge_line_curves
 from .scroll_gas.opened_gas import OpenedGas
 from .scroll_gas.opening import steady_opening, why_no_opening
 from .scroll_gas.parameters import ScrollGas, ScrollOpening, ScrollWraps
@@ -81,7 +82,12 @@ class ScrollGasForces(Source):
         fills = opened is not None and machine.has_table(SuctionAnnulus)
         filling = suction_gas(machine, case.shared, case.speed_rpm) if fills else None
         wraps, gas = machine.table(ScrollWraps), machine.table(ScrollGas)
-        return scroll_gas_curves(wraps, gas, opened, filling)
+        yield from scroll_gas_curves(wraps, gas, opened, filling)
+        if opened is not None and machine.has_table(DischargeMuffler):
+            muffler, tube = machine.table(DischargeMuffler), machine.table(ScrollOpening)
+            yield from discharge_line_curves(
+                muffler, opened, gas.discharge_state, tube.tube_diameter_m, case.speed_rpm
+            )
 
 
 def _flows(case: Case, cycle: ScrollGasCycle, highest: int) -> tuple[GasFlow, ...]:

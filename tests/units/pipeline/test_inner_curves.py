@@ -66,6 +66,20 @@ def test_opening_with_inertia_has_curves_of_its_own():
         assert "Crank angle since a pocket has opened" in figure(curves, name).axes[0].get_xlabel()
 
 
+def test_suction_and_discharge_line_of_a_scroll_with_inertia():
+    """The pockets take the displacement; the tube pulsates as the plenum, less behind a chamber."""
+    curves = va.curves(va.load_study(PIPELINES / "copeland_sources.toml"))
+    taken = float(curves["suction_flow"].mean()) / 33.0 * 60.0 / 2900.0
+    assert taken == pytest.approx(1.03 * 39.66e-6, rel=0.04)
+    plenum = curves["opening_pressure"].sel(volume="plenum").values
+    at_shell, behind = curves["tube_pressure"].values
+    np.testing.assert_allclose(at_shell, plenum - plenum[:-1].mean(), atol=0.02 * np.ptp(plenum))
+    assert 0.2 < np.ptp(behind) / np.ptp(at_shell) < 0.8
+    m = (50.0 / 10.7) ** 2
+    most = 10.0 * np.log10(1.0 + 0.25 * (m - 1.0 / m) ** 2)
+    assert float(curves["muffler_loss"].max()) == pytest.approx(most, abs=0.01)
+
+
 @pytest.mark.parametrize("name", FILES)
 def test_every_curve_has_a_picture_with_labels(name):
     curves = inner(name)

@@ -57,7 +57,14 @@ OF_SOURCES = {
     "shaft",
 }  # fmt: skip
 """Tables that only sources and stops read, and those of the frame that they drive."""
-OF_NEITHER = {"suspension", "opening", "discharge_dome", "suction_annulus", "balance_quality"}
+OF_NEITHER = {
+    "suspension",
+    "opening",
+    "discharge_dome",
+    "suction_annulus",
+    "discharge_muffler",
+    "balance_quality",
+}
 SOURCES_STUDY = ROOT / "tests" / "studies" / "sources_small.toml"
 
 

@@ -9,7 +9,7 @@ from ...base.arrays import Array
 from ...base.curves import Curve
 from ...base.parameters import Held, Parameters
 from ...base.registry import register
-from ...machine.cavities import DischargeDome, SuctionAnnulus
+from ...machine.cavities import DischargeDome, DischargeMuffler, SuctionAnnulus
 from ...machine.derived import ROUND_INERTIAS, Derived, in_proportion
 from ...machine.frame import Frame
 from ...machine.machine import PART_MASS, Machine
@@ -100,6 +100,8 @@ class OldhamScroll(Machine):
     """Gas under the top cap; none where it is silent."""
     suction_annulus: SuctionAnnulus | None = None
     """Gas around the parts, out of which the pockets fill; none where it is silent."""
+    discharge_muffler: DischargeMuffler | None = None
+    """In the discharge tube; its curves alone need it."""
     shaft: ScrollShaft | None = None
     frame: Frame | None = None
     """Bodies through which the sources drive the shell; none where they do so as they are."""
