@@ -27,6 +27,7 @@ from ...mechanics.scroll_shaft import ScrollShaft
 from ...sources.induction_motor.parameters import CapacitorMotor, TurningRotor
 from ...sources.oldham_keys.parameters import OldhamKeys
 from ...sources.scroll_gas.parameters import ScrollGas, ScrollOpening, ScrollWraps
+from ...sources.synchronous_motor.parameters import SynchronousMotor
 
 MOST_INNER_SHARE: Final = 0.95
 """Of the mass; wall, feet and oil are the rest."""
@@ -89,6 +90,8 @@ class OldhamScroll(Machine):
     keys: OldhamKeys | None = None
     motor: CapacitorMotor | None = None
     """At its own line frequency; a study names those of its speeds."""
+    synchronous_motor: SynchronousMotor | None = None
+    """In the other motor's place, on an inverter; a study names one of them."""
     rotor: TurningRotor | None = None
     structure: ShellStructure | None = None
     """Of the shell, where it may bend."""
