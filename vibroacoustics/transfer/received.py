@@ -13,6 +13,7 @@ from ..machine.frame import Frame
 from ..machine.machine import Machine
 from ..machine.shell_structure import ShellStructure, ShellVariation
 from ..machine.source import Case, CaseKey, Shared
+from ..machine.stator_yoke import StatorYoke
 from ..mechanics.loads import Lines, Loads, lines_of
 from ..mechanics.received_sound import NoisePower, ReceivedSound
 from ..mechanics.scroll_shaft import ScrollShaft
@@ -21,6 +22,7 @@ from .frame import frame_on_shell
 from .machine import on_mounts
 from .path import ShellPath
 from .sound_path import BendingShell, PressurePerVelocity, SoundPath
+from .yoke import yoke_on_wall
 
 BySource = Mapping[str, ComplexArray]
 
@@ -74,7 +76,8 @@ class Transmission:
         shell = self.shell.with_structure(structure)
         frame = frame_on_shell(machine, shell)
         loss = structure.loss_factor_ratio
-        return BendingShell(shell, self.modes, self.rigid, loss, variation, frame)
+        yoke = yoke_on_wall(machine, shell)
+        return BendingShell(shell, self.modes, self.rigid, loss, variation, frame, yoke)
 
     def _of_case(
         self, case: Case, loads: Mapping[str, Loads], of_wrenches: BySource, path: SoundPath
@@ -105,7 +108,7 @@ class Transmission:
 
 def _path_tables(machine: Machine) -> tuple[Parameters, ...]:
     """What tells the paths of two machines apart."""
-    tables = (ShellStructure, ShellVariation, Frame, ScrollShaft)
+    tables = (ShellStructure, ShellVariation, Frame, ScrollShaft, StatorYoke)
     return (machine.housing, *(machine.table(each) for each in tables if machine.has_table(each)))
 
 

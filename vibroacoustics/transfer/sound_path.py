@@ -11,6 +11,7 @@ from ..mechanics.loads import Lines, Noise
 from .frame import FrameOnShell
 from .machine import MachineOnMounts
 from .path import ShellPath, pressure_per_load
+from .yoke import YokeOnWall
 
 PressurePerVelocity = Callable[[Array], ComplexArray]
 """Of frequencies in Hz, shape (frequency,), to shape (receiver, motion, frequency), Pa s/m."""
@@ -28,6 +29,7 @@ class BendingShell:
     loss_factor_ratio : of the shell
     variation : how the real shell differs
     frame : what the parts do to the shell; none where they hand their loads on as they are
+    yoke : the stator's, as a ring in the shell; none where the machine has none
     """
 
     path: ShellPath
@@ -36,6 +38,7 @@ class BendingShell:
     loss_factor_ratio: float
     variation: ShellVariation
     frame: FrameOnShell | None = None
+    yoke: YokeOnWall | None = None
     _known: dict[bytes, ComplexArray] = field(default_factory=dict, repr=False)
 
     def per_load(self, frequency_hz: Array) -> ComplexArray:
@@ -62,6 +65,25 @@ class BendingShell:
             velocity = forces.rigid_velocity
             pressure += np.einsum("rdf,dplf->rplf", self.rigid(frequency_hz), velocity)
         return pressure
+
+    def per_yoke_load(self, frequency_hz: Array) -> ComplexArray:
+        """Pressure per line load around the yoke, (receiver, order around, 2, frequency).
+
+        None at frequency zero.
+        """
+        if self.yoke is None:
+            raise ValueError("a load around the yoke needs a machine with one")
+        moves = frequency_hz > 0.0
+        frequency = np.where(moves, frequency_hz, 1.0)
+        pressure = pressure_per_load(
+            self.path,
+            self.pressure_per_velocity(frequency_hz),
+            frequency,
+            self.loss_factor_ratio,
+            self.variation,
+            self.yoke.forces(frequency),
+        )
+        return np.asarray(pressure * moves)
 
 
 @dataclass(frozen=True)
@@ -93,6 +115,9 @@ class SoundPath:
         if self.shell is not None and parts.any():
             per_load = self.shell.per_load(frequency)
             pressure = pressure + np.einsum("rpcf,pcf->rf", per_load, parts, optimize=True)
+        if self.shell is not None and source in lines.on_yoke:
+            around = self.shell.per_yoke_load(frequency)
+            pressure = pressure + np.einsum("rnof,nof->rf", around, lines.on_yoke[source])
         return pressure
 
     def noise_power(self, noise: Noise) -> Array:

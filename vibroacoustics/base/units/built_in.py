@@ -40,6 +40,7 @@ for _unit in (
     Unit("v", "V", "v", 1.0),
     Unit("a", "A", "a", 1.0),
     Unit("vs", "V s", "vs", 1.0),
+    Unit("t", "T", "t", 1.0),
     Unit("ohm", "Ω", "ohm", 1.0),
     Unit("mh", "mH", "h", 1e-3),
     Unit("h", "H", "h", 1.0),

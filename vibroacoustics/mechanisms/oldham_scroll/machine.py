@@ -13,6 +13,7 @@ from ...machine.derived import ROUND_INERTIAS, Derived, in_proportion
 from ...machine.frame import Frame
 from ...machine.machine import PART_MASS, Machine
 from ...machine.shell_structure import ShellStructure, ShellVariation
+from ...machine.stator_yoke import StatorYoke
 from ...machine.stopping import Stopping
 from ...mechanics.capabilities import (
     HEIGHT,
@@ -24,6 +25,7 @@ from ...mechanics.capabilities import (
 )
 from ...mechanics.moving_parts import MovingPart, Revolution
 from ...mechanics.scroll_shaft import ScrollShaft
+from ...sources.air_gap.parameters import AirGap
 from ...sources.induction_motor.parameters import CapacitorMotor, TurningRotor
 from ...sources.oldham_keys.parameters import OldhamKeys
 from ...sources.scroll_gas.parameters import ScrollGas, ScrollOpening, ScrollWraps
@@ -92,6 +94,9 @@ class OldhamScroll(Machine):
     """At its own line frequency; a study names those of its speeds."""
     synchronous_motor: SynchronousMotor | None = None
     """In the other motor's place, on an inverter; a study names one of them."""
+    air_gap: AirGap | None = None
+    """Of either motor."""
+    stator_yoke: StatorYoke | None = None
     rotor: TurningRotor | None = None
     structure: ShellStructure | None = None
     """Of the shell, where it may bend."""
