@@ -18,11 +18,10 @@ from ..mechanics.loads import Lines, Loads, lines_of
 from ..mechanics.received_sound import NoisePower, ReceivedSound
 from ..mechanics.scroll_shaft import ScrollShaft
 from ..study.study import Study
-from .frame import frame_on_shell
+from .bending import bending_shell
 from .machine import on_mounts
 from .path import ShellPath
 from .sound_path import BendingShell, PressurePerVelocity, SoundPath
-from .yoke import yoke_on_wall
 
 BySource = Mapping[str, ComplexArray]
 
@@ -72,12 +71,7 @@ class Transmission:
     def _bending_shell(self, machine: Machine) -> BendingShell | None:
         if self.shell is None or self.modes is None:
             return None
-        structure, variation = machine.table(ShellStructure), machine.table(ShellVariation)
-        shell = self.shell.with_structure(structure)
-        frame = frame_on_shell(machine, shell)
-        loss = structure.loss_factor_ratio
-        yoke = yoke_on_wall(machine, shell)
-        return BendingShell(shell, self.modes, self.rigid, loss, variation, frame, yoke)
+        return bending_shell(machine, self.shell, self.modes, self.rigid)
 
     def _of_case(
         self, case: Case, loads: Mapping[str, Loads], of_wrenches: BySource, path: SoundPath

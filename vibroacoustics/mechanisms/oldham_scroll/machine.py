@@ -15,6 +15,7 @@ from ...machine.machine import PART_MASS, Machine
 from ...machine.shell_structure import ShellStructure, ShellVariation
 from ...machine.stator_yoke import StatorYoke
 from ...machine.stopping import Stopping
+from ...machine.turning_back import CheckValve, TurningBack
 from ...mechanics.capabilities import (
     HEIGHT,
     UPRIGHT,
@@ -102,6 +103,9 @@ class OldhamScroll(Machine):
     """Of the shell, where it may bend."""
     variation: ShellVariation | None = None
     stopping: Stopping | None = None
+    turning_back: TurningBack | None = None
+    """After a stop, where a study asks for it."""
+    check_valve: CheckValve | None = None
     shaft: ScrollShaft | None = None
     frame: Frame | None = None
     """Bodies through which the sources drive the shell; none where they do so as they are."""
