@@ -17,8 +17,12 @@ RELATIVE_TOLERANCE: Final = 1e-9
 LONGEST_S: Final = 60.0
 MOST_TURNS: Final = 2000
 """Changes of direction before rest."""
-LEAST_APPROACH_M_PER_S: Final = 1e-3
+LEAST_APPROACH_M_PER_S: Final = 0.01
 """Below, the contact would damp without limit."""
+CREEP_RAD_PER_S: Final = 1e-4
+"""A shaft that slows to this in a contact that damps more than it swings stands."""
+STUCK_RATIO: Final = 0.01
+"""Of the gas's torque, that a standing shaft may lack: what the damping carries as it creeps."""
 
 CLOSED_RAD: Final = 1e-11
 """A gap as small is rounding of the angle at which the contact closed."""
@@ -155,10 +159,12 @@ def _starts(
     share = gas.share(jamming.rest_angle - angle)
     push = jamming.table.wall_radius_m * jamming.force_n(angle, 0.0)
     at, there = np.asarray(time), np.asarray(angle)
-    free, inert = (
-        coasting.acceleration(at, there, 0.0, share, turning, push) for turning in (0.0, 1.0)
+    free, rubbed, empty = (
+        coasting.acceleration(at, there, 0.0, left, turning, push)
+        for left, turning in ((share, 0.0), (share, 1.0), (0.0, 0.0))
     )
-    return float(np.sign(free)) if abs(free) > abs(free - inert) else 0.0
+    held = abs(free - rubbed) + STUCK_RATIO * abs(free - empty)
+    return float(np.sign(free)) if abs(free) > held else 0.0
 
 
 def _stretch(
@@ -181,18 +187,18 @@ def _stretch(
         return speed, float(coasting.acceleration(at, now[0], speed, share, turning, push))
 
     def stands(_: float, now: Array) -> float:
-        return float(now[1])
+        return turning * float(now[1]) - CREEP_RAD_PER_S
 
     def closes(_: float, now: Array) -> float:
         return jamming.gap(float(now[0]))
 
-    stands.terminal, stands.direction = True, -turning  # type: ignore[attr-defined]
+    stands.terminal, stands.direction = True, -1.0  # type: ignore[attr-defined]
     closes.terminal, closes.direction = True, -1.0  # type: ignore[attr-defined]
     solution = solve_ivp(
         slopes,
         (begun, begun + LONGEST_S),
         state,
-        method="DOP853",
+        method="LSODA",
         rtol=RELATIVE_TOLERANCE,
         atol=1e-12,
         events=[stands, closes] if open_yet else [stands],
