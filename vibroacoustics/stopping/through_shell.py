@@ -62,10 +62,10 @@ class StopThroughShell:
         total = fft.next_fast_len(samples + round((FADE_OUT_S + RING_OUT_S) * rate_hz), real=True)
         standing = LOAD_SAMPLES * samples - load.shape[-1]
         held = np.concatenate([np.ones(standing), falling])
-        whole = np.zeros((*load.shape[:2], LOAD_SAMPLES * total))
-        whole[..., : load.shape[-1]] = load
-        whole[..., load.shape[-1] :][..., : held.size] = load[..., -1:] * held
-        return pressure_over_time(self.shell, whole, LOAD_SAMPLES * rate_hz)[:, :samples]
+        event = np.zeros((*load.shape[:2], LOAD_SAMPLES * total))
+        event[..., : load.shape[-1]] = load
+        event[..., load.shape[-1] :][..., : held.size] = load[..., -1:] * held
+        return pressure_over_time(self.shell, event, LOAD_SAMPLES * rate_hz)[:, :samples]
 
     def loads(self, run: RunDown, first: int) -> Array:
         """On the parts from a sample on, shape (part, component, times), N and N m."""
