@@ -41,3 +41,15 @@ axes[1].set(ylabel="force, N")
 axes[1].legend(fontsize="small")
 axes[2].plot(time, one["stopping_moment"].sel(axis="z"))
 axes[2].set(ylabel="roll moment, N m", xlabel="time from switch-off, s", xlim=(-0.05, 0.2))
+
+# %%
+# What follows
+# ------------
+# Trapped gas turns the shaft back until the brake jams; a valve shuts. Where a source drives the
+# elastic shell its sound goes through that too.
+onwards = va.run(study.replace({"operation.turning_back": True}), radiation=rough_radiation)
+one = onwards.sel(speed=2900.0)
+turned = np.degrees(one["stopping_turned_back_angle"].item())
+held = one["stopping_brake_force"].item()
+print(f"turns back by {turned:.1f}°, where the brake holds up to {held:.0f} N")
+print(f"stands after {one['stopping_duration'].item():.3f} s")

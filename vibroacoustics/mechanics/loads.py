@@ -15,6 +15,8 @@ FIXED_SCROLL, BEARING_HOUSING, ORBITING_SCROLL, LOWER_BEARING, STATOR = range(le
 """Their indices."""
 PART_COMPONENTS: Final = 6
 """Force along x, y, z and moment about the centre of mass at rest, which lies on the axis."""
+YOKE_ORDERS: Final = (0, 2, 3, 4, 5, 6)
+"""Waves around the stator's yoke that press on the wall; one wave is a force on the stator."""
 
 
 DISCHARGE_DOME: Final = "discharge_dome"
@@ -51,6 +53,7 @@ class Tone:
         (6,), N and N m
     on_parts : on the parts in the shell, shape (part, component), N and N m
     figure : name of the reported figure of the largest force that it makes in a foot; none for none
+    on_yoke : see `Loads`, shape (order around, 2), N/m
     """
 
     name: str
@@ -58,6 +61,7 @@ class Tone:
     rigid: ComplexArray
     on_parts: ComplexArray
     figure: str | None = None
+    on_yoke: ComplexArray | None = None
 
 
 @dataclass(frozen=True)
@@ -85,6 +89,8 @@ class Loads:
     wrenches : on the rigid machine over uniform crank angles, by what makes them
     rigid : further wrench on it by order from zero, complex peaks, shape (6, order), N and N m
     on_parts : on the parts in the shell by order, shape (part, component, order), N and N m
+    on_yoke : line load outwards on the middle of the stator's yoke by order, parts with cos nθ and
+        sin nθ of YOKE_ORDERS, complex peaks, shape (order around, 2, order), N/m
     tones : lines that are no orders
     noise : random loads
     flows : into spaces of gas by order; what the machine has no table of is silent
@@ -103,6 +109,7 @@ class Loads:
     wrenches: Mapping[str, Wrench] = field(default_factory=dict)
     rigid: ComplexArray | None = None
     on_parts: ComplexArray | None = None
+    on_yoke: ComplexArray | None = None
     tones: tuple[Tone, ...] = ()
     noise: tuple[Noise, ...] = ()
     flows: tuple[GasFlow, ...] = ()
@@ -121,6 +128,7 @@ class Lines:
     rigid : wrench on the rigid machine by source but for what `wrenches` give, shape (6, line)
     on_parts : on the parts in the shell by source, shape (part, component, line)
     flows : into spaces of gas by source, at the lines
+    on_yoke : around the stator's yoke, by source that loads it, shape (order around, 2, line), N/m
     """
 
     names: tuple[str, ...]
@@ -128,6 +136,7 @@ class Lines:
     rigid: Mapping[str, ComplexArray]
     on_parts: Mapping[str, ComplexArray]
     flows: Mapping[str, tuple[GasFlow, ...]] = field(default_factory=dict)
+    on_yoke: Mapping[str, ComplexArray] = field(default_factory=dict)
 
 
 def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int) -> Lines:
@@ -161,7 +170,8 @@ def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int) -> Lines
         *(f"order {order}" for order in range(orders)),
         *(f"{source}: {tone.name}" for source, tone in tones),
     )
-    return Lines(names, np.array(frequency), rigid, on_parts, flows)
+    around = _on_yoke(loads, orders)
+    return Lines(names, np.array(frequency), rigid, on_parts, flows, around)
 
 
 def _at_lines(flow: GasFlow, orders: int, count: int) -> GasFlow:
@@ -169,6 +179,24 @@ def _at_lines(flow: GasFlow, orders: int, count: int) -> GasFlow:
     held = min(orders, flow.volume_flow.size)
     lines[:held] = flow.volume_flow[:held]
     return replace(flow, volume_flow=lines)
+
+
+def _on_yoke(loads: Mapping[str, Loads], orders: int) -> dict[str, ComplexArray]:
+    """Loads around the yoke of the sources that have some, orders first, then all tones."""
+    tones = [(source, tone) for source, given in loads.items() for tone in given.tones]
+    around: dict[str, ComplexArray] = {}
+    for source, given in loads.items():
+        if given.on_yoke is None and all(tone.on_yoke is None for tone in given.tones):
+            continue
+        of_source = np.zeros((len(YOKE_ORDERS), 2, orders + len(tones)), dtype=complex)
+        if given.on_yoke is not None:
+            held = min(orders, given.on_yoke.shape[-1])
+            of_source[..., :held] = given.on_yoke[..., :held]
+        for number, (maker, tone) in enumerate(tones, orders):
+            if maker == source and tone.on_yoke is not None:
+                of_source[..., number] = tone.on_yoke
+        around[source] = of_source
+    return around
 
 
 def total_torque_n_m(loads: Iterable[Loads], highest: int) -> ComplexArray:

@@ -72,7 +72,7 @@ def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
     results = results.merge(levels_of(study, motion.with_results(results), path, progress))
     if study.operation.stopping:
         body = on_mounts(study.machine)
-        results = results.merge(stopping_variables(study, study.machine, body, results))
+        results = results.merge(stopping_variables(study, study.machine, body, results, path))
     results = results.merge(scoring.study_scores(study, results))
     results.attrs = provenance.radiation_attributes(study, radiated, was_cached)
     results.attrs["words"] = canonical_json(words(study, motion.loads, results))

@@ -15,7 +15,7 @@ from .tables import Table
 
 def sentences(results: xr.Dataset) -> tuple[str, ...]:
     """What the stop does, its order map, and what is left out."""
-    return (_finding(results), _map_sentence(results), _limits(results))
+    return (_finding(results), *_turned_back(results), _map_sentence(results), _limits(results))
 
 
 def force_and_moments(results: xr.Dataset) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
@@ -94,14 +94,40 @@ def _map_sentence(results: xr.Dataset) -> str:
 
 def _limits(results: xr.Dataset) -> str:
     stop = parameters(results)["machine"]["stopping"]
+    left_out = _TURNED_BACK if "stopping_brake_force" in results else _NOT_TURNED_BACK
     return (
         f"Assumed: the orbiting set turns by {rounding.fixed(np.degrees(stop['shift_rad']))}° "
         f"against its counterweights within {rounding.significant(1e3 * stop['shift_duration_s'])} "
         f"ms; the gas keeps {rounding.fixed(100.0 * stop['gas_share_ratio'], 0)} % of its torque "
-        "until the shaft stands; the motor's torque is gone at once. Sound is that of the rigid "
-        "housing alone. Left out: the knock of the set at the end of its turn, gas that flows "
-        "back and turns the shaft backwards, valves, and the shell's own vibration."
+        f"until the shaft stands; the motor's torque is gone at once. {left_out}"
     )
+
+
+def _turned_back(results: xr.Dataset) -> tuple[str, ...]:
+    """What follows the first rest, where it is computed."""
+    if "stopping_brake_force" not in results:
+        return ()
+    angle = np.degrees(results["stopping_turned_back_angle"].values)
+    force = results["stopping_brake_force"].values
+    jam = (
+        f"the brake jams with up to {rounding.significant(float(force.max()))} N around the shaft"
+        if force.any()
+        else "the brake does not jam"
+    )
+    span = rounding.span(angle, rounding.fixed)
+    return (f"Trapped gas turns the shaft back by {span}°; {jam}.",)
+
+
+_NOT_TURNED_BACK: Final = (
+    "Sound is that of the rigid housing alone. Left out: the knock of the set at the end of its "
+    "turn, gas that flows back and turns the shaft backwards, valves, and the shell's own "
+    "vibration."
+)
+_TURNED_BACK: Final = (
+    "Sound is that of the rigid housing and, where a source drives it, of the elastic shell under "
+    "gas, brake and valve. Left out: the knock of the set at the end of its turn, and keys and "
+    "motor in the shell."
+)
 
 
 def forces_table(results: xr.Dataset) -> Table:

@@ -3,6 +3,9 @@
 from collections.abc import Iterable, Mapping
 from typing import ClassVar, Final
 
+import numpy as np
+
+from ..base.arrays import Array
 from ..base.curves import Curve
 from ..base.parameters import Parameters
 from ..base.registry import register
@@ -156,6 +159,28 @@ def gas_cycle(machine: Machine, shared: Shared, speed_rpm: float) -> ScrollGasCy
             wraps, gas, uniform_crank_angle(GAS_SAMPLES), opened_gas(machine, speed_rpm)
         ),
     )
+
+
+def gas_on_parts(machine: Machine, speed_rpm: float, angle: Array) -> Array:
+    """Gas forces of steady running at any crank angles, shape (part, component, times), N and N m.
+
+    Parameters
+    ----------
+    machine : with wraps and gas
+    speed_rpm : of the steady running
+    angle : shape (times,), rad
+
+    Raises
+    ------
+    ParameterError, SolverError
+        As `steady_opening`.
+    """
+    cycle = gas_cycle(machine, Shared(), speed_rpm)
+    loads = gas_loads(cycle, *_of_frame(machine))
+    at, part = np.divmod(np.mod(angle, 2.0 * np.pi) * GAS_SAMPLES / (2.0 * np.pi), 1.0)
+    before = at.astype(int) % GAS_SAMPLES
+    after = (before + 1) % GAS_SAMPLES
+    return np.asarray((1.0 - part) * loads[..., before] + part * loads[..., after])
 
 
 def opened_gas(machine: Machine, speed_rpm: float) -> OpenedGas | None:

@@ -14,7 +14,7 @@ from ..mechanics.loads import Loads, Tone, total_torque_n_m
 from .induction_motor.parameters import CapacitorMotor, TurningRotor
 from .induction_motor.supply import on_supply, supply_frequency_hz
 from .induction_motor.torque_lines import TorqueLine, TorqueLines, torque_lines
-from .part_loads import stator_loads
+from .part_loads import about_z, stator_loads
 
 TWICE_LINE: Final = "2 x line"
 TWICE_LINE_FIGURE: Final = "foot_force_2x_line_n"
@@ -47,7 +47,7 @@ class TorqueRipple(_MotorTorque):
         """Torque on the stator and roll moment of the rotor's swing, by order."""
         on_parts, roll = stator_loads(_balance(case, before).shaft)
         return Loads(
-            rigid=_about_z(np.pad(roll, (1, 0))),
+            rigid=about_z(np.pad(roll, (1, 0))),
             on_parts=np.pad(on_parts, ((0, 0), (0, 0), (1, 0))),
         )
 
@@ -77,13 +77,7 @@ class MotorPulsation(_MotorTorque):
 def _tone(line: TorqueLine) -> Tone:
     on_parts, roll = stator_loads([line])
     figure = TWICE_LINE_FIGURE if line.name == TWICE_LINE else None
-    return Tone(line.name, line.frequency_hz, _about_z(roll)[:, 0], on_parts[..., 0], figure)
-
-
-def _about_z(moment: ComplexArray) -> ComplexArray:
-    """Wrenches (6, line) that are moments about z alone, N m."""
-    still = np.zeros_like(moment)
-    return np.stack([still, still, still, still, still, moment])
+    return Tone(line.name, line.frequency_hz, about_z(roll)[:, 0], on_parts[..., 0], figure)
 
 
 def _balance(case: Case, before: Mapping[str, Loads]) -> TorqueLines:

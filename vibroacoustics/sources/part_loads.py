@@ -109,6 +109,33 @@ def stator_loads(lines: Sequence[TorqueLine]) -> tuple[ComplexArray, ComplexArra
     -------
     loads, roll_moment : complex peaks, shapes (part, component, line) and (line,), N m
     """
-    loads = np.zeros((len(PARTS), PART_COMPONENTS, len(lines)), dtype=complex)
-    loads[STATOR, 5] = [-line.motor_torque_n_m for line in lines]
-    return loads, np.array([line.roll_moment_n_m for line in lines], dtype=complex)
+    torque = np.array([line.motor_torque_n_m for line in lines], dtype=complex)
+    roll = np.array([line.roll_moment_n_m for line in lines], dtype=complex)
+    return motor_on_stator(torque), roll
+
+
+def motor_on_stator(torque_n_m: ComplexArray) -> ComplexArray:
+    """Load on the parts by a motor's torque on its rotor: the opposite on the stator.
+
+    Parameters
+    ----------
+    torque_n_m : complex peaks, shape (line,)
+
+    Returns
+    -------
+    shape (part, component, line), N m
+    """
+    loads = np.zeros((len(PARTS), PART_COMPONENTS, torque_n_m.size), dtype=complex)
+    loads[STATOR, 5] = -torque_n_m
+    return loads
+
+
+def about_z(moment: ComplexArray) -> ComplexArray:
+    """Wrenches (6, line) that are moments about z alone, N m.
+
+    Parameters
+    ----------
+    moment : complex peaks, shape (line,), N m
+    """
+    still = np.zeros_like(moment)
+    return np.stack([still, still, still, still, still, moment])

@@ -2,24 +2,27 @@
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from scipy.integrate import solve_ivp
-from scipy.interpolate import CubicSpline
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError, SolverError
 from ..machine.stopping import Stopping
+from ..machine.turning_back import CheckValve, TurningBack
 from ..mechanics.moving_parts import MovingPart
-from .paths import inertia_over_angle, wrench_along
-from .shift import Shift, brake_shift
+from .course import Course, course_of
+from .equation import Coasting
+from .paths import wrench_along
+from .reversal import Reversal, TrappedGas, turn_back
+from .shift import Shift
+from .valve import closing_force_n, closing_time_s
 
 RELATIVE_TOLERANCE: Final = 1e-10
 LONGEST_S: Final = 60.0
 """A compressor that coasts longer has the wrong drag."""
-ANGLES: Final = 512
-"""Samples a revolution of the reduced inertia."""
+VALVE: Final = "check_valve"
 
 
 class Peaks(NamedTuple):
@@ -41,6 +44,14 @@ def peaks(force_n: Array, moment_n_m: Array) -> Peaks:
     )
 
 
+class AfterStop(NamedTuple):
+    """What may follow the first rest."""
+
+    table: TurningBack
+    gas: TrappedGas
+    valve: CheckValve | None
+
+
 @dataclass(frozen=True)
 class RunDown:
     """From steady running over switch-off at time zero to rest; T uniform times.
@@ -52,6 +63,8 @@ class RunDown:
     sources : who makes force and moment
     force_n, moment_n_m : on the housing, shape (sources, 3, T)
     stop_time_s : when the shaft comes to rest, after the last sample
+    gas_share : of the gas's forces of steady running, shape (T,)
+    brake_force_n : around the shaft between brake and wall, shape (T,)
     """
 
     time_s: Array
@@ -63,11 +76,18 @@ class RunDown:
     force_n: Array
     moment_n_m: Array
     stop_time_s: float
+    gas_share: Array
+    brake_force_n: Array
 
     @property
     def peaks(self) -> Peaks:
         """Peaks of the sums over all sources."""
         return peaks(self.force_n.sum(axis=0), self.moment_n_m.sum(axis=0))
+
+    @property
+    def turned_back_rad(self) -> float:
+        """Angle between the farthest and the last."""
+        return float(self.crank_angle_rad.max() - self.crank_angle_rad[-1])
 
 
 def run_down(
@@ -78,12 +98,13 @@ def run_down(
     speed_rad_per_s: float,
     sample_rate_hz: float,
     steady_revolutions: int,
+    after: AfterStop | None = None,
 ) -> RunDown:
     """Run-down after switch-off: the motor's torque is gone, gas and friction slow the shaft.
 
     Lagrange's equation, the set at φ = θ + δ(t): Σ [I φ̈ + ½ (dI/dφ) φ̇²] = -T_gas(φ) - T_f - c θ̇.
-    Left out: the motor's torque while its field dies out, the pressures' change meanwhile, and what
-    follows the stop.
+    Left out: the motor's torque while its field dies out, and the pressures' change until the shaft
+    stands.
 
     Parameters
     ----------
@@ -94,6 +115,7 @@ def run_down(
     speed_rad_per_s : before switch-off
     sample_rate_hz : of the result
     steady_revolutions : before switch-off, at constant speed
+    after : what follows the first rest; none for a stop that ends there
 
     Raises
     ------
@@ -103,7 +125,60 @@ def run_down(
         The integration fails.
     """
     _check(parts, shifted, speed_rad_per_s)
-    coasting = _Coasting.of(stopping, parts, shifted, gas_torque_n_m)
+    coasting = Coasting.of(stopping, parts, shifted, gas_torque_n_m)
+    solution = _coast(coasting, speed_rad_per_s)
+    rest = float(solution.t_events[0][0])
+    reversal = None
+    if after is not None:
+        there = float(solution.sol(rest)[0])
+        reversal = turn_back(coasting, after.table, after.gas, rest, there)
+    first = -int(steady_revolutions * 2.0 * np.pi / speed_rad_per_s * sample_rate_hz)
+    end = _end_s(rest, reversal, after)
+    time = np.arange(first, np.ceil(end * sample_rate_hz)) / sample_rate_hz
+    course = course_of(coasting, solution.sol, reversal, time, rest, speed_rad_per_s)
+    shift = coasting.shift(np.maximum(time, 0.0))
+    unshifted = course.angle, course.speed, course.acceleration
+    ahead = tuple(one + turned for one, turned in zip(unshifted, shift, strict=True))
+    wrenches = [
+        (part.source, wrench_along(part, *(ahead if part.source in shifted else unshifted)))
+        for part in parts
+    ]
+    wrenches += _further(stopping, course, after and after.valve, time - rest)
+    force, moment = np.stack([np.stack(wrench) for _, wrench in wrenches], axis=1)
+    sources = tuple(source for source, _ in wrenches)
+    return RunDown(
+        time, *unshifted, shift, sources, force, moment, end, course.gas_share,
+        course.brake_force_n,
+    )  # fmt: skip
+
+
+def _further(
+    stopping: Stopping, course: Course, valve: CheckValve | None, since_rest_s: Array
+) -> list[tuple[str, tuple[Array, Array]]]:
+    """Of the rotor a moment about z, of the valve a force along z."""
+    still: Array = np.zeros((3, since_rest_s.size))
+    spin = still.copy()
+    spin[2] = -stopping.shaft_inertia_kg_m2 * course.acceleration
+    further = [("rotor", (still, spin))]
+    if valve is not None:
+        force = still.copy()
+        force[2] = closing_force_n(valve, since_rest_s)
+        further.append((VALVE, (force, still)))
+    return further
+
+
+def _end_s(rest_s: float, reversal: Reversal | None, after: AfterStop | None) -> float:
+    """When shaft and valve stand."""
+    ends = [rest_s]
+    if reversal is not None and reversal.end_s is not None:
+        ends.append(reversal.end_s)
+    if after is not None and after.valve is not None:
+        ends.append(rest_s + closing_time_s(after.valve))
+    return max(ends)
+
+
+def _coast(coasting: Coasting, speed_rad_per_s: float) -> Any:
+    """Integrate angle and speed to the first rest."""
     solution = solve_ivp(
         coasting.slopes,
         (0.0, LONGEST_S),
@@ -117,28 +192,12 @@ def run_down(
     if not solution.success:
         raise SolverError(f"run-down: {solution.message}")
     if not solution.t_events[0].size:
+        friction = coasting.stopping.friction_torque_n_m
         raise ParameterError(
-            f"friction_torque_n_m = {stopping.friction_torque_n_m:g} N m: does not stop the shaft "
-            f"within {LONGEST_S:g} s"
+            f"friction_torque_n_m = {friction:g} N m: does not stop the shaft within "
+            f"{LONGEST_S:g} s"
         )
-    stop = float(solution.t_events[0][0])
-    first = -int(steady_revolutions * 2.0 * np.pi / speed_rad_per_s * sample_rate_hz)
-    time = np.arange(first, np.ceil(stop * sample_rate_hz)) / sample_rate_hz
-    coasts = np.maximum(time, 0.0)
-    angle, speed = solution.sol(coasts)
-    angle += speed_rad_per_s * np.minimum(time, 0.0)
-    acceleration = np.where(time < 0.0, 0.0, coasting.acceleration(coasts, angle, speed))
-    shift = coasting.shift(coasts)
-    unshifted = angle, speed, acceleration
-    ahead = angle + shift.angle, speed + shift.rate, acceleration + shift.acceleration
-    wrenches = [
-        wrench_along(part, *(ahead if part.source in shifted else unshifted)) for part in parts
-    ]
-    spin = np.zeros((2, 3, time.size))  # of the rotor: no force, a moment about z
-    spin[1, 2] = -stopping.shaft_inertia_kg_m2 * acceleration
-    force, moment = np.stack([*wrenches, spin], axis=1)
-    sources = (*(part.source for part in parts), "rotor")
-    return RunDown(time, *unshifted, shift, sources, force, moment, stop)
+    return solution
 
 
 def _check(parts: Sequence[MovingPart], shifted: Collection[str], speed: float) -> None:
@@ -154,50 +213,3 @@ def _at_rest(_: float, state: Array) -> float:
 
 
 _at_rest.terminal = True  # type: ignore[attr-defined]
-
-
-@dataclass(frozen=True)
-class _Coasting:
-    """Equation of motion of the shaft with its parts."""
-
-    stopping: Stopping
-    fixed_inertia: CubicSpline
-    shifted_inertia: CubicSpline
-    gas_torque: CubicSpline
-
-    @classmethod
-    def of(
-        cls,
-        stopping: Stopping,
-        parts: Sequence[MovingPart],
-        shifted: Collection[str],
-        gas_torque_n_m: Array,
-    ) -> "_Coasting":
-        angle = 2.0 * np.pi * np.arange(ANGLES) / ANGLES
-        fixed = inertia_over_angle([part for part in parts if part.source not in shifted], angle)
-        moved = inertia_over_angle([part for part in parts if part.source in shifted], angle)
-        curves = fixed + stopping.shaft_inertia_kg_m2, moved, gas_torque_n_m
-        return cls(stopping, *(_periodic(curve) for curve in curves))
-
-    def shift(self, time: Array) -> Shift:
-        return brake_shift(time, self.stopping.shift_rad, self.stopping.shift_duration_s)
-
-    def acceleration(self, time: Array, angle: Array, speed: Array) -> Array:
-        """θ̈ of the shaft."""
-        stopping, shift = self.stopping, self.shift(time)
-        ahead = angle + shift.angle
-        moved = self.shifted_inertia(ahead)
-        torque = stopping.gas_share_ratio * self.gas_torque(ahead) + stopping.friction_torque_n_m
-        torque = torque + stopping.viscous_torque_n_m_s * speed + moved * shift.acceleration
-        torque = torque + 0.5 * self.fixed_inertia(angle, 1) * speed**2
-        torque = torque + 0.5 * self.shifted_inertia(ahead, 1) * (speed + shift.rate) ** 2
-        return np.asarray(-torque / (self.fixed_inertia(angle) + moved))
-
-    def slopes(self, time: float, state: Array) -> tuple[float, float]:
-        angle, speed = state
-        return speed, float(self.acceleration(np.asarray(time), angle, speed))
-
-
-def _periodic(values: Array) -> CubicSpline:
-    angle = np.linspace(0.0, 2.0 * np.pi, values.size + 1)
-    return CubicSpline(angle, np.append(values, values[0]), bc_type="periodic")

@@ -14,6 +14,7 @@ from ..base.errors import ParameterError
 from ..transfer import MachineOnMounts
 from ..transfer.transient import LOAD_SAMPLES, Transient, transient
 from .coasting import RunDown
+from .through_shell import StopThroughShell
 
 FADE_S: Final = 1.0
 """In which the steady load is faded in, so slowly that the mounts do not ring."""
@@ -71,6 +72,7 @@ def stopping_event(
     clock: Clock,
     body: MachineOnMounts,
     pressure_per_velocity: Callable[[Array], ComplexArray],
+    shell: StopThroughShell | None = None,
 ) -> StoppingEvent:
     """Forces of a run-down and what they do to feet and microphones.
 
@@ -80,6 +82,7 @@ def stopping_event(
     clock : times of the result
     body : the machine on its mounts
     pressure_per_velocity : of frequencies to shape (receiver, dof, frequency)
+    shell : that bends too; none for a rigid one
 
     Raises
     ------
@@ -90,6 +93,10 @@ def stopping_event(
     course = np.concatenate([run.force_n.sum(axis=0), run.moment_n_m.sum(axis=0)])[:, first:]
     speed = run.speed_rad_per_s[first:]
     response = _response(course, clock, body, pressure_per_velocity)
+    if shell is not None:
+        fade = _fade(course.shape[-1], clock.rate_hz)
+        through = shell.pressure(run, first, fade, clock.shown.stop, clock.rate_hz)
+        response.pressure_pa[:, : through.shape[-1]] += through
     weighted = levels.weighted_signal(response.pressure_pa, clock.rate_hz, "A")
     fast = levels.time_weighted_mean_square(weighted, clock.rate_hz, levels.FAST_TIME_CONSTANT_S)
     shown = clock.shown
@@ -107,6 +114,14 @@ def stopping_event(
     )
 
 
+def _fade(samples: int, rate_hz: float) -> Array:
+    """Of a load from its first sample to its last."""
+    fade = np.ones(samples)
+    rising = np.linspace(0.0, np.pi, round(FADE_S * LOAD_SAMPLES * rate_hz))
+    fade[: rising.size] = 0.5 - 0.5 * np.cos(rising)
+    return fade
+
+
 def _response(
     course: Array,
     clock: Clock,
@@ -115,9 +130,7 @@ def _response(
 ) -> Transient:
     """To a load that is faded in and followed by rest until the mounts have rung out."""
     rate = LOAD_SAMPLES * clock.rate_hz
-    fade = np.ones(course.shape[-1])
-    rising = np.linspace(0.0, np.pi, round(FADE_S * rate))
-    fade[: rising.size] = 0.5 - 0.5 * np.cos(rising)
+    fade = _fade(course.shape[-1], clock.rate_hz)
     for rest_s in REST_S:
         samples = fft.next_fast_len(clock.shown.stop + round(rest_s * clock.rate_hz), real=True)
         load = np.zeros((6, LOAD_SAMPLES * samples))

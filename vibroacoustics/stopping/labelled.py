@@ -12,14 +12,18 @@ from ..base.decibel import mean_square_level
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import AXES, VARIABLES, check, stamp
 from ..machine.machine import Machine
+from ..radiation.pressure import pressure_per_shell_velocity
 from ..radiation.transfer_vectors import pressure_per_velocity
 from ..study.study import Study
 from ..transfer import MachineOnMounts
+from ..transfer.bending import bending_shell
+from ..transfer.path import ShellPath
 from ..transfer.transient import LOAD_SAMPLES, RESULT_SAMPLES
 from .coasting import RunDown
 from .event import FADE_S, STEADY_S, Clock, StoppingEvent, stopping_event
 from .orders import stopping_order_map
 from .stops import Stops
+from .through_shell import StopThroughShell
 
 PHASES: Final = ("steady", "stopping")
 REVOLUTIONS_BEFORE: Final = 5
@@ -34,6 +38,7 @@ def stopping_variables(
     machine: Machine,
     body: MachineOnMounts,
     results: xr.Dataset,
+    path: ShellPath | None = None,
 ) -> xr.Dataset:
     """Run-down from each speed, without a balancer; force, moment, feet, sound, order map.
 
@@ -42,10 +47,11 @@ def stopping_variables(
     study : its speeds
     machine : moving parts, gas and stopping
     body : the machine on its mounts
-    results : with the transfer vectors of the rigid motions
+    results : with the transfer vectors of the rigid motions, and of the shell's where it bends
+    path : elastic shell; stops that turn back sound through it
     """
-    speeds = study.operation.speed_rpm
-    stops = Stops.of(machine)
+    speeds, turns_back = study.operation.speed_rpm, study.operation.turning_back
+    stops = Stops.of(machine, turns_back)
     rate_hz = RESULT_SAMPLES * float(results["frequency"].values[-1])
     before_s = REVOLUTIONS_BEFORE / shaft_frequency_hz(min(speeds))
     lead_s = FADE_S + STEADY_S + before_s
@@ -56,7 +62,19 @@ def stopping_variables(
     ]
     clock = _clock(runs, rate_hz, before_s, lead_s)
     vectors = pressure_per_velocity(results["transfer_vector"])
-    events = [stopping_event(run, clock, body, vectors) for run in runs]
+    bending = None
+    if turns_back and path is not None:
+        bending = bending_shell(machine, path, pressure_per_shell_velocity(results), vectors)
+    events = [
+        stopping_event(
+            run,
+            clock,
+            body,
+            vectors,
+            None if bending is None else StopThroughShell(machine, bending, speed),
+        )
+        for speed, run in zip(speeds, runs, strict=True)
+    ]
     axes = {
         "speed": list(speeds),
         "stopping_time": clock.time_s,
@@ -66,6 +84,8 @@ def stopping_variables(
     }
     courses, phases = _courses(events), _phases(events, clock.time_s)
     labelled = _labelled({**_of_runs(runs), **courses, **phases}, axes)
+    if turns_back:
+        labelled = labelled.merge(_labelled(_of_turning_back(runs), axes))
     return labelled.merge(stopping_order_map(stops, max(speeds)))
 
 
@@ -81,7 +101,15 @@ def _of_runs(runs: Sequence[RunDown]) -> dict[str, Any]:
     """Time and revolutions that each stop takes."""
     return {
         "stopping_duration": [run.stop_time_s for run in runs],
-        "stopping_revolutions": [run.crank_angle_rad[-1] / (2.0 * np.pi) for run in runs],
+        "stopping_revolutions": [run.crank_angle_rad.max() / (2.0 * np.pi) for run in runs],
+    }
+
+
+def _of_turning_back(runs: Sequence[RunDown]) -> dict[str, Any]:
+    """Angle that the shaft turns back, and the largest force of the brake around it."""
+    return {
+        "stopping_turned_back_angle": [run.turned_back_rad for run in runs],
+        "stopping_brake_force": [run.brake_force_n.max() for run in runs],
     }
 
 

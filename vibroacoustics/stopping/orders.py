@@ -38,7 +38,7 @@ def stopping_order_map(stops: Stops, speed_rpm: float) -> xr.Dataset:
     if no_gas.friction_torque_n_m == 0.0:  # it would never stop
         return xr.Dataset()
     try:
-        run = replace(stops, stopping=no_gas).run_down(speed_rpm, rate_hz, 0)
+        run = replace(stops, stopping=no_gas, after=None).run_down(speed_rpm, rate_hz, 0)
     except ParameterError:  # friction alone takes too long
         return xr.Dataset()
     if run.crank_angle_rad[-1] < 2.0 * np.pi * (MAP_REVOLUTIONS + KERNEL_REVOLUTIONS):

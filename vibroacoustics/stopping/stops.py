@@ -10,10 +10,14 @@ from ..base.units import shaft_frequency_hz
 from ..machine.machine import Machine
 from ..machine.source import Shared
 from ..machine.stopping import Stopping
+from ..machine.turning_back import CheckValve, TurningBack
 from ..mechanics.moving_parts import MovingPart
 from ..mechanics.rotation import uniform_crank_angle
 from ..sources.gas import gas_cycle
-from .coasting import RunDown, run_down
+from ..sources.scroll_gas.chambers import pair_volume_m3
+from ..sources.scroll_gas.parameters import ScrollGas, ScrollWraps
+from .coasting import AfterStop, RunDown, run_down
+from .reversal import TrappedGas
 
 SHIFTED: Final = ("orbiting_scroll", "brake", "oldham")
 """The set that the brake lets turn against pin and counterweights (thesis 6.4)."""
@@ -30,17 +34,26 @@ class Stops:
     stopping : inertia, drag, shift
     parts : moving parts over a revolution
     machine : with its gas, whose torque is that of steady running at the speed before the stop
+    after : what follows the first rest; none for stops that end there
     """
 
     stopping: Stopping
     parts: Sequence[MovingPart]
     machine: Machine
+    after: AfterStop | None = None
 
     @classmethod
-    def of(cls, machine: Machine) -> "Stops":
-        """Of a machine with gas and a table of stopping."""
+    def of(cls, machine: Machine, turns_back: bool = False) -> "Stops":
+        """Of a machine with gas and a table of stopping.
+
+        Parameters
+        ----------
+        machine : with the table of turning back where it does
+        turns_back : whether stops go on after the first rest
+        """
         parts = machine.moving_parts(uniform_crank_angle(PATH_SAMPLES))
-        return cls(machine.table(Stopping), parts, machine)
+        after = _after(machine) if turns_back else None
+        return cls(machine.table(Stopping), parts, machine, after)
 
     def run_down(self, speed_rpm: float, rate_hz: float, steady_revolutions: int) -> RunDown:
         """From a speed to rest.
@@ -60,4 +73,18 @@ class Stops:
             2.0 * np.pi * shaft_frequency_hz(speed_rpm),
             rate_hz,
             steady_revolutions,
+            self.after,
         )
+
+
+def _after(machine: Machine) -> AfterStop:
+    """Brake, trapped gas, and valve where the machine has one."""
+    gas, table = machine.table(ScrollGas), machine.table(TurningBack)
+    trapped = TrappedGas(
+        table.trapped_volume_m3,
+        float(pair_volume_m3(machine.table(ScrollWraps), np.zeros(1))[0]),
+        (gas.suction_pressure_pa, gas.discharge_pressure_pa),
+        gas.polytropic_index,
+    )
+    valve = machine.table(CheckValve) if machine.has_table(CheckValve) else None
+    return AfterStop(table, trapped, valve)

@@ -15,11 +15,19 @@ _BY_QUANTITY: Final = {
     "youngs_modulus_pa": "gpa",
     "bearing_stiffness_n_per_m": "n_per_m",
     "duration_s": "ms",
+    "dead_time_s": "us",
     "approach_speed_m_per_s": "mm_per_s",
     "grade_m_per_s": "mm_per_s",
 }
 """By the end of a field's name, the first that fits."""
-_BY_UNIT: Final = {"m": "mm", "rad": "deg", "n_per_m": "n_per_mm", "m3": "cm3", "f": "uf"}
+_BY_UNIT: Final = {
+    "m": "mm",
+    "rad": "deg",
+    "n_per_m": "n_per_mm",
+    "m3": "cm3",
+    "f": "uf",
+    "h": "mh",
+}
 _LONGEST_KEY: Final = 100
 _LIKENESS: Final = 0.7
 

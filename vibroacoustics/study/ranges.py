@@ -33,6 +33,8 @@ def tables_used(content: Mapping[str, Any], machine: Machine) -> set[str]:
         used |= {"structure", "variation"} | _frame_tables(content.get("machine"))
     if isinstance(operation, dict) and operation.get("stopping"):
         used |= {"stopping"}
+    if isinstance(operation, dict) and operation.get("turning_back"):
+        used |= {"turning_back", "check_valve"}
     return used
 
 

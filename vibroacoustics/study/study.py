@@ -15,6 +15,7 @@ from ..machine.option import AnyOption, Option
 from ..machine.shell_structure import ShellStructure, ShellVariation
 from ..machine.source import AnySource, CaseKey
 from ..machine.stopping import Stopping
+from ..machine.turning_back import TurningBack
 from ..mechanics.loads import DISCHARGE_DOME, SUCTION_ANNULUS
 from .radiation import RadiationSettings
 from .receivers import Receiver
@@ -46,6 +47,8 @@ class Operation(Parameters):
     """Operating point of the machine's file, whose values hold; none for the machine's as given."""
     stopping: bool = False
     """Whether a stop from each speed is computed, where the machine has a table of that name."""
+    turning_back: bool = False
+    """Whether stops go on where trapped gas turns the shaft back, through the elastic shell too."""
 
     @field_validator("speed_rpm", mode="before")
     @classmethod
@@ -262,6 +265,15 @@ class Study(Parameters):
             )
         if self.operation.stopping and not self.machine.has_table(Stopping):
             raise ValueError("operation.stopping: the machine has no table stopping")
+        self._check_turning_back()
+
+    def _check_turning_back(self) -> None:
+        if not self.operation.turning_back:
+            return
+        if not self.operation.stopping:
+            raise ValueError("operation.turning_back: needs operation.stopping = true")
+        if not self.machine.has_table(TurningBack):
+            raise ValueError("operation.turning_back: the machine has no table turning_back")
 
     def _gas_flows_into(self) -> list[str]:
         read = {name for one in self.sources.values() for name in one.tables_read(self.machine)}

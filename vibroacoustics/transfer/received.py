@@ -14,12 +14,12 @@ from ..machine.frame import Frame
 from ..machine.machine import Machine
 from ..machine.shell_structure import ShellStructure, ShellVariation
 from ..machine.source import Case, CaseKey, Shared
+from ..machine.stator_yoke import StatorYoke
 from ..mechanics.loads import Lines, Loads, lines_of
 from ..mechanics.received_sound import NoisePower, ReceivedSound
 from ..mechanics.scroll_shaft import ScrollShaft
 from ..study.study import Study
-from .cavity.of_machine import gas_of
-from .frame import frame_on_shell
+from .bending import bending_shell
 from .machine import on_mounts
 from .path import ShellPath
 from .sound_path import BendingShell, PressurePerVelocity, SoundPath
@@ -72,12 +72,7 @@ class Transmission:
     def _bending_shell(self, machine: Machine) -> BendingShell | None:
         if self.shell is None or self.modes is None:
             return None
-        structure, variation = machine.table(ShellStructure), machine.table(ShellVariation)
-        shell = self.shell.with_structure(structure)
-        frame = frame_on_shell(machine, shell)
-        loss = structure.loss_factor_ratio
-        gas = gas_of(machine, self.shell)
-        return BendingShell(shell, self.modes, self.rigid, loss, variation, frame, gas)
+        return bending_shell(machine, self.shell, self.modes, self.rigid)
 
     def _of_case(
         self, case: Case, loads: Mapping[str, Loads], of_wrenches: BySource, path: SoundPath
@@ -108,7 +103,8 @@ class Transmission:
 
 def _path_tables(machine: Machine) -> tuple[Parameters, ...]:
     """What tells the paths of two machines apart."""
-    tables = (ShellStructure, ShellVariation, Frame, ScrollShaft, DischargeDome, SuctionAnnulus)
+    tables = (ShellStructure, ShellVariation, Frame, ScrollShaft, StatorYoke, DischargeDome,
+              SuctionAnnulus)  # fmt: skip
     return (machine.housing, *(machine.table(each) for each in tables if machine.has_table(each)))
 
 

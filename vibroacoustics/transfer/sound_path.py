@@ -12,6 +12,7 @@ from .cavity.response import DrivenGas
 from .frame import FrameOnShell, ShellForces
 from .machine import MachineOnMounts
 from .path import ShellPath, pressure_per_load
+from .yoke import YokeOnWall
 
 PressurePerVelocity = Callable[[Array], ComplexArray]
 """Of frequencies in Hz, shape (frequency,), to shape (receiver, motion, frequency), Pa s/m."""
@@ -30,6 +31,7 @@ class BendingShell:
     variation : how the real shell differs
     frame : what the parts do to the shell; none where they hand their loads on as they are
     gas : spaces of gas in the shell, by the name of their table
+    yoke : the stator's, as a ring in the shell; none where the machine has none
     """
 
     path: ShellPath
@@ -39,6 +41,7 @@ class BendingShell:
     variation: ShellVariation
     frame: FrameOnShell | None = None
     gas: Mapping[str, DrivenGas] = field(default_factory=dict)
+    yoke: YokeOnWall | None = None
     _known: dict[Hashable, ComplexArray] = field(default_factory=dict, repr=False)
 
     def per_load(self, frequency_hz: Array) -> ComplexArray:
@@ -90,6 +93,25 @@ class BendingShell:
             pressure += np.einsum("rdf,dplf->rplf", self.rigid(frequency_hz), velocity)
         return pressure
 
+    def per_yoke_load(self, frequency_hz: Array) -> ComplexArray:
+        """Pressure per line load around the yoke, (receiver, order around, 2, frequency).
+
+        None at frequency zero.
+        """
+        if self.yoke is None:
+            raise ValueError("a load around the yoke needs a machine with one")
+        moves = frequency_hz > 0.0
+        frequency = np.where(moves, frequency_hz, 1.0)
+        pressure = pressure_per_load(
+            self.path,
+            self.pressure_per_velocity(frequency_hz),
+            frequency,
+            self.loss_factor_ratio,
+            self.variation,
+            self.yoke.forces(frequency),
+        )
+        return np.asarray(pressure * moves)
+
 
 @dataclass(frozen=True)
 class SoundPath:
@@ -123,6 +145,9 @@ class SoundPath:
         if self.shell is not None:
             for flow in lines.flows.get(source, ()):
                 pressure = np.asarray(pressure + self.shell.of_gas(flow, frequency))
+        if self.shell is not None and source in lines.on_yoke:
+            around = self.shell.per_yoke_load(frequency)
+            pressure = pressure + np.einsum("rnof,nof->rf", around, lines.on_yoke[source])
         return pressure
 
     def noise_power(self, noise: Noise) -> Array:

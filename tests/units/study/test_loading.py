@@ -57,14 +57,9 @@ OF_SOURCES = {
     "shaft",
 }  # fmt: skip
 """Tables that only sources and stops read, and those of the frame that they drive."""
-OF_NEITHER = {
-    "suspension",
-    "opening",
-    "discharge_dome",
-    "suction_annulus",
-    "discharge_muffler",
-    "balance_quality",
-}
+OF_NEITHER = {"suspension", "opening", "discharge_dome", "suction_annulus", "discharge_muffler",
+              "balance_quality", "synchronous_motor", "air_gap", "stator_yoke", "turning_back",
+              "check_valve"}  # fmt: skip
 SOURCES_STUDY = ROOT / "tests" / "studies" / "sources_small.toml"
 
 

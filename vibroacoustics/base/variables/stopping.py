@@ -12,6 +12,18 @@ for _thing in (
     Variable("stopping_duration", ("speed",), "s", "time from switch-off to rest"),
     Variable("stopping_revolutions", ("speed",), "1", "revolutions from switch-off to rest"),
     Variable(
+        "stopping_turned_back_angle",
+        ("speed",),
+        "rad",
+        "angle that the shaft turns back before it stands",
+    ),
+    Variable(
+        "stopping_brake_force",
+        ("speed",),
+        "N",
+        "largest force of the brake around the shaft when it jams",
+    ),
+    Variable(
         "stopping_shaft_speed",
         ("speed", "stopping_time"),
         "rad s-1",

@@ -14,7 +14,9 @@ from ...machine.derived import ROUND_INERTIAS, Derived, in_proportion
 from ...machine.frame import Frame
 from ...machine.machine import PART_MASS, Machine
 from ...machine.shell_structure import ShellStructure, ShellVariation
+from ...machine.stator_yoke import StatorYoke
 from ...machine.stopping import Stopping
+from ...machine.turning_back import CheckValve, TurningBack
 from ...mechanics.capabilities import (
     HEIGHT,
     UPRIGHT,
@@ -25,9 +27,11 @@ from ...mechanics.capabilities import (
 )
 from ...mechanics.moving_parts import MovingPart, Revolution
 from ...mechanics.scroll_shaft import ScrollShaft
+from ...sources.air_gap.parameters import AirGap
 from ...sources.induction_motor.parameters import CapacitorMotor, TurningRotor
 from ...sources.oldham_keys.parameters import OldhamKeys
 from ...sources.scroll_gas.parameters import ScrollGas, ScrollOpening, ScrollWraps
+from ...sources.synchronous_motor.parameters import SynchronousMotor
 
 MOST_INNER_SHARE: Final = 0.95
 """Of the mass; wall, feet and oil are the rest."""
@@ -91,6 +95,11 @@ class OldhamScroll(Machine):
     keys: OldhamKeys | None = None
     motor: CapacitorMotor | None = None
     """At its own line frequency; a study names those of its speeds."""
+    synchronous_motor: SynchronousMotor | None = None
+    """In the other motor's place, on an inverter; a study names one of them."""
+    air_gap: AirGap | None = None
+    """Of either motor."""
+    stator_yoke: StatorYoke | None = None
     rotor: TurningRotor | None = None
     structure: ShellStructure | None = None
     """Of the shell, where it may bend."""
@@ -102,6 +111,9 @@ class OldhamScroll(Machine):
     """Gas around the parts, out of which the pockets fill; none where it is silent."""
     discharge_muffler: DischargeMuffler | None = None
     """In the discharge tube; its curves alone need it."""
+    turning_back: TurningBack | None = None
+    """After a stop, where a study asks for it."""
+    check_valve: CheckValve | None = None
     shaft: ScrollShaft | None = None
     frame: Frame | None = None
     """Bodies through which the sources drive the shell; none where they do so as they are."""

@@ -52,6 +52,18 @@ def field_impedance(motor: CapacitorMotor, slip: float) -> complex:
     return complex(magnetising * rotor / (rotor + slip * magnetising))
 
 
+def air_gap_voltages(motor: CapacitorMotor, point: OperatingPoint) -> tuple[complex, complex]:
+    """Voltages E = Z I of the forward and the backward field, in proportion to their flux.
+
+    Parameters
+    ----------
+    motor : impedances
+    point : currents and slip
+    """
+    forward = field_impedance(motor, point.slip) * point.forward_current_a
+    return forward, field_impedance(motor, 2.0 - point.slip) * point.backward_current_a
+
+
 def operating_point(motor: CapacitorMotor, slip: float) -> OperatingPoint:
     """Currents and torque at a slip.
 

@@ -54,6 +54,22 @@ class WallFlexibility:
                 total += np.outer(factor, factor) * between[np.ix_(kind, kind)]
         return total
 
+    def of_band(self, joint: Joint, order: int) -> float:
+        """Mean displacement outwards of a band per generalised force cos nθ on it, m/N.
+
+        Parameters
+        ----------
+        joint : band
+        order : n, below STATIC_ORDERS
+
+        Raises
+        ------
+        ParameterError
+            The band reaches beyond the wall.
+        """
+        mean = mean_over_band(self.shell.meridian, joint)[self._freedoms, 0]
+        return float(mean @ self._by_order[order] @ mean)
+
     @cached_property
     def _freedoms(self) -> IndexArray:
         """Amplitudes of the wall's elements."""

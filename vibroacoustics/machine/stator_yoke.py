@@ -1,0 +1,42 @@
+"""The stator's yoke as a ring in the shell, on which magnetic forces bend it."""
+
+from pydantic import Field, model_validator
+
+from ..base.parameters import Parameters
+
+RADIUS = Field(gt=0.0, le=1.0)
+
+
+class StatorYoke(Parameters):
+    """A uniform ring, fitted into the shell all around where the machine's stator is."""
+
+    bore_radius_m: float = RADIUS
+    """Of the stator, where the forces act."""
+    mean_radius_m: float = RADIUS
+    """Middle of the yoke."""
+    thickness_m: float = RADIUS
+    """Of the yoke behind the slots."""
+    length_m: float = RADIUS
+    """Of the stack."""
+    youngs_modulus_pa: float = Field(gt=0.0, le=1e13)
+    """Of the laminations in their plane."""
+    density_kg_per_m3: float = Field(gt=0.0, le=1e5)
+    teeth_mass_ratio: float = Field(ge=0.0, le=10.0)
+    """Teeth and windings over the yoke: they move with it and do not stiffen it."""
+    loss_factor_ratio: float = Field(ge=0.0, le=1.0)
+    fit_stiffness_n_per_m: float = Field(gt=0.0, le=1e15)
+    """Between yoke and wall, outwards, all around together."""
+
+    @model_validator(mode="after")
+    def _is_a_ring(self) -> "StatorYoke":
+        if self.thickness_m >= self.mean_radius_m:
+            raise ValueError(
+                f"thickness_mm = {1e3 * self.thickness_m:g} mm: must be below the mean radius, "
+                f"{1e3 * self.mean_radius_m:g} mm"
+            )
+        if self.bore_radius_m > self.mean_radius_m - 0.5 * self.thickness_m:
+            raise ValueError(
+                f"bore_radius_mm = {1e3 * self.bore_radius_m:g} mm: reaches into the yoke, whose "
+                f"inner radius is {1e3 * (self.mean_radius_m - 0.5 * self.thickness_m):g} mm"
+            )
+        return self

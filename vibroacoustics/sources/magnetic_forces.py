@@ -1,0 +1,119 @@
+"""Magnetic forces across the air gap of either motor as sources."""
+
+from collections.abc import Mapping
+from typing import ClassVar
+
+import numpy as np
+
+from ..base.errors import ParameterError
+from ..base.parameters import Parameters
+from ..base.registry import register
+from ..machine.shell_structure import ShellStructure
+from ..machine.source import Case, Source
+from ..machine.stator_yoke import StatorYoke
+from ..mechanics.loads import PART_COMPONENTS, PARTS, YOKE_ORDERS, Loads, Tone, total_torque_n_m
+from ..mechanics.scroll_shaft import ScrollShaft
+from .air_gap.loads import StressLoads, loads_of_stress
+from .air_gap.parameters import AirGap
+from .air_gap.waves import Wave, Waves, cosine, permeance, product, stress_pa
+from .induction_motor.parameters import CapacitorMotor
+from .induction_motor.revolving_fields import air_gap_voltages, point_at_torque
+from .induction_motor.supply import on_supply, supply_frequency_hz
+from .synchronous_motor.parameters import SynchronousMotor
+
+_TABLES: Mapping[str, type[Parameters]] = {
+    "air_gap": AirGap,
+    "stator_yoke": StatorYoke,
+    "shaft": ScrollShaft,
+}
+
+
+class _AirGapForces(Source):
+    position: ClassVar[float] = 5.0
+    drives_shell: ClassVar[bool] = True
+
+    def _flux(self, case: Case, before: Mapping[str, Loads]) -> Waves:
+        """Flux density of the motor's waves, coefficients, T."""
+        raise NotImplementedError
+
+    def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
+        """Waves that press the stator's yoke, and the pull between rotor and stator."""
+        machine, supply_hz = case.machine, case.supply_frequency_hz
+        if supply_hz is None:
+            raise ParameterError("operation.supply_frequency_hz: is missing; the motor needs it")
+        stack_m = machine.table(ShellStructure).stator.height_m
+        loads = loads_of_stress(
+            stress_pa(self._flux(case, before)),
+            machine.table(StatorYoke),
+            machine.table(ScrollShaft),
+            stack_m,
+        )
+        on_parts = np.zeros((len(PARTS), PART_COMPONENTS, case.maximum_order + 1), dtype=complex)
+        on_yoke = np.zeros((len(YOKE_ORDERS), 2, case.maximum_order + 1), dtype=complex)
+        tones = []
+        for (line, turns), load in loads.items():
+            if line == 0 and turns <= case.maximum_order:
+                on_parts[..., turns], on_yoke[..., turns] = load.on_parts, load.on_yoke
+            frequency = line * supply_hz + turns * case.shaft_frequency_hz
+            if line > 0 and 0.0 < abs(frequency) <= case.maximum_frequency_hz:
+                tones.append(_tone(line, turns, frequency, load))
+        return Loads(on_parts=on_parts, on_yoke=on_yoke, tones=tuple(tones))
+
+
+def _tone(line: int, turns: int, frequency_hz: float, load: StressLoads) -> Tone:
+    """A line; one of negative frequency is its conjugate's."""
+    name = f"{line} x line" + (f" {turns:+d} x shaft" if turns else "")
+    still = np.zeros(PART_COMPONENTS, dtype=complex)
+    on_parts, on_yoke = load.on_parts, load.on_yoke
+    if frequency_hz < 0.0:
+        on_parts, on_yoke = on_parts.conj(), on_yoke.conj()
+    return Tone(name, abs(frequency_hz), still, on_parts, None, on_yoke)
+
+
+@register
+class InductionMotorForces(_AirGapForces):
+    """Of the capacitor motor: both its fields, the slots of stator and cage, eccentricity."""
+
+    kind: ClassVar[str] = "induction-motor-forces"
+    label: ClassVar[str] = "magnetic forces of the motor"
+    tables: ClassVar[Mapping[str, type[Parameters]]] = {"motor": CapacitorMotor, **_TABLES}
+
+    def supply_frequency_hz(self, case: Case, before: Mapping[str, Loads]) -> float:
+        """As of the motor's torque."""
+        mean = float(total_torque_n_m(before.values(), case.maximum_order)[0].real)
+        return supply_frequency_hz(case.machine.table(CapacitorMotor), case.speed_rpm, mean)
+
+    def _flux(self, case: Case, before: Mapping[str, Loads]) -> Waves:
+        """Forward and backward wave in the ratio of the fields' voltages, under the mean load."""
+        assert case.supply_frequency_hz is not None  # noqa: S101 - `loads` refuses it
+        motor = on_supply(case.machine.table(CapacitorMotor), case.supply_frequency_hz)
+        mean = total_torque_n_m(before.values(), case.maximum_order)[0].real
+        forward, backward = air_gap_voltages(motor, point_at_torque(motor, float(mean)))
+        gap, pairs = case.machine.table(AirGap), motor.pole_pairs
+        waves = cosine(Wave(pairs, 1, 0), gap.flux_density_t * forward / abs(forward))
+        waves |= cosine(Wave(-pairs, 1, 0), gap.flux_density_t * backward / abs(forward))
+        return product(waves, permeance(gap, gap.stator_slots, gap.rotor_slots))
+
+
+@register
+class SynchronousMotorForces(_AirGapForces):
+    """Of the synchronous motor: its magnets' fundamental, the stator's slots, eccentricity.
+
+    All of them are orders of the shaft. The field of the currents is left out.
+    """
+
+    kind: ClassVar[str] = "synchronous-motor-forces"
+    label: ClassVar[str] = "magnetic forces of the synchronous motor"
+    tables: ClassVar[Mapping[str, type[Parameters]]] = {
+        "synchronous_motor": SynchronousMotor,
+        **_TABLES,
+    }
+
+    def supply_frequency_hz(self, case: Case, before: Mapping[str, Loads]) -> float:
+        """Electrical frequency."""
+        return case.machine.table(SynchronousMotor).pole_pairs * case.shaft_frequency_hz
+
+    def _flux(self, case: Case, before: Mapping[str, Loads]) -> Waves:
+        motor, gap = case.machine.table(SynchronousMotor), case.machine.table(AirGap)
+        magnets = cosine(Wave(motor.pole_pairs, 0, motor.pole_pairs), gap.flux_density_t + 0j)
+        return product(magnets, permeance(gap, motor.slots, None))

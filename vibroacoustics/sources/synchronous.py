@@ -1,0 +1,101 @@
+"""The torque of a synchronous motor on an inverter as a source."""
+
+from collections.abc import Mapping
+from typing import ClassVar, Final
+
+import numpy as np
+
+from ..base.arrays import ComplexArray
+from ..base.errors import ParameterError
+from ..base.parameters import Parameters
+from ..base.registry import register
+from ..base.units import shaft_frequency_hz
+from ..machine.source import Case, Source
+from ..mechanics.loads import Loads, Tone, total_torque_n_m
+from .part_loads import about_z, motor_on_stator
+from .synchronous_motor.harmonics import OperatingPoint, operating_point, shaft_orders
+from .synchronous_motor.parameters import SynchronousMotor
+from .synchronous_motor.switching import Sideband, sidebands
+
+SUPPLY_TOLERANCE: Final = 1e-6
+"""A synchronous motor turns with its supply."""
+SMALLEST_SHARE: Final = 1e-4
+"""Of the largest sideband: smaller ones are left out, 80 dB down."""
+
+
+@register
+class SynchronousMotorTorque(Source):
+    """Torque of the load and of the motor by order, and at sidebands of the switching frequency.
+
+    The current's control holds the current, so that the motor does not answer to a swing of the
+    speed: the rotor's inertia alone does.
+    """
+
+    kind: ClassVar[str] = "synchronous-motor"
+    position: ClassVar[float] = 3.0
+    label: ClassVar[str] = "synchronous motor on an inverter"
+    labels: ClassVar[Mapping[str, str]] = {
+        "motor_phase_current_a": "Current of a phase of the motor, peak",
+        "motor_modulation_ratio": "Modulation of the inverter",
+    }
+    tables: ClassVar[Mapping[str, type[Parameters]]] = {"synchronous_motor": SynchronousMotor}
+    drives_shell: ClassVar[bool] = True
+
+    def supply_frequency_hz(self, case: Case, before: Mapping[str, Loads]) -> float:
+        """Electrical frequency, pole pairs times that of the shaft."""
+        return self._electrical_hz(case)
+
+    def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
+        """Reaction on the stator and roll moment of the rotor's swing."""
+        self._check_supply(case)
+        motor = case.machine.table(SynchronousMotor)
+        load = total_torque_n_m(before.values(), case.maximum_order)
+        speed = 2.0 * np.pi * shaft_frequency_hz(case.speed_rpm)
+        point = operating_point(motor, speed, float(load[0].real))
+        torque = shaft_orders(motor, point, case.maximum_order)
+        torque[0] = load[0]  # the mean turns no rotor
+        tones = _tones(motor, point, case)
+        return Loads(
+            rigid=about_z(load - torque),
+            on_parts=motor_on_stator(torque),
+            tones=tones,
+            figures={
+                "motor_phase_current_a": abs(point.current_a[1]),
+                "motor_modulation_ratio": point.modulation_ratio,
+            },
+        )
+
+    def _check_supply(self, case: Case) -> None:
+        given, needed = case.supply_frequency_hz, self._electrical_hz(case)
+        if given is not None and abs(given - needed) > SUPPLY_TOLERANCE * needed:
+            raise ParameterError(
+                f"operation.supply_frequency_hz = {given:g} Hz: a synchronous motor turns at "
+                f"{case.speed_rpm:g} rpm on {needed:.6g} Hz alone; leave it out"
+            )
+
+    def _electrical_hz(self, case: Case) -> float:
+        pairs = case.machine.table(SynchronousMotor).pole_pairs
+        return pairs * shaft_frequency_hz(case.speed_rpm)
+
+
+def _tones(motor: SynchronousMotor, point: OperatingPoint, case: Case) -> tuple[Tone, ...]:
+    """Of all sidebands that are no order, but for those far below the largest."""
+    every = sidebands(motor, point, case.maximum_frequency_hz)
+    largest = max((abs(side.torque_n_m) for side in every), default=0.0)
+    electrical_hz = point.electrical_rad_per_s / (2.0 * np.pi)
+    return tuple(
+        _tone(side, motor.switching_frequency_hz, electrical_hz)
+        for side in every
+        if abs(side.torque_n_m) > SMALLEST_SHARE * largest
+    )
+
+
+def _tone(side: Sideband, switching_hz: float, electrical_hz: float) -> Tone:
+    torque = np.array([side.torque_n_m])
+    on_parts: ComplexArray = motor_on_stator(torque)
+    return Tone(
+        f"{side.carrier} x switching {side.electrical:+d} x electrical",
+        side.carrier * switching_hz + side.electrical * electrical_hz,
+        about_z(-torque)[:, 0],
+        on_parts[..., 0],
+    )

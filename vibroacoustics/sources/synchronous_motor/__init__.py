@@ -1,0 +1,1 @@
+"""Permanent-magnet synchronous motor on an inverter: its torque by order and by switching."""

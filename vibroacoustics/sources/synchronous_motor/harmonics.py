@@ -1,0 +1,156 @@
+"""Voltages, currents and torque of the motor by harmonics of the electrical frequency.
+
+Phasors are complex peaks of phase a over the electrical angle, which is zero where the magnets'
+voltage has its maximum.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...base.arrays import ComplexArray
+from ...base.errors import ParameterError
+from .parameters import SynchronousMotor
+
+LARGEST_MODULATION = {"sine": 1.0, "space-vector": 2.0 / np.sqrt(3.0)}
+"""Of a carrier period that the reference may fill."""
+
+
+@dataclass(frozen=True)
+class OperatingPoint:
+    """The motor at constant speed under its mean load.
+
+    Attributes
+    ----------
+    speed_rad_per_s : of the shaft
+    electrical_rad_per_s : of the voltages, pole pairs times the speed
+    emf_v, current_a : by harmonic
+    voltage_v : fundamental at the terminals
+    modulation_ratio : its size over half the voltage of the link
+    """
+
+    speed_rad_per_s: float
+    electrical_rad_per_s: float
+    emf_v: Mapping[int, complex]
+    current_a: Mapping[int, complex]
+    voltage_v: complex
+    modulation_ratio: float
+
+
+def operating_point(
+    motor: SynchronousMotor, speed_rad_per_s: float, torque_n_m: float
+) -> OperatingPoint:
+    """Currents that carry a mean torque: I_k = (V_k - E_k)/(R + jkωL) of each harmonic k > 1.
+
+    V_k is the voltage of the dead time; the fundamental is what is left of the mean torque
+    3/(2Ω) Σ E_k Re I_k.
+
+    Raises
+    ------
+    ParameterError
+        The inverter has not the voltage.
+    """
+    electrical = motor.pole_pairs * speed_rad_per_s
+    emf = {
+        k: complex(ratio * electrical * motor.flux_linkage_vs)
+        for k, ratio in motor.emf_ratios.items()
+    }
+    lost = dead_time_voltage_v(motor)
+
+    def impedance(k: int) -> complex:
+        return motor.phase_resistance_ohm + 1j * k * electrical * motor.phase_inductance_h
+
+    current = {k: (lost[k] - emf[k]) / impedance(k) for k in emf if k > 1}
+    harmonic_power = sum((emf[k] * current[k]).real for k in current)
+    power = torque_n_m * speed_rad_per_s / 1.5
+    current = {1: complex((power - harmonic_power) / emf[1].real), **current}
+    voltage = emf[1] + impedance(1) * current[1]
+    modulation = 2.0 * abs(voltage) / motor.dc_link_voltage_v
+    if modulation > LARGEST_MODULATION[motor.modulation]:
+        most = 0.5 * LARGEST_MODULATION[motor.modulation] * motor.dc_link_voltage_v
+        raise ParameterError(
+            f"synchronous_motor.dc_link_voltage_v = {motor.dc_link_voltage_v:g} V: gives phases "
+            f"{most:.4g} V peak; at {30.0 / np.pi * speed_rad_per_s:.4g} rpm and "
+            f"{torque_n_m:.4g} N m the motor needs {abs(voltage):.4g} V"
+        )
+    return OperatingPoint(speed_rad_per_s, electrical, emf, current, voltage, modulation)
+
+
+def dead_time_voltage_v(motor: SynchronousMotor) -> dict[int, float]:
+    """Harmonics of -V_dc t_d f_s sgn i, V: 4/(πk) of it, in turn with and against cos kθ.
+
+    Jeong & Park, "The analysis and compensation of dead-time effects in PWM inverters", IEEE Trans.
+    Ind. Electron. 38 (1991): a leg lacks t_d of each switching period, against its current.
+    """
+    size = motor.dc_link_voltage_v * motor.dead_time_s * motor.switching_frequency_hz
+    return {k: -4.0 / np.pi * size * (-1.0) ** ((k - 1) // 2) / k for k in motor.emf_ratios}
+
+
+def torque_harmonics(
+    emf_v: Mapping[int, complex],
+    current_a: Mapping[int, complex],
+    speed_rad_per_s: float,
+    highest: int,
+) -> ComplexArray:
+    """Torque (e_a i_a + e_b i_b + e_c i_c)/Ω by harmonic of the electrical frequency, N m.
+
+    As space vectors, 3/(2Ω) Re Σ e_k i_m* e^{j(k-m)θ}, where harmonics 5, 11, … turn backwards:
+    only multiples of six are left (Krause, Wasynczuk & Sudhoff, Analysis of Electric Machinery,
+    2nd ed., 3.3: power in turning variables).
+
+    Parameters
+    ----------
+    emf_v, current_a : by harmonic, none a multiple of two or three
+    speed_rad_per_s : Ω of the shaft
+    highest : harmonic of the result
+
+    Returns
+    -------
+    mean and complex peaks, shape (highest + 1,)
+    """
+    torque = np.zeros(highest + 1, dtype=complex)
+    for k, emf in _space_vectors(emf_v).items():
+        for m, current in _space_vectors(current_a).items():
+            product = 1.5 / speed_rad_per_s * emf * np.conj(current)
+            if abs(k - m) <= highest:
+                torque[abs(k - m)] += product if k >= m else np.conj(product)
+    torque[0] = torque[0].real
+    return torque
+
+
+def _space_vectors(phasors: Mapping[int, complex]) -> dict[int, complex]:
+    """By signed harmonic: those that turn backwards are conjugate, at minus their number."""
+    return {
+        k if k % 3 == 1 else -k: value if k % 3 == 1 else np.conj(value)
+        for k, value in phasors.items()
+    }
+
+
+def shaft_orders(motor: SynchronousMotor, point: OperatingPoint, highest: int) -> ComplexArray:
+    """Torque of the motor at constant speed by order of the shaft, mean first, N m.
+
+    The products of voltages and currents lie at multiples of six times the pole pairs, the cogging
+    at multiples of the least common multiple of slots and poles (Zhu & Howe, "Influence of design
+    parameters on cogging torque in permanent magnet machines", IEEE Trans. Energy Conv. 15 (2000)).
+
+    Parameters
+    ----------
+    motor : pole pairs, slots, cogging
+    point : voltages and currents
+    highest : order
+
+    Returns
+    -------
+    shape (highest + 1,), complex peaks; the electrical angle is zero at crank angle zero
+    """
+    orders = np.zeros(highest + 1, dtype=complex)
+    electrical = torque_harmonics(
+        point.emf_v, point.current_a, point.speed_rad_per_s, highest // motor.pole_pairs
+    )
+    orders[:: motor.pole_pairs][: electrical.size] = electrical
+    for number, ratio in ((1, 1.0), (2, motor.cogging_second_ratio)):
+        order = number * motor.cogging_order
+        if order <= highest:
+            orders[order] += 1j * ratio * motor.cogging_torque_n_m
+    return orders

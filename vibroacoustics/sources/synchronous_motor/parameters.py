@@ -1,0 +1,61 @@
+"""Permanent-magnet synchronous motor on an inverter, by its circuit."""
+
+import math
+from typing import Literal
+
+from pydantic import Field, model_validator
+
+from ...base.parameters import Parameters
+
+RATIO = Field(default=0.0, ge=-1.0, le=1.0)
+
+
+class SynchronousMotor(Parameters):
+    """Surface magnets, three phases in star, currents in phase with the voltage of the magnets.
+
+    Resistance and inductance are per phase. Reluctance torque, saturation and core loss are left
+    out; the current's control holds its fundamental and answers to nothing else.
+    """
+
+    pole_pairs: int = Field(ge=1, le=50)
+    slots: int = Field(ge=3, le=500)
+    """Of the stator."""
+    flux_linkage_vs: float = Field(gt=0.0, le=1e3)
+    """Peak of the magnets' flux through a phase, fundamental."""
+    fifth_ratio: float = RATIO
+    """Harmonics of the magnets' voltage over its fundamental, cosines with it."""
+    seventh_ratio: float = RATIO
+    eleventh_ratio: float = RATIO
+    thirteenth_ratio: float = RATIO
+    phase_resistance_ohm: float = Field(gt=0.0, le=1e4)
+    phase_inductance_h: float = Field(gt=0.0, le=1e2)
+    cogging_torque_n_m: float = Field(ge=0.0, le=1e4)
+    """Peak of its first order, without current."""
+    cogging_second_ratio: float = RATIO
+    """Twice that order over it."""
+    dc_link_voltage_v: float = Field(gt=0.0, le=1e5)
+    switching_frequency_hz: float = Field(ge=100.0, le=1e6)
+    modulation: Literal["sine", "space-vector"]
+    """Reference that the triangular carrier is compared with."""
+    dead_time_s: float = Field(ge=0.0, le=1e-3)
+    """In which both switches of a leg are off."""
+
+    @property
+    def emf_ratios(self) -> dict[int, float]:
+        """Harmonics of the magnets' voltage over its fundamental, by number."""
+        ratios = (self.fifth_ratio, self.seventh_ratio, self.eleventh_ratio, self.thirteenth_ratio)
+        return {1: 1.0, **dict(zip((5, 7, 11, 13), ratios, strict=True))}
+
+    @property
+    def cogging_order(self) -> int:
+        """Of the shaft: the least common multiple of slots and poles."""
+        return math.lcm(self.slots, 2 * self.pole_pairs)
+
+    @model_validator(mode="after")
+    def _dead_time_fits(self) -> "SynchronousMotor":
+        if self.dead_time_s * self.switching_frequency_hz > 0.1:
+            raise ValueError(
+                f"dead_time_us = {1e6 * self.dead_time_s:g} µs: more than a tenth of a switching "
+                f"period of {1e6 / self.switching_frequency_hz:.4g} µs"
+            )
+        return self

@@ -1,0 +1,74 @@
+"""Motion of the shaft at uniform times: steady, coasting, turning back, standing."""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..base.arrays import Array
+from .equation import Coasting
+from .reversal import Reversal
+
+
+class Course(NamedTuple):
+    """Of the shaft over time, shape (times,) each: rad, rad/s, rad/s²; share of the gas; N."""
+
+    angle: Array
+    speed: Array
+    acceleration: Array
+    gas_share: Array
+    brake_force_n: Array
+
+
+def course_of(
+    coasting: Coasting,
+    coasts: Callable[[Array], Any],
+    reversal: Reversal | None,
+    time_s: Array,
+    rest_s: float,
+    speed_rad_per_s: float,
+) -> Course:
+    """Course of the shaft from steady running to the last rest.
+
+    Parameters
+    ----------
+    coasting : equation of motion
+    coasts : angle and speed from switch-off to the first rest
+    reversal : what follows it; none where the shaft stays
+    time_s : from switch-off, before it at constant speed
+    rest_s : first rest
+    speed_rad_per_s : before switch-off
+    """
+    running = np.clip(time_s, 0.0, rest_s)
+    angle, speed = coasts(running)
+    angle += speed_rad_per_s * np.minimum(time_s, 0.0)
+    acceleration = np.where(time_s < 0.0, 0.0, coasting.acceleration(running, angle, speed))
+    share = np.where(time_s < 0.0, 1.0, coasting.stopping.gas_share_ratio)
+    course = Course(angle, speed, acceleration, share, np.zeros_like(time_s))
+    stands = time_s > rest_s
+    course.speed[stands] = course.acceleration[stands] = 0.0
+    if reversal is not None:
+        _add_reversal(coasting, reversal, time_s, course)
+    return course
+
+
+def _add_reversal(coasting: Coasting, reversal: Reversal, time_s: Array, course: Course) -> None:
+    """Put the stretches of turning back, and the rest after them, into a course."""
+    gas, final = reversal.gas, coasting.stopping.gas_share_ratio
+    for stretch in reversal.stretches:
+        during = (time_s > stretch.start_s) & (time_s <= stretch.end_s)
+        jamming, radius = stretch.jamming, stretch.jamming.table.wall_radius_m
+        angle, speed = stretch.state(time_s[during])
+        share = gas.share(jamming.rest_angle - angle)
+        force = np.array([jamming.force_n(*each) for each in zip(angle, speed, strict=True)])
+        course.angle[during], course.speed[during] = angle, speed
+        course.acceleration[during] = coasting.acceleration(
+            time_s[during], angle, speed, share, stretch.turning, radius * force
+        )
+        course.gas_share[during], course.brake_force_n[during] = final * share, force
+    if reversal.stretches:
+        last = reversal.stretches[-1]
+        after, angle = time_s > last.end_s, float(last.state(np.array(last.end_s))[0])
+        course.angle[after] = angle
+        course.gas_share[after] = final * gas.share(last.jamming.rest_angle - angle)
+        course.brake_force_n[after] = last.jamming.force_n(angle, 0.0)

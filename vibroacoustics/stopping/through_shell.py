@@ -1,0 +1,112 @@
+"""Sound of a stop through the elastic shell: gas, the brake's jam, the valve's impact."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from scipy import fft
+
+from ..base.arrays import Array
+from ..machine.machine import Machine
+from ..machine.turning_back import TurningBack
+from ..mechanics.loads import (
+    BEARING_HOUSING,
+    FIXED_SCROLL,
+    ORBITING_SCROLL,
+    PART_COMPONENTS,
+    PARTS,
+)
+from ..sources.gas import gas_on_parts
+from ..transfer.bending import pressure_over_time
+from ..transfer.sound_path import BendingShell
+from ..transfer.transient import LOAD_SAMPLES
+from .coasting import VALVE, RunDown
+
+FADE_OUT_S: Final = 0.2
+"""In which what stays after the stop is faded out: no mode of a shell is as slow."""
+RING_OUT_S: Final = 0.3
+"""Then, until the shell is still."""
+
+
+@dataclass(frozen=True)
+class StopThroughShell:
+    """What the stop of one machine does to its shell.
+
+    Attributes
+    ----------
+    machine : gas, brake
+    shell : elastic, with the machine's values
+    speed_rpm : before switch-off
+    """
+
+    machine: Machine
+    shell: BendingShell
+    speed_rpm: float
+
+    def pressure(
+        self, run: RunDown, first: int, fade: Array, samples: int, rate_hz: float
+    ) -> Array:
+        """Pressure over the first samples of the result, shape (receiver, samples), Pa.
+
+        Parameters
+        ----------
+        run : of the machine
+        first : sample of the run with which the result begins
+        fade : factor of the load, from that sample to the run's end
+        samples : of the result
+        rate_hz : of the result
+        """
+        load = fade * self.loads(run, first)
+        out = round(LOAD_SAMPLES * FADE_OUT_S * rate_hz)
+        falling = 0.5 + 0.5 * np.cos(np.linspace(0.0, np.pi, out))
+        total = fft.next_fast_len(samples + round((FADE_OUT_S + RING_OUT_S) * rate_hz), real=True)
+        standing = LOAD_SAMPLES * samples - load.shape[-1]
+        held = np.concatenate([np.ones(standing), falling])
+        event = np.zeros((*load.shape[:2], LOAD_SAMPLES * total))
+        event[..., : load.shape[-1]] = load
+        event[..., load.shape[-1] :][..., : held.size] = load[..., -1:] * held
+        return pressure_over_time(self.shell, event, LOAD_SAMPLES * rate_hz)[:, :samples]
+
+    def loads(self, run: RunDown, first: int) -> Array:
+        """On the parts from a sample on, shape (part, component, times), N and N m."""
+        angle = (run.crank_angle_rad + run.shift.angle)[first:]
+        loads = run.gas_share[first:] * gas_on_parts(self.machine, self.speed_rpm, angle)
+        if run.brake_force_n.any():
+            height = _height_of_brake(self.machine)
+            table = self.machine.table(TurningBack)
+            loads += brake_on_parts(table, run.brake_force_n[first:], angle, height)
+        if VALVE in run.sources:
+            loads[FIXED_SCROLL, 2] += run.force_n[run.sources.index(VALVE), 2, first:]
+        return loads
+
+
+def brake_on_parts(table: TurningBack, force_n: Array, angle: Array, height_m: float) -> Array:
+    """The jam as a pair between the wall of the bearing housing and the crank pin.
+
+    The shaft that turns back drags the wall with it by F, and the brake is wedged outwards with
+    F/µ. Forces sum to zero; the moment about z, -F r, is the one that stops the rotor.
+
+    Parameters
+    ----------
+    table : brake and wall
+    force_n : F around the shaft, shape (times,)
+    angle : of crank pin and brake, rad
+    height_m : of the brake
+
+    Returns
+    -------
+    shape (part, component, times), N and N m
+    """
+    outwards = force_n / table.friction_ratio
+    x = outwards * np.cos(angle) + force_n * np.sin(angle)
+    y = outwards * np.sin(angle) - force_n * np.cos(angle)
+    loads = np.zeros((len(PARTS), PART_COMPONENTS, angle.size))
+    loads[BEARING_HOUSING, :5] = x, y, 0.0 * x, -height_m * y, height_m * x
+    loads[ORBITING_SCROLL, :5] = -loads[BEARING_HOUSING, :5]
+    loads[BEARING_HOUSING, 5] = -table.wall_radius_m * force_n
+    return loads
+
+
+def _height_of_brake(machine: Machine) -> float:
+    parts = machine.moving_parts(np.zeros(1))
+    return float(next(part for part in parts if part.source == "brake").position_m[2, 0])
