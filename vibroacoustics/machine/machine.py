@@ -87,6 +87,9 @@ class Machine(KindOfParameters):
     derived: ClassVar[tuple[Derived, ...]] = INERTIAS
     """Values that follow from others, where they are not drawn themselves."""
 
+    reads: ClassVar[frozenset[str]] = frozenset({"suspension", "remainder"})
+    """Tables that may be left out and that the machine itself reads where it has them."""
+
     def revolution(self, speed_rpm: float, samples: int) -> Revolution:
         """One steady revolution: force and moment of the moving parts by source.
 
