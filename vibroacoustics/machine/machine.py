@@ -18,6 +18,7 @@ from ..mechanics.moving_parts import MovingPart, Revolution
 from .balance_quality import BalanceQuality
 from .derived import INERTIAS, Derived
 from .housing import Housing
+from .limits import TRIANGLES, Limit
 from .mounts import Mounts
 from .remainder import Remainder
 from .shell import Shell
@@ -89,6 +90,9 @@ class Machine(KindOfParameters):
 
     reads: ClassVar[frozenset[str]] = frozenset({"suspension", "remainder"})
     """Tables that may be left out and that the machine itself reads where it has them."""
+
+    limits: ClassVar[tuple[Limit, ...]] = TRIANGLES
+    """What other values leave of a value's range, in the order in which they are drawn."""
 
     def revolution(self, speed_rpm: float, samples: int) -> Revolution:
         """One steady revolution: force and moment of the moving parts by source.

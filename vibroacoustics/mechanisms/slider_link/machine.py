@@ -15,11 +15,13 @@ from ...base.curves import Curve
 from ...base.parameters import Parameters
 from ...base.registry import register
 from ...base.units import shaft_frequency_hz
+from ...machine.limits import Limit
 from ...machine.machine import PART_MASS, Machine
 from ...machine.suspension import Suspension
 from ...mechanics.capabilities import BalancePlanes, Capability, CrankFrame, Slider
 from ...mechanics.cylinder import CylinderGas
 from ...mechanics.moving_parts import Revolution
+from .limits import SIZES
 
 LENGTH = Field(gt=0.0, le=0.5)
 OFFSET = Field(ge=-0.05, le=0.05)
@@ -171,6 +173,7 @@ class SliderLinkMachine(Machine):
         "the shaft's speed under the gas load makes orders above the first. Orders are multiples "
         "of the mean shaft frequency in time."
     )
+    limits: ClassVar[tuple[Limit, ...]] = (*Machine.limits, *SIZES)
     mechanism: SliderLink
     masses: MovingMasses
     heights: Heights
