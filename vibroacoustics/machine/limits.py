@@ -36,5 +36,15 @@ def third_inertia(body: str) -> Limit:
     return Limit(f"{body}.inertia_zz_kg_m2", rule)
 
 
-TRIANGLES: Final = tuple(third_inertia(body) for body in ("housing", "suspension.block"))
-"""Of all rigid bodies of a machine."""
+def _tube_bore(machine: Any) -> tuple[float, float]:
+    """The discharge tube keeps a wall."""
+    tube = getattr(machine.suspension, "discharge_tube", None)
+    return -inf, inf if tube is None else THINNEST_TUBE * tube.outer_diameter_m
+
+
+THINNEST_TUBE: Final = 0.95
+"""Inner over outer diameter."""
+OF_EVERY_MACHINE: Final = (
+    *(third_inertia(body) for body in ("housing", "suspension.block")),
+    Limit("suspension.discharge_tube.inner_diameter_m", _tube_bore),
+)

@@ -17,8 +17,9 @@ from ..mechanics.capabilities import UPRIGHT, Capability, CrankFrame
 from ..mechanics.moving_parts import MovingPart, Revolution
 from .balance_quality import BalanceQuality
 from .derived import INERTIAS, Derived
+from .gas_in_shell import DischargeGas, ShellGas
 from .housing import Housing
-from .limits import TRIANGLES, Limit
+from .limits import OF_EVERY_MACHINE, Limit
 from .mounts import Mounts
 from .remainder import Remainder
 from .shell import Shell
@@ -75,6 +76,10 @@ class Machine(KindOfParameters):
     remainder: Remainder = Remainder()
     suspension: Suspension | None = None
     """Springs between the block with the mechanism and the shell; none where both are one."""
+    discharge_gas: DischargeGas | None = None
+    """Of a reciprocating compressor; a source reads it."""
+    shell_gas: ShellGas | None = None
+    """The same round the block."""
     balance_quality: BalanceQuality | None = None
     """How well its rotor is balanced; a study that names no residual unbalance leaves it out."""
     errata: tuple[Erratum, ...] = ()
@@ -91,7 +96,7 @@ class Machine(KindOfParameters):
     reads: ClassVar[frozenset[str]] = frozenset({"suspension", "remainder"})
     """Tables that may be left out and that the machine itself reads where it has them."""
 
-    limits: ClassVar[tuple[Limit, ...]] = TRIANGLES
+    limits: ClassVar[tuple[Limit, ...]] = OF_EVERY_MACHINE
     """What other values leave of a value's range, in the order in which they are drawn."""
 
     def revolution(self, speed_rpm: float, samples: int) -> Revolution:

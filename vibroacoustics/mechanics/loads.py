@@ -62,6 +62,8 @@ class Loads:
     ----------
     wrenches : on the rigid machine over uniform crank angles, by what makes them
     rigid : further wrench on it by order from zero, complex peaks, shape (6, order), N and N m
+    on_shell : wrench by order on the shell round a suspended block, about the shell's centre of
+        mass, as `rigid`, which then is on the block
     on_parts : on the parts in the shell by order, shape (part, component, order), N and N m
     tones : lines that are no orders
     noise : random loads
@@ -79,6 +81,7 @@ class Loads:
 
     wrenches: Mapping[str, Wrench] = field(default_factory=dict)
     rigid: ComplexArray | None = None
+    on_shell: ComplexArray | None = None
     on_parts: ComplexArray | None = None
     tones: tuple[Tone, ...] = ()
     noise: tuple[Noise, ...] = ()
@@ -96,12 +99,14 @@ class Lines:
     frequency_hz : shape (line,)
     rigid : wrench on the rigid machine by source but for what `wrenches` give, shape (6, line)
     on_parts : on the parts in the shell by source, shape (part, component, line)
+    on_shell : wrench on the shell round a suspended block, of the sources that have one
     """
 
     names: tuple[str, ...]
     frequency_hz: Array
     rigid: Mapping[str, ComplexArray]
     on_parts: Mapping[str, ComplexArray]
+    on_shell: Mapping[str, ComplexArray] = field(default_factory=dict)
 
 
 def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int) -> Lines:
@@ -134,7 +139,18 @@ def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int) -> Lines
         *(f"order {order}" for order in range(orders)),
         *(f"{source}: {tone.name}" for source, tone in tones),
     )
-    return Lines(names, np.array(frequency), rigid, on_parts)
+    return Lines(names, np.array(frequency), rigid, on_parts, _on_shells(loads, orders, count))
+
+
+def _on_shells(loads: Mapping[str, Loads], orders: int, count: int) -> dict[str, ComplexArray]:
+    """Wrenches on the shell on the axis of all lines, (6, line)."""
+    wrenches: dict[str, ComplexArray] = {}
+    for source, given in loads.items():
+        if given.on_shell is not None:
+            held = min(orders, given.on_shell.shape[-1])
+            wrenches[source] = np.zeros((6, count), dtype=complex)
+            wrenches[source][:, :held] = given.on_shell[:, :held]
+    return wrenches
 
 
 def total_torque_n_m(loads: Iterable[Loads], highest: int) -> ComplexArray:
