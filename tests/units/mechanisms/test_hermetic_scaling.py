@@ -7,10 +7,11 @@ import pytest
 from drawn_machines import drawing
 from support import ROOT
 
+from vibroacoustics.base.errors import SolverError
 from vibroacoustics.base.parameters import Parameters
 from vibroacoustics.base.units import split_key
-from vibroacoustics.mechanisms.hermetic import forces
-from vibroacoustics.mechanisms.hermetic.cycle import cycle_at_speed
+from vibroacoustics.mechanisms.hermetic import cycle, forces
+from vibroacoustics.mechanisms.hermetic.cycle import cycle_at_speed, steady_cycle
 from vibroacoustics.study.draws import draws_of, with_draw
 from vibroacoustics.study.loading import load_machine
 
@@ -48,6 +49,26 @@ def test_a_smaller_machine_has_the_scaled_solution(case, monkeypatch):
         apart = solution.states[:, journal] / RATIO - given.states[:, journal]
         assert np.max(np.abs(apart)) < allowed * clearance
     np.testing.assert_allclose(exact.states[:, -1], given.states[:, -1], rtol=1e-9)
+
+
+def test_thicker_oils_lead_to_the_same_cycle(monkeypatch):
+    """Where the first search ends without a cycle, as it is made to here."""
+    machine = load_machine(ROOT / "data" / "machines" / "estupinan_hermetic.toml")
+    machine = machine.model_copy(update={"case": "II"})
+    _, given = steady_cycle(machine, steps=60)
+    solved, tries = cycle._solved, []
+
+    def at_first_not(equations, mesh, guess):
+        tries.append(equations.machine.bearing.viscosity_pa_s / machine.bearing.viscosity_pa_s)
+        if len(tries) == 1:
+            raise SolverError("none")
+        return solved(equations, mesh, guess)
+
+    monkeypatch.setattr(cycle, "_solved", at_first_not)
+    _, again = steady_cycle(machine, steps=60)
+    assert tries == pytest.approx([1.0, 8.0, 4.0, 2.0, 1.4, 1.0])
+    size = np.abs(given.states).max(axis=0)
+    np.testing.assert_allclose(again.states / size, given.states / size, atol=1e-8)
 
 
 @pytest.mark.long
