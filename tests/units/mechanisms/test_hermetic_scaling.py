@@ -38,7 +38,7 @@ def test_a_smaller_machine_has_the_scaled_solution(case, monkeypatch):
     """Exactly where gravity scales too; its own weight is all that else tells the sizes apart."""
     machine = load_machine(ROOT / "data" / "machines" / "estupinan_hermetic.toml")
     machine = machine.model_copy(update={"case": case})
-    solve = partial(cycle_at_speed, speed_rpm=2980.0, steps=60)
+    solve = partial(cycle_at_speed, speed_rpm=2980.0, steps=40)
     _, given = solve(machine)
     _, plain = solve(scaled(machine, RATIO))
     monkeypatch.setattr(forces, "GRAVITY", RATIO * forces.GRAVITY)
@@ -55,7 +55,7 @@ def test_thicker_oils_lead_to_the_same_cycle(monkeypatch):
     """Where the first search ends without a cycle, as it is made to here."""
     machine = load_machine(ROOT / "data" / "machines" / "estupinan_hermetic.toml")
     machine = machine.model_copy(update={"case": "II"})
-    _, given = steady_cycle(machine, steps=60)
+    _, given = steady_cycle(machine, steps=40)
     solved, tries = cycle._solved, []
 
     def at_first_not(equations, mesh, guess):
@@ -65,7 +65,7 @@ def test_thicker_oils_lead_to_the_same_cycle(monkeypatch):
         return solved(equations, mesh, guess)
 
     monkeypatch.setattr(cycle, "_solved", at_first_not)
-    _, again = steady_cycle(machine, steps=60)
+    _, again = steady_cycle(machine, steps=40)
     assert tries == pytest.approx([1.0, 8.0, 4.0, 2.0, 1.4, 1.0])
     size = np.abs(given.states).max(axis=0)
     np.testing.assert_allclose(again.states / size, given.states / size, atol=1e-8)
