@@ -11,7 +11,8 @@ from ..base.decibel import mean_square_level, power_of_level
 from ..base.errors import ParameterError, SolverError
 from ..machine.machine import Machine
 from ..machine.source import CaseKey
-from ..study.draws import Draw, with_draw
+from ..study.draws import with_draw
+from ..study.sampling import Draw
 from ..study.study import Study
 from .axes import LevelAxes
 from .bands import bands_between

@@ -17,7 +17,9 @@ from ..mechanics.capabilities import UPRIGHT, Capability, CrankFrame
 from ..mechanics.moving_parts import MovingPart, Revolution
 from .balance_quality import BalanceQuality
 from .derived import INERTIAS, Derived
+from .gas_in_shell import DischargeGas, ShellGas
 from .housing import Housing
+from .limits import OF_EVERY_MACHINE, Limit
 from .mounts import Mounts
 from .remainder import Remainder
 from .shell import Shell
@@ -74,6 +76,10 @@ class Machine(KindOfParameters):
     remainder: Remainder = Remainder()
     suspension: Suspension | None = None
     """Springs between the block with the mechanism and the shell; none where both are one."""
+    discharge_gas: DischargeGas | None = None
+    """Of a reciprocating compressor; a source reads it."""
+    shell_gas: ShellGas | None = None
+    """The same round the block."""
     balance_quality: BalanceQuality | None = None
     """How well its rotor is balanced; a study that names no residual unbalance leaves it out."""
     errata: tuple[Erratum, ...] = ()
@@ -86,6 +92,12 @@ class Machine(KindOfParameters):
     """Plain words for its reported figures, where the name does not say it."""
     derived: ClassVar[tuple[Derived, ...]] = INERTIAS
     """Values that follow from others, where they are not drawn themselves."""
+
+    reads: ClassVar[frozenset[str]] = frozenset({"suspension", "remainder"})
+    """Tables that may be left out and that the machine itself reads where it has them."""
+
+    limits: ClassVar[tuple[Limit, ...]] = OF_EVERY_MACHINE
+    """What other values leave of a value's range, in the order in which they are drawn."""
 
     def revolution(self, speed_rpm: float, samples: int) -> Revolution:
         """One steady revolution: force and moment of the moving parts by source.

@@ -28,6 +28,15 @@ class DischargeTube(Parameters):
             raise ValueError("x_mm, y_mm, z_mm: must be as long as each other")
         return self
 
+    @model_validator(mode="after")
+    def _has_a_wall(self) -> "DischargeTube":
+        if self.inner_diameter_m >= self.outer_diameter_m:
+            raise ValueError(
+                f"inner_diameter_mm = {1e3 * self.inner_diameter_m:g} mm: must be below "
+                f"outer_diameter_mm = {1e3 * self.outer_diameter_m:g} mm"
+            )
+        return self
+
 
 class Suspension(Parameters):
     """Four equal springs in a square under or over the block, and the discharge tube."""

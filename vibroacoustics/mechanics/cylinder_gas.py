@@ -33,6 +33,13 @@ class IdealValveCycle(NamedTuple):
         """Volume over displaced volume where the compressed charge has reached discharge."""
         return (1.0 + self.clearance_ratio) / self.span
 
+    def open_valves(
+        self, fill: Array, expanding: NDArray[np.bool_]
+    ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Whether the suction and the discharge valve are open; parameters as `pressure_pa`."""
+        suction = expanding & (fill >= self.fill_at_suction)
+        return suction, ~expanding & (fill <= self.fill_at_discharge)
+
     def pressure_pa(self, fill: Array, expanding: NDArray[np.bool_]) -> Array:
         """Pressure at a volume over displaced volume, clearance included.
 

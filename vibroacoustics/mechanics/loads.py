@@ -88,6 +88,8 @@ class Loads:
     ----------
     wrenches : on the rigid machine over uniform crank angles, by what makes them
     rigid : further wrench on it by order from zero, complex peaks, shape (6, order), N and N m
+    on_shell : wrench by order on the shell round a suspended block, about the shell's centre of
+        mass, as `rigid`, which then is on the block
     on_parts : on the parts in the shell by order, shape (part, component, order), N and N m
     on_yoke : line load outwards on the middle of the stator's yoke by order, parts with cos nθ and
         sin nθ of YOKE_ORDERS, complex peaks, shape (order around, 2, order), N/m
@@ -108,6 +110,7 @@ class Loads:
 
     wrenches: Mapping[str, Wrench] = field(default_factory=dict)
     rigid: ComplexArray | None = None
+    on_shell: ComplexArray | None = None
     on_parts: ComplexArray | None = None
     on_yoke: ComplexArray | None = None
     tones: tuple[Tone, ...] = ()
@@ -129,6 +132,7 @@ class Lines:
     on_parts : on the parts in the shell by source, shape (part, component, line)
     flows : into spaces of gas by source, at the lines
     on_yoke : around the stator's yoke, by source that loads it, shape (order around, 2, line), N/m
+    on_shell : wrench on the shell round a suspended block, of the sources that have one
     """
 
     names: tuple[str, ...]
@@ -137,6 +141,7 @@ class Lines:
     on_parts: Mapping[str, ComplexArray]
     flows: Mapping[str, tuple[GasFlow, ...]] = field(default_factory=dict)
     on_yoke: Mapping[str, ComplexArray] = field(default_factory=dict)
+    on_shell: Mapping[str, ComplexArray] = field(default_factory=dict)
 
 
 def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int) -> Lines:
@@ -170,8 +175,8 @@ def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int) -> Lines
         *(f"order {order}" for order in range(orders)),
         *(f"{source}: {tone.name}" for source, tone in tones),
     )
-    around = _on_yoke(loads, orders)
-    return Lines(names, np.array(frequency), rigid, on_parts, flows, around)
+    around, shells = _on_yoke(loads, orders), _on_shells(loads, orders, count)
+    return Lines(names, np.array(frequency), rigid, on_parts, flows, around, shells)
 
 
 def _at_lines(flow: GasFlow, orders: int, count: int) -> GasFlow:
@@ -197,6 +202,17 @@ def _on_yoke(loads: Mapping[str, Loads], orders: int) -> dict[str, ComplexArray]
                 of_source[..., number] = tone.on_yoke
         around[source] = of_source
     return around
+
+
+def _on_shells(loads: Mapping[str, Loads], orders: int, count: int) -> dict[str, ComplexArray]:
+    """Wrenches on the shell on the axis of all lines, (6, line)."""
+    wrenches: dict[str, ComplexArray] = {}
+    for source, given in loads.items():
+        if given.on_shell is not None:
+            held = min(orders, given.on_shell.shape[-1])
+            wrenches[source] = np.zeros((6, count), dtype=complex)
+            wrenches[source][:, :held] = given.on_shell[:, :held]
+    return wrenches
 
 
 def total_torque_n_m(loads: Iterable[Loads], highest: int) -> ComplexArray:

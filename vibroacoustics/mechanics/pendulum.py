@@ -30,24 +30,29 @@ class Drive:
     """A pendulum whose pivot moves as x = stroke cos(2π f t).
 
     φ'' + 2ζ(ω_n/ω) φ' + (ω_n/ω)² sin φ + (x_b''/l) cos φ = 0 (corrected thesis 7.1), the prime
-    for d/dθ of the crank angle θ.
+    for d/dθ of the crank angle θ. In a level plane weight does nothing: ω_n/ω of the weight is 0,
+    that of the damping 1.
     """
 
     length_m: float
     damping_ratio: float
     stroke_m: float
     frequency_hz: float
+    level: bool = False
 
     @property
     def natural_ratio(self) -> float:
-        """Natural frequency of the hanging pendulum over the shaft frequency."""
+        """Natural frequency of the hanging pendulum over the shaft frequency; 0 where it lies."""
+        if self.level:
+            return 0.0
         return sqrt(STANDARD_GRAVITY_M_PER_S2 / self.length_m) / (2.0 * pi * self.frequency_hz)
 
     @property
     def motion(self) -> tuple[float, float, float]:
         """Push x_b/l, stiffness (ω_n/ω)² and damping 2ζ ω_n/ω of the equation of motion."""
         ratio = self.natural_ratio
-        return self.stroke_m / self.length_m, ratio**2, 2.0 * self.damping_ratio * ratio
+        damping = 2.0 * self.damping_ratio * (1.0 if self.level else ratio)
+        return self.stroke_m / self.length_m, ratio**2, damping
 
 
 @cache

@@ -21,7 +21,8 @@ from ..machine.source import Case, CaseKey
 from ..radiation.pressure import pressure_per_shell_velocity, wrench_pressure
 from ..radiation.transfer_vectors import pressure_per_velocity
 from ..sources.cases import sources_of
-from ..study.draws import Draw, draws_of
+from ..study.draws import draws_of
+from ..study.sampling import Draw
 from ..study.selection import at_speeds
 from ..study.study import Study
 from ..transfer.path import ShellPath

@@ -2,29 +2,22 @@
 
 import warnings
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from operator import attrgetter
 from typing import Any, Final, TypeVar
 
-import scipy  # loads its subpackages when they are needed
 from pydantic import ValidationError
 
-from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..base.parameters import Parameters
 from ..machine.machine import Machine
+from .sampling import Draw, latin_hypercubes, narrowed
 from .study import Study
-from .uncertainty import Range, Uncertainty
 
-WIDE_RATIO: Final = 3.0
-"""A range wider than this is drawn evenly over its logarithm."""
 MOST_ROUNDS: Final = 20
 """Of sampling anew for draws that contradict themselves."""
-
-Draw = Mapping[tuple[str, str], float]
-"""Drawn values in SI by table, dotted from the machine, and field."""
 
 Table = TypeVar("Table", bound=Parameters)
 
@@ -48,18 +41,12 @@ class Sample:
         return len(self.draws) + len(self.refused)
 
 
-def latin_hypercubes(ranges: Sequence[Range], settings: Uncertainty) -> Iterator[list[Draw]]:
-    """Sets of values drawn from their ranges (McKay, Beckman, Conover 1979), one after another."""
-    sampler = scipy.stats.qmc.LatinHypercube(len(ranges), rng=settings.seed)
-    while True:
-        yield [_draw(ranges, row) for row in sampler.random(settings.random_samples)]
-
-
 def draws_of(study: Study) -> Sample:
     """The draws of a study: those that contradict themselves are drawn anew.
 
-    What is left is a sample of the ranges under the condition that the values fit together; where
-    all do it is the Latin hypercube itself.
+    First the ranges that other values limit are narrowed (`Machine.limits`): such a value is drawn
+    evenly from what the others leave of its range. Where all values fit together the sample is the
+    Latin hypercube itself.
 
     Raises
     ------
@@ -73,7 +60,8 @@ def draws_of(study: Study) -> Sample:
     draws: list[Draw] = []
     refused: list[str] = []
     for hypercube in islice(hypercubes, MOST_ROUNDS):
-        for draw in hypercube:
+        for plain in hypercube:
+            draw = fitting(study, plain)
             reason = _why_not(study, draw)
             if reason is not None:
                 refused.append(reason)
@@ -85,6 +73,21 @@ def draws_of(study: Study) -> Sample:
         f"{study.source_file}: uncertainty: {len(refused)} of {len(draws) + len(refused)} draws "
         f"contradict themselves, most often {_most_often(refused)}; narrow the ranges"
     )
+
+
+def fitting(study: Study, draw: Draw) -> Draw:
+    """A draw with the values that others limit moved into what these leave of their ranges."""
+    drawn, machine = dict(draw), study.machine
+    ranges = {limits.name: limits for limits in study.ranges}
+    for limit in machine.limits:
+        limits = ranges.get(limit.name)
+        if limits is None:
+            continue
+        values = {f"{table}.{field}".lstrip("."): value for (table, field), value in drawn.items()}
+        others = _unchecked(machine, values | _derived(machine, values, drawn))
+        key = (limits.table, limits.field)
+        drawn[key] = narrowed(limits, drawn[key], *limit.rule(others))
+    return drawn
 
 
 def warn_of_contradictions(study: Study) -> None:
@@ -209,20 +212,3 @@ def _most_often(reasons: Sequence[str]) -> str:
     words = Counter(reason.partition(" = ")[0] for reason in reasons)
     ((first, _),) = words.most_common(1)
     return next(reason for reason in reasons if reason.partition(" = ")[0] == first)
-
-
-def _draw(ranges: Sequence[Range], shares: Array) -> Draw:
-    return {
-        (limits.table, limits.field): _value(limits, float(share))
-        for limits, share in zip(ranges, shares, strict=True)
-    }
-
-
-def _value(limits: Range, share: float) -> float:
-    """The value that so large a share of the range lies below."""
-    lowest, highest = limits.lowest, limits.highest
-    if limits.integer:  # each as often as any other
-        return int(min(lowest + share * (highest - lowest + 1.0), highest))
-    if lowest > 0.0 and highest / lowest > WIDE_RATIO:
-        return float(lowest * (highest / lowest) ** share)
-    return float(lowest + share * (highest - lowest))

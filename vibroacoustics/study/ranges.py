@@ -1,7 +1,7 @@
 """Which values of the machine a study reads and draws, and from which ranges."""
 
 from collections.abc import Iterable, Mapping
-from typing import Any, Final, get_args
+from typing import Any, get_args
 
 from pydantic import ValidationError
 
@@ -15,8 +15,6 @@ from .reader import Reader
 from .study import ParameterRecord
 from .uncertainty import HeldRange, Range
 from .wording import validated
-
-_ALWAYS_READ: Final = {"suspension", "remainder"}
 
 
 def _sources(content: Mapping[str, Any]) -> list[Source]:
@@ -51,7 +49,7 @@ def is_used(record: ParameterRecord, machine: Machine, used: set[str]) -> bool:
     field = type(machine).model_fields.get(table)
     if si_key(key)[0] in getattr(getattr(machine, table, None), "unread", ()):
         return False
-    return field is None or field.is_required() or table in used | _ALWAYS_READ
+    return field is None or field.is_required() or table in used | machine.reads
 
 
 def ranges_of(

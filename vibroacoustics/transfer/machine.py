@@ -84,17 +84,24 @@ class MachineOnMounts:
             bushings += _suspension_bushings(self.suspension)
         return Isolation(tuple(bodies), tuple(bushings))
 
-    def response(self, load: ComplexArray, frequency_hz: Array | float) -> Response:
+    def response(
+        self,
+        load: ComplexArray,
+        frequency_hz: Array | float,
+        on_shell: ComplexArray | float = 0.0,
+    ) -> Response:
         """Motion and foot forces under a load on the body with the mechanism.
 
         Parameters
         ----------
         load : force and moment about that body's centre of mass, shape (..., 6), N and N m
         frequency_hz : at least zero, broadcasts against load[..., 0]
+        on_shell : the same on the body on the feet, about its own centre of mass
         """
         isolation = self.isolation
         loads = np.zeros((*np.shape(load)[:-1], len(isolation.bodies), 6), dtype=complex)
         loads[..., -1, :] = load
+        loads[..., 0, :] += on_shell
         motion = isolation.displacement(loads, frequency_hz)
         force = isolation.bushing_force(motion, frequency_hz)
         velocity = 2j * np.pi * np.asarray(frequency_hz, dtype=float)[..., None, None] * motion

@@ -136,8 +136,9 @@ class SoundPath:
     def _of_source(self, body: MachineOnMounts, lines: Lines, source: str) -> ComplexArray:
         frequency, wrench, parts = lines.frequency_hz, lines.rigid[source], lines.on_parts[source]
         pressure: ComplexArray = np.zeros((1, frequency.size), dtype=complex)
-        if wrench.any():
-            velocity = body.response(wrench.T, frequency).velocity
+        on_shell = lines.on_shell.get(source, np.zeros_like(wrench))
+        if wrench.any() or on_shell.any():
+            velocity = body.response(wrench.T, frequency, on_shell.T).velocity
             pressure = pressure + np.einsum("rdf,fd->rf", self.rigid(frequency), velocity)
         if self.shell is not None and parts.any():
             per_load = self.shell.per_load(frequency)

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..base.arrays import Array
+from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
 from .bushings import motion_at
 
@@ -84,3 +84,45 @@ def _piece_flexibility(
     middle[3:, 3:] = length / bending * ((1.0 + poisson_ratio) * along + across)
     moved = motion_at(reference, 0.5 * (start + end))
     return np.asarray(moved @ middle @ moved.T)
+
+
+def tube_end_reactions(
+    path_m: Array,
+    force_n: ComplexArray,
+    stiffness: Array,
+    outer_diameter_m: float,
+    inner_diameter_m: float,
+    youngs_modulus_pa: float,
+    poisson_ratio: float,
+) -> tuple[ComplexArray, ComplexArray]:
+    """What forces at the points of a clamped tube without mass do to its two ends.
+
+    The far end, freed, would move by the flexibility of the pieces up to each loaded point; its
+    clamp takes the force that this motion needs, the near end the rest.
+
+    Parameters
+    ----------
+    path_m : points of the centre line, shape (points, 3)
+    force_n : at each point, shape (points, 3, line)
+    stiffness : of the far end, of `tube_stiffness`
+    outer_diameter_m, inner_diameter_m, youngs_modulus_pa, poisson_ratio : as there
+
+    Returns
+    -------
+    near, far : wrench on the body at either end about the last point, shape (6, line)
+    """
+    area = np.pi / 4.0 * (outer_diameter_m**2 - inner_diameter_m**2)
+    second_moment = np.pi / 64.0 * (outer_diameter_m**4 - inner_diameter_m**4)
+    rigidity = youngs_modulus_pa * np.array([area, second_moment])
+    flexibility, free = np.zeros((6, 6)), np.zeros((6, force_n.shape[-1]), dtype=complex)
+    total = np.zeros_like(free)
+    for number, force in enumerate(force_n):
+        if number:
+            piece = path_m[number - 1], path_m[number], path_m[-1]
+            flexibility += _piece_flexibility(*piece, rigidity, poisson_ratio)
+        arm = path_m[number] - path_m[-1]
+        wrench = np.concatenate([force, np.cross(arm[:, None], force, axis=0)])
+        free += flexibility @ wrench
+        total += wrench
+    far = stiffness @ free
+    return total - far, far

@@ -11,7 +11,8 @@ from ..machine.machine import Machine
 from ..machine.source import Case, CaseKey, Shared
 from ..mechanics.loads import Loads
 from ..sources.cases import loads_of, without_time_series
-from ..study.draws import Draw, with_draw
+from ..study.draws import with_draw
+from ..study.sampling import Draw
 from ..study.study import Study
 from ..transfer.received import BySource
 from ..transfer.sound_path import PressurePerVelocity

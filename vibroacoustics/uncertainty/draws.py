@@ -12,7 +12,7 @@ from ..base.errors import ParameterError, SolverError
 from ..base.progress import Progress
 from ..base.threads import processors
 from ..base.vocabulary import check, stamp
-from ..study.draws import Draw
+from ..study.sampling import Draw
 from ..study.uncertainty import Range
 
 Result = TypeVar("Result")

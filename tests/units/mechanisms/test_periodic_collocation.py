@@ -51,6 +51,20 @@ def test_integral_over_the_cycle():
     assert solution.cycle_integral(np.cos(angle) ** 2) == pytest.approx(np.pi, abs=1e-9)
 
 
+def test_steps_of_rounding_errors_end_the_search():
+    """Slopes with noise of 1e-9 hold every step above the tolerance of 1e-10."""
+    noise = np.random.default_rng(1)
+    exact = _relaxing(1.0)
+
+    def rough(angle, states):
+        slopes, tangents = exact(angle, states)
+        return slopes + 1e-9 * noise.standard_normal(slopes.shape), tangents
+
+    solution = _solved(rough, 40)
+    smooth = _solved(exact, 40)
+    assert solution.states == pytest.approx(smooth.states, abs=1e-8)
+
+
 def test_no_cycle_is_a_solver_error():
     def drifting(angle, states):
         return np.ones_like(states), np.zeros((angle.size, 1, 1))

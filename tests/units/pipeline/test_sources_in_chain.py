@@ -48,8 +48,9 @@ from vibroacoustics.sources.keys import OldhamKeyForces
 from vibroacoustics.sources.oldham_keys.rattle import steady_key_forces
 from vibroacoustics.sources.oldham_keys.spectra import spectral_density
 from vibroacoustics.sources.part_loads import key_torque_n_m
-from vibroacoustics.study.draws import latin_hypercubes, with_draw
+from vibroacoustics.study.draws import with_draw
 from vibroacoustics.study.loading import load_study
+from vibroacoustics.study.sampling import latin_hypercubes
 from vibroacoustics.study.uncertainty import MeasuredModes, Range
 from vibroacoustics.transfer import MachineOnMounts
 from vibroacoustics.transfer.path import pressure_per_load

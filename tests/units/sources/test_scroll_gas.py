@@ -365,6 +365,41 @@ def test_faults_of_appendix_a_are_as_stated(appendix_a):
     assert 1e6 * displacement_m3(thin) == pytest.approx(printed[0], abs=printed[1])
 
 
+def test_force_angle_of_figure_20_jumps_by_the_arc_tangent_alone(appendix_a):
+    """Printed: from -90° to 90° over each half turn, with a jump between. The force itself turns
+    once a revolution, with the crank, and never by more than 15° more or less than it."""
+    crank_angle, (x, y) = appendix_a
+    printed = np.degrees(np.arctan(y / x))
+    jumps = np.flatnonzero(np.diff(printed) < -100.0)
+    assert jumps.size == 2
+    apart = np.degrees(np.diff(crank_angle[jumps])).item()
+    assert apart == pytest.approx(180.0, abs=8.0)  # the program's step
+    turned = np.unwrap(np.arctan2(y, x))
+    assert turned[-1] - turned[0] == pytest.approx(2.0 * np.pi, abs=1e-9)
+    assert np.all(np.diff(turned) > 0.0)
+    assert np.ptp(turned - crank_angle) < np.radians(15.0)
+
+
+@pytest.mark.parametrize("side", [INNER, OUTER])
+def test_flanks_slide_on_one_another(side):
+    """4.2: 'pure rolling with no sliding'. Rolling would pass equal lengths of both flanks; they
+    differ by r Δθ, the way of the orbiting scroll: 1.05 m/s at 2900 rpm, 21 mm a turn."""
+    step = 0.5
+    one, later = Position(WRAPS, 1.0), Position(WRAPS, 1.0 + step)
+    (at, foot), (at_later, foot_later) = one.touching[side][0], later.touching[side][0]
+
+    def length(flank, first, last):
+        return float(np.sum(np.abs(np.diff(flank.between(first, last)))))
+
+    passed = length(one.orbiting[side], at, at_later)
+    on_fixed = length(one.fixed[-side], foot, foot_later)
+    slid = abs(on_fixed - passed)
+    assert slid == pytest.approx(WRAPS.orbit_radius_m * step, rel=1e-3)
+    assert slid > 0.05 * min(passed, on_fixed)
+    speed = slid / step * 2900.0 * np.pi / 30.0
+    assert speed == pytest.approx(1.05, abs=0.005)
+
+
 # --- bad input -----------------------------------------------------------------------------------
 
 WRAPS_TABLE = {

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from drawn_machines import drawing
 from sources_study import SOURCES_STUDY, case_of, made_up_modes, path_of, run_made_up, with_tables
 from support import MACHINE_FILE, ROOT
 
@@ -18,9 +19,9 @@ from vibroacoustics.machine.source import Shared
 from vibroacoustics.radiation.pressure import wrench_pressure
 from vibroacoustics.radiation.transfer_vectors import pressure_per_velocity
 from vibroacoustics.sources.cases import without_time_series
-from vibroacoustics.sources.gas import ScrollGasForces
-from vibroacoustics.study.draws import draws_of, latin_hypercubes, with_draw
+from vibroacoustics.study.draws import draws_of, with_draw
 from vibroacoustics.study.loading import load_study
+from vibroacoustics.study.sampling import latin_hypercubes, narrowed
 from vibroacoustics.study.study import Study
 from vibroacoustics.study.uncertainty import Range
 from vibroacoustics.transfer.path import computed_path
@@ -112,27 +113,56 @@ def test_values_of_measured_modes_do_not_change_with_the_wall(tmp_path):
     assert "structure.bearing_housing.welds" not in held
 
 
-@pytest.mark.filterwarnings("ignore:.*contradict themselves")
+OF_EVERY_KIND = ("mayekawa_wbhe", "mayekawa_banks", "dagilis_slider_link", "estupinan_hermetic",
+                 "zhao_minicrank")  # fmt: skip
+
+
 @pytest.mark.parametrize(
     ("name", "value"),
     [
         ("mayekawa_wbhe", "gas.crankcase_pressure_pa"),
+        ("mayekawa_banks", "cylinders.rod_pitch_m"),
         ("dagilis_slider_link", "suspension.discharge_tube.inner_diameter_m"),
         ("estupinan_hermetic", "shaft.rotor_distance_m"),
         ("zhao_minicrank", "mounts.pitch_m"),
     ],
 )
 def test_every_machine_takes_the_ends_of_its_ranges(tmp_path, monkeypatch, name, value):
-    """With a source that asks for nothing, so that values are drawn."""
-    monkeypatch.setattr(ScrollGasForces, "why_not", classmethod(lambda *_: None))
-    monkeypatch.setattr(ScrollGasForces, "drives_shell", False)
-    text = (ROOT / "pipelines" / f"{name}.toml").read_text(encoding="utf-8")
-    source = '\n[sources.gas]\nkind = "scroll-gas"\n'
-    (tmp_path / "study.toml").write_text(text.replace("../data", str(ROOT / "data")) + source)
-    study = load_study(tmp_path / "study.toml")
+    study = drawing(tmp_path, monkeypatch, name, 200)
     assert value in {item.name for item in study.ranges}
     lists = {item.name for item in study.held_ranges if item.reason == "are lists"}
-    assert bool(lists) == (study.machine.suspension is not None)
+    assert bool(lists) == (study.machine.suspension is not None or name == "mayekawa_banks")
+
+
+@pytest.mark.filterwarnings("error:.*contradict themselves")
+@pytest.mark.parametrize("name", OF_EVERY_KIND)
+def test_all_of_200_draws_of_every_machine_fit_together(tmp_path, monkeypatch, name):
+    """Without limits 11, 2, 15, 10 and 35 % of them contradict themselves."""
+    study = drawing(tmp_path, monkeypatch, name, 200)
+    sample = draws_of(study)
+    assert len(sample.draws) == 200
+    assert not sample.refused
+    for limits in study.ranges:
+        values = [draw[limits.table, limits.field] for draw in sample.draws]
+        assert limits.lowest <= min(values) <= max(values) <= limits.highest
+
+
+def test_draws_are_refused_without_the_limits(tmp_path, monkeypatch):
+    """That the draws above fit is the limits' doing."""
+    study = drawing(tmp_path, monkeypatch, "zhao_minicrank", 200)
+    monkeypatch.setattr(type(study.machine), "limits", ())
+    sample = draws_of(study)
+    assert len(sample.refused) > 0.2 * sample.tried
+
+
+def test_a_narrowed_value_keeps_its_share_of_the_range():
+    even = Range(table="a", field="b", lowest=1.0, highest=3.0)
+    assert narrowed(even, 1.5, -np.inf, np.inf) == 1.5
+    assert narrowed(even, 1.5, 0.0, 2.0) == pytest.approx(1.25)
+    assert narrowed(even, 1.5, 2.0, 9.0) == pytest.approx(2.25)
+    assert narrowed(even, 1.5, 4.0, 5.0) == 1.5  # nothing is left: it is refused as it stands
+    wide = Range(table="a", field="b", lowest=1.0, highest=100.0)
+    assert narrowed(wide, 10.0, 1.0, 25.0) == pytest.approx(5.0)
 
 
 # --- whole numbers -------------------------------------------------------------------------------

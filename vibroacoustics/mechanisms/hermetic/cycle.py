@@ -1,6 +1,7 @@
 """Steady cycle of a hermetic reciprocating compressor: the periodic motion, found directly."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -18,6 +19,8 @@ STEPS: Final = 360
 """Steps per revolution besides the kinks at the valves: one degree."""
 START_ECCENTRICITY: Final = 0.1
 SUPPLIES: Final = 10
+THICKER_OILS: Final = (8.0, 4.0, 2.0, 1.4)
+"""Viscosities over the machine's, on the way to it where it is not reached at once."""
 SPEED_TOLERANCE: Final = 1e-6
 """Of the mean speed, relative."""
 
@@ -43,7 +46,21 @@ def steady_cycle(
     equations = ShaftEquations(machine, crankshaft(machine), film)
     mesh = np.union1d(np.linspace(0.0, 2.0 * np.pi, steps + 1), valve_angles(machine))
     guess = np.tile(_guess(machine, equations.shaft), (mesh.size - 1, 3, 1))
-    return equations, _solved(equations, mesh, guess)
+    try:
+        return equations, _solved(equations, mesh, guess)
+    except SolverError:
+        return equations, _thinned(equations, mesh, guess)
+
+
+def _thinned(equations: ShaftEquations, mesh: Array, guess: Array) -> PeriodicSolution:
+    """The cycle from those of thicker oil, in whose films Newton's method has an easier way."""
+    machine = equations.machine
+    for factor in THICKER_OILS:
+        oil = {"viscosity_pa_s": factor * machine.bearing.viscosity_pa_s}
+        thicker = machine.model_copy(update={"bearing": machine.bearing.model_copy(update=oil)})
+        solution = _solved(replace(equations, machine=thicker), mesh, guess)
+        guess = solution.stages
+    return _solved(equations, mesh, guess)
 
 
 def cycle_at_speed(

@@ -6,6 +6,7 @@ from scipy.optimize import brentq
 
 from ...base.arrays import Array
 from ...mechanics.cylinder_gas import IdealValveCycle
+from ...mechanics.valve_flows import ValvedCylinder
 from .machine import HermeticCompressor
 
 
@@ -53,6 +54,13 @@ def gas_force_n(machine: HermeticCompressor, crank_angle: Array) -> Array:
         fill(machine, crank_angle), _outwards(machine, crank_angle)
     )
     return np.asarray((pressure - machine.gas.suction_pressure_pa) * piston_area_m2(machine))
+
+
+def valved_cylinder(machine: HermeticCompressor) -> ValvedCylinder:
+    """The cylinder as sources of sound take it: the crank turns about a fixed axis."""
+    top, bottom = piston_place_m(machine, np.array(dead_centres(machine)))
+    displaced = piston_area_m2(machine) * float(top - bottom)
+    return ValvedCylinder(displaced, _cycle(machine), lambda angle: fill(machine, angle))
 
 
 def valve_angles(machine: HermeticCompressor) -> tuple[float, float]:

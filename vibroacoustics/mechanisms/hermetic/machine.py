@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 from ...base.curves import Curve
 from ...base.parameters import Parameters
 from ...base.registry import register
+from ...machine.gas_in_shell import GAS_PATH_PARTLY
 from ...machine.machine import Machine
 from ...mechanics.capabilities import (
     HEIGHT,
@@ -146,7 +147,9 @@ class HermeticCompressor(Machine):
 
     @property
     def capabilities(self) -> tuple[Capability, ...]:
-        """Piston and the part of the rod that goes with it, by its two eyes."""
+        """Piston and the part of the rod that goes with it, by its two eyes; cylinder."""
+        from .gas import valved_cylinder
+
         rod, planes = self.rod, self.counterweights
         share = rod.mass_kg * (1.0 - rod.centre_of_mass_m / rod.length_m)
         down = planes.model_copy(  # heights down the shaft
@@ -162,7 +165,7 @@ class HermeticCompressor(Machine):
             down,
             self.crank_frame,
         )
-        return (slider,)
+        return slider, valved_cylinder(self)
 
     def revolution(self, speed_rpm: float, samples: int) -> Revolution:
         """Steady revolution of the moving parts; see `hermetic_revolution`."""
@@ -178,16 +181,18 @@ class HermeticCompressor(Machine):
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
         """What the model leaves out."""
-        return _LEAVES_OUT
+        return *_LEAVES_OUT, GAS_PATH_PARTLY if inner_sources else _GAS_PATH
 
 
+_GAS_PATH: Final = (
+    "The gas in the shell, which carries sound from the block to the shell, is not modelled."
+)
 _LEAVES_OUT: Final = (
     "Friction of the piston and drag of the oil films are left out, as in the paper: the shaft "
     "power is that of the gas and of the films that are squeezed.",
     "The springs of the block are linear and meet no stops; the weight of the block, start and "
     "stop are not modelled. The tube has no mass, hence no resonance of its own.",
-    "The valves open without loss, and the gas in the shell, which carries sound from the block "
-    "to the shell, is not modelled.",
+    "The valves open without loss.",
     "An option that puts weights on the shaft leaves the films as they are; a redesign of the "
     "crank has its own.",
 )

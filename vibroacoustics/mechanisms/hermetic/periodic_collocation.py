@@ -29,6 +29,9 @@ STAGES: Final = 3
 NEWTON_STEPS: Final = 80
 STEP_TOLERANCE: Final = 1e-10
 """Last Newton step over the size of each state; the convergence is quadratic before it."""
+ROUNDING: Final = 1e-8
+"""Below this a step that is no longer a tenth of the one before is made of rounding errors: stiff
+shafts in thin films have a floor of a few 1e-10."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +88,7 @@ def periodic_solution(
     SolverError
         Newton's method does not converge.
     """
-    stages, start = guess.copy(), guess[-1, -1].copy()
+    stages, start, length = guess.copy(), guess[-1, -1].copy(), np.inf
     for _ in range(NEWTON_STEPS):
         particular, transfer = _condensed(slope, mesh, stages, start)
         monodromy, offset = _compose(particular[:, -1], transfer[:, -1])
@@ -98,7 +101,8 @@ def periodic_solution(
             break
         fraction = allowed(stages, step)
         stages, start = stages + fraction * step, start + fraction * change
-        if np.max(np.abs(step) / size) < STEP_TOLERANCE:
+        before, length = length, float(np.max(np.abs(step) / size))
+        if length < STEP_TOLERANCE or 0.1 * before < length < ROUNDING:
             states = np.concatenate((start[np.newaxis], stages[:, -1]))
             return PeriodicSolution(mesh, states, stages, monodromy)
     raise SolverError("no periodic cycle found: Newton's method does not converge")

@@ -1,11 +1,13 @@
 """Links of a scroll with mini-crank: lengths, errors, whether they close."""
 
 from dataclasses import astuple, dataclass
-from typing import Final, Literal
+from math import inf
+from typing import Any, Final, Literal
 
 from pydantic import Field, model_validator
 
 from ...base.parameters import Parameters
+from ...machine.limits import Limit
 
 LINK = Field(gt=0.0, le=10.0)
 ERROR = Field(default=0.0, ge=-1e-3, le=1e-3)
@@ -122,3 +124,30 @@ class FourBar(Parameters):
             self.minicrank_m + self.minicrank_error_m,
             self.bracket_m + self.bracket_error_m,
         )
+
+
+def _spare_m(machine: Any) -> float:
+    """What the mini-crank is longer than the crank, less what closing needs; rigid links only."""
+    bar: FourBar = machine.four_bar
+    if bar.minicranks != 1:
+        return inf
+    return bar.links.minicrank_m - bar.links.crank_m - 2.0 * SMALLEST_MARGIN_M
+
+
+def _crank_error_m(machine: Any) -> tuple[float, float]:
+    """The crank must be shorter than the mini-crank."""
+    return -inf, machine.four_bar.crank_error_m + _spare_m(machine)
+
+
+def _bracket_error_m(machine: Any) -> tuple[float, float]:
+    """Scroll and bracket may differ by what the mini-crank is longer than the crank."""
+    bar, spare = machine.four_bar, _spare_m(machine)
+    even = bar.bracket_error_m + bar.links.scroll_m - bar.links.bracket_m
+    return even - spare, even + spare
+
+
+CLOSING: Final = (
+    Limit("four_bar.crank_error_m", _crank_error_m),
+    Limit("four_bar.bracket_error_m", _bracket_error_m),
+)
+"""Errors with which the crank turns (Zhao et al. 2013, eq. 19 and 20, both of them)."""

@@ -8,10 +8,11 @@ from pydantic import Field
 from ...base.curves import Curve
 from ...base.parameters import Parameters
 from ...base.registry import register
+from ...machine.limits import Limit
 from ...machine.machine import Machine
 from ...mechanics.capabilities import HEIGHT, BalancePlanes, CrankFrame
 from ...mechanics.moving_parts import Revolution
-from .links import FourBar
+from .links import CLOSING, FourBar
 
 MASS = Field(gt=0.0, le=1e3)
 
@@ -71,6 +72,7 @@ class MiniCrankMachine(Machine):
         "minicrank_pin_force_n": "Largest force at the rigid pin of the mini-crank",
         "crank_pin_force_n": "Largest force at the rigid crank pin",
     }
+    limits: ClassVar[tuple[Limit, ...]] = (*Machine.limits, *CLOSING)
     four_bar: FourBar
     masses: Masses
     loads: ScrollLoads

@@ -1,6 +1,6 @@
 """Reciprocating compressor with Coulomb friction (Tsuji et al. 2012): forces, losses, speed."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -10,16 +10,24 @@ from ...base.arrays import Array
 from ...base.errors import ParameterError, SolverError
 from ...base.units import shaft_frequency_hz
 from ...mechanics.crankshaft import DrivenRotation, reduced_inertia, steady_rotation
-from ...mechanics.rotation import Rotation, uniform_crank_angle
+from ...mechanics.rotation import uniform_crank_angle
+from .cylinders import Cylinder
 from .gas import cylinder_pressure
-from .machine import ReciprocatingMachine, SlidingPairs
+from .joints import (
+    ConstraintForces,
+    Friction,
+    constraint_forces,
+    coulomb_friction,
+    journal_share,
+    load_torques,
+)
+from .machine import CylinderGas, ReciprocatingMachine
 from .slider_crank import (
     Motion,
     SliderCrank,
     design_at_bore,
     motion,
     moving_masses,
-    rates_of_momentum,
     top_dead_centre_m,
 )
 
@@ -32,64 +40,68 @@ FRICTION_TOLERANCE: Final = 1e-12
 
 
 @dataclass(frozen=True)
-class Friction:
-    """Friction as it acts on piston (force along x) and connecting rod (moments about z).
+class Charge:
+    """One cylinder with its gas over the shaft's crank angles.
 
     Attributes
     ----------
-    wall_n : f, shape (samples,)
-    piston_pin_n_m : M_T, of the sign of dφ/dθ, shape (samples,)
-    crank_pin_n_m : M_S, on the rod; -M_S acts on the crank, shape (samples,)
-    journal_n_m : M_Q, against the crankshaft's rotation, shape (samples,)
+    cylinder : where it stands
+    moved : its motion, from its own top dead centre
+    pressure_pa : in the cylinder, shape (samples,)
+    gas_force_n : P, along its axis on the piston, shape (samples,)
     """
 
-    wall_n: Array
-    piston_pin_n_m: Array
-    crank_pin_n_m: Array
-    journal_n_m: Array
-
-
-@dataclass(frozen=True)
-class ConstraintForces:
-    """Forces in the joints, x and y, shape (2, samples).
-
-    Attributes
-    ----------
-    piston_pin_n : T, of the piston on the rod; its y component is also the piston's on the wall
-        times -1, and the wall's on the piston
-    crank_pin_n : S, of the rod on the crank
-    journal_n : Q, of the crankshaft on its bearings; S, as the crankshaft is balanced
-    """
-
-    piston_pin_n: Array
-    crank_pin_n: Array
-    journal_n: Array
+    cylinder: Cylinder
+    moved: Motion
+    pressure_pa: Array
+    gas_force_n: Array
 
 
 @dataclass(frozen=True)
 class Cycle:
-    """One steady revolution over uniform crank angles from top dead centre.
+    """One steady revolution over uniform crank angles from the first cylinder's top dead centre.
 
     Attributes
     ----------
     crank : the design
-    moved : its motion
     rotation : speed, acceleration, motor torque
-    pressure_pa : in the cylinder, shape (samples,)
-    gas_force_n : P, along x on the piston, shape (samples,); negative, towards the crankshaft
-    friction : in the four sliding pairs
-    forces : in the joints
+    charges : motion and gas by cylinder
+    frictions : in the four sliding pairs, by cylinder
+    joints : forces in the joints, by cylinder
     load_torque_n_m : each load's torque at the crankshaft by its name, shape (samples,)
     """
 
     crank: SliderCrank
-    moved: Motion
     rotation: DrivenRotation
-    pressure_pa: Array
-    gas_force_n: Array
-    friction: Friction
-    forces: ConstraintForces
+    charges: Sequence[Charge]
+    frictions: Sequence[Friction]
+    joints: Sequence[ConstraintForces]
     load_torque_n_m: Mapping[str, Array]
+
+    @property
+    def moved(self) -> Motion:
+        """Motion of the first cylinder."""
+        return self.charges[0].moved
+
+    @property
+    def pressure_pa(self) -> Array:
+        """In the first cylinder."""
+        return self.charges[0].pressure_pa
+
+    @property
+    def gas_force_n(self) -> Array:
+        """On the first piston."""
+        return self.charges[0].gas_force_n
+
+    @property
+    def friction(self) -> Friction:
+        """In the first cylinder's pairs."""
+        return self.frictions[0]
+
+    @property
+    def forces(self) -> ConstraintForces:
+        """In the first cylinder's joints."""
+        return self.joints[0]
 
     @property
     def supplied_work_j(self) -> float:
@@ -118,7 +130,7 @@ def steady_cycle(
     """Solve the crankshaft's equation of motion (1) with Coulomb friction (4) by iteration.
 
     As in the paper, the first solution is without friction; the friction of each solution goes
-    into the next until it repeats.
+    into the next until it repeats. With several cylinders the sums of (1) go over all of them.
 
     Raises
     ------
@@ -130,69 +142,45 @@ def steady_cycle(
     if not 0.0 < speed_rpm < np.inf:
         raise ParameterError(f"speed_rpm = {speed_rpm:g} rpm: must be positive and finite")
     crank = design_at_bore(machine.piston_and_rod, bore_m)
-    moved = motion(crank, uniform_crank_angle(samples))
-    inertia = reduced_inertia(machine.crankshaft.inertia_kg_m2, moving_masses(crank, moved))
-    top = top_dead_centre_m(crank)
-    swept = np.maximum(crank.piston_area_m2 * (top - moved.piston_m[0]), 0.0)
-    pressure = cylinder_pressure(swept, moved.piston_m[1] < 0.0, machine.gas)
-    gas_force = -crank.piston_area_m2 * (pressure - machine.gas.crankcase_pressure_pa)
+    charges = [_charge(crank, item, machine.gas, samples) for item in machine.banks.cylinders]
+    moving = [mass for charge in charges for mass in moving_masses(crank, charge.moved)]
+    inertia = reduced_inertia(machine.crankshaft.inertia_kg_m2, moving)
     mean_speed = 2.0 * np.pi * shaft_frequency_hz(speed_rpm)
-    none = np.zeros(samples)
-    friction = Friction(none, none, none, none)
+    frictions = [Friction(*[np.zeros(samples)] * 4) for _ in charges]
+    loads = _loads(charges, frictions)
     for _ in range(ITERATIONS):
-        loads = load_torques(moved, gas_force, friction)
         load = np.sum(list(loads.values()), axis=0)
         rotation = steady_rotation(*inertia, load, mean_speed, machine.crankshaft.motor_slope_ratio)
-        forces = constraint_forces(crank, moved, rotation, gas_force, friction)
-        friction = coulomb_friction(moved, forces, machine.sliding_pairs)
-        change = np.sum(list(load_torques(moved, gas_force, friction).values()), axis=0) - load
+        joints = [
+            constraint_forces(crank, charge.moved, rotation, charge.gas_force_n, friction)
+            for charge, friction in zip(charges, frictions, strict=True)
+        ]
+        shares = journal_share(machine.banks, joints, rotation)
+        frictions = [
+            coulomb_friction(charge.moved, forces, machine.sliding_pairs, share)
+            for charge, forces, share in zip(charges, joints, shares, strict=True)
+        ]
+        before, loads = loads, _loads(charges, frictions)
+        change = np.sum(list(loads.values()), axis=0) - load
         if np.max(np.abs(change)) < FRICTION_TOLERANCE * np.mean(load):
-            return Cycle(crank, moved, rotation, pressure, gas_force, friction, forces, loads)
+            return Cycle(crank, rotation, charges, frictions, joints, before)
     raise SolverError(f"friction of the reciprocating machine at {speed_rpm:g} rpm: no convergence")
 
 
-def load_torques(moved: Motion, gas_force_n: Array, friction: Friction) -> dict[str, Array]:
-    """Torques of gas and friction against the crankshaft's rotation, right side of equation (1).
-
-    Without crank offset dx_p/dθ = -x_p tan φ, dφ/dθ = α cos θ/cos φ and 1 + dφ/dθ = x_p/(l cos φ).
-    """
-    piston, rod = moved.piston_m[1], moved.rod_angle[1]
-    return {
-        "gas": -gas_force_n * piston,
-        "cylinder_wall": -friction.wall_n * piston,
-        "piston_pin": friction.piston_pin_n_m * rod,
-        "crank_pin": friction.crank_pin_n_m * (1.0 + rod),
-        "journal": friction.journal_n_m,
-    }
+def _charge(crank: SliderCrank, cylinder: Cylinder, gas: CylinderGas, samples: int) -> Charge:
+    moved = motion(crank, uniform_crank_angle(samples) + cylinder.lead_rad)
+    top = top_dead_centre_m(crank)
+    swept = np.maximum(crank.piston_area_m2 * (top - moved.piston_m[0]), 0.0)
+    pressure = cylinder_pressure(swept, moved.piston_m[1] < 0.0, gas)
+    force = -crank.piston_area_m2 * (pressure - gas.crankcase_pressure_pa)
+    return Charge(cylinder, moved, pressure, force)
 
 
-def constraint_forces(
-    crank: SliderCrank, moved: Motion, rotation: Rotation, gas_force_n: Array, friction: Friction
-) -> ConstraintForces:
-    """Joint forces from the equations of motion of piston and rod (Tsuji et al. 2012, figure 2b).
-
-    Piston: m_p ẍ_p = P + f - T_x. Rod: m_c a = T - S, and its moments about the centre of mass.
-    """
-    piston, rod_x, rod_y, rod_turn = rates_of_momentum(crank, moved, rotation)
-    s, c = np.sin(moved.rod_angle[0]), np.cos(moved.rod_angle[0])
-    t_x = gas_force_n + friction.wall_n - piston
-    moments = crank.big_end_to_centre_m * (s * rod_x + c * rod_y) - rod_turn
-    moments -= friction.piston_pin_n_m + friction.crank_pin_n_m
-    t_y = (moments / crank.rod_length_m - s * t_x) / c
-    pin = np.stack([t_x, t_y])
-    crank_pin = pin - np.stack([rod_x, rod_y])
-    return ConstraintForces(pin, crank_pin, crank_pin)
-
-
-def coulomb_friction(moved: Motion, forces: ConstraintForces, pairs: SlidingPairs) -> Friction:
-    """Friction of the joint forces, against the motion in each pair (equation 4)."""
-    pin, crank_pin, journal = (
-        pairs.bearing_friction * radius * np.hypot(*force)
-        for radius, force in (
-            (pairs.piston_pin_radius_m, forces.piston_pin_n),
-            (pairs.crank_pin_radius_m, forces.crank_pin_n),
-            (pairs.journal_radius_m, forces.journal_n),
-        )
-    )
-    wall = -pairs.wall_friction * np.abs(forces.piston_pin_n[1]) * np.sign(moved.piston_m[1])
-    return Friction(wall, np.sign(moved.rod_angle[1]) * pin, crank_pin, journal)
+def _loads(charges: Sequence[Charge], frictions: Sequence[Friction]) -> dict[str, Array]:
+    """Torques against the crankshaft's rotation by name, of all cylinders together."""
+    single = [
+        load_torques(charge.moved, charge.gas_force_n, friction)
+        for charge, friction in zip(charges, frictions, strict=True)
+    ]
+    return {name: np.asarray(sum(loads[name] for loads in single[1:]) + single[0][name])
+            for name in single[0]}  # fmt: skip

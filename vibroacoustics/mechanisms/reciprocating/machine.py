@@ -18,6 +18,7 @@ from ...mechanics.capabilities import (
     Slider,
 )
 from ...mechanics.moving_parts import Revolution
+from .cylinders import ONE_CYLINDER, CylinderBanks
 
 LENGTH = Field(gt=0.0, le=10.0)
 MASS = Field(gt=0.0, le=1e4)
@@ -95,23 +96,31 @@ class CylinderGas(Parameters):
 
 @register
 class ReciprocatingMachine(Machine):
-    """The cylinder stands upright, the shaft lies along y under the centre of mass."""
+    """One upright cylinder, or banks of them; the shaft lies along y under the centre of mass."""
 
     kind: ClassVar[str] = "reciprocating"
-    axes: ClassVar[str] = "across the cylinder (x), along the shaft (y) and along the cylinder (z)"
+    axes: ClassVar[str] = "across the shaft (x), along it (y) and upright (z)"
     orders: ClassVar[str] = (
         "The tilt of the connecting rod makes the even orders, the swing of the shaft's speed "
         "under the gas load the others. Orders are multiples of the mean shaft frequency in "
         "time."
     )
+    reads: ClassVar[frozenset[str]] = Machine.reads | {"cylinders"}
     piston_and_rod: PistonAndRod
     crankshaft: Crankshaft
     sliding_pairs: SlidingPairs
     gas: CylinderGas
     crankshaft_height_m: float = HEIGHT
     """Of the shaft's axis from the centre of mass at rest."""
+    cylinders: CylinderBanks | None = None
+    """Banks and crank throws; none is one cylinder."""
     counterweights: BalancePlanes
     """Where weights can sit on the crank; heights along the shaft from the cylinder's axis."""
+
+    @property
+    def banks(self) -> CylinderBanks:
+        """Banks and crank throws, of one cylinder too."""
+        return self.cylinders or ONE_CYLINDER
 
     @property
     def crank_frame(self) -> CrankFrame:
@@ -125,7 +134,9 @@ class ReciprocatingMachine(Machine):
 
     @property
     def capabilities(self) -> tuple[Capability, ...]:
-        """Piston and the part of the rod that goes with it, by its two eyes."""
+        """Piston and the part of the rod that goes with it, by its two eyes, of one cylinder."""
+        if self.cylinders is not None:
+            return ()
         part = self.piston_and_rod
         radius = 2.0 * part.displacement_m3 / (pi * part.bore_m**2)
         rod_mass = part.rod_mass_kg * radius / part.crank_to_rod_ratio / part.rod_length_m
@@ -153,9 +164,13 @@ class ReciprocatingMachine(Machine):
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
         """What the model leaves out."""
-        return _LEAVES_OUT
+        return _LEAVES_OUT if self.cylinders is None else _LEAVES_OUT_OF_BANKS
 
 
+_LEAVES_OUT_OF_BANKS: Final = (
+    "All cylinders have the same gas and dimensions. But for the counterweights of its throws the "
+    "crankshaft is balanced about its axis; it is rigid, in bending and in torsion.",
+)
 _LEAVES_OUT: Final = (
     "One cylinder stands for the machine. The crankshaft is balanced about its axis, the big end "
     "of the rod is not; the paper gives no counterweight. Lanchester's weights are in the plane "

@@ -1,8 +1,10 @@
 """The reciprocating compressor as the chain takes it: force and moment by source."""
 
-from ...mechanics.crankshaft import every
-from ...mechanics.moving_parts import Revolution
-from .cycle import SAMPLES, steady_cycle
+import numpy as np
+
+from ...mechanics.crankshaft import every, planar
+from ...mechanics.moving_parts import Revolution, Wrench
+from .cycle import SAMPLES, Cycle, steady_cycle
 from .machine import ReciprocatingMachine
 from .slider_crank import housing_wrenches
 
@@ -21,17 +23,37 @@ def reciprocating_revolution(
     stride = -(-SAMPLES // samples)
     bore = machine.piston_and_rod.bore_m
     cycle = steady_cycle(machine, bore, speed_rpm, samples * stride)
-    wrenches = housing_wrenches(
-        cycle.crank, cycle.moved, cycle.rotation, machine.crankshaft.inertia_kg_m2
-    )
     return every(
         stride,
         speed_rpm,
         cycle.rotation,
-        {name: wrench.placed(machine.crank_frame) for name, wrench in wrenches.items()},
+        housing_wrenches_of(machine, cycle),
         {
             "speed_fluctuation_percent": 100.0 * cycle.rotation.fluctuation_ratio,
             "mechanical_efficiency_percent": 100.0 * cycle.mechanical_efficiency,
             "shaft_power_w": cycle.supplied_work_j / cycle.rotation.duration_s,
         },
     )
+
+
+def housing_wrenches_of(machine: ReciprocatingMachine, cycle: Cycle) -> dict[str, Wrench]:
+    """Pistons, rods and crankshaft on the housing, about its centre of mass, by source.
+
+    The crankshaft is balanced but for its counterweights.
+    """
+    shaft = machine.crank_frame
+    totals: dict[str, Wrench] = {}
+    for charge in cycle.charges:
+        frame = charge.cylinder.frame(shaft)
+        for name, wrench in housing_wrenches(cycle.crank, charge.moved, cycle.rotation).items():
+            totals[name] = _sum(totals.get(name), wrench.placed(frame))
+    spin = -machine.crankshaft.inertia_kg_m2 * cycle.rotation.acceleration_rad_per_s2
+    turning = planar(np.zeros((2, spin.size)), spin)
+    weights = machine.banks.counterweight_wrench(cycle.rotation)
+    return {**totals, "crankshaft": _sum(turning, weights).placed(shaft)}
+
+
+def _sum(first: Wrench | None, second: Wrench) -> Wrench:
+    if first is None:
+        return second
+    return Wrench(first.force_n + second.force_n, first.moment_n_m + second.moment_n_m)

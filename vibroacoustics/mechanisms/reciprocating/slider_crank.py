@@ -157,20 +157,14 @@ def rates_of_momentum(
     return piston, rod_x, rod_y, turn
 
 
-def housing_wrenches(
-    crank: SliderCrank, moved: Motion, rotation: Rotation, crankshaft_inertia_kg_m2: float
-) -> dict[str, Wrench]:
-    """-Σ m a and -d/dt of the angular momentum about the crankshaft's axis, by source.
+def housing_wrenches(crank: SliderCrank, moved: Motion, rotation: Rotation) -> dict[str, Wrench]:
+    """-Σ m a and -d/dt of the angular momentum about the crankshaft's axis of piston and rod.
 
-    The crankshaft is balanced and makes a moment only. A growing φ turns the rod against the
-    crankshaft.
+    A growing φ turns the rod against the crankshaft.
     """
     piston, rod_x, rod_y, turn = rates_of_momentum(crank, moved, rotation)
-    zero = np.zeros_like(piston)
     rod_moment = turn - moved.rod_x_m[0] * rod_y + moved.rod_y_m[0] * rod_x
-    shaft_moment = -crankshaft_inertia_kg_m2 * rotation.acceleration_rad_per_s2
     return {
-        "piston": planar(-np.stack([piston, zero]), crank.offset_m * piston),
+        "piston": planar(-np.stack([piston, np.zeros_like(piston)]), crank.offset_m * piston),
         "connecting_rod": planar(-np.stack([rod_x, rod_y]), rod_moment),
-        "crankshaft": planar(np.stack([zero, zero]), shaft_moment),
     }

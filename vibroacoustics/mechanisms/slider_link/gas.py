@@ -5,6 +5,7 @@ import numpy as np
 from ...base.arrays import Array
 from ...mechanics.cylinder import CylinderGas
 from ...mechanics.cylinder_gas import IdealValveCycle
+from ...mechanics.valve_flows import ValvedCylinder
 from .machine import SliderLink
 
 
@@ -33,6 +34,14 @@ def valve_angles(gas: CylinderGas) -> tuple[float, float]:
     suction = np.arccos(1.0 - 2.0 * (cycle.fill_at_suction - clearance))
     discharge = np.arccos(1.0 - 2.0 * (cycle.fill_at_discharge - clearance))
     return float(suction), float(2.0 * np.pi - discharge)
+
+
+def valved_cylinder(mechanism: SliderLink, gas: CylinderGas) -> ValvedCylinder:
+    """The cylinder as sources of sound take it: the piston moves by a pure cosine."""
+    displaced = 0.5 * np.pi * mechanism.bore_m**2 * mechanism.crank_radius_m
+    return ValvedCylinder(
+        displaced, _cycle(gas), lambda angle: gas.clearance_ratio + 0.5 * (1.0 - np.cos(angle))
+    )
 
 
 def gas_force(mechanism: SliderLink, gas: CylinderGas, angle: Array) -> Array:

@@ -15,11 +15,14 @@ from ...base.curves import Curve
 from ...base.parameters import Parameters
 from ...base.registry import register
 from ...base.units import shaft_frequency_hz
+from ...machine.gas_in_shell import GAS_PATH_PARTLY
+from ...machine.limits import Limit
 from ...machine.machine import PART_MASS, Machine
 from ...machine.suspension import Suspension
 from ...mechanics.capabilities import BalancePlanes, Capability, CrankFrame, Slider
 from ...mechanics.cylinder import CylinderGas
 from ...mechanics.moving_parts import Revolution
+from .limits import SIZES
 
 LENGTH = Field(gt=0.0, le=0.5)
 OFFSET = Field(ge=-0.05, le=0.05)
@@ -171,6 +174,7 @@ class SliderLinkMachine(Machine):
         "the shaft's speed under the gas load makes orders above the first. Orders are multiples "
         "of the mean shaft frequency in time."
     )
+    limits: ClassVar[tuple[Limit, ...]] = (*Machine.limits, *SIZES)
     mechanism: SliderLink
     masses: MovingMasses
     heights: Heights
@@ -198,7 +202,9 @@ class SliderLinkMachine(Machine):
 
     @property
     def capabilities(self) -> tuple[Capability, ...]:
-        """Piston and link; the slider goes round with the crank pin."""
+        """Piston and link, as the slider goes round with the crank pin; cylinder."""
+        from .gas import valved_cylinder
+
         planes = self.counterweights
         below = BalancePlanes(
             upper_height_m=-planes.lower_height_m,
@@ -212,7 +218,7 @@ class SliderLinkMachine(Machine):
             below,
             self.crank_frame,
         )
-        return (slider,)
+        return slider, valved_cylinder(self.mechanism, self.gas)
 
     @model_validator(mode="after")
     def _pin_in_slider(self) -> "SliderLinkMachine":
@@ -238,15 +244,17 @@ class SliderLinkMachine(Machine):
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
         """What the model leaves out."""
-        return _LEAVES_OUT
+        return *_LEAVES_OUT, GAS_PATH_PARTLY if inner_sources else _GAS_PATH
 
 
+_GAS_PATH: Final = (
+    "Sound and force that pass from the block to the shell through gas and oil are left out: "
+    "above some hundred hertz they can carry more than the springs."
+)
 _LEAVES_OUT: Final = (
     "Start and stop, in which the block swings widely on its springs, and knocks of the block "
     "against the shell are not modelled; springs and discharge tube are linear and without mass, "
     "so that their own resonances are missing.",
-    "Sound and force that pass from the block to the shell through gas and oil are left out: "
-    "above some hundred hertz they can carry more than the springs.",
     "A weight on the shaft turns: it lowers the force along the stroke and makes one across it. "
     "It adds to the shaft's own counterweight, which holds the slider and a part of the piston "
     "already. The couple of an option's weights about the block's centre of mass is included, "
