@@ -55,6 +55,12 @@ def latin_hypercubes(ranges: Sequence[Range], settings: Uncertainty) -> Iterator
         yield [_draw(ranges, row) for row in sampler.random(settings.random_samples)]
 
 
+def batches_of_draws(study: Study) -> Iterator[list[Draw]]:
+    """Latin hypercubes of draws, one after another, without those that contradict themselves."""
+    for hypercube in latin_hypercubes(study.ranges, study.uncertainty):
+        yield [draw for draw in hypercube if _why_not(study, draw) is None]
+
+
 def draws_of(study: Study) -> Sample:
     """The draws of a study: those that contradict themselves are drawn anew.
 
