@@ -5,8 +5,8 @@ draw counts by its likelihood, in which the remainder is averaged over its prior
 
     w = ∫ p(r) φ((L_published - L(m + r)) / s) dr
 
-with s the standard deviation of the published level and φ the normal density; its remainder has
-the density p(r) φ(...) / w. No draw is cut off.
+with s the standard deviation of the published level and φ the normal density over its largest
+value, so that w is 1 at best; its remainder has the density p(r) φ(...) / w. No draw is cut off.
 """
 
 from collections.abc import Callable
@@ -20,6 +20,8 @@ from ..base.decibel import level_of_power, power_of_level
 
 _BELOW_DB: Final[Array] = np.linspace(-40.0, 10.0, 1001, dtype=np.float64)
 """Levels of the remainder over the published one, at which the integral is summed."""
+_THREE_DEVIATIONS: Final = float(np.exp(-4.5))
+"""φ there."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +56,7 @@ PRIORS: Final = (
 
 
 def agreement(modelled_db: Array, deviation_db: float, prior: Prior) -> Array:
-    """Weights of draws, shape (draw,), of any size; zero where nothing is known of one.
+    """Weights of draws, shape (draw,), from 0 to 1; 0 where one has no solution.
 
     Parameters
     ----------
@@ -64,7 +66,7 @@ def agreement(modelled_db: Array, deviation_db: float, prior: Prior) -> Array:
     prior : of the remainder
     """
     density = _density(modelled_db, deviation_db, prior)
-    return np.asarray(np.nan_to_num(density.sum(axis=1)))
+    return np.asarray(np.nan_to_num(density.sum(axis=1) / prior.density(_BELOW_DB).sum()))
 
 
 def remainder_level(modelled_db: Array, deviation_db: float, prior: Prior, share: Array) -> Array:
@@ -81,9 +83,13 @@ def remainder_level(modelled_db: Array, deviation_db: float, prior: Prior, share
 
 
 def effective_draws(weight: Array) -> float:
-    """Number of equal draws that would be as good: (Σ w)² / Σ w² (Kish 1965)."""
-    total = float(weight.sum())
-    return total**2 / float((weight**2).sum()) if total > 0.0 else 0.0
+    """Number of equal draws that would be as good: (Σ w)² / Σ w² (Kish 1965).
+
+    Draws that all contradict the published level alike are no good: only those within three
+    deviations of it count.
+    """
+    agree = weight[weight >= _THREE_DEVIATIONS]
+    return float(agree.sum() ** 2 / (agree**2).sum()) if agree.size else 0.0
 
 
 def _density(modelled_db: Array, deviation_db: float, prior: Prior) -> Array:

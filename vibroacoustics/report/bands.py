@@ -10,6 +10,7 @@ from ..base import rounding
 from ..base.decibel import level_of_power, power_of_level
 from ..base.quantiles import weighted_quantiles
 from ..base.vocabulary import REFERENCE_OPTION
+from ..levels.agreement import effective_draws
 from .study import catalogue_receiver, has_draws, overall_noise
 
 
@@ -158,8 +159,7 @@ class Draws(NamedTuple):
 def draws(results: xr.Dataset) -> Draws:
     """How many draws the bands rest on."""
     weight = results["bank_weight"].values[0]
-    squares = float((weight**2).sum())
-    effective = 1.0 / squares if squares else 0.0  # the weights sum up to one
+    effective = effective_draws(weight)
     if not has_draws(results):
         return Draws(weight.size, effective, 0, 0)
     levels = results["level_modelled_by_draw"].transpose("draw", ...).values

@@ -29,7 +29,7 @@ class Bank:
     draws : all of them
     modelled_db : what is modelled over the published level, shape (draw,); not a number where a
         draw has no solution
-    weight : by prior of the remainder, shape (prior, draw), of any size
+    weight : by prior of the remainder, shape (prior, draw), from 0 to 1
     wanted : how many shall be effective
     """
 
@@ -66,12 +66,10 @@ class Bank:
         """All draws, their weights, their level and their values."""
         draws = {"bank_draw": np.arange(1, len(self.draws) + 1)}
         names = {"drawn_parameter": [limits.name for limits in ranges]}
-        total = self.weight.sum(axis=1, keepdims=True)
-        weight = self.weight / np.where(total > 0.0, total, 1.0)
         values = [[draw[limits.table, limits.field] for limits in ranges] for draw in self.draws]
         priors = {"prior": [prior.name for prior in PRIORS]}
         arrays = {
-            "bank_weight": stamp("bank_weight", weight, {**priors, **draws}),
+            "bank_weight": stamp("bank_weight", self.weight, {**priors, **draws}),
             "bank_level": stamp("bank_level", self.modelled_db + published_dba, draws),
             "bank_value": stamp("bank_value", values, {**draws, **names}),
         }

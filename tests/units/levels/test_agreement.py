@@ -32,6 +32,7 @@ def test_weights_are_the_integrals_over_the_prior(prior):
     weight = agreement(modelled, DEVIATION_DB, prior)
     # a step of 0.05 dB; the edges of the flat prior lie on it
     assert weight / weight[0] == pytest.approx(np.array(exact) / exact[0], rel=5e-3)
+    assert np.all((weight > 0.0) & (weight < 1.0))
 
 
 def test_a_loud_draw_counts_less_and_one_without_solution_not_at_all():
@@ -53,7 +54,9 @@ def test_remainder_completes_a_draw_to_the_published_level():
 
 def test_effective_draws():
     assert effective_draws(np.ones(7)) == pytest.approx(7.0)
-    assert effective_draws(np.array([3.0, 0.0])) == pytest.approx(1.0)
+    assert effective_draws(np.array([0.5, 0.0])) == pytest.approx(1.0)
+    alike = agreement(np.full(5, 12.0), DEVIATION_DB, FLAT)  # all six deviations too loud
+    assert effective_draws(alike) == 0.0
     assert effective_draws(np.zeros(3)) == 0.0
 
 
