@@ -236,10 +236,10 @@ def test_no_draw_counts() -> None:
     assert_no_run(filled(results, "draw_weight", 0.0))
     unsolved = results.copy(deep=True)
     unsolved["level_total_by_draw"][0] = np.nan
-    unsolved["draw_weight"][0] = 1.0
+    unsolved["draw_weight"][:, 0] = 1.0
     assert_no_run(unsolved)
-    unsolved["draw_weight"][0] = 0.0
-    unsolved["draw_weight"][1:] = 1.0
+    unsolved["draw_weight"][:, 0] = 0.0
+    unsolved["draw_weight"][:, 1:] = 1.0
     check_run(unsolved)
 
 

@@ -11,6 +11,7 @@ from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level, sound_pressure_level
 from ..base.vocabulary import REFERENCE_OPTION, WEIGHTINGS, check, stamp
 from ..machine.source import CaseKey
+from .agreement import PRIORS
 from .axes import LevelAxes
 from .by_source import A_FIRST, SourceSound
 from .weighting import WEIGHTING
@@ -91,20 +92,22 @@ def draw_variables(
     sounds: Sequence[Mapping[CaseKey, SourceSound]],
     remaining: Array,
     remainder: Array,
+    weight: Array,
 ) -> xr.Dataset:
     """A-weighted levels of every draw.
 
-    A draw that alone is louder than the published level contradicts it and has weight 0, as has one
-    without a solution, whose levels are empty.
+    A draw without a solution has weight 0, and its levels are empty.
 
     Parameters
     ----------
     axes : of the levels
     sounds : of every case, by draw
     remaining : mean square that each draw leaves unexplained, shape (draw, speed, option), Pa²
-    remainder : the same at the published speed without an option, shape (draw,), Pa²
+    remainder : the same at the published speed without an option, shape (prior, draw), Pa²
+    weight : of the draws, shape (prior, draw)
     """
     draws: dict[str, Any] = {"draw": np.arange(1, len(sounds) + 1)}
+    by_prior = {"prior": [prior.name for prior in PRIORS], **draws}
     by_receiver = {**draws, **axes.by_receiver}
     alone = np.array([axes.gathered(sound, "alone") for sound in sounds])
     modelled = np.array([axes.gathered(sound, "part")[:, :, 0].sum(axis=2) for sound in sounds])
@@ -113,11 +116,18 @@ def draw_variables(
         "source_level_by_draw": (_level_or_none(alone), {**draws, **axes.by_source}),
         "level_modelled_by_draw": (_level_or_none(modelled), by_receiver),
         "level_total_by_draw": (_level_or_none(total), by_receiver),
-        "level_remainder_by_draw": (level(remainder), draws),
-        "draw_weight": ((remainder > 0.0).astype(float), draws),
+        "level_remainder_by_draw": (level(remainder), by_prior),
+        "draw_weight": (_of_solved(weight, modelled), by_prior),
     }
     labelled = {name: stamp(name, values, coords) for name, (values, coords) in arrays.items()}
     return check(xr.Dataset(labelled))
+
+
+def _of_solved(weight: Array, modelled: Array) -> Array:
+    """Weights that sum up to one over the draws that have a solution, shape (prior, draw)."""
+    solved = ~np.isnan(modelled).any(axis=(1, 2, 3))
+    total = (weight * solved).sum(axis=1, keepdims=True)
+    return np.asarray(weight * solved / np.where(total > 0.0, total, 1.0))
 
 
 def _level_or_none(mean_square: Array) -> Array:

@@ -8,12 +8,13 @@ import numpy as np
 from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level, power_of_level
-from ..base.errors import ParameterError, SolverError
+from ..base.errors import ParameterError
 from ..machine.machine import Machine
 from ..machine.source import CaseKey
 from ..study.draws import with_draw
 from ..study.sampling import Draw
 from ..study.study import Study
+from .agreement import PRIORS, remainder_level
 from .axes import LevelAxes
 from .bands import bands_between
 from .by_source import SourceSound
@@ -22,8 +23,6 @@ from .weighting import WEIGHTING
 
 _BANDS: Final = bands_between(3, 25.0, 10000.0)
 """Third octaves of the remainder."""
-LEAST_DRAWS: Final = 3
-"""Draws that must be left for a band."""
 
 
 def remainder(
@@ -111,28 +110,6 @@ def _a_weighted_bands(mean_square: Array, axes: LevelAxes) -> Array:
     return modelled * power_of_level(np.asarray(WEIGHTING["A"](middle_hz)))
 
 
-def remainder_by_draw(
-    study: Study, axes: LevelAxes, sounds: Sequence[Mapping[CaseKey, SourceSound]]
-) -> Array:
-    """The same of every draw, shape (draw,), Pa².
-
-    Zero where its model alone is louder, or has no solution.
-
-    Raises
-    ------
-    SolverError
-        Nearly all draws are louder, or have no solution.
-    """
-    rests = np.array([remainder(study, axes, sound, may_be_none=True) for sound in sounds])
-    rests = np.nan_to_num(rests)
-    if np.count_nonzero(rests) < LEAST_DRAWS:
-        raise SolverError(
-            f"uncertainty.random_samples: only {np.count_nonzero(rests)} of {rests.size} draws are "
-            f"below the published level, {LEAST_DRAWS} are needed; draw more, or look at the ranges"
-        )
-    return rests
-
-
 def remaining_by_draw(
     study: Study,
     axes: LevelAxes,
@@ -144,3 +121,40 @@ def remaining_by_draw(
     machines = [with_draw(study.machine, study.machine, draw) for draw in draws]
     rows = zip(sounds, machines, rests.tolist(), strict=True)
     return np.array([remaining(study, axes, *row) for row in rows])
+
+
+def over_published(
+    study: Study, axes: LevelAxes, sounds: Sequence[Mapping[CaseKey, SourceSound]]
+) -> Array:
+    """What draws model over the published level, shape (draw,), dB; not a number without solution.
+
+    Parameters
+    ----------
+    study : with the published level
+    axes : with its receiver
+    sounds : of the case of the published level, by draw
+    """
+    receiver = list(axes.receivers).index(study.catalogue_receiver)
+    square = np.array([sound[study.catalogue_case].total[0, receiver] for sound in sounds])
+    over = mean_square_level(np.nan_to_num(square), REFERENCE_PRESSURE_PA)
+    return np.where(np.isnan(square), np.nan, over - study.machine.overall_noise.level_dba)
+
+
+def remainder_by_draw(study: Study, modelled_db: Array) -> Array:
+    """One remainder of each draw by prior, drawn from what the published level leaves open, Pa².
+
+    Parameters
+    ----------
+    study : with the published level
+    modelled_db : of `over_published`
+
+    Returns
+    -------
+    shape (prior, draw)
+    """
+    published = study.machine.overall_noise
+    count = modelled_db.size
+    evenly = (np.arange(count) + 0.5) / count
+    share = np.random.default_rng(study.uncertainty.seed).permutation(evenly)
+    below = [remainder_level(modelled_db, published.deviation_db, prior, share) for prior in PRIORS]
+    return REFERENCE_PRESSURE_PA**2 * power_of_level(published.level_dba + np.array(below))

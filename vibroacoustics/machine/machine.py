@@ -35,6 +35,8 @@ class OverallNoise(Parameters):
     level_dba: Annotated[float, DATUM] = Field(ge=0.0, le=140.0)
     speed_rpm: Annotated[float, DATUM] = Field(ge=60.0, le=60000.0)
     distance_m: Annotated[float, DATUM] = Field(ge=0.1, le=20.0)
+    deviation_db: Annotated[float, DATUM] = Field(default=2.0, ge=0.1, le=10.0)
+    """Standard deviation of the level."""
 
 
 class Erratum(Parameters):

@@ -4,7 +4,7 @@ import numpy as np
 from pydantic import Field
 
 from ..base.arrays import Array
-from ..base.decibel import power_of_level
+from ..base.decibel import level_of_power, power_of_level
 from ..base.parameters import Parameters
 
 
@@ -24,7 +24,8 @@ class Remainder(Parameters):
 
     def speed_factor(self, speed_rpm: Array, published_rpm: float) -> Array:
         """Mean square at each speed over that at the speed of the published level."""
-        return power_of_level(self.speed_growth_db * np.log10(speed_rpm / published_rpm))
+        tenfold = level_of_power(speed_rpm / published_rpm) / 10.0
+        return power_of_level(self.speed_growth_db * tenfold)
 
     def spectrum(self, frequency_hz: Array) -> Array:
         """A-weighted mean square in third octaves over that at the peak."""

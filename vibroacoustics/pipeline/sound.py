@@ -1,10 +1,12 @@
 """Sound of all sources at the receivers, as given and with every draw."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from typing import Final
 
 import xarray as xr
 
+from ..base.arrays import Array
 from ..base.progress import Progress, no_progress
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.axes import LevelAxes
@@ -12,6 +14,7 @@ from ..levels.by_source import SourceSound, sound_by_source
 from ..levels.labelled import draw_variables, level_variables
 from ..levels.lines import line_pressure
 from ..levels.remainder import (
+    over_published,
     remainder,
     remainder_by_draw,
     remaining,
@@ -21,18 +24,20 @@ from ..machine.source import Case, CaseKey
 from ..radiation.pressure import pressure_per_shell_velocity, wrench_pressure
 from ..radiation.transfer_vectors import pressure_per_velocity
 from ..sources.cases import sources_of
-from ..study.draws import draws_of
+from ..study.draws import batches_of_draws
 from ..study.sampling import Draw
 from ..study.selection import at_speeds
 from ..study.study import Study
 from ..transfer.path import ShellPath
 from ..transfer.received import BySource, Transmission, by_case_and_source
 from ..transfer.study_path import projection_errors
+from ..uncertainty.bank import Bank, bank_of
 from ..uncertainty.drawn import drawn_cases
 from ..uncertainty.draws import drawn_values, errors_of_projection, of_every_draw
 from .motion import Motion, motion_of
 
 Sound = dict[CaseKey, SourceSound]
+_WEIGHED: Final = "draws at the published level"
 
 
 def levels_of(
@@ -49,8 +54,8 @@ def levels_of(
 
     Raises
     ------
-    ParameterError, SolverError
-        The model is louder than the published level, as given or in nearly every draw.
+    ParameterError
+        The model as given is louder than the published level, and nothing is drawn.
     """
     catalogue = _at_catalogue_speed(study, motion)
     transmission = _transmission(study, motion, catalogue, shell)
@@ -59,22 +64,69 @@ def levels_of(
     axes = LevelAxes.of(study, list(sources_of(study)), motion.results)
     received = transmission.received(cases, loads)
     sound = {key: sound_by_source(one, axes.bands) for key, one in received.items()}
-    draws = draws_of(study).draws
-    rest = remainder(study, axes, sound, bool(draws))
+    rest = remainder(study, axes, sound, bool(study.ranges))
     left = remaining(study, axes, sound, study.machine, rest)
     lines = line_pressure(axes, received)
     frequency = motion.results["order_frequency"]
     levels = level_variables(axes, sound, lines["pressure_line"], frequency, left, rest)
     levels = levels.merge(lines)
-    if not draws:
+    if not study.ranges:
         return levels
-    sounds = sound_of_draws(transmission, axes, cases, sound, draws, progress)
-    rests = remainder_by_draw(study, axes, sounds)
-    lefts = remaining_by_draw(study, axes, sounds, draws, rests)
-    levels = levels.merge(draw_variables(axes, sounds, lefts, rests))
-    levels = levels.merge(drawn_values(study.ranges, draws))
+    bank = _bank(transmission, axes, cases, sound, progress)
+    levels = levels.merge(bank.labelled(study.ranges, study.machine.overall_noise.level_dba))
     errors = {} if shell is None else projection_errors(study, shell)
-    return levels.merge(errors_of_projection(study.ranges, errors))
+    levels = levels.merge(errors_of_projection(study.ranges, errors))
+    if not bank.suffices:
+        return levels
+    return levels.merge(_of_draws(bank, transmission, axes, cases, sound, progress))
+
+
+def _bank(
+    transmission: Transmission,
+    axes: LevelAxes,
+    cases: Mapping[CaseKey, Case],
+    given: Sound,
+    progress: Progress,
+) -> Bank:
+    """Draws at the point of the published level, weighed by it."""
+    study = transmission.study
+    wanted, key = study.uncertainty.random_samples, study.catalogue_case
+    there, known = {key: cases[key]}, {key: given[key]}
+
+    def modelled_db(batch: list[Draw], before: int, expected: int) -> Array:
+        def done(number: int) -> None:
+            progress(_WEIGHED, before + number, expected)
+
+        sounds = sound_of_draws(transmission, axes, there, known, batch, done)
+        return over_published(study, axes, sounds)
+
+    deviation_db = study.machine.overall_noise.deviation_db
+    bank = bank_of(batches_of_draws(study), modelled_db, deviation_db, wanted)
+    progress(_WEIGHED, len(bank.draws), len(bank.draws))
+    return bank
+
+
+def _of_draws(
+    bank: Bank,
+    transmission: Transmission,
+    axes: LevelAxes,
+    cases: Mapping[CaseKey, Case],
+    given: Sound,
+    progress: Progress,
+) -> xr.Dataset:
+    """All cases with the draws that agree with the published level."""
+    study = transmission.study
+    index, weight = bank.chosen(study.uncertainty.seed)
+    draws = [bank.draws[number] for number in index]
+
+    def done(number: int) -> None:
+        progress("sources", number, len(draws))
+
+    sounds = sound_of_draws(transmission, axes, cases, given, draws, done)
+    rests = remainder_by_draw(study, bank.modelled_db[index])
+    lefts = remaining_by_draw(study, axes, sounds, draws, rests[0])
+    levels = draw_variables(axes, sounds, lefts, rests, weight)
+    return levels.merge(drawn_values(study.ranges, draws))
 
 
 def sound_of_draws(
@@ -83,7 +135,7 @@ def sound_of_draws(
     cases: Mapping[CaseKey, Case],
     given: Sound,
     draws: list[Draw],
-    progress: Progress,
+    progress: Callable[[int], None],
 ) -> list[Sound]:
     """Mean squares by source of every case, for every draw."""
     study = transmission.study
@@ -96,7 +148,7 @@ def sound_of_draws(
         )
         return {key: sound_by_source(one, axes.bands) for key, one in received.items()}
 
-    unknown = {key: one.unknown for key, one in given.items()}
+    unknown = {key: given[key].unknown for key in cases}
     return of_every_draw(draws, sound_of, unknown, progress)
 
 

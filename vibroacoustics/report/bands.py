@@ -7,9 +7,11 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
-from ..base.decibel import power_of_level
+from ..base.decibel import level_of_power, power_of_level
+from ..base.quantiles import weighted_quantiles
 from ..base.vocabulary import REFERENCE_OPTION
-from .study import has_draws
+from ..levels.agreement import effective_draws
+from .study import catalogue_receiver, has_draws, overall_noise
 
 
 class Band(NamedTuple):
@@ -37,7 +39,7 @@ QUANTILES: Final = (0.1, 0.5, 0.9)
 
 
 def quantiles(results: xr.Dataset, name: str) -> xr.DataArray:
-    """Quantiles of an A-weighted level or its change over the draws that count, (quantile, ...).
+    """Quantiles of an A-weighted level or its change over the draws, (quantile, ...).
 
     Where nothing was drawn all are the value as given.
 
@@ -52,18 +54,29 @@ def quantiles(results: xr.Dataset, name: str) -> xr.DataArray:
         given = given.sel(weighting="A", drop=True) if "weighting" in given.dims else given
         return over_draws(results, given)
     level = results[f"{name.replace('change', 'level')}_by_draw"]
+    if "prior" in level.dims:
+        level = level.isel(prior=0, drop=True)
     if name.startswith("change"):
         level = level - level.sel(option=REFERENCE_OPTION, drop=True)
     return over_draws(results, level)
 
 
-def over_draws(results: xr.Dataset, level: xr.DataArray) -> xr.DataArray:
-    """Quantiles of a level over the draws that count, (quantile, ...); itself without draws."""
+def over_draws(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> xr.DataArray:
+    """Quantiles of a level over the draws by their weights, (quantile, ...); itself without draws.
+
+    Parameters
+    ----------
+    results : with the weights
+    level : by draw
+    prior : number of the prior of the remainder
+    """
     if "draw" not in level.dims:
         return level.expand_dims(quantile=list(QUANTILES))
-    counting = level.isel(draw=results["draw_weight"].values > 0.0)
-    quantile: xr.DataArray = counting.quantile(QUANTILES, "draw")
-    return quantile
+    by_draw = level.transpose("draw", ...)
+    weight = results["draw_weight"].values[prior]
+    values = weighted_quantiles(by_draw.values, weight, QUANTILES)
+    like = by_draw.isel(draw=0, drop=True).expand_dims(quantile=list(QUANTILES))
+    return like.copy(data=values)
 
 
 def band(results: xr.Dataset, name: str, **at: Any) -> Band:
@@ -93,13 +106,65 @@ def percent(share: float) -> str:
     return f"{number}\u00a0%"
 
 
-def draws(results: xr.Dataset) -> tuple[int, int, int]:
-    """Draws that are kept, those that alone exceed the overall level, those without solution."""
-    kept = results["draw_weight"].values > 0.0
+def share_band(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> Band:
+    """Energy of a level as a share of that of the whole machine where its level is published.
+
+    Without draws of that of the published level.
+
+    Parameters
+    ----------
+    results : of a run
+    level : by draw, dB(A)
+    prior : number of the prior of the remainder
+    """
+    if not has_draws(results):
+        return Band(*map(float, over_draws(results, level).values)).share_of(
+            overall_noise(results)["level_dba"]
+        )
+    share = power_of_level(level - total_by_draw(results, prior))
+    return Band(*map(float, over_draws(results, share, prior).values))
+
+
+def total_by_draw(results: xr.Dataset, prior: int) -> xr.DataArray:
+    """Level of the whole machine without an option at the published speed, (draw,), dB(A)."""
+    at = {
+        "speed": overall_noise(results)["speed_rpm"],
+        "option": REFERENCE_OPTION,
+        "receiver": catalogue_receiver(results),
+    }
+    modelled = power_of_level(results["level_modelled_by_draw"].sel(at))
+    rest = power_of_level(results["level_total_by_draw"].sel(at)) - modelled
+    remainder = results["level_remainder_by_draw"]
+    other = power_of_level(remainder.isel(prior=prior) - remainder.isel(prior=0))
+    return level_of_power(modelled + rest * other)
+
+
+class Draws(NamedTuple):
+    """How many draws there are.
+
+    Attributes
+    ----------
+    tried : at the point of the published level
+    effective : of them, by how well they agree with it
+    computed : that went on
+    unsolved : of these, without solution
+    """
+
+    tried: int
+    effective: float
+    computed: int
+    unsolved: int
+
+
+def draws(results: xr.Dataset) -> Draws:
+    """How many draws the bands rest on."""
+    weight = results["bank_weight"].values[0]
+    effective = effective_draws(weight)
+    if not has_draws(results):
+        return Draws(weight.size, effective, 0, 0)
     levels = results["level_modelled_by_draw"].transpose("draw", ...).values
-    unsolved = np.isnan(levels).reshape(kept.size, -1).any(axis=1)
-    louder = ~kept & ~unsolved
-    return int(kept.sum()), int(louder.sum()), int(unsolved.sum())
+    unsolved = np.isnan(levels).reshape(len(levels), -1).any(axis=1).sum()
+    return Draws(weight.size, effective, len(levels), int(unsolved))
 
 
 def band_words(results: xr.Dataset) -> str:

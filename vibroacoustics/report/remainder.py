@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 
-import numpy as np
 import xarray as xr
 
 from ..base import rounding
@@ -43,8 +42,9 @@ def growth_sentence(results: xr.Dataset) -> str:
 def _at_speeds(results: xr.Dataset, growth: float, ends: tuple[float, float]) -> str:
     """`, which is +2.4 dB (2.0 to 2.8) at 3500 rpm`, of the speed that is furthest off."""
     published = overall_noise(results)["speed_rpm"]
-    furthest = max(speeds(results), key=lambda speed: abs(np.log(speed / published)))
-    decades = float(np.log10(furthest / published))
+    turning = [speed for speed in speeds(results) if speed > 0.0]
+    furthest = max(turning, key=lambda s: abs(level_of_power(s / published)), default=published)
+    decades = level_of_power(furthest / published) / 10.0
     if decades == 0.0:
         return ""
     at_ends = sorted(end * decades for end in ends)

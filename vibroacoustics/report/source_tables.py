@@ -9,12 +9,12 @@ from ..base import rounding
 from ..base.decibel import level_of_power, power_of_level
 from ..base.vocabulary import REFERENCE_OPTION
 from . import labels
-from .bands import QUANTILES, Band, band, band_words, energy_share, percent, quantiles
+from .bands import QUANTILES, Band, band, band_words, percent, quantiles, share_band
 from .comparison import column
 from .remainder import remainder_band
 from .source_changes import key_figure
-from .source_words import quoted_speed, ranked, source_name
-from .study import balancers, catalogue_receiver, options, overall_noise, speeds, words
+from .source_words import at_published, quoted_speed, ranked, source_name, source_share
+from .study import balancers, catalogue_receiver, has_draws, options, speeds, words
 from .tables import Table, to_csv
 
 
@@ -93,7 +93,7 @@ def sources_csv(results: xr.Dataset) -> bytes:
 
 
 def _source_table(results: xr.Dataset, speed: float) -> Table:
-    overall, quoted = overall_noise(results)["level_dba"], speed == quoted_speed(results)
+    quoted = speed == quoted_speed(results)
     head = [
         "Source, the loudest first",
         "Level as assumed, dB(A)",
@@ -101,52 +101,59 @@ def _source_table(results: xr.Dataset, speed: float) -> Table:
         "Share of the modelled energy, as assumed",
     ]
     if quoted:
-        head += [
-            f"Share of the energy of {overall:g} dB(A), as assumed",
-            f"The same, middle of the draws ({band_words(results)})",
-        ]
+        head.append(f"Share of the energy of the machine, middle ({band_words(results)})")
     rows = [
         _row(
             source_name(results, source).capitalize(),
             _level(results, source, speed),
             level,
-            share,
-            quoted,
-            overall,
+            percent(_at(results, "source_share", speed, sound_source=source)),
+            source_share(results, source) if quoted else None,
         )
         for source, level in ranked(results, speed)
-        for share in (percent(_at(results, "source_share", speed, sound_source=source)),)
     ]
-    modelled, total = (_at(results, name, speed) for name in ("level_modelled", "level_total"))
-    sums = (
-        ("All modelled sources", modelled, _band(results, "level_modelled", speed), "100 %"),
-        (
-            "Not modelled, the remainder",
-            _difference(total, modelled),
-            remainder_band(results, speed),
-            rounding.NOTHING,
-        ),
-        ("Whole machine", total, _band(results, "level_total", speed), rounding.NOTHING),
-    )
-    rows += [_row(*of_sum, quoted, overall) for of_sum in sums]
     caption = (
         f"{speed:g} rpm, option {REFERENCE_OPTION}, microphone {catalogue_receiver(results)}"
         + ("" if quoted else "; no overall level is published at this speed")
     )
-    return Table(caption, tuple(head), tuple(rows))
+    return Table(caption, tuple(head), (*rows, *_sum_rows(results, speed, quoted)))
+
+
+def _sum_rows(results: xr.Dataset, speed: float, quoted: bool) -> list[tuple[str, ...]]:
+    """What is modelled, what is not, and the whole machine."""
+    modelled, total = (_at(results, name, speed) for name in ("level_modelled", "level_total"))
+    of_rest = _remainder_level(results)
+    of_sums = (
+        ("level_modelled", "All modelled sources", modelled, "100 %"),
+        ("", "Not modelled, the remainder", _difference(total, modelled), rounding.NOTHING),
+        ("level_total", "Whole machine", total, rounding.NOTHING),
+    )
+    return [
+        _row(
+            words,
+            level,
+            _band(results, name, speed) if name else remainder_band(results, speed),
+            share,
+            share_band(results, at_published(results, name) if name else of_rest)
+            if quoted
+            else None,
+        )
+        for name, words, level, share in of_sums
+    ]
+
+
+def _remainder_level(results: xr.Dataset) -> xr.DataArray:
+    """Level of the remainder by draw, or as given."""
+    if not has_draws(results):
+        return results["level_remainder"]
+    return results["level_remainder_by_draw"].isel(prior=0, drop=True)
 
 
 def _row(
-    name: str, level_dba: float, drawn: Band, share: str, quoted: bool, overall_dba: float
+    name: str, level_dba: float, drawn: Band, share: str, of_machine: Band | None
 ) -> tuple[str, ...]:
     cells = (name, rounding.level(level_dba), drawn.middle_and_ends(rounding.level), share)
-    if not quoted:
-        return cells
-    return (
-        *cells,
-        percent(energy_share(level_dba, overall_dba)),
-        drawn.share_of(overall_dba).middle_and_ends(percent),
-    )
+    return cells if of_machine is None else (*cells, of_machine.middle_and_ends(percent))
 
 
 def _change_row(results: xr.Dataset, option: str, speed: float) -> tuple[str, ...]:

@@ -6,7 +6,8 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.vocabulary import DERIVED_SUPPLY, REFERENCE_OPTION
-from .bands import Band, band, band_words, draws, energy_share, percent
+from ..levels.agreement import PRIORS
+from .bands import Band, band, band_words, draws, energy_share, percent, share_band
 from .drawn_words import drawn_sentences
 from .study import (
     catalogue_receiver,
@@ -20,6 +21,7 @@ from .study import (
     words,
 )
 
+PRIOR_WORDS: Final = {prior.name: prior.words for prior in PRIORS}
 LINE_FIGURE: Final = "foot_force_2x_line_n"
 
 
@@ -47,39 +49,71 @@ def carrier_sentence(results: xr.Dataset) -> str:
     """Which source carries the modelled level, and how loud it is."""
     speed, overall = quoted_speed(results), overall_noise(results)["level_dba"]
     source, level = ranked(results, speed)[0]
-    share, assumed = level.share_of(overall), _assumed_level(results, source)
+    assumed = _assumed_level(results, source)
+    if not has_draws(results):
+        return (
+            f"At {catalogue_receiver(results)} and {speed:g} rpm, without a balancer, the loudest "
+            f"modelled source at the assumed values is: {source_name(results, source)}, "
+            f"{rounding.level(assumed)} dB(A), which is {percent(energy_share(assumed, overall))} "
+            f"of the energy of {overall:g} dB(A)."
+        )
+    share = source_share(results, source)
     return (
         f"At {catalogue_receiver(results)} and {speed:g} rpm, without a balancer, the loudest "
         f"modelled source is: {source_name(results, source)}, "
         f"{rounding.level(level.middle)} dB(A) in the middle of the draws "
         f"({band_words(results)} {level.ends(rounding.level)}) or "
-        f"{rounding.level(assumed)} dB(A) at the assumed values, which is "
-        f"{percent(share.middle)} ({share.ends(percent)}) or "
-        f"{percent(energy_share(assumed, overall))} of the energy of {overall:g} dB(A)."
+        f"{rounding.level(assumed)} dB(A) at the assumed values; {percent(share.middle)} "
+        f"({share.ends(percent)}) of the energy of the whole machine is its."
     )
 
 
 def shares_sentence(results: xr.Dataset) -> str:
-    """How much of the overall level each source accounts for."""
-    speed, overall = quoted_speed(results), overall_noise(results)["level_dba"]
-    at = {
-        "speed": speed,
-        "option": REFERENCE_OPTION,
-        "receiver": catalogue_receiver(results),
-    }
-    shares = [
-        f"{source_name(results, source)} {level.share_of(overall).middle_and_ends(percent)}"
-        for source, level in ranked(results, speed)
+    """How much of the energy of the whole machine each source accounts for, by prior."""
+    if not has_draws(results):
+        return _unresolved(results)
+    first, *others = (_shares(results, prior) for prior in range(results.sizes["prior"]))
+    published = overall_noise(results)
+    texts = [
+        f"Of the energy of the whole machine there, published as {published['level_dba']:g} dB(A) "
+        f"and taken as sure to ± {published.get('deviation_db', 2.0):g} dB, in the middle of the "
+        f"draws with the {band_words(results)} in brackets: {first}."
     ]
-    together = band(results, "level_modelled", **at).share_of(overall)
-    rest, there = band(results, "level_remainder").share_of(overall), elsewhere(results)
-    what = f"what is left of it{there}" if there else "the rest"
+    names = [PRIOR_WORDS.get(str(name), str(name)) for name in results["prior"].values]
+    texts.append(f"That holds for a remainder {names[0]}.")
+    texts += [f"For one {name}: {shares}." for name, shares in zip(names[1:], others, strict=True)]
+    return " ".join(texts)
+
+
+def _shares(results: xr.Dataset, prior: int) -> str:
+    """Shares of sources and remainder, one after another."""
+    by_source = {
+        source_name(results, source): source_share(results, source, prior)
+        for source, _ in ranked(results, quoted_speed(results))
+    }
+    shares = [f"{name} {share.middle_and_ends(percent)}" for name, share in by_source.items()]
+    modelled = share_band(results, at_published(results, "level_modelled"), prior)
+    remainder = results["level_remainder_by_draw"].isel(prior=prior)
+    rest, there = share_band(results, remainder, prior), elsewhere(results)
+    what = f"what is not modelled{there}" if there else "what is not modelled"
     return (
-        f"Of the energy of {overall:g} dB(A) there, in the middle of the draws with the "
-        f"{band_words(results)} in brackets: {'; '.join(shares)}; all modelled sources together "
-        f"{together.middle_and_ends(percent)}. Not modelled is {what}, "
-        f"{rest.middle_and_ends(percent)}."
+        f"{'; '.join(shares)}; all modelled sources together {modelled.middle_and_ends(percent)}; "
+        f"{what} {rest.middle_and_ends(percent)}"
     )
+
+
+def source_share(results: xr.Dataset, source: str, prior: int = 0) -> Band:
+    """Share of a source in the energy of the whole machine."""
+    return share_band(results, at_published(results, "source_level", source), prior)
+
+
+def at_published(results: xr.Dataset, name: str, source: str | None = None) -> xr.DataArray:
+    """A level by draw, or as given, without an option where the level is published."""
+    level = results[f"{name}_by_draw" if has_draws(results) else name]
+    at = {"option": REFERENCE_OPTION, "receiver": catalogue_receiver(results)}
+    level = level.sel(at if source is None else {**at, "sound_source": source})
+    level = level.sel(speed=quoted_speed(results))
+    return level.sel(weighting="A", drop=True) if "weighting" in level.dims else level
 
 
 def certainty_sentences(results: xr.Dataset) -> list[str]:
@@ -90,26 +124,31 @@ def certainty_sentences(results: xr.Dataset) -> list[str]:
 
 
 def left_out_sentence(results: xr.Dataset) -> str:
-    """How many draws the bands rest on, and why others do not count."""
-    if not has_draws(results):
+    """How many draws the bands rest on, and how they were weighed."""
+    if "bank_weight" not in results:
         return "No value of the sources has a range: nothing was drawn, and there are no bands."
-    kept, louder, unsolved = draws(results)
-    overall = overall_noise(results)["level_dba"]
-    failed = f" {unsolved} further draws have no solution." if unsolved else ""
-    if not louder:
-        return (
-            f"The bands rest on {kept} draws, none of which exceeds {overall:g} dB(A) "
-            f"alone{elsewhere(results)}."
-            f"{failed}"
-        )
-    tends = (
-        "; the model tends to be too loud, and the bands tell" if louder > kept else ": they tell"
-    )
+    if not has_draws(results):
+        return _unresolved(results)
+    tried, effective, computed, unsolved = draws(results)
+    failed = f" {unsolved} of them have no solution." if unsolved else ""
     return (
-        f"{louder} of {kept + louder + unsolved} draws are left out because their modelled sources "
-        f"alone exceed {overall:g} dB(A){elsewhere(results)}, which they "
-        f"cannot{tends} only what agrees with the "
-        f"published level. They rest on {kept} draws.{failed}"
+        f"{tried} draws were computed where the level is published{elsewhere(results)} and "
+        f"weighed by how well they agree with it: they are worth {effective:.0f} equal ones. "
+        f"The bands rest on {computed} of them.{failed}"
+    )
+
+
+def _unresolved(results: xr.Dataset) -> str:
+    """Why there are neither shares nor bands."""
+    if "bank_weight" not in results:
+        return "No value of the sources has a range: nothing was drawn, and there are no bands."
+    tried, effective, *_ = draws(results)
+    overall = overall_noise(results)["level_dba"]
+    louder = float((results["bank_level"] > overall).mean())
+    return (
+        f"Shares and bands are not resolved: {tried} draws, {percent(louder)} of them louder than "
+        f"the published {overall:g} dB(A) by the modelled sources alone, are worth no more than "
+        f"{effective:.1f} that agree with it. What follows holds at the assumed values only."
     )
 
 
@@ -162,7 +201,8 @@ def _as_assumed(results: xr.Dataset) -> str:
     return (
         f"At the assumed values, nothing drawn, {source_name(results, source)} alone reach "
         f"{rounding.level(value)} dB(A), {side} the band: its share is not known better than from "
-        f"{percent(level.share_of(overall).lowest)} to {percent(energy_share(value, overall))}."
+        f"{percent(source_share(results, source).lowest)} to "
+        f"{percent(energy_share(value, overall))}."
     )
 
 

@@ -27,6 +27,7 @@ OF_SEVERAL_SOURCES: Final = ("source_share", "source_band_level")
 TOGETHER: Final = (
     ("draw_weight", "source_level_by_draw", "level_modelled_by_draw", "level_total_by_draw",
      "level_remainder_by_draw"),
+    ("bank_weight", "bank_level", "bank_value"),
     ("stopping_duration", "stopping_revolutions", "stopping_shaft_speed", "stopping_force",
      "stopping_moment", "stopping_fast_level", "stopping_fast_maximum_level",
      "stopping_peak_level", "stopping_foot_force"),
@@ -52,12 +53,12 @@ ATTRIBUTES_OF: Final = {
     "sound_power_level": ("arrangement",),
 }
 EMPTY_WHERE_NONE: Final = frozenset(
-    ("reported_figure", "given_value", "projection_error", "tone_frequency", "line_order",
-     "map_level", "map_transfer_vector", "green_difference")
+    ("reported_figure", "given_value", "projection_error", "bank_level", "tone_frequency",
+     "line_order", "map_level", "map_transfer_vector", "green_difference")
 )  # fmt: skip
 """Not a number where there is nothing: an option without such a figure, a point in the machine, a
 microphone that k-Wave did not compute."""
-ONLY_DRAWS_THAT_COUNT: Final = frozenset(TOGETHER[0][1:])
+ONLY_DRAWS_THAT_COUNT: Final = frozenset(TOGETHER[0][1:-1])
 """Not a number in a draw without solution, whose weight is 0."""
 ADDED_MASS: Final = "added_mass_kg"
 """Figure that every option has."""
@@ -98,7 +99,7 @@ def check_variables(results: xr.Dataset) -> None:
         _check_dimensions(known, variable)
         _check_numbers(variable)
     for name in ONLY_DRAWS_THAT_COUNT & known.keys():
-        _check_finite(known[name].isel(draw=known["draw_weight"].values > 0.0))
+        _check_finite(known[name].isel(draw=known["draw_weight"].values[0] > 0.0))
     _check_labels(known)
 
 
@@ -164,5 +165,5 @@ def _check_labels(results: xr.Dataset) -> None:
     if not results["mode_shape"].any(("body", "dof")).all():
         raise SchemaError("mode_shape: in a mode nothing moves")
     _check_finite(results["reported_figure"].sel(figure=ADDED_MASS).rename(ADDED_MASS))
-    if "draw_weight" in results and not (results["draw_weight"].values > 0.0).any():
+    if "draw_weight" in results and not (results["draw_weight"].values[0] > 0.0).any():
         raise SchemaError("draw_weight: no draw counts")

@@ -2,7 +2,7 @@
 
 import warnings
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from operator import attrgetter
@@ -39,6 +39,13 @@ class Sample:
     def tried(self) -> int:
         """All draws, with those that were not taken."""
         return len(self.draws) + len(self.refused)
+
+
+def batches_of_draws(study: Study) -> Iterator[list[Draw]]:
+    """Latin hypercubes of draws, one after another, without those that contradict themselves."""
+    for hypercube in latin_hypercubes(study.ranges, study.uncertainty):
+        drawn = (fitting(study, plain) for plain in hypercube)
+        yield [draw for draw in drawn if _why_not(study, draw) is None]
 
 
 def draws_of(study: Study) -> Sample:

@@ -9,7 +9,6 @@ import numpy as np
 import xarray as xr
 
 from ..base.errors import ParameterError, SolverError
-from ..base.progress import Progress
 from ..base.threads import processors
 from ..base.vocabulary import check, stamp
 from ..study.sampling import Draw
@@ -22,7 +21,7 @@ def of_every_draw(
     draws: Sequence[Draw],
     compute: Callable[[Draw], Result],
     without_solution: Result,
-    progress: Progress,
+    progress: Callable[[int], None],
 ) -> list[Result]:
     """What is computed of every draw, in their order; one warning tells of draws without solution.
 
@@ -31,7 +30,7 @@ def of_every_draw(
     draws : sets of values
     compute : called with one of them, in several threads at once
     without_solution : in place of the result of a draw with which the machine cannot run
-    progress : called with the advance
+    progress : called with the number of draws that are done
     """
 
     def solved(draw: Draw) -> tuple[Result, str | None]:
@@ -42,12 +41,12 @@ def of_every_draw(
 
     results: list[Result] = []
     failures: list[str] = []
-    progress("sources", 0, len(draws))
+    progress(0)
     with ThreadPoolExecutor(processors()) as pool:  # the keys run without the interpreter's lock
         for result, failure in pool.map(solved, draws):
             results.append(result)
             failures += [] if failure is None else [failure]
-            progress("sources", len(results), len(draws))
+            progress(len(results))
     if failures:
         warnings.warn(
             f"{len(failures)} of {len(draws)} draws have no solution and are left out, such as: "

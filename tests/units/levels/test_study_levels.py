@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from vibroacoustics.base.errors import ParameterError, SolverError
+from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.levels.axes import LevelAxes
 from vibroacoustics.levels.bands import bands_between
 from vibroacoustics.levels.by_source import SourceSound
 from vibroacoustics.levels.insertion_loss import airborne_factor, remaining_share
 from vibroacoustics.levels.lines import line_pressure
 from vibroacoustics.levels.remainder import (
+    over_published,
     remainder,
-    remainder_by_draw,
     remaining,
     spectrum_left,
 )
@@ -113,8 +113,8 @@ def test_spectrum_left_sums_to_the_remainder_and_is_nowhere_negative():
         assert np.all(modelled[left == 0.0] >= factors[0] * expected[left == 0.0] * (1.0 - 1e-12))
 
 
-def test_three_draws_below_the_published_level_are_needed():
-    quiet, loud = [sound(0.25)] * 3, [sound(2.0)]
-    assert np.count_nonzero(remainder_by_draw(STUDY, AXES, [*quiet, *loud])) == 3
-    with pytest.raises(SolverError, match="only 2 of 3 draws"):
-        remainder_by_draw(STUDY, AXES, [*quiet[1:], *loud])
+def test_a_draw_is_told_over_the_published_level():
+    unsolved = {(3000.0, "none"): sound(1.0)[3000.0, "none"].unknown}
+    over = over_published(STUDY, AXES, [sound(4e-10 * 10.0**9.1), unsolved])
+    assert over[0] == pytest.approx(-3.0)
+    assert np.isnan(over[1])

@@ -10,6 +10,8 @@ _SOURCES: Final = ("speed", "option", "sound_source", "receiver")
 
 for _thing in (
     Coordinate("draw", ("draw",), "1", "random set of values"),
+    Coordinate("prior", ("prior",), "", "what is held of the remainder before"),
+    Coordinate("bank_draw", ("bank_draw",), "1", "set of values at the published level's point"),
     Coordinate("drawn_parameter", ("drawn_parameter",), "", "value that is drawn, SI unit in name"),
     Variable(
         "source_level_by_draw", ("draw", *_SOURCES), "dB", "A-weighted level of a source alone"
@@ -28,11 +30,16 @@ for _thing in (
     ),
     Variable(
         "level_remainder_by_draw",
-        ("draw",),
+        ("prior", "draw"),
         "dB",
-        "A-weighted level that the draw leaves unexplained",
+        "A-weighted level of the draw's remainder",
     ),
-    Variable("draw_weight", ("draw",), "1", "weight of the draw; 0 where it is left out"),
+    Variable(
+        "draw_weight", ("prior", "draw"), "1", "weight of the draw; 0 where it has no solution"
+    ),
+    Variable("bank_weight", ("prior", "bank_draw"), "1", "how well it agrees with the level"),
+    Variable("bank_level", ("bank_draw",), "dB", "A-weighted level of all modelled sources"),
+    Variable("bank_value", ("bank_draw", "drawn_parameter"), "", "value, SI unit in the name"),
     Variable("drawn_value", ("draw", "drawn_parameter"), "", "drawn value, SI unit in the name"),
     Variable(
         "projection_error",

@@ -1,0 +1,105 @@
+"""Draws weighed by the published level: as many as are needed, and those that go on."""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from itertools import islice
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array, IndexArray
+from ..base.vocabulary import check, stamp
+from ..levels.agreement import PRIORS, agreement, effective_draws
+from ..study.sampling import Draw
+from ..study.uncertainty import Range
+
+MOST_ROUNDS: Final = 40
+"""Of as many draws as shall be effective."""
+LEAST_SHARE: Final = 0.5
+"""Of them that must be effective for bands and shares."""
+
+
+@dataclass(frozen=True)
+class Bank:
+    """Draws computed at the point of the published level only, and how well they agree with it.
+
+    Attributes
+    ----------
+    draws : all of them
+    modelled_db : what is modelled over the published level, shape (draw,); not a number where a
+        draw has no solution
+    weight : by prior of the remainder, shape (prior, draw), from 0 to 1
+    wanted : how many shall be effective
+    """
+
+    draws: list[Draw]
+    modelled_db: Array
+    weight: Array
+    wanted: int
+
+    @property
+    def effective(self) -> float:
+        """Number of equal draws that would be as good, with the first prior."""
+        return effective_draws(self.weight[0])
+
+    @property
+    def suffices(self) -> bool:
+        """Whether bands and shares can be told from it."""
+        return self.effective >= LEAST_SHARE * self.wanted
+
+    def chosen(self, seed: int) -> tuple[IndexArray, Array]:
+        """Draws that go on, and their weights (draw,) and (prior, draw), each summing up to one.
+
+        As many as are wanted, by systematic resampling with the first prior: a draw of a large
+        weight counts several times (Kitagawa 1996, Journal of Computational and Graphical
+        Statistics 5, appendix).
+        """
+        share = np.cumsum(self.weight[0]) / self.weight[0].sum()
+        start = np.random.default_rng(seed).uniform()
+        picks = np.searchsorted(share, (np.arange(self.wanted) + start) / self.wanted)
+        index, count = np.unique(np.minimum(picks, share.size - 1), return_counts=True)
+        weight = count * self.weight[:, index] / self.weight[0, index]
+        return index, weight / weight.sum(axis=1, keepdims=True)
+
+    def labelled(self, ranges: Sequence[Range], published_dba: float) -> xr.Dataset:
+        """All draws, their weights, their level and their values."""
+        draws = {"bank_draw": np.arange(1, len(self.draws) + 1)}
+        names = {"drawn_parameter": [limits.name for limits in ranges]}
+        values = [[draw[limits.table, limits.field] for limits in ranges] for draw in self.draws]
+        priors = {"prior": [prior.name for prior in PRIORS]}
+        arrays = {
+            "bank_weight": stamp("bank_weight", self.weight, {**priors, **draws}),
+            "bank_level": stamp("bank_level", self.modelled_db + published_dba, draws),
+            "bank_value": stamp("bank_value", values, {**draws, **names}),
+        }
+        return check(xr.Dataset(arrays))
+
+
+def bank_of(
+    batches: Iterable[list[Draw]],
+    modelled_db: Callable[[list[Draw], int, int], Array],
+    deviation_db: float,
+    wanted: int,
+) -> Bank:
+    """Draws until as many as are wanted are effective, or `MOST_ROUNDS` batches are through.
+
+    Parameters
+    ----------
+    batches : of draws
+    modelled_db : of draws, how many were before them and how many are expected in all, to what is
+        modelled over the published level, shape (draw,), dB
+    deviation_db : standard deviation of the published level
+    wanted : how many shall be effective
+    """
+    bank = Bank([], np.zeros(0), np.zeros((len(PRIORS), 0)), wanted)
+    for batch in islice(batches, MOST_ROUNDS):
+        before = len(bank.draws)
+        expected = before * wanted / max(bank.effective, 1.0) if before else 2.0 * wanted
+        further = modelled_db(batch, before, max(round(expected), before + len(batch) + 1))
+        level = np.concatenate([bank.modelled_db, further])
+        weight = np.array([agreement(level, deviation_db, prior) for prior in PRIORS])
+        bank = Bank(bank.draws + batch, level, weight, wanted)
+        if bank.effective >= wanted:
+            break
+    return bank
