@@ -123,7 +123,8 @@ def rigid_motions(mesh: Mesh) -> ComplexArray:
     points = mesh.gauss[0] - [0.0, 0.0, CENTRE_OF_MASS_M]
     n_x, n_z = mesh.normal[:, 0], mesh.normal[:, 2]
     turning = mesh.mean(points[..., 2] * n_x[:, None] - points[..., 0] * n_z[:, None])
-    return mesh.moving[:, None] * np.stack([n_x, n_z, turning], axis=1).astype(complex)
+    velocity: ComplexArray = np.stack([n_x, n_z, turning], axis=1).astype(complex)
+    return np.where(mesh.moving[:, None], velocity, 0.0)
 
 
 def monopoles() -> tuple[Array, Array]:
