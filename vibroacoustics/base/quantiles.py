@@ -27,5 +27,5 @@ def weighted_quantiles(values: Array, weight: Array, shares: Sequence[float]) ->
     middle -= middle[0].copy()
     middle /= np.where(middle[-1] > 0.0, middle[-1], 1.0)
     rising = np.take_along_axis(columns, order, axis=0)
-    found = [np.interp(shares, at, of) for at, of in zip(middle.T, rising.T, strict=True)]
-    return np.transpose(found).reshape(len(shares), *values.shape[1:])
+    rows = [np.interp(shares, at, of) for at, of in zip(middle.T, rising.T, strict=True)]
+    return np.transpose(rows).reshape(len(shares), *values.shape[1:])
