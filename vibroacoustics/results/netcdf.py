@@ -11,6 +11,7 @@ import xarray as xr
 
 from ..base.errors import StorageError
 from .hashed import MAXIMUM_RESULTS_BYTES
+from .heaps import check_heaps
 
 LARGE_BYTES: Final = 20_000_000
 ESCAPED: Final = "escaped_attributes"
@@ -64,6 +65,7 @@ def from_bytes(content: bytes, path: Path) -> xr.Dataset:
         They are no netCDF.
     """
     try:
+        check_heaps(content)
         _check_size(content)
         read = _unescape_attributes(xr.load_dataset(content, engine="netcdf4"))
         return _plain_text(_join_complex(read))
