@@ -457,7 +457,7 @@ def test_value_that_cannot_be(tree, old, new, words):
 )
 def test_machine_that_cannot_be(tree, key, value, words):
     """Values that are each in range but not together."""
-    (line,) = (line for line in MACHINE.splitlines() if line.startswith(f"{key} = "))
+    line = next(line for line in MACHINE.splitlines() if line.startswith(f"{key} = "))
     message = refuse_machine(tree, line, f"{key} = {{ value = {value}, source = 'measured' }}")
     says(message, "copeland_zp41k3e.toml", *words)
 

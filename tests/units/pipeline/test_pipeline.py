@@ -23,6 +23,9 @@ OF_SOURCES = {
     "level_remainder_by_draw",
     "draw_weight",
     "drawn_value",
+    "bank_weight",
+    "bank_level",
+    "bank_value",
     "stopping_duration",
     "stopping_revolutions",
     "stopping_shaft_speed",
@@ -34,6 +37,8 @@ OF_SOURCES = {
     "stopping_peak_level",
     "stopping_foot_force",
     "stopping_order_map",
+    "stopping_brake_force",
+    "stopping_turned_back_angle",
 }
 NOT_MADE_HERE = {
     "block_velocity_order",
