@@ -6,7 +6,7 @@ The scroll with variable speed: a synchronous motor with permanent magnets in pl
 motor, which the study leaves out. Its torque by order and at the sidebands of the switching
 frequency: :doc:`/motors`.
 
-.. literalinclude:: ../pipelines/copeland_inverter.toml
+.. literalinclude:: ../../pipelines/copeland_inverter.toml
    :language: toml
    :lines: 7-9, 20-36
 """
