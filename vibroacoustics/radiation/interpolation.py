@@ -1,6 +1,8 @@
 """Transfer vectors between the tabulated frequencies."""
 
 from collections.abc import Callable
+from functools import lru_cache
+from typing import Final
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -8,6 +10,9 @@ from scipy.interpolate import CubicSpline
 from ..base.arrays import Array, ComplexArray
 from ..base.constants import SPEED_OF_SOUND_M_PER_S
 from ..base.errors import ParameterError
+
+_KEPT: Final = 16
+"""Sets of frequencies whose values are kept, as draws ask for the same ones."""
 
 Interpolant = Callable[[Array], ComplexArray]
 """Of frequencies in Hz, (m,), to Pa per unit velocity, (..., m)."""
@@ -40,11 +45,15 @@ def interpolant(tabulated_hz: Array, transfer: ComplexArray, distance_m: Array) 
         axis=-1,
     )
 
-    def at(frequency_hz: Array) -> ComplexArray:
+    @lru_cache(maxsize=_KEPT)
+    def kept(frequency: bytes) -> ComplexArray:
+        frequency_hz = np.frombuffer(frequency)
         _check_range(frequency_hz, tabulated_hz)
-        return np.asarray(spline(frequency_hz) * _trend(frequency_hz, distance_m))
+        values = np.asarray(spline(frequency_hz) * _trend(frequency_hz, distance_m))
+        values.flags.writeable = False  # all who ask share them
+        return values
 
-    return at
+    return lambda frequency_hz: kept(np.asarray(frequency_hz, dtype=np.float64).tobytes())
 
 
 def _check_range(frequency_hz: Array, tabulated_hz: Array) -> None:

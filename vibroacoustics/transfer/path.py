@@ -206,5 +206,9 @@ def pressure_per_load(
     gain = amplitude_of_level(variation.mobility_change_db)
     modes, *load, _ = forces.shape
     each = forces.reshape(modes, -1, forces.shape[-1])
-    per_load = np.moveaxis(gain * sound, -1, 0) @ np.moveaxis(each, -1, 0)  # (frequency, r, load)
-    return np.moveaxis(per_load, 0, -1).reshape(len(sound), *load, frequency_hz.size)
+    if forces.shape[-1] == 1:  # the same at all frequencies: one product
+        per_load = np.moveaxis(np.tensordot(gain * sound, each[..., 0], (1, 0)), -1, 1)
+    else:
+        by_frequency = np.moveaxis(gain * sound, -1, 0) @ np.moveaxis(each, -1, 0)
+        per_load = np.moveaxis(by_frequency, 0, -1)
+    return np.asarray(per_load.reshape(len(sound), *load, frequency_hz.size), dtype=complex)

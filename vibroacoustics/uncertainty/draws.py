@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.errors import ParameterError, SolverError
+from ..base.linear_algebra import one_thread_of_linear_algebra
 from ..base.threads import processors
 from ..base.vocabulary import check, stamp
 from ..study.sampling import Draw
@@ -42,7 +43,8 @@ def of_every_draw(
     results: list[Result] = []
     failures: list[str] = []
     progress(0)
-    with ThreadPoolExecutor(processors()) as pool:  # the keys run without the interpreter's lock
+    # The keys run without the interpreter's lock.
+    with one_thread_of_linear_algebra(), ThreadPoolExecutor(processors()) as pool:
         for result, failure in pool.map(solved, draws):
             results.append(result)
             failures += [] if failure is None else [failure]
