@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Final
 
 import numpy as np
 
@@ -11,6 +11,9 @@ from .capabilities import Capability
 from .cylinder_gas import IdealValveCycle
 from .moving_parts import derivative
 from .rotation import uniform_crank_angle
+
+FLOW_SAMPLES: Final = 4096
+"""Crank angles a revolution that sources take: the flow jumps where a valve opens."""
 
 
 @dataclass(frozen=True)

@@ -133,10 +133,8 @@ def total_by_draw(results: xr.Dataset, prior: int) -> xr.DataArray:
         "receiver": catalogue_receiver(results),
     }
     modelled = power_of_level(results["level_modelled_by_draw"].sel(at))
-    rest = power_of_level(results["level_total_by_draw"].sel(at)) - modelled
-    remainder = results["level_remainder_by_draw"]
-    other = power_of_level(remainder.isel(prior=prior) - remainder.isel(prior=0))
-    return level_of_power(modelled + rest * other)
+    rest = power_of_level(results["level_remainder_by_draw"].isel(prior=prior, drop=True))
+    return level_of_power(modelled + rest)
 
 
 class Draws(NamedTuple):

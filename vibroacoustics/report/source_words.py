@@ -57,14 +57,15 @@ def carrier_sentence(results: xr.Dataset) -> str:
             f"{rounding.level(assumed)} dB(A), which is {percent(energy_share(assumed, overall))} "
             f"of the energy of {overall:g} dB(A)."
         )
-    share = source_share(results, source)
+    shares = (source_share(results, source, prior) for prior in range(results.sizes["prior"]))
     return (
         f"At {catalogue_receiver(results)} and {speed:g} rpm, without a balancer, the loudest "
         f"modelled source is: {source_name(results, source)}, "
         f"{rounding.level(level.middle)} dB(A) in the middle of the draws "
         f"({band_words(results)} {level.ends(rounding.level)}) or "
-        f"{rounding.level(assumed)} dB(A) at the assumed values; {percent(share.middle)} "
-        f"({share.ends(percent)}) of the energy of the whole machine is its."
+        f"{rounding.level(assumed)} dB(A) at the assumed values; "
+        f"{' or '.join(share.middle_and_ends(percent) for share in shares)} of the energy of the "
+        "whole machine is its, as the prior of what is not modelled is."
     )
 
 

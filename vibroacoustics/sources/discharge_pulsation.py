@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from itertools import pairwise
-from typing import ClassVar, Final
+from typing import ClassVar
 
 import numpy as np
 
@@ -15,12 +15,9 @@ from ..machine.source import Case, Source
 from ..machine.suspension import DischargeTube
 from ..mechanics.capabilities import Capability
 from ..mechanics.loads import Loads
-from ..mechanics.valve_flows import ValvedCylinder
+from ..mechanics.valve_flows import FLOW_SAMPLES, ValvedCylinder
 from ..orders import order_spectrum
 from ..transfer.tube import tube_end_reactions, tube_stiffness
-
-FLOW_SAMPLES: Final = 4096
-"""Crank angles a revolution: the flow jumps where the discharge valve opens."""
 
 
 @register

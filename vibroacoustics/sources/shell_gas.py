@@ -14,9 +14,8 @@ from ..machine.machine import Machine
 from ..machine.source import Case, Source
 from ..mechanics.capabilities import Capability
 from ..mechanics.loads import Loads
-from ..mechanics.valve_flows import ValvedCylinder
+from ..mechanics.valve_flows import FLOW_SAMPLES, ValvedCylinder
 from ..orders import order_spectrum
-from .discharge_pulsation import FLOW_SAMPLES
 
 MODES: Final = 20
 """With one node across the axis; the last is at 60 times the first one's frequency."""
