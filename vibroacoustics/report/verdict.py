@@ -11,6 +11,7 @@ from ..base.vocabulary import REFERENCE_OPTION
 from . import labels
 from .comparison import column, comparison
 from .option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, OptionVerdict
+from .remainder import growth_sentence
 from .scores import criteria_of_advantage, scope_words
 from .shifts import (
     FOOT_FORCE,
@@ -168,7 +169,8 @@ def _remainder(results: xr.Dataset) -> str:
     )
     return (
         f"In the model {carried}. The rest, {rounding.fixed(results['level_remainder'].item(), 2)} "
-        "dB(A), comes from sources that balancing does not touch."
+        f"dB(A) at {overall_noise(results)['speed_rpm']:g} rpm, comes from sources that balancing "
+        f"does not touch. {growth_sentence(results)}"
     )
 
 
