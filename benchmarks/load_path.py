@@ -74,7 +74,7 @@ def lateral_forces(machine: Machine, path: ShellPath) -> np.ndarray:
     load = np.zeros((len(PARTS), 6))
     load[FIXED_SCROLL, [0, 4]] = 1.0, height
     load[ORBITING_SCROLL, [0, 4]] = -1.0, -height
-    forces = on_shell.forces(FREQUENCY).on_contacts @ load.ravel()
+    forces = on_shell.contact_forces(FREQUENCY) @ load.ravel()
     along_x = forces * on_shell.contacts.rigid[:, 0]
     return np.array(
         [along_x[:, on_shell.contacts.part == p].sum(axis=1) for p in range(len(PARTS))]

@@ -105,7 +105,7 @@ class ShellPath:
             A joint reaches beyond the wall.
         """
         joints = [getattr(structure, name) for name in JOINTS]
-        path = self
+        path = replace(self, structure=structure)
         if joints != [getattr(self.structure, name) for name in JOINTS]:
             path = replace(path, joint_forces=self._joint_forces(joints))
         if self.wall is not None:

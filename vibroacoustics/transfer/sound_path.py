@@ -6,10 +6,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
+from ..base.decibel import amplitude_of_level
 from ..machine.shell_structure import ShellVariation
 from ..mechanics.loads import GasFlow, Lines, Noise
 from .cavity.response import DrivenGas
-from .frame import FrameOnShell, ShellForces
+from .frame import FrameOnShell
 from .machine import MachineOnMounts
 from .path import ShellPath, pressure_per_load
 from .yoke import YokeOnWall
@@ -67,31 +68,31 @@ class BendingShell:
 
     def _per_flow(self, per_flow: ComplexArray, frequency_hz: Array) -> ComplexArray:
         """Of forces on the modes, shape (mode, frequency)."""
-        forces = self.frame.under_modal_forces(per_flow, frequency_hz) if self.frame else None
-        on_modes = forces.on_modes if forces else per_flow[:, None, None]
-        return np.asarray(self._of_forces(on_modes, forces, frequency_hz)[:, 0, 0])
+        if self.frame:
+            return self.frame.per_modal_forces(self._shell(frequency_hz), per_flow, frequency_hz)
+        return np.asarray(self._of_modes(per_flow[:, None, None], frequency_hz)[:, 0, 0])
 
     def _per_load(self, frequency_hz: Array) -> ComplexArray:
-        forces = self.frame.forces(frequency_hz) if self.frame else None
-        on_modes = forces.on_modes if forces else self.path.forces_of_parts()
-        return self._of_forces(on_modes, forces, frequency_hz)
+        if self.frame:
+            return self.frame.per_load(self._shell(frequency_hz), frequency_hz)
+        return self._of_modes(self.path.forces_of_parts(), frequency_hz)
 
-    def _of_forces(
-        self, on_modes: Array | ComplexArray, forces: ShellForces | None, frequency_hz: Array
-    ) -> ComplexArray:
-        """Pressure of the modes and, with a frame, of the shell's rigid motion."""
-        pressure = pressure_per_load(
+    def _shell(self, frequency_hz: Array) -> ComplexArray:
+        """Pressure per velocity of modes and rigid motions, (receiver, motion, frequency)."""
+        gain = amplitude_of_level(self.variation.mobility_change_db)
+        modes = gain * self.pressure_per_velocity(frequency_hz)
+        return np.concatenate([modes, self.rigid(frequency_hz)], axis=1)
+
+    def _of_modes(self, forces: Array | ComplexArray, frequency_hz: Array) -> ComplexArray:
+        """Of generalised forces, as `pressure_per_load`."""
+        return pressure_per_load(
             self.path,
             self.pressure_per_velocity(frequency_hz),
             frequency_hz,
             self.loss_factor_ratio,
             self.variation,
-            on_modes,
+            forces,
         )
-        if forces:
-            velocity = forces.rigid_velocity
-            pressure += np.einsum("rdf,dplf->rplf", self.rigid(frequency_hz), velocity)
-        return pressure
 
     def per_yoke_load(self, frequency_hz: Array) -> ComplexArray:
         """Pressure per line load around the yoke, (receiver, order around, 2, frequency).
@@ -102,15 +103,7 @@ class BendingShell:
             raise ValueError("a load around the yoke needs a machine with one")
         moves = frequency_hz > 0.0
         frequency = np.where(moves, frequency_hz, 1.0)
-        pressure = pressure_per_load(
-            self.path,
-            self.pressure_per_velocity(frequency_hz),
-            frequency,
-            self.loss_factor_ratio,
-            self.variation,
-            self.yoke.forces(frequency),
-        )
-        return np.asarray(pressure * moves)
+        return np.asarray(self._of_modes(self.yoke.forces(frequency), frequency) * moves)
 
 
 @dataclass(frozen=True)

@@ -130,14 +130,9 @@ def test_parts_of_a_frame_answer_the_gas_too(tmp_path):
     frequency = np.array([0.0, 510.0, 1010.0, 1400.0])
     count = path.natural_hz.size
     alone = velocity_per_force(path.natural_hz, path.modal_mass_kg, 0.01, frequency)
-    each = []
-    for mode in range(count):
-        unit = np.repeat(np.eye(count)[mode][:, None], frequency.size, axis=1) + 0j
-        forces = on_shell.under_modal_forces(unit, frequency)
-        each.append(alone * forces.on_modes[:, 0, 0])
-        assert forces.rigid_velocity.shape == (6, 1, 1, frequency.size)
-        assert not forces.rigid_velocity[..., 0].any()
-    mobility = np.array(each)
+    answers = answers_of_modes(on_shell, frequency)
+    mobility = answers[:, :count]
+    assert not answers[..., 0].any()
     np.testing.assert_allclose(
         mobility, mobility.swapaxes(0, 1), atol=1e-9 * np.abs(mobility).max()
     )
@@ -145,9 +140,18 @@ def test_parts_of_a_frame_answer_the_gas_too(tmp_path):
     soft = dict.fromkeys(("weld_n_per_m", "leg_n_per_m", "land_n_per_m"), 0.001)
     contacts = framed.machine.frame.contacts.model_copy(update=soft)
     loose = with_tables(framed, frame={"contacts": contacts})
-    unit = np.ones((count, frequency.size), dtype=complex)
-    free = frame_on_shell(loose.machine, path).under_modal_forces(unit, frequency)
-    np.testing.assert_allclose(free.on_modes[:, 0, 0], unit, atol=1e-6)
+    free = answers_of_modes(frame_on_shell(loose.machine, path), frequency)
+    expected = np.eye(count, count + 6)[..., None] * alone[:, None]
+    np.testing.assert_allclose(free, expected, atol=1e-6 * np.abs(alone).max())
+
+
+def answers_of_modes(on_shell, frequency_hz):
+    """Velocity of modes and rigid motions per force on each mode, (mode, motion, frequency)."""
+    count = on_shell.natural_hz.size
+    each = np.repeat(np.eye(count + 6)[..., None], frequency_hz.size, axis=-1)
+    return np.array(
+        [on_shell.per_modal_forces(each, one[:count], frequency_hz) for one in each[:count]]
+    )
 
 
 # --- bad input ---

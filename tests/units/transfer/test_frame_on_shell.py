@@ -1,4 +1,4 @@
-"""The frame in the elastic shell: conservation, reciprocity, one large system, flexibility."""
+"""The frame in the elastic shell: conservation, reciprocity, elimination, flexibility."""
 
 import numpy as np
 import pytest
@@ -10,9 +10,9 @@ from vibroacoustics.machine.frame import Frame
 from vibroacoustics.machine.shell_structure import Joint
 from vibroacoustics.mechanics.loads import PARTS
 from vibroacoustics.study.loading import load_study
-from vibroacoustics.transfer.frame import contact_forces, frame_on_shell, shell_compliance
+from vibroacoustics.transfer.frame import frame_on_shell
 from vibroacoustics.transfer.path import computed_path
-from vibroacoustics.transfer.shell_modes import elastic_shell
+from vibroacoustics.transfer.shell_modes import elastic_shell, velocity_per_force
 from vibroacoustics.transfer.shell_modes.harmonic import Harmonic
 from vibroacoustics.transfer.shell_modes.statics import WallFlexibility, local_flexibility_factor
 
@@ -46,10 +46,17 @@ def on_shell(path):
 FREQUENCY = np.array([0.0, 48.3, 517.0, 1333.0, 2900.0])
 
 
+def velocities(on_shell, frequency_hz):
+    """Of the shell's modes and then its rigid motions per load, (motion, part, 6, frequency)."""
+    count = on_shell.natural_hz.size + 6
+    each = np.repeat(np.eye(count)[..., None], frequency_hz.size, axis=-1)
+    return on_shell.per_load(each, frequency_hz)
+
+
 def motion_of_parts(on_shell, frequency_hz):
     """Freedoms per load on a part, with the shell's forces put on as loads."""
     inner, omega = on_shell.inner, 2.0 * np.pi * frequency_hz
-    forces = on_shell.forces(np.array([frequency_hz])).on_contacts[0]
+    forces = on_shell.contact_forces(np.array([frequency_hz]))[0]
     dynamic = inner.stiffness - omega**2 * inner.mass
     return np.linalg.solve(dynamic, inner.loads - inner.contacts.T @ forces), forces
 
@@ -63,7 +70,7 @@ def test_forces_on_the_shell_are_its_mass_times_its_acceleration(on_shell):
         momentum = -squares * on_shell.inner.rigid.T @ on_shell.inner.mass @ moved
         total = on_shell.contacts.rigid.T @ forces
         assert total == pytest.approx(net - momentum, abs=1e-7 * abs(momentum).max())
-        velocity = on_shell.forces(np.array([frequency])).rigid_velocity.reshape(6, -1)
+        velocity = velocities(on_shell, np.array([frequency]))[-6:].reshape(6, -1)
         together = np.linalg.solve(on_shell.machine_mass, net)
         acceleration = 2j * np.pi * frequency * velocity + together
         assert on_shell.shell_mass @ acceleration == pytest.approx(
@@ -76,51 +83,34 @@ def test_parts_answer_each_other_alike(on_shell):
     for frequency in FREQUENCY[1:]:
         moved = on_shell.inner.loads.T @ motion_of_parts(on_shell, frequency)[0]
         assert moved == pytest.approx(moved.T, abs=1e-7 * abs(moved).max())
-        shell = on_shell.compliance(np.array([frequency]))[0]
-        assert shell == pytest.approx(shell.T, abs=1e-12 * abs(shell).max())
 
 
 def test_nothing_moves_at_frequency_zero(on_shell):
-    got = on_shell.forces(FREQUENCY)
-    for array in (got.on_modes, got.rigid_velocity):
-        assert not array[..., 0].any()
+    for array in (velocities(on_shell, FREQUENCY).T, on_shell.contact_forces(FREQUENCY)):
+        assert not array[0].any()
         assert np.all(np.isfinite(array))
 
 
-def test_elimination_is_that_of_one_large_system(on_shell):
-    """Freedoms of the parts, modes and rigid motion of the shell side by side."""
+def test_natural_motions_give_what_elimination_gives(on_shell):
+    """Frequency by frequency: f = Y B q, (D + Bᵀ Y B) q = P, Y = (1 + k C)⁻¹ k."""
     inner, contacts = on_shell.inner, on_shell.contacts
-    bare = np.zeros_like(on_shell.residual)
-    shell = np.concatenate([on_shell.modal_forces.T, contacts.rigid], axis=1)
-    modes, loss = on_shell.natural_hz.size, on_shell.loss_factor_ratio
-    across = np.concatenate([inner.contacts, -shell], axis=1)
-    size, parts = across.shape[1], inner.mass.shape[0]
-    mass = np.zeros((size, size))
-    mass[:parts, :parts] = inner.mass
-    mass[parts : parts + modes, parts : parts + modes] = np.diag(on_shell.modal_mass_kg)
-    mass[parts + modes :, parts + modes :] = on_shell.shell_mass
-    stiffness = across.T @ (contacts.stiffness[:, None] * across)
-    stiffness[:parts, :parts] += inner.stiffness
-    own = on_shell.modal_mass_kg * (2.0 * np.pi * on_shell.natural_hz) ** 2 * (1.0 + 1j * loss)
-    rows = np.arange(parts, parts + modes)
-    stiffness[rows, rows] += own
-    rigid = contacts.rigid @ np.linalg.solve(on_shell.shell_mass, contacts.rigid.T)
+    held, rows = contacts.stiffness[:, None], contacts.rigid
+    loss = on_shell.loss_factor_ratio
     for frequency in FREQUENCY[1:]:
-        dynamic = stiffness - (2.0 * np.pi * frequency) ** 2 * mass
-        loads = np.concatenate([inner.loads, np.zeros((size - parts, inner.loads.shape[1]))])
-        expected = contacts.stiffness[:, None] * (across @ np.linalg.solve(dynamic, loads))
-        at = np.array([frequency])
-        compliance = shell_compliance(
-            on_shell.modal_forces,
-            on_shell.natural_hz,
-            on_shell.modal_mass_kg,
-            loss,
-            bare,
-            rigid,
-            at,
-        )
-        got = contact_forces(inner, contacts.stiffness, compliance, at)[0]
-        assert got == pytest.approx(expected, abs=1e-8 * abs(expected).max())
+        at, omega = np.array([frequency]), 2.0 * np.pi * frequency
+        modes = velocity_per_force(on_shell.natural_hz, on_shell.modal_mass_kg, loss, at)
+        compliance = on_shell.modal_forces.T @ (modes / (1j * omega) * on_shell.modal_forces)
+        compliance += on_shell.residual / (1.0 + 1j * loss)
+        compliance -= rows @ np.linalg.solve(on_shell.shell_mass, rows.T) / omega**2
+        weighted = np.eye(len(held)) + held * compliance
+        through = np.linalg.solve(weighted, held * inner.contacts)
+        dynamic = inner.stiffness - omega**2 * inner.mass + inner.contacts.T @ through
+        expected = through @ np.linalg.solve(dynamic, inner.loads)
+        got = on_shell.contact_forces(at)[0]
+        assert got == pytest.approx(expected, abs=1e-9 * abs(expected).max())
+        elastic = velocities(on_shell, at)[:-6].reshape(-1, expected.shape[1])
+        driven = modes * (on_shell.modal_forces @ expected)
+        assert elastic == pytest.approx(driven, abs=1e-9 * abs(driven).max())
 
 
 def test_steady_flexibility_is_the_sum_over_all_modes(path):

@@ -2,17 +2,13 @@
 
 from .contacts import Contacts, contacts_of
 from .inner import InnerSet, inner_set
-from .on_shell import FrameOnShell, ShellForces, frame_on_shell
-from .solve import contact_forces, shell_compliance
+from .on_shell import FrameOnShell, frame_on_shell
 
 __all__ = [
     "Contacts",
     "FrameOnShell",
     "InnerSet",
-    "ShellForces",
-    "contact_forces",
     "contacts_of",
     "frame_on_shell",
     "inner_set",
-    "shell_compliance",
 ]

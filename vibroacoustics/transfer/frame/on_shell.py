@@ -1,9 +1,11 @@
 """A machine's frame in its elastic shell: what loads on the parts do to the shell."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Final
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from ...base.arrays import Array, ComplexArray
 from ...base.errors import ParameterError
@@ -15,33 +17,16 @@ from ...mechanics.critical_speed import free_scroll_shaft
 from ...mechanics.loads import PART_COMPONENTS, PARTS
 from ...mechanics.scroll_shaft import ScrollShaft
 from ..path import ShellPath
-from ..shell_modes import modal_forces, velocity_per_force
+from ..shell_modes import modal_forces
 from ..shell_modes.loads import PatchLoads
 from ..shell_modes.projection import ProjectedModes
 from ..shell_modes.statics import local_flexibility_factor
 from .contacts import Contacts, contacts_of
 from .inner import InnerSet, inner_set
-from .solve import contact_forces, reaction_forces, shell_compliance
+from .natural import NaturalMotions, natural_motions
 
 SHAFT_ELEMENT_M: Final = 0.04
 """A sixth of the wavelength of bending at 4 kHz; cubic shapes err by 0.1 % of a frequency."""
-
-
-@dataclass(frozen=True)
-class ShellForces:
-    """What unit loads on the parts do to the shell.
-
-    Attributes
-    ----------
-    on_contacts : force at each contact, shape (frequency, contact, part times component)
-    on_modes : generalised force of each elastic mode, shape (mode, part, component, frequency)
-    rigid_velocity : of the shell as a rigid body beyond that of the machine as one, about its
-        centre of mass, shape (6, part, component, frequency), m/s and rad/s
-    """
-
-    on_contacts: ComplexArray
-    on_modes: ComplexArray
-    rigid_velocity: ComplexArray
 
 
 @dataclass(frozen=True)
@@ -73,76 +58,92 @@ class FrameOnShell:
         """Of what moves with the shell as a rigid body, shape (6, 6), kg and kg m²."""
         return self.machine_mass - self.inner.rigid_mass
 
-    def compliance(self, frequency_hz: Array) -> ComplexArray:
-        """Of the shell at its contacts, (frequency, contact, contact), m/N."""
-        rows = self.contacts.rigid
-        return shell_compliance(
-            self.modal_forces,
-            self.natural_hz,
-            self.modal_mass_kg,
-            self.loss_factor_ratio,
-            self.residual,
-            rows @ np.linalg.solve(self.shell_mass, rows.T),
-            frequency_hz,
-        )
+    @cached_property
+    def motions(self) -> NaturalMotions:
+        """Of the parts, the shell's modes and its rigid motion together; all but the machine's as
+        one rigid body."""
+        bodies = self.inner.mass, np.diag(self.modal_mass_kg), self.shell_mass
+        stretch, elastic = self._stretch, self._elastic
+        stiffness = block_diag(self.inner.stiffness, np.diag(elastic), np.zeros((6, 6)))
+        stiffness = stiffness + stretch.T @ self._held @ stretch
+        still = np.zeros((elastic.size, 6))
+        free = np.concatenate([self.inner.rigid, still, np.eye(6)])
+        return natural_motions(block_diag(*bodies), stiffness, free)
 
-    def forces(self, frequency_hz: Array) -> ShellForces:
-        """Forces on the shell per load on a part; none at frequency zero.
+    @property
+    def _elastic(self) -> ComplexArray:
+        """Stiffness of the modes, N/m."""
+        squares = (2.0 * np.pi * self.natural_hz) ** 2
+        return np.asarray(self.modal_mass_kg * squares * (1.0 + 1j * self.loss_factor_ratio))
+
+    @cached_property
+    def _stretch(self) -> Array:
+        """Of the contacts per freedom of the parts, mode and rigid motion of the shell."""
+        shell = np.concatenate([self.modal_forces.T, self.contacts.rigid], axis=1)
+        return np.concatenate([self.inner.contacts, -shell], axis=1)
+
+    @cached_property
+    def _held(self) -> ComplexArray:
+        """Force per stretch, each contact in series with the residual flexibility of the wall."""
+        wall = self.residual / (1.0 + 1j * self.loss_factor_ratio)
+        return np.asarray(np.linalg.inv(np.diag(1.0 / self.contacts.stiffness) + wall))
+
+    def contact_forces(self, frequency_hz: Array) -> ComplexArray:
+        """Forces on the shell per load on a part, (frequency, contact, part times component).
+
+        None at frequency zero.
 
         Parameters
         ----------
         frequency_hz : shape (frequency,)
         """
-        moves = frequency_hz > 0.0
-        frequency, loads = frequency_hz[moves], len(PARTS) * PART_COMPONENTS
-        on_contacts = np.zeros((moves.size, len(self.contacts.part), loads), dtype=complex)
-        on_contacts[moves] = contact_forces(
-            self.inner, self.contacts.stiffness, self.compliance(frequency), frequency
-        )
-        shape = (-1, len(PARTS), PART_COMPONENTS, moves.size)
-        on_modes = np.moveaxis(self.modal_forces @ on_contacts, 0, -1).reshape(shape)
-        together = np.tile(np.linalg.inv(self.machine_mass), len(PARTS))
-        acceleration = np.linalg.solve(self.shell_mass, self.contacts.rigid.T) @ on_contacts
-        velocity = _velocity(acceleration - together, frequency_hz)
-        return ShellForces(on_contacts, on_modes, np.moveaxis(velocity, 0, -1).reshape(shape))
+        forces = self._held @ self._stretch @ self.motions.shapes
+        answer = self.motions.per_drive(frequency_hz)
+        return np.asarray((forces * answer.T[:, None]) @ self._drives_of_parts)
 
-    def under_modal_forces(self, driven: ComplexArray, frequency_hz: Array) -> ShellForces:
-        """Forces on a shell whose modes something else drives: those, and the parts' reaction.
+    def per_load(self, pressure_per_velocity: ComplexArray, frequency_hz: Array) -> ComplexArray:
+        """Pressure per load on a part, (receiver, part, component, frequency).
+
+        None at frequency zero; without that of the machine as one rigid body.
 
         Parameters
         ----------
-        driven : generalised forces, shape (mode, frequency)
+        pressure_per_velocity : of the shell's modes and then its six rigid motions about the
+            centre of mass, shape (receiver, motion, frequency), Pa s/m and Pa s/rad
         frequency_hz : shape (frequency,)
-
-        Returns
-        -------
-        with one part and component in the place of a load's
         """
-        moves = frequency_hz > 0.0
-        frequency = frequency_hz[moves]
-        elastic = velocity_per_force(
-            self.natural_hz, self.modal_mass_kg, self.loss_factor_ratio, frequency
-        )
-        moved = self.modal_forces.T @ (elastic * driven[:, moves] / (2j * np.pi * frequency))
-        on_contacts = np.zeros((moves.size, len(self.contacts.part), 1), dtype=complex)
-        on_contacts[moves] = reaction_forces(
-            self.inner,
-            self.contacts.stiffness,
-            self.compliance(frequency),
-            frequency,
-            np.asarray(moved.T[:, :, None]),
-        )
-        on_modes = driven + (self.modal_forces @ on_contacts)[..., 0].T
-        acceleration = np.linalg.solve(self.shell_mass, self.contacts.rigid.T) @ on_contacts
-        velocity = np.moveaxis(_velocity(acceleration, frequency_hz), 0, -1)
-        return ShellForces(on_contacts, on_modes[:, None, None], velocity[:, None])
+        sound = self._sound(pressure_per_velocity, frequency_hz)
+        per_load = np.tensordot(sound, self._drives_of_parts, (1, 0))
+        shape = len(sound), len(PARTS), PART_COMPONENTS, frequency_hz.size
+        return np.asarray(np.moveaxis(per_load, -1, 1).reshape(shape))
 
+    def per_modal_forces(
+        self, pressure_per_velocity: ComplexArray, driven: ComplexArray, frequency_hz: Array
+    ) -> ComplexArray:
+        """Pressure of a shell whose modes something else drives, shape (receiver, frequency).
 
-def _velocity(acceleration: ComplexArray, frequency_hz: Array) -> ComplexArray:
-    """Over frequency, the first axis; none at frequency zero."""
-    omega = 2.0 * np.pi * frequency_hz[:, None, None]
-    moves = omega > 0.0
-    return np.asarray(np.where(moves, acceleration / (1j * np.where(moves, omega, 1.0)), 0.0))
+        Parameters
+        ----------
+        pressure_per_velocity : as for `per_load`
+        driven : generalised forces on the modes, shape (mode, frequency), N
+        frequency_hz : shape (frequency,)
+        """
+        sound = self._sound(pressure_per_velocity, frequency_hz)
+        parts = len(self.inner.mass)
+        drives = self.motions.drives[:, parts : parts + len(driven)] @ driven
+        return np.asarray(np.einsum("rnf,nf->rf", sound, drives))
+
+    def _sound(self, pressure_per_velocity: ComplexArray, frequency_hz: Array) -> ComplexArray:
+        """Pressure per drive of each natural motion, (receiver, motion, frequency)."""
+        of_shell = self.motions.shapes[len(self.inner.mass) :]
+        sound = np.moveaxis(np.tensordot(pressure_per_velocity, of_shell, (1, 0)), -1, 1)
+        velocity = 2j * np.pi * frequency_hz * self.motions.per_drive(frequency_hz)
+        return np.asarray(sound * velocity)
+
+    @property
+    def _drives_of_parts(self) -> ComplexArray:
+        """Of each natural motion per load on a part, shape (motion, part times component)."""
+        return np.asarray(self.motions.drives[:, : len(self.inner.mass)] @ self.inner.loads)
 
 
 def frame_on_shell(machine: Machine, path: ShellPath) -> FrameOnShell | None:

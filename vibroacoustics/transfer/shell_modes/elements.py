@@ -7,6 +7,7 @@ cubic along the meridian, so that bending without stretching is not locked.
 from typing import Final, NamedTuple
 
 import numpy as np
+from numpy.polynomial import polynomial
 
 from ...base.arrays import Array, IndexArray
 from ...machine.shell_structure import ShellStructure
@@ -23,7 +24,7 @@ _INNER: Final = 4
 
 Polynomials = tuple[tuple[float, ...], ...]
 _LINEAR: Final[Polynomials] = ((0.5, -0.5), (0.5, 0.5))
-_BUBBLES: Final[Polynomials] = ((1.0, 0.0, -1.0), (0.0, 1.0, 0.0, -1.0))
+_BUBBLES: Final[Polynomials] = ((1.0, 0.0, -1.0, 0.0), (0.0, 1.0, 0.0, -1.0))
 _HERMITE: Final[Polynomials] = (
     (0.5, -0.75, 0.0, 0.25),
     (0.25, -0.25, -0.25, 0.25),
@@ -88,8 +89,8 @@ def shapes(
 
 def _polynomials(coefficients: Polynomials, coordinate: Array, derivative: int) -> Array:
     """Derivatives in the element's coordinate of polynomials, shape (point, polynomial)."""
-    series = [np.polynomial.Polynomial(c).deriv(derivative) for c in coefficients]
-    return np.stack([polynomial(coordinate) for polynomial in series], axis=1)
+    derived = polynomial.polyder(np.transpose(coefficients), derivative)
+    return np.asarray(polynomial.polyval(coordinate, derived).T)
 
 
 def displacement_shapes(meridian: Meridian, element: IndexArray, coordinate: Array) -> Array:

@@ -1,6 +1,7 @@
 """Forces on the shell through the joints of internal parts."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Final, Protocol
 
 import numpy as np
@@ -105,10 +106,11 @@ def patch_factors(joint: Joint, around: Around) -> Array:
     return np.asarray(mean * np.stack([radial, radial, sideways], axis=1))
 
 
+@lru_cache(maxsize=32)
 def mean_over_band(meridian: Meridian, joint: Joint) -> Array:
     """Mean over a joint's band of the motion of each amplitude, shape (freedom, 3).
 
-    Outwards, up and around.
+    Outwards, up and around. Kept, as all orders around ask for it; not to be written to.
 
     Raises
     ------
@@ -127,6 +129,7 @@ def mean_over_band(meridian: Meridian, joint: Joint) -> Array:
     freedoms, shapes = interpolation(meridian, points)
     mean = np.zeros((freedom_count(meridian), 3))
     np.add.at(mean, freedoms, np.einsum("p,pia->pai", weights, shapes))
+    mean.flags.writeable = False
     return mean
 
 

@@ -21,7 +21,7 @@ _LEAST_ELEMENTS: Final = 3
 """Of each part of the meridian."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Meridian:
     """Conical elements from the bottom's middle up the wall to the top's middle.
 
