@@ -72,7 +72,8 @@ def levels_of(
     levels = levels.merge(lines)
     if not study.ranges:
         return levels
-    bank = _bank(transmission, axes, cases, sound, progress)
+    row, name = axes.receivers.index(study.catalogue_receiver), study.catalogue_receiver
+    bank = _bank(transmission.to(row), replace(axes, receivers=[name]), cases, sound, progress)
     levels = levels.merge(bank.labelled(study.ranges, study.machine.overall_noise.level_dba))
     errors = {} if shell is None else projection_errors(study, shell)
     levels = levels.merge(errors_of_projection(study.ranges, errors))
@@ -88,7 +89,16 @@ def _bank(
     given: Sound,
     progress: Progress,
 ) -> Bank:
-    """Draws at the point of the published level, weighed by it."""
+    """Draws at the point of the published level, weighed by it.
+
+    Parameters
+    ----------
+    transmission : to the receiver of the published level alone
+    axes : with this receiver
+    cases : with that of the published level
+    given : their sound with the values as given
+    progress : called with the advance
+    """
     study = transmission.study
     wanted, key = study.uncertainty.random_samples, study.catalogue_case
     there, known = {key: cases[key]}, {key: given[key]}

@@ -1,7 +1,7 @@
 """From the loads of every case to its sound at the receivers."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -45,6 +45,19 @@ class Transmission:
     modes: PressurePerVelocity | None
     shell: ShellPath | None
     wrench_pressure: Mapping[CaseKey, BySource]
+
+    def to(self, receiver: int) -> "Transmission":
+        """To one of the receivers alone, the dimension kept."""
+        row = slice(receiver, receiver + 1)
+        return replace(
+            self,
+            rigid=_to(self.rigid, row),
+            modes=None if self.modes is None else _to(self.modes, row),
+            wrench_pressure={
+                key: {source: pressure[row] for source, pressure in by_source.items()}
+                for key, by_source in self.wrench_pressure.items()
+            },
+        )
 
     def received(
         self,
@@ -99,6 +112,10 @@ class Transmission:
         if self.study.drives_shell:
             highest = max(highest, case.maximum_order)
         return lines_of(loads, case.shaft_frequency_hz, highest)
+
+
+def _to(pressure: PressurePerVelocity, row: slice) -> PressurePerVelocity:
+    return lambda frequency_hz: pressure(frequency_hz)[row]
 
 
 def _path_tables(machine: Machine) -> tuple[Parameters, ...]:

@@ -50,9 +50,12 @@ class BendingShell:
 
         Kept, as cases share their frequencies.
         """
-        key = frequency_hz.tobytes()
+        key = "load", frequency_hz.tobytes()
+        return self._kept(key, lambda: self._per_load(frequency_hz))
+
+    def _kept(self, key: Hashable, compute: Callable[[], ComplexArray]) -> ComplexArray:
         if key not in self._known:
-            self._known[key] = self._per_load(frequency_hz)
+            self._known[key] = compute()
         return self._known[key]
 
     def of_gas(self, flow: GasFlow, frequency_hz: Array) -> ComplexArray:
@@ -62,26 +65,32 @@ class BendingShell:
             return np.zeros((1, frequency_hz.size), dtype=complex)
         state = flow.density_kg_per_m3, flow.sound_speed_m_per_s
         key = (flow.into, *state, frequency_hz.tobytes())
-        if key not in self._known:
-            self._known[key] = self._per_flow(gas.wall_forces(*state, frequency_hz), frequency_hz)
-        return self._known[key] * flow.volume_flow
+        per_flow = self._kept(
+            key, lambda: self._per_flow(gas.wall_forces(*state, frequency_hz), frequency_hz)
+        )
+        return per_flow * flow.volume_flow
 
     def _per_flow(self, per_flow: ComplexArray, frequency_hz: Array) -> ComplexArray:
         """Of forces on the modes, shape (mode, frequency)."""
         if self.frame:
-            return self.frame.per_modal_forces(self._shell(frequency_hz), per_flow, frequency_hz)
+            sound = self._of_natural_motions(self.frame, frequency_hz)
+            return self.frame.per_modal_forces(sound, per_flow)
         return np.asarray(self._of_modes(per_flow[:, None, None], frequency_hz)[:, 0, 0])
 
     def _per_load(self, frequency_hz: Array) -> ComplexArray:
         if self.frame:
-            return self.frame.per_load(self._shell(frequency_hz), frequency_hz)
+            return self.frame.per_load(self._of_natural_motions(self.frame, frequency_hz))
         return self._of_modes(self.path.forces_of_parts(), frequency_hz)
 
-    def _shell(self, frequency_hz: Array) -> ComplexArray:
-        """Pressure per velocity of modes and rigid motions, (receiver, motion, frequency)."""
-        gain = amplitude_of_level(self.variation.mobility_change_db)
-        modes = gain * self.pressure_per_velocity(frequency_hz)
-        return np.concatenate([modes, self.rigid(frequency_hz)], axis=1)
+    def _of_natural_motions(self, frame: FrameOnShell, frequency_hz: Array) -> ComplexArray:
+        """Of shell and frame together; kept, as gas and parts drive the same ones."""
+
+        def sound() -> ComplexArray:
+            gain = amplitude_of_level(self.variation.mobility_change_db)
+            modes = gain * self.pressure_per_velocity(frequency_hz)
+            return frame.sound(np.concatenate([modes, self.rigid(frequency_hz)], 1), frequency_hz)
+
+        return self._kept(("natural motions", frequency_hz.tobytes()), sound)
 
     def _of_modes(self, forces: Array | ComplexArray, frequency_hz: Array) -> ComplexArray:
         """Of generalised forces, as `pressure_per_load`."""

@@ -50,7 +50,7 @@ def velocities(on_shell, frequency_hz):
     """Of the shell's modes and then its rigid motions per load, (motion, part, 6, frequency)."""
     count = on_shell.natural_hz.size + 6
     each = np.repeat(np.eye(count)[..., None], frequency_hz.size, axis=-1)
-    return on_shell.per_load(each, frequency_hz)
+    return on_shell.per_load(on_shell.sound(each, frequency_hz))
 
 
 def motion_of_parts(on_shell, frequency_hz):

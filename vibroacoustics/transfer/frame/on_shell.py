@@ -101,8 +101,8 @@ class FrameOnShell:
         answer = self.motions.per_drive(frequency_hz)
         return np.asarray((forces * answer.T[:, None]) @ self._drives_of_parts)
 
-    def per_load(self, pressure_per_velocity: ComplexArray, frequency_hz: Array) -> ComplexArray:
-        """Pressure per load on a part, (receiver, part, component, frequency).
+    def sound(self, pressure_per_velocity: ComplexArray, frequency_hz: Array) -> ComplexArray:
+        """Pressure per drive of each natural motion, (receiver, natural motion, frequency).
 
         None at frequency zero; without that of the machine as one rigid body.
 
@@ -112,33 +112,33 @@ class FrameOnShell:
             centre of mass, shape (receiver, motion, frequency), Pa s/m and Pa s/rad
         frequency_hz : shape (frequency,)
         """
-        sound = self._sound(pressure_per_velocity, frequency_hz)
-        per_load = np.tensordot(sound, self._drives_of_parts, (1, 0))
-        shape = len(sound), len(PARTS), PART_COMPONENTS, frequency_hz.size
-        return np.asarray(np.moveaxis(per_load, -1, 1).reshape(shape))
-
-    def per_modal_forces(
-        self, pressure_per_velocity: ComplexArray, driven: ComplexArray, frequency_hz: Array
-    ) -> ComplexArray:
-        """Pressure of a shell whose modes something else drives, shape (receiver, frequency).
-
-        Parameters
-        ----------
-        pressure_per_velocity : as for `per_load`
-        driven : generalised forces on the modes, shape (mode, frequency), N
-        frequency_hz : shape (frequency,)
-        """
-        sound = self._sound(pressure_per_velocity, frequency_hz)
-        parts = len(self.inner.mass)
-        drives = self.motions.drives[:, parts : parts + len(driven)] @ driven
-        return np.asarray(np.einsum("rnf,nf->rf", sound, drives))
-
-    def _sound(self, pressure_per_velocity: ComplexArray, frequency_hz: Array) -> ComplexArray:
-        """Pressure per drive of each natural motion, (receiver, motion, frequency)."""
         of_shell = self.motions.shapes[len(self.inner.mass) :]
         sound = np.moveaxis(np.tensordot(pressure_per_velocity, of_shell, (1, 0)), -1, 1)
         velocity = 2j * np.pi * frequency_hz * self.motions.per_drive(frequency_hz)
         return np.asarray(sound * velocity)
+
+    def per_load(self, sound: ComplexArray) -> ComplexArray:
+        """Pressure per load on a part, (receiver, part, component, frequency).
+
+        Parameters
+        ----------
+        sound : of the natural motions
+        """
+        per_load = np.moveaxis(np.tensordot(sound, self._drives_of_parts, (1, 0)), -1, 1)
+        shape = len(sound), len(PARTS), PART_COMPONENTS, sound.shape[-1]
+        return np.asarray(per_load.reshape(shape))
+
+    def per_modal_forces(self, sound: ComplexArray, driven: ComplexArray) -> ComplexArray:
+        """Pressure of a shell whose modes something else drives, shape (receiver, frequency).
+
+        Parameters
+        ----------
+        sound : of the natural motions
+        driven : generalised forces on the modes, shape (mode, frequency), N
+        """
+        parts = len(self.inner.mass)
+        drives = self.motions.drives[:, parts : parts + len(driven)] @ driven
+        return np.asarray(np.einsum("rnf,nf->rf", sound, drives))
 
     @property
     def _drives_of_parts(self) -> ComplexArray:
