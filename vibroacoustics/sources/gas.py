@@ -23,7 +23,13 @@ from .scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
 from .scroll_gas.discharge_line import discharge_line_curves
 from .scroll_gas.opened_gas import OpenedGas
 from .scroll_gas.opening import steady_opening, why_no_opening
-from .scroll_gas.parameters import ScrollGas, ScrollOpening, ScrollWraps
+from .scroll_gas.parameters import (
+    ScrollGas,
+    ScrollLeakage,
+    ScrollOpening,
+    ScrollWraps,
+    SuctionPockets,
+)
 from .scroll_gas.suction import SuctionFlow, suction_flow
 
 GAS_SAMPLES: Final = 8192
@@ -31,10 +37,13 @@ GAS_SAMPLES: Final = 8192
 step over the samples, below 1 % of the order at 4 kHz."""
 
 ORBIT_TOLERANCE: Final = 0.01
-_IN_SHELL: Final[Mapping[str, type[Parameters]]] = {
+_WITH_INERTIA: Final[Mapping[str, type[Parameters]]] = {
+    "leakage": ScrollLeakage,
+    "suction_pockets": SuctionPockets,
     DISCHARGE_DOME: DischargeDome,
     SUCTION_ANNULUS: SuctionAnnulus,
 }
+"""Tables that a machine may have, which are read where its gas has inertia."""
 
 
 @register
@@ -81,9 +90,10 @@ class ScrollGasForces(Source):
 
     def curves(self, case: Case) -> Iterable[Curve]:
         """Pressures of pockets, flows, forces and torque; see `scroll_gas_curves`."""
-        machine, opened = case.machine, opened_gas(case.machine, case.speed_rpm)
-        fills = opened is not None and machine.has_table(SuctionAnnulus)
-        filling = suction_gas(machine, case.shared, case.speed_rpm) if fills else None
+        machine, opened = case.machine, opened_gas(case.machine, case.shared, case.speed_rpm)
+        filling = None if opened is None else opened.filling
+        if opened is not None and filling is None and machine.has_table(SuctionAnnulus):
+            filling = suction_gas(machine, SuctionAnnulus, case.shared, case.speed_rpm)
         wraps, gas = machine.table(ScrollWraps), machine.table(ScrollGas)
         yield from scroll_gas_curves(wraps, gas, opened, filling)
         if opened is not None and machine.has_table(DischargeMuffler):
@@ -103,30 +113,44 @@ def _flows(case: Case, cycle: ScrollGasCycle, highest: int) -> tuple[GasFlow, ..
         flow = order_spectrum(cycle.port_flow_kg_per_s, highest) / rho
         flows.append(GasFlow(DISCHARGE_DOME, rho, sound, flow))
     if machine.has_table(SuctionAnnulus):
-        _, rho, sound = _suction_state(machine)
-        filling = suction_gas(machine, case.shared, case.speed_rpm)
+        _, rho, sound = _suction_state(machine, SuctionAnnulus)
+        filling = suction_gas(machine, SuctionAnnulus, case.shared, case.speed_rpm)
         wraps = machine.table(ScrollWraps)
         flow = order_spectrum(filling.over_crank_angle(wraps, cycle.crank_angle), highest)
         flows.append(GasFlow(SUCTION_ANNULUS, rho, sound, -flow / rho))
     return tuple(flows)
 
 
-def suction_gas(machine: Machine, shared: Shared, speed_rpm: float) -> SuctionFlow:
-    """The filling of the machine's pockets; see `suction_flow`."""
+def suction_gas(
+    machine: Machine,
+    state_in: type[SuctionAnnulus] | type[SuctionPockets],
+    shared: Shared,
+    speed_rpm: float,
+) -> SuctionFlow:
+    """The filling of the machine's pockets; see `suction_flow`.
+
+    Parameters
+    ----------
+    machine : with wraps, opening and the table with the state
+    state_in : table with the speed of sound and κ of the gas
+    shared : with what else needs it
+    speed_rpm : constant
+    """
     wraps, opening = machine.table(ScrollWraps), machine.table(ScrollOpening)
     passage = opening.gap_length_m, opening.discharge_coefficient_ratio
-    state = _suction_state(machine)
+    state = _suction_state(machine, state_in)
     return shared(
         ("suction", wraps, passage, state, speed_rpm),
         lambda: suction_flow(wraps, *passage, state, speed_rpm),
     )
 
 
-def _suction_state(machine: Machine) -> tuple[float, float, float]:
+def _suction_state(
+    machine: Machine, state_in: type[SuctionAnnulus] | type[SuctionPockets]
+) -> tuple[float, float, float]:
     """Pressure, density and speed of sound."""
-    pressure = machine.table(ScrollGas).suction_pressure_pa
-    annulus = machine.table(SuctionAnnulus)
-    return pressure, annulus.density_kg_per_m3(pressure), annulus.sound_speed_m_per_s
+    pressure, gas = machine.table(ScrollGas).suction_pressure_pa, machine.table(state_in)
+    return pressure, gas.density_kg_per_m3(pressure), gas.sound_speed_m_per_s
 
 
 def _of_frame(machine: Machine) -> tuple[float, bool]:
@@ -152,11 +176,12 @@ def gas_cycle(machine: Machine, shared: Shared, speed_rpm: float) -> ScrollGasCy
         As `steady_opening`.
     """
     wraps, gas = machine.table(ScrollWraps), machine.table(ScrollGas)
-    opening = (machine.table(ScrollOpening), speed_rpm) if gas.opens_with_inertia else ()
+    tables = (machine.table(table) for table in gas_tables(machine).values())
+    with_inertia = (*tables, speed_rpm) if gas.opens_with_inertia else ()
     return shared(
-        ("gas cycle", wraps, gas, *opening),
+        ("gas cycle", wraps, gas, *with_inertia),
         lambda: scroll_gas_cycle(
-            wraps, gas, uniform_crank_angle(GAS_SAMPLES), opened_gas(machine, speed_rpm)
+            wraps, gas, uniform_crank_angle(GAS_SAMPLES), opened_gas(machine, shared, speed_rpm)
         ),
     )
 
@@ -183,21 +208,25 @@ def gas_on_parts(machine: Machine, speed_rpm: float, angle: Array) -> Array:
     return np.asarray((1.0 - part) * loads[..., before] + part * loads[..., after])
 
 
-def opened_gas(machine: Machine, speed_rpm: float) -> OpenedGas | None:
-    """Gas of a pocket that opens with inertia; none where it opens by an angle."""
+def opened_gas(machine: Machine, shared: Shared, speed_rpm: float) -> OpenedGas | None:
+    """Gas of pockets that open with inertia; none where they open by an angle."""
     gas = machine.table(ScrollGas)
     if not gas.opens_with_inertia:
         return None
     wraps, opening = machine.table(ScrollWraps), machine.table(ScrollOpening)
-    return steady_opening(wraps, gas, opening, speed_rpm)
+    leakage = machine.table(ScrollLeakage) if machine.has_table(ScrollLeakage) else None
+    filling = None
+    if machine.has_table(SuctionPockets):
+        filling = suction_gas(machine, SuctionPockets, shared, speed_rpm)
+    return steady_opening(wraps, gas, opening, speed_rpm, leakage=leakage, filling=filling)
 
 
 def gas_tables(machine: Machine) -> Mapping[str, type[Parameters]]:
-    """Tables of a machine that its gas reads; opening, dome, annulus where it has inertia."""
+    """Tables of a machine that its gas reads; more of them where it has inertia."""
     tables: dict[str, type[Parameters]] = {"wraps": ScrollWraps, "gas": ScrollGas}
     if machine.has_table(ScrollGas) and machine.table(ScrollGas).opens_with_inertia:
         tables["opening"] = ScrollOpening
-        tables |= {name: table for name, table in _IN_SHELL.items() if machine.has_table(table)}
+        tables |= {name: table for name, table in _WITH_INERTIA.items() if machine.has_table(table)}
     return tables
 
 

@@ -77,7 +77,7 @@ def sampled(steps):
         [
             np.interp(angle, opened.since_opening, getattr(opened, field.name))
             / scale.get(field.name, GAS.discharge_pressure_pa)
-            for field in fields(opened)[1:]
+            for field in fields(opened)[1:6]
         ]
     )
 

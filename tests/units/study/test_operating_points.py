@@ -86,7 +86,12 @@ def test_a_study_draws_what_its_law_of_the_opening_reads(study):
     by_angle, by_inertia = ({limits.name for limits in one.ranges} for one in (study, inertia))
     assert by_angle - by_inertia == {"gas.equalisation_angle_rad"}
     tables = [name.partition(".")[0] for name in by_inertia - by_angle]
-    assert set(tables) == {"opening", "discharge_dome", "suction_annulus"}
+    assert set(tables) == {
+        "opening",
+        "leakage",
+        "discharge_dome",
+        "suction_annulus",
+    }
     assert tables.count("opening") == 7
     assert "gas.discharge_density_kg_per_m3" in gas_records(inertia)
     assert "gas.discharge_density_kg_per_m3" not in gas_records(study)

@@ -30,7 +30,13 @@ from ...mechanics.scroll_shaft import ScrollShaft
 from ...sources.air_gap.parameters import AirGap
 from ...sources.induction_motor.parameters import CapacitorMotor, TurningRotor
 from ...sources.oldham_keys.parameters import OldhamKeys
-from ...sources.scroll_gas.parameters import ScrollGas, ScrollOpening, ScrollWraps
+from ...sources.scroll_gas.parameters import (
+    ScrollGas,
+    ScrollLeakage,
+    ScrollOpening,
+    ScrollWraps,
+    SuctionPockets,
+)
 from ...sources.synchronous_motor.parameters import SynchronousMotor
 
 MOST_INNER_SHARE: Final = 0.95
@@ -80,6 +86,7 @@ class OldhamScroll(Machine):
         in_proportion("frame.orbiting_scroll.height_m", "orbiting_scroll.height_m"),
         in_proportion("frame.keys_radius_m", "keys.radius_m"),
         in_proportion("discharge_dome.tube_diameter_m", "opening.tube_diameter_m"),
+        in_proportion("suction_pockets.sound_speed_m_per_s", "suction_annulus.sound_speed_m_per_s"),
     )
     kinematics: Kinematics
     oldham: Ring
@@ -92,6 +99,10 @@ class OldhamScroll(Machine):
     gas: ScrollGas | None = None
     opening: ScrollOpening | None = None
     """Where a pocket opens with inertia."""
+    leakage: ScrollLeakage | None = None
+    """Between the pockets then; none where they are tight."""
+    suction_pockets: SuctionPockets | None = None
+    """Whose pressure then acts on the scrolls; none where it is that of the suction."""
     keys: OldhamKeys | None = None
     motor: CapacitorMotor | None = None
     """At its own line frequency; a study names those of its speeds."""

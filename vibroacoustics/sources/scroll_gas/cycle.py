@@ -82,6 +82,9 @@ def scroll_gas_cycle(
     two contacts of a pair has the chord 2 r_b t along the crank and 2 r_b across it. Δp is the
     pressure inside less that outside the contact at the contact angle t.
 
+    A suction pocket ends where the wraps do: its pressure over that outside acts on flanks and
+    plates from its contact to there, see `_of_suction_pockets`.
+
     A sample on the opening of a pocket counts as open. The step there lies between two samples,
     so an order is right to about the step of the force over the number of samples.
 
@@ -102,14 +105,39 @@ def scroll_gas_cycle(
     step = inner - outer
     contact = contact_angle(wraps, inner_angle)
     width = 2.0 * wraps.base_radius_m * wraps.height_m
+    forces = np.stack([
+        np.sum(width * step * contact, axis=0),
+        np.sum(width * step, axis=0),
+        np.sum(step * area_inside(wraps, contact), axis=0),
+    ])  # fmt: skip
+    if opened is not None and opened.filling is not None:
+        over = outer[0] - gas.suction_pressure_pa
+        forces += over * _of_suction_pockets(wraps, since_closing)
     return ScrollGasCycle(
         crank_angle=crank_angle,
         orbit_radius_m=wraps.orbit_radius_m,
-        tangential_force_n=np.sum(width * step * contact, axis=0),
-        radial_force_n=np.sum(width * step, axis=0),
-        axial_force_n=np.sum(step * area_inside(wraps, contact), axis=0),
+        tangential_force_n=forces[0],
+        radial_force_n=forces[1],
+        axial_force_n=forces[2],
         port_flow_kg_per_s=None if opened is None else _port_flow(wraps, opened, since_closing),
     )
+
+
+def _of_suction_pockets(wraps: ScrollWraps, since_closing: Array) -> Array:
+    """Tangential, radial and axial force per pressure over suction at the pockets' open ends, m².
+
+    From ∫ 2 r_b h t e^{jt} dt over the flanks of the two pockets, from their contacts at t_c to
+    their ends at t_e = t_c + φ; -dV/dφ of both over the orbit radius is the tangential one.
+    """
+    end = float(contact_angle(wraps, np.zeros(())))
+    cosine, sine = np.cos(since_closing), np.sin(since_closing)
+    width = 2.0 * wraps.base_radius_m * wraps.height_m
+    moved = 2.0 * wraps.base_radius_m * wraps.orbit_radius_m * (1.0 - cosine - end * sine)
+    return np.stack([
+        width * (end * cosine - sine),
+        width * (cosine + end * sine),
+        area_inside(wraps, np.asarray(end)) + moved,
+    ])  # fmt: skip
 
 
 def _port_flow(wraps: ScrollWraps, opened: OpenedGas, since_closing: Array) -> Array:

@@ -1,6 +1,7 @@
 """The opening of a pocket: pressures and flow of the gas over a turn, in its steady course."""
 
 import math
+from collections.abc import Callable
 from typing import Final
 
 import numpy as np
@@ -15,6 +16,7 @@ from .chambers import (
     pair_volume_m3,
     swept_volume_m3,
 )
+from .leakage import LeakingPockets, TightPockets
 from .opened_gas import OpenedGas
 from .opening_equations import (
     CHAMBER,
@@ -26,8 +28,9 @@ from .opening_equations import (
     density,
     one_turn,
 )
-from .parameters import ScrollGas, ScrollOpening, ScrollWraps
+from .parameters import ScrollGas, ScrollLeakage, ScrollOpening, ScrollWraps
 from .pressures import built_in_pressure_pa
+from .suction import SuctionFlow
 
 STEPS: Final = 8192
 """A turn at least; 200 000 change no pressure by more than 1e-6 of the discharge pressure."""
@@ -95,6 +98,8 @@ def steady_opening(
     opening: ScrollOpening,
     speed_rpm: float,
     steps: int | None = None,
+    leakage: ScrollLeakage | None = None,
+    filling: SuctionFlow | None = None,
 ) -> OpenedGas:
     """Pressures and flows over a turn that repeats.
 
@@ -105,6 +110,8 @@ def steady_opening(
     opening : passages and volumes
     speed_rpm : constant
     steps : of a turn, an even number; none for as many as the gas needs
+    leakage : gaps between the pockets; none where they are tight
+    filling : of the suction pockets; none where they are at the suction pressure
 
     Raises
     ------
@@ -115,29 +122,60 @@ def steady_opening(
     """
     constants = opening_constants(wraps, gas, opening, speed_rpm)
     steps = steps or STEPS * math.ceil(STEPS_PER_S / shaft_frequency_hz(speed_rpm) / STEPS)
-    states = _steady_turn(constants, built_in_pressure_pa(wraps, gas), steps)
+    pockets: TightPockets | LeakingPockets = TightPockets(wraps, gas, filling)
+    if leakage is not None:
+        pockets = LeakingPockets(wraps, gas, leakage, constants, filling)
+    states = _steady_turn(constants, pockets, _opening_pair(wraps, gas, constants), steps)
     angle = np.linspace(0.0, 2.0 * np.pi, steps + 1, dtype=np.float64)
+    flows = states[GAP_FLOW], states[PORT_FLOW]
     return OpenedGas(
-        angle, states[PAIR], states[CHAMBER], states[PLENUM], states[GAP_FLOW], states[PORT_FLOW]
+        angle, states[PAIR], states[CHAMBER], states[PLENUM], *flows, pockets.trapped(), filling
     )
 
 
-def _steady_turn(constants: OpeningConstants, opens_at_pa: float, steps: int) -> Array:
+def _opening_pair(
+    wraps: ScrollWraps, gas: ScrollGas, constants: OpeningConstants
+) -> Callable[[float], tuple[float, float]]:
+    """Pressure and mass of a pair that opens, of the mass over that without leakage."""
+    built_in = built_in_pressure_pa(wraps, gas)
+    volume = float(pair_volume_m3(wraps, np.zeros(())))
+
+    def opening_pair(ratio: float) -> tuple[float, float]:
+        pressure = built_in * ratio**gas.polytropic_index
+        return pressure, volume * density(pressure, constants)
+
+    return opening_pair
+
+
+def _steady_turn(
+    constants: OpeningConstants,
+    pockets: TightPockets | LeakingPockets,
+    opening_pair: Callable[[float], tuple[float, float]],
+    steps: int,
+) -> Array:
     """States of the turn that ends as it began, but for the pair, which is a new one.
 
-    Every second turn what is left of the change is taken as a geometric series (Irons and Tuck
-    1969): the plenum empties slowly.
+    Each turn of the closed pockets follows one of the opened gas, whose leak and mean flow are then
+    those of the next. Every second turn what is left of the change is taken as a geometric series
+    (Irons and Tuck 1969): the plenum empties slowly.
     """
     size = np.array([constants.pressure, constants.pressure, constants.mean_flow])
     kept = [CHAMBER, PLENUM, PORT_FLOW]
-    start = np.array([opens_at_pa, *size[:2], 0.0, size[2]])
-    before = None
+    start = np.array([0.0, *size[:2], 0.0, size[2]])
+    frequency, half_steps = constants.angular_speed / (2.0 * np.pi), np.arange(2 * steps + 1)
+    before, beside = None, pockets.first
     for _ in range(MOST_TURNS):
-        states = one_turn(start, steps, constants)
+        start[PAIR], mass = opening_pair(beside.opens_with)
+        at = np.linspace(0.0, 2.0 * steps, beside.leak_kg_per_s.size)
+        mean = mass * frequency - float(beside.leak_kg_per_s[:-1].mean())
+        leak = np.interp(half_steps, at, beside.leak_kg_per_s)
+        states = one_turn(start, steps, leak, constants._replace(mean_flow=mean))
         change = (states[kept, -1] - states[kept, 0]) / size
         if not np.all(np.isfinite(change)):
             break
-        if np.abs(change).max() < REPEATED:
+        last, beside = beside, pockets.turn(states[PAIR])
+        settles = abs(beside.opens_with - last.opens_with)
+        if max(np.abs(change).max(), settles) < REPEATED:
             return states
         start[kept] = states[kept, -1]
         if before is None:

@@ -80,7 +80,7 @@ def flow_rise(
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def opening_rate(
-    angle: float, joined: bool, state: Array, c: OpeningConstants, rate: Array
+    angle: float, joined: bool, state: Array, leak: float, c: OpeningConstants, rate: Array
 ) -> None:
     """Change of a state per radian, into `rate`.
 
@@ -89,6 +89,7 @@ def opening_rate(
     angle : crank angle since the opening, 0 to 2π, rad
     joined : pair and chamber are one, with the pressure of the chamber
     state : shape (5,)
+    leak : out of the pair, later out of the chamber, to the pockets outside, kg/s
     c : constants
     rate : shape (5,); it is changed
     """
@@ -98,14 +99,14 @@ def opening_rate(
     ends_at = (c.outer_contact if joined else c.inner_contact) - angle
     volume = c.chamber_volume + 0.5 * c.swept_volume * (ends_at**2 - c.inner_contact**2)
     swelling = -c.swept_volume * ends_at * c.angular_speed
-    rate[CHAMBER] = pressure_rise(
-        chamber, chamber_density, volume, swelling, through_gap - through_port, c
-    )
+    inflow = through_gap - through_port - (leak if joined else 0.0)
+    rate[CHAMBER] = pressure_rise(chamber, chamber_density, volume, swelling, inflow, c)
     rate[PAIR], rate[GAP_FLOW] = rate[CHAMBER], 0.0
     if not joined:
         around = 2.0 * np.pi * c.swept_volume
         volume, rho = around * (c.outer_contact - np.pi - angle), density(pair, c)
-        rate[PAIR] = pressure_rise(pair, rho, volume, -around * c.angular_speed, -through_gap, c)
+        out = through_gap + leak
+        rate[PAIR] = pressure_rise(pair, rho, volume, -around * c.angular_speed, -out, c)
         area = c.gap_area * (1.0 - np.cos(angle))
         rho = rho if through_gap > 0.0 else chamber_density
         rate[GAP_FLOW] = flow_rise(through_gap, pair - chamber, rho, area, c.gap_length, c)
@@ -132,13 +133,14 @@ def join(state: Array, c: OpeningConstants) -> None:
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def one_turn(start: Array, steps: int, c: OpeningConstants) -> Array:
+def one_turn(start: Array, steps: int, leak: Array, c: OpeningConstants) -> Array:
     """States over a turn from an opening, by classical Runge-Kutta steps of fourth order.
 
     Parameters
     ----------
     start : shape (5,)
     steps : of the turn, an even number
+    leak : out of pair and chamber at half steps, shape (2 steps + 1,), kg/s
     c : constants
 
     Returns
@@ -155,8 +157,9 @@ def one_turn(start: Array, steps: int, c: OpeningConstants) -> Array:
         for n in range(STATES):
             trial[n] = state[n]
         for stage in range(4):
-            lead = 0.0 if stage == 0 else (step if stage == 3 else 0.5 * step)
-            opening_rate(number * step + lead, joined, trial, c, rate)
+            half = 0 if stage == 0 else (2 if stage == 3 else 1)
+            angle, lost = number * step + 0.5 * half * step, leak[2 * number + half]
+            opening_rate(angle, joined, trial, lost, c, rate)
             weight = step / (3.0 if stage in (1, 2) else 6.0)
             reach = step if stage == 2 else 0.5 * step
             for n in range(STATES):

@@ -138,3 +138,29 @@ class ScrollOpening(Parameters):
     plenum_volume_m3: float = Field(ge=1e-5, le=0.1)
     tube_diameter_m: float = Field(ge=2e-3, le=0.2)
     """Inner, of the discharge tube."""
+
+
+class ScrollLeakage(Parameters):
+    """Gaps through which gas flows back from pocket to pocket, for the law `inertia`."""
+
+    tip_gap_m: float = Field(ge=0.0, le=1e-3)
+    """Between the tip of a wrap and the plate of the other scroll."""
+    flank_gap_m: float = Field(ge=0.0, le=1e-3)
+    """Between two flanks at their contact."""
+    flow_ratio: float = Field(gt=0.0, le=1.0)
+    """Of the flow without losses through either gap."""
+
+
+class SuctionPockets(Parameters):
+    """Gas that fills the suction pockets with inertia, for the law `inertia` of the opening.
+
+    Its passages are those of `ScrollOpening`, whose gap is at the other end of the wraps.
+    """
+
+    sound_speed_m_per_s: float = Field(ge=50.0, le=2000.0)
+    stiffness_exponent_ratio: float = Field(gt=1.0, le=2.0)
+    """κ = ρ c²/p of the gas, which gives its density at the suction pressure."""
+
+    def density_kg_per_m3(self, pressure_pa: float) -> float:
+        """ρ = κ p/c²."""
+        return self.stiffness_exponent_ratio * pressure_pa / self.sound_speed_m_per_s**2

@@ -22,7 +22,8 @@ def pocket_pressure(
     p = p_s (V_s/V)^n (thesis 6.1, Appendix A) until the pocket opens. Then, without `opened`, its
     pressure becomes that of the discharge, from above (over-compression) or from below
     (under-compression), along half a cosine over the equalisation angle: the gap grows from
-    nothing. With it, it is that of the opened pair for a turn, of the chamber inside from then on.
+    nothing. With it, it is that of the opened pair for a turn, of the chamber inside from then on,
+    and before, where these are given, that of trapped gas that leaks and of a pocket that fills.
 
     Parameters
     ----------
@@ -32,9 +33,10 @@ def pocket_pressure(
     opened : gas after the opening, of the law `inertia`
     """
     since_opening = angle_since_closing - wraps.opening_angle_rad + OPENED_BEFORE
-    compressed = _compressed_pa(wraps, gas, angle_since_closing)
+    compressed = polytropic_pressure_pa(wraps, gas, angle_since_closing)
     if opened is None:
         return _over_equalisation_angle(gas, compressed, np.maximum(since_opening, 0.0))
+    compressed = _before_opening(gas, angle_since_closing, compressed, opened)
     in_turn = np.mod(since_opening, 2.0 * np.pi)
     pair, chamber = (
         np.interp(in_turn, opened.since_opening, pressure)
@@ -46,11 +48,25 @@ def pocket_pressure(
 
 def built_in_pressure_pa(wraps: ScrollWraps, gas: ScrollGas) -> float:
     """Pressure in a pocket just before it opens, Pa."""
-    return float(_compressed_pa(wraps, gas, np.asarray(wraps.opening_angle_rad)))
+    return float(polytropic_pressure_pa(wraps, gas, np.asarray(wraps.opening_angle_rad)))
 
 
-def _compressed_pa(wraps: ScrollWraps, gas: ScrollGas, angle_since_closing: Array) -> Array:
-    """Polytropic pressure from the closing, constant after the opening, Pa."""
+def _before_opening(
+    gas: ScrollGas, angle_since_closing: Array, compressed: Array, opened: OpenedGas
+) -> Array:
+    """Pressure in closed pockets that leak, in suction pockets that fill, Pa."""
+    trapped, filling = opened.trapped, opened.filling
+    if trapped is not None:
+        ratio = np.interp(angle_since_closing, trapped.since_closing, trapped.mass_ratio)
+        closed = angle_since_closing >= 0.0
+        compressed = np.where(closed, compressed * ratio**gas.polytropic_index, compressed)
+    if filling is not None:
+        compressed = filling.pocket_pressure_pa(angle_since_closing, compressed)
+    return compressed
+
+
+def polytropic_pressure_pa(wraps: ScrollWraps, gas: ScrollGas, angle_since_closing: Array) -> Array:
+    """Of a pocket that neither leaks nor fills with inertia, constant after the opening, Pa."""
     volume = pocket_volume(wraps, np.clip(angle_since_closing, 0.0, wraps.opening_angle_rad))
     ratio = pocket_volume(wraps, np.zeros(())) / volume
     return np.asarray(gas.suction_pressure_pa * ratio**gas.polytropic_index)

@@ -47,6 +47,19 @@ class SuctionFlow:
         since_closing = np.mod(crank_angle - wraps.closing_crank_angle_rad, 2.0 * np.pi)
         return np.asarray(np.interp(since_closing, self.since_closing, self.flow_kg_per_s))
 
+    def pocket_pressure_pa(self, angle_since_closing: Array, otherwise: Array | float) -> Array:
+        """Pressure in the turn before a pocket closes, elsewhere that given, Pa.
+
+        Parameters
+        ----------
+        angle_since_closing : crank angle since its closing, negative before, any shape, rad
+        otherwise : pressure earlier and later
+        """
+        since_begin = angle_since_closing + 2.0 * np.pi
+        filling = np.interp(since_begin, self.since_closing, self.pocket_pa)
+        fills = (since_begin >= 0.0) & (angle_since_closing < 0.0)
+        return np.asarray(np.where(fills, filling, otherwise))
+
 
 class FillingConstants(NamedTuple):
     """Constants of the equations in SI units; see `OpeningConstants`."""

@@ -1,0 +1,140 @@
+"""Gas of closed pairs of pockets that leak into one another, over a turn from an opening.
+
+Pair 0 has opened; pair j is j turns younger, and across its outer contacts gas flows to pair j + 1.
+A pair that has not closed yet fills from the suction.
+"""
+
+from typing import Final, NamedTuple
+
+import numba
+import numpy as np
+
+from ...base.arrays import Array
+
+ALMOST: Final = 1e-12
+"""Of κ - 1, below which a gas counts as isothermal."""
+
+
+class LeakingPairs(NamedTuple):
+    """Pairs over the crank angle since the opening of pair 0, at half steps.
+
+    Courses run from `pairs` + 1 turns before an opening to it, those of contacts a turn further.
+    """
+
+    pairs: int
+    """Closed ones at most."""
+    steps: int
+    """Of a turn."""
+    closes_at: float
+    """Half step at which a pair closes; before, the base pressure is that of suction pockets."""
+    base_pa: Array
+    """Pressure without leakage."""
+    volume_m3: Array
+    """Of both pockets."""
+    area_m2: Array
+    """Of the gaps at the outer contacts, with their losses; zero before the pair has closed."""
+    polytropic_index: float
+    suction_density: float
+    isentropic_exponent: float
+    """κ of the flow through the gaps."""
+    angular_speed: float
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def nozzle_flow(inside: float, outside: float, inner: float, outer: float, kappa: float) -> float:
+    """Isentropic flow through a nozzle, kg/(s m²); negative from outside to inside.
+
+    m/A = ρ x √(2 κ/(κ-1) p/ρ (1 - r/x)), x = r^(1/κ), with p and ρ upstream and the pressure ratio
+    r no lower than the critical (2/(κ+1))^(κ/(κ-1)) (Saint-Venant and Wantzel 1839).
+
+    Parameters
+    ----------
+    inside, outside : pressures, Pa
+    inner, outer : densities there, kg/m³
+    kappa : isentropic exponent
+    """
+    forward = inside >= outside
+    high, low, density = (inside, outside, inner) if forward else (outside, inside, outer)
+    power = (kappa - 1.0) / kappa
+    if abs(kappa - 1.0) < ALMOST:
+        fall = min(np.log(high / low), 0.5)
+        work = fall
+    else:
+        critical = np.log((kappa + 1.0) / 2.0) / power
+        fall = min(np.log(high / low), critical)
+        work = -np.expm1(-power * fall) / power
+    flow = density * np.exp(-fall / kappa) * np.sqrt(2.0 * high / density * work)
+    return float(flow if forward else -flow)
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def leaks_at(
+    half: int, ratio: Array, mass: float, opened: tuple[float, float], p: LeakingPairs, leak: Array
+) -> None:
+    """Flow across the outer contacts of each pair into `leak`, kg/s.
+
+    Parameters
+    ----------
+    half : half steps since the opening
+    ratio : masses of the pairs 1 to `pairs`, over `mass`
+    mass : of a pair without leakage, kg
+    opened : pressure and density of pair 0
+    p : pairs
+    leak : shape (pairs + 1,); it is changed
+    """
+    inside, inner = opened
+    for j in range(p.pairs + 1):
+        at = (p.pairs - j) * 2 * p.steps + half
+        outside, outer = p.base_pa[at], p.suction_density
+        if at >= p.closes_at:
+            outside *= ratio[j] ** p.polytropic_index
+            outer = ratio[j] * mass / p.volume_m3[at]
+        area = p.area_m2[at + 2 * p.steps]
+        leak[j] = 0.0
+        if area > 0.0:
+            flow = nozzle_flow(inside, outside, inner, outer, p.isentropic_exponent)
+            leak[j] = area * flow
+        inside, inner = outside, outer
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def leaking_turn(
+    start: Array, mass: float, opened_pa: Array, opened_density: Array, p: LeakingPairs
+) -> tuple[Array, Array]:
+    """Masses of the pairs and flows between them over a turn, by Runge-Kutta steps.
+
+    Parameters
+    ----------
+    start : masses of the pairs 1 to `pairs` at the opening, over `mass`
+    mass : of a pair without leakage, kg
+    opened_pa, opened_density : of pair 0 at half steps, shape (2 steps + 1,)
+    p : pairs
+
+    Returns
+    -------
+    ratios, leaks : shapes (pairs, steps + 1) and (pairs + 1, steps + 1); leaks in kg/s
+    """
+    ratios, leaks = np.empty((p.pairs, p.steps + 1)), np.empty((p.pairs + 1, p.steps + 1))
+    state, trial, rate = start.copy(), start.copy(), np.zeros(p.pairs)
+    leak, step = np.empty(p.pairs + 1), 2.0 * np.pi / p.steps
+    ratios[:, 0] = start
+    for number in range(p.steps):
+        trial[:] = state
+        for stage in range(4):
+            half = 2 * number + (0 if stage == 0 else (2 if stage == 3 else 1))
+            leaks_at(half, trial, mass, (opened_pa[half], opened_density[half]), p, leak)
+            if stage == 0:
+                leaks[:, number] = leak
+            weight = step / (3.0 if stage in (1, 2) else 6.0)
+            reach = step if stage == 2 else 0.5 * step
+            for j in range(p.pairs):
+                since = (p.pairs - j) * 2 * p.steps + 2 * (number + 1) - p.closes_at
+                closed = min(max(0.5 * since, 0.0), 1.0)  # of this step
+                rate[j] = closed * (leak[j] - leak[j + 1]) / (mass * p.angular_speed)
+                trial[j] = ratios[j, number] + reach * rate[j]
+                state[j] += weight * rate[j]
+        ratios[:, number + 1] = state
+    last = 2 * p.steps
+    leaks_at(last, state, mass, (opened_pa[last], opened_density[last]), p, leak)
+    leaks[:, p.steps] = leak
+    return ratios, leaks
