@@ -12,6 +12,12 @@ import numpy as np
 from ...base.arrays import ComplexArray
 from ...base.errors import ParameterError
 from .parameters import SynchronousMotor
+from .saliency import (
+    fundamental_voltage_v,
+    held_current_a,
+    pair_currents,
+    reluctance_torque,
+)
 
 LARGEST_MODULATION = {"sine": 1.0, "space-vector": 2.0 / np.sqrt(3.0)}
 """Of a carrier period that the reference may fill."""
@@ -41,15 +47,15 @@ class OperatingPoint:
 def operating_point(
     motor: SynchronousMotor, speed_rad_per_s: float, torque_n_m: float
 ) -> OperatingPoint:
-    """Currents that carry a mean torque: I_k = (V_k - E_k)/(R + jkωL) of each harmonic k > 1.
+    """Currents that carry a mean torque.
 
-    V_k is the voltage of the dead time; the fundamental is what is left of the mean torque
-    3/(2Ω) Σ E_k Re I_k.
+    Those of a harmonic k > 1 are (V_k - E_k)/(R + jkωL), in pairs where the rotor is salient, with
+    V_k the voltage of the dead time; the fundamental makes what is left of the mean torque.
 
     Raises
     ------
     ParameterError
-        The inverter has not the voltage.
+        The inverter has not the voltage, or the motor not the torque.
     """
     electrical = motor.pole_pairs * speed_rad_per_s
     emf = {
@@ -57,15 +63,22 @@ def operating_point(
         for k, ratio in motor.emf_ratios.items()
     }
     lost = dead_time_voltage_v(motor)
-
-    def impedance(k: int) -> complex:
-        return motor.phase_resistance_ohm + 1j * k * electrical * motor.phase_inductance_h
-
-    current = {k: (lost[k] - emf[k]) / impedance(k) for k in emf if k > 1}
-    harmonic_power = sum((emf[k] * current[k]).real for k in current)
-    power = torque_n_m * speed_rad_per_s / 1.5
-    current = {1: complex((power - harmonic_power) / emf[1].real), **current}
-    voltage = emf[1] + impedance(1) * current[1]
+    current: dict[int, complex] = {}
+    for k in (7, 13):
+        waves = [(lost[m] - emf[m], m * electrical) for m in (k, k - 2)]
+        current[k], current[k - 2] = pair_currents(motor, *waves)
+    by_harmonics = torque_harmonics(emf, current, speed_rad_per_s, 0)[0].real
+    by_harmonics += reluctance_torque(motor, _rotor_frame(current), 0)[0].real
+    per_ampere = 1.5 * emf[1].real / speed_rad_per_s
+    try:
+        held = held_current_a(motor, per_ampere, torque_n_m - by_harmonics)
+    except ValueError as error:
+        raise ParameterError(
+            f"synchronous_motor.current_advance_deg = {np.degrees(motor.current_advance_rad):g}°: "
+            f"{error}, at {torque_n_m:.4g} N m"
+        ) from None
+    current = {1: held, **current}
+    voltage = emf[1] + fundamental_voltage_v(motor, electrical, held)
     modulation = 2.0 * abs(voltage) / motor.dc_link_voltage_v
     if modulation > LARGEST_MODULATION[motor.modulation]:
         most = 0.5 * LARGEST_MODULATION[motor.modulation] * motor.dc_link_voltage_v
@@ -119,6 +132,11 @@ def torque_harmonics(
     return torque
 
 
+def _rotor_frame(phasors: Mapping[int, complex]) -> dict[int, complex]:
+    """Space vectors by harmonic in the rotor's frame, one less than that at the terminals."""
+    return {k - 1: value for k, value in _space_vectors(phasors).items()}
+
+
 def _space_vectors(phasors: Mapping[int, complex]) -> dict[int, complex]:
     """By signed harmonic: those that turn backwards are conjugate, at minus their number."""
     return {
@@ -145,9 +163,9 @@ def shaft_orders(motor: SynchronousMotor, point: OperatingPoint, highest: int) -
     shape (highest + 1,), complex peaks; the electrical angle is zero at crank angle zero
     """
     orders = np.zeros(highest + 1, dtype=complex)
-    electrical = torque_harmonics(
-        point.emf_v, point.current_a, point.speed_rad_per_s, highest // motor.pole_pairs
-    )
+    harmonics = highest // motor.pole_pairs
+    electrical = torque_harmonics(point.emf_v, point.current_a, point.speed_rad_per_s, harmonics)
+    electrical += reluctance_torque(motor, _rotor_frame(point.current_a), harmonics)
     orders[:: motor.pole_pairs][: electrical.size] = electrical
     for number, ratio in ((1, 1.0), (2, motor.cogging_second_ratio)):
         order = number * motor.cogging_order

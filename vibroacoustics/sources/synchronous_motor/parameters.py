@@ -11,10 +11,10 @@ RATIO = Field(default=0.0, ge=-1.0, le=1.0)
 
 
 class SynchronousMotor(Parameters):
-    """Surface magnets, three phases in star, currents in phase with the voltage of the magnets.
+    """Magnets on or in the rotor, three phases in star, a fundamental of current that is held.
 
-    Resistance and inductance are per phase. Reluctance torque, saturation and core loss are left
-    out; the current's control holds its fundamental and answers to nothing else.
+    Resistance and inductance are per phase. Saturation and core loss are left out; the current's
+    control holds its fundamental and answers to nothing else.
     """
 
     pole_pairs: int = Field(ge=1, le=50)
@@ -29,6 +29,12 @@ class SynchronousMotor(Parameters):
     thirteenth_ratio: float = RATIO
     phase_resistance_ohm: float = Field(gt=0.0, le=1e4)
     phase_inductance_h: float = Field(gt=0.0, le=1e2)
+    """Mean of direct and quadrature axis."""
+    saliency_ratio: float = Field(default=1.0, ge=0.2, le=10.0)
+    """Inductance of the quadrature axis over that of the direct one, which is the magnets': 1 with
+    magnets on the rotor's surface, more with magnets in it."""
+    current_advance_rad: float = Field(default=0.0, ge=-1.4, le=1.4)
+    """By which the fundamental of the current leads the voltage of the magnets."""
     cogging_torque_n_m: float = Field(ge=0.0, le=1e4)
     """Peak of its first order, without current."""
     cogging_second_ratio: float = RATIO
@@ -45,6 +51,11 @@ class SynchronousMotor(Parameters):
         """Harmonics of the magnets' voltage over its fundamental, by number."""
         ratios = (self.fifth_ratio, self.seventh_ratio, self.eleventh_ratio, self.thirteenth_ratio)
         return {1: 1.0, **dict(zip((5, 7, 11, 13), ratios, strict=True))}
+
+    @property
+    def saliency_h(self) -> float:
+        """(L_q - L_d)/2, where (L_q + L_d)/2 is the phase inductance."""
+        return self.phase_inductance_h * (self.saliency_ratio - 1.0) / (self.saliency_ratio + 1.0)
 
     @property
     def cogging_order(self) -> int:

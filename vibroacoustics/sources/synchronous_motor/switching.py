@@ -4,7 +4,6 @@ Holmes & Lipo, Pulse Width Modulation for Power Converters (2003), chapters 3 an
 series of naturally sampled pulses about a triangular carrier.
 """
 
-from collections import defaultdict
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -12,6 +11,7 @@ import numpy as np
 from ...base.arrays import Array, ComplexArray
 from .harmonics import OperatingPoint
 from .parameters import SynchronousMotor
+from .saliency import pair_currents
 
 SAMPLES: Final = 1024
 """Of the reference; the series is exact to rounding for a sine."""
@@ -67,39 +67,65 @@ def sidebands(
 
     Phases see no multiples of three; n = 3k + 1 turns forwards, 3k - 1 backwards. At ω in space a
     voltage makes the current V/(R + jωL), and this in the field the torque 3 E I/(2Ω) at ω - ω_e:
-    f_s ± 3 f_e of the carrier, 2 f_s and 2 f_s ± 6 f_e of twice the carrier are the first. Below
-    half the switching frequency the control of the current acts on them: they are left out.
+    f_s ± 3 f_e of the carrier, 2 f_s and 2 f_s ± 6 f_e of twice the carrier are the first. In a
+    salient rotor the two that it sees at one frequency drive one another, and make a reluctance
+    torque with the fundamental. Below half the switching frequency the control of the current acts
+    on them: they are left out.
 
     Parameters
     ----------
     motor : link, carrier, circuit
-    point : fundamental of voltage and magnets
+    point : fundamental of voltage, current and magnets
     highest_hz : torques above are left out
     """
-    torque: defaultdict[tuple[int, int], complex] = defaultdict(complex)
     electrical = point.electrical_rad_per_s
     switching = 2.0 * np.pi * motor.switching_frequency_hz
-    turned = float(np.angle(point.voltage_v))
-    per_current = 1.5 * abs(point.emf_v[1]) / point.speed_rad_per_s
     reach = 2.0 * np.pi * highest_hz + (BASEBAND + 1) * electrical
+    torque: dict[tuple[int, int], complex] = {}
     for carrier in range(1, int(reach / switching) + 1):
-        size = leg_harmonics(motor.modulation, point.modulation_ratio, carrier)
-        for n in range(-BASEBAND, BASEBAND + 1):
-            frequency = carrier * switching + n * electrical
-            if n % 3 == 0 or frequency < 0.5 * switching:
-                continue
-            voltage = 0.5 * motor.dc_link_voltage_v * size[n + BASEBAND] * np.exp(1j * n * turned)
-            current = voltage / (
-                motor.phase_resistance_ohm + 1j * frequency * motor.phase_inductance_h
-            )
-            # The phasor of a backward wave is conjugate in space, and so is its torque's.
-            offset = n - 1 if n % 3 == 1 else n + 1
-            torque[carrier, offset] += per_current * current
+        voltages = _voltages(motor, point, carrier)
+        for offset in range(-BASEBAND - 1, BASEBAND + 2):
+            if offset % 3 == 0:
+                waves = [
+                    (
+                        voltages.get(offset + way, 0.0),
+                        carrier * switching + (offset + way) * electrical,
+                    )
+                    for way in (1, -1)
+                ]
+                if any(voltage for voltage, _ in waves):
+                    currents = pair_currents(motor, waves[0], waves[1])
+                    torque[carrier, offset] = _torque(motor, point, currents)
     return tuple(
         Sideband(carrier, offset, complex(value))
         for (carrier, offset), value in torque.items()
         if _kept_hz(carrier, offset, motor, electrical, highest_hz)
     )
+
+
+def _voltages(motor: SynchronousMotor, point: OperatingPoint, carrier: int) -> dict[int, complex]:
+    """Of a phase about a multiple of the carrier, by n, V; those that count."""
+    size = leg_harmonics(motor.modulation, point.modulation_ratio, carrier)
+    turned, half = float(np.angle(point.voltage_v)), 0.5 * motor.dc_link_voltage_v
+    electrical_hz = point.electrical_rad_per_s / (2.0 * np.pi)
+    return {
+        n: complex(half * size[n + BASEBAND] * np.exp(1j * n * turned))
+        for n in range(-BASEBAND, BASEBAND + 1)
+        if n % 3 and (carrier - 0.5) * motor.switching_frequency_hz + n * electrical_hz >= 0.0
+    }
+
+
+def _torque(
+    motor: SynchronousMotor, point: OperatingPoint, currents: tuple[complex, complex]
+) -> complex:
+    """Of a forward and a backward current with the magnets and, in the salient rotor, with the
+    fundamental of the current. The phasor of a backward wave is conjugate in space, and so is its
+    torque's."""
+    forwards, backwards = currents
+    held = point.current_a[1]
+    magnets = 1.5 * abs(point.emf_v[1]) / point.speed_rad_per_s * (forwards + backwards)
+    across = held * forwards - np.conj(held) * backwards
+    return complex(magnets - 3.0j * motor.pole_pairs * motor.saliency_h * across)
 
 
 def _kept_hz(
