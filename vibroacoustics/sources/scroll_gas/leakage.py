@@ -108,10 +108,10 @@ class LeakingPockets:
     def turn(self, opened_pa: Array) -> PocketTurn:
         """One more turn beside the pressure in the opened pair, shape (steps + 1,), Pa."""
         c, half_steps = self._opening, np.linspace(0.0, 1.0, 2 * STEPS + 1)
-        inside = np.interp(half_steps, np.linspace(0.0, 1.0, opened_pa.size), opened_pa)
-        density = c.density * (inside / c.pressure) ** (1.0 / c.stiffness_exponent)
+        inner_pa = np.interp(half_steps, np.linspace(0.0, 1.0, opened_pa.size), opened_pa)
+        density = c.density * (inner_pa / c.pressure) ** (1.0 / c.stiffness_exponent)
         mass = self._mass(float(self._ratios[0, -1]))
-        self._ratios, self._leaks = leaking_turn(self._start, mass, inside, density, self._pairs)
+        self._ratios, self._leaks = leaking_turn(self._start, mass, inner_pa, density, self._pairs)
         self._start = np.append(self._ratios[1:, -1], self._begins_with)
         return PocketTurn(float(self._ratios[0, -1]), self._leaks[0])
 

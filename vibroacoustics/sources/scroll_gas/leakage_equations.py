@@ -41,20 +41,22 @@ class LeakingPairs(NamedTuple):
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def nozzle_flow(inside: float, outside: float, inner: float, outer: float, kappa: float) -> float:
-    """Isentropic flow through a nozzle, kg/(s m²); negative from outside to inside.
+def nozzle_flow(
+    inner_pa: float, outer_pa: float, inner: float, outer: float, kappa: float
+) -> float:
+    """Isentropic flow through a nozzle, kg/(s m²); negative inwards.
 
     m/A = ρ x √(2 κ/(κ-1) p/ρ (1 - r/x)), x = r^(1/κ), with p and ρ upstream and the pressure ratio
     r no lower than the critical (2/(κ+1))^(κ/(κ-1)) (Saint-Venant and Wantzel 1839).
 
     Parameters
     ----------
-    inside, outside : pressures, Pa
+    inner_pa, outer_pa : pressures
     inner, outer : densities there, kg/m³
     kappa : isentropic exponent
     """
-    forward = inside >= outside
-    high, low, density = (inside, outside, inner) if forward else (outside, inside, outer)
+    forward = inner_pa >= outer_pa
+    high, low, density = (inner_pa, outer_pa, inner) if forward else (outer_pa, inner_pa, outer)
     power = (kappa - 1.0) / kappa
     if abs(kappa - 1.0) < ALMOST:
         fall = min(np.log(high / low), 0.5)
@@ -82,19 +84,19 @@ def leaks_at(
     p : pairs
     leak : shape (pairs + 1,); it is changed
     """
-    inside, inner = opened
+    inner_pa, inner = opened
     for j in range(p.pairs + 1):
         at = (p.pairs - j) * 2 * p.steps + half
-        outside, outer = p.base_pa[at], p.suction_density
+        outer_pa, outer = p.base_pa[at], p.suction_density
         if at >= p.closes_at:
-            outside *= ratio[j] ** p.polytropic_index
+            outer_pa *= ratio[j] ** p.polytropic_index
             outer = ratio[j] * mass / p.volume_m3[at]
         area = p.area_m2[at + 2 * p.steps]
         leak[j] = 0.0
         if area > 0.0:
-            flow = nozzle_flow(inside, outside, inner, outer, p.isentropic_exponent)
+            flow = nozzle_flow(inner_pa, outer_pa, inner, outer, p.isentropic_exponent)
             leak[j] = area * flow
-        inside, inner = outside, outer
+        inner_pa, inner = outer_pa, outer
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")

@@ -27,17 +27,13 @@ def pair_currents(
     forwards, backwards : phasor of the voltage, and its angular frequency at the terminals
     """
     (first, fast), (second, slow) = forwards, backwards
-    resistance, mean, half = (
-        motor.phase_resistance_ohm,
-        motor.phase_inductance_h,
-        motor.saliency_h,
-    )
-    own, other = resistance + 1j * fast * mean, resistance + 1j * slow * mean
-    across, back = 1j * fast * half, 1j * slow * half
-    determinant = own * other - across * back
-    return (other * first - across * second) / determinant, (
-        own * second - back * first
-    ) / determinant
+    mean, half = motor.phase_inductance_h, motor.saliency_h
+    forward = motor.phase_resistance_ohm + 1j * fast * mean
+    backward = motor.phase_resistance_ohm + 1j * slow * mean
+    to_forward, to_backward = 1j * fast * half, 1j * slow * half
+    determinant = forward * backward - to_forward * to_backward
+    one = (backward * first - to_forward * second) / determinant
+    return one, (forward * second - to_backward * first) / determinant
 
 
 def fundamental_voltage_v(motor: SynchronousMotor, omega: float, current_a: complex) -> complex:
