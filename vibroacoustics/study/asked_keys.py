@@ -8,6 +8,8 @@ from ..base.units import si_key, split_key
 _BY_QUANTITY: Final = {
     "floor_clearance_m": "mm",
     "clearance_m": "um",
+    "tip_gap_m": "um",
+    "flank_gap_m": "um",
     "error_m": "um",
     "crankcase_pressure_pa": "mpa",
     "pressure_pa": "bar",
