@@ -15,9 +15,13 @@ from support import ROOT
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.mechanics.loads import DISCHARGE_DOME, SUCTION_ANNULUS
+from vibroacoustics.mechanics.rotation import uniform_crank_angle
+from vibroacoustics.orders import order_spectrum
 from vibroacoustics.radiation.pressure import pressure_per_shell_velocity
 from vibroacoustics.sources.cases import loads_of
-from vibroacoustics.sources.gas import gas_cycle
+from vibroacoustics.sources.gas import GAS_SAMPLES, gas_cycle
+from vibroacoustics.sources.scroll_gas.cycle import scroll_gas_cycle
+from vibroacoustics.sources.scroll_gas.opening import steady_opening
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer.cavity.of_machine import gas_of
 from vibroacoustics.transfer.frame import frame_on_shell
@@ -114,6 +118,25 @@ def test_gas_is_drawn_and_left_out(study, without):
         sound_source="gas", option="none"
     )
     assert np.all(np.isfinite(by_draw.values))
+
+
+def test_leakage_and_filling_are_drawn_and_left_out(study, tmp_path):
+    """Without both tables the torque is that of tight pockets at the suction pressure."""
+    assert "leakage.tip_gap_m" in {limits.name for limits in study.ranges}
+    left_out = 'without = ["frame", "leakage", "suction_pockets"]\n'
+    tight = load_text(tmp_path, text_with(without=left_out))
+    assert not any(limits.name.startswith("leakage") for limits in tight.ranges)
+    machine, case = tight.machine, case_of(tight)
+    opened = steady_opening(machine.wraps, machine.gas, machine.opening, case.speed_rpm)
+    angle = uniform_crank_angle(GAS_SAMPLES)
+    cycle = scroll_gas_cycle(machine.wraps, machine.gas, angle, opened)
+    expected = order_spectrum(cycle.torque_n_m, case.maximum_order)
+    obtained, leaking = (
+        loads_of(one, case_of(one))["gas"].shaft_torque_n_m for one in (tight, study)
+    )
+    np.testing.assert_array_equal(obtained, expected)
+    assert leaking[0].real / obtained[0].real == pytest.approx(1.039, abs=0.003)
+    assert abs(leaking[1]) / abs(obtained[1]) == pytest.approx(0.921, abs=0.005)
 
 
 def test_an_opening_by_an_angle_has_no_flow(tmp_path):

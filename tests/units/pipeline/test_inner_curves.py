@@ -19,6 +19,7 @@ from vibroacoustics.sources.gas import ScrollGasForces
 from vibroacoustics.sources.keys import OldhamKeyForces
 
 ZHAO = machine_file("zhao_minicrank")
+PORT = "port, chamber to plenum"
 ANNOUNCED = {
     "copeland_sources": (
         "pocket_pressure", "gas_force", "gas_force_angle", "key_force", "whirl_frequency",
@@ -69,6 +70,10 @@ def test_opening_with_inertia_has_curves_of_its_own():
 def test_suction_and_discharge_line_of_a_scroll_with_inertia():
     """The pockets take the displacement; the tube pulsates as the plenum, less behind a chamber."""
     curves = va.curves(va.load_study(PIPELINES / "copeland_sources.toml"))
+    leak = curves["leak_flow"]
+    first_turn = leak.values[leak["contact_angle"].values < 2.0 * np.pi]
+    lost = float(first_turn.mean()) / float(curves["opening_flow"].sel(passage=PORT).mean())
+    assert lost == pytest.approx(0.033, abs=0.004)  # back to suction, of what is delivered
     taken = float(curves["suction_flow"].mean()) / 33.0 * 60.0 / 2900.0
     assert taken == pytest.approx(1.03 * 39.66e-6, rel=0.04)
     plenum = curves["opening_pressure"].sel(volume="plenum").values

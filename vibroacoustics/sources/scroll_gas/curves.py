@@ -9,7 +9,7 @@ from ...base.arrays import Array
 from ...base.curves import CRANK_ANGLES, Curve, CurveAxis, angle_axis
 from ...mechanics.rotation import uniform_crank_angle
 from .cycle import ScrollGasCycle, scroll_gas_cycle
-from .opened_gas import OpenedGas
+from .opened_gas import OpenedGas, TrappedGas
 from .parameters import ScrollGas, ScrollWraps
 from .pockets import pocket_volume
 from .pressures import pocket_pressure
@@ -39,6 +39,8 @@ def scroll_gas_curves(
     yield from _of_a_pocket(wraps, gas, opened)
     if opened is not None:
         yield from _of_the_opening(opened)
+        if opened.trapped is not None:
+            yield _of_the_leak(opened.trapped)
     if filling is not None:
         yield from _of_the_filling(filling)
     cycle = scroll_gas_cycle(wraps, gas, uniform_crank_angle(CRANK_ANGLES), opened)
@@ -92,6 +94,17 @@ def _of_the_opening(opened: OpenedGas) -> Iterator[Curve]:
         "opening_flow", "Mass flow out of a pair of opened pockets and through the port",
         _at(opened, angle, flows), (CurveAxis("passage", list(flows)), axis), "kg_per_s",
         "derived: unsteady flow through gap and port",
+    )  # fmt: skip
+
+
+def _of_the_leak(trapped: TrappedGas) -> Curve:
+    """Flow back across the outer contacts of a pair of pockets while these last."""
+    angle = np.linspace(0.0, trapped.contact_angle[-1], CRANK_ANGLES + 1, dtype=np.float64)
+    axis = angle_axis(angle, "contact_angle", "Crank angle since the pocket has closed")
+    flow = np.interp(angle, trapped.contact_angle, trapped.leak_kg_per_s)
+    return Curve(
+        "leak_flow", "Mass flow back across the outer contacts of a pair of pockets", flow, (axis,),
+        "kg_per_s", "derived: nozzle through the gaps at tips and flanks",
     )  # fmt: skip
 
 
