@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from math import exp, log
 from typing import Final
 
+import numpy as np
 import scipy  # loads its subpackages when they are needed
 
 from ..base.arrays import Array
@@ -20,10 +21,11 @@ def latin_hypercubes(ranges: Sequence[Range], settings: Uncertainty) -> Iterator
     """Sets of values drawn from their ranges (McKay, Beckman, Conover 1979), one after another."""
     sampler = scipy.stats.qmc.LatinHypercube(len(ranges), rng=settings.seed)
     while True:
-        yield [_draw(ranges, row) for row in sampler.random(settings.random_samples)]
+        yield [draw_at(ranges, row) for row in sampler.random(settings.random_samples)]
 
 
-def _draw(ranges: Sequence[Range], shares: Array) -> Draw:
+def draw_at(ranges: Sequence[Range], shares: Array) -> Draw:
+    """The draw whose values so large shares of their ranges lie below, shape (range,)."""
     return {
         (limits.table, limits.field): _value(limits, float(share))
         for limits, share in zip(ranges, shares, strict=True)
@@ -59,6 +61,14 @@ def narrowed(limits: Range, value: float, least: float, greatest: float) -> floa
         return lowest * exp(share * log(highest / lowest))
     share = (value - limits.lowest) / (limits.highest - limits.lowest)
     return lowest + share * (highest - lowest)
+
+
+def position_in_range(limits: Range, values: Array) -> Array:
+    """Where values lie in their range, from -1 to 1, as evenly as they are drawn."""
+    lowest, highest = limits.lowest, limits.highest
+    if _is_wide(limits):
+        return np.asarray(2.0 * np.log(values / lowest) / log(highest / lowest) - 1.0)
+    return 2.0 * (values - lowest) / (highest - lowest) - 1.0
 
 
 def _is_wide(limits: Range) -> bool:
