@@ -321,7 +321,9 @@ def test_silence_is_never_shown_as_a_number(results: xr.Dataset, files: dict[str
         (3.0, "worse", "the force grows 3.00-fold"),
         (0.5, "better", "the force falls by 50 %"),
         (0.0, "better", "the force vanishes"),
-        (1.0, "no change", "stay the same"),
+        (1.0, "no difference that could be measured", "stay the same"),
+        (1.04, "no difference that could be measured", "the force grows by 4 %"),
+        (0.96, "no difference that could be measured", "the force falls by 4 %"),
     ],
 )
 def test_the_verdict_follows_the_sign(factor: float, judgement: str, words: str) -> None:
@@ -333,7 +335,7 @@ def test_the_verdict_follows_the_sign(factor: float, judgement: str, words: str)
 def test_options_that_worsen_are_named_so(results: xr.Dataset) -> None:
     texts = " ".join(reasons(results, option_verdicts(results)))
     assert "Worse than no balancer: louder." in texts
-    assert "Without any effect on force, feet and sound: idle." in texts
+    assert "With no difference that could be measured in force, feet and sound: idle." in texts
     halved = make_results({"none": 1.0, "halved": 0.5})
     better = " ".join(reasons(halved, option_verdicts(halved)))
     assert "Worse" not in better

@@ -1,7 +1,7 @@
 """The comparison of the options: one value per option, speed and microphone."""
 
 from collections.abc import Callable, Iterable, Sequence
-from functools import partial
+from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
@@ -10,24 +10,22 @@ import xarray as xr
 from ..base import rounding
 from ..base.arrays import Array
 from ..base.vocabulary import REFERENCE_OPTION
-from .columns import COLUMNS, Column
+from .bands import Band, band_words, quantiles
+from .columns import Column
 from .kept_columns import columns_of
+from .option_verdict import table_words
 from .study import (
     catalogue_receiver,
     few_speeds,
     few_speeds_words,
     first_order_hz,
+    has_draws,
     options,
     speeds,
 )
 from .tables import Table, to_csv, to_text
 
 _DIMENSIONS = ("option", "speed", "receiver")
-
-
-def column(results: xr.Dataset, name: str) -> xr.DataArray:
-    """One column over option, speed and, for levels, receiver; the unit is in its name."""
-    return COLUMNS[name].values(results).reset_coords(drop=True)
 
 
 def comparison(results: xr.Dataset) -> xr.Dataset:
@@ -58,8 +56,17 @@ def comparison_tables(results: xr.Dataset, receiver: str) -> list[Table]:
 def comparison_text(results: xr.Dataset) -> str:
     """Compact plain-text tables for the terminal, at the catalogue's microphone."""
     tables = _tables(results, catalogue_receiver(results), lambda column: column.terminal)
-    chosen = few_speeds_words(results)
-    return "\n".join([*map(to_text, tables), *([f"{chosen}\n"] if chosen else [])])
+    notes = [bands_sentence(results), few_speeds_words(results)]
+    return "\n".join([*map(to_text, tables), *(f"{note}\n" for note in notes if note)])
+
+
+def bands_sentence(results: xr.Dataset) -> str:
+    """What the bands in the tables are; empty where there are none."""
+    if not has_draws(results):
+        return ""
+    return (
+        f"Modelled and total levels and their changes: middle of the draws ({band_words(results)})."
+    )
 
 
 def _joined(results: xr.Dataset, columns: Sequence[Column]) -> xr.Dataset:
@@ -73,18 +80,22 @@ def _tables(
 ) -> list[Table]:
     shown = few_speeds(results)
     columns = columns_of(shown).columns
-    compared = _joined(shown, columns).sel(receiver=receiver)
-    numbers = {str(name): array.values for name, array in compared.data_vars.items()}
+    cells = _Cells.of(shown, columns, receiver)
     heads = {column.name: head for column in columns if (head := head_of(column)) is not None}
-    write = partial(_cell, shown, numbers)
+    verdicts = table_words(results)
     return [
         Table(
             f"{speed:g} rpm (1× at {frequency:.1f} Hz), microphone {receiver}",
-            ("Option", *heads.values()),
+            ("Option", *heads.values(), "Verdict"),
             tuple(
-                (option, *(write(column, at, i) for column in columns if column.name in heads))
+                (
+                    option,
+                    *(cells.text(column, at, i) for column in columns if column.name in heads),
+                    verdicts[option],
+                )
                 for at, option in enumerate(options(shown))
             ),
+            frozenset({0, len(heads) + 1}),
         )
         for i, (speed, frequency) in enumerate(
             zip(speeds(shown), first_order_hz(shown), strict=True)
@@ -92,19 +103,43 @@ def _tables(
     ]
 
 
-def _cell(
-    results: xr.Dataset,
-    numbers: dict[str, Array],
-    column: Column,
-    option: int,
-    speed: int,
-) -> str:
-    """Text of a value; a change of a silent level is none."""
-    value = float(numbers[column.name][option, speed])
-    if column.change_of:
-        level = numbers[column.change_of][:, speed]
-        if level[options(results).index(REFERENCE_OPTION)] < rounding.LEVEL_FLOOR_DB:
-            return rounding.NOTHING
-        if level[option] < rounding.LEVEL_FLOOR_DB:
-            return "silent"
-    return column.write(value, results)
+@dataclass(frozen=True)
+class _Cells:
+    """Values at one microphone.
+
+    Attributes
+    ----------
+    results : with the speeds that are shown
+    numbers : by column, shape (option, speed)
+    bands : of the columns that have one, shape (option, speed, quantile)
+    """
+
+    results: xr.Dataset
+    numbers: dict[str, Array]
+    bands: dict[str, Array]
+
+    @classmethod
+    def of(cls, results: xr.Dataset, columns: Sequence[Column], receiver: str) -> "_Cells":
+        compared = _joined(results, columns).sel(receiver=receiver)
+        numbers = {str(name): array.values for name, array in compared.data_vars.items()}
+        drawn = [column for column in columns if column.band and has_draws(results)]
+        at_receiver = {
+            column.name: quantiles(results, column.band).sel(receiver=receiver) for column in drawn
+        }
+        order = ("option", "speed", "quantile")
+        bands = {name: array.transpose(*order).values for name, array in at_receiver.items()}
+        return cls(results, numbers, bands)
+
+    def text(self, column: Column, option: int, speed: int) -> str:
+        """Text of a value or its band; a change of a silent level is none."""
+        value = float(self.numbers[column.name][option, speed])
+        if column.change_of:
+            level = self.numbers[column.change_of][:, speed]
+            if level[options(self.results).index(REFERENCE_OPTION)] < rounding.LEVEL_FLOOR_DB:
+                return rounding.NOTHING
+            if level[option] < rounding.LEVEL_FLOOR_DB:
+                return "silent"
+        if column.name in self.bands:
+            band = Band(*self.bands[column.name][option, speed].tolist())
+            return band.middle_and_ends(lambda one: column.write(one, self.results))
+        return column.write(value, self.results)

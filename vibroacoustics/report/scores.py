@@ -1,5 +1,6 @@
 """Tables of the scores, and of the published scores with their sums added up again."""
 
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -7,8 +8,11 @@ import xarray as xr
 
 from ..base import rounding
 from ..scoring.ranking import utilities
+from ..scoring.scores import ANY_WEIGHTS, OF_THE_STUDY
 from . import labels
-from .study import has_sources, options, parameters
+from .bands import percent
+from .option_verdict import option_verdicts
+from .study import has_draws, has_sources, options, parameters
 from .tables import Table, to_csv
 
 SUM_TOLERANCE: Final = 1e-6
@@ -17,7 +21,7 @@ ROUNDING: Final = 1e-9
 
 
 def scores_csv(results: xr.Dataset) -> bytes:
-    """One row per option: criteria, score and rank by method, share of first places."""
+    """One row per option: criteria, score and rank by method, share of first probability."""
     criteria, methods = _names(results, "criterion"), _names(results, "scoring_method")
     columns = [*criteria]
     blocks = [results["criterion_value"].transpose("option", "criterion").values]
@@ -27,9 +31,18 @@ def scores_csv(results: xr.Dataset) -> bytes:
             blocks.append(results[name].sel({"scoring_method": method}).values[:, None])
     columns.append("first_place_share")
     blocks.append(results["first_place_share"].values[:, None])
+    if "rank_acceptability" in results:
+        probability = results["rank_acceptability"].sel({"criteria_weights": ANY_WEIGHTS})
+        columns += [f"share_of_rank_{number:g}" for number in probability["rank_position"].values]
+        blocks.append(probability.transpose("option", "rank_position").values)
     values = np.concatenate(blocks, axis=1)
-    rows = zip(options(results), values, strict=True)
-    return to_csv(("option", *columns), ([name, *map(float, row)] for name, row in rows))
+    words = {one.option: (one.judgement, one.reason) for one in option_verdicts(results)}
+    cells: list[list[float]] = values.tolist()
+    named = zip(options(results), cells, strict=True)
+    rows: list[list[str | float]] = [
+        [name, *row, *words.get(name, ("", ""))] for name, row in named
+    ]
+    return to_csv(("option", *columns, "verdict", "because"), rows)
 
 
 def criteria_table(results: xr.Dataset) -> Table:
@@ -70,7 +83,7 @@ def values_table(results: xr.Dataset) -> Table:
 
 
 def scores_table(results: xr.Dataset) -> Table:
-    """Score and rank by method and the share of first places."""
+    """Score and rank by method and the share of first probability."""
     methods = _names(results, "scoring_method")
     head = ["Option"]
     for method in methods:
@@ -80,7 +93,7 @@ def scores_table(results: xr.Dataset) -> Table:
     )
     return Table(
         "Scores and ranks, best first by the first method",
-        (*head, "First in random weightings"),
+        (*head, "First, whatever the weights"),
         rows,
     )
 
@@ -89,7 +102,35 @@ def scope_words(results: xr.Dataset) -> str:
     """Say that the scores count further sources."""
     if not has_sources(results):
         return ""
-    return " The change of level in the scores counts all sources, at the assumed values."
+    where = "in each draw" if has_draws(results) else "at the assumed values"
+    return f" The change of level in the scores counts all sources, {where}."
+
+
+def acceptability_words(results: xr.Dataset, winners: Sequence[str]) -> str:
+    """How sure the first rank is; files of older versions have it by the weights alone."""
+    whatever = 100.0 * float(results["first_place_share"].sel(option=winners).sum())
+    if "rank_acceptability" not in results or not has_draws(results):
+        return f", and in {whatever:.0f} % of the weightings drawn at random"
+    first = results["rank_acceptability"].sel(rank_position=1, option=winners).sum("option")
+    by_study = 100.0 * float(first.sel({"criteria_weights": OF_THE_STUDY}))
+    return (
+        f": by these weights in {by_study:.0f} % of the draws, and with draws and weights at "
+        f"random in {whatever:.0f} %"
+    )
+
+
+def acceptability_table(results: xr.Dataset) -> Table | None:
+    """Probability of each rank of each option; None in files of older versions."""
+    if "rank_acceptability" not in results:
+        return None
+    probability = results["rank_acceptability"].sel({"criteria_weights": ANY_WEIGHTS})
+    rows = tuple(
+        (option, *(percent(float(one)) for one in probability.sel(option=option).values))
+        for option in _ranked(results)
+    )
+    head = ("Option", *(f"Rank {number:g}" for number in probability["rank_position"].values))
+    drawn = "over draws and weights together" if has_draws(results) else "over the weights"
+    return Table(f"Probability of each rank, {drawn}", head, rows)
 
 
 def criteria_of_advantage(results: xr.Dataset, option: str, other: str) -> list[str]:

@@ -8,7 +8,7 @@ import xarray as xr
 from ..base import rounding
 from ..base.arrays import Array
 from .bands import Band, band_words, bands_by_speed
-from .shifts import HEARD_DB, TOLERANCE_DB
+from .quantities import HEARD_DB, TOLERANCE_DB
 from .study import balancers, catalogue_receiver, many_speeds, overall_noise, speeds
 
 
@@ -17,16 +17,6 @@ class SourceChange(NamedTuple):
 
     sources: tuple[Band, ...]
     total: tuple[Band, ...]
-
-    @property
-    def worsens(self) -> bool:
-        """Louder within the whole band, at one speed at least."""
-        return any(band.lowest > TOLERANCE_DB for band in self.sources)
-
-    @property
-    def improves(self) -> bool:
-        """Quieter within the whole band, at one speed at least."""
-        return any(band.highest < -TOLERANCE_DB for band in self.sources)
 
 
 def source_change(results: xr.Dataset, option: str) -> SourceChange:

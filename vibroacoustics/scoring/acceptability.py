@@ -1,4 +1,4 @@
-"""Probability of each place in the ranking, over draws and weights of the criteria together."""
+"""Probability of each rank, over draws and weights of the criteria together."""
 
 from collections.abc import Iterable, Iterator
 from typing import Final
@@ -26,11 +26,11 @@ def any_weights(criteria: int, number: int, seed: int) -> Iterator[Array]:
 
 
 def rank_acceptability(utility: Array, draw_weight: Array, shares: Iterable[Array]) -> Array:
-    """Probability that an option takes a place, shape (option, place), places from the best.
+    """Probability of each position in the ranking, the first is best, (option, position).
 
     Rank acceptability index of stochastic multicriteria acceptability analysis, by Monte Carlo
     (Lahdelma & Salminen 2001, SMAA-2, Operations Research 49, 444-454, section 3), with the
-    weighted sum as value of an option. Options that tie share their places.
+    weighted sum as value of an option. Options that tie share their positions.
 
     Parameters
     ----------
@@ -42,23 +42,23 @@ def rank_acceptability(utility: Array, draw_weight: Array, shares: Iterable[Arra
     probability = np.zeros((options, options))
     for values, weight, weights in zip(utility, draw_weight, shares, strict=False):
         if weight > 0.0:
-            probability += weight * _places(values @ weights.T)
+            probability += weight * _positions(values @ weights.T)
     return np.asarray(probability / draw_weight.sum())
 
 
-def _places(sums: Array) -> Array:
-    """Share of the weightings in which an option takes a place, (option, place).
+def _positions(sums: Array) -> Array:
+    """Share of the weightings in which an option takes a position, (option, position).
 
     Parameters
     ----------
     sums : of each option by each weighting, shape (option, weighting)
     """
-    place = np.arange(len(sums))
+    position = np.arange(len(sums))
     taken = np.zeros((len(sums), len(sums)))
     for start in range(0, sums.shape[1], _AT_ONCE):
         some = sums[:, start : start + _AT_ONCE]
         lead = some[None] - some[:, None]  # of the others over the option
         better = (lead > _ROUNDING).sum(axis=1)[..., None]
         tied = (np.abs(lead) <= _ROUNDING).sum(axis=1)[..., None]
-        taken += (((place >= better) & (place < better + tied)) / tied).sum(axis=1)
+        taken += (((position >= better) & (position < better + tied)) / tied).sum(axis=1)
     return taken / sums.shape[1]

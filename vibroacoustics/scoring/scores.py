@@ -17,8 +17,10 @@ from .acceptability import any_weights, rank_acceptability
 from .ranking import METHODS, utilities
 from .values import Scored, scored_criteria
 
-WEIGHTS: Final = ("any", "of the study")
-"""Weights of the criteria of which the places are told: uniform over all weights, or as given."""
+ANY_WEIGHTS: Final = "any"
+"""Ranks with weights of the criteria drawn evenly from all that there are."""
+OF_THE_STUDY: Final = "of the study"
+"""Ranks with the weights that the study gives."""
 
 
 def score(results: xr.Dataset, settings: Scoring | None = None) -> xr.Dataset:
@@ -33,7 +35,7 @@ def score(results: xr.Dataset, settings: Scoring | None = None) -> xr.Dataset:
     Returns
     -------
     dataset with criterion_value, its words, unit and scale, weight (sum 1), score and rank by
-    method, rank_acceptability and its first place, first_place_share
+    method, rank_acceptability and its first position, first_place_share
 
     Raises
     ------
@@ -58,7 +60,7 @@ def score(results: xr.Dataset, settings: Scoring | None = None) -> xr.Dataset:
     scores = np.stack([method(utility, shares) for method in METHODS.values()], axis=1)
     # Rounded, so that options that differ by rounding errors share their rank.
     ranks = 1 + (scores.round(9) > scores.round(9)[:, None]).sum(axis=1)
-    places = _places(results, criteria, utility, shares, settings)
+    positions = _positions(results, criteria, utility, shares, settings)
     option = {"option": results["option"].values}
     criterion = {
         "criterion": [criterion.name for criterion in criteria],
@@ -66,10 +68,10 @@ def score(results: xr.Dataset, settings: Scoring | None = None) -> xr.Dataset:
         "criterion_unit": ("criterion", [criterion.unit for criterion in criteria]),
     }
     by_method = {**option, "scoring_method": list(METHODS)}
-    by_place = {
-        "criteria_weights": list(WEIGHTS),
+    by_position = {
+        "criteria_weights": [ANY_WEIGHTS, OF_THE_STUDY],
         **option,
-        "place": np.arange(1.0, 1.0 + len(utility)),
+        "rank_position": np.arange(1.0, 1.0 + len(utility)),
     }
     return check(
         xr.Dataset(
@@ -80,21 +82,21 @@ def score(results: xr.Dataset, settings: Scoring | None = None) -> xr.Dataset:
                 "weight": stamp("weight", shares, criterion),
                 "score": stamp("score", scores, by_method),
                 "rank": stamp("rank", ranks.astype(float), by_method),
-                "first_place_share": stamp("first_place_share", places[0, :, 0], option),
-                "rank_acceptability": stamp("rank_acceptability", places, by_place),
+                "first_place_share": stamp("first_place_share", positions[0, :, 0], option),
+                "rank_acceptability": stamp("rank_acceptability", positions, by_position),
             }
         )
     )
 
 
-def _places(
+def _positions(
     results: xr.Dataset,
     criteria: Sequence[Scored],
     utility: Array,
     shares: Array,
     settings: Scoring,
 ) -> Array:
-    """Probability of each place by WEIGHTS, shape (weights, option, place)."""
+    """Probability of each rank by any weights and those of the study, (2, option, position)."""
     weight = results["draw_weight"].values[0] if "draw_weight" in results else np.ones(1)
     of_draws = np.repeat(utility[None], weight.size, axis=0)
     for number, criterion in enumerate(criteria):

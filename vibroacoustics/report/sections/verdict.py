@@ -17,7 +17,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
     return [
         Text(verdict.headline(results), "headline"),
         Bullets(tuple(verdict.reasons(results, verdicts))),
-        *([table] if table else []),
+        *filter(None, [verdict.options_table(verdicts), table]),
         *_options(verdicts),
     ]
 
