@@ -31,11 +31,12 @@ from vibroacoustics.base.vocabulary import (
 from vibroacoustics.report import comparison_text, render
 from vibroacoustics.report.assumptions import records_table
 from vibroacoustics.report.comparison import comparison, comparison_csv, comparison_tables
+from vibroacoustics.report.extremes import extremes_table
 from vibroacoustics.report.figures.scores import contributions
 from vibroacoustics.report.housing import isolation_sentence, shape_words
 from vibroacoustics.report.option_verdict import option_verdict, option_verdicts
 from vibroacoustics.report.scores import published_table, scores_csv, wrong_sums
-from vibroacoustics.report.verdict import extremes_table, headline, reasons
+from vibroacoustics.report.verdict import headline, reasons
 from vibroacoustics.scoring import score
 from vibroacoustics.study.scoring import CriterionScale, Scoring
 

@@ -86,16 +86,16 @@ def _tables(
     return [
         Table(
             f"{speed:g} rpm (1× at {frequency:.1f} Hz), microphone {receiver}",
-            ("Option", *heads.values(), "Verdict"),
+            ("Option", "Verdict", *heads.values()),
             tuple(
                 (
                     option,
-                    *(cells.text(column, at, i) for column in columns if column.name in heads),
                     verdicts[option],
+                    *(cells.text(column, at, i) for column in columns if column.name in heads),
                 )
                 for at, option in enumerate(options(shown))
             ),
-            frozenset({0, len(heads) + 1}),
+            frozenset({0, 1}),
         )
         for i, (speed, frequency) in enumerate(
             zip(speeds(shown), first_order_hz(shown), strict=True)

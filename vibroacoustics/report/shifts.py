@@ -79,20 +79,22 @@ class Shift:
         return float((self.weight @ counts).max())
 
     def short(self) -> str:
-        """`1× force +22 to +24 %`, `total level +2.2 to +25.2 dB in 97 % of the draws`."""
-        if self.after.max() < self.quantity.floor:
-            return f"{self.quantity.words} vanishes"
+        """`1× force +22 to +24 %`, `total level +2.2 to +25.2 dB`, how often it is measurable."""
         if self.before.min() < self.quantity.floor:
             return f"{self.quantity.words} appears"
-        if not self.quantity.is_level:
-            percent = 100.0 * (amplitude_of_level(self.gain_db) - 1.0)
-            return f"{self.quantity.words} {rounding.span(percent, _percent)} %"
-        drawn = weighted_quantiles(self.drawn_db, self.weight, QUANTILES)
-        size = f"{self.quantity.words} {rounding.span(drawn.ravel(), rounding.signed)} dB"
+        size = f"{self.quantity.words} {self.size()}"
         if self.weight.size == 1:
             return size
         share = self.grown if self.worsens else self.fallen
         return f"{size} (measurable in {100.0 * share:.0f} % of the draws at a speed)"
+
+    def size(self) -> str:
+        """`+22 to +24 %` of forces, `+2.2 to +25.2 dB` of levels: over draws and speeds."""
+        if not self.quantity.is_level:
+            percent = 100.0 * (amplitude_of_level(self.gain_db) - 1.0)
+            return f"{rounding.span(percent, _percent)} %"
+        drawn = weighted_quantiles(self.drawn_db, self.weight, QUANTILES)
+        return f"{rounding.span(drawn.ravel(), rounding.signed)} dB"
 
     def sentence(self) -> str:
         """`grows by 81 % (to at most 120 N)` and the like, without the quantity's name."""

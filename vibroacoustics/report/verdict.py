@@ -1,22 +1,20 @@
-"""The verdict that opens the report: headline, reasons, best and worst."""
+"""The verdict that opens the report: headline and reasons."""
 
 from collections.abc import Sequence
-from typing import Final
 
 import numpy as np
 import xarray as xr
 
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
-from . import labels
-from .bands import quantiles
+from .carrier import sure_sentence
 from .column_values import column
 from .comparison import comparison
-from .option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, OptionVerdict
-from .quantities import FOOT_FORCE, FORCE, HEARD_DB, JUDGED, LINE, MOMENT, TOTAL, Quantity
+from .option_verdict import MIXED, NO_CHANGE, WORSE, OptionVerdict
+from .quantities import FOOT_FORCE, FORCE, HEARD_DB, LINE, MOMENT, TOTAL
+from .ranking_words import ranking_sentence
 from .remainder import growth_sentence
-from .scores import acceptability_words, criteria_of_advantage, scope_words
-from .shifts import at_receiver, measurable, shift
+from .shifts import measurable, shift
 from .source_changes import changes_sentence
 from .source_words import carrier_sentence, left_out_sentence, shares_sentence
 from .study import (
@@ -26,20 +24,18 @@ from .study import (
     has_draws,
     has_sources,
     many_speeds,
-    options,
     overall_noise,
     speeds,
 )
 from .tables import Table
-
-NONE_MEASURABLE: Final = "none that could be measured"
 
 
 def headline(results: xr.Dataset) -> str:
     """What carries the level where that is modelled; else what balancing does to the level."""
     receiver, names = catalogue_receiver(results), balancers(results)
     if has_sources(results):
-        return carrier_sentence(results)
+        carrier = sure_sentence(results) if has_draws(results) else carrier_sentence(results)
+        return f"{carrier} {changes_sentence(results)}" if names else carrier
     if not names:
         return f"This study has no balancing option beside {REFERENCE_OPTION}."
     line = np.concatenate([shift(results, LINE, name).gain_db for name in names])
@@ -57,33 +53,12 @@ def reasons(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> list[str]
     texts = [_as_it_is(results)]
     if with_sources:
         texts += [shares_sentence(results), left_out_sentence(results)]
+        texts[:0] = [carrier_sentence(results)] if has_draws(results) else []
     else:
         texts.append(_remainder(results))
     if not verdicts:
         return texts
-    if with_sources:
-        texts.insert(0, changes_sentence(results))
-    return [*texts, *_warnings(verdicts), _ranking(results, verdicts)]
-
-
-def extremes_table(results: xr.Dataset) -> Table | None:
-    """Best and worst option by each quantity, each the largest over the speeds."""
-    if not balancers(results):
-        return None
-    rows = tuple(_extremes(results, quantity) for quantity in JUDGED)
-    head = (
-        "Quantity, largest over the speeds",
-        "Without balancer",
-        "Best of those measurably better",
-        "Worst of those measurably worse",
-    )
-    values = "; the total is the middle of the draws" if has_draws(results) else ""
-    return Table(
-        f"Best and worst, levels at {catalogue_receiver(results)}{values}",
-        head,
-        rows,
-        frozenset({0, 1, 2, 3}),
-    )
+    return [*texts, _forces(results), *_warnings(verdicts), ranking_sentence(results, verdicts)]
 
 
 def options_table(verdicts: Sequence[OptionVerdict]) -> Table | None:
@@ -177,6 +152,21 @@ def _remainder(results: xr.Dataset) -> str:
     )
 
 
+def _forces(results: xr.Dataset) -> str:
+    """What each option does to the forces, as far as it could be measured."""
+    texts = []
+    for quantity in (FORCE, FOOT_FORCE):
+        shifts = [(name, shift(results, quantity, name)) for name in balancers(results)]
+        changed = [
+            f"{one.size()} with {name}" for name, one in shifts if one.worsens or one.improves
+        ]
+        if changed:
+            texts.append(f"the {quantity.words} changes by {', '.join(changed)}")
+    if not texts:
+        return "No option changes a force by what could be measured."
+    return f"Against no balancer {'; '.join(texts)}."
+
+
 def _warnings(verdicts: Sequence[OptionVerdict]) -> list[str]:
     """Name the options that make something worse, and those that do nothing."""
     worse = [verdict.option for verdict in verdicts if verdict.judgement == WORSE]
@@ -195,65 +185,6 @@ def _warnings(verdicts: Sequence[OptionVerdict]) -> list[str]:
         else "No option makes the force, the feet or the sound measurably worse.",
     ]
     return [text for text in texts if text]
-
-
-def _ranking(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> str:
-    """Which option the study's weights prefer, and how sure that is."""
-    method = str(results["scoring_method"].values[0])
-    of_method = results[["score", "rank"]].sel({"scoring_method": method})
-    winners = [str(name) for name in of_method["option"].values[of_method["rank"].values == 1.0]]
-    verb = "ranks" if len(winners) == 1 else "rank"
-    score = rounding.fixed(float(of_method["score"].max()), 2)
-    unlucky = [
-        option.option
-        for option in verdicts
-        if option.judgement == BETTER
-        and of_method["rank"].sel(option=option.option)
-        > of_method["rank"].sel(option=REFERENCE_OPTION)
-    ]
-    behind = "".join(_behind(results, option) for option in unlucky)
-    return (
-        f"By the study's weights {' and '.join(winners)} {verb} first "
-        f"({labels.name(method).lower()}, score {score} of 1)"
-        f"{acceptability_words(results, winners)}.{behind}{scope_words(results)}"
-    )
-
-
-def _behind(results: xr.Dataset, option: str) -> str:
-    """By which criteria an option that betters forces or sound falls behind the reference."""
-    criteria = criteria_of_advantage(results, REFERENCE_OPTION, option)
-    return (
-        f" {option} ranks below {REFERENCE_OPTION} all the same: {REFERENCE_OPTION} scores better "
-        f"in {'; '.join(criteria)}."
-    )
-
-
-def _extremes(results: xr.Dataset, quantity: Quantity) -> tuple[str, ...]:
-    """Quantity, its reference, its best and its worst option with the largest over the speeds.
-
-    Best and worst are of those alone that the verdicts call better or worse for it.
-    """
-    highest = _highest(results, quantity)
-    shifts = {name: shift(results, quantity, name) for name in balancers(results)}
-    better = [name for name, one in shifts.items() if one.improves and not one.worsens]
-    worse = [name for name, one in shifts.items() if one.worsens]
-    best = min(better, key=lambda name: highest[name], default="")
-    worst = max(worse, key=lambda name: highest[name], default="")
-    named = [
-        f"{quantity.write(highest[name])}: {name}" if name else NONE_MEASURABLE
-        for name in (best, worst)
-    ]
-    return (quantity.words, quantity.write(highest[REFERENCE_OPTION]), *named)
-
-
-def _highest(results: xr.Dataset, quantity: Quantity) -> dict[str, float]:
-    """Largest over the speeds by option, of the total its middle over the draws."""
-    receiver = catalogue_receiver(results)
-    if quantity == TOTAL:
-        values = quantiles(results, "level_total").sel(quantile=0.5, receiver=receiver)
-    else:
-        values = at_receiver(column(results, quantity.column), receiver)
-    return {name: float(values.sel(option=name).max()) for name in options(results)}
 
 
 def _total_dba(results: xr.Dataset) -> float:

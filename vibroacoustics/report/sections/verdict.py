@@ -5,14 +5,14 @@ from collections.abc import Sequence
 import xarray as xr
 
 from ...base.registry import register
-from .. import verdict
+from .. import extremes, verdict
 from ..blocks import Block, Bullets, Definition, Definitions, Heading, Text
 from ..option_verdict import OptionVerdict, option_verdicts
 from . import Section
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
-    table = verdict.extremes_table(results)
+    table = extremes.extremes_table(results)
     verdicts = option_verdicts(results)
     return [
         Text(verdict.headline(results), "headline"),
