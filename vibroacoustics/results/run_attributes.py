@@ -107,9 +107,39 @@ class PublishedScores(Part):
     source: str
 
 
+class Measurable(Part):
+    level_db: Positive
+    force_ratio: Positive
+    draws_ratio: Number
+
+
 class Scoring(Part):
     random_weightings: int
     published: PublishedScores | None = None
+    measurable: Measurable | None = None
+
+
+class TwoSpeedLevel(Part):
+    machine: str
+    slow_rpm: Positive
+    slow_level_dba: Level
+    fast_rpm: Positive
+    fast_level_dba: Level
+    source: str
+
+
+class PublishedForce(Part):
+    part: str
+    speed_rpm: Number
+    force_1x_n: Number
+    deviation_n: Number
+    proportional_to: str
+    source: str
+
+
+class Evidence(Part):
+    two_speed_levels: list[TwoSpeedLevel] = []
+    forces: list[PublishedForce] = []
 
 
 class Radiation(Part):
@@ -130,6 +160,7 @@ class Parameters(Part):
     held_ranges: list[HeldRange] = []
     scoring: Scoring
     radiation: Radiation
+    evidence: Evidence = Evidence()
 
 
 class Words(Part):
