@@ -7,7 +7,7 @@ import xarray as xr
 
 from ..base.decibel import power_of_level
 from .bands import percent, total_by_draw
-from .source_words import PRIOR_WORDS, at_published, quoted_speed, ranked, source_name
+from .source_words import at_published, prior_words, quoted_speed, ranked, source_name
 from .study import catalogue_receiver, overall_noise
 
 _SURE: Final = 0.9
@@ -31,7 +31,7 @@ def sure_sentence(results: xr.Dataset) -> str:
         first = f"No modelled source carries {level}, without a balancer, not even {name}"
     else:
         first = f"Whether {name} carry {level}, without a balancer, is not sure"
-    priors = [PRIOR_WORDS.get(str(prior), str(prior)) for prior in results["prior"].values]
+    priors = prior_words(results)
     what = ["what is not modelled", *["it"] * (len(priors) - 1)]
     by_prior = [
         f"{percent(one)} if {rest} lies {prior}"

@@ -80,10 +80,15 @@ def shares_sentence(results: xr.Dataset) -> str:
         f"and taken as sure to ± {published.get('deviation_db', 2.0):g} dB, in the middle of the "
         f"draws with the {band_words(results)} in brackets: {first}."
     ]
-    names = [PRIOR_WORDS.get(str(name), str(name)) for name in results["prior"].values]
+    names = prior_words(results)
     texts.append(f"That holds for a remainder {names[0]}.")
     texts += [f"For one {name}: {shares}." for name, shares in zip(names[1:], others, strict=True)]
     return " ".join(texts)
+
+
+def prior_words(results: xr.Dataset) -> list[str]:
+    """Priors of the remainder after "a remainder"."""
+    return [PRIOR_WORDS.get(str(name), str(name)) for name in results["prior"].values]
 
 
 def _shares(results: xr.Dataset, prior: int) -> str:
