@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import product
 
 import numpy as np
@@ -10,10 +11,11 @@ import xarray as xr
 from ..base import rounding
 from ..base.arrays import Array
 from ..base.vocabulary import REFERENCE_OPTION
-from .bands import Band, band_words, quantiles
+from .bands import Band, band_words, has_band, quantiles
 from .columns import Column
 from .kept_columns import columns_of
 from .option_verdict import table_words
+from .shifts import at_receiver
 from .study import (
     catalogue_receiver,
     few_speeds,
@@ -50,13 +52,14 @@ def comparison_csv(results: xr.Dataset) -> bytes:
 
 def comparison_tables(results: xr.Dataset, receiver: str) -> list[Table]:
     """One table per speed that is shown, rounded for reading."""
-    return _tables(results, receiver, lambda column: column.head)
+    return _tables(results, receiver, lambda column: column.head, ends_only=False)
 
 
 def comparison_text(results: xr.Dataset) -> str:
     """Compact plain-text tables for the terminal, at the catalogue's microphone."""
-    tables = _tables(results, catalogue_receiver(results), lambda column: column.terminal)
-    notes = [bands_sentence(results), few_speeds_words(results)]
+    receiver = catalogue_receiver(results)
+    tables = _tables(results, receiver, lambda column: column.terminal, ends_only=True)
+    notes = [_ends_sentence(results), few_speeds_words(results)]
     return "\n".join([*map(to_text, tables), *(f"{note}\n" for note in notes if note)])
 
 
@@ -64,9 +67,13 @@ def bands_sentence(results: xr.Dataset) -> str:
     """What the bands in the tables are; empty where there are none."""
     if not has_draws(results):
         return ""
-    return (
-        f"Modelled and total levels and their changes: middle of the draws ({band_words(results)})."
-    )
+    return f"What is drawn is shown as the middle of the draws ({band_words(results)})."
+
+
+def _ends_sentence(results: xr.Dataset) -> str:
+    if not has_draws(results):
+        return ""
+    return f"What is drawn is shown as its {band_words(results)}; 1x levels are as assumed."
 
 
 def _joined(results: xr.Dataset, columns: Sequence[Column]) -> xr.Dataset:
@@ -76,11 +83,11 @@ def _joined(results: xr.Dataset, columns: Sequence[Column]) -> xr.Dataset:
 
 
 def _tables(
-    results: xr.Dataset, receiver: str, head_of: Callable[[Column], str | None]
+    results: xr.Dataset, receiver: str, head_of: Callable[[Column], str | None], ends_only: bool
 ) -> list[Table]:
     shown = few_speeds(results)
     columns = columns_of(shown).columns
-    cells = _Cells.of(shown, columns, receiver)
+    cells = _Cells.of(shown, columns, receiver, ends_only)
     heads = {column.name: head for column in columns if (head := head_of(column)) is not None}
     verdicts = table_words(results)
     return [
@@ -112,23 +119,31 @@ class _Cells:
     results : with the speeds that are shown
     numbers : by column, shape (option, speed)
     bands : of the columns that have one, shape (option, speed, quantile)
+    ends_only : whether a band is shown without its middle
     """
 
     results: xr.Dataset
     numbers: dict[str, Array]
     bands: dict[str, Array]
+    ends_only: bool
 
     @classmethod
-    def of(cls, results: xr.Dataset, columns: Sequence[Column], receiver: str) -> "_Cells":
+    def of(
+        cls, results: xr.Dataset, columns: Sequence[Column], receiver: str, ends_only: bool
+    ) -> "_Cells":
         compared = _joined(results, columns).sel(receiver=receiver)
         numbers = {str(name): array.values for name, array in compared.data_vars.items()}
-        drawn = [column for column in columns if column.band and has_draws(results)]
-        at_receiver = {
-            column.name: quantiles(results, column.band).sel(receiver=receiver) for column in drawn
+        drawn = {
+            column.name: quantiles(results, column.band)
+            for column in columns
+            if column.band and has_band(results, column.band)
         }
         order = ("option", "speed", "quantile")
-        bands = {name: array.transpose(*order).values for name, array in at_receiver.items()}
-        return cls(results, numbers, bands)
+        bands = {
+            name: at_receiver(array, receiver).transpose(*order).values
+            for name, array in drawn.items()
+        }
+        return cls(results, numbers, bands, ends_only)
 
     def text(self, column: Column, option: int, speed: int) -> str:
         """Text of a value or its band; a change of a silent level is none."""
@@ -141,5 +156,10 @@ class _Cells:
                 return "silent"
         if column.name in self.bands:
             band = Band(*self.bands[column.name][option, speed].tolist())
-            return band.middle_and_ends(lambda one: column.write(one, self.results))
+            write = partial(_write, column, self.results)
+            return band.ends(write) if self.ends_only else band.middle_and_ends(write)
         return column.write(value, self.results)
+
+
+def _write(column: Column, results: xr.Dataset, value: float) -> str:
+    return column.write(value, results)

@@ -5,9 +5,9 @@ from typing import Final
 import xarray as xr
 
 from ..base.vocabulary import REFERENCE_OPTION
-from .bands import quantiles
+from .bands import has_band, quantiles
 from .column_values import column
-from .quantities import JUDGED, TOTAL, Quantity
+from .quantities import JUDGED, Quantity
 from .shifts import at_receiver, shift
 from .study import balancers, catalogue_receiver, has_draws, options
 from .tables import Table
@@ -26,7 +26,7 @@ def extremes_table(results: xr.Dataset) -> Table | None:
         "Best of those measurably better",
         "Worst of those measurably worse",
     )
-    values = "; the total is the middle of the draws" if has_draws(results) else ""
+    values = "; what is drawn is the middle of the draws" if has_draws(results) else ""
     return Table(
         f"Best and worst, levels at {catalogue_receiver(results)}{values}",
         head,
@@ -54,10 +54,12 @@ def _extremes(results: xr.Dataset, quantity: Quantity) -> tuple[str, ...]:
 
 
 def _highest(results: xr.Dataset, quantity: Quantity) -> dict[str, float]:
-    """Largest over the speeds by option, of the total its middle over the draws."""
-    receiver = catalogue_receiver(results)
-    if quantity == TOTAL:
-        values = quantiles(results, "level_total").sel(quantile=0.5, receiver=receiver)
-    else:
-        values = at_receiver(column(results, quantity.column), receiver)
+    """Largest over the speeds by option, of what was drawn the middle over the draws."""
+    drawn = quantity.drawn and has_band(results, quantity.drawn)
+    values = (
+        quantiles(results, quantity.drawn).sel(quantile=0.5)
+        if drawn
+        else column(results, quantity.column)
+    )
+    values = at_receiver(values, catalogue_receiver(results))
     return {name: float(values.sel(option=name).max()) for name in options(results)}

@@ -16,11 +16,12 @@ HEARD_DB: Final = 1.0
 
 @dataclass(frozen=True)
 class Quantity:
-    """A column of the comparison, and how a sentence calls it."""
+    """A column of the comparison, how a sentence calls it, and its variable over the draws."""
 
     column: str
     words: str
     unit: str
+    drawn: str = ""
 
     @property
     def is_level(self) -> bool:
@@ -37,11 +38,11 @@ class Quantity:
         return f"{number} {self.unit}".replace(" ", NO_BREAK)
 
 
-FORCE: Final = Quantity("force_1x_n", "1× force", "N")
-MOMENT: Final = Quantity("moment_1x_nm", "1× moment", "N m")
-FOOT_FORCE: Final = Quantity("foot_force_1x_n", "1× foot force", "N")
+FORCE: Final = Quantity("force_1x_n", "1× force", "N", "force_1x")
+MOMENT: Final = Quantity("moment_1x_nm", "1× moment", "N m", "moment_1x")
+FOOT_FORCE: Final = Quantity("foot_force_1x_n", "1× foot force", "N", "foot_force_1x")
 LINE: Final = Quantity("level_1x_db", "1× line", "dB")
-TOTAL: Final = Quantity("level_total_dba", "total level", "dB(A)")
+TOTAL: Final = Quantity("level_total_dba", "total level", "dB(A)", "level_total")
 
 JUDGED: Final = (FORCE, MOMENT, FOOT_FORCE, TOTAL, LINE)
 """An option is called better or worse by these: they can be measured on a machine."""

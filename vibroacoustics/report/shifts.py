@@ -1,6 +1,7 @@
 """How an option shifts one quantity against the reference, as numbers and in words."""
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 import xarray as xr
@@ -11,10 +12,14 @@ from ..base.decibel import amplitude_of_level, level_of_amplitude
 from ..base.quantiles import weighted_quantiles
 from ..base.vocabulary import REFERENCE_OPTION
 from ..study.scoring import Measurable
-from .bands import QUANTILES
+from .bands import QUANTILES, has_band
 from .column_values import column
-from .quantities import TOLERANCE_DB, TOTAL, Quantity
-from .study import catalogue_receiver, has_draws, parameters
+from .quantities import TOLERANCE_DB, Quantity
+from .study import catalogue_receiver, parameters
+
+
+_ALL: Final = 0.995
+"""Share of the draws that reads as all of them."""
 
 
 @dataclass(frozen=True)
@@ -83,18 +88,17 @@ class Shift:
         if self.before.min() < self.quantity.floor:
             return f"{self.quantity.words} appears"
         size = f"{self.quantity.words} {self.size()}"
-        if self.weight.size == 1:
-            return size
         share = self.grown if self.worsens else self.fallen
+        if share > _ALL:
+            return size
         return f"{size} (measurable in {100.0 * share:.0f} % of the draws at a speed)"
 
     def size(self) -> str:
         """`+22 to +24 %` of forces, `+2.2 to +25.2 dB` of levels: over draws and speeds."""
+        drawn = weighted_quantiles(self.drawn_db, self.weight, QUANTILES).ravel()
         if not self.quantity.is_level:
-            percent = 100.0 * (amplitude_of_level(self.gain_db) - 1.0)
-            return f"{rounding.span(percent, _percent)} %"
-        drawn = weighted_quantiles(self.drawn_db, self.weight, QUANTILES)
-        return f"{rounding.span(drawn.ravel(), rounding.signed)} dB"
+            return f"{rounding.span(100.0 * (amplitude_of_level(drawn) - 1.0), _percent)} %"
+        return f"{rounding.span(drawn, rounding.signed)} dB"
 
     def sentence(self) -> str:
         """`grows by 81 % (to at most 120 N)` and the like, without the quantity's name."""
@@ -139,8 +143,8 @@ def shift(
     values = at_receiver(column(results, quantity.column), at)
     before = values.sel(option=REFERENCE_OPTION).values
     after = values.sel(option=option).values
-    if quantity == TOTAL and has_draws(results):
-        drawn_db, weight = _drawn_change(results, option, at)
+    if quantity.drawn and has_band(results, quantity.drawn):
+        drawn_db, weight = _drawn_change(results, quantity, option, at)
     else:
         drawn_db, weight = _gain(quantity, before, after)[None], np.ones(1)
     return Shift(quantity, before, after, drawn_db, weight, measurable(results))
@@ -162,13 +166,18 @@ def _gain(quantity: Quantity, before: Array, after: Array) -> Array:
     return np.asarray(gain)
 
 
-def _drawn_change(results: xr.Dataset, option: str, receiver: str) -> tuple[Array, Array]:
-    """Change of the total in the draws that count, shape (draw, speed), and their weights."""
+def _drawn_change(
+    results: xr.Dataset, quantity: Quantity, option: str, receiver: str
+) -> tuple[Array, Array]:
+    """Change in the draws that count, shape (draw, speed), dB, and their weights."""
     weight = results["draw_weight"].values[0]
-    total = results["level_total_by_draw"].sel(receiver=receiver).isel(draw=weight > 0.0)
-    change = total.sel(option=option) - total.sel(option=REFERENCE_OPTION)
+    drawn = at_receiver(results[f"{quantity.drawn}_by_draw"], receiver).isel(draw=weight > 0.0)
+    before, after = (
+        drawn.sel(option=name).transpose("draw", "speed").values
+        for name in (REFERENCE_OPTION, option)
+    )
     counting = weight[weight > 0.0]
-    return change.transpose("draw", "speed").values, counting / counting.sum()
+    return _gain(quantity, before, after), counting / counting.sum()
 
 
 def _percent(value: float) -> str:

@@ -2,14 +2,15 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from typing import Final
 
 import xarray as xr
 
 from ...base import rounding
 from ...base.registry import register
-from ..bands import QUANTILES, quantiles
-from ..study import has_draws, has_sources
+from ..bands import QUANTILES, has_band, quantiles
+from ..study import has_sources
 from . import Column, Values
 
 
@@ -41,7 +42,7 @@ def _quantiles(name: str, unit: str) -> Iterator[Column]:
     """`level_total_10_percent_dba` and the others of a band."""
     for share in QUANTILES:
         column = f"{name}_{100.0 * share:.0f}_percent_{unit}"
-        yield Column(column, _quantile(name, share), applies=has_draws)
+        yield Column(column, _quantile(name, share), applies=partial(has_band, name=name))
 
 
 def _level(value: float, results: xr.Dataset) -> str:
@@ -59,10 +60,10 @@ def _total_change(value: float, results: xr.Dataset) -> str:
 
 # fmt: off
 _COLUMNS: Final = (
-    Column("force_1x_n", _amplitude("force_amplitude", 1), "Force 1×, N", "1x N"),
+    Column("force_1x_n", _amplitude("force_amplitude", 1), "Force 1×, N", "1x N", band="force_1x"),
     Column("force_2x_n", _amplitude("force_amplitude", 2), "Force 2×, N"),
-    Column("moment_1x_nm", _amplitude("moment_amplitude", 1), "Moment 1×, N m", "1x N m"),
-    Column("foot_force_1x_n", _foot_force, "Foot force 1×, N", "foot 1x N"),
+    Column("moment_1x_nm", _amplitude("moment_amplitude", 1), "Moment 1×, N m", "1x N m", band="moment_1x"),  # noqa: E501
+    Column("foot_force_1x_n", _foot_force, "Foot force 1×, N", "foot 1x N", band="foot_force_1x"),
     Column("level_1x_db", _line(1, "Z"), "Level 1×, dB", "1x dB", _level),
     Column("level_2x_db", _line(2, "Z"), "Level 2×, dB", None, _level),
     Column("level_1x_dba", _line(1, "A"), "Level 1×, dB(A)", None, _level),
@@ -75,6 +76,9 @@ _COLUMNS: Final = (
     Column("level_modelled_dbc", _modelled("C")),
     *_quantiles("change_modelled", "db"),
     *_quantiles("change_total", "db"),
+    *_quantiles("force_1x", "n"),
+    *_quantiles("moment_1x", "nm"),
+    *_quantiles("foot_force_1x", "n"),
     *_quantiles("level_modelled", "dba"),
     *_quantiles("level_total", "dba"),
 )
