@@ -17,7 +17,6 @@ from .column_values import column
 from .quantities import TOLERANCE_DB, Quantity
 from .study import catalogue_receiver, parameters
 
-
 _ALL: Final = 0.995
 """Share of the draws that reads as all of them."""
 
