@@ -1,6 +1,5 @@
 """Tables of the scores, and of the published scores with their sums added up again."""
 
-from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -8,9 +7,8 @@ import xarray as xr
 
 from ..base import rounding
 from ..scoring.ranking import utilities
-from ..scoring.scores import ANY_WEIGHTS, OF_THE_STUDY
+from ..scoring.scores import ANY_WEIGHTS
 from . import labels
-from .bands import percent
 from .option_verdict import option_verdicts
 from .study import has_draws, has_sources, options, parameters
 from .tables import Table, to_csv
@@ -79,17 +77,18 @@ def values_table(results: xr.Dataset) -> Table:
         for option in options(results)
     )
     head = ("Option", *(f"{label}, {unit}" if unit else label for _, label, unit in criteria))
-    return Table("Values of the criteria", head, rows)
+    drawn = ", as assumed" if has_draws(results) else ""
+    return Table(f"Values of the criteria{drawn}", head, rows)
 
 
 def scores_table(results: xr.Dataset) -> Table:
-    """Score and rank by method and the share of first probability."""
+    """Score and rank by method and the probability of the first rank."""
     methods = _names(results, "scoring_method")
     head = ["Option"]
     for method in methods:
         head += [f"{labels.name(method)}, score 0 to 1", f"{labels.name(method)}, rank"]
     rows = tuple(
-        _scores_row(results.sel(option=option), option, methods) for option in _ranked(results)
+        _scores_row(results.sel(option=option), option, methods) for option in ranked(results)
     )
     return Table(
         "Scores and ranks, best first by the first method",
@@ -104,33 +103,6 @@ def scope_words(results: xr.Dataset) -> str:
         return ""
     where = "in each draw" if has_draws(results) else "at the assumed values"
     return f" The change of level in the scores counts all sources, {where}."
-
-
-def acceptability_words(results: xr.Dataset, winners: Sequence[str]) -> str:
-    """How sure the first rank is; files of older versions have it by the weights alone."""
-    whatever = 100.0 * float(results["first_place_share"].sel(option=winners).sum())
-    if "rank_acceptability" not in results or not has_draws(results):
-        return f", and in {whatever:.0f} % of the weightings drawn at random"
-    first = results["rank_acceptability"].sel(rank_position=1, option=winners).sum("option")
-    by_study = 100.0 * float(first.sel({"criteria_weights": OF_THE_STUDY}))
-    return (
-        f": by these weights in {by_study:.0f} % of the draws, and with draws and weights at "
-        f"random in {whatever:.0f} %"
-    )
-
-
-def acceptability_table(results: xr.Dataset) -> Table | None:
-    """Probability of each rank of each option; None in files of older versions."""
-    if "rank_acceptability" not in results:
-        return None
-    probability = results["rank_acceptability"].sel({"criteria_weights": ANY_WEIGHTS})
-    rows = tuple(
-        (option, *(percent(float(one)) for one in probability.sel(option=option).values))
-        for option in _ranked(results)
-    )
-    head = ("Option", *(f"Rank {number:g}" for number in probability["rank_position"].values))
-    drawn = "over draws and weights together" if has_draws(results) else "over the weights"
-    return Table(f"Probability of each rank, {drawn}", head, rows)
 
 
 def criteria_of_advantage(results: xr.Dataset, option: str, other: str) -> list[str]:
@@ -194,7 +166,8 @@ def _published_row(printed: xr.Dataset, option: str) -> tuple[str, ...]:
     return (option, *scores, f"{claimed:g}", f"{real:g}", verdict)
 
 
-def _ranked(results: xr.Dataset) -> list[str]:
+def ranked(results: xr.Dataset) -> list[str]:
+    """Options, the best by the first method first."""
     order = np.argsort(results["rank"].isel(scoring_method=0).values, kind="stable")
     return [options(results)[index] for index in order]
 
