@@ -16,7 +16,7 @@ def acceptability_words(results: xr.Dataset, winners: Sequence[str]) -> str:
     whatever = 100.0 * float(results["first_place_share"].sel(option=winners).sum())
     if "rank_acceptability" not in results or not has_draws(results):
         return f", and in {whatever:.0f} % of the weightings drawn at random"
-    first = results["rank_acceptability"].sel(rank_position=1, option=winners).sum("option")
+    first = results["rank_acceptability"].isel(rank_position=0).sel(option=winners).sum("option")
     by_study = 100.0 * float(first.sel({"criteria_weights": OF_THE_STUDY}))
     return (
         f": by these weights in {by_study:.0f} % of the draws, and with draws and weights at "

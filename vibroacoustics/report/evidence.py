@@ -128,8 +128,9 @@ def _growths(results: xr.Dataset, rows: Iterable[dict[str, Any]]) -> Iterator[Ru
 
 def _forces(results: xr.Dataset, rows: Iterable[dict[str, Any]]) -> Iterator[Rung]:
     """Forces of moving parts at 1x, where the results have part and speed."""
-    for row in rows:
-        if row["part"] not in results["source"] or row["speed_rpm"] not in results["speed"]:
+    for row in rows if "force_order" in results else ():
+        known = row["part"] in results["source"].values
+        if not known or row["speed_rpm"] not in results["speed"].values:
             continue
         phasors = results["force_order"].sel(
             source=row["part"], speed=row["speed_rpm"], option=REFERENCE_OPTION, order=1
@@ -157,7 +158,7 @@ def _largest(phasor: Array) -> float:
 def _relative_range(results: xr.Dataset, field: str) -> float:
     """Standard uncertainty of a value of the machine over the value, from its range; 0 without."""
     for record in parameters(results)["records"]:
-        if _is_of(record, field) and record["lowest"] is not None:
+        if _is_of(record, field) and None not in (record["lowest"], record["highest"]):
             width = (record["highest"] - record["lowest"]) * _OF_A_RANGE
             return float(width / abs(_number(record["value"])))
     return 0.0

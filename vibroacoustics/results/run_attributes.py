@@ -24,6 +24,11 @@ class Noise(Part):
     level_dba: Level
     speed_rpm: Number
     distance_m: Number
+    deviation_db: Positive = 2.0
+
+
+class Remainder(Part):
+    speed_growth_db: Number | None = None
 
 
 class Erratum(Part):
@@ -63,6 +68,7 @@ class RedesignedMachine(Part):
 class Machine(RedesignedMachine):
     name: str
     overall_noise: Noise
+    remainder: Remainder = Remainder()
     errata: list[Erratum]
     housing: RigidBody
     stopping: Stopping | None = None

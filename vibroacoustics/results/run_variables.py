@@ -69,6 +69,7 @@ LABELS: Final[dict[str, tuple[str, ...]]] = {
     "axis": AXES,
     "dof": RIGID_BODY_DOFS,
     "weighting": WEIGHTINGS,
+    "criteria_weights": ("any", "of the study"),
     "figure": (ADDED_MASS,),
     "stopping_phase": ("steady", "stopping"),
 }
