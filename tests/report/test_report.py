@@ -381,7 +381,19 @@ def test_a_line_that_rises_elsewhere_makes_the_verdict_mixed() -> None:
     own = option_verdict(results, "halved")
     assert own.judgement == "mixed"
     assert own.worse_in == ("1× line at side_1m",)
+    assert own.reason.endswith("; worse: 1× line +6.0 dB at side_1m")
     assert "at side_1m it rises by 6.0 dB" in " ".join(own.sentences)
+
+
+def test_a_line_that_no_microphone_tells_from_its_noise_makes_nothing_worse() -> None:
+    """At -9 dB without and -3 dB with the option; at +3 dB it would be worse."""
+    results = make_results({"none": 1.0, "halved": 0.5})
+    line = {"receiver": "side_1m", "order": 1}
+    results["order_level"].loc[{"option": "none", **line}] = -9.0
+    results["order_level"].loc[{"option": "halved", **line}] = -3.0
+    assert option_verdict(results, "halved").judgement == "better"
+    results["order_level"].loc[{"option": "halved", **line}] = 3.0
+    assert option_verdict(results, "halved").judgement == "mixed"
 
 
 def test_the_headline_says_whether_the_total_moves() -> None:

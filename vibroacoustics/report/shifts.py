@@ -14,7 +14,7 @@ from ..base.vocabulary import REFERENCE_OPTION
 from ..study.scoring import Measurable
 from .bands import QUANTILES, has_band
 from .column_values import column
-from .quantities import TOLERANCE_DB, Quantity
+from .quantities import LINE, TOLERANCE_DB, Quantity
 from .study import catalogue_receiver, parameters
 
 _ALL: Final = 0.995
@@ -70,6 +70,10 @@ class Shift:
     @property
     def _relative(self) -> Array:
         """Changes in dB of levels, as ratios of forces, shape (draw, speed)."""
+        if self.quantity == LINE:
+            quietest = self.least.quietest_line_db
+            gain = np.maximum(self.after, quietest) - np.maximum(self.before, quietest)
+            return np.asarray(gain[None])
         if self.quantity.is_level:
             return self.drawn_db
         return np.asarray(amplitude_of_level(self.drawn_db) - 1.0)

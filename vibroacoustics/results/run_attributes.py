@@ -116,6 +116,7 @@ class PublishedScores(Part):
 class Measurable(Part):
     level_db: Positive
     force_ratio: Positive
+    quietest_line_db: Level
     draws_ratio: Number
 
 
