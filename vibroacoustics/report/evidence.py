@@ -112,6 +112,8 @@ def _growths(results: xr.Dataset, rows: Iterable[dict[str, Any]]) -> Iterator[Ru
         return
     width = _relative_range(results, _GROWTH) * growth
     for row in rows:
+        if min(row["slow_rpm"], row["fast_rpm"]) <= 0.0:
+            continue
         decades = level_of_power(row["fast_rpm"] / row["slow_rpm"]) / 10.0
         yield Rung(
             f"Growth of the remainder from {row['slow_rpm']:g} to {row['fast_rpm']:g} rpm, beside "

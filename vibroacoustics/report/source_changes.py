@@ -48,7 +48,7 @@ def changes_sentence(results: xr.Dataset) -> str:
         parts.append(
             f"{drawn}{which} changes the level of the whole machine by what could be "
             f"measured: {', '.join(rest)} by "
-            f"{rounding.span(ends, rounding.signed)} dB."
+            f"{change_words(Band(min(ends), 0.0, max(ends)))}."
         )
     return " ".join(filter(None, parts))
 

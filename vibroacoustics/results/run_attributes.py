@@ -24,7 +24,7 @@ class Noise(Part):
     level_dba: Level
     speed_rpm: Number
     distance_m: Number
-    deviation_db: Positive = 2.0
+    deviation_db: Number = 2.0
 
 
 class Remainder(Part):
@@ -128,10 +128,10 @@ class Scoring(Part):
 
 class TwoSpeedLevel(Part):
     machine: str
-    slow_rpm: Positive
-    slow_level_dba: Level
-    fast_rpm: Positive
-    fast_level_dba: Level
+    slow_rpm: Number
+    slow_level_dba: Number
+    fast_rpm: Number
+    fast_level_dba: Number
     source: str
 
 
