@@ -1,4 +1,4 @@
-# make run   sets up, runs the main job, prints the table and where the report is
+# make run   sets up, runs the calibrated study, prints the table and where the report is; STUDY=… runs another
 # make test  sets up and runs every test, the slow physics included
 # make long  tests that take minutes; kills, full disks, flipped bits and signals for an hour
 # make coverage  400 synthetic machines: how often the bands hold the truth; some minutes
@@ -8,7 +8,7 @@ unexport PYTHONDONTWRITEBYTECODE
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
-STUDY ?= pipelines/copeland_thesis.toml
+STUDY ?= pipelines/copeland_sources.toml
 MINUTES ?= 60
 
 .PHONY: run test long coverage docs check lock clean versions

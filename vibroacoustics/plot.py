@@ -8,7 +8,8 @@ The report draws its pictures with the same functions. A notebook shows what the
 
 Of `run`: `force_over_revolution`, `force_orders`, `foot_force_orders`, `level_orders`,
 `mount_transmissibility`, `transfer`, `green_difference`, `levels`, `line_map`, `scores`,
-`source_third_octaves`, `option_third_octaves`, `stopping`, `stopping_order_map`.
+`rank_acceptability`, `source_third_octaves`, `option_third_octaves`, `stopping`,
+`stopping_order_map`.
 
 Of `radiate`: `transfer_vectors`, `unit_level_map`, `directivity`.
 
@@ -30,7 +31,7 @@ from .report.figures.orders import foot_force_orders, force_orders, level_orders
 from .report.figures.radiation import green_difference, levels, transfer
 from .report.figures.recorded_maps import run_up_levels, speed_frequency_map, tracked_orders
 from .report.figures.recorded_orders import order_map, order_spectrum, orders_over_speed
-from .report.figures.scores import scores
+from .report.figures.scores import rank_acceptability, scores
 from .report.figures.sources import option_third_octaves, source_third_octaves
 from .report.figures.stopping import stopping, stopping_order_map
 from .report.figures.transfer_vectors import transfer_vectors
@@ -51,6 +52,7 @@ __all__ = [
     "order_map",
     "order_spectrum",
     "orders_over_speed",
+    "rank_acceptability",
     "run_up_levels",
     "scores",
     "source_third_octaves",

@@ -72,6 +72,7 @@ FEATURES = {
     "stopping drawn": "va.plot.stopping",
     "sources drawn": "va.plot.source_third_octaves",
     "scores drawn": "va.plot.scores",
+    "probability of ranks drawn": "va.plot.rank_acceptability",
     "balancer of one's own": "va.Option",
     "machine of one's own": "va.Machine",
     "source of one's own": "va.Source",

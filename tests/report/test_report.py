@@ -31,11 +31,12 @@ from vibroacoustics.base.vocabulary import (
 from vibroacoustics.report import comparison_text, render
 from vibroacoustics.report.assumptions import records_table
 from vibroacoustics.report.comparison import comparison, comparison_csv, comparison_tables
+from vibroacoustics.report.extremes import extremes_table
 from vibroacoustics.report.figures.scores import contributions
 from vibroacoustics.report.housing import isolation_sentence, shape_words
 from vibroacoustics.report.option_verdict import option_verdict, option_verdicts
 from vibroacoustics.report.scores import published_table, scores_csv, wrong_sums
-from vibroacoustics.report.verdict import extremes_table, headline, reasons
+from vibroacoustics.report.verdict import headline, reasons
 from vibroacoustics.scoring import score
 from vibroacoustics.study.scoring import CriterionScale, Scoring
 
@@ -321,7 +322,9 @@ def test_silence_is_never_shown_as_a_number(results: xr.Dataset, files: dict[str
         (3.0, "worse", "the force grows 3.00-fold"),
         (0.5, "better", "the force falls by 50 %"),
         (0.0, "better", "the force vanishes"),
-        (1.0, "no change", "stay the same"),
+        (1.0, "no difference that could be measured", "stay the same"),
+        (1.04, "no difference that could be measured", "the force grows by 4 %"),
+        (0.96, "no difference that could be measured", "the force falls by 4 %"),
     ],
 )
 def test_the_verdict_follows_the_sign(factor: float, judgement: str, words: str) -> None:
@@ -333,7 +336,7 @@ def test_the_verdict_follows_the_sign(factor: float, judgement: str, words: str)
 def test_options_that_worsen_are_named_so(results: xr.Dataset) -> None:
     texts = " ".join(reasons(results, option_verdicts(results)))
     assert "Worse than no balancer: louder." in texts
-    assert "Without any effect on force, feet and sound: idle." in texts
+    assert "With no difference that could be measured in force, feet and sound: idle." in texts
     halved = make_results({"none": 1.0, "halved": 0.5})
     better = " ".join(reasons(halved, option_verdicts(halved)))
     assert "Worse" not in better
@@ -378,7 +381,19 @@ def test_a_line_that_rises_elsewhere_makes_the_verdict_mixed() -> None:
     own = option_verdict(results, "halved")
     assert own.judgement == "mixed"
     assert own.worse_in == ("1× line at side_1m",)
+    assert own.reason.endswith("; worse: 1× line +6.0 dB at side_1m")
     assert "at side_1m it rises by 6.0 dB" in " ".join(own.sentences)
+
+
+def test_a_line_that_no_microphone_tells_from_its_noise_makes_nothing_worse() -> None:
+    """At -9 dB without and -3 dB with the option; at +3 dB it would be worse."""
+    results = make_results({"none": 1.0, "halved": 0.5})
+    line = {"receiver": "side_1m", "order": 1}
+    results["order_level"].loc[{"option": "none", **line}] = -9.0
+    results["order_level"].loc[{"option": "halved", **line}] = -3.0
+    assert option_verdict(results, "halved").judgement == "better"
+    results["order_level"].loc[{"option": "halved", **line}] = 3.0
+    assert option_verdict(results, "halved").judgement == "mixed"
 
 
 def test_the_headline_says_whether_the_total_moves() -> None:

@@ -137,7 +137,7 @@ def test_what_is_checked_is_all_that_a_report_reads(name: str) -> None:
     """Without the variables and keys that no check knows it is the same."""
     results = run(name)
     optional = {"supply_frequency", "projection_error", "force", "transfer_vector_closed_form",
-                "transfer_vector_error", "stopping_order_map"}  # fmt: skip
+                "transfer_vector_error", "stopping_order_map", "rank_acceptability"}  # fmt: skip
     needed = {*needed_variables(results), *optional} & results.keys()
     reduced = results[sorted(needed)]
     beside = {*reduced.dims, *(name for one in needed for name in COORDINATES_OF.get(one, ()))}

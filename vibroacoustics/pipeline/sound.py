@@ -35,6 +35,7 @@ from ..transfer.study_path import projection_errors
 from ..uncertainty.bank import Bank, bank_of
 from ..uncertainty.drawn import drawn_cases
 from ..uncertainty.draws import drawn_values, errors_of_projection, of_every_draw
+from ..uncertainty.first_order import first_order_by_draw
 from ..uncertainty.share_variables import change_shares, level_shares
 from .motion import Motion, motion_of
 
@@ -82,7 +83,8 @@ def levels_of(
     levels = levels.merge(errors_of_projection(study.ranges, errors))
     if not bank.suffices:
         return levels
-    return levels.merge(_of_draws(bank, transmission, axes, cases, sound, progress))
+    drawn = _of_draws(bank, transmission, axes, cases, sound, progress, motion)
+    return levels.merge(drawn)
 
 
 def _bank(
@@ -127,6 +129,7 @@ def _of_draws(
     cases: Mapping[CaseKey, Case],
     given: Sound,
     progress: Progress,
+    motion: Motion,
 ) -> xr.Dataset:
     """All cases with the draws that agree with the published level."""
     study = transmission.study
@@ -140,6 +143,7 @@ def _of_draws(
     rests = remainder_by_draw(study, bank.modelled_db[index])
     lefts = remaining_by_draw(study, axes, sounds, draws, rests[0])
     levels = draw_variables(axes, sounds, lefts, rests, weight)
+    levels = levels.merge(first_order_by_draw(sounds, motion.results))
     levels = levels.merge(drawn_values(study.ranges, draws))
     return levels.merge(change_shares(study, levels))
 
@@ -161,7 +165,10 @@ def sound_of_draws(
         received = replace(transmission, wrench_pressure=pressure).received(
             drawn.cases, drawn.loads
         )
-        return {key: sound_by_source(one, axes.bands) for key, one in received.items()}
+        return {
+            key: replace(sound_by_source(one, axes.bands), first_order=drawn.first_order.get(key))
+            for key, one in received.items()
+        }
 
     unknown = {key: given[key].unknown for key in cases}
     return of_every_draw(draws, sound_of, unknown, progress)

@@ -47,7 +47,7 @@ def quantiles(results: xr.Dataset, name: str) -> xr.DataArray:
     ----------
     results : of a run
     name : `source_level`, `level_modelled`, `level_total`, `level_remainder`, `change_modelled`
-        or `change_total`
+        or `change_total`; `force_1x`, `moment_1x` or `foot_force_1x` where they were drawn
     """
     if not has_draws(results):
         given = results[name]
@@ -59,6 +59,11 @@ def quantiles(results: xr.Dataset, name: str) -> xr.DataArray:
     if name.startswith("change"):
         level = level - level.sel(option=REFERENCE_OPTION, drop=True)
     return over_draws(results, level)
+
+
+def has_band(results: xr.Dataset, name: str) -> bool:
+    """Whether a variable was drawn; names as of `quantiles`, and `force_1x` and the like."""
+    return has_draws(results) and f"{name.replace('change', 'level')}_by_draw" in results
 
 
 def over_draws(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> xr.DataArray:

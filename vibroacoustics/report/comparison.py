@@ -1,6 +1,7 @@
 """The comparison of the options: one value per option, speed and microphone."""
 
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from functools import partial
 from itertools import product
 
@@ -10,24 +11,23 @@ import xarray as xr
 from ..base import rounding
 from ..base.arrays import Array
 from ..base.vocabulary import REFERENCE_OPTION
-from .columns import COLUMNS, Column
+from .bands import Band, band_words, has_band, quantiles
+from .columns import Column
 from .kept_columns import columns_of
+from .option_verdict import table_words
+from .shifts import at_receiver
 from .study import (
     catalogue_receiver,
     few_speeds,
     few_speeds_words,
     first_order_hz,
+    has_draws,
     options,
     speeds,
 )
 from .tables import Table, to_csv, to_text
 
 _DIMENSIONS = ("option", "speed", "receiver")
-
-
-def column(results: xr.Dataset, name: str) -> xr.DataArray:
-    """One column over option, speed and, for levels, receiver; the unit is in its name."""
-    return COLUMNS[name].values(results).reset_coords(drop=True)
 
 
 def comparison(results: xr.Dataset) -> xr.Dataset:
@@ -52,14 +52,28 @@ def comparison_csv(results: xr.Dataset) -> bytes:
 
 def comparison_tables(results: xr.Dataset, receiver: str) -> list[Table]:
     """One table per speed that is shown, rounded for reading."""
-    return _tables(results, receiver, lambda column: column.head)
+    return _tables(results, receiver, lambda column: column.head, ends_only=False)
 
 
 def comparison_text(results: xr.Dataset) -> str:
     """Compact plain-text tables for the terminal, at the catalogue's microphone."""
-    tables = _tables(results, catalogue_receiver(results), lambda column: column.terminal)
-    chosen = few_speeds_words(results)
-    return "\n".join([*map(to_text, tables), *([f"{chosen}\n"] if chosen else [])])
+    receiver = catalogue_receiver(results)
+    tables = _tables(results, receiver, lambda column: column.terminal, ends_only=True)
+    notes = [_ends_sentence(results), few_speeds_words(results)]
+    return "\n".join([*map(to_text, tables), *(f"{note}\n" for note in notes if note)])
+
+
+def bands_sentence(results: xr.Dataset) -> str:
+    """What the bands in the tables are; empty where there are none."""
+    if not has_draws(results):
+        return ""
+    return f"What is drawn is shown as the middle of the draws ({band_words(results)})."
+
+
+def _ends_sentence(results: xr.Dataset) -> str:
+    if not has_draws(results):
+        return ""
+    return f"What is drawn is shown as its {band_words(results)}; 1x levels are as assumed."
 
 
 def _joined(results: xr.Dataset, columns: Sequence[Column]) -> xr.Dataset:
@@ -69,22 +83,26 @@ def _joined(results: xr.Dataset, columns: Sequence[Column]) -> xr.Dataset:
 
 
 def _tables(
-    results: xr.Dataset, receiver: str, head_of: Callable[[Column], str | None]
+    results: xr.Dataset, receiver: str, head_of: Callable[[Column], str | None], ends_only: bool
 ) -> list[Table]:
     shown = few_speeds(results)
     columns = columns_of(shown).columns
-    compared = _joined(shown, columns).sel(receiver=receiver)
-    numbers = {str(name): array.values for name, array in compared.data_vars.items()}
+    cells = _Cells.of(shown, columns, receiver, ends_only)
     heads = {column.name: head for column in columns if (head := head_of(column)) is not None}
-    write = partial(_cell, shown, numbers)
+    verdicts = table_words(results)
     return [
         Table(
             f"{speed:g} rpm (1× at {frequency:.1f} Hz), microphone {receiver}",
-            ("Option", *heads.values()),
+            ("Option", "Verdict", *heads.values()),
             tuple(
-                (option, *(write(column, at, i) for column in columns if column.name in heads))
+                (
+                    option,
+                    verdicts[option],
+                    *(cells.text(column, at, i) for column in columns if column.name in heads),
+                )
                 for at, option in enumerate(options(shown))
             ),
+            frozenset({0, 1}),
         )
         for i, (speed, frequency) in enumerate(
             zip(speeds(shown), first_order_hz(shown), strict=True)
@@ -92,19 +110,56 @@ def _tables(
     ]
 
 
-def _cell(
-    results: xr.Dataset,
-    numbers: dict[str, Array],
-    column: Column,
-    option: int,
-    speed: int,
-) -> str:
-    """Text of a value; a change of a silent level is none."""
-    value = float(numbers[column.name][option, speed])
-    if column.change_of:
-        level = numbers[column.change_of][:, speed]
-        if level[options(results).index(REFERENCE_OPTION)] < rounding.LEVEL_FLOOR_DB:
-            return rounding.NOTHING
-        if level[option] < rounding.LEVEL_FLOOR_DB:
-            return "silent"
+@dataclass(frozen=True)
+class _Cells:
+    """Values at one microphone.
+
+    Attributes
+    ----------
+    results : with the speeds that are shown
+    numbers : by column, shape (option, speed)
+    bands : of the columns that have one, shape (option, speed, quantile)
+    ends_only : whether a band is shown without its middle
+    """
+
+    results: xr.Dataset
+    numbers: dict[str, Array]
+    bands: dict[str, Array]
+    ends_only: bool
+
+    @classmethod
+    def of(
+        cls, results: xr.Dataset, columns: Sequence[Column], receiver: str, ends_only: bool
+    ) -> "_Cells":
+        compared = _joined(results, columns).sel(receiver=receiver)
+        numbers = {str(name): array.values for name, array in compared.data_vars.items()}
+        drawn = {
+            column.name: quantiles(results, column.band)
+            for column in columns
+            if column.band and has_band(results, column.band)
+        }
+        order = ("option", "speed", "quantile")
+        bands = {
+            name: at_receiver(array, receiver).transpose(*order).values
+            for name, array in drawn.items()
+        }
+        return cls(results, numbers, bands, ends_only)
+
+    def text(self, column: Column, option: int, speed: int) -> str:
+        """Text of a value or its band; a change of a silent level is none."""
+        value = float(self.numbers[column.name][option, speed])
+        if column.change_of:
+            level = self.numbers[column.change_of][:, speed]
+            if level[options(self.results).index(REFERENCE_OPTION)] < rounding.LEVEL_FLOOR_DB:
+                return rounding.NOTHING
+            if level[option] < rounding.LEVEL_FLOOR_DB:
+                return "silent"
+        if column.name in self.bands:
+            band = Band(*self.bands[column.name][option, speed].tolist())
+            write = partial(_write, column, self.results)
+            return band.ends(write) if self.ends_only else band.middle_and_ends(write)
+        return column.write(value, self.results)
+
+
+def _write(column: Column, results: xr.Dataset, value: float) -> str:
     return column.write(value, results)

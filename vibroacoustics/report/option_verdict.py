@@ -7,23 +7,27 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
-from .shifts import JUDGED, LINE, MODELLED, TOTAL, Shift, shift
-from .source_changes import change_sentences, source_change
+from ..base.vocabulary import REFERENCE_OPTION
+from .quantities import JUDGED, LINE, TOTAL
+from .shifts import Shift, shift
+from .source_changes import change_sentences
 from .study import balancers, catalogue_receiver, has_sources, other_receivers, words
 
 BETTER: Final = "better"
 WORSE: Final = "worse"
 MIXED: Final = "mixed"
-NO_CHANGE: Final = "no change"
+NO_CHANGE: Final = "no difference that could be measured"
 
-ALL_SOURCES: Final = "sound of all sources"
+
+_IN_A_TABLE: Final = {NO_CHANGE: "no difference"}
 
 
 class OptionVerdict(NamedTuple):
-    """An option, one word, what it makes worse, and some sentences about it."""
+    """An option, one word, why, what it makes worse, and some sentences about it."""
 
     option: str
     judgement: str
+    reason: str
     worse_in: tuple[str, ...]
     sentences: tuple[str, ...]
 
@@ -33,35 +37,35 @@ def option_verdicts(results: xr.Dataset) -> list[OptionVerdict]:
     return [option_verdict(results, option) for option in balancers(results)]
 
 
-def option_verdict(results: xr.Dataset, option: str) -> OptionVerdict:
-    """Judge one option by its 1x force, moment, foot force and line, at every microphone.
+def table_words(results: xr.Dataset) -> dict[str, str]:
+    """The word on every option, as short as a table needs it; `–` of the reference."""
+    verdicts = {of.option: of.judgement for of in option_verdicts(results)}
+    known = {option: _IN_A_TABLE.get(word, word) for option, word in verdicts.items()}
+    return {REFERENCE_OPTION: rounding.NOTHING, **known}
 
-    With further sources the band of all sources stands for the modelled level.
+
+def option_verdict(results: xr.Dataset, option: str) -> OptionVerdict:
+    """Judge one option by what can be measured: 1x force, moment, foot force and line, total.
+
+    The line counts at every microphone, the total in the draws.
     """
-    change = source_change(results, option) if has_sources(results) else None
-    shifts = [
-        shift(results, quantity, option)
-        for quantity in JUDGED
-        if change is None or quantity != MODELLED
-    ]
+    shifts = [shift(results, quantity, option) for quantity in JUDGED]
     elsewhere = {
         receiver: shift(results, LINE, option, receiver) for receiver in other_receivers(results)
     }
     worse_in = _worse_in(shifts, elsewhere)
-    if change is not None and change.worsens:
-        worse_in = (*worse_in, ALL_SOURCES)
-    better = any(quantity_shift.improves for quantity_shift in shifts) or (
-        change is not None and change.improves
-    )
+    better = any(quantity_shift.improves for quantity_shift in shifts)
     judgement = judge(bool(worse_in), better)
+    of_level = change_sentences if has_sources(results) else _total
     sentences = [
-        _shift_sentence(shifts, judgement, catalogue_receiver(results)),
+        _shift_sentence(shifts, catalogue_receiver(results)),
         _elsewhere(shifts[-1], elsewhere),
-        *([_total(results, option)] if change is None else change_sentences(results, option)),
+        *of_level(results, option),
         *words(results)["sentences"][option],
         _mass(results, option),
     ]
-    return OptionVerdict(option, judgement, worse_in, tuple(filter(None, sentences)))
+    reason = _reason(shifts, elsewhere, judgement)
+    return OptionVerdict(option, judgement, reason, worse_in, tuple(filter(None, sentences)))
 
 
 def judge(worse: bool, better: bool) -> str:
@@ -73,8 +77,27 @@ def judge(worse: bool, better: bool) -> str:
     return BETTER if better else NO_CHANGE
 
 
-def _shift_sentence(shifts: Sequence[Shift], judgement: str, receiver: str) -> str:
+def _reason(shifts: Sequence[Shift], elsewhere: Mapping[str, Shift], judgement: str) -> str:
+    """What makes the option better or worse, with its size."""
     if judgement == NO_CHANGE:
+        least = shifts[0].least
+        return (
+            f"levels change by less than {least.level_db:g} dB, forces by less than "
+            f"{100.0 * least.force_ratio:g} %"
+        )
+    louder = {} if shifts[-1].worsens else elsewhere
+    worse = [one.short() for one in shifts if one.worsens]
+    worse += [f"{one.short()} at {at}" for at, one in louder.items() if one.worsens]
+    better = [one.short() for one in shifts if one.improves]
+    parts = {BETTER: better, WORSE: worse}
+    if judgement != MIXED:
+        return ", ".join(parts[judgement])
+    return "; ".join(f"{word}: {', '.join(of_word)}" for word, of_word in parts.items())
+
+
+def _shift_sentence(shifts: Sequence[Shift], receiver: str) -> str:
+    sentences = {quantity_shift.sentence() for quantity_shift in shifts}
+    if sentences == {"stays the same"}:
         *words, last = (quantity_shift.quantity.words for quantity_shift in shifts)
         return f"{', '.join(words)} and {last} stay the same."
     mechanical = [
@@ -111,11 +134,11 @@ def _elsewhere(here: Shift, elsewhere: Mapping[str, Shift]) -> str:
     return f"Not so elsewhere: {at_receivers}." if louder else ""
 
 
-def _total(results: xr.Dataset, option: str) -> str:
+def _total(results: xr.Dataset, option: str) -> list[str]:
     gain = shift(results, TOTAL, option).gain_db
     if not np.round(gain, 3).any():
-        return "The total level does not change by as much as 0.001 dB."
-    return f"The total level changes by {rounding.span(gain, _milli)} dB."
+        return ["The total level does not change by as much as 0.001 dB."]
+    return [f"The total level changes by {rounding.span(gain, _milli)} dB."]
 
 
 def _milli(value: float) -> str:

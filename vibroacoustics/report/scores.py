@@ -7,8 +7,10 @@ import xarray as xr
 
 from ..base import rounding
 from ..scoring.ranking import utilities
+from ..scoring.scores import ANY_WEIGHTS
 from . import labels
-from .study import has_sources, options, parameters
+from .option_verdict import option_verdicts
+from .study import has_draws, has_sources, options, parameters
 from .tables import Table, to_csv
 
 SUM_TOLERANCE: Final = 1e-6
@@ -17,7 +19,7 @@ ROUNDING: Final = 1e-9
 
 
 def scores_csv(results: xr.Dataset) -> bytes:
-    """One row per option: criteria, score and rank by method, share of first places."""
+    """One row per option: criteria, score and rank by method, share of first probability."""
     criteria, methods = _names(results, "criterion"), _names(results, "scoring_method")
     columns = [*criteria]
     blocks = [results["criterion_value"].transpose("option", "criterion").values]
@@ -27,9 +29,18 @@ def scores_csv(results: xr.Dataset) -> bytes:
             blocks.append(results[name].sel({"scoring_method": method}).values[:, None])
     columns.append("first_place_share")
     blocks.append(results["first_place_share"].values[:, None])
+    if "rank_acceptability" in results:
+        probability = results["rank_acceptability"].sel({"criteria_weights": ANY_WEIGHTS})
+        columns += [f"share_of_rank_{number:g}" for number in probability["rank_position"].values]
+        blocks.append(probability.transpose("option", "rank_position").values)
     values = np.concatenate(blocks, axis=1)
-    rows = zip(options(results), values, strict=True)
-    return to_csv(("option", *columns), ([name, *map(float, row)] for name, row in rows))
+    words = {one.option: (one.judgement, one.reason) for one in option_verdicts(results)}
+    cells: list[list[float]] = values.tolist()
+    named = zip(options(results), cells, strict=True)
+    rows: list[list[str | float]] = [
+        [name, *row, *words.get(name, ("", ""))] for name, row in named
+    ]
+    return to_csv(("option", *columns, "verdict", "because"), rows)
 
 
 def criteria_table(results: xr.Dataset) -> Table:
@@ -66,21 +77,22 @@ def values_table(results: xr.Dataset) -> Table:
         for option in options(results)
     )
     head = ("Option", *(f"{label}, {unit}" if unit else label for _, label, unit in criteria))
-    return Table("Values of the criteria", head, rows)
+    drawn = ", as assumed" if has_draws(results) else ""
+    return Table(f"Values of the criteria{drawn}", head, rows)
 
 
 def scores_table(results: xr.Dataset) -> Table:
-    """Score and rank by method and the share of first places."""
+    """Score and rank by method and the probability of the first rank."""
     methods = _names(results, "scoring_method")
     head = ["Option"]
     for method in methods:
         head += [f"{labels.name(method)}, score 0 to 1", f"{labels.name(method)}, rank"]
     rows = tuple(
-        _scores_row(results.sel(option=option), option, methods) for option in _ranked(results)
+        _scores_row(results.sel(option=option), option, methods) for option in ranked(results)
     )
     return Table(
         "Scores and ranks, best first by the first method",
-        (*head, "First in random weightings"),
+        (*head, "First, whatever the weights"),
         rows,
     )
 
@@ -89,7 +101,8 @@ def scope_words(results: xr.Dataset) -> str:
     """Say that the scores count further sources."""
     if not has_sources(results):
         return ""
-    return " The change of level in the scores counts all sources, at the assumed values."
+    where = "in each draw" if has_draws(results) else "at the assumed values"
+    return f" The change of level in the scores counts all sources, {where}."
 
 
 def criteria_of_advantage(results: xr.Dataset, option: str, other: str) -> list[str]:
@@ -153,7 +166,8 @@ def _published_row(printed: xr.Dataset, option: str) -> tuple[str, ...]:
     return (option, *scores, f"{claimed:g}", f"{real:g}", verdict)
 
 
-def _ranked(results: xr.Dataset) -> list[str]:
+def ranked(results: xr.Dataset) -> list[str]:
+    """Options, the best by the first method first."""
     order = np.argsort(results["rank"].isel(scoring_method=0).values, kind="stable")
     return [options(results)[index] for index in order]
 

@@ -8,82 +8,105 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.arrays import Array
-from ..base.decibel import level_of_amplitude
+from ..base.decibel import amplitude_of_level, level_of_amplitude
+from ..base.quantiles import weighted_quantiles
 from ..base.vocabulary import REFERENCE_OPTION
-from .comparison import column
-from .study import catalogue_receiver
+from ..study.scoring import Measurable
+from .bands import QUANTILES, has_band
+from .column_values import column
+from .quantities import LINE, TOLERANCE_DB, Quantity
+from .study import catalogue_receiver, parameters
 
-NO_BREAK: Final = "\u00a0"
-
-TOLERANCE_DB: Final = 0.05
-"""Smaller changes count as none."""
-
-
-HEARD_DB: Final = 1.0
-"""A change of the total below about 1 dB is not heard, even side by side."""
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """A column of the comparison, and how a sentence calls it."""
-
-    column: str
-    words: str
-    unit: str
-
-    @property
-    def is_level(self) -> bool:
-        return self.unit.startswith("dB")
-
-    @property
-    def floor(self) -> float:
-        """Values below are silence, or rounding errors."""
-        return rounding.LEVEL_FLOOR_DB if self.is_level else rounding.FORCE_FLOOR
-
-    def write(self, value: float) -> str:
-        """The value with its unit, rounded, kept on one line."""
-        number = rounding.level(value) if self.is_level else rounding.significant(value)
-        return f"{number} {self.unit}".replace(" ", NO_BREAK)
-
-
-FORCE: Final = Quantity("force_1x_n", "1× force", "N")
-MOMENT: Final = Quantity("moment_1x_nm", "1× moment", "N m")
-FOOT_FORCE: Final = Quantity("foot_force_1x_n", "1× foot force", "N")
-LINE: Final = Quantity("level_1x_db", "1× line", "dB")
-MODELLED: Final = Quantity("level_modelled_dba", "modelled level", "dB(A)")
-TOTAL: Final = Quantity("level_total_dba", "total level", "dB(A)")
-
-JUDGED: Final = (FORCE, MOMENT, FOOT_FORCE, MODELLED, LINE)
-"""An option is called better or worse by these."""
+_ALL: Final = 0.995
+"""Share of the draws that reads as all of them."""
 
 
 @dataclass(frozen=True)
 class Shift:
-    """A quantity at every speed, without a balancer and with one."""
+    """A quantity at every speed, without a balancer and with one.
+
+    Attributes
+    ----------
+    quantity : which
+    before, after : values as given, shape (speed,)
+    drawn_db : change in each draw, shape (draw, speed); that of the values as given where the
+        quantity is not drawn
+    weight : of the draws, of sum one
+    least : smallest changes that could be measured
+    """
 
     quantity: Quantity
     before: Array
     after: Array
+    drawn_db: Array
+    weight: Array
+    least: Measurable
 
     @property
     def gain_db(self) -> Array:
         """Change at every speed in dB; values below the floor count as the floor."""
-        floor = self.quantity.floor
-        before, after = np.maximum(self.before, floor), np.maximum(self.after, floor)
-        gain = after - before if self.quantity.is_level else level_of_amplitude(after / before)
-        return np.asarray(gain)
+        return _gain(self.quantity, self.before, self.after)
 
     @property
     def worsens(self) -> bool:
-        return bool(self.gain_db.max() > TOLERANCE_DB)
+        """Whether it grows by what could be measured in most draws, at a speed at least."""
+        return self.grown > self.least.draws_ratio
 
     @property
     def improves(self) -> bool:
-        return bool(self.gain_db.min() < -TOLERANCE_DB)
+        """Whether it falls by what could be measured in most draws, at a speed at least."""
+        return self.fallen > self.least.draws_ratio
+
+    @property
+    def grown(self) -> float:
+        """Share of the draws in which it grows by what could be measured; of all speeds most."""
+        return self._share(np.where(self._relative > self._threshold, 1.0, 0.0))
+
+    @property
+    def fallen(self) -> float:
+        """Share of the draws in which it falls by what could be measured; of all speeds most."""
+        return self._share(np.where(self._relative < -self._threshold, 1.0, 0.0))
+
+    @property
+    def _relative(self) -> Array:
+        """Changes in dB of levels, as ratios of forces, shape (draw, speed)."""
+        if self.quantity == LINE:
+            quietest = self.least.quietest_line_db
+            gain = np.maximum(self.after, quietest) - np.maximum(self.before, quietest)
+            return np.asarray(gain[None])
+        if self.quantity.is_level:
+            return self.drawn_db
+        return np.asarray(amplitude_of_level(self.drawn_db) - 1.0)
+
+    @property
+    def _threshold(self) -> float:
+        least = self.least
+        return least.level_db if self.quantity.is_level else least.force_ratio
+
+    def _share(self, counts: Array) -> float:
+        return float((self.weight @ counts).max())
+
+    def short(self) -> str:
+        """`1× force +22 to +24 %`, `total level +2.2 to +25.2 dB`, how often it is measurable."""
+        if self.before.min() < self.quantity.floor:
+            return f"{self.quantity.words} appears"
+        size = f"{self.quantity.words} {self.size()}"
+        share = self.grown if self.worsens else self.fallen
+        if share > _ALL:
+            return size
+        return f"{size} (measurable in {100.0 * share:.0f} % of the draws at a speed)"
+
+    def size(self) -> str:
+        """`+22 to +24 %` of forces, `+2.2 to +25.2 dB` of levels: over draws and speeds."""
+        drawn = weighted_quantiles(self.drawn_db, self.weight, QUANTILES).ravel()
+        if not self.quantity.is_level:
+            return f"{rounding.span(100.0 * (amplitude_of_level(drawn) - 1.0), _percent)} %"
+        return f"{rounding.span(drawn, rounding.signed)} dB"
 
     def sentence(self) -> str:
         """`grows by 81 % (to at most 120 N)` and the like, without the quantity's name."""
-        if not (self.worsens or self.improves):
+        gain = self.gain_db
+        if abs(gain).max() <= TOLERANCE_DB:
             return "stays the same"
         if self.after.max() < self.quantity.floor:
             return f"vanishes (was up to {self.quantity.write(self.before.max())})"
@@ -92,21 +115,25 @@ class Shift:
         size = self._level_words() if self.quantity.is_level else self._ratio_words()
         return f"{size} (to at most {self.quantity.write(self.after.max())})"
 
+    @property
+    def _both_ways(self) -> bool:
+        return bool(self.gain_db.max() > TOLERANCE_DB and self.gain_db.min() < -TOLERANCE_DB)
+
     def _level_words(self) -> str:
         gain = self.gain_db
-        if self.worsens and self.improves:
+        if self._both_ways:
             return f"changes by {rounding.span(gain, rounding.signed)} dB, depending on the speed"
-        verb = "rises" if self.worsens else "falls"
+        verb = "rises" if gain.max() > TOLERANCE_DB else "falls"
         return f"{verb} by {rounding.span(abs(gain), rounding.fixed)} dB"
 
     def _ratio_words(self) -> str:
         ratio = self.after / self.before
-        if self.worsens and self.improves:
-            change = rounding.span(100.0 * (ratio - 1.0), lambda value: rounding.signed(value, 0))
+        if self._both_ways:
+            change = rounding.span(100.0 * (ratio - 1.0), _percent)
             return f"changes by {change} %, depending on the speed"
         if ratio.max() >= 2.0:
             return f"grows {rounding.span(ratio, lambda value: rounding.fixed(value, 2))}-fold"
-        verb = "grows" if self.worsens else "falls"
+        verb = "grows" if ratio.max() > 1.0 else "falls"
         size = rounding.span(100.0 * abs(ratio - 1.0), lambda value: rounding.fixed(value, 0))
         return f"{verb} by {size} %"
 
@@ -115,12 +142,46 @@ def shift(
     results: xr.Dataset, quantity: Quantity, option: str, receiver: str | None = None
 ) -> Shift:
     """The shift of a quantity by an option, at the catalogue's microphone if none is named."""
-    values = at_receiver(column(results, quantity.column), receiver or catalogue_receiver(results))
-    return Shift(
-        quantity, values.sel(option=REFERENCE_OPTION).values, values.sel(option=option).values
-    )
+    at = receiver or catalogue_receiver(results)
+    values = at_receiver(column(results, quantity.column), at)
+    before = values.sel(option=REFERENCE_OPTION).values
+    after = values.sel(option=option).values
+    if quantity.drawn and has_band(results, quantity.drawn):
+        drawn_db, weight = _drawn_change(results, quantity, option, at)
+    else:
+        drawn_db, weight = _gain(quantity, before, after)[None], np.ones(1)
+    return Shift(quantity, before, after, drawn_db, weight, measurable(results))
+
+
+def measurable(results: xr.Dataset) -> Measurable:
+    """Smallest changes that could be measured; files of older versions name none."""
+    return Measurable(**parameters(results)["scoring"].get("measurable", {}))
 
 
 def at_receiver(values: xr.DataArray, receiver: str) -> xr.DataArray:
     """The values at a microphone; forces have none and are returned as they are."""
     return values.sel(receiver=receiver) if "receiver" in values.dims else values
+
+
+def _gain(quantity: Quantity, before: Array, after: Array) -> Array:
+    before, after = np.maximum(before, quantity.floor), np.maximum(after, quantity.floor)
+    gain = after - before if quantity.is_level else level_of_amplitude(after / before)
+    return np.asarray(gain)
+
+
+def _drawn_change(
+    results: xr.Dataset, quantity: Quantity, option: str, receiver: str
+) -> tuple[Array, Array]:
+    """Change in the draws that count, shape (draw, speed), dB, and their weights."""
+    weight = results["draw_weight"].values[0]
+    drawn = at_receiver(results[f"{quantity.drawn}_by_draw"], receiver).isel(draw=weight > 0.0)
+    before, after = (
+        drawn.sel(option=name).transpose("draw", "speed").values
+        for name in (REFERENCE_OPTION, option)
+    )
+    counting = weight[weight > 0.0]
+    return _gain(quantity, before, after), counting / counting.sum()
+
+
+def _percent(value: float) -> str:
+    return rounding.signed(value, 0)

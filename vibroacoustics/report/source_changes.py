@@ -1,5 +1,6 @@
 """What the options do to the sound of all sources, with bands."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -8,8 +9,9 @@ import xarray as xr
 from ..base import rounding
 from ..base.arrays import Array
 from .bands import Band, band_words, bands_by_speed
-from .shifts import HEARD_DB, TOLERANCE_DB
-from .study import balancers, catalogue_receiver, many_speeds, overall_noise, speeds
+from .quantities import TOLERANCE_DB, TOTAL
+from .shifts import shift
+from .study import balancers, catalogue_receiver, has_draws, many_speeds, speeds
 
 
 class SourceChange(NamedTuple):
@@ -17,16 +19,6 @@ class SourceChange(NamedTuple):
 
     sources: tuple[Band, ...]
     total: tuple[Band, ...]
-
-    @property
-    def worsens(self) -> bool:
-        """Louder within the whole band, at one speed at least."""
-        return any(band.lowest > TOLERANCE_DB for band in self.sources)
-
-    @property
-    def improves(self) -> bool:
-        """Quieter within the whole band, at one speed at least."""
-        return any(band.highest < -TOLERANCE_DB for band in self.sources)
 
 
 def source_change(results: xr.Dataset, option: str) -> SourceChange:
@@ -38,26 +30,25 @@ def source_change(results: xr.Dataset, option: str) -> SourceChange:
 
 
 def changes_sentence(results: xr.Dataset) -> str:
-    """Which options are heard in the total, for sure or perhaps, and what the others do."""
-    changes = {option: source_change(results, option) for option in balancers(results)}
-    louder = {o: c for o, c in changes.items() if _surely_louder(c)}
-    quieter = {o: c for o, c in changes.items() if _surely_quieter(c)}
-    rest = [option for option in changes if option not in louder and option not in quieter]
-    at = f"At {catalogue_receiver(results)}"
+    """Which options change the total by what could be measured, and what the others do."""
+    shifts = {option: shift(results, TOTAL, option) for option in balancers(results)}
+    louder = [option for option, one in shifts.items() if one.worsens]
+    quieter = [option for option, one in shifts.items() if one.improves and not one.worsens]
+    rest = [option for option in shifts if option not in louder + quieter]
     parts = [
-        f"{at} the whole machine becomes louder with {_named(results, louder)}." if louder else "",
-        f"{at} it becomes quieter with {_named(results, quieter)}." if quieter else "",
+        f"The whole machine becomes louder with {_named(results, louder)}." if louder else "",
+        f"It becomes quieter with {_named(results, quieter)}." if quieter else "",
     ]
     if rest:
-        ends = [end for option in rest for band in changes[option].total for end in band]
-        assumed = results["change_total"].sel(option=rest, receiver=catalogue_receiver(results))
-        largest = float(np.abs([*ends, *assumed.values.ravel()]).max())
-        bound = 0.1 * max(np.ceil(10.0 * largest), 1.0)
-        which = "No other option changes" if louder or quieter else "No option changes"
-        audibility = "" if largest >= HEARD_DB else ", which can hardly be heard"
+        which = "no other option" if louder or quieter else "no option"
+        ends = [
+            end for option in rest for band in source_change(results, option).total for end in band
+        ]
+        drawn = "In most draws " if has_draws(results) else "As assumed "
         parts.append(
-            f"{which} the total of {overall_noise(results)['level_dba']:g} dB(A) by more than "
-            f"{rounding.fixed(bound)} dB{audibility}."
+            f"{drawn}{which} changes the level of the whole machine by what could be "
+            f"measured: {', '.join(rest)} by "
+            f"{change_words(Band(min(ends), 0.0, max(ends)))}."
         )
     return " ".join(filter(None, parts))
 
@@ -79,17 +70,9 @@ def change_words(band: Band) -> str:
     return f"{band.ends(rounding.signed)} dB"
 
 
-def _surely_louder(change: SourceChange) -> bool:
-    return any(band.lowest >= HEARD_DB for band in change.total)
-
-
-def _surely_quieter(change: SourceChange) -> bool:
-    return any(band.highest <= -HEARD_DB for band in change.total) and not _surely_louder(change)
-
-
-def _named(results: xr.Dataset, changes: dict[str, SourceChange]) -> str:
+def _named(results: xr.Dataset, names: Sequence[str]) -> str:
     return " and ".join(
-        f"{option} ({_by_speed(results, change.total)})" for option, change in changes.items()
+        f"{name} ({_by_speed(results, source_change(results, name).total)})" for name in names
     )
 
 

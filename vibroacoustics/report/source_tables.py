@@ -10,7 +10,7 @@ from ..base.decibel import level_of_power, power_of_level
 from ..base.vocabulary import REFERENCE_OPTION
 from . import labels
 from .bands import QUANTILES, Band, band, band_words, percent, quantiles, share_band
-from .comparison import column
+from .column_values import column
 from .remainder import remainder_band
 from .source_changes import key_figure
 from .source_words import at_published, quoted_speed, ranked, source_name, source_share

@@ -1,56 +1,41 @@
-"""The verdict that opens the report: headline, reasons, best and worst."""
+"""The verdict that opens the report: headline and reasons."""
 
 from collections.abc import Sequence
-from typing import Final
 
 import numpy as np
 import xarray as xr
 
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
-from . import labels
-from .comparison import column, comparison
-from .option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, OptionVerdict
+from .carrier import sure_sentence
+from .column_values import column
+from .comparison import comparison
+from .option_verdict import MIXED, NO_CHANGE, WORSE, OptionVerdict
+from .quantities import FOOT_FORCE, FORCE, HEARD_DB, LINE, MOMENT, TOTAL
+from .ranking_words import ranking_sentence
 from .remainder import growth_sentence
-from .scores import criteria_of_advantage, scope_words
-from .shifts import (
-    FOOT_FORCE,
-    FORCE,
-    HEARD_DB,
-    LINE,
-    MODELLED,
-    MOMENT,
-    TOLERANCE_DB,
-    TOTAL,
-    Quantity,
-    at_receiver,
-    shift,
-)
+from .shifts import measurable, shift
 from .source_changes import changes_sentence
 from .source_words import carrier_sentence, left_out_sentence, shares_sentence
 from .study import (
     balancers,
     catalogue_receiver,
     first_order_hz,
+    has_draws,
     has_sources,
     many_speeds,
     overall_noise,
-    parameters,
     speeds,
 )
 from .tables import Table
-
-MEASURED_DB: Final = 0.1
-"""A change of the total below 0.1 dB drowns in the repeatability of a measurement."""
-
-COMPARED: Final = (FORCE, MOMENT, FOOT_FORCE, LINE, MODELLED, TOTAL)
 
 
 def headline(results: xr.Dataset) -> str:
     """What carries the level where that is modelled; else what balancing does to the level."""
     receiver, names = catalogue_receiver(results), balancers(results)
     if has_sources(results):
-        return carrier_sentence(results)
+        carrier = sure_sentence(results) if has_draws(results) else carrier_sentence(results)
+        return f"{carrier} {changes_sentence(results)}" if names else carrier
     if not names:
         return f"This study has no balancing option beside {REFERENCE_OPTION}."
     line = np.concatenate([shift(results, LINE, name).gain_db for name in names])
@@ -58,7 +43,7 @@ def headline(results: xr.Dataset) -> str:
     change = rounding.span(line, rounding.signed)
     return (
         f"At {receiver} the balancing options change the 1× line by {change} dB, "
-        f"{_total_words(float(abs(total).max()), _total_dba(results))}"
+        f"{_total_words(results, float(abs(total).max()))}"
     )
 
 
@@ -68,36 +53,29 @@ def reasons(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> list[str]
     texts = [_as_it_is(results)]
     if with_sources:
         texts += [shares_sentence(results), left_out_sentence(results)]
+        texts[:0] = [carrier_sentence(results)] if has_draws(results) else []
     else:
         texts.append(_remainder(results))
     if not verdicts:
         return texts
-    if with_sources:
-        texts.insert(0, changes_sentence(results))
-    return [*texts, *_warnings(verdicts), _ranking(results, verdicts)]
+    return [*texts, _forces(results), *_warnings(verdicts), ranking_sentence(results, verdicts)]
 
 
-def extremes_table(results: xr.Dataset) -> Table | None:
-    """Best and worst option by each quantity, each the largest over the speeds."""
-    if not balancers(results):
+def options_table(verdicts: Sequence[OptionVerdict]) -> Table | None:
+    """The word on each option, with its reason beside it."""
+    if not verdicts:
         return None
-    rows = tuple(_extremes(results, quantity) for quantity in COMPARED)
-    head = ("Quantity, largest over the speeds", "Without balancer", "Best option", "Worst option")
-    values = ", values as assumed" if has_sources(results) else ""
-    return Table(
-        f"Best and worst, levels at {catalogue_receiver(results)}{values}",
-        head,
-        rows,
-        frozenset({0, 1, 2, 3}),
-    )
+    rows = tuple((one.option, one.judgement, one.reason) for one in verdicts)
+    head = ("Option", "Verdict", "Because")
+    return Table("Each option against no balancer", head, rows, frozenset({0, 1, 2}))
 
 
-def _total_words(change_db: float, published_dba: float) -> str:
-    total = f"the total of {published_dba:g} dB(A)"
+def _total_words(results: xr.Dataset, change_db: float) -> str:
+    total = f"the total of {_total_dba(results):g} dB(A)"
     if change_db < 0.0005:
         return f"and {total} by less than 0.001 dB: not at all."
     size = f"by at most {rounding.fixed(change_db, 3)} dB"
-    if change_db < MEASURED_DB:
+    if change_db < measurable(results).level_db:
         return f"but {total} hardly at all: {size}, which nobody can hear or measure."
     if change_db < HEARD_DB:
         return f"but {total} only {size}, which can be measured but hardly heard."
@@ -174,6 +152,21 @@ def _remainder(results: xr.Dataset) -> str:
     )
 
 
+def _forces(results: xr.Dataset) -> str:
+    """What each option does to the forces, as far as it could be measured."""
+    texts = []
+    for quantity in (FORCE, FOOT_FORCE):
+        shifts = [(name, shift(results, quantity, name)) for name in balancers(results)]
+        changed = [
+            f"{one.size()} with {name}" for name, one in shifts if one.worsens or one.improves
+        ]
+        if changed:
+            texts.append(f"the {quantity.words} changes by {', '.join(changed)}")
+    if not texts:
+        return "No option changes a force by what could be measured."
+    return f"Against no balancer {'; '.join(texts)}."
+
+
 def _warnings(verdicts: Sequence[OptionVerdict]) -> list[str]:
     """Name the options that make something worse, and those that do nothing."""
     worse = [verdict.option for verdict in verdicts if verdict.judgement == WORSE]
@@ -186,69 +179,12 @@ def _warnings(verdicts: Sequence[OptionVerdict]) -> list[str]:
     texts = [
         f"Worse than no balancer: {', '.join(worse)}." if worse else "",
         f"Better in one respect, worse in another: {'; '.join(mixed)}." if mixed else "",
-        f"Without any effect on force, feet and sound: {', '.join(idle)}." if idle else "",
-        "" if worse or mixed else "No option makes the force, the feet or the sound worse.",
+        f"With {NO_CHANGE} in force, feet and sound: {', '.join(idle)}." if idle else "",
+        ""
+        if worse or mixed
+        else "No option makes the force, the feet or the sound measurably worse.",
     ]
     return [text for text in texts if text]
-
-
-def _ranking(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> str:
-    """Which option the study's weights prefer, and how sure that is."""
-    method = str(results["scoring_method"].values[0])
-    of_method = results[["score", "rank", "first_place_share"]].sel({"scoring_method": method})
-    winners = [str(name) for name in of_method["option"].values[of_method["rank"].values == 1.0]]
-    share = 100.0 * float(of_method["first_place_share"].sel(option=winners).sum())
-    draws = parameters(results)["scoring"]["random_weightings"]
-    verb = "ranks" if len(winners) == 1 else "rank"
-    score = rounding.fixed(float(of_method["score"].max()), 2)
-    unlucky = [
-        option.option
-        for option in verdicts
-        if option.judgement == BETTER
-        and of_method["rank"].sel(option=option.option)
-        > of_method["rank"].sel(option=REFERENCE_OPTION)
-    ]
-    behind = "".join(_behind(results, option) for option in unlucky)
-    return (
-        f"By the study's weights {' and '.join(winners)} {verb} first "
-        f"({labels.name(method).lower()}, score {score} of 1), "
-        f"and in {share:.0f} % of {draws} weightings drawn at random.{behind}"
-        f"{scope_words(results)}"
-    )
-
-
-def _behind(results: xr.Dataset, option: str) -> str:
-    """By which criteria an option that betters forces or sound falls behind the reference."""
-    criteria = criteria_of_advantage(results, REFERENCE_OPTION, option)
-    return (
-        f" {option} ranks below {REFERENCE_OPTION} all the same: {REFERENCE_OPTION} scores better "
-        f"in {'; '.join(criteria)}."
-    )
-
-
-def _extremes(results: xr.Dataset, quantity: Quantity) -> tuple[str, ...]:
-    """Quantity, its reference, its best and its worst option with the largest over the speeds."""
-    values = at_receiver(column(results, quantity.column), catalogue_receiver(results))
-    highest = values.max("speed")
-    worst = highest.sel(option=balancers(results)).clip(min=quantity.floor)
-    best_name, worst_name = (str(find("option").item()) for find in (worst.idxmin, worst.idxmax))
-    exact = quantity == TOTAL and not has_sources(results)
-    write = _write_total if exact else quantity.write
-    reference = highest.sel(option=REFERENCE_OPTION).item()
-    best = highest.sel(option=best_name).item()
-    close = quantity in (MODELLED, TOTAL) and reference - best < TOLERANCE_DB
-    none_better = close and has_sources(results)
-    return (
-        quantity.words,
-        write(reference),
-        f"none lower by {TOLERANCE_DB:g} dB" if none_better else f"{write(best)}: {best_name}",
-        f"{write(highest.sel(option=worst_name).item())}: {worst_name}",
-    )
-
-
-def _write_total(value_dba: float) -> str:
-    """The total to 0.001 dB: its changes are that small."""
-    return f"{rounding.fixed(value_dba, 3)} dB(A)"
 
 
 def _total_dba(results: xr.Dataset) -> float:

@@ -24,6 +24,11 @@ class Noise(Part):
     level_dba: Level
     speed_rpm: Number
     distance_m: Number
+    deviation_db: Number = 2.0
+
+
+class Remainder(Part):
+    speed_growth_db: Number | None = None
 
 
 class Erratum(Part):
@@ -63,6 +68,7 @@ class RedesignedMachine(Part):
 class Machine(RedesignedMachine):
     name: str
     overall_noise: Noise
+    remainder: Remainder = Remainder()
     errata: list[Erratum]
     housing: RigidBody
     stopping: Stopping | None = None
@@ -107,9 +113,40 @@ class PublishedScores(Part):
     source: str
 
 
+class Measurable(Part):
+    level_db: Positive
+    force_ratio: Positive
+    quietest_line_db: Level
+    draws_ratio: Number
+
+
 class Scoring(Part):
     random_weightings: int
     published: PublishedScores | None = None
+    measurable: Measurable | None = None
+
+
+class TwoSpeedLevel(Part):
+    machine: str
+    slow_rpm: Number
+    slow_level_dba: Number
+    fast_rpm: Number
+    fast_level_dba: Number
+    source: str
+
+
+class PublishedForce(Part):
+    part: str
+    speed_rpm: Number
+    force_1x_n: Number
+    deviation_n: Number
+    proportional_to: str
+    source: str
+
+
+class Evidence(Part):
+    two_speed_levels: list[TwoSpeedLevel] = []
+    forces: list[PublishedForce] = []
 
 
 class Radiation(Part):
@@ -130,6 +167,7 @@ class Parameters(Part):
     held_ranges: list[HeldRange] = []
     scoring: Scoring
     radiation: Radiation
+    evidence: Evidence = Evidence()
 
 
 class Words(Part):

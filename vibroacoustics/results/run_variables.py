@@ -27,6 +27,7 @@ OF_SEVERAL_SOURCES: Final = ("source_share", "source_band_level")
 TOGETHER: Final = (
     ("draw_weight", "source_level_by_draw", "level_modelled_by_draw", "level_total_by_draw",
      "level_remainder_by_draw"),
+    ("force_1x_by_draw", "moment_1x_by_draw", "foot_force_1x_by_draw"),
     ("bank_weight", "bank_level", "bank_value"),
     ("stopping_duration", "stopping_revolutions", "stopping_shaft_speed", "stopping_force",
      "stopping_moment", "stopping_fast_level", "stopping_fast_maximum_level",
@@ -36,6 +37,7 @@ TOGETHER: Final = (
 )  # fmt: skip
 """Variables that stand in a run all or none."""
 NEEDS: Final = {
+    "force_1x_by_draw": ("draw_weight",),
     "green_difference": ("line_difference", "transfer_vector_closed_form"),
     "block_velocity_order": ("velocity_order",),
     "stopping_order_map": ("stopping_force",),
@@ -58,7 +60,7 @@ EMPTY_WHERE_NONE: Final = frozenset(
 )  # fmt: skip
 """Not a number where there is nothing: an option without such a figure, a point in the machine, a
 microphone that k-Wave did not compute."""
-ONLY_DRAWS_THAT_COUNT: Final = frozenset(TOGETHER[0][1:-1])
+ONLY_DRAWS_THAT_COUNT: Final = frozenset((*TOGETHER[0][1:-1], *TOGETHER[1]))
 """Not a number in a draw without solution, whose weight is 0."""
 ADDED_MASS: Final = "added_mass_kg"
 """Figure that every option has."""
@@ -67,6 +69,7 @@ LABELS: Final[dict[str, tuple[str, ...]]] = {
     "axis": AXES,
     "dof": RIGID_BODY_DOFS,
     "weighting": WEIGHTINGS,
+    "criteria_weights": ("any", "of the study"),
     "figure": (ADDED_MASS,),
     "stopping_phase": ("steady", "stopping"),
 }

@@ -1,17 +1,19 @@
-"""Criteria, scores, ranks and how robust the ranks are against the choice of weights."""
+"""Criteria, scores, ranks and how sure they are, whatever the weights and the draws."""
 
+from .acceptability import any_weights, rank_acceptability
 from .given import given_values
 from .published import published_table
-from .ranking import METHODS, first_place_share, topsis, utilities, weighted_sum
+from .ranking import METHODS, topsis, utilities, weighted_sum
 from .scores import score
 from .study_scores import study_scores
 from .text import ranking_text
 
 __all__ = [
     "METHODS",
-    "first_place_share",
+    "any_weights",
     "given_values",
     "published_table",
+    "rank_acceptability",
     "ranking_text",
     "score",
     "study_scores",

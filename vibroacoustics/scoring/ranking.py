@@ -1,4 +1,4 @@
-"""From values to utilities, scores and the share of first places."""
+"""From values to utilities and scores."""
 
 from collections.abc import Callable
 from typing import Final
@@ -33,15 +33,3 @@ METHODS: Final[dict[str, Callable[[Array, Array], Array]]] = {
     "weighted_sum": weighted_sum,
     "topsis": topsis,
 }
-
-
-def first_place_share(utility: Array, random_weightings: int, seed: int) -> Array:
-    """Share of uniformly random weightings in which each option has the best weighted sum.
-
-    Options that tie for the first place share it.
-    """
-    generator = np.random.default_rng(seed)
-    shares = generator.dirichlet(np.ones(utility.shape[1]), size=random_weightings)
-    sums = utility @ shares.T
-    winners = sums >= sums.max(axis=0) - 1e-9
-    return np.asarray((winners / winners.sum(axis=0)).mean(axis=1))

@@ -1,16 +1,26 @@
 """Scores and ranks of the options."""
 
 import json
+from collections.abc import Sequence
+from itertools import repeat
+from typing import Final
 
 import numpy as np
 import xarray as xr
 from pydantic import ValidationError
 
+from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..base.vocabulary import check, stamp
 from ..study.scoring import Scoring
-from .ranking import METHODS, first_place_share, utilities
-from .values import scored_criteria
+from .acceptability import any_weights, rank_acceptability
+from .ranking import METHODS, utilities
+from .values import Scored, scored_criteria
+
+ANY_WEIGHTS: Final = "any"
+"""Ranks with weights of the criteria drawn evenly from all that there are."""
+OF_THE_STUDY: Final = "of the study"
+"""Ranks with the weights that the study gives."""
 
 
 def score(results: xr.Dataset, settings: Scoring | None = None) -> xr.Dataset:
@@ -19,13 +29,13 @@ def score(results: xr.Dataset, settings: Scoring | None = None) -> xr.Dataset:
     Parameters
     ----------
     results : dataset of a run
-    settings : scale and weight of each criterion, number and seed of the random weightings;
-        those that the results were made with if none are given
+    settings : scale and weight of each criterion, number (a draw) and seed of the random
+        weightings; those that the results were made with if none are given
 
     Returns
     -------
     dataset with criterion_value, its words, unit and scale, weight (sum 1), score and rank by
-    method, and first_place_share
+    method, rank_acceptability and its first position, first_place_share
 
     Raises
     ------
@@ -50,7 +60,7 @@ def score(results: xr.Dataset, settings: Scoring | None = None) -> xr.Dataset:
     scores = np.stack([method(utility, shares) for method in METHODS.values()], axis=1)
     # Rounded, so that options that differ by rounding errors share their rank.
     ranks = 1 + (scores.round(9) > scores.round(9)[:, None]).sum(axis=1)
-    first = first_place_share(utility, settings.random_weightings, settings.seed)
+    positions = _positions(results, criteria, utility, shares, settings)
     option = {"option": results["option"].values}
     criterion = {
         "criterion": [criterion.name for criterion in criteria],
@@ -58,6 +68,11 @@ def score(results: xr.Dataset, settings: Scoring | None = None) -> xr.Dataset:
         "criterion_unit": ("criterion", [criterion.unit for criterion in criteria]),
     }
     by_method = {**option, "scoring_method": list(METHODS)}
+    by_position = {
+        "criteria_weights": [ANY_WEIGHTS, OF_THE_STUDY],
+        **option,
+        "rank_position": np.arange(1.0, 1.0 + len(utility)),
+    }
     return check(
         xr.Dataset(
             {
@@ -67,10 +82,31 @@ def score(results: xr.Dataset, settings: Scoring | None = None) -> xr.Dataset:
                 "weight": stamp("weight", shares, criterion),
                 "score": stamp("score", scores, by_method),
                 "rank": stamp("rank", ranks.astype(float), by_method),
-                "first_place_share": stamp("first_place_share", first, option),
+                "first_place_share": stamp("first_place_share", positions[0, :, 0], option),
+                "rank_acceptability": stamp("rank_acceptability", positions, by_position),
             }
         )
     )
+
+
+def _positions(
+    results: xr.Dataset,
+    criteria: Sequence[Scored],
+    utility: Array,
+    shares: Array,
+    settings: Scoring,
+) -> Array:
+    """Probability of each rank by any weights and those of the study, (2, option, position)."""
+    weight = results["draw_weight"].values[0] if "draw_weight" in results else np.ones(1)
+    of_draws = np.repeat(utility[None], weight.size, axis=0)
+    for number, criterion in enumerate(criteria):
+        if criterion.by_draw is not None:
+            scale = settings.criteria[criterion.name]
+            ends = np.array(scale.best), np.array(scale.worst)
+            of_draws[..., number] = utilities(criterion.by_draw, *ends)
+    drawn = any_weights(len(criteria), settings.random_weightings, settings.seed)
+    as_given = repeat(shares[None])
+    return np.stack([rank_acceptability(of_draws, weight, some) for some in (drawn, as_given)])
 
 
 def _stored_settings(results: xr.Dataset) -> Scoring:

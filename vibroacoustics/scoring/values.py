@@ -19,12 +19,14 @@ class Scored(NamedTuple):
     ----------
     name, label, unit : key in study files, plain words, symbol
     values : (option,), in that unit
+    by_draw : (draw, option), in that unit; none where no draw changes it
     """
 
     name: str
     label: str
     unit: str
     values: Array
+    by_draw: Array | None = None
 
 
 def scored_criteria(results: xr.Dataset, settings: Scoring) -> list[Scored]:
@@ -56,7 +58,15 @@ def _computed(name: str, results: xr.Dataset) -> Scored:
         raise ParameterError(f"criterion {name}: has dims {values.dims}, must have ('option',)")
     for option in _options_without(values):
         raise ParameterError(f"criterion {name}: has no finite value for the option {option}")
-    return _worded(name, criterion.label, criterion.unit, values)
+    scored = _worded(name, criterion.label, criterion.unit, values)
+    drawn = criterion.by_draw(results) if "draw_weight" in results else None
+    return scored if drawn is None else scored._replace(by_draw=_of_draws(name, drawn))
+
+
+def _of_draws(name: str, drawn: xr.DataArray) -> Array:
+    if set(drawn.dims) != {"draw", "option"}:
+        raise ParameterError(f"criterion {name}: by draw has dims {drawn.dims}")
+    return np.asarray(drawn.transpose("draw", "option").values)
 
 
 def _given(name: str, scale: CriterionScale, results: xr.Dataset) -> Scored:

@@ -42,6 +42,16 @@ class Criterion:
         """
         raise NotImplementedError
 
+    def by_draw(self, results: xr.Dataset) -> xr.DataArray | None:
+        """Value of each option in each draw, over `draw` and `option`; none where it is the same.
+
+        Parameters
+        ----------
+        results : dataset of a run with draws, without scores; not a number in draws that do not
+            count
+        """
+        return None
+
 
 CRITERIA: Final[Registry[type[Criterion]]] = Registry(
     "criterion", Criterion, "name", "scoring.criteria", "vibroacoustics.criteria"

@@ -10,6 +10,7 @@ from ..machine.machine import Machine
 from ..machine.option import OPTIONS
 from ..machine.source import SOURCES
 from .draws import warn_of_contradictions
+from .evidence_files import take_evidence
 from .given_values import take_given
 from .kinds import validate_kinds
 from .machine_file import (
@@ -81,9 +82,9 @@ def study_of(written: Written) -> Study:
         if name in content:
             del content[name]
             reader.problems.append(f"{path}: {name}: unknown key")
-    given = take_given(content, reader)
+    given, evidence = take_given(content, reader), take_evidence(content, reader)
     content = reader.to_si(content, ())
-    content.update(machine=machine, source_file=path.name, given=given)
+    content.update(machine=machine, source_file=path.name, given=given, evidence=evidence)
     content["catalogue_machine"] = at_catalogue
     for name, (redesigned, change_records) in redesigns.items():
         content["options"][name]["machine"] = redesigned

@@ -44,8 +44,26 @@ class CriterionScale(Parameters):
         return self
 
 
+class Measurable(Parameters):
+    """Smallest changes that could be measured; an option is called better or worse by these only.
+
+    Assumed: 0.5 dB is what a sound level meter repeats at one place, 5 % what a force under a foot
+    repeats from one mounting to the next; near 0 dB in a band of 1 Hz is the noise that a measuring
+    microphone makes itself at 50 Hz.
+    """
+
+    level_db: float = Field(default=0.5, gt=0.0, le=20.0)
+    force_ratio: float = Field(default=0.05, gt=0.0, lt=1.0)
+    """Of the force or moment without the option."""
+    quietest_line_db: float = Field(default=0.0, ge=-40.0, le=60.0)
+    """A line that is quieter counts as this."""
+    draws_ratio: float = Field(default=0.5, ge=0.0, lt=1.0)
+    """Share of the draws above which a change counts."""
+
+
 class Scoring(Parameters):
     criteria: dict[str, CriterionScale] = Field(min_length=1)
+    measurable: Measurable = Measurable()
     random_weightings: int = Field(default=2000, ge=1, le=1_000_000)
     seed: int = Field(default=20061, ge=0, lt=2**63)
     published: PublishedTable | None = None

@@ -17,6 +17,7 @@ from ..machine.source import AnySource, CaseKey
 from ..machine.stopping import Stopping
 from ..machine.turning_back import TurningBack
 from ..mechanics.loads import DISCHARGE_DOME, SUCTION_ANNULUS
+from .evidence import Evidence
 from .radiation import RadiationSettings
 from .receivers import Receiver
 from .scoring import Scoring, check_given, check_scales
@@ -129,6 +130,8 @@ class Study(Parameters):
     scoring: Scoring
     given: dict[str, dict[str, float]] = Field(default={})
     """Values of criteria that are judged, not computed, by option and criterion."""
+    evidence: Evidence = Evidence()
+    """Published values beside which the report sets the results."""
     sound_power: SoundPowerSettings | None = None
     map: MapSettings | None = None
     directivity: DirectivitySettings | None = None

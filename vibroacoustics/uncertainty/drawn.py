@@ -6,6 +6,7 @@ from functools import partial
 from itertools import groupby
 from typing import Final
 
+from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..machine.machine import Machine
 from ..machine.source import Case, CaseKey, Shared
@@ -16,6 +17,7 @@ from ..study.sampling import Draw
 from ..study.study import Study
 from ..transfer.received import BySource
 from ..transfer.sound_path import PressurePerVelocity
+from .first_order import first_order
 from .wrenches import wrench_pressure
 
 _SHELL: Final = {"shell", "structure", "variation", "frame", "shaft", "overall_noise", "remainder"}
@@ -31,11 +33,13 @@ class DrawnCases:
     cases : with drawn values, without courses over crank angle
     loads : of all sources in each
     wrench_pressure : of the cases whose motion is not that as given, by source, (receiver, order)
+    first_order : of the same, force, moment and foot force at 1x, N, N m, N
     """
 
     cases: dict[CaseKey, Case]
     loads: dict[CaseKey, dict[str, Loads]]
     wrench_pressure: dict[CaseKey, BySource]
+    first_order: dict[CaseKey, Array]
 
 
 def drawn_cases(
@@ -58,7 +62,7 @@ def drawn_cases(
     ParameterError, SolverError
         A machine cannot run so, an option not be built, a source not act.
     """
-    drawn = DrawnCases({}, {}, {})
+    drawn = DrawnCases({}, {}, {}, {})
     shared = Shared()
     for _, of_speed in groupby(cases.items(), key=lambda item: item[0][0]):
         turned = Shared()  # let go with the speed: courses over crank angle are large
@@ -73,6 +77,7 @@ def drawn_cases(
             if case.revolution.wrenches:
                 highest = study.highest_order(case.speed_rpm)
                 drawn.wrench_pressure[key] = wrench_pressure(case, loads, highest, rigid)
+                drawn.first_order[key] = first_order(case, loads)
             drawn.cases[key], drawn.loads[key] = without_time_series(case, loads)
     return drawn
 

@@ -332,6 +332,41 @@ def test_motion_as_given_sounds_as_in_the_results(study, rigid):
         np.testing.assert_allclose(found, expected, atol=1e-9 * size, err_msg=option)
 
 
+def test_forces_at_1x_are_those_of_a_machine_with_the_drawn_values(study, rigid):
+    """Of every option, beside a run of a study whose machine has the drawn mounts."""
+    stiffness = 4.0 * study.machine.mounts.lateral_stiffness_n_per_m
+    draw = {("mounts", "lateral_stiffness_n_per_m"): stiffness}
+    machine = with_draw(study.machine, study.machine, draw)
+    expected = run_made_up(study.model_copy(update={"machine": machine, "ranges": ()}))
+    given = run_made_up(study.model_copy(update={"ranges": ()}))
+    for option in study.options:
+        case = case_of(study, option)
+        bare, _ = without_time_series(replace(case, shared=Shared()), {})
+        key = (case.speed_rpm, option)
+        drawn = drawn_cases({key: bare}, study, draw, rigid).first_order[key]
+        at = {"speed": 2900.0, "option": option, "order": 1}
+        force, moment = (expected[f"{name}_amplitude"].sel(at) for name in ("force", "moment"))
+        foot = expected["foot_force_amplitude"].sel(at).max()
+        np.testing.assert_allclose(
+            drawn, [force, moment, foot], rtol=1e-9, atol=1e-9, err_msg=option
+        )
+        assert abs(foot / given["foot_force_amplitude"].sel(at).max() - 1.0) > 0.1
+
+
+def test_forces_by_draw_are_in_the_results_and_as_given_where_no_draw_moves(study):
+    """Draws of the keys' friction leave the motion."""
+    ranges = (Range(table="keys", field="friction_ratio", lowest=0.05, highest=0.15),)
+    settings = study.uncertainty.model_copy(update={"random_samples": 4})
+    quiet = study.model_copy(update={"ranges": ranges, "uncertainty": settings})
+    results = run_made_up(quiet)
+    for name in ("force", "moment", "foot_force"):
+        given = results[f"{name}_amplitude"].sel(order=1)
+        given = given.max("foot") if "foot" in given.dims else given
+        drawn = results[f"{name}_1x_by_draw"]
+        assert drawn.sizes["draw"] == results.sizes["draw"]
+        np.testing.assert_array_equal(drawn, given.broadcast_like(drawn).transpose(*drawn.dims))
+
+
 def test_motion_that_a_draw_leaves_is_not_computed_anew(study, rigid):
     assert drawn_pressure(study, rigid, {("keys", "friction_ratio"): 0.05}) is None
     assert drawn_pressure(study, rigid, {("structure", "thickness_m"): 3e-3}) is None

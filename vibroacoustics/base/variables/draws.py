@@ -29,6 +29,16 @@ for _thing in (
         "A-weighted level with the draw's own remainder",
     ),
     Variable(
+        "force_1x_by_draw", ("draw", "speed", "option"), "N", "force on the housing at 1x, peak"
+    ),
+    Variable("moment_1x_by_draw", ("draw", "speed", "option"), "N m", "moment at 1x, peak"),
+    Variable(
+        "foot_force_1x_by_draw",
+        ("draw", "speed", "option"),
+        "N",
+        "largest force into a foot at 1x, peak",
+    ),
+    Variable(
         "level_remainder_by_draw",
         ("prior", "draw"),
         "dB",

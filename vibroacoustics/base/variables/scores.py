@@ -9,6 +9,8 @@ for _thing in (
     Coordinate("criterion_unit", ("criterion",), "", "unit of the criterion"),
     Coordinate("given_criterion", ("given_criterion",), "", "criterion whose values are given"),
     Coordinate("scoring_method", ("scoring_method",), "", "scoring method"),
+    Coordinate("rank_position", ("rank_position",), "1", "rank, 1 is best"),
+    Coordinate("criteria_weights", ("criteria_weights",), "", "which weights the criteria have"),
     Coordinate("published_option", ("published_option",), "", "option in the published table"),
     Coordinate("published_criterion", ("published_criterion",), "", "criterion in the table"),
     Variable("criterion_value", ("option", "criterion"), "", "criterion, unit in criterion_unit"),
@@ -27,7 +29,13 @@ for _thing in (
         "first_place_share",
         ("option",),
         "1",
-        "share of random weightings in which the option ranks first",
+        "probability of the first rank, whatever the weights, over the draws",
+    ),
+    Variable(
+        "rank_acceptability",
+        ("criteria_weights", "option", "rank_position"),
+        "1",
+        "probability of each rank, over the draws",
     ),
     Variable(
         "published_score",

@@ -41,6 +41,8 @@ class Column:
         without a balancer, `silent` where it is with the option
     applies : whether results have such a column
     position : from left to right; a stranger's are the last
+    band : variable whose band over the draws the tables show in place of the value, where there
+        are draws
 
     Examples
     --------
@@ -59,6 +61,7 @@ class Column:
     change_of: str = ""
     applies: Callable[[xr.Dataset], bool] = _always
     position: float = LAST
+    band: str = ""
 
 
 COLUMNS: Final[Registry[Column]] = Registry(

@@ -4,10 +4,12 @@ from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
+from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..study import options
+from ...scoring.scores import ANY_WEIGHTS
+from ..study import has_draws, options
 from .needs import needs
 from .style import COLOURS, Picture, draw, legend_below, png, wrap
 
@@ -51,8 +53,8 @@ def scores(results: xr.Dataset) -> Figure:
 
 
 def score_figures(results: xr.Dataset) -> list[Picture]:
-    """Weighted utilities that add up to the weighted sum, a bar per option."""
-    return [
+    """Weighted utilities that add up to the weighted sum, and how sure each rank is."""
+    pictures = [
         Picture(
             "scores",
             "Score of every option as a stacked bar of its weighted criteria; the sums are in the "
@@ -62,6 +64,63 @@ def score_figures(results: xr.Dataset) -> list[Picture]:
             png(scores(results)),
         )
     ]
+    if "rank_acceptability" not in results:
+        return pictures
+    drawn = "draws and weights together" if has_draws(results) else "weights"
+    return [
+        *pictures,
+        Picture(
+            "ranks",
+            "Probability of every rank of every option as a stacked bar, the first rank leftmost; "
+            "the numbers are in the table of ranks.",
+            f"Probability of each rank over {drawn}: the more of the dark left end, the surer an "
+            "option is among the first.",
+            png(rank_acceptability(results)),
+        ),
+    ]
+
+
+@needs("rank_acceptability")
+def rank_acceptability(results: xr.Dataset) -> Figure:
+    """Probability of each rank, a bar an option, the first rank leftmost.
+
+    Over draws and weights of the criteria together (stochastic multicriteria acceptability
+    analysis).
+
+    Parameters
+    ----------
+    results : of `run`; needs `rank_acceptability` (criteria_weights, option, rank_position)
+
+    Raises
+    ------
+    ParameterError
+        The results hold none.
+
+    Examples
+    --------
+    >>> results = va.open_results("results.nc")
+    >>> va.plot.rank_acceptability(results).savefig("ranks.png")
+    """
+    probability = results["rank_acceptability"].sel({"criteria_weights": ANY_WEIGHTS})
+    names = options(results)
+    shades = colormaps["Blues"](np.linspace(0.95, 0.15, probability.sizes["rank_position"]))
+
+    def paint(panels: Sequence[Axes]) -> None:
+        (axes,) = panels
+        left = np.zeros(len(names))
+        for shade, part in zip(
+            shades, probability.transpose("rank_position", "option"), strict=True
+        ):
+            label = f"rank {part['rank_position'].item():g}"
+            axes.barh(range(len(names)), part.values, left=left, color=shade, label=label)
+            left = left + part.values
+        axes.set_yticks(range(len(names)), [wrap(name) for name in names])
+        axes.invert_yaxis()
+        axes.set_xlim(0.0, 1.0)
+        axes.set_xlabel("Probability")
+        legend_below(axes, 4)
+
+    return draw(1, 0.8 + 0.26 * len(names), paint, (len(names) + 3) // 4 + 1)
 
 
 def contributions(results: xr.Dataset) -> xr.DataArray:

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from ...base.arrays import Array
 from ...base.decibel import level_of_power, power_of_level
 from ...base.vocabulary import REFERENCE_OPTION
-from ..shifts import HEARD_DB
+from ..quantities import HEARD_DB
 from ..source_words import quoted_speed, source_name
 from ..study import balancers, catalogue_receiver, few_speeds, has_sources, speeds
 from .needs import needs

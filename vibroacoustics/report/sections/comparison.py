@@ -5,7 +5,7 @@ import xarray as xr
 from ...base.registry import register
 from ...base.rounding import FORCE_FLOOR, LEVEL_FLOOR_DB, fixed
 from ..blocks import Block, Details, Heading, Text
-from ..comparison import comparison_tables
+from ..comparison import bands_sentence, comparison_tables
 from ..kept_columns import columns_of
 from ..speeds import chosen_speeds
 from ..study import catalogue_receiver, has_sources, other_receivers
@@ -29,8 +29,8 @@ def _blocks(results: xr.Dataset) -> list[Block]:
 
 def _legend(results: xr.Dataset) -> Text:
     sources = (
-        " Modelled and total levels include all sources, at the assumed values; their "
-        "bands are in What carries the level."
+        f" Modelled and total levels include all sources. {bands_sentence(results)} Those of "
+        "each source are in What carries the level."
         if has_sources(results)
         else ""
     )

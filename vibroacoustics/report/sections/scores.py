@@ -3,7 +3,7 @@
 import xarray as xr
 
 from ...base.registry import register
-from .. import scores
+from .. import acceptability, scores
 from ..blocks import Block, Heading, Pictures, Text
 from ..figures import score_figures
 from ..study import parameters
@@ -16,11 +16,14 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         Text(
             "Each criterion gives a utility from 0 (worst) to 1 (best) on a fixed scale. The "
             "weighted sum adds the utilities times their weights; TOPSIS measures closeness to "
-            "the ideal option. The last column says how often an option comes first in "
-            f"{draws} random weightings. Scale and weights are a choice of the study, not a "
-            f"result.{scores.scope_words(results)}"
+            "the ideal option. Scale and weights are a choice of the study, not a "
+            f"result.{scores.scope_words(results)} So each rank has a probability: of each draw "
+            f"of the values that are not known, by its weight, with {draws} weightings drawn "
+            "evenly from all that there are (stochastic multicriteria acceptability analysis, "
+            "SMAA-2)."
         ),
         scores.scores_table(results),
+        *filter(None, [acceptability.acceptability_table(results)]),
         Pictures(tuple(score_figures(results))),
         scores.criteria_table(results),
         scores.values_table(results),

@@ -5,19 +5,19 @@ from collections.abc import Sequence
 import xarray as xr
 
 from ...base.registry import register
-from .. import verdict
+from .. import extremes, verdict
 from ..blocks import Block, Bullets, Definition, Definitions, Heading, Text
 from ..option_verdict import OptionVerdict, option_verdicts
 from . import Section
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
-    table = verdict.extremes_table(results)
+    table = extremes.extremes_table(results)
     verdicts = option_verdicts(results)
     return [
         Text(verdict.headline(results), "headline"),
         Bullets(tuple(verdict.reasons(results, verdicts))),
-        *([table] if table else []),
+        *filter(None, [verdict.options_table(verdicts), table]),
         *_options(verdicts),
     ]
 

@@ -4,6 +4,7 @@ import xarray as xr
 
 from ...base.registry import register
 from ...study.criterion import Criterion
+from ..over_speeds import largest_by_draw
 
 
 @register
@@ -18,3 +19,7 @@ class FootForce(Criterion):
     def value(self, results: xr.Dataset) -> xr.DataArray:
         """Largest 1x force into a foot, N."""
         return results["foot_force_amplitude"].sel(order=1).max(("speed", "foot"))
+
+    def by_draw(self, results: xr.Dataset) -> xr.DataArray | None:
+        """Largest 1x force into a foot in each draw, N."""
+        return largest_by_draw(results, "foot_force_1x_by_draw")

@@ -23,7 +23,14 @@ class LevelChange(Criterion):
 
     def value(self, results: xr.Dataset) -> xr.DataArray:
         """Change against `none`, dB."""
-        power = power_of_level(results["level_modelled"].sel(weighting="A"))
-        mean_level = level_of_power(power.mean("receiver"))
-        change: xr.DataArray = mean_level - mean_level.sel(option=REFERENCE_OPTION, drop=True)
-        return change.max("speed")
+        return _worst_change(results["level_modelled"].sel(weighting="A"))
+
+    def by_draw(self, results: xr.Dataset) -> xr.DataArray:
+        """Change against `none` in each draw, dB."""
+        return _worst_change(results["level_modelled_by_draw"])
+
+
+def _worst_change(level: xr.DataArray) -> xr.DataArray:
+    mean_level = level_of_power(power_of_level(level).mean("receiver", skipna=False))
+    change: xr.DataArray = mean_level - mean_level.sel(option=REFERENCE_OPTION, drop=True)
+    return change.max("speed", skipna=False)

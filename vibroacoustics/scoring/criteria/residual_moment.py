@@ -4,6 +4,7 @@ import xarray as xr
 
 from ...base.registry import register
 from ...study.criterion import Criterion
+from ..over_speeds import largest_by_draw
 
 
 @register
@@ -18,3 +19,7 @@ class ResidualMoment(Criterion):
     def value(self, results: xr.Dataset) -> xr.DataArray:
         """1x moment about the centre of mass, N m."""
         return results["moment_amplitude"].sel(order=1).max("speed")
+
+    def by_draw(self, results: xr.Dataset) -> xr.DataArray | None:
+        """1x moment about the centre of mass in each draw, N m."""
+        return largest_by_draw(results, "moment_1x_by_draw")

@@ -24,7 +24,16 @@ class SpeedSensitivity(Criterion):
 
     def value(self, results: xr.Dataset) -> xr.DataArray:
         """Largest minus smallest change, dB."""
-        foot = results["foot_force_amplitude"].sel(order=1).max("foot")
-        ratio = foot / foot.sel(option=REFERENCE_OPTION, drop=True)
-        change = level_of_amplitude(ratio.clip(min=SMALLEST_RATIO))
-        return change.max("speed") - change.min("speed")
+        return _spread(results["foot_force_amplitude"].sel(order=1).max("foot"))
+
+    def by_draw(self, results: xr.Dataset) -> xr.DataArray | None:
+        """Largest minus smallest change in each draw, dB; none where the force was not drawn."""
+        name = "foot_force_1x_by_draw"
+        return _spread(results[name]) if name in results else None
+
+
+def _spread(foot: xr.DataArray) -> xr.DataArray:
+    ratio = foot / foot.sel(option=REFERENCE_OPTION, drop=True)
+    change = level_of_amplitude(ratio.clip(min=SMALLEST_RATIO))
+    spread: xr.DataArray = change.max("speed", skipna=False) - change.min("speed", skipna=False)
+    return spread

@@ -1,0 +1,106 @@
+"""The table of evidence: errors and uncertainties by hand."""
+
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+from test_report import make_results
+from test_report_sources import PUBLISHED_DBA, energy, with_parameters, with_sources
+
+from vibroacoustics.base.vocabulary import stamp
+from vibroacoustics.report import render
+from vibroacoustics.report.evidence import rungs
+from vibroacoustics.report.evidence_table import evidence_table
+
+MAKER = {"machine": "Scroll", "source": "Maker, page 1", "slow_rpm": 3000.0, "fast_rpm": 3600.0}
+FORCE = {"part": "oldham", "proportional_to": "ring.mass_kg ring.stroke_mm", "source": "Thesis"}
+
+
+def record(field: str, value: str, lowest: float | None, highest: float | None) -> dict:
+    limits = {"lowest": lowest, "highest": highest}
+    return {"field": field, "value": value, **limits, "source": "S", "file": "m", "unit": ""}
+
+
+def with_evidence(results: xr.Dataset, forces: list[dict], levels: list[dict]) -> xr.Dataset:
+    machine = json.loads(results.attrs["parameters"])["machine"]
+    records = [
+        record("overall_noise.level_dba", "56", None, None),
+        record("remainder.speed_growth_db", "30", 25.0, 34.0),
+        record("ring.mass_kg", "2", 1.0, 3.0),
+        record("ring.stroke_mm", "4", None, None),
+    ]
+    return with_parameters(
+        results,
+        machine={**machine, "remainder": {"speed_growth_db": 30.0}},
+        records=records,
+        evidence={"forces": forces, "two_speed_levels": levels},
+    )
+
+
+@pytest.fixture(scope="module")
+def results() -> xr.Dataset:
+    """A ring's force of 45 N, three draws of the bank at 50, 53 and 59 dB(A)."""
+    results = with_sources({"none": 40.0, "idle": 40.0})
+    phasor = np.zeros((2, 2, 1, 3, 5), dtype=complex)
+    phasor[..., 0, 1], phasor[..., 1, 1] = 45.0, 27.0j  # an ellipse, 45 N its longer half
+    coords = {dim: results[dim].values for dim in ("speed", "option", "source", "axis", "order")}
+    level = results["bank_level"].copy(data=np.resize([50.0, 53.0, 59.0, np.nan], 11))
+    forces = [
+        {**FORCE, "speed_rpm": 2900.0, "force_1x_n": 60.0, "deviation_n": 5.0},
+        {**FORCE, "speed_rpm": 3500.0, "force_1x_n": 110.0, "deviation_n": 5.0},
+        {**FORCE, "speed_rpm": 1000.0, "force_1x_n": 1.0, "deviation_n": 5.0},
+    ]
+    levels = [{**MAKER, "slow_level_dba": 70.0, "fast_level_dba": 72.0}]
+    results = results.assign(force_order=stamp("force_order", phasor, coords), bank_level=level)
+    return with_evidence(results, forces, levels)
+
+
+def test_the_level_is_that_of_the_sources_with_the_spread_before_any_data(
+    results: xr.Dataset,
+) -> None:
+    level = rungs(results)[0]
+    assert level.simulation == pytest.approx(energy(7.0, 50.0, 40.0))
+    assert level.data == PUBLISHED_DBA
+    drawn = results["bank_level"].values
+    assert level.inputs == pytest.approx(np.std(drawn[np.isfinite(drawn)]))
+    assert level.published == 2.0
+    assert level.numerical == pytest.approx(20.0 * np.log10(1.01))  # of vectors off by 1 %
+    assert level.error == pytest.approx(level.simulation - PUBLISHED_DBA)
+
+
+def test_growth_with_speed_by_hand(results: xr.Dataset) -> None:
+    growth = rungs(results)[1]
+    decades = np.log10(1.2)
+    assert growth.simulation == pytest.approx(30.0 * decades)
+    assert growth.error == pytest.approx(30.0 * decades - 2.0)
+    assert growth.inputs == pytest.approx(9.0 / np.sqrt(12.0) * decades)
+    assert growth.published == pytest.approx(np.sqrt(2.0 / 12.0))
+    assert growth.uncertainty == pytest.approx(np.hypot(growth.inputs, growth.published))
+    assert growth.agrees
+
+
+def test_a_force_follows_the_ranges_that_it_is_proportional_to(results: xr.Dataset) -> None:
+    near, far = rungs(results)[2:]  # that at 1000 rpm has no result
+    assert near.simulation == pytest.approx(45.0)
+    assert near.inputs == pytest.approx(45.0 * (2.0 / np.sqrt(12.0)) / 2.0)
+    assert near.uncertainty == pytest.approx(np.hypot(near.inputs, 5.0))
+    assert near.agrees  # |-15| within twice 13.9
+    assert not far.agrees  # |-65| beyond
+    rows = evidence_table(results).rows
+    assert rows[2][9].startswith("agrees: no error above 27.")
+    assert rows[3][9].startswith("differs by more than 27.")
+    assert rows[3][4] == "−65.0"
+
+
+def test_the_page_shows_the_table_of_evidence(results: xr.Dataset) -> None:
+    page = render(results)["report.html"].decode()
+    assert "Results beside published values" in page
+    assert "Maker, page 1" in page
+
+
+def test_without_any_more_the_catalogue_level_stands_alone() -> None:
+    (level,) = rungs(make_results({"none": 1.0, "halved": 0.5}))
+    assert "moving parts" in level.quantity
+    assert level.inputs == 0.0
+    assert not level.agrees  # the rigid machine's orders are no machine's level

@@ -1,0 +1,10 @@
+"""Values of one column of the comparison."""
+
+import xarray as xr
+
+from .columns import COLUMNS
+
+
+def column(results: xr.Dataset, name: str) -> xr.DataArray:
+    """One column over option, speed and, for levels, receiver; the unit is in its name."""
+    return COLUMNS[name].values(results).reset_coords(drop=True)

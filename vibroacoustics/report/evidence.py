@@ -1,0 +1,186 @@
+"""Results beside published values: error and its uncertainty, in the form of ASME V&V 20.
+
+Simulation S, data D, error E = S - D; validation uncertainty u = √(u_num² + u_input² + u_D²), all
+standard uncertainties (ASME V&V 20-2009, sections 1 and 6). What the model leaves out is within
+E ± k u; where |E| is not above k u, the comparison shows no error of the model.
+"""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array
+from ..base.decibel import level_of_amplitude, level_of_power
+from ..base.vocabulary import REFERENCE_OPTION
+from .study import catalogue_receiver, elsewhere, has_sources, overall_noise, parameters
+
+COVERAGE: Final = 2.0
+"""k: about 95 % of a normal distribution."""
+_OF_A_RANGE: Final = 1.0 / np.sqrt(12.0)
+"""Standard uncertainty of what lies evenly in a range, over its width (JCGM 100:2008, 4.3.7)."""
+_ROUNDED_DB: Final = 1.0
+"""Makers round their levels to this."""
+_GROWTH: Final = "remainder.speed_growth_db"
+_DEVIATION_DB: Final = 2.0
+"""Of the published level, where files of older versions give none."""
+
+
+@dataclass(frozen=True)
+class Rung:
+    """A result beside what is published of it; uncertainties are standard ones, in its unit."""
+
+    quantity: str
+    unit: str
+    simulation: float
+    data: float
+    numerical: float
+    inputs: float
+    published: float
+    source: str
+
+    @property
+    def error(self) -> float:
+        """E = S - D."""
+        return self.simulation - self.data
+
+    @property
+    def uncertainty(self) -> float:
+        """Of validation, u."""
+        return float(np.hypot(np.hypot(self.numerical, self.inputs), self.published))
+
+    @property
+    def agrees(self) -> bool:
+        """Whether the error lies within k u."""
+        return abs(self.error) <= COVERAGE * self.uncertainty
+
+
+def rungs(results: xr.Dataset) -> list[Rung]:
+    """All that is published of what the results hold."""
+    evidence = parameters(results).get("evidence") or {}
+    return [
+        *_catalogue_level(results),
+        *_growths(results, evidence.get("two_speed_levels", ())),
+        *_forces(results, evidence.get("forces", ())),
+    ]
+
+
+def _catalogue_level(results: xr.Dataset) -> Iterator[Rung]:
+    """Level of all that is modelled beside that of the machine; what is left out is in E."""
+    noise, receiver = overall_noise(results), catalogue_receiver(results)
+    drawn = results["bank_level"].values if "bank_level" in results else np.zeros(0)
+    drawn = drawn[np.isfinite(drawn)]
+    speed = noise["speed_rpm"]
+    if speed in results["speed"].values and not elsewhere(results):
+        level = results["level_modelled"].sel(
+            speed=speed, option=REFERENCE_OPTION, receiver=receiver, weighting="A"
+        )
+        simulated = float(level)
+    elif drawn.size:
+        simulated = float(np.median(drawn))
+    else:
+        return
+    what = "all modelled sources" if has_sources(results) else "moving parts"
+    yield Rung(
+        f"Level at {receiver}, {speed:g} rpm: {what}, beside the whole machine",
+        "dB(A)",
+        simulated,
+        noise["level_dba"],
+        _grid_error_db(results, receiver),
+        float(np.std(drawn)) if drawn.size else 0.0,
+        noise.get("deviation_db", _DEVIATION_DB),
+        _source(results, "overall_noise.level_dba"),
+    )
+
+
+def _grid_error_db(results: xr.Dataset, receiver: str) -> float:
+    """Of the transfer vectors, from their grids, rms over motions and frequencies."""
+    error, size = 0.0, 0.0
+    for name in ("transfer_vector", "pattern_transfer_vector"):
+        if f"{name}_error" in results:
+            error += float((results[f"{name}_error"].sel(receiver=receiver) ** 2).sum())
+            size += float((np.abs(results[name].sel(receiver=receiver)) ** 2).sum())
+    return level_of_amplitude(1.0 + np.sqrt(error / size)) if size > 0.0 else 0.0
+
+
+def _growths(results: xr.Dataset, rows: Iterable[dict[str, Any]]) -> Iterator[Rung]:
+    """Growth of the remainder with speed beside levels of other machines at two speeds."""
+    growth = parameters(results)["machine"].get("remainder", {}).get("speed_growth_db")
+    if growth is None:  # files of older versions
+        return
+    width = _relative_range(results, _GROWTH) * growth
+    for row in rows:
+        if min(row["slow_rpm"], row["fast_rpm"]) <= 0.0:
+            continue
+        decades = level_of_power(row["fast_rpm"] / row["slow_rpm"]) / 10.0
+        yield Rung(
+            f"Growth of the remainder from {row['slow_rpm']:g} to {row['fast_rpm']:g} rpm, beside "
+            f"{row['machine']}",
+            "dB",
+            growth * decades,
+            row["fast_level_dba"] - row["slow_level_dba"],
+            0.0,
+            width * decades,
+            float(np.sqrt(2.0)) * _ROUNDED_DB * _OF_A_RANGE,
+            row["source"],
+        )
+
+
+def _forces(results: xr.Dataset, rows: Iterable[dict[str, Any]]) -> Iterator[Rung]:
+    """Forces of moving parts at 1x, where the results have part and speed."""
+    for row in rows if "force_order" in results else ():
+        known = row["part"] in results["source"].values
+        if not known or row["speed_rpm"] not in results["speed"].values:
+            continue
+        phasors = results["force_order"].sel(
+            source=row["part"], speed=row["speed_rpm"], option=REFERENCE_OPTION, order=1
+        )
+        force = _largest(phasors.values)
+        inputs = [_relative_range(results, field) for field in row["proportional_to"].split()]
+        yield Rung(
+            f"Force of the part {row['part'].replace('_', ' ')} at 1×, {row['speed_rpm']:g} rpm",
+            "N",
+            force,
+            row["force_1x_n"],
+            0.0,
+            force * float(np.linalg.norm(inputs)),
+            row["deviation_n"],
+            row["source"],
+        )
+
+
+def _largest(phasor: Array) -> float:
+    """Semi-major axis of the ellipse that a phasor (axis,) draws."""
+    squared = np.sum(np.abs(phasor) ** 2)
+    return float(np.sqrt(0.5 * (squared + np.abs(np.sum(phasor**2)))))
+
+
+def _relative_range(results: xr.Dataset, field: str) -> float:
+    """Standard uncertainty of a value of the machine over the value, from its range; 0 without."""
+    for record in parameters(results)["records"]:
+        if _is_of(record, field) and None not in (record["lowest"], record["highest"]):
+            width = (record["highest"] - record["lowest"]) * _OF_A_RANGE
+            return float(width / abs(_number(record["value"])))
+    return 0.0
+
+
+def _number(text: str) -> float:
+    """A recorded value; not a number where it is none."""
+    try:
+        return float(text) or np.nan
+    except ValueError:
+        return np.nan
+
+
+def _source(results: xr.Dataset, field: str) -> str:
+    for record in parameters(results)["records"]:
+        if _is_of(record, field):
+            return str(record["source"])
+    return ""
+
+
+def _is_of(record: dict[str, Any], field: str) -> bool:
+    """Whether a record is of a value, whatever the unit that its file gives it in."""
+    return bool(record["field"] == field or record["field"].startswith(f"{field}_"))

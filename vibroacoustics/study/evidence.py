@@ -1,0 +1,36 @@
+"""What is published of a machine, and of others of its kind, to hold results against."""
+
+from pydantic import Field
+
+from ..base.parameters import Parameters
+
+
+class TwoSpeedLevel(Parameters):
+    """Levels of one machine at two speeds, as its maker prints them, each rounded to 1 dB."""
+
+    machine: str
+    slow_rpm: float = Field(gt=0.0)
+    slow_level_dba: float
+    fast_rpm: float = Field(gt=0.0)
+    fast_level_dba: float
+    source: str
+
+
+class PublishedForce(Parameters):
+    """Force of a moving part at once per revolution, peak."""
+
+    part: str
+    speed_rpm: float = Field(gt=0.0)
+    force_1x_n: float
+    deviation_n: float = Field(ge=0.0)
+    """Standard uncertainty of what is published."""
+    proportional_to: str = ""
+    """Values of the machine's file, dotted, apart by blanks; their ranges make the force's."""
+    source: str
+
+
+class Evidence(Parameters):
+    """Published values beside which a report sets its results."""
+
+    two_speed_levels: tuple[TwoSpeedLevel, ...] = ()
+    forces: tuple[PublishedForce, ...] = ()

@@ -1,0 +1,78 @@
+"""Forces at once per revolution of drawn machines."""
+
+from collections.abc import Mapping, Sequence
+from itertools import product
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array
+from ..base.units import shaft_frequency_hz
+from ..base.vocabulary import check, stamp
+from ..levels.by_source import SourceSound
+from ..machine.source import Case, CaseKey
+from ..mechanics.ellipse import semi_major_axis
+from ..mechanics.loads import Loads
+from ..orders.spectrum import order_spectrum_at_speed
+from ..transfer import on_mounts
+
+_AMPLITUDES: Final = {
+    "force_1x": "force_amplitude",
+    "moment_1x": "moment_amplitude",
+    "foot_force_1x": "foot_force_amplitude",
+}
+"""Amplitudes by draw, and where those of the values as given are."""
+
+
+def first_order(case: Case, loads: Mapping[str, Loads]) -> Array:
+    """Force N and moment N m on the housing and largest force N into a foot at 1x, peak.
+
+    Parameters
+    ----------
+    case : with its revolution
+    loads : of all sources, with their wrenches
+    """
+    speed = case.revolution.rotation.speed_rad_per_s
+    wrenches = [wrench for load in loads.values() for wrench in load.wrenches.values()]
+    over_angle = np.sum([np.concatenate([one.force_n, one.moment_n_m]) for one in wrenches], axis=0)
+    phasor = order_spectrum_at_speed(over_angle, speed, 1)[:, 1]
+    frequency = np.array([shaft_frequency_hz(case.speed_rpm)])
+    foot_force = on_mounts(case.machine).response(phasor[None], frequency).foot_force
+    halves = (semi_major_axis(phasor[:3], 0), semi_major_axis(phasor[3:], 0))
+    return np.array([*halves, semi_major_axis(foot_force[0], -1).max()])
+
+
+def first_order_by_draw(
+    sounds: Sequence[Mapping[CaseKey, SourceSound]], given: xr.Dataset
+) -> xr.Dataset:
+    """Forces at 1x of every draw; those as given where a draw leaves the motion.
+
+    Parameters
+    ----------
+    sounds : of every case, by draw
+    given : amplitudes of the values as given, by speed and option
+    """
+    of_given = [given[name].sel(order=1) for name in _AMPLITUDES.values()]
+    amplitudes = [one.max("foot") if "foot" in one.dims else one for one in of_given]
+    stacked = np.stack([one.transpose("speed", "option").values for one in amplitudes], axis=-1)
+    keys = product(given["speed"].values.tolist(), given["option"].values.tolist())
+    rows = dict(zip(keys, stacked.reshape(-1, len(_AMPLITUDES)), strict=True))
+    values = [[_drawn(sound[key], row) for key, row in rows.items()] for sound in sounds]
+    by_draw = np.array(values).reshape(len(sounds), *stacked.shape)
+    coords = {
+        "draw": np.arange(1, len(sounds) + 1),
+        "speed": given["speed"].values,
+        "option": given["option"].values,
+    }
+    arrays = {
+        f"{name}_by_draw": stamp(f"{name}_by_draw", by_draw[..., number], coords)
+        for number, name in enumerate(_AMPLITUDES)
+    }
+    return check(xr.Dataset(arrays))
+
+
+def _drawn(sound: SourceSound, as_given: Array) -> Array:
+    if np.isnan(sound.alone).any():  # a draw without solution
+        return np.full(as_given.shape, np.nan)
+    return as_given if sound.first_order is None else sound.first_order
