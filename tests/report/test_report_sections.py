@@ -31,7 +31,7 @@ EVERY_BLOCK = (
 )
 BUILT_IN = [
     "verdict", "comparison", "sources", "orders", "forces", "mounts", "radiation", "stopping",
-    "scores", "assumptions", "errata", "provenance",
+    "scores", "evidence", "assumptions", "errata", "provenance",
 ]  # fmt: skip
 
 
