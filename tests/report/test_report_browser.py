@@ -24,6 +24,7 @@ HEADINGS = (
     "Mounts",
     "Radiation and levels",
     "Scores",
+    "Evidence",
     "Assumptions",
     "Provenance",
 )

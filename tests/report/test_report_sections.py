@@ -31,7 +31,7 @@ EVERY_BLOCK = (
 )
 BUILT_IN = [
     "verdict", "comparison", "sources", "unknowns", "orders", "forces", "mounts", "radiation",
-    "stopping", "scores", "assumptions", "errata", "provenance",
+    "stopping", "scores", "evidence", "assumptions", "errata", "provenance",
 ]  # fmt: skip
 
 
