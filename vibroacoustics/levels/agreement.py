@@ -11,12 +11,14 @@ value, so that w is 1 at best; its remainder has the density p(r) φ(...) / w. N
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Final
 
 import numpy as np
 
 from ..base.arrays import Array
 from ..base.decibel import level_of_power, power_of_level
+from ..machine.remainder import Remainder
 
 _BELOW_DB: Final[Array] = np.linspace(-40.0, 10.0, 1001, dtype=np.float64)
 """Levels of the remainder over the published one, at which the integral is summed."""
@@ -40,19 +42,30 @@ class Prior:
     density: Callable[[Array], Array]
 
 
-def _flat(level_db: Array) -> Array:
-    return np.where((level_db >= -26.0) & (level_db <= 4.0), 1.0, 0.0)
-
-
-def _near(level_db: Array) -> Array:
-    return np.asarray(np.exp(-0.5 * ((level_db + 2.0) / 3.0) ** 2))
-
-
-PRIORS: Final = (
-    Prior("flat", "anywhere from 26 dB below to 4 dB above the published level", _flat),
-    Prior("near", "2 dB below the published level, give or take 3 dB", _near),
-)
+PRIOR_NAMES: Final = ("flat", "near")
 """The first one is that of the bands; the others tell how much they hang on it."""
+
+
+def priors_of(remainder: Remainder) -> tuple[Prior, ...]:
+    """The priors of a machine's remainder, in the order of their names."""
+    lowest, highest = remainder.flat_lowest_db, remainder.flat_highest_db
+    near, deviation = remainder.near_level_db, remainder.near_deviation_db
+    flat = f"anywhere from {_beside(lowest)} to {_beside(highest)} the published level"
+    words = (flat, f"{_beside(near)} the published level, give or take {deviation:g} dB")
+    densities = (partial(_flat, lowest, highest), partial(_near, near, deviation))
+    return tuple(map(Prior, PRIOR_NAMES, words, densities))
+
+
+def _beside(level_db: float) -> str:
+    return f"{abs(level_db):g} dB {'below' if level_db < 0.0 else 'above'}"
+
+
+def _flat(lowest_db: float, highest_db: float, level_db: Array) -> Array:
+    return np.where((level_db >= lowest_db) & (level_db <= highest_db), 1.0, 0.0)
+
+
+def _near(mean_db: float, deviation_db: float, level_db: Array) -> Array:
+    return np.asarray(np.exp(-0.5 * ((level_db - mean_db) / deviation_db) ** 2))
 
 
 def agreement(modelled_db: Array, deviation_db: float, prior: Prior) -> Array:

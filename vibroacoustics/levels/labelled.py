@@ -11,7 +11,7 @@ from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level, sound_pressure_level
 from ..base.vocabulary import REFERENCE_OPTION, WEIGHTINGS, check, stamp
 from ..machine.source import CaseKey
-from .agreement import PRIORS
+from .agreement import PRIOR_NAMES
 from .axes import LevelAxes
 from .by_source import A_FIRST, SourceSound
 from .weighting import WEIGHTING
@@ -107,7 +107,7 @@ def draw_variables(
     weight : of the draws, shape (prior, draw)
     """
     draws: dict[str, Any] = {"draw": np.arange(1, len(sounds) + 1)}
-    by_prior = {"prior": [prior.name for prior in PRIORS], **draws}
+    by_prior = {"prior": list(PRIOR_NAMES), **draws}
     by_receiver = {**draws, **axes.by_receiver}
     alone = np.array([axes.gathered(sound, "alone") for sound in sounds])
     modelled = np.array([axes.gathered(sound, "part")[:, :, 0].sum(axis=2) for sound in sounds])

@@ -14,7 +14,7 @@ from ..machine.source import CaseKey
 from ..study.draws import with_draw
 from ..study.sampling import Draw
 from ..study.study import Study
-from .agreement import PRIORS, remainder_level
+from .agreement import priors_of, remainder_level
 from .axes import LevelAxes
 from .bands import bands_between
 from .by_source import SourceSound
@@ -156,5 +156,6 @@ def remainder_by_draw(study: Study, modelled_db: Array) -> Array:
     count = modelled_db.size
     evenly = (np.arange(count) + 0.5) / count
     share = np.random.default_rng(study.uncertainty.seed).permutation(evenly)
-    below = [remainder_level(modelled_db, published.deviation_db, prior, share) for prior in PRIORS]
+    priors, deviation_db = priors_of(study.machine.remainder), published.deviation_db
+    below = [remainder_level(modelled_db, deviation_db, prior, share) for prior in priors]
     return REFERENCE_PRESSURE_PA**2 * power_of_level(published.level_dba + np.array(below))

@@ -1,18 +1,24 @@
 """What no source explains of a machine's sound: how it goes with speed and frequency."""
 
+from typing import Annotated, Final
+
 import numpy as np
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from ..base.arrays import Array
 from ..base.decibel import level_of_power, power_of_level
-from ..base.parameters import Parameters
+from ..base.parameters import Held, Parameters
+
+PRIOR: Final = Held("say what is held of the remainder before anything is drawn")
+LEAST_FLAT_DB: Final = 1.0
 
 
 class Remainder(Parameters):
     """Growth with speed and A-weighted third-octave spectrum of what is not modelled.
 
     The level grows by so many decibels for ten times the speed; the spectrum falls from its peak
-    on both sides.
+    on both sides. Its level is weighed under two priors, each over the published level: one flat
+    in dB between two limits, one near a level.
     """
 
     speed_growth_db: float = Field(default=30.0, ge=0.0, le=100.0)
@@ -21,6 +27,19 @@ class Remainder(Parameters):
     """Of the A-weighted spectrum in third octaves."""
     slope_db: float = Field(default=4.0, ge=0.0, le=30.0)
     """For each octave off the peak."""
+    flat_lowest_db: Annotated[float, PRIOR] = Field(default=-26.0, ge=-40.0, le=10.0)
+    flat_highest_db: Annotated[float, PRIOR] = Field(default=4.0, ge=-40.0, le=10.0)
+    near_level_db: Annotated[float, PRIOR] = Field(default=-2.0, ge=-30.0, le=5.0)
+    near_deviation_db: Annotated[float, PRIOR] = Field(default=3.0, ge=0.5, le=20.0)
+
+    @model_validator(mode="after")
+    def _rising(self) -> "Remainder":
+        if self.flat_highest_db - self.flat_lowest_db < LEAST_FLAT_DB:
+            raise ValueError(
+                f"flat_lowest_db = {self.flat_lowest_db:g} dB: must be at least "
+                f"{LEAST_FLAT_DB:g} dB below flat_highest_db, {self.flat_highest_db:g} dB"
+            )
+        return self
 
     def speed_factor(self, speed_rpm: Array, published_rpm: float) -> Array:
         """Mean square at each speed over that at the speed of the published level."""

@@ -9,6 +9,7 @@ import xarray as xr
 from ..base.arrays import Array
 from ..base.progress import Progress, no_progress
 from ..base.vocabulary import REFERENCE_OPTION
+from ..levels.agreement import priors_of
 from ..levels.axes import LevelAxes
 from ..levels.by_source import SourceSound, sound_by_source
 from ..levels.labelled import draw_variables, level_variables
@@ -111,7 +112,8 @@ def _bank(
         return over_published(study, axes, sounds)
 
     deviation_db = study.machine.overall_noise.deviation_db
-    bank = bank_of(batches_of_draws(study), modelled_db, deviation_db, wanted)
+    priors = priors_of(study.machine.remainder)
+    bank = bank_of(batches_of_draws(study), modelled_db, deviation_db, priors, wanted)
     progress(_WEIGHED, len(bank.draws), len(bank.draws))
     return bank
 

@@ -6,7 +6,8 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.vocabulary import DERIVED_SUPPLY, REFERENCE_OPTION
-from ..levels.agreement import PRIORS
+from ..levels.agreement import priors_of
+from ..machine.remainder import Remainder
 from .bands import Band, band, band_words, draws, energy_share, percent, share_band
 from .drawn_words import drawn_sentences
 from .study import (
@@ -21,7 +22,6 @@ from .study import (
     words,
 )
 
-PRIOR_WORDS: Final = {prior.name: prior.words for prior in PRIORS}
 LINE_FIGURE: Final = "foot_force_2x_line_n"
 
 
@@ -80,10 +80,18 @@ def shares_sentence(results: xr.Dataset) -> str:
         f"and taken as sure to ± {published.get('deviation_db', 2.0):g} dB, in the middle of the "
         f"draws with the {band_words(results)} in brackets: {first}."
     ]
-    names = [PRIOR_WORDS.get(str(name), str(name)) for name in results["prior"].values]
+    names = prior_words(results)
     texts.append(f"That holds for a remainder {names[0]}.")
     texts += [f"For one {name}: {shares}." for name, shares in zip(names[1:], others, strict=True)]
     return " ".join(texts)
+
+
+def prior_words(results: xr.Dataset) -> list[str]:
+    """Priors of the remainder after "a remainder"; of older files those that then held."""
+    table = parameters(results)["machine"].get("remainder", {})
+    known = {name: value for name, value in table.items() if name in Remainder.model_fields}
+    words_of = {prior.name: prior.words for prior in priors_of(Remainder(**known))}
+    return [words_of.get(str(name), str(name)) for name in results["prior"].values]
 
 
 def _shares(results: xr.Dataset, prior: int) -> str:

@@ -10,12 +10,13 @@ import xarray as xr
 
 from ..base.arrays import Array, IndexArray
 from ..base.vocabulary import check, stamp
-from ..levels.agreement import PRIORS, agreement, effective_draws
+from ..levels.agreement import PRIOR_NAMES, Prior, agreement, effective_draws
 from ..study.sampling import Draw
 from ..study.uncertainty import Range
 
-MOST_ROUNDS: Final = 40
-"""Of as many draws as shall be effective."""
+MOST_DRAWS: Final = 4096
+MOST_ROUNDS: Final = 41
+"""Of as many draws as shall be effective: 100 reach the most draws."""
 LEAST_SHARE: Final = 0.5
 """Of them that must be effective for bands and shares."""
 
@@ -67,7 +68,7 @@ class Bank:
         draws = {"bank_draw": np.arange(1, len(self.draws) + 1)}
         names = {"drawn_parameter": [limits.name for limits in ranges]}
         values = [[draw[limits.table, limits.field] for limits in ranges] for draw in self.draws]
-        priors = {"prior": [prior.name for prior in PRIORS]}
+        priors = {"prior": list(PRIOR_NAMES)}
         arrays = {
             "bank_weight": stamp("bank_weight", self.weight, {**priors, **draws}),
             "bank_level": stamp("bank_level", self.modelled_db + published_dba, draws),
@@ -80,9 +81,11 @@ def bank_of(
     batches: Iterable[list[Draw]],
     modelled_db: Callable[[list[Draw], int, int], Array],
     deviation_db: float,
+    priors: Sequence[Prior],
     wanted: int,
 ) -> Bank:
-    """Draws until as many as are wanted are effective, or `MOST_ROUNDS` batches are through.
+    """Draws until as many as are wanted are effective, or `MOST_ROUNDS` batches or `MOST_DRAWS`
+    draws are through.
 
     Parameters
     ----------
@@ -90,16 +93,18 @@ def bank_of(
     modelled_db : of draws, how many were before them and how many are expected in all, to what is
         modelled over the published level, shape (draw,), dB
     deviation_db : standard deviation of the published level
+    priors : of the remainder, that of the bands first
     wanted : how many shall be effective
     """
-    bank = Bank([], np.zeros(0), np.zeros((len(PRIORS), 0)), wanted)
+    bank = Bank([], np.zeros(0), np.zeros((len(priors), 0)), wanted)
     for batch in islice(batches, MOST_ROUNDS):
         before = len(bank.draws)
+        batch = batch[: MOST_DRAWS - before]
         expected = before * wanted / max(bank.effective, 1.0) if before else 2.0 * wanted
         further = modelled_db(batch, before, max(round(expected), before + len(batch) + 1))
         level = np.concatenate([bank.modelled_db, further])
-        weight = np.array([agreement(level, deviation_db, prior) for prior in PRIORS])
+        weight = np.array([agreement(level, deviation_db, prior) for prior in priors])
         bank = Bank(bank.draws + batch, level, weight, wanted)
-        if bank.effective >= wanted:
+        if bank.effective >= wanted or len(bank.draws) >= MOST_DRAWS:
             break
     return bank

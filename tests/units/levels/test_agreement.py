@@ -5,14 +5,16 @@ import pytest
 from scipy.integrate import quad
 
 from vibroacoustics.levels.agreement import (
-    PRIORS,
     Prior,
     agreement,
     effective_draws,
+    priors_of,
     remainder_level,
 )
+from vibroacoustics.machine.remainder import Remainder
 
 DEVIATION_DB = 2.0
+PRIORS = priors_of(Remainder())
 FLAT, NEAR = PRIORS
 EDGES = [-26.0, 4.0]
 
@@ -33,6 +35,19 @@ def test_weights_are_the_integrals_over_the_prior(prior):
     # a step of 0.05 dB; the edges of the flat prior lie on it
     assert weight / weight[0] == pytest.approx(np.array(exact) / exact[0], rel=5e-3)
     assert np.all((weight > 0.0) & (weight < 1.0))
+
+
+def test_priors_are_settings_of_the_machine():
+    """Their words and densities follow; limits that are no range are refused in one line."""
+    given = Remainder(flat_lowest_db=-10.0, flat_highest_db=0.0, near_level_db=1.0)
+    flat, near = priors_of(given)
+    assert flat.words == "anywhere from 10 dB below to 0 dB above the published level"
+    assert near.words == "1 dB above the published level, give or take 3 dB"
+    level = np.array([-11.0, -9.0, 1.0])
+    assert flat.density(level).tolist() == [0.0, 1.0, 0.0]
+    assert near.density(level).argmax() == 2
+    with pytest.raises(ValueError, match="flat_lowest_db = 3.5 dB: must be at least 1 dB below"):
+        Remainder(flat_lowest_db=3.5)
 
 
 def test_a_loud_draw_counts_less_and_one_without_solution_not_at_all():

@@ -21,7 +21,7 @@ from support import ROOT, assert_refused, command_here
 from vibroacoustics import levels
 from vibroacoustics.base.constants import REFERENCE_PRESSURE_PA
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.levels.agreement import PRIORS, agreement
+from vibroacoustics.levels.agreement import agreement, priors_of
 from vibroacoustics.levels.by_source import SourceSound, filled_thirds, source_sound
 from vibroacoustics.machine.shell_structure import BEARING_HOUSING as HOUSING_JOINT
 from vibroacoustics.machine.shell_structure import FIXED_SCROLL as SCROLL_JOINT
@@ -555,7 +555,8 @@ def test_draws_count_by_how_well_they_agree_with_the_published_level(study, monk
     quiet, loud = overall * np.array([0.1, 0.2, 0.3, 0.4]), [1.6 * overall, 1e4 * overall]
     found = run_with_draws(study, monkeypatch, [*quiet, *loud])
     level = found["bank_level"].values
-    expected = agreement(level - published, study.machine.overall_noise.deviation_db, PRIORS[0])
+    flat, _ = priors_of(study.machine.remainder)
+    expected = agreement(level - published, study.machine.overall_noise.deviation_db, flat)
     assert found["bank_weight"].values[0] == pytest.approx(expected)
     assert expected[level > published + 30.0].max() < 1e-12 * expected.max()
     at = {"option": "none", "receiver": "front_1m", "speed": 2900.0}

@@ -5,10 +5,17 @@ from itertools import repeat
 import numpy as np
 import pytest
 
+from vibroacoustics.levels.agreement import priors_of
+from vibroacoustics.machine.remainder import Remainder
 from vibroacoustics.study.uncertainty import Range
-from vibroacoustics.uncertainty.bank import MOST_ROUNDS, bank_of
+from vibroacoustics.uncertainty.bank import MOST_DRAWS, MOST_ROUNDS, bank_of
 
+PRIORS = priors_of(Remainder())
 GAIN = Range(table="variation", field="mobility_change_db", lowest=-10.0, highest=10.0)
+
+
+def batches_of(size):
+    return repeat([{("variation", "mobility_change_db"): 0.0}] * size)
 
 
 def batches():
@@ -24,7 +31,7 @@ def as_drawn(batch, before, expected):
 
 
 def test_draws_are_added_until_enough_are_effective():
-    bank = bank_of(batches(), as_drawn, 2.0, wanted=20)
+    bank = bank_of(batches(), as_drawn, 2.0, PRIORS, wanted=20)
     assert 20.0 <= bank.effective < 40.0
     assert len(bank.draws) > 20
     assert bank.suffices
@@ -35,7 +42,7 @@ def test_draws_are_added_until_enough_are_effective():
 
 
 def test_chosen_draws_stand_for_the_weights():
-    bank = bank_of(batches(), as_drawn, 2.0, wanted=400)
+    bank = bank_of(batches(), as_drawn, 2.0, PRIORS, wanted=400)
     index, weight = bank.chosen(seed=6)
     assert weight.sum(axis=1) == pytest.approx([1.0, 1.0])
     share = bank.weight[0] / bank.weight[0].sum()
@@ -47,10 +54,12 @@ def test_chosen_draws_stand_for_the_weights():
 
 
 def test_a_model_that_never_agrees_does_not_suffice():
-    bank = bank_of(batches(), lambda b, *_: np.full(len(b), np.nan), 2.0, wanted=20)
+    bank = bank_of(batches(), lambda b, *_: np.full(len(b), np.nan), 2.0, PRIORS, wanted=20)
     assert len(bank.draws) == 20 * MOST_ROUNDS
     assert bank.effective == 0.0
     assert not bank.suffices
+    more = bank_of(batches_of(300), lambda b, *_: np.full(len(b), np.nan), 2.0, PRIORS, 300)
+    assert len(more.draws) == MOST_DRAWS
     mostly = np.array([0.0, 40.0, 40.0, 40.0])
-    few = bank_of(repeat([{}] * 4), lambda *_: mostly, 2.0, wanted=100)
+    few = bank_of(repeat([{}] * 4), lambda *_: mostly, 2.0, PRIORS, wanted=100)
     assert not few.suffices
