@@ -35,6 +35,7 @@ from ..transfer.study_path import projection_errors
 from ..uncertainty.bank import Bank, bank_of
 from ..uncertainty.drawn import drawn_cases
 from ..uncertainty.draws import drawn_values, errors_of_projection, of_every_draw
+from ..uncertainty.share_variables import change_shares, level_shares
 from .motion import Motion, motion_of
 
 Sound = dict[CaseKey, SourceSound]
@@ -76,6 +77,7 @@ def levels_of(
     row, name = axes.receivers.index(study.catalogue_receiver), study.catalogue_receiver
     bank = _bank(transmission.to(row), replace(axes, receivers=[name]), cases, sound, progress)
     levels = levels.merge(bank.labelled(study.ranges, study.machine.overall_noise.level_dba))
+    levels = levels.merge(level_shares(study.ranges, bank))
     errors = {} if shell is None else projection_errors(study, shell)
     levels = levels.merge(errors_of_projection(study.ranges, errors))
     if not bank.suffices:
@@ -138,7 +140,8 @@ def _of_draws(
     rests = remainder_by_draw(study, bank.modelled_db[index])
     lefts = remaining_by_draw(study, axes, sounds, draws, rests[0])
     levels = draw_variables(axes, sounds, lefts, rests, weight)
-    return levels.merge(drawn_values(study.ranges, draws))
+    levels = levels.merge(drawn_values(study.ranges, draws))
+    return levels.merge(change_shares(study, levels))
 
 
 def sound_of_draws(

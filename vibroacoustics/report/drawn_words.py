@@ -50,7 +50,8 @@ def _table(dotted: str) -> str:
     return " ".join([_TABLES.get(first, first), *rest]).replace("_", " ")
 
 
-def _named(dotted: str) -> str:
+def named(dotted: str) -> str:
+    """Plain words for a drawn value by its dotted name, without its unit."""
     table, _, field = dotted.rpartition(".")
     return f"{_table(table)} {labels.name(field).lower()}"
 
@@ -58,7 +59,7 @@ def _named(dotted: str) -> str:
 def _with_range(item: dict[str, Any]) -> str:
     unit = labels.unit(item["field"])
     limits = f"{item['lowest']:.4g} to {item['highest']:.4g}"
-    return f"{_named(_dotted(item))} ({limits}{f' {unit}' if unit else ''})"
+    return f"{named(_dotted(item))} ({limits}{f' {unit}' if unit else ''})"
 
 
 def _dotted(item: dict[str, Any]) -> str:
@@ -67,7 +68,7 @@ def _dotted(item: dict[str, Any]) -> str:
 
 def _independent(ranges: Iterable[dict[str, Any]]) -> str:
     texts = [
-        f"{_named(_dotted(item))} ({', '.join(map(_named, sources))})"
+        f"{named(_dotted(item))} ({', '.join(map(named, sources))})"
         for item in ranges
         if (sources := item.get("independent_of"))
     ]
@@ -85,7 +86,7 @@ def _projection(results: xr.Dataset) -> str:
         return ""
     errors = results["projection_error"]
     texts = [
-        f"{_named(str(name))} {percent(float(error))}"
+        f"{named(str(name))} {percent(float(error))}"
         for name, error in zip(errors["drawn_parameter"].values, errors.values, strict=True)
         if np.isfinite(error)
     ]

@@ -97,9 +97,9 @@ def bank_of(
     wanted : how many shall be effective
     """
     bank = Bank([], np.zeros(0), np.zeros((len(priors), 0)), wanted)
-    for batch in islice(batches, MOST_ROUNDS):
+    for hypercube in islice(batches, MOST_ROUNDS):
         before = len(bank.draws)
-        batch = batch[: MOST_DRAWS - before]
+        batch = hypercube[: MOST_DRAWS - before]
         expected = before * wanted / max(bank.effective, 1.0) if before else 2.0 * wanted
         further = modelled_db(batch, before, max(round(expected), before + len(batch) + 1))
         level = np.concatenate([bank.modelled_db, further])

@@ -46,7 +46,7 @@ def test_priors_are_settings_of_the_machine():
     level = np.array([-11.0, -9.0, 1.0])
     assert flat.density(level).tolist() == [0.0, 1.0, 0.0]
     assert near.density(level).argmax() == 2
-    with pytest.raises(ValueError, match="flat_lowest_db = 3.5 dB: must be at least 1 dB below"):
+    with pytest.raises(ValueError, match=r"flat_lowest_db = 3\.5 dB: must be at least 1 dB below"):
         Remainder(flat_lowest_db=3.5)
 
 

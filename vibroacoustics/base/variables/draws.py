@@ -37,6 +37,23 @@ for _thing in (
     Variable(
         "draw_weight", ("prior", "draw"), "1", "weight of the draw; 0 where it has no solution"
     ),
+    Coordinate("knowledge", ("knowledge",), "", "what is known: the ranges, or the level too"),
+    Coordinate("unknown", ("unknown",), "", "drawn value, or the level of the remainder"),
+    Variable(
+        "level_share",
+        ("knowledge", "drawn_parameter"),
+        "1",
+        "share of first order in the variance of the modelled level at the published one's point",
+    ),
+    Variable("level_share_quality", ("knowledge",), "1", "Q2 of the fit of level_share"),
+    Variable(
+        "change_share",
+        ("option", "unknown"),
+        "1",
+        "share of first order in the variance of the change of the total",
+    ),
+    Variable("change_share_quality", ("option",), "1", "Q2 of the fit of change_share"),
+    Variable("change_variance", ("option",), "1", "of the change of the total in dB, dB2"),
     Variable("bank_weight", ("prior", "bank_draw"), "1", "how well it agrees with the level"),
     Variable("bank_level", ("bank_draw",), "dB", "A-weighted level of all modelled sources"),
     Variable("bank_value", ("bank_draw", "drawn_parameter"), "", "value, SI unit in the name"),

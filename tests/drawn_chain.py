@@ -1,0 +1,84 @@
+"""A study's chain, open to draws of one's own: no weights, all cases."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+from vibroacoustics import pipeline
+from vibroacoustics.levels.axes import LevelAxes
+from vibroacoustics.levels.remainder import over_published, remaining_by_draw
+from vibroacoustics.pipeline import sound
+from vibroacoustics.study.sampling import latin_hypercubes
+from vibroacoustics.study.study import Study
+
+
+class _Reached(Exception):
+    """The chain has come to its draws."""
+
+
+@dataclass(frozen=True)
+class DrawnChain:
+    """What a run has computed before it draws.
+
+    Attributes
+    ----------
+    study : whose ranges are drawn
+    transmission, cases, given : as of `sound_of_draws`
+    axes : of the levels
+    """
+
+    study: Study
+    transmission: object
+    axes: LevelAxes
+    cases: dict
+    given: dict
+
+    @classmethod
+    def of(cls, study, radiation=None):
+        """The chain of a study with its draws still to come."""
+        reached = []
+
+        def stop(*arguments):
+            reached.extend(arguments[:4])
+            raise _Reached
+
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(sound, "_bank", stop)
+            with pytest.raises(_Reached):
+                pipeline.run(study, **({} if radiation is None else {"radiation": radiation}))
+        return cls(study, *reached)
+
+    def hypercube(self, count):
+        """Draws of all ranges."""
+        settings = self.study.uncertainty.model_copy(update={"random_samples": count})
+        return next(latin_hypercubes(self.study.ranges, settings))
+
+    def modelled_db(self, draws):
+        """What is modelled over the published level at its point, shape (draw,)."""
+        key = self.study.catalogue_case
+        sounds = self._sounds(draws, [key])
+        return over_published(self.study, self.axes, sounds)
+
+    def mean_squares(self, draws):
+        """Modelled mean squares and the remainder's factors, each (draw, speed, option)."""
+        sounds = self._sounds(draws, list(self.cases))
+        receiver = list(self.axes.receivers).index(self.study.catalogue_receiver)
+        part = [self.axes.gathered(one, "part")[:, :, 0].sum(axis=2) for one in sounds]
+        one = np.ones(len(draws))
+        factor = remaining_by_draw(self.study, self.axes, sounds, draws, one)
+        return np.array(part)[..., receiver], factor
+
+    def _sounds(self, draws, keys):
+        cases, given = ({key: of[key] for key in keys} for of in (self.cases, self.given))
+        transmission = replace(self.transmission, study=self.study)
+        return sound.sound_of_draws(
+            transmission, self.axes, cases, given, draws, lambda number: None
+        )
+
+
+def of_few_ranges(study, names):
+    """The study with the ranges of these values only."""
+    ranges = tuple(limits for limits in study.ranges if limits.name in names)
+    assert len(ranges) == len(names)
+    return study.model_copy(update={"ranges": ranges})
