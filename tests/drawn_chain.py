@@ -13,7 +13,7 @@ from vibroacoustics.study.sampling import latin_hypercubes
 from vibroacoustics.study.study import Study
 
 
-class _Reached(Exception):
+class _ReachedError(Exception):
     """The chain has come to its draws."""
 
 
@@ -41,11 +41,11 @@ class DrawnChain:
 
         def stop(*arguments):
             reached.extend(arguments[:4])
-            raise _Reached
+            raise _ReachedError
 
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(sound, "_bank", stop)
-            with pytest.raises(_Reached):
+            with pytest.raises(_ReachedError):
                 pipeline.run(study, **({} if radiation is None else {"radiation": radiation}))
         return cls(study, *reached)
 

@@ -21,10 +21,11 @@ def latin_hypercubes(ranges: Sequence[Range], settings: Uncertainty) -> Iterator
     """Sets of values drawn from their ranges (McKay, Beckman, Conover 1979), one after another."""
     sampler = scipy.stats.qmc.LatinHypercube(len(ranges), rng=settings.seed)
     while True:
-        yield [_draw(ranges, row) for row in sampler.random(settings.random_samples)]
+        yield [draw_at(ranges, row) for row in sampler.random(settings.random_samples)]
 
 
-def _draw(ranges: Sequence[Range], shares: Array) -> Draw:
+def draw_at(ranges: Sequence[Range], shares: Array) -> Draw:
+    """The draw whose values so large shares of their ranges lie below, shape (range,)."""
     return {
         (limits.table, limits.field): _value(limits, float(share))
         for limits, share in zip(ranges, shares, strict=True)
