@@ -1,6 +1,7 @@
 # make run   sets up, runs the main job, prints the table and where the report is
 # make test  sets up and runs every test, the slow physics included
 # make long  tests that take minutes; kills, full disks, flipped bits and signals for an hour
+# make coverage  400 synthetic machines: how often the bands hold the truth; some minutes
 # make docs  sets up and builds the site into docs/_build/html
 # Compiled modules are kept: without them each start takes two seconds more.
 unexport PYTHONDONTWRITEBYTECODE
@@ -10,7 +11,7 @@ BIN := $(VENV)/bin
 STUDY ?= pipelines/copeland_thesis.toml
 MINUTES ?= 60
 
-.PHONY: run test long docs check lock clean versions
+.PHONY: run test long coverage docs check lock clean versions
 
 run: $(VENV)/.core
 	$(BIN)/vibroacoustics run $(STUDY)
@@ -21,6 +22,9 @@ test: $(VENV)/.dev
 long: $(VENV)/.dev
 	$(BIN)/pytest -n auto -m long
 	$(BIN)/python -W ignore tests/robustness/torture.py --minutes $(MINUTES)
+
+coverage: $(VENV)/.dev
+	$(BIN)/pytest -n 0 -s -m long tests/invariants/test_coverage.py
 
 # Light tests on every Python that is promised, as far as it is here; not part of `make test`.
 versions:

@@ -26,16 +26,16 @@ _KNOWLEDGE: Final = {"before": "by the ranges alone"}
 def quality_sentence(results: xr.Dataset) -> str:
     """How much of the level single unknowns explain, and whether shares are told."""
     quality = results["level_share_quality"]
-    told = [
+    sizes = [
         f"{percent(max(float(value), 0.0))} {_knowledge(str(name))}"
         for name, value in zip(quality["knowledge"].values, quality.values, strict=True)
         if np.isfinite(value)
     ]
-    if not told:
+    if not sizes:
         return "The draws are too few to tell which unknown the level hangs on."
     sentence = (
         f"Of the variance of the modelled level at {catalogue_receiver(results)} without a "
-        f"balancer, unknowns taken one by one and added up foretell (Q²) {', '.join(told)}."
+        f"balancer, unknowns taken one by one and added up foretell (Q²) {', '.join(sizes)}."
     )
     if float(np.nanmin(quality.values)) >= RESOLVED:
         return sentence
@@ -111,13 +111,13 @@ def _others(results: xr.Dataset) -> tuple[str, ...]:
         drawn_parameter=[n for n in shares["drawn_parameter"].values if n not in matter]
     )
     knowledge = [str(name) for name in shares["knowledge"].values]
-    told = [
+    together = [
         percent(float(others.sel(knowledge=one).sum())) if _resolved(results, one) else NOT_RESOLVED
         for one in knowledge
     ]
     count = others.sizes["drawn_parameter"]
-    name = f"{count} others, less than {percent(MATTERS)} each"
-    return (name, *(rounding.NOTHING for _ in knowledge), *told)
+    name = f"{count} other{'s' * (count != 1)}, less than {100.0 * MATTERS:g}\u00a0% each"
+    return (name, *(rounding.NOTHING for _ in knowledge), *together)
 
 
 def _resolved(results: xr.Dataset, knowledge: str) -> bool:
@@ -136,9 +136,7 @@ def _values(results: xr.Dataset, name: str, prior: int) -> str:
         return rounding.NOTHING
     values = results["bank_value"].sel(drawn_parameter=name).values
     weight = np.ones(values.size) if prior < 0 else results["bank_weight"].values[prior]
-    return Band(*map(float, weighted_quantiles(values, weight, QUANTILES))).middle_and_ends(
-        rounding.significant
-    )
+    return Band(*map(float, weighted_quantiles(values, weight, QUANTILES))).middle_and_ends(_number)
 
 
 def _width(results: xr.Dataset, option: int, speed: float) -> float:
@@ -147,6 +145,11 @@ def _width(results: xr.Dataset, option: int, speed: float) -> float:
     change = there.isel(option=option) - there.sel(option=REFERENCE_OPTION)
     low, *_, high = weighted_quantiles(change.values, results["draw_weight"].values[0], QUANTILES)
     return float(high - low)
+
+
+def _number(value: float) -> str:
+    """Three digits, whatever the size."""
+    return f"{value:.3g}".replace("-", "−")
 
 
 def _with_unit(name: str) -> str:

@@ -59,8 +59,8 @@ def shares_of(unit: Array, value: Array, weight: Array) -> Shares:
     # Chance makes effects of independent unknowns hang together: what is not told by `others` is 0.
     together = _covariance(effects, effects + others, weight).sum()
     spread = together + _covariance(rest := value - fit.at(columns), rest, weight)
-    told = effects + others
-    share = _covariance(told, told, weight) / spread
+    expected = effects + others
+    share = _covariance(expected, expected, weight) / spread
     return Shares(share, quality(columns, value, weight))
 
 

@@ -15,9 +15,9 @@ from vibroacoustics.uncertainty.shares import LEAST_DRAWS, shares_of
 FACTORS = np.array([0.0, 1.0, 4.5, 9.0, 99.0])
 CHAIN = {
     "variation.mobility_change_db",
-    "variation.frequency_factor_ratio",
     "structure.loss_factor_ratio",
-    "gas.equalisation_angle_rad",
+    "structure.density_kg_per_m3",
+    "structure.bearing_housing.height_m",
     "gas.polytropic_index",
 }
 
