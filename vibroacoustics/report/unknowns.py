@@ -74,8 +74,8 @@ def measure_next_sentence(results: xr.Dataset) -> str:
     if "change_share" not in results or len(results["option"]) < 2:
         return ""
     share = np.nan_to_num(results["change_share"].values)
-    variance = results["change_variance"].values
-    gain = share * np.nan_to_num(variance)[:, None]
+    variance = np.nan_to_num(results["change_variance"].values)
+    gain = share * variance[:, None]
     best = int(gain.sum(axis=0).argmax())
     speed = min(speeds(results), key=lambda one: abs(one - overall_noise(results)["speed_rpm"]))
     if gain[:, best].sum() <= 0.0:

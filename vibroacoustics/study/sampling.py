@@ -63,7 +63,7 @@ def narrowed(limits: Range, value: float, least: float, greatest: float) -> floa
     return lowest + share * (highest - lowest)
 
 
-def place_in_range(limits: Range, values: Array) -> Array:
+def position_in_range(limits: Range, values: Array) -> Array:
     """Where values lie in their range, from -1 to 1, as evenly as they are drawn."""
     lowest, highest = limits.lowest, limits.highest
     if _is_wide(limits):

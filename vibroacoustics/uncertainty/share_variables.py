@@ -9,7 +9,7 @@ import xarray as xr
 from ..base.arrays import Array
 from ..base.vocabulary import REFERENCE_OPTION, check, stamp
 from ..levels.agreement import PRIOR_NAMES
-from ..study.sampling import place_in_range
+from ..study.sampling import position_in_range
 from ..study.study import Study
 from ..study.uncertainty import Range
 from .bank import Bank
@@ -30,7 +30,7 @@ def level_shares(ranges: Sequence[Range], bank: Bank) -> xr.Dataset:
     bank : all draws; where they do not suffice the priors' shares are empty
     """
     values = [[draw[limits.table, limits.field] for limits in ranges] for draw in bank.draws]
-    unit = _places(ranges, np.array(values))
+    unit = _positions(ranges, np.array(values))
     weights = [np.ones(len(bank.draws)), *(bank.weight if bank.suffices else 0.0 * bank.weight)]
     shares = [shares_of(unit, bank.modelled_db, weight) for weight in weights]
     names = {"drawn_parameter": [limits.name for limits in ranges]}
@@ -56,11 +56,11 @@ def change_shares(study: Study, levels: xr.Dataset) -> xr.Dataset:
     change = (total - total.sel(option=REFERENCE_OPTION)).values
     weight = levels["draw_weight"].values[0]
     rest = levels["level_remainder_by_draw"].values[0]
-    unit = np.column_stack([_places(study.ranges, levels["drawn_value"].values), _evenly(rest)])
+    unit = np.column_stack([_positions(study.ranges, levels["drawn_value"].values), _evenly(rest)])
     shares = [shares_of(unit, one, weight) for one in change]
     names = {"unknown": [*levels["drawn_parameter"].values.tolist(), REMAINDER]}
     coords = {"option": total["option"].values.tolist()}
-    variance = [_variance(one, weight) for one in change]
+    variance = [one.variance for one in shares]
     of_options = xr.Dataset({"change_variance": stamp("change_variance", variance, coords)})
     return check(_labelled("change_share", shares, coords, names).merge(of_options))
 
@@ -76,22 +76,14 @@ def _labelled(
     return check(xr.Dataset(arrays))
 
 
-def _places(ranges: Sequence[Range], values: Array) -> Array:
+def _positions(ranges: Sequence[Range], values: Array) -> Array:
     """Drawn values in their ranges, from -1 to 1, shape (draw, value)."""
     rows = values.reshape(-1, len(ranges)).T
-    places = [place_in_range(limits, row) for limits, row in zip(ranges, rows, strict=True)]
-    return np.transpose(places)
+    positions = [position_in_range(limits, row) for limits, row in zip(ranges, rows, strict=True)]
+    return np.transpose(positions)
 
 
 def _evenly(values: Array) -> Array:
     """Values from -1 to 1 between their least and their largest."""
     span = np.ptp(values)
     return 2.0 * (values - values.min()) / span - 1.0 if span > 0.0 else 0.0 * values
-
-
-def _variance(values: Array, weight: Array) -> float:
-    """Of the draws that count."""
-    counting = weight > 0.0
-    values, weight = values[counting], weight[counting]
-    middle = np.average(values, weights=weight)
-    return float(np.average((values - middle) ** 2, weights=weight))

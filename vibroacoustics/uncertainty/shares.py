@@ -25,10 +25,12 @@ class Shares:
     ----------
     share : shape (unknown,); not a number where there are too few draws
     quality : Q² of the additive fit that they come from, not a number likewise
+    variance : of the quantity over the draws that count
     """
 
     share: Array
     quality: float
+    variance: float
 
 
 def shares_of(unit: Array, value: Array, weight: Array) -> Shares:
@@ -45,11 +47,12 @@ def shares_of(unit: Array, value: Array, weight: Array) -> Shares:
     """
     used = np.flatnonzero(np.isfinite(value) & (weight > 0.0))[:MOST_DRAWS]
     unit, value, weight = unit[used], value[used], weight[used]
-    none = Shares(np.full(unit.shape[1], np.nan), float("nan"))
+    none = np.full(unit.shape[1], np.nan)
     if used.size == 0 or weight.sum() ** 2 / (weight**2).sum() < LEAST_DRAWS:
-        return none
-    if _covariance(value, value, weight) <= _ROUNDING**2:
-        return none
+        return Shares(none, float("nan"), float("nan"))
+    variance = float(_covariance(value, value, weight))
+    if variance <= _ROUNDING**2:
+        return Shares(none, float("nan"), variance)
     columns = legendre_columns(unit)
     fit = additive_fit(columns, value, weight, columns.shape[1])
     effects = fit.effects(columns)
@@ -61,7 +64,7 @@ def shares_of(unit: Array, value: Array, weight: Array) -> Shares:
     spread = together + _covariance(rest := value - fit.at(columns), rest, weight)
     expected = effects + others
     share = _covariance(expected, expected, weight) / spread
-    return Shares(share, quality(columns, value, weight))
+    return Shares(share, quality(columns, value, weight), variance)
 
 
 def _of_others(columns: Array, effects: Array, weight: Array, number: int) -> Array:

@@ -58,7 +58,7 @@ def test_a_model_that_never_agrees_does_not_suffice():
     assert len(bank.draws) == 20 * MOST_ROUNDS
     assert bank.effective == 0.0
     assert not bank.suffices
-    more = bank_of(batches_of(300), lambda b, *_: np.full(len(b), np.nan), 2.0, PRIORS, 300)
+    more = bank_of(batches_of(2000), lambda b, *_: np.full(len(b), np.nan), 2.0, PRIORS, 2000)
     assert len(more.draws) == MOST_DRAWS
     mostly = np.array([0.0, 40.0, 40.0, 40.0])
     few = bank_of(repeat([{}] * 4), lambda *_: mostly, 2.0, PRIORS, wanted=100)

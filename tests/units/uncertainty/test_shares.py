@@ -8,7 +8,7 @@ from sources_study import SOURCES_STUDY, made_up_modes
 
 from vibroacoustics.report.unknowns import RESOLVED
 from vibroacoustics.study.loading import load_study
-from vibroacoustics.study.sampling import draw_at, latin_hypercubes, place_in_range
+from vibroacoustics.study.sampling import draw_at, latin_hypercubes, position_in_range
 from vibroacoustics.study.uncertainty import Range, Uncertainty
 from vibroacoustics.uncertainty.shares import LEAST_DRAWS, shares_of
 
@@ -44,6 +44,7 @@ def test_additive_g_function_is_resolved(seed):
     variance = 1.0 / (1.0 + FACTORS) ** 2
     exact = np.concatenate([variance / variance.sum(), np.zeros(5)])
     assert shares.quality > 0.98
+    assert shares.variance == pytest.approx(variance.sum() / 3.0, rel=0.1)
     assert shares.share == pytest.approx(exact, abs=0.02)
 
 
@@ -94,14 +95,16 @@ def test_too_few_draws_tell_nothing():
         assert np.isnan(shares.quality)
 
 
-def test_place_in_range_is_what_the_draws_were_made_of():
+def test_position_in_range_is_what_the_draws_were_made_of():
     wide = Range(table="gas", field="a", lowest=0.01, highest=1.0)
     narrow = Range(table="gas", field="b", lowest=-2.0, highest=2.0)
     settings = Uncertainty(random_samples=200)
     draws = next(latin_hypercubes([wide, narrow], settings))
     for limits in (wide, narrow):
-        place = place_in_range(limits, np.array([draw["gas", limits.field] for draw in draws]))
-        assert np.sort(place) == pytest.approx(np.linspace(-0.995, 0.995, 200), abs=0.0051)
+        position = position_in_range(
+            limits, np.array([draw["gas", limits.field] for draw in draws])
+        )
+        assert np.sort(position) == pytest.approx(np.linspace(-0.995, 0.995, 200), abs=0.0051)
 
 
 @pytest.mark.long
@@ -118,7 +121,7 @@ def test_shares_of_the_chain_are_those_of_pick_freeze():
     draws = chain.hypercube(256)
     unit = np.transpose(
         [
-            place_in_range(one, np.array([draw[one.table, one.field] for draw in draws]))
+            position_in_range(one, np.array([draw[one.table, one.field] for draw in draws]))
             for one in study.ranges
         ]
     )
