@@ -30,7 +30,7 @@ EVERY_BLOCK = (
     blocks.Details("Fold", (blocks.Pictures((Picture("one", "alt", "caption", PNG),)),)),
 )
 BUILT_IN = [
-    "verdict", "comparison", "sources", "orders", "forces", "mounts", "radiation", "stopping",
+    "verdict", "comparison", "sources", "unknowns", "orders", "forces", "mounts", "radiation", "stopping",
     "scores", "assumptions", "errata", "provenance",
 ]  # fmt: skip
 
