@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from test_report import make_results
-from test_report_sources import with_sources
+from test_report_unknowns import with_unknowns
 
 from vibroacoustics.report import blocks, comparison_text, render
 from vibroacoustics.report.columns import COLUMNS
@@ -30,14 +30,14 @@ EVERY_BLOCK = (
     blocks.Details("Fold", (blocks.Pictures((Picture("one", "alt", "caption", PNG),)),)),
 )
 BUILT_IN = [
-    "verdict", "comparison", "sources", "unknowns", "orders", "forces", "mounts", "radiation", "stopping",
-    "scores", "assumptions", "errata", "provenance",
+    "verdict", "comparison", "sources", "unknowns", "orders", "forces", "mounts", "radiation",
+    "stopping", "scores", "assumptions", "errata", "provenance",
 ]  # fmt: skip
 
 
 @pytest.fixture(scope="module")
 def results() -> xr.Dataset:
-    made = with_sources({"none": 40.0, "rattles": 62.0})
+    made = with_unknowns()
     parameters = json.loads(made.attrs["parameters"])
     parameters["machine"]["errata"] = [{"item": "Mass", "printed": "1", "finding": "2"}]
     return made.assign_attrs(parameters=json.dumps(parameters))
