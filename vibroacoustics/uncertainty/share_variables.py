@@ -51,7 +51,8 @@ def change_shares(study: Study, levels: xr.Dataset) -> xr.Dataset:
     levels : of `draw_variables` and `drawn_values`
     """
     published = study.machine.overall_noise.speed_rpm
-    there = levels.sel(receiver=study.catalogue_receiver).sel(speed=published, method="nearest")
+    nearest = int(np.abs(levels["speed"].values - published).argmin())
+    there = levels.sel(receiver=study.catalogue_receiver).isel(speed=nearest)
     total = there["level_total_by_draw"].transpose("option", "draw")
     change = (total - total.sel(option=REFERENCE_OPTION)).values
     weight = levels["draw_weight"].values[0]
