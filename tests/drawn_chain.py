@@ -9,7 +9,7 @@ from vibroacoustics import pipeline
 from vibroacoustics.levels.axes import LevelAxes
 from vibroacoustics.levels.remainder import over_published, remaining_by_draw
 from vibroacoustics.pipeline import sound
-from vibroacoustics.study.sampling import latin_hypercubes
+from vibroacoustics.study.draws import batches_of_draws
 from vibroacoustics.study.study import Study
 
 
@@ -50,9 +50,9 @@ class DrawnChain:
         return cls(study, *reached)
 
     def hypercube(self, count):
-        """Draws of all ranges."""
+        """As many draws of all ranges, less those that contradict themselves."""
         settings = self.study.uncertainty.model_copy(update={"random_samples": count})
-        return next(latin_hypercubes(self.study.ranges, settings))
+        return next(batches_of_draws(self.study.model_copy(update={"uncertainty": settings})))
 
     def modelled_db(self, draws):
         """What is modelled over the published level at its point, shape (draw,)."""

@@ -11,7 +11,7 @@ from .additive import HIGHEST_DEGREE, additive_fit, legendre_columns, quality
 LEAST_DRAWS: Final = 16
 """Effective ones, from which anything can be told."""
 MOST_DRAWS: Final = 1024
-"""That are used; with more the error is below 0.01 anyway."""
+"""That are used, those of the largest weights; of many draws most hardly count."""
 
 _ROUNDING: Final = 1e-6
 """A quantity that varies less does not vary."""
@@ -45,7 +45,8 @@ def shares_of(unit: Array, value: Array, weight: Array) -> Shares:
     value : the quantity, shape (draw,); not a number where a draw has no solution
     weight : of the draws, shape (draw,)
     """
-    used = np.flatnonzero(np.isfinite(value) & (weight > 0.0))[:MOST_DRAWS]
+    counting = np.where(np.isfinite(value), weight, 0.0)
+    used = np.argsort(-counting, kind="stable")[: min(np.count_nonzero(counting), MOST_DRAWS)]
     unit, value, weight = unit[used], value[used], weight[used]
     none = np.full(unit.shape[1], np.nan)
     if used.size == 0 or weight.sum() ** 2 / (weight**2).sum() < LEAST_DRAWS:
