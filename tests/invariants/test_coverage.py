@@ -139,7 +139,7 @@ def test_coverage_of_the_inner_sources():
     With all draws, and with a hundred that go on.
     """
     study = load_study(ROOT / "tests" / "studies" / "sources_small.toml")
-    bank = Bank.of(study.replace({"operation.stopping": False}), 600)
+    bank = Bank.of(study.replace({"operation.stopping": False}), 500)
     for speed, wanted in product((0, 1), (None, 100)):
         count, expected, width = held(bank, 400, speed, wanted)
         changes = np.delete(count, 0, axis=1)
