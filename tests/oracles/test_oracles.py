@@ -433,7 +433,7 @@ def boundary_elements() -> list[dict[str, str]]:
     return list(csv.DictReader(line for line in lines if not line.startswith("#")))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(("option", "speed_rpm"), BOUNDARY_ELEMENTS_DBA)
 def test_level_at_one_metre_against_boundary_elements(thesis_study, free_field, option, speed_rpm):
     machine = thesis_study.machine
@@ -449,7 +449,7 @@ def test_level_at_one_metre_against_boundary_elements(thesis_study, free_field, 
     assert np.max(levels) == pytest.approx(BOUNDARY_ELEMENTS_DBA[option, speed_rpm], abs=0.3)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("pattern", PATTERNS)
 @pytest.mark.parametrize("body", OUTLINES)
 def test_shells_against_boundary_elements(free_field, boundary_elements, body, pattern):

@@ -109,24 +109,32 @@ def test_level_at_unit_velocity_is_of_root_mean_squares():
     assert np.isfinite(unit_level_db(np.array(0.0)))
 
 
-@pytest.mark.parametrize("make", [transfer_vector_figure, map_figure, directivity_figure])
-def test_figures_are_1280_pixels_wide(radiated, make):
-    picture = make(radiated)
+@pytest.fixture(scope="module")
+def pictures(radiated):
+    """Drawn once: that of the directivity takes seconds."""
+    return radiation_figures(radiated)
+
+
+@pytest.mark.parametrize(
+    ("number", "make"), list(enumerate([transfer_vector_figure, map_figure, directivity_figure]))
+)
+def test_figures_are_1280_pixels_wide(radiated, pictures, number, make):
+    picture = pictures[number]
     assert png_size(picture.png)[0] == 1280
     assert picture.alt
     assert picture.caption
     assert make(radiated).png == picture.png  # drawn without state
 
 
-def test_only_the_figures_that_the_dataset_has_variables_for(radiated):
+def test_only_the_figures_that_the_dataset_has_variables_for(radiated, pictures):
     assert [picture.name for picture in radiation_figures(radiated[["transfer_vector"]])] == [
         "transfer_vectors"
     ]
-    assert len(radiation_figures(radiated)) == 3
+    assert len(pictures) == 3
 
 
-def test_directivity_names_the_silent_motions(radiated):
-    assert "Silent and left out: rz." in directivity_figure(radiated).caption
+def test_directivity_names_the_silent_motions(pictures):
+    assert "Silent and left out: rz." in pictures[2].caption
 
 
 def test_line_map_of_a_run(radiated):
