@@ -57,6 +57,8 @@ def test_prior_stands_beside_posterior_for_each_unknown_that_matters():
 
 
 def test_shares_are_told_only_where_they_are_resolved():
+    nothing = with_unknowns(quality=(0.95, 0.5, -0.1))
+    assert "nothing with the published level, prior near" in quality_sentence(nothing)
     results = with_unknowns(quality=(0.95, 0.5, np.nan))
     first, *_ = unknowns_table(results).rows
     assert first[5:] == (NOT_RESOLVED, NOT_RESOLVED)
@@ -71,14 +73,14 @@ def test_the_unknown_that_would_narrow_the_changes_most_is_named():
     """0.75 of 4 in a sum of 5 dB²; half the band of the option is left."""
     results = with_unknowns()
     text = plain(measure_next_sentence(results))
-    assert text.startswith("Measure next: path through the shell mobility change. To know it would")
+    assert text.startswith("Measure next, as far as 11 draws tell: path through the shell mobility")
     assert "take about 60 % of the variance" in text
     change = results["level_total_by_draw"].sel(receiver="front_1m", speed=2900.0)
     change = (change.sel(option="rattles") - change.sel(option="none")).values
     low, high = np.quantile(change, (0.1, 0.9))
     assert f"from {high - low:.1f} to about {0.5 * (high - low):.1f} dB." in text
     rest = plain(measure_next_sentence(with_unknowns(change=(0.1, 0.1, 0.0, 0.3))))
-    assert rest.startswith("Measure next: the level of what is not modelled.")
+    assert ": the level of what is not modelled. To know it" in rest
     assert "do not tell" in measure_next_sentence(with_unknowns(change=(0.0, 0.0, 0.0, 0.0)))
     assert measure_next_sentence(results.isel(option=[0])) == ""
 

@@ -89,8 +89,9 @@ def shares_sentence(results: xr.Dataset) -> str:
 def prior_words(results: xr.Dataset) -> list[str]:
     """Priors of the remainder after "a remainder"; of older files those that then held."""
     table = parameters(results)["machine"].get("remainder", {})
-    known = {name: value for name, value in table.items() if name in Remainder.model_fields}
-    words_of = {prior.name: prior.words for prior in priors_of(Remainder(**known))}
+    known = {name: value for name, value in table.items() if value is not None}
+    remainder = Remainder.model_construct(**known)  # whatever it is: it is only put into words
+    words_of = {prior.name: prior.words for prior in priors_of(remainder)}
     return [words_of.get(str(name), str(name)) for name in results["prior"].values]
 
 

@@ -27,7 +27,7 @@ def quality_sentence(results: xr.Dataset) -> str:
     """How much of the level single unknowns explain, and whether shares are told."""
     quality = results["level_share_quality"]
     sizes = [
-        f"{percent(max(float(value), 0.0))} {_knowledge(str(name))}"
+        f"{_foretold(float(value))} {_knowledge(str(name))}"
         for name, value in zip(quality["knowledge"].values, quality.values, strict=True)
         if np.isfinite(value)
     ]
@@ -89,11 +89,16 @@ def measure_next_sentence(results: xr.Dataset) -> str:
     before = _width(results, option, speed)
     after = before * np.sqrt(max(1.0 - share[option, best], 0.0))
     return (
-        f"Measure next: {words}. To know it would take about "
-        f"{percent(gain[:, best].sum() / variance.sum())} of the variance of what the options "
-        f"change off, and narrow the band of {results['option'].values[option]} at {speed:g} rpm, "
-        f"where it tells most, from {rounding.fixed(before)} to about {rounding.fixed(after)} dB."
+        f"Measure next, as far as {draws(results).computed} draws tell: {words}. To know it would "
+        f"take about {percent(gain[:, best].sum() / variance.sum())} of the variance of what the "
+        f"options change off, and narrow the band of {results['option'].values[option]} at "
+        f"{speed:g} rpm, where it tells most, from {rounding.fixed(before)} to about "
+        f"{rounding.fixed(after)} dB."
     )
+
+
+def _foretold(quality: float) -> str:
+    return percent(quality) if quality >= MATTERS else "nothing"
 
 
 def _that_matter(shares: xr.DataArray) -> list[str]:

@@ -29,6 +29,10 @@ class Noise(Part):
 
 class Remainder(Part):
     speed_growth_db: Number | None = None
+    flat_lowest_db: Number | None = None
+    flat_highest_db: Number | None = None
+    near_level_db: Number | None = None
+    near_deviation_db: Number | None = None
 
 
 class Erratum(Part):

@@ -29,6 +29,8 @@ TOGETHER: Final = (
      "level_remainder_by_draw"),
     ("force_1x_by_draw", "moment_1x_by_draw", "foot_force_1x_by_draw"),
     ("bank_weight", "bank_level", "bank_value"),
+    ("level_share", "level_share_quality"),
+    ("change_share", "change_share_quality", "change_variance"),
     ("stopping_duration", "stopping_revolutions", "stopping_shaft_speed", "stopping_force",
      "stopping_moment", "stopping_fast_level", "stopping_fast_maximum_level",
      "stopping_peak_level", "stopping_foot_force"),
@@ -38,6 +40,8 @@ TOGETHER: Final = (
 """Variables that stand in a run all or none."""
 NEEDS: Final = {
     "force_1x_by_draw": ("draw_weight",),
+    "level_share": ("bank_weight",),
+    "change_share": ("draw_weight",),
     "green_difference": ("line_difference", "transfer_vector_closed_form"),
     "block_velocity_order": ("velocity_order",),
     "stopping_order_map": ("stopping_force",),
@@ -56,10 +60,11 @@ ATTRIBUTES_OF: Final = {
 }
 EMPTY_WHERE_NONE: Final = frozenset(
     ("reported_figure", "given_value", "projection_error", "bank_level", "tone_frequency",
-     "line_order", "map_level", "map_transfer_vector", "green_difference")
+     "line_order", "map_level", "map_transfer_vector", "green_difference", "level_share",
+     "level_share_quality", "change_share", "change_share_quality", "change_variance")
 )  # fmt: skip
 """Not a number where there is nothing: an option without such a figure, a point in the machine, a
-microphone that k-Wave did not compute."""
+microphone that k-Wave did not compute, draws that are too few."""
 ONLY_DRAWS_THAT_COUNT: Final = frozenset((*TOGETHER[0][1:-1], *TOGETHER[1]))
 """Not a number in a draw without solution, whose weight is 0."""
 ADDED_MASS: Final = "added_mass_kg"
