@@ -1,11 +1,12 @@
 """Any number of rigid bodies and the bushings between them: grommets, springs, a tube."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
 
-from ..base.arrays import Array
+from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
 
 SYMMETRY: Final = 1e-9
@@ -67,6 +68,8 @@ class Bushing:
     damping : viscous, symmetric, positive semidefinite, shape (6, 6), N s/m, N s and N m s
     loss_factor_ratio : structural loss factor of the stiffness
     axes : its own axes as columns, a rotation, shape (3, 3)
+    over_frequency : of frequencies, shape (...), to complex stiffness along the axes of the frame,
+        shape (..., 3), N/m, in place of stiffness and loss but in natural modes
     """
 
     name: str
@@ -77,6 +80,7 @@ class Bushing:
     damping: Array = field(default_factory=_free)
     loss_factor_ratio: float = 0.0
     axes: Array = field(default_factory=lambda: np.eye(3))
+    over_frequency: Callable[[Array], ComplexArray] | None = None
 
     def __post_init__(self) -> None:
         where = f"bushing {self.name}"
