@@ -38,6 +38,11 @@ class Columns:
         return ParameterError(f"{self.path}: line {self.lines[row]}: {words}")
 
 
+def column_names(path: Path) -> tuple[str, ...]:
+    """SI names of a file's columns, for a file that may be of several layouts; errors as below."""
+    return tuple(si_key(_plain(cell))[0] for cell in _rows(path)[1][0])
+
+
 def read_columns(
     path: Path,
     numbers: Sequence[str],
@@ -62,7 +67,7 @@ def read_columns(
     """
     lines, rows = _rows(path)
     head = [_plain(cell) for cell in rows[0]]
-    fields = {_si_name(name): at for at, name in enumerate(head)}
+    fields = {si_key(name)[0]: at for at, name in enumerate(head)}
     if len(fields) < len(head):
         raise ParameterError(f"{path}: a column is given twice: {', '.join(head)}")
     _check_names(path, head, fields, numbers, (*numbers, *optional, *texts))
@@ -117,10 +122,6 @@ def _plain(cell: str) -> str:
     """A column's name with the newton metre as in keys, `mx_nm` is `mx_n_m`."""
     name = cell.strip()
     return f"{name[:-3]}_n_m" if name.endswith("_nm") else name
-
-
-def _si_name(name: str) -> str:
-    return si_key(name)[0]
 
 
 def _check_names(

@@ -8,8 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from ..base.arrays import Array, ComplexArray
-from ..base.column_file import Columns, read_columns
-from ..base.errors import ParameterError
+from ..base.column_file import Columns, column_names, read_columns
 from ..base.parameters import Parameters
 from .file_table import FileTable
 
@@ -112,16 +111,10 @@ class FloorMobility(FileTable):
 
 
 def _read(path: Path) -> Columns:
-    """Of a mobility; else of a receptance, where the head names one."""
-    optional = ("lateral_mobility_m_per_ns", "lateral_phase_rad")
-    try:
-        return read_columns(path, MOBILITY, optional, ("foot",))
-    except ParameterError as error:
-        if "receptance" not in str(error):
-            raise
-    return read_columns(
-        path, RECEPTANCE, ("lateral_receptance_m_per_n", "lateral_phase_rad"), ("foot",)
-    )
+    """Of a mobility, or of a receptance, where the head names one."""
+    names = RECEPTANCE if RECEPTANCE[1] in column_names(path) else MOBILITY
+    lateral = (names[1].replace("vertical", "lateral"), "lateral_phase_rad")
+    return read_columns(path, names, lateral, ("foot",))
 
 
 def _mobility(numbers: dict[str, Array], axis: str, omega: Array) -> tuple[Array, Array]:

@@ -17,6 +17,7 @@ for _unit in (
     Unit("kg_m", "kg m", "kg_m", 1.0),
     Unit("kg_m2", "kg m²", "kg_m2", 1.0),
     Unit("n", "N", "n", 1.0),
+    Unit("kn", "kN", "n", 1e3),
     Unit("n_per_mm", "N/mm", "n_per_m", 1e3),
     Unit("n_per_m", "N/m", "n_per_m", 1.0),
     Unit("ns_per_m", "N s/m", "ns_per_m", 1.0),
