@@ -37,7 +37,7 @@ class Foot(Parameters):
         return self
 
     @property
-    def is_of_its_own(self) -> bool:
+    def has_constant_values(self) -> bool:
         """Whether it gives a constant stiffness or loss."""
         return (self.lateral_stiffness_n_per_m, self.vertical_stiffness_n_per_m,
                 self.loss_factor_ratio) != (None, None, None)  # fmt: skip
@@ -64,9 +64,9 @@ class Feet(Parameters):
 
     @model_validator(mode="after")
     def _stands(self) -> "Feet":
-        places = np.array([(foot.x_m, foot.y_m, foot.height_m or 0.0)
+        points = np.array([(foot.x_m, foot.y_m, foot.height_m or 0.0)
                            for foot in self.by_name.values()])  # fmt: skip
-        widths = np.linalg.svd(places - places.mean(axis=0), compute_uv=False)
+        widths = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
         if widths[1] < LEAST_WIDTH_M:
             raise ValueError("the feet stand in one line, about which the machine turns freely")
         return self
@@ -76,7 +76,7 @@ def values_not_read(feet: Feet | None, stiffness: MountStiffness | None) -> froz
     """Values of the table `mounts` that feet and files leave without effect, dotted."""
     fields = set() if feet is None else {"mounts.pitch_m"}
     each = () if feet is None else tuple(feet.by_name.values())
-    if stiffness is not None and not any(foot.is_of_its_own for foot in each):
+    if stiffness is not None and not any(foot.has_constant_values for foot in each):
         fields |= {
             "mounts.lateral_stiffness_n_per_m",
             "mounts.vertical_stiffness_n_per_m",

@@ -42,7 +42,7 @@ class Stand:
         """Of the feet, shape (foot, 3), m from the centre of mass."""
         if self.feet is None:
             return corners(self.mounts.pitch_m, self.height_m)
-        return np.array([self._place(foot) for foot in self.feet.by_name.values()])
+        return np.array([self._position(foot) for foot in self.feet.by_name.values()])
 
     @property
     def is_over_frequency(self) -> bool:
@@ -91,11 +91,11 @@ class Stand:
     def _table(self, name: str) -> MountStiffness | None:
         """Stiffness over frequency of a foot's mount; none where it is constant."""
         foot = self._foot(name)
-        if foot is None or not (foot.is_of_its_own or foot.stiffness):
+        if foot is None or not (foot.has_constant_values or foot.stiffness):
             return self.stiffness
         return foot.stiffness
 
-    def _place(self, foot: Foot) -> tuple[float, float, float]:
+    def _position(self, foot: Foot) -> tuple[float, float, float]:
         return foot.x_m, foot.y_m, _or(foot.height_m, self.height_m)
 
 

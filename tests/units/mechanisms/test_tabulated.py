@@ -242,7 +242,7 @@ def test_bad_names_are_refused_in_a_line(tmp_path, name, forces, words):
     assert "\n" not in str(refusal.value)
 
 
-@pytest.mark.parametrize(("speed_rpm", "bound"), [(900.0, 1e-9), (950.0, 1e-4)])
+@pytest.mark.parametrize(("speed_rpm", "bound"), [(900.0, 1e-9), (950.0, 1e-3)])
 def test_example_is_the_machine_that_it_was_made_from(speed_rpm, bound):
     """At a speed of its table, and between two of them, where the shaft swings otherwise."""
     table = load_machine(ROOT / "data" / "machines" / "reciprocating_table.toml")

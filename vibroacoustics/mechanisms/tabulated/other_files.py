@@ -12,7 +12,7 @@ from ...base.vocabulary import REFERENCE_OPTION
 from .csv_layout import ONE_SOURCE
 from .spectra import COMPONENTS, Spectra, orders_of
 
-WHOLE: Final = 1e-3
+MISSED_REVOLUTION: Final = 1e-3
 """Largest part of a revolution by which a recording misses whole ones."""
 
 
@@ -80,7 +80,7 @@ def read_recorded(path: Path, speed_rpm: float | None) -> Spectra:
         raise ParameterError(*error.args) from None
     signal, rate_hz = recording["signal"], float(recording.attrs["sample_rate_hz"])
     units = [str(unit) for unit in signal["channel_unit"].values]
-    revolutions = _whole_revolutions(path, signal.sizes["time"] / rate_hz, speed_rpm)
+    revolutions = _revolutions(path, signal.sizes["time"] / rate_hz, speed_rpm)
     by_source: dict[str, dict[str, Array]] = {}
     for name, unit, samples in zip(signal["channel"].values, units, signal.values, strict=True):
         source, component = _meant(path, str(name), unit)
@@ -93,9 +93,9 @@ def read_recorded(path: Path, speed_rpm: float | None) -> Spectra:
     return Spectra((speed_rpm,), tuple(by_source), orders)
 
 
-def _whole_revolutions(path: Path, duration_s: float, speed_rpm: float) -> int:
+def _revolutions(path: Path, duration_s: float, speed_rpm: float) -> int:
     turns = duration_s * shaft_frequency_hz(speed_rpm)
-    if round(turns) < 1 or abs(turns - round(turns)) > WHOLE:
+    if round(turns) < 1 or abs(turns - round(turns)) > MISSED_REVOLUTION:
         raise ParameterError(
             f"{path}: {turns:.6g} revolutions at {speed_rpm:g} rpm: must be whole ones"
         )
