@@ -1,5 +1,6 @@
 """A machine's table whose values stand in a file beside the machine's."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -47,4 +48,19 @@ class FileTable(Parameters):
             read = cls.read(path, given)
         except ParameterError as error:  # pydantic knows none
             raise ValueError(str(error)) from None
+        written = sorted(set(read).intersection(given))
+        if written:
+            raise ValueError(f"{written[0]}: is read from the file, take it out")
         return {**given, **read, "file": path.name}
+
+    @classmethod
+    def check_lengths(cls, columns: Sequence[Sequence[object]]) -> None:
+        """Refuse columns that differ in length or are empty, as no file has them.
+
+        Raises
+        ------
+        ValueError
+            They do.
+        """
+        if len({len(column) for column in columns}) > 1 or not columns[0]:
+            raise ValueError("columns differ in length or are empty; name a file")

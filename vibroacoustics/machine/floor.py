@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any, ClassVar, Final
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from ..base.arrays import Array, ComplexArray
 from ..base.column_file import Columns, column_names, read_columns
@@ -47,13 +47,21 @@ class FloorMobility(FileTable):
     """
 
     content: ClassVar[str] = "frequency_hz"
-    foot: tuple[str, ...]
+    foot: tuple[str, ...] = ()
     """Of each row; empty where it holds for every foot."""
-    frequency_hz: tuple[float, ...]
-    vertical_m_per_ns: tuple[float, ...]
-    vertical_phase_rad: tuple[float, ...]
-    lateral_m_per_ns: tuple[float, ...]
-    lateral_phase_rad: tuple[float, ...]
+    frequency_hz: tuple[float, ...] = ()
+    vertical_m_per_ns: tuple[float, ...] = ()
+    vertical_phase_rad: tuple[float, ...] = ()
+    lateral_m_per_ns: tuple[float, ...] = ()
+    lateral_phase_rad: tuple[float, ...] = ()
+
+    @model_validator(mode="after")
+    def _alike(self) -> "FloorMobility":
+        self.check_lengths(
+            (self.foot, self.frequency_hz, self.vertical_m_per_ns, self.vertical_phase_rad,
+             self.lateral_m_per_ns, self.lateral_phase_rad)
+        )  # fmt: skip
+        return self
 
     @classmethod
     def read(cls, path: Path, given: dict[str, Any]) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any, ClassVar, Final
 
 import numpy as np
+from pydantic import model_validator
 
 from ..base.arrays import Array, ComplexArray
 from ..base.column_file import read_columns
@@ -20,10 +21,17 @@ class MountStiffness(FileTable):
     """
 
     content: ClassVar[str] = "frequency_hz"
-    frequency_hz: tuple[float, ...]
-    lateral_n_per_m: tuple[float, ...]
-    vertical_n_per_m: tuple[float, ...]
-    loss_factor_ratio: tuple[float, ...]
+    frequency_hz: tuple[float, ...] = ()
+    lateral_n_per_m: tuple[float, ...] = ()
+    vertical_n_per_m: tuple[float, ...] = ()
+    loss_factor_ratio: tuple[float, ...] = ()
+
+    @model_validator(mode="after")
+    def _alike(self) -> "MountStiffness":
+        self.check_lengths(
+            (self.frequency_hz, self.lateral_n_per_m, self.vertical_n_per_m, self.loss_factor_ratio)
+        )
+        return self
 
     @classmethod
     def read(cls, path: Path, given: dict[str, Any]) -> dict[str, Any]:

@@ -24,9 +24,9 @@ class Forces(FileTable):
     """With one speed: every force grows as the speed squared."""
     recorded_speed_rpm: float | None = Field(default=None, gt=0.0, le=1e5)
     """Of a recording over time, which does not say it."""
-    speed_rpm: tuple[float, ...]
-    sources: tuple[str, ...]
-    packed: str
+    speed_rpm: tuple[float, ...] = ()
+    sources: tuple[str, ...] = ()
+    packed: str = ""
     """Complex orders of what was read, see `spectra.packed`."""
 
     @classmethod
