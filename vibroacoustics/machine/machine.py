@@ -11,7 +11,7 @@ from pydantic import Field, SerializeAsAny, model_validator
 from ..base.arrays import Array
 from ..base.curves import Curve
 from ..base.errors import ParameterError
-from ..base.parameters import AnyOf, Held, KindOfParameters, Parameters
+from ..base.parameters import AnyOf, KindOfParameters, Parameters
 from ..base.registry import Registry
 from ..mechanics.capabilities import UPRIGHT, Capability, CrankFrame
 from ..mechanics.moving_parts import MovingPart, Revolution
@@ -24,22 +24,12 @@ from .housing import Housing
 from .limits import OF_EVERY_MACHINE, Limit
 from .mount_stiffness import MountStiffness
 from .mounts import Mounts
+from .overall_noise import OverallNoise
 from .remainder import Remainder
 from .shell import Shell
 from .suspension import Suspension
 
 PART_MASS = Field(gt=0.0, le=100.0)
-DATUM: Final = Held("are data that the model is compared to")
-
-
-class OverallNoise(Parameters):
-    """The A-weighted sound pressure level of the whole machine, from a catalogue or assumed."""
-
-    level_dba: Annotated[float, DATUM] = Field(ge=0.0, le=140.0)
-    speed_rpm: Annotated[float, DATUM] = Field(ge=60.0, le=60000.0)
-    distance_m: Annotated[float, DATUM] = Field(ge=0.1, le=20.0)
-    deviation_db: Annotated[float, DATUM] = Field(default=2.0, ge=0.1, le=10.0)
-    """Standard deviation of the level."""
 
 
 class Erratum(Parameters):

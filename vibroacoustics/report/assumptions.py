@@ -65,7 +65,21 @@ def not_modelled(results: xr.Dataset) -> tuple[str, ...]:
     everywhere = tuple(
         text.format(floor=YIELDING_FLOOR if gives_way else RIGID_FLOOR) for text in NOT_MODELLED
     )
-    return (*of_shell, *everywhere, *words(results)["leaves_out"])
+    return (*of_shell, *everywhere, *_mounts_held(machine), *words(results)["leaves_out"])
+
+
+def _mounts_held(machine: dict[str, Any]) -> tuple[str, ...]:
+    """Where the stiffness of mounts from files ends."""
+    feet = (machine.get("feet") or {}).values()
+    tables = [machine.get("mount_stiffness"), *(foot and foot["stiffness"] for foot in feet)]
+    known = [table["frequency_hz"] for table in tables if table]
+    if not known:
+        return ()
+    lowest, highest = max(each[0] for each in known), min(each[-1] for each in known)
+    return (
+        f"Stiffness and loss of the mounts are known from {lowest:g} to {highest:g} Hz; they are "
+        "held below and above.",
+    )
 
 
 def records_table(results: xr.Dataset) -> Table:

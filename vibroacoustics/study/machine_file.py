@@ -70,10 +70,11 @@ def _resolve_file_names(
         if isinstance(value, dict):
             _resolve_file_names(value, reader, keys)
         elif key == "file" and isinstance(value, str) and value:
-            if not any(record.field == ".".join(keys) for record in reader.records):
-                reader.problems.append(
-                    f"{reader.file_and_key(keys)} = {value}: needs a source: {{ value, source }}"
-                )
+            where, recorded = reader.file_and_key(keys), {item.field for item in reader.records}
+            if ".".join(keys) not in recorded and f"{where}: source is missing" not in (
+                reader.problems
+            ):
+                reader.problems.append(f"{where} = {value}: needs a source: {{ value, source }}")
             table[key] = str(beside(reader.file(keys), value))
 
 

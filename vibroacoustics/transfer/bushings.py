@@ -102,6 +102,20 @@ class Bushing:
                 f"{where}: loss_factor_ratio = {self.loss_factor_ratio:g}: allowed 0 to 1"
             )
 
+    def added_stiffness(self, frequency_hz: Array | float) -> ComplexArray:
+        """What stiffness over frequency adds to the constant one, shape (..., 3), N/m.
+
+        Parameters
+        ----------
+        frequency_hz : at least zero, shape (...)
+        """
+        frequency = np.asarray(frequency_hz, dtype=float)
+        moving = (frequency > 0.0)[..., None]
+        constant = np.diagonal(self.stiffness)[:3] * (1.0 + 1j * self.loss_factor_ratio * moving)
+        if self.over_frequency is None:
+            return np.zeros_like(constant)
+        return np.asarray(self.over_frequency(frequency) - constant)
+
     def in_frame(self, matrix: Array) -> Array:
         """A matrix in the bushing's own axes, in those of the frame, shape (6, 6)."""
         turn = np.kron(np.eye(2), self.axes)

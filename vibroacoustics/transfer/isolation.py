@@ -1,6 +1,6 @@
 """Motion of rigid bodies on bushings, and the forces that the bushings pass on."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
@@ -92,8 +92,8 @@ class Isolation:
     def real_stiffness(self, frequency_hz: float) -> Array:
         """Real part at a frequency, without damping, shape (6 bodies, 6 bodies)."""
         matrix = self.stiffness_matrix.copy()
-        for motion, added in self._added_over_frequency(frequency_hz):
-            matrix += motion.T @ (added.real[:, None] * motion)
+        for _, motion, bushing in self._over_frequency:
+            matrix += motion.T @ (bushing.added_stiffness(frequency_hz).real[:, None] * motion)
         return matrix
 
     def natural_modes(self) -> tuple[Array, Array]:
@@ -127,7 +127,8 @@ class Isolation:
         dynamic = self.stiffness_matrix - omega**2 * self.mass_matrix + 1j * (
             (omega > 0.0) * self.structural_damping_matrix + omega * self.damping_matrix
         )  # fmt: skip
-        for motion, added in self._added_over_frequency(frequency):
+        for _, motion, bushing in self._over_frequency:
+            added = bushing.added_stiffness(frequency)
             dynamic += np.einsum("ki,...k,kj->...ij", motion, added, motion)
         try:
             return np.asarray(np.linalg.inv(dynamic))
@@ -171,30 +172,18 @@ class Isolation:
         for rate, matrices in ((omega > 0.0, self._bushing_loss), (omega, self._bushing_damping)):
             if matrices.any():
                 total += 1j * rate * force(matrices)
-        for number, bushing in enumerate(self.bushings):
-            if bushing.over_frequency is not None:
-                ((motion, added),) = self._added_over_frequency(frequency_hz, (number,))
-                total[..., number, :3] += added * (flat @ motion.T)
+        for number, motion, bushing in self._over_frequency:
+            total[..., number, :3] += bushing.added_stiffness(frequency_hz) * (flat @ motion.T)
         return total
 
-    def _added_over_frequency(
-        self, frequency_hz: Array | float, numbers: Iterable[int] | None = None
-    ) -> Iterator[tuple[Array, ComplexArray]]:
-        """What stiffness over frequency adds to the constant one, of each bushing that has it.
-
-        Displacement at its point per motion of the bodies, (3, 6 bodies), and stiffness, (..., 3).
-        """
-        frequency = np.asarray(frequency_hz, dtype=float)
-        for number in range(len(self.bushings)) if numbers is None else numbers:
-            bushing = self.bushings[number]
-            if bushing.over_frequency is not None:
-                constant = np.diagonal(self._bushing_stiffness[number])[
-                    :3
-                ] + 1j * np.multiply.outer(
-                    frequency > 0.0, np.diagonal(self._bushing_loss[number])[:3]
-                )
-                added = bushing.over_frequency(frequency) - constant
-                yield self.bushing_motion[number, :3], added
+    @cached_property
+    def _over_frequency(self) -> list[tuple[int, Array, Bushing]]:
+        """Bushings whose stiffness changes: number, displacement per motion (3, 6 bodies)."""
+        return [
+            (number, self.bushing_motion[number, :3], bushing)
+            for number, bushing in enumerate(self.bushings)
+            if bushing.over_frequency is not None
+        ]
 
     @cached_property
     def _bushing_stiffness(self) -> Array:

@@ -12,6 +12,7 @@ from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.mechanisms.tabulated.csv_layout import forces_csv
 from vibroacoustics.mechanisms.tabulated.spectra import Spectra, orders_of, over_revolution
 from vibroacoustics.orders.spectrum import order_spectrum_at_speed
+from vibroacoustics.report.assumptions import not_modelled
 from vibroacoustics.results import storage
 from vibroacoustics.study.loading import load_machine, load_study
 
@@ -262,3 +263,17 @@ def test_example_is_the_machine_that_it_was_made_from(speed_rpm, bound):
         )  # fmt: skip
         found = table.forces.at(speed_rpm)[at]
         assert np.abs(found - expected).max() < bound * np.abs(expected).max()
+
+
+def test_example_study_goes_to_its_results_with_another_file_as_redesign():
+    study = load_study(ROOT / "pipelines" / "reciprocating_table.toml")
+    few = {"options.lanchester": None, "options.counterweight-half": None}
+    results = pipeline.run(study.replace(few), radiation=made_up_radiation)
+    foot = results["foot_force_amplitude"].sel(order=1).max("foot").values
+    options = results["option"].values.tolist()
+    soft, given = (foot[:, options.index(name)] for name in ("softer-mounts", "none"))
+    assert np.all(soft < 0.5 * given)
+    weighed = foot[:, options.index("counterweight-full")]
+    assert np.all(weighed < 0.8 * given)
+    assert results["foot"].values.tolist() == [f"foot_{number}" for number in range(1, 6)]
+    assert any("known from 5 to 500 Hz" in text for text in not_modelled(results))
