@@ -10,6 +10,7 @@
 `score(results)` scores and ranks the options again.
 `write_report(results, folder)` writes the report with tables and figures.
 `open_results(path)` reads results from a file.
+`export_forces(results, path)` writes their forces for a machine of `kind = "table"`.
 `curves(study)` shows what goes on inside: pressures, films, friction, torques, critical speeds;
 also of a machine alone, from `load_machine(path)`.
 
@@ -64,7 +65,7 @@ if TYPE_CHECKING:
     from .base.registry import register
     from .base.units import Unit
     from .base.vocabulary import Coordinate, Variable, check, stamp
-    from .commands.exporting import export_recording
+    from .commands.exporting import export_forces, export_recording
     from .commands.outputs import write_report
     from .machine.machine import Machine
     from .machine.option import Option
@@ -149,6 +150,7 @@ __all__ = [
     "compare",
     "constant_rotation",
     "curves",
+    "export_forces",
     "export_recording",
     "given_radiation",
     "label_recording",
@@ -216,6 +218,7 @@ _HOME = {
     "compare": "results.order_comparison",
     "constant_rotation": "mechanics.rotation",
     "curves": "sources.curves",
+    "export_forces": "commands.exporting",
     "export_recording": "commands.exporting",
     "given_radiation": "radiation.given",
     "label_recording": "recordings",

@@ -7,6 +7,8 @@ from typing import Final
 import xarray as xr
 
 from ..base.errors import ParameterError
+from ..base.vocabulary import REFERENCE_OPTION
+from ..mechanisms.tabulated.csv_layout import forces_csv
 from ..recordings import csv_bytes, wav_bytes
 from ..results import files, storage
 
@@ -53,7 +55,43 @@ def export_recording(recording: xr.Dataset, path: str | Path) -> Path:
         content = FORMATS[suffix](recording)
     except ParameterError as error:
         raise ParameterError(f"{path}: {error}") from None
-    file = Path(path)
+    return _written(Path(path), content)
+
+
+def export_forces(results: xr.Dataset, path: str | Path, option: str = REFERENCE_OPTION) -> Path:
+    """Write the forces of a run by order as CSV, as a machine of `kind = "table"` reads them.
+
+    Parameters
+    ----------
+    results : of `run`
+    path : ends in `.csv`
+    option : whose forces, by name
+
+    Returns
+    -------
+    path of the file
+
+    Raises
+    ------
+    ParameterError
+        The ending is another one, or the results have no such option.
+    StorageError
+        The file cannot be written.
+
+    Examples
+    --------
+    >>> va.export_forces(va.open_results("results.nc"), "forces.csv").name
+    'forces.csv'
+    """
+    if Path(path).suffix.lower() != ".csv":
+        raise ParameterError(f"{path}: must end in .csv")
+    if option not in results["option"].values:
+        known = ", ".join(map(str, results["option"].values))
+        raise ParameterError(f"option = {option}: unknown; the results have {known}")
+    return _written(Path(path), forces_csv(results, option))
+
+
+def _written(file: Path, content: bytes) -> Path:
     with files.only_writer(file.parent) as staged:
         files.write(staged / file.name, content)
         files.replace_all(staged, file.parent)

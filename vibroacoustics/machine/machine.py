@@ -6,37 +6,30 @@ Heights are those of the machine's frame: z up, zero at the centre of mass at re
 from collections.abc import Iterable, Mapping
 from typing import Annotated, ClassVar, Final, TypeVar
 
-from pydantic import Field, SerializeAsAny
+from pydantic import Field, SerializeAsAny, model_validator
 
 from ..base.arrays import Array
 from ..base.curves import Curve
 from ..base.errors import ParameterError
-from ..base.parameters import AnyOf, Held, KindOfParameters, Parameters
+from ..base.parameters import AnyOf, KindOfParameters, Parameters
 from ..base.registry import Registry
 from ..mechanics.capabilities import UPRIGHT, Capability, CrankFrame
 from ..mechanics.moving_parts import MovingPart, Revolution
 from .balance_quality import BalanceQuality
 from .derived import INERTIAS, Derived
+from .feet import FOOT_NAMES, Feet, values_not_read
+from .floor import Floor, FloorMobility
 from .gas_in_shell import DischargeGas, ShellGas
 from .housing import Housing
 from .limits import OF_EVERY_MACHINE, Limit
+from .mount_stiffness import MountStiffness
 from .mounts import Mounts
+from .overall_noise import OverallNoise
 from .remainder import Remainder
 from .shell import Shell
 from .suspension import Suspension
 
 PART_MASS = Field(gt=0.0, le=100.0)
-DATUM: Final = Held("are data that the model is compared to")
-
-
-class OverallNoise(Parameters):
-    """The A-weighted sound pressure level of the whole machine, from a catalogue or assumed."""
-
-    level_dba: Annotated[float, DATUM] = Field(ge=0.0, le=140.0)
-    speed_rpm: Annotated[float, DATUM] = Field(ge=60.0, le=60000.0)
-    distance_m: Annotated[float, DATUM] = Field(ge=0.1, le=20.0)
-    deviation_db: Annotated[float, DATUM] = Field(default=2.0, ge=0.1, le=10.0)
-    """Standard deviation of the level."""
 
 
 class Erratum(Parameters):
@@ -76,6 +69,13 @@ class Machine(KindOfParameters):
     shell: Shell
     overall_noise: OverallNoise
     remainder: Remainder = Remainder()
+    feet: Feet | None = None
+    """Anywhere; four in a square, as `mounts` says, where there are none."""
+    mount_stiffness: MountStiffness | None = None
+    """Over frequency, of mounts that give none of their own."""
+    floor: Floor | None = None
+    """That gives way under the feet; rigid where neither this table nor the next is given."""
+    floor_mobility: FloorMobility | None = None
     suspension: Suspension | None = None
     """Springs between the block with the mechanism and the shell; none where both are one."""
     discharge_gas: DischargeGas | None = None
@@ -95,11 +95,23 @@ class Machine(KindOfParameters):
     derived: ClassVar[tuple[Derived, ...]] = INERTIAS
     """Values that follow from others, where they are not drawn themselves."""
 
-    reads: ClassVar[frozenset[str]] = frozenset({"suspension", "remainder"})
+    reads: ClassVar[frozenset[str]] = frozenset(
+        {"suspension", "remainder", "feet", "mount_stiffness", "floor", "floor_mobility"}
+    )
     """Tables that may be left out and that the machine itself reads where it has them."""
 
     limits: ClassVar[tuple[Limit, ...]] = OF_EVERY_MACHINE
     """What other values leave of a value's range, in the order in which they are drawn."""
+
+    @model_validator(mode="after")
+    def _stands_on_one_floor(self) -> "Machine":
+        if self.floor is not None and self.floor_mobility is not None:
+            raise ValueError("floor, floor_mobility: give one of them")
+        feet = FOOT_NAMES if self.feet is None else tuple(self.feet.by_name)
+        reason = self.floor_mobility and self.floor_mobility.why_not_under(feet)
+        if reason:
+            raise ValueError(f"floor_mobility: {reason}")
+        return self
 
     def revolution(self, speed_rpm: float, samples: int) -> Revolution:
         """One steady revolution: force and moment of the moving parts by source.
@@ -142,6 +154,11 @@ class Machine(KindOfParameters):
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
         """What the model of this kind leaves out, a sentence or two each."""
         return ()
+
+    @property
+    def unread(self) -> frozenset[str]:
+        """Values without effect beside the machine's other tables, dotted, in SI."""
+        return values_not_read(self.feet, self.mount_stiffness)
 
     @property
     def crank_frame(self) -> CrankFrame:

@@ -40,12 +40,17 @@ ELASTIC_SHELL: Final = (
 )
 """Instead of RIGID_SHELL where sources drive the shell."""
 
+RIGID_FLOOR: Final = "rigid for the mounts and hard"
+YIELDING_FLOOR: Final = (
+    "not rigid: the floor under the feet gives way each for itself, without sound of its own; "
+    "natural frequencies are those on a rigid one. It is hard"
+)
 NOT_MODELLED: Final = (
     "Gas pulsation in the suction and discharge pipes is not modelled.",
     "Structure-borne sound is not modelled: the forces into the feet are reported, the floor, "
     "panel and pipes that they would excite are not. A change of the foot force may be heard "
     "there before it is heard through the air.",
-    "The floor is rigid for the mounts and hard for the sound; there are no other walls. The "
+    "The floor is {floor} for the sound; there are no other walls. The "
     "scattering of sound between shell and floor is included.",
     "Levels hold at the study's microphones; a rocking machine sounds louder in other directions.",
     "The weight of moving parts times their sideways shift is left out of the moment: some mN m.",
@@ -55,7 +60,26 @@ NOT_MODELLED: Final = (
 def not_modelled(results: xr.Dataset) -> tuple[str, ...]:
     """What the results leave out, one sentence or two each."""
     of_shell = ELASTIC_SHELL if words(results)["shell_bends"] else RIGID_SHELL
-    return (*of_shell, *NOT_MODELLED, *words(results)["leaves_out"])
+    machine = parameters(results)["machine"]
+    gives_way = machine.get("floor") or machine.get("floor_mobility")
+    everywhere = tuple(
+        text.format(floor=YIELDING_FLOOR if gives_way else RIGID_FLOOR) for text in NOT_MODELLED
+    )
+    return (*of_shell, *everywhere, *_mounts_held(machine), *words(results)["leaves_out"])
+
+
+def _mounts_held(machine: dict[str, Any]) -> tuple[str, ...]:
+    """Where the stiffness of mounts from files ends."""
+    feet = (machine.get("feet") or {}).values()
+    tables = [machine.get("mount_stiffness"), *(foot and foot["stiffness"] for foot in feet)]
+    known = [table["frequency_hz"] for table in tables if table]
+    if not known:
+        return ()
+    lowest, highest = max(each[0] for each in known), min(each[-1] for each in known)
+    return (
+        f"Stiffness and loss of the mounts are known from {lowest:g} to {highest:g} Hz; they are "
+        "held below and above.",
+    )
 
 
 def records_table(results: xr.Dataset) -> Table:

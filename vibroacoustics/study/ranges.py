@@ -46,6 +46,8 @@ def is_used(record: ParameterRecord, machine: Machine, used: set[str]) -> bool:
     """Whether the study reads a value: not those of a table that only sources read,
     nor those that a choice in their table leaves `unread`."""
     table, _, key = record.field.partition(".")
+    if f"{table}.{si_key(key)[0]}" in machine.unread:
+        return False
     field = type(machine).model_fields.get(table)
     if si_key(key)[0] in getattr(getattr(machine, table, None), "unread", ()):
         return False

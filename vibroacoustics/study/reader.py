@@ -86,7 +86,7 @@ class Reader:
         suffix = split_key(keys[-1])[1]
         symbol = unit or (suffix.symbol if suffix else "")
         lowest, highest = _limits(where, value.get("range"))
-        if source.startswith("assumed") and lowest is None:
+        if source.startswith("assumed") and lowest is None and not isinstance(number, str):
             raise ParameterError(f"{where}: an assumed value needs a range")
         if lowest is not None and is_number(number) and not lowest <= number <= highest:
             raise ParameterError(

@@ -1,8 +1,9 @@
 """From forces on the housing to its velocity and to the forces in its feet."""
 
+from ..machine.feet import FOOT_NAMES
 from .bushings import Bushing, RigidBody
 from .isolation import Isolation
-from .machine import FOOT_NAMES, MachineOnMounts, largest_foot_force_n, on_mounts
+from .machine import MachineOnMounts, largest_foot_force_n, on_mounts
 from .tube import tube_stiffness
 
 __all__ = [

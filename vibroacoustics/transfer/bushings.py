@@ -1,11 +1,12 @@
 """Any number of rigid bodies and the bushings between them: grommets, springs, a tube."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
 
-from ..base.arrays import Array
+from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
 
 SYMMETRY: Final = 1e-9
@@ -67,6 +68,8 @@ class Bushing:
     damping : viscous, symmetric, positive semidefinite, shape (6, 6), N s/m, N s and N m s
     loss_factor_ratio : structural loss factor of the stiffness
     axes : its own axes as columns, a rotation, shape (3, 3)
+    over_frequency : of frequencies, shape (...), to complex stiffness along the axes of the frame,
+        shape (..., 3), N/m, in place of stiffness and loss but in natural modes
     """
 
     name: str
@@ -77,6 +80,7 @@ class Bushing:
     damping: Array = field(default_factory=_free)
     loss_factor_ratio: float = 0.0
     axes: Array = field(default_factory=lambda: np.eye(3))
+    over_frequency: Callable[[Array], ComplexArray] | None = None
 
     def __post_init__(self) -> None:
         where = f"bushing {self.name}"
@@ -97,6 +101,20 @@ class Bushing:
             raise ParameterError(
                 f"{where}: loss_factor_ratio = {self.loss_factor_ratio:g}: allowed 0 to 1"
             )
+
+    def added_stiffness(self, frequency_hz: Array | float) -> ComplexArray:
+        """What stiffness over frequency adds to the constant one, shape (..., 3), N/m.
+
+        Parameters
+        ----------
+        frequency_hz : at least zero, shape (...)
+        """
+        frequency = np.asarray(frequency_hz, dtype=float)
+        moving = (frequency > 0.0)[..., None]
+        constant = np.diagonal(self.stiffness)[:3] * (1.0 + 1j * self.loss_factor_ratio * moving)
+        if self.over_frequency is None:
+            return np.zeros_like(constant)
+        return np.asarray(self.over_frequency(frequency) - constant)
 
     def in_frame(self, matrix: Array) -> Array:
         """A matrix in the bushing's own axes, in those of the frame, shape (6, 6)."""

@@ -89,6 +89,13 @@ class Isolation:
         """Viscous, shape (6 bodies, 6 bodies), N s/m, N s and N m s: Σ Gᵀ c G."""
         return self._assembled(self._bushing_damping)
 
+    def real_stiffness(self, frequency_hz: float) -> Array:
+        """Real part at a frequency, without damping, shape (6 bodies, 6 bodies)."""
+        matrix = self.stiffness_matrix.copy()
+        for _, motion, bushing in self._over_frequency:
+            matrix += motion.T @ (bushing.added_stiffness(frequency_hz).real[:, None] * motion)
+        return matrix
+
     def natural_modes(self) -> tuple[Array, Array]:
         """Undamped natural frequencies (mode,) in Hz, mass-normalised shapes (mode, body, 6).
 
@@ -120,6 +127,9 @@ class Isolation:
         dynamic = self.stiffness_matrix - omega**2 * self.mass_matrix + 1j * (
             (omega > 0.0) * self.structural_damping_matrix + omega * self.damping_matrix
         )  # fmt: skip
+        for _, motion, bushing in self._over_frequency:
+            added = bushing.added_stiffness(frequency)
+            dynamic += np.einsum("ki,...k,kj->...ij", motion, added, motion)
         try:
             return np.asarray(np.linalg.inv(dynamic))
         except np.linalg.LinAlgError:
@@ -162,7 +172,18 @@ class Isolation:
         for rate, matrices in ((omega > 0.0, self._bushing_loss), (omega, self._bushing_damping)):
             if matrices.any():
                 total += 1j * rate * force(matrices)
+        for number, motion, bushing in self._over_frequency:
+            total[..., number, :3] += bushing.added_stiffness(frequency_hz) * (flat @ motion.T)
         return total
+
+    @cached_property
+    def _over_frequency(self) -> list[tuple[int, Array, Bushing]]:
+        """Bushings whose stiffness changes: number, displacement per motion (3, 6 bodies)."""
+        return [
+            (number, self.bushing_motion[number, :3], bushing)
+            for number, bushing in enumerate(self.bushings)
+            if bushing.over_frequency is not None
+        ]
 
     @cached_property
     def _bushing_stiffness(self) -> Array:

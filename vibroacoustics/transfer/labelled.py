@@ -15,12 +15,11 @@ from ..base.vocabulary import (
 )
 from ..mechanics.ellipse import semi_major_axis
 from ..study.study import Study
-from .machine import FOOT_NAMES, MachineOnMounts, Response, on_mounts
+from .machine import MachineOnMounts, Response, on_mounts
 
 MOUNT_FREQUENCY_HZ: Final[Array] = np.asarray(np.geomspace(1.0, 200.0, 400), dtype=np.float64)
 
 _WRENCH: Final = ("force_order", "moment_order")
-_FEET: Final = {"foot": list(FOOT_NAMES), "axis": list(AXES)}
 _DOFS: Final = {"dof": list(RIGID_BODY_DOFS)}
 
 
@@ -46,8 +45,9 @@ def housing_variables(study: Study, results: xr.Dataset) -> xr.Dataset:
         name: (np.moveaxis(np.stack(velocity, axis=1), -1, -2), {**coords, **_DOFS})
         for name, velocity in velocities.items()
     }
-    arrays["foot_force_order"] = (foot_force, {**coords, **_FEET})
-    arrays["foot_force_amplitude"] = (total, {**by_foot, "foot": _FEET["foot"]})
+    feet = {"foot": list(reference.stand.names)}
+    arrays["foot_force_order"] = (foot_force, {**coords, **feet, "axis": list(AXES)})
+    arrays["foot_force_amplitude"] = (total, {**by_foot, **feet})
     arrays |= _of_mounts(reference)
     return check(
         xr.Dataset(
@@ -74,7 +74,7 @@ def _responses(machines: list[MachineOnMounts], results: xr.Dataset) -> list[Res
 
 def _of_mounts(machine: MachineOnMounts) -> dict[str, tuple[Any, dict[str, Any]]]:
     """Natural modes of a machine and what its mounts pass on, with coordinates."""
-    frequencies, shapes = machine.isolation.natural_modes()
+    frequencies, shapes = machine.natural_modes()
     mode = {"mode": [f"mode_{number}" for number in range(1, len(frequencies) + 1)]}
     names = [body.name for body in machine.isolation.bodies]
     return {

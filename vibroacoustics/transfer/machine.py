@@ -7,18 +7,23 @@ from typing import Final
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
+from ..machine.feet import FOOT_NAMES, Feet
+from ..machine.floor import Floor, FloorMobility
 from ..machine.housing import Housing
 from ..machine.machine import Machine
+from ..machine.mount_stiffness import MountStiffness
 from ..machine.mounts import Mounts
 from ..machine.suspension import DischargeTube, Suspension
 from ..mechanics.loads import Tone
 from .bushings import Bushing, RigidBody
+from .feet import Stand, corners
 from .isolation import Isolation
+from .modes_over_frequency import modes_over_frequency
 from .tube import tube_stiffness
 
 MACHINE, SHELL, BLOCK = "machine", "shell", "block"
-FOOT_NAMES: Final = ("front_left", "front_right", "rear_left", "rear_right")
-"""Front is +x, left is +y."""
+HIGHEST_MODE_HZ: Final = 1e5
+"""Above every natural frequency on mounts."""
 KEPT_MACHINES: Final = 64
 """Machines whose bushings are kept assembled: cases of a study share their mounts."""
 
@@ -47,28 +52,39 @@ class Response:
 
 @dataclass(frozen=True)
 class MachineOnMounts:
-    """A machine on four grommets; the floor is taken as rigid.
+    """A machine on its mounts and the floor under them.
 
-    With a suspension the grommets carry the shell, in it the block on four springs and the
+    With a suspension the mounts carry the shell, in it the block on four springs and the
     discharge tube; the mechanism loads the block. Without one, both are the same body.
 
     Attributes
     ----------
-    housing : mass and principal moments of inertia of the body on the grommets
-    mounts : stiffness of one grommet, pitch, loss factor
-    foot_height_m : height of the grommets relative to that body's centre of mass
+    housing : mass and principal moments of inertia of the body on the mounts
+    mounts : stiffness of one mount, pitch of four in a square, loss factor
+    foot_height_m : height of the mounts relative to that body's centre of mass
     suspension : block, springs and tube
+    feet : anywhere, in place of four in a square
+    mount_stiffness : of the mounts over frequency
+    floor : that gives way under the feet; rigid where there is none
     """
 
     housing: Housing
     mounts: Mounts
     foot_height_m: float
     suspension: Suspension | None = None
+    feet: Feet | None = None
+    mount_stiffness: MountStiffness | None = None
+    floor: Floor | FloorMobility | None = None
+
+    @cached_property
+    def stand(self) -> Stand:
+        """Feet, mounts and floor."""
+        return Stand(self.mounts, self.foot_height_m, self.feet, self.mount_stiffness, self.floor)
 
     @cached_property
     def foot_position(self) -> Array:
-        """Grommets in the order of FOOT_NAMES, shape (4, 3), m from the centre of mass."""
-        return _corners(self.mounts.pitch_m, self.foot_height_m)
+        """Mounts in the order of the feet's names, shape (foot, 3), m from the centre of mass."""
+        return self.stand.position
 
     @cached_property
     def isolation(self) -> Isolation:
@@ -76,13 +92,26 @@ class MachineOnMounts:
 
         The frame's origin is the centre of mass of the body on the feet.
         """
+        return self._isolation(with_floor=True)
+
+    def _isolation(self, with_floor: bool) -> Isolation:
         name = MACHINE if self.suspension is None else SHELL
         bodies = [_rigid_body(name, self.housing, np.zeros(3))]
-        bushings = _corner_bushings("foot", self.mounts, self.foot_position, (name, None))
+        bushings = self.stand.bushings(name, with_floor)
         if self.suspension is not None:
             bodies.append(_block(self.suspension))
             bushings += _suspension_bushings(self.suspension)
         return Isolation(tuple(bodies), tuple(bushings))
+
+    def natural_modes(self) -> tuple[Array, Array]:
+        """As `Isolation.natural_modes`, on a rigid floor, with the mounts' stiffness there."""
+        if not self.stand.is_over_frequency:
+            return self.isolation.natural_modes()
+        isolation = self._isolation(with_floor=False)
+        frequencies, shapes = modes_over_frequency(
+            isolation.real_stiffness, isolation.mass_matrix, HIGHEST_MODE_HZ
+        )
+        return frequencies, shapes.reshape(-1, len(isolation.bodies), 6)
 
     def response(
         self,
@@ -105,15 +134,17 @@ class MachineOnMounts:
         motion = isolation.displacement(loads, frequency_hz)
         force = isolation.bushing_force(motion, frequency_hz)
         velocity = 2j * np.pi * np.asarray(frequency_hz, dtype=float)[..., None, None] * motion
-        return Response(
-            velocity[..., 0, :], velocity[..., -1, :], force[..., : len(FOOT_NAMES), :3]
-        )
+        feet = force[..., : len(self.stand.names), :3]
+        return Response(velocity[..., 0, :], velocity[..., -1, :], feet)
 
 
 def on_mounts(machine: Machine) -> MachineOnMounts:
     """The bodies of a machine on mounts and springs."""
     foot_height_m = -machine.shell.centre_of_mass_height_m
-    return _kept(machine.housing, machine.mounts, foot_height_m, machine.suspension)
+    return _kept(
+        machine.housing, machine.mounts, foot_height_m, machine.suspension,
+        machine.feet, machine.mount_stiffness, machine.floor or machine.floor_mobility,
+    )  # fmt: skip
 
 
 def largest_foot_force_n(body: MachineOnMounts, tone: Tone) -> float:
@@ -123,14 +154,6 @@ def largest_foot_force_n(body: MachineOnMounts, tone: Tone) -> float:
 
 
 _kept = lru_cache(KEPT_MACHINES)(MachineOnMounts)
-
-
-def _corners(pitch_m: float, height_m: float) -> Array:
-    """Corners of a square in the order of FOOT_NAMES, shape (4, 3), m."""
-    half = pitch_m / 2.0
-    return np.array(
-        [(x, y, height_m) for x, y in ((half, half), (half, -half), (-half, half), (-half, -half))]
-    )
 
 
 def _centre(suspension: Suspension) -> Array:
@@ -144,8 +167,8 @@ def _block(suspension: Suspension) -> RigidBody:
 
 def _suspension_bushings(suspension: Suspension) -> list[Bushing]:
     springs, centre = suspension.springs, _centre(suspension)
-    corners = centre + _corners(springs.pitch_m, suspension.springs_height_m)
-    bushings = _corner_bushings("spring", springs, corners, (BLOCK, SHELL))
+    points = centre + corners(springs.pitch_m, suspension.springs_height_m)
+    bushings = _corner_bushings("spring", springs, points, (BLOCK, SHELL))
     if suspension.discharge_tube is not None:
         bushings.append(_tube_bushing(suspension.discharge_tube, centre))
     return bushings
@@ -157,7 +180,7 @@ def _rigid_body(name: str, body: Housing, centre_of_mass_m: Array) -> RigidBody:
 
 
 def _corner_bushings(
-    name: str, mounts: Mounts, position_m: Array, ends: tuple[str, str | None]
+    name: str, mounts: Mounts, position_m: Array, ends: tuple[str, str]
 ) -> list[Bushing]:
     lateral, vertical = mounts.lateral_stiffness_n_per_m, mounts.vertical_stiffness_n_per_m
     stiffness = np.diag([lateral, lateral, vertical, 0.0, 0.0, 0.0])

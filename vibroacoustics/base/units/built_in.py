@@ -17,9 +17,14 @@ for _unit in (
     Unit("kg_m", "kg m", "kg_m", 1.0),
     Unit("kg_m2", "kg m²", "kg_m2", 1.0),
     Unit("n", "N", "n", 1.0),
+    Unit("kn", "kN", "n", 1e3),
     Unit("n_per_mm", "N/mm", "n_per_m", 1e3),
     Unit("n_per_m", "N/m", "n_per_m", 1.0),
     Unit("ns_per_m", "N s/m", "ns_per_m", 1.0),
+    Unit("m_per_ns", "m/(N s)", "m_per_ns", 1.0),  # of a mobility
+    Unit("mm_per_ns", "mm/(N s)", "m_per_ns", 1e-3),
+    Unit("m_per_n", "m/N", "m_per_n", 1.0),  # of a receptance
+    Unit("um_per_n", "µm/N", "m_per_n", 1e-6),
     Unit("n_per_m1p5", "N/m^1.5", "n_per_m1p5", 1.0),  # of a Hertz contact
     Unit("mm_per_s", "mm/s", "m_per_s", 1e-3),
     Unit("m_per_s", "m/s", "m_per_s", 1.0),

@@ -1,0 +1,88 @@
+"""The table of forces of a machine: its file and what was read from it."""
+
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, ClassVar, Final, Literal
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from ...base.arrays import ComplexArray
+from ...base.errors import ParameterError
+from ...machine.file_table import FileTable
+from .spectra import Spectra, packed, unpacked
+
+KEPT_TABLES: Final = 16
+"""Tables that are kept as arrays."""
+
+
+class Forces(FileTable):
+    """Force and moment on the housing at one or many speeds, from a CSV, netCDF or UFF file."""
+
+    content: ClassVar[str] = "packed"
+    scaling: Literal["inertia"] | None = None
+    """With one speed: every force grows as the speed squared."""
+    recorded_speed_rpm: float | None = Field(default=None, gt=0.0, le=1e5)
+    """Of a recording over time, which does not say it."""
+    speed_rpm: tuple[float, ...] = ()
+    sources: tuple[str, ...] = ()
+    packed: str = ""
+    """Complex orders of what was read, see `spectra.packed`."""
+
+    @classmethod
+    def read(cls, path: Path, given: dict[str, Any]) -> dict[str, Any]:
+        """Spectra of the file, by its ending."""
+        spectra = _read(path, given.get("recorded_speed_rpm"))
+        if not np.any(spectra.orders[..., 1:]):
+            raise ParameterError(f"{path}: all forces and moments are constant")
+        return {
+            "speed_rpm": spectra.speed_rpm,
+            "sources": spectra.sources,
+            "packed": packed(spectra.orders),
+        }
+
+    @model_validator(mode="after")
+    def _scales_one_speed(self) -> "Forces":
+        if self.scaling is not None and len(self.speed_rpm) > 1:
+            raise ValueError(
+                f"scaling = {self.scaling}: for a table of one speed; {self.file} has "
+                f"{len(self.speed_rpm)}"
+            )
+        _spectra(self)  # refuses what was not read from a file
+        return self
+
+    def at(self, speed_rpm: float) -> ComplexArray:
+        """Orders at a speed, shape (source, component, order), N and N m.
+
+        Raises
+        ------
+        ParameterError
+            The table does not reach the speed.
+        """
+        spectra = _spectra(self)
+        if self.scaling is not None:
+            return np.asarray(spectra.orders[0] * (speed_rpm / self.speed_rpm[0]) ** 2)
+        try:
+            return spectra.between(speed_rpm)
+        except ParameterError as error:
+            one = len(self.speed_rpm) == 1
+            hint = '; scaling = "inertia" lets forces grow as the speed squared' if one else ""
+            raise ParameterError(f"{self.file}: {error}{hint}") from None
+
+
+def _read(path: Path, recorded_speed_rpm: Any) -> Spectra:
+    from .csv_layout import read_csv
+    from .other_files import read_recorded, read_results
+
+    if isinstance(recorded_speed_rpm, int | float):
+        return read_recorded(path, float(recorded_speed_rpm))
+    suffix = path.suffix.lower()
+    if suffix == ".csv":
+        return read_csv(path)
+    return read_results(path) if suffix == ".nc" else read_recorded(path, None)
+
+
+@lru_cache(KEPT_TABLES)
+def _spectra(forces: Forces) -> Spectra:
+    orders = unpacked(forces.packed, len(forces.speed_rpm), len(forces.sources))
+    return Spectra(forces.speed_rpm, forces.sources, orders)

@@ -1,0 +1,156 @@
+"""A machine described by a table of its forces, with what options may work on."""
+
+from typing import ClassVar, Final, Literal
+
+from pydantic import Field, model_validator
+
+from ...base.parameters import Parameters
+from ...base.registry import register
+from ...machine.machine import PART_MASS, Machine
+from ...mechanics.capabilities import (
+    HEIGHT,
+    BalancePlanes,
+    Capability,
+    CrankFrame,
+    OldhamRing,
+    Slider,
+)
+from ...mechanics.moving_parts import Revolution, Wrench
+from ...mechanics.rotation import constant_rotation
+from .forces import Forces
+from .spectra import over_revolution
+
+Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
+_UNIT: Final = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+STROKE = Field(gt=0.0, le=1.0)
+
+
+class SlidingMass(Parameters):
+    """A mass that slides to and fro with the crank."""
+
+    mass_kg: float = PART_MASS
+    amplitude_m: float = STROKE
+    """Half its stroke."""
+    height_m: float = HEIGHT
+    """Along the shaft, from the origin of the shaft's axes."""
+
+
+class Ring(Parameters):
+    """An Oldham ring; its stroke is along x."""
+
+    mass_kg: float = PART_MASS
+    amplitude_m: float = STROKE
+    """Half its stroke."""
+    height_m: float = HEIGHT
+
+
+class ShaftAxes(Parameters):
+    """Where the shaft is: crank angle counts from the stroke, positive about the shaft."""
+
+    stroke: Axis = "x"
+    shaft: Axis = "z"
+    x_m: float = Field(default=0.0, ge=-2.0, le=2.0)
+    y_m: float = Field(default=0.0, ge=-2.0, le=2.0)
+    z_m: float = Field(default=0.0, ge=-2.0, le=2.0)
+    """A point of the shaft, from the centre of mass at rest."""
+
+    @model_validator(mode="after")
+    def _across(self) -> "ShaftAxes":
+        if self.stroke[-1] == self.shaft[-1]:
+            raise ValueError(f"stroke = {self.stroke}: must be across the shaft, {self.shaft}")
+        return self
+
+    @property
+    def frame(self) -> CrankFrame:
+        """Axes of stroke and shaft."""
+        shaft, stroke = _vector(self.shaft), _vector(self.stroke)
+        across = (
+            shaft[1] * stroke[2] - shaft[2] * stroke[1],
+            shaft[2] * stroke[0] - shaft[0] * stroke[2],
+            shaft[0] * stroke[1] - shaft[1] * stroke[0],
+        )
+        return CrankFrame(stroke, across, shaft, (self.x_m, self.y_m, self.z_m))
+
+
+@register
+class TabulatedMachine(Machine):
+    """Force and moment come from a file; the shaft turns at constant speed."""
+
+    kind: ClassVar[str] = "table"
+    orders: ClassVar[str] = "Orders are those of the machine's table of forces."
+    reads: ClassVar[frozenset[str]] = Machine.reads | {
+        "shaft_axes", "sliding_mass", "oldham", "counterweights",
+    }  # fmt: skip
+    forces: Forces
+    shaft_axes: ShaftAxes | None = None
+    """Stroke along x, shaft along z through the centre of mass where there are none."""
+    sliding_mass: SlidingMass | None = None
+    """For options that balance it."""
+    oldham: Ring | None = None
+    """For options that hang on it."""
+    counterweights: BalancePlanes | None = None
+    """Where weights can sit on the shaft."""
+
+    @model_validator(mode="after")
+    def _slides_with_planes(self) -> "TabulatedMachine":
+        if self.sliding_mass is not None and self.counterweights is None:
+            raise ValueError("sliding_mass: needs the table counterweights")
+        return self
+
+    @property
+    def crank_frame(self) -> CrankFrame:
+        """Axes of stroke and shaft."""
+        return (self.shaft_axes or UPRIGHT_AXES).frame
+
+    @property
+    def capabilities(self) -> tuple[Capability, ...]:
+        """What the tables name for options to work on."""
+        named: list[Capability] = []
+        if self.sliding_mass is not None and self.counterweights is not None:
+            mass = self.sliding_mass
+            named.append(
+                Slider(mass.mass_kg, mass.amplitude_m, mass.height_m, self.counterweights,
+                       self.crank_frame)
+            )  # fmt: skip
+        if self.oldham is not None:
+            ring = self.oldham
+            named.append(OldhamRing(ring.mass_kg, ring.amplitude_m, ring.height_m))
+        return tuple(named)
+
+    def revolution(self, speed_rpm: float, samples: int) -> Revolution:
+        """Forces and moments of the table at a speed; the shaft turns evenly.
+
+        Parameters
+        ----------
+        speed_rpm : that the table reaches
+        samples : uniform crank angles
+
+        Raises
+        ------
+        ParameterError
+            The table does not reach the speed.
+        """
+        values = over_revolution(self.forces.at(speed_rpm), samples)
+        wrenches = {
+            source: Wrench(each[:3], each[3:])
+            for source, each in zip(self.forces.sources, values, strict=True)
+        }
+        return Revolution(speed_rpm, constant_rotation(speed_rpm, samples), wrenches)
+
+    def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
+        """What a table leaves out."""
+        return _LEAVES_OUT
+
+
+def _vector(axis: Axis) -> tuple[float, float, float]:
+    x, y, z = _UNIT[axis[-1]]
+    sign = -1.0 if axis[0] == "-" else 1.0
+    return sign * x, sign * y, sign * z
+
+
+UPRIGHT_AXES: Final = ShaftAxes()
+_LEAVES_OUT: Final = (
+    "Forces and moments are those of a table: what makes them is not modelled, nor what would "
+    "change them but speed. Between the table's speeds each complex order is linear in the speed "
+    "squared. The shaft turns evenly.",
+)

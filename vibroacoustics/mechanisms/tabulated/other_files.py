@@ -1,0 +1,114 @@
+"""Forces from results of a run and from recordings, such as UFF files."""
+
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+from ...base.arrays import Array, ComplexArray
+from ...base.errors import ParameterError, StorageError
+from ...base.units import shaft_frequency_hz
+from ...base.vocabulary import REFERENCE_OPTION
+from .csv_layout import ONE_SOURCE
+from .spectra import COMPONENTS, Spectra, orders_of
+
+MISSED_REVOLUTION: Final = 1e-3
+"""Largest part of a revolution by which a recording misses whole ones."""
+
+
+def read_results(path: Path) -> Spectra:
+    """Orders of force and moment without an option, from the results of a run, `results.nc`.
+
+    Raises
+    ------
+    ParameterError
+        The file is none, or has no forces.
+    """
+    import xarray as xr
+
+    try:
+        with xr.open_dataset(path, engine="netcdf4") as file:
+            none = file.sel(option=REFERENCE_OPTION)
+            parts = [_joined(none, name) for name in ("force_order", "moment_order")]
+            speeds = tuple(float(speed) for speed in file["speed"].values)
+            sources = tuple(str(source) for source in file["source"].values)
+    except FileNotFoundError:
+        raise ParameterError(f"{path}: no such file") from None
+    except (KeyError, OSError, ValueError):
+        raise ParameterError(f"{path}: holds no force_order and moment_order of a run") from None
+    orders = np.concatenate(parts, axis=2)
+    rising = np.argsort(speeds)
+    acting = np.flatnonzero(np.any(orders, axis=(0, 2, 3)))
+    return Spectra(
+        tuple(speeds[at] for at in rising),
+        tuple(sources[at] for at in acting),
+        orders[rising][:, acting],
+    )
+
+
+def _joined(file, name: str) -> ComplexArray:  # type: ignore[no-untyped-def]
+    """A complex variable of which the file holds both parts, (speed, source, axis, order)."""
+    dims = ("speed", "source", "axis", "order")
+    real, imaginary = (
+        file[f"{name}_{part}"].transpose(*dims).fillna(0.0).values for part in ("re", "im")
+    )
+    return np.asarray(real + 1j * imaginary)
+
+
+def read_recorded(path: Path, speed_rpm: float | None) -> Spectra:
+    """Force and moment over time of whole revolutions, channels `SOURCE fx` to `SOURCE mz`.
+
+    Channels that the file does not have are zero. Several revolutions are averaged.
+
+    Parameters
+    ----------
+    path : UFF, or any other file that `read_recording` reads
+    speed_rpm : at which it was recorded
+
+    Raises
+    ------
+    ParameterError
+        The speed is missing, a channel has another name or unit, the revolutions are not whole.
+    """
+    from ...recordings import read_recording
+
+    if speed_rpm is None:
+        raise ParameterError(f"{path}: recorded_speed_rpm is missing, at which it was recorded")
+    try:
+        recording = read_recording(path)
+    except StorageError as error:
+        raise ParameterError(*error.args) from None
+    signal, rate_hz = recording["signal"], float(recording.attrs["sample_rate_hz"])
+    units = [str(unit) for unit in signal["channel_unit"].values]
+    revolutions = _revolutions(path, signal.sizes["time"] / rate_hz, speed_rpm)
+    by_source: dict[str, dict[str, Array]] = {}
+    for name, unit, samples in zip(signal["channel"].values, units, signal.values, strict=True):
+        source, component = _meant(path, str(name), unit)
+        by_source.setdefault(source, {})[component] = samples
+    still = np.zeros(signal.sizes["time"])
+    over_time = np.array(
+        [[parts.get(name, still) for name in COMPONENTS] for parts in by_source.values()]
+    )
+    orders = orders_of(over_time)[None, ..., ::revolutions]
+    return Spectra((speed_rpm,), tuple(by_source), orders)
+
+
+def _revolutions(path: Path, duration_s: float, speed_rpm: float) -> int:
+    turns = duration_s * shaft_frequency_hz(speed_rpm)
+    if round(turns) < 1 or abs(turns - round(turns)) > MISSED_REVOLUTION:
+        raise ParameterError(
+            f"{path}: {turns:.6g} revolutions at {speed_rpm:g} rpm: must be whole ones"
+        )
+    return round(turns)
+
+
+def _meant(path: Path, channel: str, unit: str) -> tuple[str, str]:
+    """Source and component of a channel."""
+    source, _, component = channel.replace("_", " ").rpartition(" ")
+    component = component.lower()
+    needed = "N" if component[:1] == "f" else "N m"
+    if component not in COMPONENTS or unit != needed:
+        raise ParameterError(
+            f"{path}: channel {channel} [{unit}]: must be SOURCE fx, fy, fz [N], mx, my, mz [N m]"
+        )
+    return source.replace(" ", "_") or ONE_SOURCE, component
