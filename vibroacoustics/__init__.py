@@ -19,6 +19,8 @@ also of a machine alone, from `load_machine(path)`.
 `label_recording(...)` labels samples as one.
 `export_recording(recording, path)` writes it as CSV, WAV or netCDF.
 `read_modes(path)` reads measured modes of a structure.
+`read_functions(path)` reads frequency responses and spectra, each a `MeasuredFunction` between two
+`Node`s; `export_functions(functions, path)` writes them as UFF or CSV.
 `analyse_orders(recording, settings)` finds orders and levels; settings are an `OrderAnalysis`.
 `track_orders(recording, ...)` follows orders over time (Vold-Kalman).
 `speed_frequency_map(recording, ...)` gives spectra over speed and frequency (Campbell).
@@ -64,7 +66,7 @@ if TYPE_CHECKING:
     from .base.registry import register
     from .base.units import Unit
     from .base.vocabulary import Coordinate, Variable, check, stamp
-    from .commands.exporting import export_recording
+    from .commands.exporting import export_functions, export_recording
     from .commands.outputs import write_report
     from .machine.machine import Machine
     from .machine.option import Option
@@ -88,7 +90,15 @@ if TYPE_CHECKING:
         track_orders,
     )
     from .radiation.given import given_radiation
-    from .recordings import label_recording, open_recording, read_modes, read_recording
+    from .recordings import (
+        MeasuredFunction,
+        Node,
+        label_recording,
+        open_recording,
+        read_functions,
+        read_modes,
+        read_recording,
+    )
     from .recordings.reader import Reader
     from .recordings.recorded import Recorded, Request
     from .report import blocks
@@ -117,7 +127,9 @@ __all__ = [
     "Limit",
     "Loads",
     "Machine",
+    "MeasuredFunction",
     "MovingPart",
+    "Node",
     "NominalSpeed",
     "OldhamRing",
     "Option",
@@ -149,6 +161,7 @@ __all__ = [
     "compare",
     "constant_rotation",
     "curves",
+    "export_functions",
     "export_recording",
     "given_radiation",
     "label_recording",
@@ -161,6 +174,7 @@ __all__ = [
     "orders",
     "plot",
     "radiate",
+    "read_functions",
     "read_limits",
     "read_modes",
     "read_recording",
@@ -185,7 +199,9 @@ _HOME = {
     "Limit": "results.limit",
     "Loads": "mechanics.loads",
     "Machine": "machine.machine",
+    "MeasuredFunction": "recordings",
     "MovingPart": "mechanics.moving_parts",
+    "Node": "recordings",
     "NominalSpeed": "study.order_analysis",
     "OldhamRing": "mechanics.capabilities",
     "Option": "machine.option",
@@ -216,6 +232,7 @@ _HOME = {
     "compare": "results.order_comparison",
     "constant_rotation": "mechanics.rotation",
     "curves": "sources.curves",
+    "export_functions": "commands.exporting",
     "export_recording": "commands.exporting",
     "given_radiation": "radiation.given",
     "label_recording": "recordings",
@@ -225,6 +242,7 @@ _HOME = {
     "load_study": "study.loading",
     "open_results": "results.storage",
     "radiate": "pipeline",
+    "read_functions": "recordings",
     "read_limits": "results.limits_file",
     "read_modes": "recordings",
     "read_recording": "recordings",
