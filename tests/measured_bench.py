@@ -8,6 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+import vibroacoustics as va
+
 POINTS, MICROPHONES = 8, 2
 STIFFNESS = 2.0e5 * (1.0 + 0.1j)
 CORNERS = np.array([(-0.12, -0.1), (0.12, -0.1), (0.12, 0.1), (-0.12, 0.1)])
@@ -49,7 +51,7 @@ def state(frequency, stiffness):
     shapes[4:, 3:] = plate
     mass = np.array([*BODY, *[PANEL[3]] * own.size])
     elastic = np.array([0.0, 0.0, 0.0, *own**2 * (1.0 + 0.03j)]) * mass
-    sound = rng.normal(size=(2, 43)) + 1j * rng.normal(size=(2, 43))
+    sound = 0.01 * (rng.normal(size=(2, 43)) + 1j * rng.normal(size=(2, 43)))
     sound[:, :3] *= 0.02
     load = np.zeros((omega.size, 43, 1), complex)
     load[:, :3, 0] = np.exp(2j * np.pi * rng.random((omega.size, 3))) * [40.0, 3.0, 4.0]
@@ -93,3 +95,92 @@ def noisy(values, share, rng):
     """Complex values with a relative error of this RMS."""
     error = rng.normal(size=values.shape) + 1j * rng.normal(size=values.shape)
     return values * (1.0 + share * error / np.sqrt(2.0))
+
+
+FREQUENCY = np.arange(20.0, 821.0, 8.0)
+AS_MEASURED = between(mounts(), [STIFFNESS] * 4, FREQUENCY)
+NODES = [va.Node(number, "+z") for number in (1, 2, 3, 4, 11, 12, 13, 14)]
+RECEIVERS = [va.Node(101), va.Node(102)]
+HEAD = """
+title = "Bench"
+
+[measured]
+frequency_responses = {responses}
+operating = {operating}
+{quality}
+
+[measured.points]
+machine_1 = {{ node = 1, direction = "+z" }}
+machine_2 = {{ node = 2, direction = "+z" }}
+machine_3 = {{ node = 3, direction = "+z" }}
+machine_4 = {{ node = 4, direction = "+z" }}
+panel_1 = {{ node = 11, direction = "+z" }}
+panel_2 = {{ node = 12, direction = "+z" }}
+panel_3 = {{ node = 13, direction = "+z" }}
+panel_4 = {{ node = 14, direction = "+z" }}
+
+[measured.microphones]
+front = {{ node = 101 }}
+left = {{ node = 102 }}
+
+[mounts.one]
+ends = ["machine_1", "panel_1"]
+stiffness_n_per_mm = 200.0
+loss_factor_percent = 10.0
+
+[mounts.two]
+ends = ["machine_2", "panel_2"]
+stiffness_n_per_mm = 200.0
+loss_factor_percent = 10.0
+
+[mounts.three]
+ends = ["machine_3", "panel_3"]
+stiffness_n_per_mm = 200.0
+loss_factor_percent = 10.0
+
+[mounts.four]
+ends = ["machine_4", "panel_4"]
+stiffness_n_per_mm = 200.0
+loss_factor_percent = 10.0
+"""
+
+
+def responses(measured, unit="m/s²"):
+    """Frequency responses of a state as functions: points in a unit, microphones in Pa."""
+    made = []
+    for row, response in enumerate([*NODES, *RECEIVERS]):
+        for column, reference in enumerate(NODES):
+            made.append(
+                va.MeasuredFunction(
+                    "frequency response", FREQUENCY, measured.frf[:, row, column], response,
+                    reference, "m" if row < POINTS else "Pa", "N",
+                )
+            )  # fmt: skip
+    return [function.with_response_in(unit) if function.response.direction else function
+            for function in made]  # fmt: skip
+
+
+def spectra(measured, unit="m/s²"):
+    """Operating spectra, peak."""
+    made = [
+        va.MeasuredFunction(
+            "spectrum",
+            FREQUENCY,
+            measured.running[:, row],
+            node,
+            None,
+            "m" if row < POINTS else "Pa",
+        )
+        for row, node in enumerate([*NODES, *RECEIVERS])
+    ]
+    return [function.with_response_in(unit) if function.response.direction else function
+            for function in made]  # fmt: skip
+
+
+def write(folder, changes, measured, quality="relative_error_percent = 3.0\ndraws = 50", **files):
+    """Files of a state and the file for `predict`; returns the latter."""
+    va.export_functions(responses(measured), folder / "hammer.uff")
+    va.export_functions(spectra(measured), folder / "running.csv")
+    names = {"responses": '["hammer.uff"]', "operating": '["running.csv"]'} | files
+    (folder / "bench.toml").write_text(HEAD.format(**names, quality=quality) + changes)
+    return folder / "bench.toml"

@@ -29,6 +29,10 @@ also of a machine alone, from `load_machine(path)`.
 `check_limits(results, limits)` holds orders of a recording, a study or a comparison against them.
 `SpeedChannel`, `NominalSpeed`, `TacholessSpeed` say where the speed comes from.
 
+**Measurements alone.**
+`predict(path)` predicts levels after a change of mounts, an added mass or an absorber, with a band;
+`changed_response(...)` is its formula for arrays.
+
 **Figures and arrays.**
 `plot` has every figure as a function that returns a matplotlib Figure.
 `orders` and `levels` have the steps of an analysis as functions of arrays.
@@ -71,6 +75,8 @@ if TYPE_CHECKING:
     from .machine.machine import Machine
     from .machine.option import Option
     from .machine.source import Case, Source
+    from .measured.change import changed_response
+    from .measured.prediction import predict
     from .mechanics.added import Added
     from .mechanics.capabilities import OldhamRing, Slider
     from .mechanics.loads import Loads
@@ -155,6 +161,7 @@ __all__ = [
     "Wrench",
     "analyse_orders",
     "blocks",
+    "changed_response",
     "check",
     "check_limits",
     "circling",
@@ -173,6 +180,7 @@ __all__ = [
     "open_results",
     "orders",
     "plot",
+    "predict",
     "radiate",
     "read_functions",
     "read_limits",
@@ -226,6 +234,7 @@ _HOME = {
     "VibroacousticsError": "base.errors",
     "Wrench": "mechanics.moving_parts",
     "analyse_orders": "pipeline",
+    "changed_response": "measured.change",
     "check": "base.vocabulary",
     "check_limits": "results.order_limits",
     "circling": "mechanics.moving_parts",
@@ -241,6 +250,7 @@ _HOME = {
     "load_plugin": "base.plugin_file",
     "load_study": "study.loading",
     "open_results": "results.storage",
+    "predict": "measured.prediction",
     "radiate": "pipeline",
     "read_functions": "recordings",
     "read_limits": "results.limits_file",

@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
+from ..base.errors import SolverError
 
 
 def changed_response(
@@ -34,6 +35,22 @@ def changed_response(
     Returns
     -------
     p', shape (frequency, receiver)
+
+    Raises
+    ------
+    SolverError
+        The changed structure resonates without damping at a frequency.
+
+    Examples
+    --------
+    A spring is halved, of which a mass of 1 kg hangs: F / k is doubled far below resonance.
+
+    >>> k, omega = 4.0e4, 2.0
+    >>> y = np.full((1, 1, 1), 1.0 / (k - omega**2) + 0j)
+    >>> change = np.full((1, 1, 1), -k / 2.0 + 0j)
+    >>> after = va.changed_response(y[0], y, y, y[0], change)
+    >>> round(abs(after / y[0]).item(), 3)
+    2.0
     """
     matrix = np.eye(elongation.shape[-1]) + stiffness_change @ compliance
     force = (stiffness_change @ elongation[..., None])[..., 0]
@@ -44,7 +61,10 @@ def changed_response(
 def _solve(matrix: ComplexArray, right: ComplexArray, truncation: float) -> ComplexArray:
     """Solution of each system, of its larger singular values alone where some are left out."""
     if truncation == 0.0:
-        return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0])
+        try:
+            return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0])
+        except np.linalg.LinAlgError:
+            raise SolverError("the changed structure resonates without damping") from None
     left, sizes, rows = np.linalg.svd(matrix)
     kept = sizes > truncation * sizes[..., :1]
     inverse = np.where(kept, 1.0 / np.where(kept, sizes, 1.0), 0.0)

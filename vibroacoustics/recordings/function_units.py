@@ -29,12 +29,13 @@ def ratio(text: str) -> Units | None:
 
 def product(text: str) -> Units | None:
     """`Pa*N` or `(m/s²)²` as units of a mean square; None where it is neither."""
-    first, star, second = text.strip().partition("*")
-    square = _SQUARE.fullmatch(text.strip())
-    if square is not None and find_quantity(text) is None:
+    if "*" in text:
+        first, _, second = text.partition("*")
+    else:
+        square = _SQUARE.fullmatch(text.strip())
+        if square is None or find_quantity(text) is not None:
+            return None
         first = second = square["unit"]
-    elif not star:
-        return None
     one, other = _known(first), _known(second)
     return one and other and Units(one.unit, other.unit, one.factor * other.factor)
 

@@ -24,6 +24,10 @@ OTHERS = [
         "N", "N",
     ),
     va.MeasuredFunction(
+        "auto spectrum", FREQUENCY, abs(VALUES) + 0j, va.Node(4, "+x"), va.Node(4, "+x"),
+        "m/s²", "m/s²",
+    ),
+    va.MeasuredFunction(
         "cross spectrum", FREQUENCY, VALUES, va.Node(101), va.Node(3, "+x"), "Pa", "m/s"
     ),
 ]  # fmt: skip
@@ -126,8 +130,18 @@ def test_what_is_wrong_in_a_universal_file_is_one_line(tmp_path, other, words):
     assert "\n" not in str(told.value)
 
 
+@pytest.mark.parametrize(
+    ("unit", "factor"), [("Pa²", 1.0), ("(mm/s)^2", 1e-6), ("Pa*mPa", 1e-3), ("m/s²*m/s²", 1.0)]
+)
+def test_units_of_mean_squares(tmp_path, unit, factor):
+    (tmp_path / "a.csv").write_text(f"frequency [Hz],5 real [{unit}]\n10,1\n20,2\n")
+    (read,) = va.read_functions(tmp_path / "a.csv")
+    assert read.kind == "auto spectrum"
+    np.testing.assert_allclose(read.values, np.array([1.0, 2.0]) * factor, rtol=1e-14)
+
+
 def test_a_missing_unit_is_given_by_quantity(tmp_path):
-    file = by_pyuff(tmp_path, ordinate_axis_units_lab="NONE")
+    file = by_pyuff(tmp_path, binary=1, ordinate_axis_units_lab="NONE")
     (read,) = va.read_functions(file, units={"acceleration": "g"})
     np.testing.assert_allclose(read.values, 9.80665 * VALUES, rtol=1e-12)
     with pytest.raises(va.ParameterError, match="acceleration = 'mm': is no quantity with"):
@@ -136,7 +150,7 @@ def test_a_missing_unit_is_given_by_quantity(tmp_path):
 
 def test_a_ratio_in_one_label_and_other_units(tmp_path):
     file = by_pyuff(
-        tmp_path, ordinate_axis_units_lab="(mm/s)/kN", ordinate_spec_data_type=11,
+        tmp_path, binary=1, ordinate_axis_units_lab="(mm/s)/kN", ordinate_spec_data_type=11,
         orddenom_axis_units_lab="NONE", orddenom_spec_data_type=0,
     )  # fmt: skip
     (read,) = va.read_functions(file)
@@ -204,5 +218,5 @@ def test_a_function_is_refused_that_cannot_be():
                   {"kind": "wavelet"}, {"reference": None}):  # fmt: skip
         with pytest.raises(va.ParameterError):
             replace(ONE, **other)
-    with pytest.raises(va.ParameterError, match="direction '.w': must be one of"):
+    with pytest.raises(va.ParameterError, match=r"direction '.w': must be one of"):
         va.Node(3, "+w")
