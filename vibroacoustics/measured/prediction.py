@@ -54,7 +54,7 @@ def predict(path: str | Path) -> xr.Dataset:
     --------
     >>> predicted = va.predict("bench/bench.toml")
     >>> predicted["predicted_total_change"].sel(option="softer", weighting="A").round(1).values
-    array([-6.])
+    array([-3.8, -3.7])
     """
     path = Path(path)
     settings = load_prediction(path)
