@@ -2,8 +2,8 @@
 Softer mounts, from measurements alone
 ======================================
 
-A compressor stands on two mounts on a plate. How loud would it be on softer ones, with a mass on the
-plate, or with an absorber? Neither the source nor the plate is modelled: hammer tests and one
+A compressor stands on two mounts on a plate. How loud would it be on softer ones, with a mass on
+the plate, or with an absorber? Neither the source nor the plate is modelled: hammer tests and one
 recording of the running machine are enough. The formula, files and units:
 :doc:`/measured_changes`.
 """
@@ -34,7 +34,7 @@ own = np.r_[0.0, 0.0, 2.0 * np.pi * 14.0 * mode**2]
 plate = np.sin(np.pi * np.outer([0.33, 0.62], mode))
 shape = np.block([[np.array([[1.0, -0.15], [1.0, 0.15]]), np.zeros((2, 15))],
                   [np.zeros((2, 2)), plate]])  # fmt: skip
-sound = 0.02 * random.standard_normal(17) * np.r_[0.1, 0.1, np.ones(15)]
+sound = 0.02 * random.standard_normal(17) * np.r_[0.01, 0.01, np.ones(15)]
 load = np.zeros((frequency.size, 17, 1), complex)
 load[:, :2, 0] = [30.0, 3.0] * np.exp(2j * np.pi * random.random((frequency.size, 2)))
 mounts = np.hstack([np.eye(2), -np.eye(2)])
