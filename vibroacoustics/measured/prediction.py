@@ -23,7 +23,7 @@ from .variables import line_variables, total_variables
 
 RANDOM_STATE: Final = 19
 """Draws are the same in every run."""
-DRAWS_OF_TRUNCATION: Final = 20
+DRAWS_OF_TRUNCATION: Final = 10
 
 
 def predict(path: str | Path) -> xr.Dataset:

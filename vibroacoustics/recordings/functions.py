@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
-from ..base.errors import ParameterError
+from ..base.errors import ParameterError, StorageError
 from .asked import check_file, naming_file
 from .quantities import QUANTITIES, quantity
 
@@ -27,6 +27,8 @@ DIRECTIONS: Final = {0: ""} | {
     for sign in (1, -1)
 }
 """Directions of dataset 58, record 6: none of a scalar, along `+x`, about `+rx`, and so on."""
+MAXIMUM_BYTES: Final = 2**28
+"""Of a file, which is read as a whole."""
 DERIVATIVES: Final = {"m": 0, "m/s": 1, "m/s²": 2}
 """How often a displacement is derived by time, by its unit."""
 
@@ -185,6 +187,8 @@ def read_functions(
     readers = {".uff": read_uff, ".unv": read_uff, ".csv": read_csv, ".txt": read_csv}
     with naming_file(path):
         check_file(path, list(readers))
+        if path.stat().st_size > MAXIMUM_BYTES:
+            raise StorageError(f"has more than {MAXIMUM_BYTES / 2**20:g} MiB: take it apart")
         given = dict(units or {})
         kinds = {known.kind for known in QUANTITIES.values()}
         for kind, unit in given.items():

@@ -54,9 +54,9 @@ def _function(
     where = f"function {number}, {kind}"
     try:
         response = _node(header.records[5][41:55], "response")
-        reference = None if kind == "spectrum" else _node(header.records[5][66:80], "reference")
-        if kind == "auto spectrum":
-            reference = response
+        reference = response if kind == "auto spectrum" else None
+        if kind not in ("auto spectrum", "spectrum"):
+            reference = _node(header.records[5][66:80], "reference")
         where = f"{where} {response}" if reference is None else f"{where} {response}/{reference}"
         unit = _units(header, kind, units)
         values, abscissa = ordinates(file, header)
