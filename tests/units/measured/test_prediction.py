@@ -182,6 +182,12 @@ def test_cross_and_auto_spectra_stand_for_spectra(tmp_path, exact):
     np.testing.assert_allclose(predicted, exact["predicted_level"].sel(option="halved"), atol=1e-9)
 
 
+def test_without_an_error_there_is_no_band(tmp_path):
+    quality = "relative_error_percent = 0.0\ndraws = 50"
+    predicted = va.predict(write(tmp_path, HALVED, BEFORE, quality))
+    np.testing.assert_allclose(predicted["predicted_level_high"], predicted["predicted_level_low"])
+
+
 def test_repeats_and_coherence_give_the_error(tmp_path):
     """Five repeats of 3 % make a mean of 1.3 %; a coherence of 0.99 over 40 averages 1.6 %."""
     file = write(tmp_path, HALVED, BEFORE, "operating_averages = 40\ndraws = 50")

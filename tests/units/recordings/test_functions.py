@@ -1,5 +1,6 @@
 """Functions between nodes: UFF 58 and 58b, CSV, units, nodes and directions."""
 
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -220,3 +221,18 @@ def test_a_function_is_refused_that_cannot_be():
             replace(ONE, **other)
     with pytest.raises(va.ParameterError, match=r"direction '.w': must be one of"):
         va.Node(3, "+w")
+
+
+@pytest.mark.parametrize(
+    ("name", "form"), [("a.uff", {}), ("a.uff", {"text": True}), ("a.csv", {})]
+)
+def test_a_damaged_file_is_read_or_refused(tmp_path, name, form):
+    file = va.export_functions([ONE, COHERENCE], tmp_path / name, **form)
+    content, rng = file.read_bytes(), np.random.default_rng(6)
+    for _ in range(40):
+        damaged = bytearray(content[: rng.integers(1, 2 * len(content))])
+        for at in rng.integers(0, len(damaged), 3):
+            damaged[at] = rng.integers(256)
+        file.write_bytes(damaged)
+        with suppress(va.VibroacousticsError):
+            va.read_functions(file)
