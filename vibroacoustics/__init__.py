@@ -20,6 +20,8 @@ also of a machine alone, from `load_machine(path)`.
 `label_recording(...)` labels samples as one.
 `export_recording(recording, path)` writes it as CSV, WAV or netCDF.
 `read_modes(path)` reads measured modes of a structure.
+`read_functions(path)` reads frequency responses and spectra, each a `MeasuredFunction` between two
+`Node`s; `export_functions(functions, path)` writes them as UFF or CSV.
 `analyse_orders(recording, settings)` finds orders and levels; settings are an `OrderAnalysis`.
 `track_orders(recording, ...)` follows orders over time (Vold-Kalman).
 `speed_frequency_map(recording, ...)` gives spectra over speed and frequency (Campbell).
@@ -27,6 +29,10 @@ also of a machine alone, from `load_machine(path)`.
 `read_limits(path)` reads limits of orders, each a `Limit`.
 `check_limits(results, limits)` holds orders of a recording, a study or a comparison against them.
 `SpeedChannel`, `NominalSpeed`, `TacholessSpeed` say where the speed comes from.
+
+**Measurements alone.**
+`predict(path)` predicts levels after a change of mounts, an added mass or an absorber, with a band;
+`changed_response(...)` is its formula for arrays.
 
 **Figures and arrays.**
 `plot` has every figure as a function that returns a matplotlib Figure.
@@ -65,11 +71,13 @@ if TYPE_CHECKING:
     from .base.registry import register
     from .base.units import Unit
     from .base.vocabulary import Coordinate, Variable, check, stamp
-    from .commands.exporting import export_forces, export_recording
+    from .commands.exporting import export_forces, export_functions, export_recording
     from .commands.outputs import write_report
     from .machine.machine import Machine
     from .machine.option import Option
     from .machine.source import Case, Source
+    from .measured.change import changed_response
+    from .measured.prediction import predict
     from .mechanics.added import Added
     from .mechanics.capabilities import OldhamRing, Slider
     from .mechanics.loads import Loads
@@ -89,7 +97,15 @@ if TYPE_CHECKING:
         track_orders,
     )
     from .radiation.given import given_radiation
-    from .recordings import label_recording, open_recording, read_modes, read_recording
+    from .recordings import (
+        MeasuredFunction,
+        Node,
+        label_recording,
+        open_recording,
+        read_functions,
+        read_modes,
+        read_recording,
+    )
     from .recordings.reader import Reader
     from .recordings.recorded import Recorded, Request
     from .report import blocks
@@ -118,7 +134,9 @@ __all__ = [
     "Limit",
     "Loads",
     "Machine",
+    "MeasuredFunction",
     "MovingPart",
+    "Node",
     "NominalSpeed",
     "OldhamRing",
     "Option",
@@ -144,6 +162,7 @@ __all__ = [
     "Wrench",
     "analyse_orders",
     "blocks",
+    "changed_response",
     "check",
     "check_limits",
     "circling",
@@ -151,6 +170,7 @@ __all__ = [
     "constant_rotation",
     "curves",
     "export_forces",
+    "export_functions",
     "export_recording",
     "given_radiation",
     "label_recording",
@@ -162,7 +182,9 @@ __all__ = [
     "open_results",
     "orders",
     "plot",
+    "predict",
     "radiate",
+    "read_functions",
     "read_limits",
     "read_modes",
     "read_recording",
@@ -187,7 +209,9 @@ _HOME = {
     "Limit": "results.limit",
     "Loads": "mechanics.loads",
     "Machine": "machine.machine",
+    "MeasuredFunction": "recordings",
     "MovingPart": "mechanics.moving_parts",
+    "Node": "recordings",
     "NominalSpeed": "study.order_analysis",
     "OldhamRing": "mechanics.capabilities",
     "Option": "machine.option",
@@ -212,6 +236,7 @@ _HOME = {
     "VibroacousticsError": "base.errors",
     "Wrench": "mechanics.moving_parts",
     "analyse_orders": "pipeline",
+    "changed_response": "measured.change",
     "check": "base.vocabulary",
     "check_limits": "results.order_limits",
     "circling": "mechanics.moving_parts",
@@ -219,6 +244,7 @@ _HOME = {
     "constant_rotation": "mechanics.rotation",
     "curves": "sources.curves",
     "export_forces": "commands.exporting",
+    "export_functions": "commands.exporting",
     "export_recording": "commands.exporting",
     "given_radiation": "radiation.given",
     "label_recording": "recordings",
@@ -227,7 +253,9 @@ _HOME = {
     "load_plugin": "base.plugin_file",
     "load_study": "study.loading",
     "open_results": "results.storage",
+    "predict": "measured.prediction",
     "radiate": "pipeline",
+    "read_functions": "recordings",
     "read_limits": "results.limits_file",
     "read_modes": "recordings",
     "read_recording": "recordings",

@@ -18,7 +18,7 @@ Of `analyse_orders`: `order_spectrum`, `orders_over_speed`, `order_map`.
 Of `speed_frequency_map`: `speed_frequency_map`, `run_up_levels`. Of `track_orders`:
 `tracked_orders`.
 
-Of `compare`: `compared_orders`. Of `curves`: `curves`.
+Of `compare`: `compared_orders`. Of `curves`: `curves`. Of `predict`: `predicted_levels`.
 """
 
 from .report.figures.compared_orders import compared_orders
@@ -28,6 +28,7 @@ from .report.figures.forces import force_over_revolution
 from .report.figures.maps import line_map, unit_level_map
 from .report.figures.mounts import mount_transmissibility
 from .report.figures.orders import foot_force_orders, force_orders, level_orders
+from .report.figures.prediction import predicted_levels
 from .report.figures.radiation import green_difference, levels, transfer
 from .report.figures.recorded_maps import run_up_levels, speed_frequency_map, tracked_orders
 from .report.figures.recorded_orders import order_map, order_spectrum, orders_over_speed
@@ -52,6 +53,7 @@ __all__ = [
     "order_map",
     "order_spectrum",
     "orders_over_speed",
+    "predicted_levels",
     "rank_acceptability",
     "run_up_levels",
     "scores",

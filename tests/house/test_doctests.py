@@ -10,6 +10,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+import measured_bench
 import numpy as np
 import pytest
 import pyuff
@@ -53,7 +54,18 @@ def workplace(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for name, dataset in datasets.items():
         storage.write_results(dataset, folder / name)
     _write_modes(folder / "modes.uff")
+    storage.write_results(_predicted(folder / "bench"), folder / "prediction.nc")
     return folder
+
+
+def _predicted(folder: Path) -> xr.Dataset:
+    folder.mkdir()
+    softer = "".join(
+        f"[changes.softer.mounts.{name}]\nstiffness_n_per_mm = 100.0\nloss_factor_percent = 10.0\n"
+        for name in ("one", "two", "three", "four")
+    )
+    before = measured_bench.state(measured_bench.FREQUENCY, measured_bench.AS_MEASURED)
+    return va.predict(measured_bench.write(folder, softer, before))
 
 
 def _differences(results: xr.Dataset) -> xr.Dataset:

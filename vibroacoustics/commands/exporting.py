@@ -1,6 +1,6 @@
-"""Recordings written for other tools."""
+"""Recordings and functions of frequency written for other tools."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Final
 
@@ -9,7 +9,7 @@ import xarray as xr
 from ..base.errors import ParameterError
 from ..base.vocabulary import REFERENCE_OPTION
 from ..mechanisms.tabulated.csv_layout import forces_csv
-from ..recordings import csv_bytes, wav_bytes
+from ..recordings import MeasuredFunction, csv_bytes, functions_csv, functions_uff, wav_bytes
 from ..results import files, storage
 
 FORMATS: Final[dict[str, Callable[[xr.Dataset], bytes]]] = {".csv": csv_bytes, ".wav": wav_bytes}
@@ -58,6 +58,53 @@ def export_recording(recording: xr.Dataset, path: str | Path) -> Path:
     return _written(Path(path), content)
 
 
+def export_functions(
+    functions: Sequence[MeasuredFunction],
+    path: str | Path,
+    *,
+    single: bool = False,
+    text: bool = False,
+) -> Path:
+    """Write frequency responses, spectra and coherences; `read_functions` reads them back.
+
+    Parameters
+    ----------
+    functions : in SI units
+    path : its ending chooses. `.uff`, `.unv`: datasets 58b, double precision; `.csv`: a table
+        of real and imaginary parts, read back bit by bit
+    single : of a universal file: single precision
+    text : of a universal file: datasets 58, readable, of thirteen digits or, single, of six
+
+    Returns
+    -------
+    path of the file
+
+    Raises
+    ------
+    ParameterError
+        The ending is another one, there is nothing to write, or functions of a table differ in
+        their frequencies.
+    StorageError
+        The file cannot be written.
+
+    Examples
+    --------
+    >>> function = va.MeasuredFunction(
+    ...     "frequency response", np.array([50.0, 100.0]), np.array([0.1, 0.2j]),
+    ...     va.Node(12, "+z"), va.Node(3, "+z"), "m/s²", "N")
+    >>> va.export_functions([function], "hammer.uff").name
+    'hammer.uff'
+    """
+    suffix = Path(path).suffix.lower()
+    if suffix not in (".uff", ".unv", ".csv"):
+        raise ParameterError(f"{path}: ending {suffix!r}: must be .csv, .uff or .unv")
+    if not functions:
+        raise ParameterError(f"{path}: no function to write")
+    if suffix == ".csv":
+        return _written(Path(path), functions_csv(functions))
+    return _written(Path(path), functions_uff(functions, single=single, text=text))
+
+
 def export_forces(results: xr.Dataset, path: str | Path, option: str = REFERENCE_OPTION) -> Path:
     """Write the forces of a run by order as CSV, as a machine of `kind = "table"` reads them.
 
@@ -92,6 +139,7 @@ def export_forces(results: xr.Dataset, path: str | Path, option: str = REFERENCE
 
 
 def _written(file: Path, content: bytes) -> Path:
+    """Write a file, whole or not at all."""
     with files.only_writer(file.parent) as staged:
         files.write(staged / file.name, content)
         files.replace_all(staged, file.parent)

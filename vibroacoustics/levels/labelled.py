@@ -38,14 +38,14 @@ def level_variables(
     sound : of every case, with totals by the weightings A_FIRST
     pressure_line : of every source, orders first, complex peaks, Pa
     order_frequency : (speed, order), Hz
-    remaining : mean square that the model does not explain, shape (speed, option), Pa²
-    remainder : the same at the published speed without an option, Pa²
+    remaining : mean square that the model does not explain, shape (speed, option, receiver), Pa²
+    remainder : the same at the published point without an option, Pa²
     """
     part = axes.gathered(sound, "part")
     totals = part.sum(axis=3)  # (speed, option, weighting, receiver)
     a_total = totals[:, :, A_FIRST.index("A")]
     modelled = [level(totals[:, :, A_FIRST.index(name)]) for name in WEIGHTINGS]
-    total = level(a_total + remaining[:, :, None])
+    total = level(a_total + remaining)
     orders = pressure_line.values[..., : order_frequency.sizes["order"]].sum(axis=2)
     order_level = _order_level(orders, order_frequency.values)
     changes = {
@@ -102,8 +102,9 @@ def draw_variables(
     ----------
     axes : of the levels
     sounds : of every case, by draw
-    remaining : mean square that each draw leaves unexplained, shape (draw, speed, option), Pa²
-    remainder : the same at the published speed without an option, shape (prior, draw), Pa²
+    remaining : mean square that each draw leaves unexplained, Pa², shape (draw, speed, option,
+        receiver)
+    remainder : the same at the published point without an option, shape (prior, draw), Pa²
     weight : of the draws, shape (prior, draw)
     """
     draws: dict[str, Any] = {"draw": np.arange(1, len(sounds) + 1)}
@@ -111,7 +112,7 @@ def draw_variables(
     by_receiver = {**draws, **axes.by_receiver}
     alone = np.array([axes.gathered(sound, "alone") for sound in sounds])
     modelled = np.array([axes.gathered(sound, "part")[:, :, 0].sum(axis=2) for sound in sounds])
-    total = modelled + remaining[..., None]
+    total = modelled + remaining
     arrays: dict[str, tuple[Array, dict[str, Any]]] = {
         "source_level_by_draw": (_level_or_none(alone), {**draws, **axes.by_source}),
         "level_modelled_by_draw": (_level_or_none(modelled), by_receiver),

@@ -17,6 +17,7 @@ from ..study.study import Study
 from .agreement import priors_of, remainder_level
 from .axes import LevelAxes
 from .bands import bands_between
+from .baseline import with_baseline
 from .by_source import SourceSound
 from .insertion_loss import remaining_share
 from .weighting import WEIGHTING
@@ -117,10 +118,15 @@ def remaining_by_draw(
     draws: Sequence[Draw],
     rests: Array,
 ) -> Array:
-    """`remaining` of every draw, shape (draw, speed, option), Pa²."""
+    """`remaining` of every draw with the baseline, shape (draw, speed, option, receiver), Pa²."""
     machines = [with_draw(study.machine, study.machine, draw) for draw in draws]
     rows = zip(sounds, machines, rests.tolist(), strict=True)
-    return np.array([remaining(study, axes, *row) for row in rows])
+    return np.array(
+        [
+            with_baseline(study, axes, sound, remaining(study, axes, sound, machine, rest))
+            for sound, machine, rest in rows
+        ]
+    )
 
 
 def over_published(

@@ -11,6 +11,7 @@ from ..base.progress import Progress, no_progress
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.agreement import priors_of
 from ..levels.axes import LevelAxes
+from ..levels.baseline import baseline_variables, with_baseline
 from ..levels.by_source import SourceSound, sound_by_source
 from ..levels.labelled import draw_variables, level_variables
 from ..levels.lines import line_pressure
@@ -69,10 +70,11 @@ def levels_of(
     sound = {key: sound_by_source(one, axes.bands) for key, one in received.items()}
     rest = remainder(study, axes, sound, bool(study.ranges))
     left = remaining(study, axes, sound, study.machine, rest)
+    left = with_baseline(study, axes, sound, left)
     lines = line_pressure(axes, received)
     frequency = motion.results["order_frequency"]
     levels = level_variables(axes, sound, lines["pressure_line"], frequency, left, rest)
-    levels = levels.merge(lines)
+    levels = levels.merge(lines).merge(baseline_variables(study, axes, sound))
     if not study.ranges:
         return levels
     row, name = axes.receivers.index(study.catalogue_receiver), study.catalogue_receiver

@@ -6,13 +6,13 @@ trailing blanks and end in CR LF, as many programs write them.
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import BinaryIO, Final
 
 from ..base.errors import StorageError
 
 LONGEST_LINE: Final = 2**12
-SINGLE, DOUBLE = 2, 4
+SINGLE, DOUBLE, SINGLE_COMPLEX, DOUBLE_COMPLEX = 2, 4, 5, 6
 """Ordinate data types, record 7, field 1: real; 5 and 6 are complex."""
 EVEN_SPACING: Final = 1
 """Abscissa spacing, record 7, field 3."""
@@ -42,6 +42,8 @@ class Header:
     increment : of the abscissa, where it has
     byte_order : `<` or `>`; empty for text
     start : place of the first value in the file
+    abscissa_bytes : of each abscissa of binary values; 0 where there is none
+    records : the eleven lines as they are
     """
 
     function_type: int
@@ -54,17 +56,42 @@ class Header:
     increment: float
     byte_order: str
     start: int
+    abscissa_bytes: int
+    records: tuple[str, ...]
 
     @property
     def numbers(self) -> int:
         """Numbers that the dataset holds: x too where the abscissa is uneven."""
-        parts = 1 if self.ordinate_type in (SINGLE, DOUBLE) else 2
-        return self.points * (parts if self.is_even else parts + 1)
+        return self.points * (self.parts if self.is_even else self.parts + 1)
+
+    @property
+    def parts(self) -> int:
+        """Numbers of an ordinate: two where it is complex."""
+        return 1 if self.ordinate_type in (SINGLE, DOUBLE) else 2
+
+    @property
+    def ordinate_bytes(self) -> int:
+        """Of each number of a binary ordinate."""
+        return 4 if self.ordinate_type in (SINGLE, SINGLE_COMPLEX) else 8
+
+    @property
+    def binary_bytes(self) -> int:
+        """Of all binary values."""
+        return self.points * (self.abscissa_bytes + self.parts * self.ordinate_bytes)
+
+    @property
+    def widths(self) -> tuple[int, ...]:
+        """Columns of a line of text: 6E13.5, 4E20.12, 2(E13.5, E20.12) or E13.5, 2E20.12."""
+        if self.ordinate_type in (SINGLE, SINGLE_COMPLEX):
+            return (13,) * 6
+        if self.is_even:
+            return (20,) * 4
+        return (13, 20) * 2 if self.parts == 1 else (13, 20, 20)
 
     @property
     def per_line(self) -> int:
-        """Numbers in a line of text: 6E13.5, 4E20.12 or 2(E13.5, E20.12)."""
-        return 6 if self.ordinate_type in (SINGLE, 5) else 4
+        """Numbers in a line of text."""
+        return len(self.widths)
 
 
 def headers(file: BinaryIO) -> tuple[list[Header], list[int]]:
@@ -105,7 +132,7 @@ def _goes_on_to_mark(file: BinaryIO) -> bool:
 def _header(file: BinaryIO, kind: bytes) -> Header:
     records = [_text(file.readline(LONGEST_LINE)) for _ in range(11)]
     numbers = records[6]
-    return Header(
+    header = Header(
         function_type=_integer(records[5][:5], "function type"),
         name=_given(records[0]) or _given(records[5][31:41]) or _given(records[8][_LABEL]),
         start_time=_given(records[2]),
@@ -116,7 +143,22 @@ def _header(file: BinaryIO, kind: bytes) -> Header:
         increment=_number(numbers[_INCREMENT], "abscissa increment"),
         byte_order=_byte_order(kind),
         start=file.tell(),
+        abscissa_bytes=0,
+        records=tuple(record.rstrip("\r\n") for record in records),
     )
+    if header.is_even or not header.byte_order:
+        return header
+    return _with_abscissas(file, header)
+
+
+def _with_abscissas(file: BinaryIO, header: Header) -> Header:
+    """With abscissas of the precision that ends at the mark; programs differ in it."""
+    header = replace(header, abscissa_bytes=4)
+    double = replace(header, abscissa_bytes=8)
+    file.seek(header.start + double.binary_bytes)
+    ends = _MARK.match(file.read(16).lstrip(b"\r\n"))
+    file.seek(header.start)
+    return double if ends else header
 
 
 def _byte_order(kind: bytes) -> str:
@@ -135,7 +177,8 @@ def _byte_order(kind: bytes) -> str:
 def _skip_values(file: BinaryIO, header: Header, kind: bytes) -> None:
     """Go to the last line of the values, or stay where the lines are not of one length."""
     if header.byte_order:
-        file.seek(header.start + _integer(kind[31:43], "number of bytes"))
+        stated = _integer(kind[31:43], "number of bytes")  # some programs count half
+        file.seek(header.start + max(stated, header.binary_bytes))
         return
     length = len(file.readline(LONGEST_LINE))
     last = header.start + (-(-header.numbers // header.per_line) - 1) * length

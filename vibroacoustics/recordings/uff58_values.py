@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from ..base.errors import StorageError
 from .recorded import Samples
-from .uff58 import DOUBLE, LONGEST_LINE, Header
+from .uff58 import LONGEST_LINE, Header
 
 _EXPONENTS: Final = bytes.maketrans(b"Dd", b"EE")
 _TRUNCATED: Final = "a dataset 58 holds fewer samples than its header says: truncated"
@@ -28,12 +28,33 @@ def values(file: BinaryIO, header: Header, first: int, last: int) -> tuple[Sampl
     return (numbers, None) if header.is_even else (numbers[1::2], numbers[::2])
 
 
+def ordinates(file: BinaryIO, header: Header) -> tuple[Samples, Samples | None]:
+    """All ordinates, complex where they are, and their abscissas where uneven.
+
+    Raises
+    ------
+    StorageError
+        As `values`.
+    """
+    if header.byte_order:
+        given, abscissa = _binary(file, header, 0, header.points)
+    else:
+        numbers = _text(file, header, 0, header.numbers).reshape(header.points, -1)
+        abscissa = None if header.is_even else numbers[:, 0]
+        given = numbers[:, -header.parts :]
+    if header.parts == 1:
+        return given.astype(float).reshape(-1), abscissa
+    pairs = given.astype(float)
+    return pairs[:, 0] + 1j * pairs[:, 1], abscissa
+
+
 def _binary(
     file: BinaryIO, header: Header, first: int, last: int
 ) -> tuple[Samples, Samples | None]:
-    size = 8 if header.ordinate_type == DOUBLE else 4
-    fields = [("x", f"{header.byte_order}f4"), ("y", f"{header.byte_order}f{size}")]
-    kind = np.dtype(fields[1:] if header.is_even else fields)
+    order, shape = header.byte_order, () if header.parts == 1 else (header.parts,)
+    ordinate = ("y", f"{order}f{header.ordinate_bytes}", shape)
+    abscissa = ("x", f"{order}f{header.abscissa_bytes}", ())
+    kind = np.dtype([ordinate] if header.is_even else [abscissa, ordinate])
     file.seek(header.start + first * kind.itemsize)
     content = file.read((last - first) * kind.itemsize)
     if len(content) != (last - first) * kind.itemsize:
@@ -61,7 +82,7 @@ def _text(file: BinaryIO, header: Header, first: int, last: int) -> Samples:
 
 def _numbers(lines: list[bytes], header: Header, count: int) -> Samples:
     """The first numbers of some lines, in columns or else apart by blanks."""
-    widths = [13] * 6 if header.per_line == 6 else [20] * 4 if header.is_even else [13, 20] * 2
+    widths = header.widths
     ends = np.cumsum(widths)
     table = np.array([line.ljust(int(ends[-1])) for line in lines], dtype=f"S{ends[-1]}")
     table = table.reshape(-1, 1).view("S1")

@@ -10,6 +10,7 @@ from .comparison import comparison_csv, comparison_text
 from .curve_tables import curve_csv
 from .figures.compared_orders import compared_order_figures
 from .figures.curves import curve_figures
+from .figures.prediction import predicted_figures
 from .figures.recorded_maps import speed_map_figures, tracked_order_figures
 from .figures.recorded_orders import recorded_order_figures
 from .html import html
@@ -27,6 +28,7 @@ from .order_tables import (
     orders_text,
 )
 from .page import page_of
+from .prediction import prediction_csv, prediction_markdown, prediction_text
 from .radiation_figures import radiation_figures
 from .radiation_tables import kwave_text, radiation_text
 from .scores import scores_csv
@@ -49,6 +51,10 @@ __all__ = [
     "limits_text",
     "orders_csv",
     "orders_text",
+    "predicted_figures",
+    "prediction_csv",
+    "prediction_markdown",
+    "prediction_text",
     "radiation_figures",
     "radiation_text",
     "recorded_order_figures",

@@ -28,7 +28,15 @@ def remainder_band(results: xr.Dataset, speed: float) -> Band:
 
 
 def growth_sentence(results: xr.Dataset) -> str:
-    """How the remainder is assumed to go with speed."""
+    """How the remainder is assumed to go with speed; where a baseline stands for it."""
+    if "baseline_share" in results:
+        measured = results["baseline_share"].notnull().any(["speed", "baseline_band"])
+        names = ", ".join(map(str, results["receiver"].values[measured.values]))
+        return f"{_growth_sentence(results)} At {names} the measured baseline stands in its place."
+    return _growth_sentence(results)
+
+
+def _growth_sentence(results: xr.Dataset) -> str:
     growth = parameters(results)["machine"].get("remainder", {}).get("speed_growth_db")
     if growth is None:  # files of older versions
         return "That it stays constant over speed is an assumption, not a result."

@@ -9,6 +9,7 @@ from ..base.errors import ParameterError
 from ..machine.machine import Machine
 from ..machine.option import OPTIONS
 from ..machine.source import SOURCES
+from .baseline import read_baseline
 from .draws import warn_of_contradictions
 from .evidence_files import take_evidence
 from .given_values import take_given
@@ -77,6 +78,7 @@ def study_of(written: Written) -> Study:
         for name, change in take_changes(content, path)
     }
     _read_published(content, reader)
+    _read_measured(content, reader)
     _resolve_file_names(content, reader)
     for name in _FILLED_IN:
         if name in content:
@@ -174,6 +176,15 @@ def _read_published(content: Mapping[str, Any], reader: Reader) -> None:
     if not isinstance(name, str):
         raise ParameterError(f"{file}: scoring.published_table = {name!r}: must be a file name")
     scoring["published"] = read_published_table(beside(file, name))
+
+
+def _read_measured(content: Mapping[str, Any], reader: Reader) -> None:
+    """Put the spectra of the measured baseline beside the name of its file."""
+    baseline = _table_at(content, ("measured", "baseline"))
+    if baseline is None or not isinstance(baseline.get("file"), str):
+        return
+    file = beside(reader.file(("measured", "baseline", "file")), baseline["file"])
+    baseline["spectra"] = read_baseline(file)
 
 
 def _resolve_file_names(content: Mapping[str, Any], reader: Reader) -> None:

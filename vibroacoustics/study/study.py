@@ -17,6 +17,7 @@ from ..machine.source import AnySource, CaseKey
 from ..machine.stopping import Stopping
 from ..machine.turning_back import TurningBack
 from ..mechanics.loads import DISCHARGE_DOME, SUCTION_ANNULUS
+from .baseline import MeasuredSound
 from .evidence import Evidence
 from .radiation import RadiationSettings
 from .receivers import Receiver
@@ -144,6 +145,8 @@ class Study(Parameters):
     """Of the machine's values that are drawn at random."""
     held_ranges: tuple[HeldRange, ...] = ()
     """Of those that are not, with the reason."""
+    measured: MeasuredSound | None = None
+    """What was measured of the machine's sound, in place of its overall noise."""
     records: tuple[ParameterRecord, ...] = ()
     source_file: str = ""
 
@@ -178,6 +181,9 @@ class Study(Parameters):
                 f"catalogue_receiver = {self.catalogue_receiver}: stands {distance:.3g} m from the "
                 f"shell; the overall noise holds at {published.distance_m:g} m"
             )
+        if self.measured is not None:
+            for problem in self.measured.problems(list(self.receivers), self.operation.speed_rpm):
+                raise ValueError(problem)
         self._check_orders()
         self._check_sources()
         surroundings = self.radiation.surroundings

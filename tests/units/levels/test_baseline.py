@@ -1,0 +1,106 @@
+"""A measured baseline: new = measured - modelled (none) + modelled (option), band by band."""
+
+import numpy as np
+import pytest
+from sources_study import SOURCES_STUDY, run_made_up
+from support import ROOT
+
+import vibroacoustics as va
+from vibroacoustics.levels.weighting import a_weighting
+
+FEW = dict.fromkeys(("sources.keys", "sources.gas", "options.twin-oldham", "options.damping"))
+BANDS = np.array([25, 31.5, 40, 50, 63, 80, 100, 125, 160, 200, 250, 315, 400, 500, 630, 800, 1000])
+NOISE_DB = 40.0 + 3.0 * np.cos(np.arange(17.0))
+HOOD = {"kind": "hood", "band_hz": [100.0, 200.0], "insertion_loss_db": [10.0, 6.0]}
+
+
+@pytest.fixture(scope="module")
+def study():
+    return va.load_study(SOURCES_STUDY).replace(FEW | {"options.hood": HOOD})
+
+
+@pytest.fixture(scope="module")
+def without(study):
+    return run_made_up(study)
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory, study, without):
+    return run_made_up(study.replace(measured(tmp_path_factory.mktemp("stand"), study, without)))
+
+
+def power(level_db):
+    return 10.0 ** (np.asarray(level_db) / 10.0)
+
+
+def modelled_bands(results, receiver, speed):
+    """Mean square of each of BANDS without an option, re (20 µPa)²."""
+    at = results["source_band_level"].sel(option="none", receiver=receiver, speed=speed)
+    by_band = dict(zip(at["band"].values.tolist(), power(at).sum(at.get_axis_num("sound_source")),
+                       strict=True))  # fmt: skip
+    return np.array([by_band.get(float(band), 0.0) for band in BANDS])
+
+
+def measured(folder, study, results, speeds=None):
+    """The study with a baseline of what it models and known noise; its receiver."""
+    receiver, speed = study.catalogue_receiver, study.operation.speed_rpm[0]
+    level = 10.0 * np.log10(modelled_bands(results, receiver, speed) + power(NOISE_DB))
+    lines = ["# made up", "microphone,speed_rpm,band_hz,level_db"]
+    for offset, at in zip((-5.0, 5.0), speeds or (speed - 100.0, speed + 100.0), strict=True):
+        lines += [f"{receiver},{at},{b},{v + offset}" for b, v in zip(BANDS, level, strict=True)]
+    (folder / "stand.csv").write_text("\n".join(lines))
+    return {"measured.baseline.file": str(folder / "stand.csv")}
+
+
+def test_levels_are_what_was_measured_less_the_model_and_the_option(study, without, results):
+    """At the middle of two speeds, whose levels are 5 dB below and above."""
+    receiver, speed = study.catalogue_receiver, study.operation.speed_rpm[0]
+    exact_hz = 10.0 ** (np.rint(10.0 * np.log10(BANDS)) / 10.0)
+    noise = power(NOISE_DB + a_weighting(exact_hz))
+    loss = np.ones(17)
+    loss[[6, 9]] = power([-10.0, -6.0])
+    at = {"receiver": receiver, "speed": speed}
+    for option in results["option"].values:
+        alone = power(without["level_modelled"].sel(option=option, weighting="A", **at).item())
+        truth = alone + np.sum(noise * (loss if option == "hood" else 1.0))
+        found = power(results["level_total"].sel(option=option, **at).item())
+        assert found == pytest.approx(truth, rel=1e-9), option
+    share = results["baseline_share"].sel(baseline_band=BANDS, **at).values
+    known = modelled_bands(without, receiver, speed)
+    np.testing.assert_allclose(share, known / (known + power(NOISE_DB)), rtol=1e-9, atol=1e-30)
+
+
+def test_other_microphones_and_the_model_stay_and_draws_follow(study, without, results):
+    others = [name for name in study.receivers if name != study.catalogue_receiver]
+    for name in others:
+        np.testing.assert_array_equal(
+            results["level_total"].sel(receiver=name), without["level_total"].sel(receiver=name)
+        )
+    np.testing.assert_array_equal(results["level_modelled"], without["level_modelled"])
+    if "level_total_by_draw" in results:
+        at = results.sel(receiver=study.catalogue_receiver, option="none")
+        spread = at["level_total_by_draw"] - at["level_total"]
+        assert float(abs(spread).median()) < 3.0
+
+
+WRONG = [
+    ("stand_1,2900,50,60", "microphone stand_1: not among the receivers"),
+    ("front_1m,1000,50,60", "lies outside its 1000 to 1000 rpm"),
+    ("front_1m,2900,57,60", "band_hz = 57 Hz: must be the middle of a third octave"),
+    ("front_1m,2900,50", "line 2: 'front_1m,2900,50': must be microphone,speed_rpm"),
+    ("front_1m,2900,50,6O", "line 2: 'front_1m,2900,50,6O': must be"),
+    ("front_1m,2900,50,60\nfront_1m,2900,50,61", "line 3: band 50 Hz is there twice"),
+    ("front_1m,2900,50,60\nfront_1m,3900,63,61", "has other bands at another speed"),
+]
+
+
+@pytest.mark.parametrize(("rows", "words"), WRONG)
+def test_what_is_wrong_is_one_line(tmp_path, rows, words):
+    (tmp_path / "stand.csv").write_text(f"microphone,speed_rpm,band_hz,level_db\n{rows}\n")
+    study = va.load_study(ROOT / "tests" / "studies" / "tiny.toml")
+    with pytest.raises(va.ParameterError) as told:
+        study.replace({"measured.baseline.file": str(tmp_path / "stand.csv")})
+    assert words in str(told.value)
+    assert "\n" not in str(told.value)
+    with pytest.raises(va.ParameterError, match=r"none\.csv: cannot be read"):
+        study.replace({"measured.baseline.file": str(tmp_path / "none.csv")})

@@ -1,0 +1,1 @@
+"""What measurements alone predict: levels after a change of mounts, masses or absorbers."""

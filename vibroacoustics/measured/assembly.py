@@ -1,0 +1,81 @@
+"""Measured functions put to the points and microphones that a file names."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..base.arrays import Array, ComplexArray, IndexArray
+from ..recordings import Node
+from .grouped import unsigned
+from .library import Library
+from .settings import Measured, Point
+
+
+@dataclass(frozen=True)
+class Bench:
+    """What was measured, each function once, and which of them is where.
+
+    Attributes
+    ----------
+    frequency_hz : shape (frequency,)
+    values, error : functions and the RMS of their complex error, shape (function, frequency)
+    compliance : function of each pair of points, shape (point, point)
+    transfer : of each microphone by point, shape (receiver, point)
+    response : of each point, shape (point,)
+    pressure : of each microphone, shape (receiver,)
+    sign : of each point's direction, shape (point,)
+    """
+
+    frequency_hz: Array
+    values: ComplexArray
+    error: Array
+    compliance: IndexArray
+    transfer: IndexArray
+    response: IndexArray
+    pressure: IndexArray
+    sign: Array
+
+
+def assemble(settings: Measured, names: Sequence[str], folder: Path) -> Bench:
+    """The functions that a change at some points needs.
+
+    Parameters
+    ----------
+    settings : files, points and microphones
+    names : of the points
+    folder : of the file that names the files
+
+    Raises
+    ------
+    ParameterError
+        A function was not measured, in another unit, at other frequencies, or without an error.
+    StorageError
+        A file cannot be read.
+    """
+    library = Library(settings, folder)
+    points = [node_of(settings.points[name]) for name in names]
+    nodes = [unsigned(point) for point in points]
+    microphones = [node_of(microphone) for microphone in settings.microphones.values()]
+    compliance = [[library.response(one, other, "m") for other in nodes] for one in nodes]
+    transfer = [[library.response(one, other, "Pa") for other in nodes] for one in microphones]
+    response = [library.operating(node, "m") for node in nodes]
+    pressure = [library.operating(node, "Pa") for node in microphones]
+    values, errors = library.estimates
+    signs = np.array([-1.0 if point.direction.startswith("-") else 1.0 for point in points])
+    return Bench(
+        frequency_hz=library.frequency_hz,
+        values=values,
+        error=errors,
+        compliance=np.array(compliance),
+        transfer=np.array(transfer),
+        response=np.array(response),
+        pressure=np.array(pressure),
+        sign=signs,
+    )
+
+
+def node_of(point: Point) -> Node:
+    """Node and direction of a point."""
+    return Node(point.node, point.direction)

@@ -1,0 +1,51 @@
+"""Measured functions by kind and nodes, along positive directions."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from ..base.errors import ParameterError
+from ..recordings import MeasuredFunction, Node
+from ..recordings.functions import read_functions
+from .settings import Measured
+
+Key = tuple[str, Node, Node | None]
+
+
+def unsigned(node: Node) -> Node:
+    """The node along its positive direction."""
+    return node.opposite if node.direction.startswith("-") else node
+
+
+def read_all(names: Sequence[str], folder: Path, settings: Measured) -> list[MeasuredFunction]:
+    """Functions of some files of a folder."""
+    return [
+        function
+        for name in names
+        for function in read_functions(folder / name, units=settings.units)
+    ]
+
+
+def by_key(functions: Sequence[MeasuredFunction]) -> dict[Key, list[MeasuredFunction]]:
+    """Functions by kind and unsigned nodes, along the positive directions, above 0 Hz."""
+    grouped: dict[Key, list[MeasuredFunction]] = {}
+    for function in functions:
+        nodes = [function.response, *([function.reference] if function.reference else [])]
+        sign = float(np.prod([-1.0 if node.direction.startswith("-") else 1.0 for node in nodes]))
+        if function.kind in ("coherence", "auto spectrum"):
+            sign = 1.0
+        response, reference = unsigned(nodes[0]), unsigned(nodes[1]) if nodes[1:] else None
+        above = function.frequency_hz > 0.0
+        if not np.any(above):
+            raise ParameterError(f"{function}: has no frequency above 0 Hz")
+        along = replace(
+            function,
+            frequency_hz=function.frequency_hz[above],
+            values=function.values[above] * sign,
+            response=response,
+            reference=reference,
+        )
+        grouped.setdefault((function.kind, response, reference), []).append(along)
+    return grouped

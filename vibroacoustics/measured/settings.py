@@ -1,0 +1,131 @@
+"""What a file for `predict` may say."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Literal
+
+from pydantic import Field, model_validator
+
+from ..base.parameters import Parameters
+from ..study.reader import Reader
+from ..study.toml_files import leaves, read_toml
+from ..study.wording import validated
+
+
+class Point(Parameters):
+    """A node of the measured functions and the direction that counts as positive."""
+
+    node: int = Field(ge=0, le=999_999_999)
+    direction: Literal["+x", "-x", "+y", "-y", "+z", "-z", ""] = ""
+
+
+class Measured(Parameters):
+    """Files of measured functions, how good they are, and what their nodes are."""
+
+    frequency_responses: tuple[str, ...] = Field(min_length=1)
+    operating: tuple[str, ...] = Field(min_length=1)
+    units: dict[str, str] = Field(default_factory=dict)
+    spectra: Literal["peak", "rms"] = "peak"
+    averages: int | None = Field(default=None, ge=1, le=1_000_000)
+    operating_averages: int | None = Field(default=None, ge=1, le=1_000_000)
+    relative_error_ratio: float | None = Field(default=None, ge=0.0, le=1.0)
+    lowest_frequency_hz: float = Field(default=0.0, ge=0.0, le=1e6)
+    highest_frequency_hz: float = Field(default=1e6, gt=0.0, le=1e6)
+    truncation_ratio: float | None = Field(default=None, ge=0.0, le=0.5)
+    draws: int = Field(default=200, ge=50, le=5000)
+    points: dict[str, Point] = Field(min_length=1)
+    microphones: dict[str, Point] = Field(min_length=1)
+
+
+class MountBetween(Parameters):
+    """A mount along one direction between two points, as it was measured."""
+
+    ends: tuple[str, str]
+    stiffness_n_per_m: float = Field(gt=0.0, le=1e12)
+    loss_factor_ratio: float = Field(ge=0.0, le=2.0)
+
+
+class NewMount(Parameters):
+    """What takes the place of a mount; of stiffness zero where it is removed."""
+
+    stiffness_n_per_m: float = Field(ge=0.0, le=1e12)
+    loss_factor_ratio: float = Field(default=0.0, ge=0.0, le=2.0)
+
+
+class AddedMass(Parameters):
+    """A mass that moves with each of these points: the directions of one place."""
+
+    points: tuple[str, ...] = Field(min_length=1)
+    mass_kg: float = Field(gt=0.0, le=1e5)
+
+
+class Absorber(Parameters):
+    """A mass on a spring at each of these points: the directions of one place."""
+
+    points: tuple[str, ...] = Field(min_length=1)
+    mass_kg: float = Field(gt=0.0, le=1e5)
+    stiffness_n_per_m: float = Field(gt=0.0, le=1e12)
+    loss_factor_ratio: float = Field(gt=0.0, le=2.0)
+
+
+class Change(Parameters):
+    """Mounts that are others, masses and absorbers that are added."""
+
+    mounts: dict[str, NewMount] = Field(default_factory=dict)
+    masses: dict[str, AddedMass] = Field(default_factory=dict)
+    absorbers: dict[str, Absorber] = Field(default_factory=dict)
+
+
+class Prediction(Parameters):
+    """Measurements, the mounts that they were made on, and changes to predict."""
+
+    title: str = Field(min_length=1, max_length=200)
+    measured: Measured
+    mounts: dict[str, MountBetween] = Field(default_factory=dict)
+    changes: dict[str, Change] = Field(min_length=1)
+
+    @model_validator(mode="after")
+    def _names_are_known(self) -> "Prediction":
+        problem = next(self._problems(), None)
+        if problem is not None:
+            raise ValueError(problem)
+        return self
+
+    def _problems(self) -> Iterator[str]:
+        """What names something that is not there, or nothing."""
+        points = self.measured.points
+        named: list[tuple[str, tuple[str, ...]]] = [
+            (f"mounts.{name}.ends", mount.ends) for name, mount in self.mounts.items()
+        ]
+        for name, change in self.changes.items():
+            if name == "none":
+                yield "changes.none: is the name of the state as measured"
+            if not (change.mounts or change.masses or change.absorbers):
+                yield f"changes.{name}: changes nothing: needs mounts, masses or absorbers"
+            for mount in change.mounts:
+                if mount not in self.mounts:
+                    known = ", ".join(self.mounts) or "none"
+                    yield f"changes.{name}.mounts.{mount}: no such mount; known are {known}"
+            added = [(f"masses.{one}", mass.points) for one, mass in change.masses.items()]
+            added += [(f"absorbers.{one}", each.points) for one, each in change.absorbers.items()]
+            named += [(f"changes.{name}.{part}.points", used) for part, used in added]
+        for where, used in named:
+            for point in used:
+                if point not in points:
+                    known = ", ".join(points)
+                    yield f"{where} = {point}: no such point; measured.points has {known}"
+            if len(set(used)) < len(used):
+                yield f"{where}: names a point twice"
+
+
+def load_prediction(path: Path) -> Prediction:
+    """Read a file for `predict`; docs/measured_changes.md has its tables.
+
+    Raises
+    ------
+    ParameterError
+        Anything is missing, unknown, of the wrong type or outside its allowed range.
+    """
+    content = read_toml(path)
+    reader = Reader(path, dict.fromkeys(leaves(content), path))
+    return validated(Prediction, reader.to_si(content, ()), reader)
