@@ -28,14 +28,14 @@ from .study import (
     speeds,
 )
 from .tables import Table
+from .unknowns import measure_next_sentence
 
 
 def headline(results: xr.Dataset) -> str:
     """What carries the level where that is modelled; else what balancing does to the level."""
     receiver, names = catalogue_receiver(results), balancers(results)
     if has_sources(results):
-        carrier = sure_sentence(results) if has_draws(results) else carrier_sentence(results)
-        return f"{carrier} {changes_sentence(results)}" if names else carrier
+        return sure_sentence(results) if has_draws(results) else carrier_sentence(results)
     if not names:
         return f"This study has no balancing option beside {REFERENCE_OPTION}."
     line = np.concatenate([shift(results, LINE, name).gain_db for name in names])
@@ -53,12 +53,21 @@ def reasons(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> list[str]
     texts = [_as_it_is(results)]
     if with_sources:
         texts += [shares_sentence(results), left_out_sentence(results)]
-        texts[:0] = [carrier_sentence(results)] if has_draws(results) else []
+        texts[:0] = _of_sources(results)
     else:
         texts.append(_remainder(results))
     if not verdicts:
         return texts
     return [*texts, _forces(results), *_warnings(verdicts), ranking_sentence(results, verdicts)]
+
+
+def _of_sources(results: xr.Dataset) -> list[str]:
+    """What the options change, what carries the level, what to measure next."""
+    changes = [changes_sentence(results)] if balancers(results) else []
+    if not has_draws(results):
+        return changes
+    sentences = [*changes, carrier_sentence(results), measure_next_sentence(results)]
+    return [sentence for sentence in sentences if sentence]
 
 
 def options_table(verdicts: Sequence[OptionVerdict]) -> Table | None:
