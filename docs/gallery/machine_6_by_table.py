@@ -1,0 +1,37 @@
+"""
+Machine: one that is known by a table of its forces
+===================================================
+
+A multibody program or a test bench gives force and moment by order; the machine stands on five feet
+with mounts whose stiffness grows with frequency. File layouts: :doc:`/machines/table` and
+:doc:`/mounts`.
+
+.. literalinclude:: /gallery/studies/by_table.toml
+   :language: toml
+"""
+
+import matplotlib.pyplot as plt
+from rough_radiation import rough_radiation
+
+import vibroacoustics as va
+
+study = va.load_study("studies/by_table.toml")
+results = va.run(study, radiation=rough_radiation)
+
+# %%
+# Forces of the table, and what options add
+# -----------------------------------------
+# The table itself has no option; what slides and where weights sit is told beside it.
+shown = results["force_amplitude"].sel(speed=950.0, order=[1, 2, 4])
+for option in shown["option"].values:
+    print(f"{option:20s}", *(f"{value:9.2f}" for value in shown.sel(option=option).values), "N")
+
+# %%
+# Five feet
+# ---------
+figure, axes = plt.subplots(layout="constrained", figsize=(6.4, 3.6))
+force = results["foot_force_amplitude"].sel(order=1, option="none")
+for foot in force["foot"].values:
+    axes.plot(force["speed"], force.sel(foot=foot), marker="o", label=foot)
+axes.set(xlabel="rpm", ylabel="1x force into a foot, N", title="Without a balancer")
+axes.legend(fontsize="small")
