@@ -17,7 +17,7 @@ run: $(VENV)/.core
 	$(BIN)/vibroacoustics run $(STUDY)
 
 test: $(VENV)/.dev
-	$(BIN)/pytest -n auto --dist loadfile
+	$(BIN)/pytest -n auto --dist loadfile --no-loadscope-reorder
 
 long: $(VENV)/.dev
 	$(BIN)/pytest -n auto -m long

@@ -273,7 +273,7 @@ def test_parameters_are_no_parameters(text: str, tmp_path: Path) -> None:
 
 @both
 @pytest.mark.parametrize("attribute", ATTRIBUTES)
-@pytest.mark.parametrize("step", [5, pytest.param(1, marks=pytest.mark.long)])
+@pytest.mark.parametrize("step", [17, pytest.param(1, marks=pytest.mark.long)])
 def test_a_key_is_missing_or_of_another_type(
     name: str, attribute: str, step: int, tmp_path: Path
 ) -> None:
