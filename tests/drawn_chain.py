@@ -72,9 +72,10 @@ class DrawnChain:
     def _sounds(self, draws, keys):
         cases, given = ({key: of[key] for key in keys} for of in (self.cases, self.given))
         transmission = replace(self.transmission, study=self.study)
-        return sound.sound_of_draws(
+        drawn = sound.sound_of_draws(
             transmission, self.axes, cases, given, draws, lambda number: None
         )
+        return [one.sound for one in drawn]
 
 
 def of_few_ranges(study, names):

@@ -28,20 +28,16 @@ class SourceSound:
     alone : A-weighted, of each source alone, shape (source, receiver), Pa²
     part : what each source adds to the total by weighting, shape (weighting, source, receiver),
         Pa²; where lines of two sources cancel a part can be negative. The sum is the total
-    first_order : force, moment and foot force at 1x beside the sound, N, N m, N; none where they
-        are those of the values as given
     """
 
     band: Array
     alone: Array
     part: Array
-    first_order: Array | None = None
 
     @property
     def unknown(self) -> "SourceSound":
         """The same of a case without a solution: not a number."""
-        squares = (self.band, self.alone, self.part)
-        return SourceSound(*(np.full_like(square, np.nan) for square in squares))
+        return SourceSound(*(np.full_like(part, np.nan) for part in vars(self).values()))
 
     @property
     def total(self) -> Array:

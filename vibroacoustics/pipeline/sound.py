@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Final
+from typing import Final, NamedTuple
 
 import xarray as xr
 
@@ -36,12 +36,25 @@ from ..transfer.study_path import projection_errors
 from ..uncertainty.bank import Bank, bank_of
 from ..uncertainty.drawn import drawn_cases
 from ..uncertainty.draws import drawn_values, errors_of_projection, of_every_draw
-from ..uncertainty.first_order import first_order_by_draw
+from ..uncertainty.first_order import first_order_by_draw, unknown_first_order
 from ..uncertainty.share_variables import change_shares, level_shares
 from .motion import Motion, motion_of
 
 Sound = dict[CaseKey, SourceSound]
 _WEIGHED: Final = "draws at the published level"
+
+
+class DrawnSound(NamedTuple):
+    """What a draw makes.
+
+    Attributes
+    ----------
+    sound : of every case
+    first_order : forces at 1x of the cases that move otherwise than as given
+    """
+
+    sound: Sound
+    first_order: Mapping[CaseKey, Array]
 
 
 def levels_of(
@@ -114,8 +127,8 @@ def _bank(
         def done(number: int) -> None:
             progress(_WEIGHED, before + number, expected)
 
-        sounds = sound_of_draws(transmission, axes, there, known, batch, done)
-        return over_published(study, axes, sounds)
+        drawn = sound_of_draws(transmission, axes, there, known, batch, done)
+        return over_published(study, axes, [one.sound for one in drawn])
 
     deviation_db = study.machine.overall_noise.deviation_db
     priors = priors_of(study.machine.remainder)
@@ -141,11 +154,13 @@ def _of_draws(
     def done(number: int) -> None:
         progress("sources", number, len(draws))
 
-    sounds = sound_of_draws(transmission, axes, cases, given, draws, done)
+    drawn = sound_of_draws(transmission, axes, cases, given, draws, done)
+    sounds = [one.sound for one in drawn]
     rests = remainder_by_draw(study, bank.modelled_db[index])
     lefts = remaining_by_draw(study, axes, sounds, draws, rests[0])
     levels = draw_variables(axes, sounds, lefts, rests, weight)
-    levels = levels.merge(first_order_by_draw(sounds, motion.results))
+    moved = first_order_by_draw([one.first_order for one in drawn], motion.results)
+    levels = levels.merge(moved)
     levels = levels.merge(drawn_values(study.ranges, draws))
     return levels.merge(change_shares(study, levels))
 
@@ -157,22 +172,20 @@ def sound_of_draws(
     given: Sound,
     draws: list[Draw],
     progress: Callable[[int], None],
-) -> list[Sound]:
+) -> list[DrawnSound]:
     """Mean squares by source of every case, for every draw."""
     study = transmission.study
 
-    def sound_of(draw: Draw) -> Sound:
+    def sound_of(draw: Draw) -> DrawnSound:
         drawn = drawn_cases(cases, study, draw, transmission.rigid)
         pressure = {**transmission.wrench_pressure, **drawn.wrench_pressure}
         received = replace(transmission, wrench_pressure=pressure).received(
             drawn.cases, drawn.loads
         )
-        return {
-            key: replace(sound_by_source(one, axes.bands), first_order=drawn.first_order.get(key))
-            for key, one in received.items()
-        }
+        sound = {key: sound_by_source(one, axes.bands) for key, one in received.items()}
+        return DrawnSound(sound, drawn.first_order)
 
-    unknown = {key: given[key].unknown for key in cases}
+    unknown = DrawnSound({key: given[key].unknown for key in cases}, unknown_first_order(cases))
     return of_every_draw(draws, sound_of, unknown, progress)
 
 

@@ -1,6 +1,6 @@
 """Forces at once per revolution of drawn machines."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
 from typing import Final
 
@@ -10,7 +10,6 @@ import xarray as xr
 from ..base.arrays import Array
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import check, stamp
-from ..levels.by_source import SourceSound
 from ..machine.source import Case, CaseKey
 from ..mechanics.ellipse import semi_major_axis
 from ..mechanics.loads import Loads
@@ -43,14 +42,17 @@ def first_order(case: Case, loads: Mapping[str, Loads]) -> Array:
     return np.array([*halves, semi_major_axis(foot_force[0], -1).max()])
 
 
-def first_order_by_draw(
-    sounds: Sequence[Mapping[CaseKey, SourceSound]], given: xr.Dataset
-) -> xr.Dataset:
+def unknown_first_order(cases: Iterable[CaseKey]) -> dict[CaseKey, Array]:
+    """The same of a draw without solution: not a number."""
+    return {key: np.full(len(_AMPLITUDES), np.nan) for key in cases}
+
+
+def first_order_by_draw(drawn: Sequence[Mapping[CaseKey, Array]], given: xr.Dataset) -> xr.Dataset:
     """Forces at 1x of every draw; those as given where a draw leaves the motion.
 
     Parameters
     ----------
-    sounds : of every case, by draw
+    drawn : of the cases that move otherwise, by draw
     given : amplitudes of the values as given, by speed and option
     """
     of_given = [given[name].sel(order=1) for name in _AMPLITUDES.values()]
@@ -58,10 +60,10 @@ def first_order_by_draw(
     stacked = np.stack([one.transpose("speed", "option").values for one in amplitudes], axis=-1)
     keys = product(given["speed"].values.tolist(), given["option"].values.tolist())
     rows = dict(zip(keys, stacked.reshape(-1, len(_AMPLITUDES)), strict=True))
-    values = [[_drawn(sound[key], row) for key, row in rows.items()] for sound in sounds]
-    by_draw = np.array(values).reshape(len(sounds), *stacked.shape)
+    values = [[one.get(key, row) for key, row in rows.items()] for one in drawn]
+    by_draw: Array = np.array(values).reshape(len(drawn), *stacked.shape)
     coords = {
-        "draw": np.arange(1, len(sounds) + 1),
+        "draw": np.arange(1, len(drawn) + 1),
         "speed": given["speed"].values,
         "option": given["option"].values,
     }
@@ -70,9 +72,3 @@ def first_order_by_draw(
         for number, name in enumerate(_AMPLITUDES)
     }
     return check(xr.Dataset(arrays))
-
-
-def _drawn(sound: SourceSound, as_given: Array) -> Array:
-    if np.isnan(sound.alone).any():  # a draw without solution
-        return np.full(as_given.shape, np.nan)
-    return as_given if sound.first_order is None else sound.first_order

@@ -38,6 +38,7 @@ from vibroacoustics.mechanics.loads import (
     total_torque_n_m,
 )
 from vibroacoustics.mechanics.received_sound import NoisePower
+from vibroacoustics.pipeline.sound import DrawnSound
 from vibroacoustics.radiation.pressure import wrench_pressure
 from vibroacoustics.radiation.scene import machine_body
 from vibroacoustics.radiation.transfer_vectors import pressure_per_velocity
@@ -533,14 +534,17 @@ def run_with_draws(study, monkeypatch, squares):
         for draw in draws:
             by_draw.setdefault(tuple(draw.values()), squares[len(by_draw) % len(squares)])
         return [
-            {
-                key: SourceSound(
-                    np.tile(square * gas[:, None, None], (1, receivers, bands)),
-                    np.tile(square * gas[:, None], (1, receivers)),
-                    np.tile(square * gas[:, None], (3, 1, receivers)),
-                )
-                for key in cases
-            }
+            DrawnSound(
+                {
+                    key: SourceSound(
+                        np.tile(square * gas[:, None, None], (1, receivers, bands)),
+                        np.tile(square * gas[:, None], (1, receivers)),
+                        np.tile(square * gas[:, None], (3, 1, receivers)),
+                    )
+                    for key in cases
+                },
+                {},
+            )
             for square in (by_draw[tuple(draw.values())] for draw in draws)
         ]
 
