@@ -1,9 +1,9 @@
 """A study: one machine, its operating points, options, microphones and scoring."""
 
 from collections.abc import Mapping
-from typing import Any, Final
+from typing import Annotated, Any, Final
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import Field, WithJsonSchema, field_validator, model_validator
 
 from ..base.errors import ParameterError
 from ..base.parameters import Parameters
@@ -35,15 +35,22 @@ AT_CATALOGUE_POINT: Final = "none at the catalogue's point"
 """Name of the case without a balancer at the operating point of the overall noise."""
 
 
+# Limits for the schema of files; `Operation` refuses them in words of its own.
+_SHOWN_SPEED = WithJsonSchema({"type": "number", "minimum": 60.0, "maximum": 60000.0})
+_SHOWN_SUPPLY = WithJsonSchema({"type": "number", "minimum": 1.0, "maximum": 1000.0})
+
+
 class Operation(Parameters):
-    speed_rpm: tuple[float, ...] = Field(min_length=1, max_length=MOST_SPEEDS)
+    speed_rpm: tuple[Annotated[float, _SHOWN_SPEED], ...] = Field(
+        min_length=1, max_length=MOST_SPEEDS
+    )
     """In a file also a table of start, stop and step."""
     crank_angle_samples: int = Field(default=256, ge=64, le=65536)
     maximum_order: int | None = Field(default=None, ge=2, le=1000)
     """None for as many at each speed as the highest frequency of the radiation holds."""
     keep_time_series: bool | None = None
     """Forces and moments over crank angle in the results; none for up to 100 speeds only."""
-    supply_frequency_hz: tuple[float, ...] | None = None
+    supply_frequency_hz: tuple[Annotated[float, _SHOWN_SUPPLY], ...] | None = None
     """Of the motor's supply, one for each speed; where a source needs it."""
     point: str | None = None
     """Operating point of the machine's file, whose values hold; none for the machine's as given."""

@@ -122,6 +122,15 @@ def test_damaged_results_are_refused(finished: Path, cache: Path, tmp_path: Path
     assert not (tmp_path / "report.html").exists()
 
 
+def test_schema_writes_what_is_shipped(cache: Path, tmp_path: Path) -> None:
+    outcome = command("schema", "--out", tmp_path / "schemas", cache=cache)
+    assert outcome.returncode == 0, outcome.stderr
+    for name in ("study.json", "machine.json"):
+        assert f"#:schema {tmp_path / 'schemas' / name}\n" in outcome.stdout
+        shipped = ROOT / "data" / "schemas" / name
+        assert (tmp_path / "schemas" / name).read_bytes() == shipped.read_bytes()
+
+
 def test_doctor(cache: Path) -> None:
     outcome = command("doctor", cache=cache)
     assert outcome.returncode == 0, outcome.stderr

@@ -1,0 +1,111 @@
+"""Schemas of the two kinds of file: a study, and a machine."""
+
+from typing import Final
+
+from ...machine.machine import MACHINES
+from ...machine.option import OPTIONS
+from ..evidence import Evidence
+from ..machine_file import POINTS
+from ..study import Study
+from .model import FileSchema, by_kind, in_file
+from .units import RANGE, SOURCE, Schema, sourced
+
+DRAFT: Final = "http://json-schema.org/draft-07/schema#"
+_FILE: Final[Schema] = {"type": "string", "minLength": 1, "description": "Name, from this file's"}
+_IN_PART: Final = "machine_in_part"
+_PART: Final[Schema] = {"$ref": f"#/$defs/{_IN_PART}"}
+_STEPS: Final[Schema] = {
+    "type": "object",
+    "additionalProperties": False,
+    "required": ["start", "stop", "step"],
+    "properties": {key: {"type": "number"} for key in ("start", "stop", "step")},
+}
+_FILLED_IN: Final = (
+    "records", "ranges", "held_ranges", "source_file", "given", "catalogue_machine",
+)  # fmt: skip
+
+
+def study_schema() -> Schema:
+    """Of a study's file, which may extend another."""
+    raw = Study.model_json_schema(schema_generator=FileSchema)
+    machine = raw["properties"]["machine"]
+    for name in _FILLED_IN:
+        del raw["properties"][name]
+    made = in_file(raw)
+    definitions, properties = made["$defs"], made["properties"]
+    definitions[_IN_PART] = _any_machine(machine)
+    properties |= {
+        "extends": _FILE,
+        "machine": _table(
+            {
+                "file": _FILE,
+                "override": _PART,
+                "without": {"type": "array", "items": {"type": "string"}},
+            }
+        ),
+        "evidence": _table(dict.fromkeys(Evidence.model_fields, _FILE)),
+    }
+    _with_judgements(properties["options"]["additionalProperties"])
+    scoring = definitions["Scoring"]["properties"]
+    del scoring["published"]
+    scoring["published_table"] = _FILE
+    del definitions["Baseline"]["properties"]["spectra"]
+    speeds = definitions["Operation"]["properties"]
+    speeds["speed_rpm"] = {"anyOf": [speeds["speed_rpm"], _STEPS]}
+    return _finished("Study of vibroacoustics", made)
+
+
+def machine_schema() -> Schema:
+    """Of a machine's file."""
+    raw = Study.model_json_schema(schema_generator=FileSchema)
+    machine = raw["properties"]["machine"]
+    made = by_kind(_kinds(machine))
+    for choice in made["allOf"]:
+        choice["then"]["properties"][POINTS] = {"additionalProperties": _PART}
+    made["$defs"] = {**in_file(raw["$defs"]), _IN_PART: _any_machine(machine)}
+    return _finished("Machine of vibroacoustics", made)
+
+
+def _kinds(machine: Schema) -> dict[str, Schema]:
+    """Schemas of the kinds of machine, in SI."""
+    return dict(zip(MACHINES, machine["anyOf"], strict=True))
+
+
+def _any_machine(machine: Schema) -> Schema:
+    """Values of a machine of any kind, which stand in place of its own."""
+    of_kinds: dict[str, list[Schema]] = {}
+    for part in machine["anyOf"]:
+        for name, one in in_file(part)["properties"].items():
+            known = of_kinds.setdefault(name, [])
+            if name != "kind" and one not in known:
+                known.append(one)
+    alternatives = {name: ones for name, ones in of_kinds.items() if ones}
+    return _table(
+        {
+            name: ones[0] if len(ones) == 1 else {"anyOf": ones}
+            for name, ones in alternatives.items()
+        }
+    )
+
+
+def _table(properties: Schema) -> Schema:
+    """A table of these keys and no other."""
+    return {"type": "object", "additionalProperties": False, "properties": properties}
+
+
+def _with_judgements(options: Schema) -> None:
+    """Add to each kind of option what its file may say beside its parameters."""
+    judged = {"type": "object", "additionalProperties": sourced({"type": "number"})}
+    for choice in options["allOf"]:
+        kind = choice["if"]["properties"]["kind"]["const"]
+        properties = choice["then"]["properties"]
+        properties["given"] = judged
+        if OPTIONS[kind].changes_machine:
+            properties.pop("machine", None)
+            properties["change"] = _PART
+
+
+def _finished(title: str, schema: Schema) -> Schema:
+    """With title and draft in front, and what every value may carry."""
+    definitions = {**schema["$defs"], "source": SOURCE, "range": RANGE}
+    return {"$schema": DRAFT, "title": title, "type": "object", **schema, "$defs": definitions}
