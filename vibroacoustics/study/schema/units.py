@@ -7,7 +7,8 @@ from ...base.units import UNITS, split_key
 
 Schema = dict[str, Any]
 
-_LIMITS: Final = ("minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum")
+_LIMITS: Final[tuple[str, ...]] = ("minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum")
+_INNER: Final[tuple[str, ...]] = ("anyOf", "prefixItems")
 _DIGITS: Final = 12
 
 
@@ -37,10 +38,8 @@ def scaled(schema: Schema, factor: float) -> Schema:
     factor : to SI
     """
     limits = {key: float(f"{schema[key] / factor:.{_DIGITS}g}") for key in _LIMITS if key in schema}
-    inner = {
-        key: [scaled(one, factor) for one in schema[key]]
-        for key in ("anyOf", "prefixItems")
-        if key in schema
+    inner: Schema = {
+        key: [scaled(one, factor) for one in schema[key]] for key in _INNER if key in schema
     }
     items = {"items": scaled(schema["items"], factor)} if "items" in schema else {}
     return {**schema, **limits, **inner, **items}
@@ -51,7 +50,7 @@ def sourced(schema: Schema) -> Schema:
     if not _is_value(schema):
         return schema
     kind = schema.get("type")
-    table = {
+    table: Schema = {
         "required": ["value", "source"],
         "additionalProperties": False,
         "properties": {
