@@ -1,0 +1,43 @@
+"""What the evaluation of designs takes and gives: arrays, so that any search can ask for it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..base.arrays import Array
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """Evaluated designs.
+
+    Attributes
+    ----------
+    objectives : each the better the less, shape (design, objective); not a number where it failed
+    constraints : each met where it is at most 0, shape (design, constraint)
+    failures : why a design failed, a line for each design; empty where it did not
+    """
+
+    objectives: Array
+    constraints: Array
+    failures: tuple[str, ...]
+
+    @property
+    def violation(self) -> Array:
+        """Sum of what constraints are exceeded by, shape (design,); infinite where it failed."""
+        exceeded = np.maximum(self.constraints, 0.0).sum(axis=1)
+        return np.where(np.isfinite(self.objectives).all(axis=1), exceeded, np.inf)
+
+
+Evaluate = Callable[[Array], Evaluation]
+"""Takes designs, shape (design, variable)."""
+
+
+def joined(parts: list[Evaluation]) -> Evaluation:
+    """Evaluations of several batches of designs, one after another."""
+    return Evaluation(
+        np.concatenate([part.objectives for part in parts]),
+        np.concatenate([part.constraints for part in parts]),
+        tuple(reason for part in parts for reason in part.failures),
+    )

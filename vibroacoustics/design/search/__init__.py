@@ -1,0 +1,1 @@
+"""Searches for designs: the best one, a front of several objectives."""

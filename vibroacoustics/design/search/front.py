@@ -1,0 +1,88 @@
+"""The front of several objectives: NSGA-II of pymoo, generation by generation.
+
+Deb, Pratap, Agarwal, Meyarivan (2002), IEEE Transactions on Evolutionary Computation 6, 182-197.
+"""
+
+from types import ModuleType
+from typing import Any, Final
+
+import numpy as np
+
+from ...base.errors import ParameterError
+from ...base.progress import Progress, no_progress
+from ..evaluation import Evaluation
+from .problem import History, Problem, Searched
+
+_FAILED: Final = 1e30
+
+
+def search_front(
+    problem: Problem,
+    population: int,
+    generations: int,
+    seed: int,
+    *,
+    progress: Progress = no_progress,
+) -> Searched:
+    """Look for designs of which none is better in every objective than another.
+
+    Parameters
+    ----------
+    problem : with two objectives or more
+    population : designs a generation
+    generations : with the first
+    seed : of the random numbers; the same seed asks for the same designs
+    progress : called with the generations done
+
+    Raises
+    ------
+    ParameterError
+        pymoo is not installed.
+    """
+    history = History(problem.evaluate)
+    algorithm, outline = _algorithm(problem, population, generations, seed)
+    done = 0
+    while algorithm.has_next():
+        infills = algorithm.ask()
+        designs = np.array(infills.get("X"), dtype=float)
+        designs = np.where(problem.whole, np.round(designs), designs)
+        infills.set("X", designs)
+        evaluation = history(designs)
+        _tell(algorithm, infills, evaluation, outline)
+        done += 1
+        progress("designs", done, generations)
+    return history.searched()
+
+
+def _algorithm(problem: Problem, population: int, generations: int, seed: int) -> tuple[Any, Any]:
+    """NSGA-II, set up, and the outline of the problem."""
+    core = _pymoo()
+    from pymoo.algorithms.moo.nsga2 import NSGA2
+
+    outline = core.Problem(n_var=len(problem.whole), xl=problem.lower, xu=problem.upper)
+    algorithm = NSGA2(pop_size=population)
+    algorithm.setup(outline, termination=("n_gen", generations), seed=seed, verbose=False)
+    return algorithm, outline
+
+
+def _tell(algorithm: Any, infills: Any, evaluation: Evaluation, outline: Any) -> None:
+    """Hand the evaluation of a generation to the algorithm."""
+    from pymoo.core.evaluator import Evaluator
+    from pymoo.problems.static import StaticProblem
+
+    failed = ~np.isfinite(evaluation.objectives).all(axis=1)
+    objectives = np.where(failed[:, None], _FAILED, evaluation.objectives)
+    constraints = np.column_stack([evaluation.constraints, failed])
+    outline.n_obj, outline.n_ieq_constr = objectives.shape[1], constraints.shape[1]
+    Evaluator().eval(StaticProblem(outline, F=objectives, G=constraints), infills)
+    algorithm.tell(infills=infills)
+
+
+def _pymoo() -> ModuleType:
+    try:
+        from pymoo.core import problem
+    except ImportError:
+        raise ParameterError(
+            "design: fronts of several objectives need pymoo: pip install 'vibroacoustics[design]'"
+        ) from None
+    return problem

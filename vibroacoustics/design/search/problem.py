@@ -1,0 +1,90 @@
+"""A problem of design as arrays: bounds, what is whole-numbered, and what evaluates it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...base.arrays import Array
+from ...base.errors import SolverError
+from ..evaluation import Evaluate, Evaluation, joined
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What a search needs to know.
+
+    Attributes
+    ----------
+    lower, upper : bounds of the variables, shape (variable,)
+    whole : variables that take whole numbers only (choices by their number), shape (variable,)
+    evaluate : evaluates a batch of designs
+    """
+
+    lower: Array
+    upper: Array
+    whole: np.ndarray[tuple[int], np.dtype[np.bool_]]
+    evaluate: Evaluate
+
+
+@dataclass(frozen=True)
+class Searched:
+    """All designs that a search evaluated, in its order.
+
+    Attributes
+    ----------
+    designs : shape (design, variable)
+    evaluation : of each
+    generation : in which each was evaluated, from 0, shape (design,)
+    """
+
+    designs: Array
+    evaluation: Evaluation
+    generation: np.ndarray[tuple[int], np.dtype[np.intp]]
+
+    @property
+    def best(self) -> int:
+        """Row of the best design by the first objective.
+
+        Raises
+        ------
+        SolverError
+            None meets the constraints.
+        """
+        violation = self.evaluation.violation
+        if not (violation <= 0.0).any():
+            least = float(violation.min())
+            raise SolverError(
+                f"design: none of {len(self.designs)} designs meets the constraints "
+                f"(least sum of excesses: {least:.3g})"
+            )
+        return int(np.argmin(np.where(violation <= 0.0, self.evaluation.objectives[:, 0], np.inf)))
+
+
+class History:
+    """Keeps what a search asks for, generation by generation.
+
+    Parameters
+    ----------
+    evaluate : that is asked
+    """
+
+    def __init__(self, evaluate: Evaluate) -> None:
+        self._evaluate = evaluate
+        self._designs: list[Array] = []
+        self._evaluations: list[Evaluation] = []
+
+    def __call__(self, designs: Array) -> Evaluation:
+        """Evaluate a generation."""
+        evaluation = self._evaluate(designs)
+        self._designs.append(designs.copy())
+        self._evaluations.append(evaluation)
+        return evaluation
+
+    def searched(self) -> Searched:
+        """All so far."""
+        sizes = [len(designs) for designs in self._designs]
+        return Searched(
+            np.concatenate(self._designs),
+            joined(self._evaluations),
+            np.repeat(np.arange(len(sizes)), sizes),
+        )

@@ -1,0 +1,1 @@
+"""Designs evaluated by processes beside this one: local ones, or those of a scheduler."""
