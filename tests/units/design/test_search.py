@@ -34,12 +34,8 @@ def rosenbrock(designs: Array) -> Evaluation:
 
 def test_best_of_rosenbrock_and_its_seed() -> None:
     """The polish ends within 1e-4 of (1, 1); the same seed asks for the same designs."""
-    first = search_best(
-        problem([-2.0, -2.0], [2.0, 2.0], rosenbrock), 40, 60, seed=1, polish=True
-    )
-    again = search_best(
-        problem([-2.0, -2.0], [2.0, 2.0], rosenbrock), 40, 60, seed=1, polish=True
-    )
+    first = search_best(problem([-2.0, -2.0], [2.0, 2.0], rosenbrock), 40, 60, seed=1, polish=True)
+    again = search_best(problem([-2.0, -2.0], [2.0, 2.0], rosenbrock), 40, 60, seed=1, polish=True)
     np.testing.assert_allclose(first.designs[first.best], 1.0, atol=1e-4)
     np.testing.assert_array_equal(first.designs, again.designs)
 

@@ -58,7 +58,8 @@ def test_chunk_comes_back_with_its_failures(tmp_path: Path) -> None:
         back = store.get(0, designs)
         assert back is not None
         assert back.objectives.tobytes() == bowl(designs).objectives.tobytes()
-        assert back.failures == bowl(designs).failures and "too far left" in back.failures
+        assert back.failures == bowl(designs).failures
+        assert "too far left" in back.failures
         assert store.get(0, designs + 1e-15) is None  # of other designs
 
 

@@ -5,7 +5,6 @@ rule of Deb (2000), Computer Methods in Applied Mechanics and Engineering 186, 3
 them is better than who does not, of two who do not the one who exceeds them less.
 """
 
-from collections.abc import Callable
 from typing import Any, Final
 
 import numpy as np
@@ -123,5 +122,3 @@ def _latin_hypercube(problem: Problem, population: int, seed: int) -> Array:
 
     share = LatinHypercube(len(problem.lower), rng=np.random.default_rng(seed)).random(population)
     return np.asarray(problem.lower + share * (problem.upper - problem.lower))
-
-

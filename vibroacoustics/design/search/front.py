@@ -3,7 +3,6 @@
 Deb, Pratap, Agarwal, Meyarivan (2002), IEEE Transactions on Evolutionary Computation 6, 182-197.
 """
 
-from types import ModuleType
 from typing import Any, Final
 
 import numpy as np
@@ -70,7 +69,7 @@ def _tell(algorithm: Any, infills: Any, evaluation: Evaluation, outline: Any) ->
     from pymoo.core.evaluator import Evaluator
     from pymoo.problems.static import StaticProblem
 
-    failed = ~np.isfinite(evaluation.objectives).all(axis=1)
+    failed = ~np.all(np.isfinite(evaluation.objectives), axis=1)
     objectives = np.where(failed[:, None], _FAILED, evaluation.objectives)
     constraints = np.column_stack([evaluation.constraints, failed])
     outline.n_obj, outline.n_ieq_constr = objectives.shape[1], constraints.shape[1]
@@ -78,7 +77,7 @@ def _tell(algorithm: Any, infills: Any, evaluation: Evaluation, outline: Any) ->
     algorithm.tell(infills=infills)
 
 
-def _pymoo() -> ModuleType:
+def _pymoo() -> Any:
     try:
         from pymoo.core import problem
     except ImportError:

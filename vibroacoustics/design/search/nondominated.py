@@ -3,13 +3,15 @@
 from typing import Final
 
 import numpy as np
+import numpy.typing as npt
 
 from ...base.arrays import Array
 
+Mask = npt.NDArray[np.bool_]
 _BLOCK: Final = 256
 
 
-def nondominated(objectives: Array) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+def nondominated(objectives: Array) -> Mask:
     """Rows that no other row is at most equal to everywhere and below somewhere.
 
     Equal rows stay together. In the order of the first objective, then the second and so on, a row
@@ -33,8 +35,8 @@ def nondominated(objectives: Array) -> np.ndarray[tuple[int], np.dtype[np.bool_]
     return mask
 
 
-def _dominated(rows: Array, by: Array) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+def _dominated(rows: Array, by: Array) -> Mask:
     """Whether each row is dominated by one of the others, shape (row,)."""
-    at_most = (by[None] <= rows[:, None]).all(axis=2)
-    below = (by[None] < rows[:, None]).any(axis=2)
-    return np.asarray((at_most & below).any(axis=1))
+    difference = rows[:, None] - by[None]
+    at_most, below = np.all(difference >= 0.0, axis=2), np.any(difference > 0.0, axis=2)
+    return np.asarray(np.any(at_most & below, axis=1))

@@ -3,8 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
-from ...base.arrays import Array
+from ...base.arrays import Array, IndexArray
 from ...base.errors import SolverError
 from ..evaluation import Evaluate, Evaluation, joined
 
@@ -22,7 +23,7 @@ class Problem:
 
     lower: Array
     upper: Array
-    whole: np.ndarray[tuple[int], np.dtype[np.bool_]]
+    whole: npt.NDArray[np.bool_]
     evaluate: Evaluate
 
 
@@ -39,7 +40,7 @@ class Searched:
 
     designs: Array
     evaluation: Evaluation
-    generation: np.ndarray[tuple[int], np.dtype[np.intp]]
+    generation: IndexArray
 
     @property
     def best(self) -> int:

@@ -38,11 +38,12 @@ def opened_workers(number: int, scheduler: str | None = None) -> Iterator[Any]:
     """
     try:
         import dask
-        from distributed import Client, LocalCluster
+        import distributed
     except ImportError:
         raise ParameterError(
             "design: workers need distributed: pip install 'vibroacoustics[sweep]'"
         ) from None
+    library: Any = distributed  # untyped in parts
     settings = {
         "distributed.scheduler.allowed-failures": _DEATHS,
         "distributed.comm.timeouts.connect": f"{_CONNECTION_S:g}s",
@@ -50,7 +51,7 @@ def opened_workers(number: int, scheduler: str | None = None) -> Iterator[Any]:
     with dask.config.set(settings):
         if scheduler is not None:
             try:
-                client = Client(scheduler, timeout=_CONNECTION_S)
+                client = library.Client(scheduler, timeout=_CONNECTION_S)
             except (OSError, ValueError) as error:
                 reason = str(error).splitlines()[0]
                 raise ParameterError(f"scheduler {scheduler}: does not answer: {reason}") from None
@@ -58,14 +59,14 @@ def opened_workers(number: int, scheduler: str | None = None) -> Iterator[Any]:
                 yield client
             return
         with (
-            LocalCluster(
+            library.LocalCluster(
                 n_workers=number,
                 threads_per_worker=1,
                 host="127.0.0.1",
                 dashboard_address=None,
                 silence_logs=logging.CRITICAL,
             ) as cluster,
-            Client(cluster) as client,
+            library.Client(cluster) as client,
         ):
             yield client
 
@@ -90,9 +91,8 @@ def spread(
             client.submit(evaluate_piece, builder, task, designs_to_json(part), pure=False)
             for part in parts
         ]
-        return joined(
-            [_result(future, len(part), counts) for future, part in zip(futures, parts, strict=True)]
-        )
+        asked = zip(futures, parts, strict=True)
+        return joined([_result(future, len(part), counts) for future, part in asked])
 
     return evaluate
 

@@ -1,0 +1,144 @@
+"""Figures of many designs: front, parallel coordinates, main effects."""
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ...base.arrays import Array, IndexArray
+from ..designs.evaluated import Column, Evaluated
+from .style import COLOURS, draw, legend_below, plain, shortened, wrap
+
+_MOST_POINTS: Final = 20_000
+_MOST_LINES: Final = 200
+_BINS: Final = 12
+_GREY, _BLUE, _RED = "#bbbbbb", COLOURS[3], COLOURS[1]
+
+
+def front_figure(designs: Evaluated) -> Figure:
+    """Every objective over the first: all designs that meet the constraints, front, best few.
+
+    Parameters
+    ----------
+    designs : with two objectives or more
+    """
+    first, *others = designs.objectives
+    allowed = _thinned(np.flatnonzero(designs.met & ~designs.front))
+    front = np.flatnonzero(designs.front)
+
+    def paint(panels: Sequence[Axes]) -> None:
+        for axes, other in zip(panels, others, strict=True):
+            pairs = ((allowed, _GREY, 3.0, "allowed designs"), (front, _BLUE, 8.0, "front"))
+            for rows, colour, size, label in pairs:
+                axes.scatter(
+                    first.values[rows], other.values[rows], s=size, color=colour, label=label,
+                    linewidths=0,
+                )  # fmt: skip
+            _number(axes, designs.best, first, other)
+            axes.set_xlabel(plain(first.heading))
+            axes.set_ylabel(wrap(other.heading, 34))
+        legend_below(panels[-1], 3)
+
+    return draw(len(others), 2.9, paint)
+
+
+def _number(axes: Axes, best: IndexArray, first: Column, other: Column) -> None:
+    """The best few as open circles with their number."""
+    axes.scatter(
+        first.values[best], other.values[best], s=30, facecolors="none", edgecolors=_RED,
+        linewidths=1.3, label="best few", zorder=3,
+    )  # fmt: skip
+    for number, row in enumerate(best, 1):
+        axes.annotate(
+            f"{number}", (first.values[row], other.values[row]), xytext=(4, 4),
+            textcoords="offset points", color=_RED, fontsize=8.5,
+        )  # fmt: skip
+
+
+def parallel_figure(designs: Evaluated) -> Figure:
+    """Parallel coordinates of the front: a line a design over variables and objectives.
+
+    Parameters
+    ----------
+    designs : the front's designs are drawn, at most 200 of them, and the best few
+    """
+    columns = (*designs.variables, *designs.objectives)
+    front = _thinned(np.flatnonzero(designs.front), _MOST_LINES)
+    rows = np.flatnonzero(designs.met)
+    scaled = np.stack([_share(column.values, rows) for column in columns])
+
+    def paint(panels: Sequence[Axes]) -> None:
+        (axes,) = panels
+        places = np.arange(len(columns))
+        axes.plot(scaled[:, front], -places, color=_BLUE, linewidth=0.6, alpha=0.45)
+        for number, row in enumerate(designs.best, 1):
+            axes.plot(scaled[:, row], -places, color=_RED, linewidth=1.3)
+            axes.annotate(f"{number}", (scaled[0, row], 0.12), color=_RED, ha="center", fontsize=8)
+        axes.set_yticks(-places, [wrap(shortened(column.heading, 60), 26) for column in columns])
+        for place, column in enumerate(columns):
+            for share, end in ((0.0, "min"), (1.0, "max")):
+                value = float(getattr(np, end)(column.values[rows]))
+                words = column.words[round(value)] if column.words else f"{value:.3g}"
+                axes.annotate(
+                    plain(words), (share, -place), xytext=(0, -10), textcoords="offset points",
+                    ha="left" if share == 0.0 else "right", fontsize=7.5, color="#555555",
+                )  # fmt: skip
+        axes.set_xlim(-0.03, 1.03)
+        axes.set_xticks([0.0, 1.0], ["least allowed", "greatest allowed"])
+        axes.grid(visible=True, axis="y")
+
+    return draw(1, 0.7 + 0.45 * len(columns), paint)
+
+
+def main_effects_figure(designs: Evaluated, objective: Column) -> Figure:
+    """An objective over each variable: median of the designs, and the middle 80 % of them.
+
+    Parameters
+    ----------
+    designs : those that did not fail count, whether they meet the constraints or not
+    objective : one of theirs
+    """
+    sound = np.isfinite(objective.values)
+
+    def paint(panels: Sequence[Axes]) -> None:
+        for axes, variable in zip(panels, designs.variables, strict=True):
+            middle, quantiles = _by_bin(variable.values[sound], objective.values[sound])
+            axes.fill_between(middle, quantiles[0], quantiles[2], color=_BLUE, alpha=0.2,
+                              linewidth=0, label="middle 80 % of the designs")  # fmt: skip
+            axes.plot(middle, quantiles[1], color=_BLUE, marker=".", label="median")
+            axes.set_xlabel(plain(variable.heading))
+            axes.set_ylabel(wrap(shortened(objective.heading, 60), 24))
+            if variable.words:
+                axes.set_xticks(range(len(variable.words)), [wrap(w, 14) for w in variable.words])
+        legend_below(panels[-1])
+
+    return draw(len(designs.variables), 2.0, paint)
+
+
+def _by_bin(values: Array, objective: Array) -> tuple[Array, Array]:
+    """Middles of the bins of a variable, and quantiles 10, 50 and 90 % in each, shape (3, bin)."""
+    levels = np.unique(values)
+    if len(levels) <= _BINS:
+        groups = [objective[values == level] for level in levels]
+        return levels, np.array([np.quantile(group, (0.1, 0.5, 0.9)) for group in groups]).T
+    edges = np.unique(np.quantile(values, np.linspace(0.0, 1.0, _BINS + 1)))
+    number = np.clip(np.searchsorted(edges, values, side="right") - 1, 0, len(edges) - 2)
+    filled = [n for n in range(len(edges) - 1) if (number == n).any()]
+    middle = np.array([np.median(values[number == n]) for n in filled])
+    quantiles = [np.quantile(objective[number == n], (0.1, 0.5, 0.9)) for n in filled]
+    return middle, np.array(quantiles).T
+
+
+def _share(values: Array, rows: IndexArray) -> Array:
+    """Values from 0, the least of some rows, to 1, the greatest of them."""
+    low, high = float(values[rows].min()), float(values[rows].max())
+    return (values - low) / (high - low) if high > low else np.full(len(values), 0.5)
+
+
+def _thinned(rows: IndexArray, most: int = _MOST_POINTS) -> IndexArray:
+    """At most so many rows, evenly chosen."""
+    if len(rows) <= most:
+        return rows
+    return rows[np.linspace(0, len(rows) - 1, most).round().astype(np.intp)]
