@@ -147,8 +147,18 @@ def test_extends_must_be_a_name(tree):
 
 def test_chain_of_extends(tree):
     path = tree / "pipelines" / "third.toml"
-    path.write_text('extends = "copeland_derived.toml"\n')
-    says(refused(path), "copeland_derived.toml", "extends", "stand alone")
+    path.write_text('extends = "copeland_derived.toml"\ntitle = "third"\n')
+    derived = load_study(tree / "pipelines" / "copeland_derived.toml")
+    third = load_study(path)
+    assert third.title == "third"
+    assert third.machine == derived.machine
+
+
+def test_circle_of_extends(tree):
+    first, second = (tree / "pipelines" / f"{name}.toml" for name in ("first", "second"))
+    first.write_text('extends = "second.toml"\n')
+    second.write_text('extends = "first.toml"\n')
+    says(refused(first), "second.toml", "extends = first.toml", "circle")
 
 
 def test_study_that_extends_itself(tree):

@@ -14,6 +14,8 @@ from .nesting import nested_deeper_than
 
 MAXIMUM_FILE_BYTES: Final = 1_000_000
 MAXIMUM_DEPTH: Final = 16
+MOST_EXTENDED: Final = 8
+"""Studies in a chain of `extends`."""
 
 
 class Written(NamedTuple):
@@ -57,7 +59,17 @@ def _deeper_than(content: Mapping[str, Any], depth: int) -> bool:
 
 
 def read_with_base(path: Path) -> Written:
-    """Merge a study over the one it extends; also tell the file that each value comes from."""
+    """Merge a study over the one it extends, and so on; also tell the file of each value.
+
+    Raises
+    ------
+    ParameterError
+        A file cannot be read, or they extend one another in a circle.
+    """
+    return _over_base(path, (path,))
+
+
+def _over_base(path: Path, chain: tuple[Path, ...]) -> Written:
     content = read_toml(path)
     base_name = content.pop("extends", None)
     origin = dict.fromkeys(leaves(content), path)
@@ -66,11 +78,13 @@ def read_with_base(path: Path) -> Written:
     if not isinstance(base_name, str):
         raise ParameterError(f"{path}: extends = {base_name!r}: must be a file name")
     base_path = beside(path, base_name)
-    base = read_toml(base_path)
-    if "extends" in base:
-        raise ParameterError(f"{base_path}: extends: a study that is extended must stand alone")
-    base_origin = dict.fromkeys(leaves(base), base_path)
-    return Written(path, merge(base, content), base_origin | origin)
+    if base_path in chain or len(chain) == MOST_EXTENDED:
+        raise ParameterError(
+            f"{path}: extends = {base_name}: studies extend one another in a circle, or more than "
+            f"{MOST_EXTENDED} of them"
+        )
+    base = _over_base(base_path, (*chain, base_path))
+    return Written(path, merge(base.content, content), base.origin | origin)
 
 
 def beside(file: Path, name: str) -> Path:
