@@ -10,7 +10,7 @@ from vibroacoustics.design.evaluation import Evaluate, Evaluation
 from vibroacoustics.design.search.best import search_best
 from vibroacoustics.design.search.front import search_front
 from vibroacoustics.design.search.nondominated import nondominated
-from vibroacoustics.design.search.problem import Problem
+from vibroacoustics.design.search.problem import SearchProblem
 
 
 def evaluating(objectives: Array, constraints: Array | None = None) -> Evaluation:
@@ -21,10 +21,10 @@ def evaluating(objectives: Array, constraints: Array | None = None) -> Evaluatio
 
 def problem(
     lower: list[float], upper: list[float], evaluate: Evaluate, whole: list[bool] | None = None
-) -> Problem:
+) -> SearchProblem:
     """Of plain lists."""
     mask = np.zeros(len(lower), dtype=bool) if whole is None else np.array(whole)
-    return Problem(np.array(lower), np.array(upper), mask, evaluate)
+    return SearchProblem(np.array(lower), np.array(upper), mask, evaluate)
 
 
 def rosenbrock(designs: Array) -> Evaluation:

@@ -15,7 +15,7 @@ from vibroacoustics.base.arrays import Array
 from vibroacoustics.base.errors import StorageError
 from vibroacoustics.design.evaluation import Evaluation
 from vibroacoustics.design.search.best import search_best
-from vibroacoustics.design.search.problem import Problem, Searched
+from vibroacoustics.design.search.problem import SearchProblem, Searched
 from vibroacoustics.design.store.chunks import Stored, opened_store
 
 PLAN: dict[str, object] = {"study": "a"}
@@ -37,7 +37,7 @@ def searched_in(folder: Path, pause_s: float = 0.0) -> Searched:
         return bowl(designs)
 
     with opened_store(folder, PLAN) as store:
-        problem = Problem(
+        problem = SearchProblem(
             np.array([-1.0, -1.0]), np.array([1.0, 1.0]), np.zeros(2, bool), Stored(evaluate, store)
         )
         return search_best(problem, 12, 25, seed=4, polish=False)

@@ -13,7 +13,7 @@ from scipy.optimize import Bounds, differential_evolution, minimize
 from ...base.arrays import Array
 from ...base.progress import Progress, no_progress
 from ..evaluation import Evaluation
-from .problem import History, Problem, Searched
+from .problem import History, SearchProblem, Searched
 
 _INFEASIBLE: Final = 1e9
 """Above every objective that can be met."""
@@ -25,7 +25,7 @@ _POLISHED: Final = 1e-9
 
 
 def search_best(
-    problem: Problem,
+    problem: SearchProblem,
     population: int,
     generations: int,
     seed: int,
@@ -79,7 +79,7 @@ def comparable(evaluation: Evaluation) -> Array:
     return np.where(violation > 0.0, excess, evaluation.objectives[:, 0])
 
 
-def _polish(problem: Problem, history: History) -> None:
+def _polish(problem: SearchProblem, history: History) -> None:
     """Add what a simplex from the best design asks for, the whole numbers held."""
     searched = history.searched()
     start = searched.designs[int(np.argmin(comparable(searched.evaluation)))]
@@ -113,11 +113,11 @@ def _simplex(begin: Array, size: float = 1e-2) -> Array:
     return np.vstack([begin, begin + np.diag(steps)])
 
 
-def _rounded(problem: Problem, designs: Array) -> Array:
+def _rounded(problem: SearchProblem, designs: Array) -> Array:
     return np.where(problem.whole, np.round(designs), designs)
 
 
-def _latin_hypercube(problem: Problem, population: int, seed: int) -> Array:
+def _latin_hypercube(problem: SearchProblem, population: int, seed: int) -> Array:
     from scipy.stats.qmc import LatinHypercube
 
     share = LatinHypercube(len(problem.lower), rng=np.random.default_rng(seed)).random(population)

@@ -11,7 +11,7 @@ from ..evaluation import Evaluate, Evaluation, joined
 
 
 @dataclass(frozen=True)
-class Problem:
+class SearchProblem:
     """What a search needs to know.
 
     Attributes

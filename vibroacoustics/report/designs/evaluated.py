@@ -47,7 +47,6 @@ class Evaluated:
     Attributes
     ----------
     variables, objectives, constraints : columns
-    limits : of each constraint, as `at most 2 kg`
     met : which designs meet every constraint, shape (design,)
     front : of these, those of which none is better in every objective, shape (design,)
     best : numbers of the best few, the first one first
@@ -56,7 +55,6 @@ class Evaluated:
     variables: tuple[Column, ...]
     objectives: tuple[Column, ...]
     constraints: tuple[Column, ...]
-    limits: tuple[str, ...]
     met: Mask
     front: Mask
     best: IndexArray

@@ -1,0 +1,58 @@
+"""Designs of a study as a search sees them: choices by their number, other values as they are."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...base.arrays import Array
+from ..evaluation import Evaluate, Evaluation
+from ..problem import Problem
+from ..variable import Variable
+from .problem import SearchProblem
+
+
+@dataclass(frozen=True)
+class Coding:
+    """How designs are told in numbers that a search may change freely.
+
+    Attributes
+    ----------
+    variables : of the designs, in the order of the columns
+    """
+
+    variables: Sequence[Variable]
+
+    def problem(self, evaluate: Evaluate) -> SearchProblem:
+        """What a search needs to know.
+
+        Parameters
+        ----------
+        evaluate : takes designs in SI
+        """
+        ends = [
+            variable.limits if variable.values is None else (0.0, variable.values.size - 1.0)
+            for variable in self.variables
+        ]
+        lower, upper = np.array(ends, dtype=float).T
+        whole = np.array([variable.values is not None for variable in self.variables])
+        return SearchProblem(lower, upper, whole, lambda codes: evaluate(self.designs(codes)))
+
+    def designs(self, codes: Array) -> Array:
+        """Designs in SI, shape (design, variable)."""
+        columns = [
+            column if variable.values is None else variable.values[column.astype(int)]
+            for variable, column in zip(self.variables, codes.T, strict=True)
+        ]
+        return np.stack(columns, axis=1)
+
+
+def evaluating(problem: Problem) -> Evaluate:
+    """The evaluation of designs in SI in this process."""
+
+    def evaluate(designs: Array) -> Evaluation:
+        judged = problem.evaluate(designs)
+        reasons = tuple(judged.failed.get(row, "") for row in range(len(designs)))
+        return Evaluation(judged.objectives, judged.constraints, reasons)
+
+    return evaluate

@@ -1,0 +1,76 @@
+"""The task of a worker that evaluates designs of a study, as JSON: where its file is, and hashes.
+
+A worker reads the study and the plug-ins from the same paths, and refuses others than those of
+whoever asks: of another content, or another version of the package.
+"""
+
+import json
+import socket
+from collections.abc import Sequence
+from pathlib import Path
+
+from ...base.errors import ParameterError
+from ...base.hashing import canonical_json, sha256
+from ...base.plugin_file import load_plugin
+from ...base.regular_file import read_bytes
+from ...results.provenance import software_version
+from ...study.loading import load_study
+from ...study.study import Study
+from ..evaluation import Evaluate
+from ..problem import Problem
+from ..search.coded import evaluating
+
+_MAXIMUM_BYTES = 10_000_000
+
+
+def study_task(path: Path, study: Study, plugins: Sequence[Path]) -> bytes:
+    """What a worker needs to evaluate designs of a study.
+
+    Parameters
+    ----------
+    path : of the study's file, which the workers can read too
+    study : that was read from it
+    plugins : files that were loaded before
+    """
+    said = {
+        "study": str(path.resolve()),
+        "parameters": study_hash(study),
+        "version": software_version(),
+        "plugins": [[str(one.resolve()), _hash_of(one)] for one in plugins],
+    }
+    return canonical_json(said).encode()
+
+
+def evaluate_task(task: bytes) -> Evaluate:
+    """The evaluation of the designs of a task's study, on a worker.
+
+    Raises
+    ------
+    ParameterError
+        A file is missing there, or is another one.
+    """
+    said = json.loads(task)
+    here = f"worker on {socket.gethostname()}"
+    if said["version"] != software_version():
+        raise ParameterError(f"{here}: has version {software_version()}, not {said['version']}")
+    for name, digest in said["plugins"]:
+        try:
+            same = _hash_of(Path(name)) == digest
+        except OSError:
+            same = False
+        if not same:
+            raise ParameterError(f"{here}: plug-in {name}: is missing there, or another one")
+        load_plugin(name)
+    study = load_study(said["study"])
+    if study_hash(study) != said["parameters"]:
+        raise ParameterError(f"{here}: {said['study']}: is another study there")
+    return evaluating(Problem(study))
+
+
+def study_hash(study: Study) -> str:
+    """Hash of all parameters of a study."""
+    return sha256(canonical_json(study.parameters()).encode())
+
+
+def _hash_of(path: Path) -> str:
+    return sha256(read_bytes(path, _MAXIMUM_BYTES))
