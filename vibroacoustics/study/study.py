@@ -18,6 +18,7 @@ from ..machine.stopping import Stopping
 from ..machine.turning_back import TurningBack
 from ..mechanics.loads import DISCHARGE_DOME, SUCTION_ANNULUS
 from .baseline import MeasuredSound
+from .design import Design
 from .evidence import Evidence
 from .radiation import RadiationSettings
 from .receivers import Receiver
@@ -152,6 +153,8 @@ class Study(Parameters):
     """Of the machine's values that are drawn at random."""
     held_ranges: tuple[HeldRange, ...] = ()
     """Of those that are not, with the reason."""
+    design: Design | None = None
+    """What a sweep or a search varies; a run takes the options as they are given."""
     measured: MeasuredSound | None = None
     """What was measured of the machine's sound, in place of its overall noise."""
     records: tuple[ParameterRecord, ...] = ()

@@ -1,0 +1,61 @@
+"""Functions of an option's values in which its loads and figures are linear."""
+
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from typing import ClassVar, Final
+
+import numpy as np
+
+from ...base.arrays import Array
+from ...base.errors import ParameterError, SolverError
+from ...base.registry import Registry
+from ...machine.machine import Machine
+
+
+class ClosedForm:
+    """What the engine may be told of a kind of option; every form is tested before it is used.
+
+    A further one is one file of `design.engine.closed_forms`, or of a stranger. Options without
+    one are computed run by run where they are not linear by themselves.
+    """
+
+    kind: ClassVar[str]
+    """Of the option."""
+    fields: ClassVar[tuple[str, ...]]
+    """Values of the option, in SI, that the functions are of."""
+    size: ClassVar[int]
+    """Number of functions."""
+
+    def functions(self, values: Mapping[str, float], machine: Machine, speed_rpm: float) -> Array:
+        """Functions of one design, shape (size,).
+
+        Parameters
+        ----------
+        values : of `fields`
+        machine : as the option leaves it
+        speed_rpm : of the shaft
+
+        Raises
+        ------
+        ParameterError
+            It cannot be built so.
+        """
+        raise NotImplementedError
+
+
+CLOSED_FORMS: Final[Registry[type[ClosedForm]]] = Registry(
+    "closed form", ClosedForm, "kind", "design.engine.closed_forms", "vibroacoustics.closed_forms"
+)
+
+
+def of_many(one: Callable[[Array], Array], values: Array, size: int) -> Array:
+    """A function of one design, of many, shape (design, function); each different one once.
+
+    Not a number where a design cannot be built.
+    """
+    different, rows = np.unique(values, axis=0, return_inverse=True)
+    results = np.full((len(different), size), np.nan)
+    for row, design in zip(results, different, strict=True):
+        with suppress(ParameterError, SolverError):
+            row[:] = one(design)
+    return results[rows.ravel()]

@@ -1,0 +1,1 @@
+"""Closed forms of options, one file each."""

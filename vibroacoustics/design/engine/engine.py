@@ -1,0 +1,124 @@
+"""What is seen of any designs of a space."""
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+
+import numpy as np
+
+from ...base.arrays import Array
+from ...base.units import si_key
+from ...machine.option import Option
+from ...radiation.given import Radiation
+from ..space import OPTION, Space, acts_on
+from .bases import Basis
+from .closed_form import CLOSED_FORMS, of_many
+from .option_engine import ARRAYS, OptionEngine, Outcome
+from .probe import Probe, probe
+from .recognition import Explorer, Route
+from .runs import CachedRuns
+from .samples import Samples
+from .seen import Need
+from .sound_way import Ways
+
+
+class Engine:
+    """Computes designs: by linear algebra where probes show that it is exact, else by runs.
+
+    Parameters
+    ----------
+    space : of the designs
+    limits : of the variables with their tolerances, shape (variable, 2), SI
+    needs : what is asked
+    radiation : gives the transfer vectors
+    """
+
+    def __init__(
+        self, space: Space, limits: Array, needs: Sequence[Need], radiation: Radiation
+    ) -> None:
+        self.space = space
+        self.limits = limits
+        self.needs = tuple(dict.fromkeys(needs))
+        self.ways = Ways(radiation)
+        self._of_options: dict[str, OptionEngine] = {}
+
+    def outcome(self, values: Array) -> Outcome:
+        """What is seen of designs, and why some have failed.
+
+        Parameters
+        ----------
+        values : shape (design, variable), SI
+        """
+        if len(self.space.options) == 1:
+            return self.of_option(self.space.options[0]).outcome(values)
+        result = Outcome()
+        for number, option in enumerate(self.space.options):
+            rows = np.flatnonzero(np.rint(values[:, 0]) == number)
+            if not rows.size:
+                continue
+            part = self.of_option(option).outcome(values[rows])
+            result.take(rows, part.seen, len(values))
+            result.failed |= {int(rows[row]): reason for row, reason in part.failed.items()}
+        return result
+
+    def routes(self, option: str) -> dict[str, Route]:
+        """Which way each variable goes in designs with an option, by its key."""
+        _, routes = self.of_option(option).recognised
+        return dict(zip(self.space.names, routes, strict=True))
+
+    def of_option(self, option: str) -> OptionEngine:
+        """Designs with one option."""
+        if option not in self._of_options:
+            self._of_options[option] = self._made(option)
+        return self._of_options[option]
+
+    def _made(self, option: str) -> OptionEngine:
+        space = self.space
+        figures = {need.name for need in self.needs if need.what == "figure"}
+        speeds = space.study.operation.speed_rpm
+        samples = Samples(partial(self._probe, option))
+        limits = self.limits.copy()
+        if space.names[:1] == [OPTION]:
+            limits[0] = space.options.index(option)
+        explorer = Explorer(samples, limits, speeds, ARRAYS | figures)
+        linear = tuple(
+            number
+            for number, variable in enumerate(space.variables)
+            if not (variable.takes_words or (variable.whole and variable.choices is not None))
+            and acts_on(variable.key, option)
+        )
+        forms = _closed_forms(space, option)
+        runs = CachedRuns(space, option, self.needs, self.ways)
+        return OptionEngine(explorer, self.ways, self.needs, linear, forms, runs)
+
+    def _probe(self, option: str, design: Array) -> Probe:
+        return probe(self.space.quick_study_of(design), option, self.ways)
+
+
+def _closed_forms(space: Space, option: str) -> tuple[Basis, ...]:
+    """The closed form of an option's kind, of the variables that are its values."""
+    given = space.study.options[option]
+    form = CLOSED_FORMS.get(given.kind)
+    if form is None:
+        return ()
+    columns = {
+        si_key(variable.key.removeprefix(f"options.{option}."))[0]: number
+        for number, variable in enumerate(space.variables)
+        if variable.key.startswith(f"options.{option}.")
+    }
+    of_form = {field: columns[field] for field in form.fields if field in columns}
+    if not of_form:
+        return ()
+    machine, present = given.applied_to(space.study.machine), _present(given, form.fields)
+
+    def functions(values: Array, speed_rpm: float) -> Array:
+        def one(row: Array) -> Array:
+            changed = dict(zip(of_form, row.tolist(), strict=True))
+            return form().functions({**present, **changed}, machine, speed_rpm)
+
+        return of_many(one, values, form.size)
+
+    return (Basis("a closed form", tuple(of_form.values()), functions, form.size, True),)
+
+
+def _present(option: Option, fields: Sequence[str]) -> Mapping[str, float]:
+    return {field: getattr(option, field) for field in fields}

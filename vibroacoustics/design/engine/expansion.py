@@ -1,0 +1,107 @@
+"""Loads and matrices of all designs as sums of products, exact where they pass the test."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ...base.arrays import Array, ComplexArray
+from .terms import Terms
+
+RELATIVE: Final = 1e-10
+"""Error of a line or value that is rounding, of its largest size over the designs."""
+NOTHING: Final = 1e-12
+"""What is smaller than this part of the largest of an array is rounding alone."""
+SAME: Final = 1e-14
+"""Change, of the largest of an array, that is none."""
+
+Stack = Mapping[str, ComplexArray]
+"""Arrays of designs by name, shape (design, ...)."""
+
+
+@dataclass(frozen=True)
+class Expansion:
+    """Arrays of every design as sums of products of functions of the variables.
+
+    Attributes
+    ----------
+    terms : the products
+    speed_rpm : at which the arrays are
+    factors : by name of the array, shape (product, ...)
+    """
+
+    terms: Terms
+    speed_rpm: float
+    factors: Stack
+
+    def at(self, values: Array) -> dict[str, ComplexArray]:
+        """Arrays of designs, shape (design, ...); one for all, (1, ...), where none changes it.
+
+        Parameters
+        ----------
+        values : shape (design, variable)
+        """
+        columns = self.terms.at(values, self.speed_rpm)
+        return {name: summed(columns, factors) for name, factors in self.factors.items()}
+
+    def is_constant(self, name: str) -> bool:
+        """Whether an array is the same for all designs."""
+        return not self.factors[name][1:].any()
+
+
+def summed(columns: Array, factors: ComplexArray) -> ComplexArray:
+    """Sum over products, shape (design, ...); (1, ...) where only the constant one has a factor.
+
+    Parameters
+    ----------
+    columns : shape (design, product)
+    factors : shape (product, ...)
+    """
+    if not factors[1:].any():
+        return factors[:1]
+    flat = factors.reshape(len(factors), -1)
+    used = flat.any(axis=1)
+    real = columns[:, used] @ np.ascontiguousarray(flat[used]).view(float)
+    return np.asarray(real.view(complex).reshape(len(columns), *factors.shape[1:]))
+
+
+def fitted(terms: Terms, speed_rpm: float, values: Array, arrays: Stack) -> Expansion:
+    """Least squares through designs.
+
+    Parameters
+    ----------
+    terms : fewer than there are designs
+    speed_rpm : at which the arrays are
+    values : shape (design, variable)
+    arrays : of these designs
+    """
+    solve = np.linalg.pinv(terms.at(values, speed_rpm), rcond=1e-14)
+    factors: dict[str, ComplexArray] = {}
+    for name, array in arrays.items():
+        change = array - array[:1]
+        change[:, _is_nothing(change, array)] = 0.0
+        factor: ComplexArray = np.tensordot(solve, change, axes=(1, 0)).astype(complex)
+        factor[0] += array[0]
+        factors[name] = factor
+    return Expansion(terms, speed_rpm, factors)
+
+
+def deviation(expected: ComplexArray, given: ComplexArray) -> float:
+    """Largest error over the size of its line, both of shape (design, line, ...).
+
+    The size of a line is its largest over designs and components, at least `NOTHING / RELATIVE`
+    of the largest of the array, as smaller lines are rounding.
+    """
+    error = np.abs(given - expected)
+    if not error.any():
+        return 0.0
+    size = np.abs(expected)
+    across = tuple(axis for axis in range(size.ndim) if axis != 1)
+    floor = max(float(size.max()) * NOTHING / RELATIVE, 1e-300)
+    return float(np.max(error / np.maximum(size.max(axis=across, keepdims=True), floor)))
+
+
+def _is_nothing(change: ComplexArray, array: ComplexArray) -> Array:
+    """Where no design changes an array, shape of the array of one design."""
+    return np.asarray(np.abs(change).max(axis=0) <= SAME * np.abs(array).max())

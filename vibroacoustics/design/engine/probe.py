@@ -1,0 +1,160 @@
+"""One design before anything moves: forces of all sources and the body on its mounts."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...base.arrays import Array, ComplexArray, IndexArray
+from ...base.progress import no_progress
+from ...machine.source import Case
+from ...mechanics.loads import Lines, Loads, lines_of
+from ...orders.spectrum import order_spectra
+from ...sources.cases import cases_of, loaded_cases
+from ...study.study import Study
+from ...transfer.machine import MachineOnMounts, on_mounts
+from .sound_way import SoundWay
+
+Parts = Mapping[str, ComplexArray]
+
+
+@dataclass(frozen=True)
+class Probe:
+    """What a design does at each speed, before its motion is solved.
+
+    Attributes
+    ----------
+    frequency_hz : of the lines above 0 Hz, by speed, each of shape (line,)
+    order : of the lines, 0 for tones that are none, likewise
+    by_speed : arrays by name, one mapping a speed, of the shapes
+        wrench (order, 6): of the moving parts on the mechanism's body about its centre of mass
+        load (line, motion): of all sources on the bodies, the one on the feet first
+        other (line, receiver): pressure that does not come of the rigid motion, Pa
+        noise (receiver,): A-weighted mean square of random loads, Pa²
+        factor (line,): what the option's insertion loss leaves of the pressure
+        and one of shape () for each reported figure
+    body : arrays by name, of the shapes
+        mass, stiffness (motion, motion): complex with the structural loss
+        foot (foot, 3, motion): force into each foot per motion
+    added, foot_added : stiffness over frequency in addition, by speed, (line, motion, motion) and
+        (line, foot, 3, motion); none where it is constant
+    way : hash of what the way from motion to microphones consists of
+    """
+
+    frequency_hz: tuple[Array, ...]
+    order: tuple[IndexArray, ...]
+    by_speed: tuple[Parts, ...]
+    body: Parts
+    way: str
+
+    def groups(self) -> tuple[Parts, ...]:
+        """Arrays by name of each speed, last those of the body."""
+        return (*self.by_speed, self.body)
+
+
+def probe(study: Study, option: str, way_of: Callable[[Study], SoundWay]) -> Probe:
+    """Forces and body of a study with one of its options.
+
+    Parameters
+    ----------
+    study : with the values of a design, its options `none` and the one asked for
+    option : its name
+    way_of : gives the way from motion to microphones
+
+    Raises
+    ------
+    ParameterError, SolverError
+        The design cannot be built, or not run.
+    """
+    cases, loads = loaded_cases(study, cases_of(study, no_progress))
+    way = way_of(study)
+    frequencies, orders, parts = [], [], []
+    for speed in study.operation.speed_rpm:
+        case, of_case = cases[speed, option], loads[speed, option]
+        orders_held = study.highest_order(speed)
+        highest = max(orders_held, case.maximum_order) if study.drives_shell else orders_held
+        lines = lines_of(of_case, case.shaft_frequency_hz, highest)
+        frequencies.append(lines.frequency_hz[1:])
+        number = np.arange(1, lines.frequency_hz.size)
+        orders.append(np.where(number <= highest, number, 0))
+        parts.append(_of_case(study, option, case, of_case, lines, way))
+    machine = study.options[option].applied_to(study.machine)
+    body = on_mounts(machine)
+    added = [_over_frequency(body, frequency) for frequency in frequencies]
+    by_speed = tuple({**part, **more} for part, more in zip(parts, added, strict=True))
+    return Probe(tuple(frequencies), tuple(orders), by_speed, body_matrices(body), way.key)
+
+
+def _of_case(
+    study: Study,
+    option: str,
+    case: Case,
+    loads: Mapping[str, Loads],
+    lines: Lines,
+    way: SoundWay,
+) -> dict[str, ComplexArray]:
+    held = study.highest_order(case.speed_rpm)
+    wrench = _wrench(case, loads, held)
+    bodies = len(on_mounts(case.machine).isolation.bodies)
+    load = np.zeros((lines.frequency_hz.size, bodies, 6), dtype=complex)
+    for on_mechanism in lines.rigid.values():
+        load[:, -1] += on_mechanism.T
+    for on_shell in lines.on_shell.values():
+        load[:, 0] += on_shell.T
+    load[: held + 1, -1] += wrench
+    other, noise = way.besides_rigid(case.machine, lines, loads)
+    loss = study.options[option].insertion_loss()
+    factor: Array = np.ones(lines.frequency_hz.size)
+    if loss is not None:
+        factor = loss.amplitude_factor(lines.frequency_hz)
+        noise = [(hertz, power * loss.power_factor(hertz)) for hertz, power in noise]
+    figures = {**case.revolution.figures, **case.added.figures}
+    for one in loads.values():
+        figures |= one.figures
+    return {
+        "wrench": wrench[1:],
+        "load": load[1:].reshape(len(load) - 1, -1),
+        "other": other[:, 1:].T,
+        "noise": way.weighted(noise),
+        "factor": factor[1:].astype(complex),
+        **{name: np.asarray(complex(value)) for name, value in figures.items()},
+    }
+
+
+def _wrench(case: Case, loads: Mapping[str, Loads], highest: int) -> ComplexArray:
+    """Of the moving parts by order, shape (order, 6)."""
+    wrenches = [wrench for one in loads.values() for wrench in one.wrenches.values()]
+    both = np.sum([np.concatenate(wrench) for wrench in wrenches], axis=0)
+    speed = case.revolution.rotation.speed_rad_per_s
+    return np.asarray(order_spectra(both, speed, highest).T)
+
+
+def body_matrices(body: MachineOnMounts) -> dict[str, ComplexArray]:
+    """Mass, stiffness and what the feet pass on; see `Probe.body`."""
+    isolation, feet = body.isolation, len(body.stand.names)
+    mounts = zip(isolation.bushings[:feet], isolation.bushing_motion, strict=False)
+    foot = [
+        (1.0 + 1j * mount.loss_factor_ratio) * (mount.in_frame(mount.stiffness) @ motion)[:3]
+        for mount, motion in mounts
+    ]
+    stiffness = isolation.stiffness_matrix + 1j * isolation.structural_damping_matrix
+    mass = isolation.mass_matrix.astype(complex)
+    return {"mass": mass, "stiffness": stiffness, "foot": np.array(foot)}
+
+
+def _over_frequency(body: MachineOnMounts, frequency_hz: Array) -> dict[str, ComplexArray]:
+    """Stiffness that is added at the lines; empty where it is constant."""
+    isolation, feet = body.isolation, len(body.stand.names)
+    size = 6 * len(isolation.bodies)
+    if all(one.over_frequency is None for one in isolation.bushings):
+        return {}
+    added = np.zeros((frequency_hz.size, size, size), dtype=complex)
+    foot = np.zeros((frequency_hz.size, feet, 3, size), dtype=complex)
+    for number, mount in enumerate(isolation.bushings):
+        if mount.over_frequency is not None:
+            motion = isolation.bushing_motion[number, :3]
+            per_motion = mount.added_stiffness(frequency_hz)[:, :, None] * motion
+            added += motion.T @ per_motion
+            if number < feet:
+                foot[:, number] = per_motion
+    return {"added": added, "foot_added": foot}

@@ -1,0 +1,185 @@
+"""Which way each variable goes: by linear algebra where probes show that this is exact."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Final
+
+import numpy as np
+from scipy.stats import qmc
+
+from ...base.arrays import Array, ComplexArray
+from ...base.errors import ParameterError, SolverError
+from .bases import Basis, bases_of
+from .expansion import RELATIVE, Expansion, deviation, fitted
+from .samples import Samples, stacked
+from .terms import Terms, products_of
+
+NODES: Final = 11
+"""Designs along one variable: at most four are fitted, the others test."""
+TESTS: Final = 16
+"""Designs that test a fit, at random."""
+LARGEST_FIT: Final = 1500
+"""Products that are fitted at most."""
+UNCHANGED: Final = 1e-12
+"""Change of an array, of its size, that is rounding."""
+NO_EFFECT: Final = "no effect"
+_RANDOM: Final = 20261123
+
+
+@dataclass(frozen=True)
+class Route:
+    """What is known of a variable.
+
+    Attributes
+    ----------
+    linear : whether designs are computed by linear algebra over its range
+    reason : the functions by which it acts, or why each of its values takes a run
+    """
+
+    linear: bool
+    reason: str
+
+
+@dataclass(frozen=True)
+class Explorer:
+    """Looks at designs along one variable after another.
+
+    Attributes
+    ----------
+    samples : probes
+    limits : of the variables, shape (variable, 2)
+    speeds_rpm : of the study
+    wanted : names of the arrays that matter
+    """
+
+    samples: Samples
+    limits: Array
+    speeds_rpm: tuple[float, ...]
+    wanted: frozenset[str]
+
+    def basis_along(
+        self, base: Array, group: tuple[int, ...], forms: Sequence[Basis]
+    ) -> tuple[Basis | None, Route]:
+        """The first basis that is exact along the variables of a group, and what is known of them.
+
+        Parameters
+        ----------
+        base : a design, shape (variable,)
+        group : numbers of variables
+        forms : closed forms of all of them; a single variable is tried in simple functions too
+        """
+        values = np.repeat(base[None], NODES if len(group) == 1 else 2 * NODES, axis=0)
+        values[1:, group] = spread(self.limits[list(group)], len(values) - 1)
+        try:
+            arrays = self.arrays(values)
+        except (ParameterError, SolverError) as error:
+            return None, Route(False, str(error))
+        parts = [part for of_speed in arrays for part in of_speed.values()]
+        if all(
+            deviation(part, np.broadcast_to(part[:1], part.shape)) <= UNCHANGED for part in parts
+        ):
+            return None, Route(True, NO_EFFECT)
+        simple = bases_of(group[0], *self.limits[group[0]].tolist()) if len(group) == 1 else []
+        for basis in (*forms, *simple):
+            terms = Terms((basis,), products_of((basis,), ()))
+            if self._error(self._fitted(terms, values, arrays), values, arrays) <= RELATIVE:
+                return basis, Route(True, basis.name)
+        return None, Route(False, "is linear in no known functions")
+
+    def pairs(self, base: Array, bases: Sequence[Basis]) -> list[tuple[int, int]]:
+        """Numbers of pairs of bases whose effects do not just add."""
+        share = np.random.default_rng(_RANDOM).uniform(0.1, 0.9, base.size)
+        other = self.limits[:, 0] + share * np.ptp(self.limits, axis=1)
+        found = []
+        for pair in combinations(range(len(bases)), 2):
+            corners = np.repeat(base[None], 4, axis=0)
+            for number, rows in zip(pair, ([1, 3], [2, 3]), strict=True):
+                columns = list(bases[number].variables)
+                corners[np.ix_(rows, columns)] = other[columns]
+            if any(_do_not_add(part) for one in self.arrays(corners) for part in one.values()):
+                found.append(pair)
+        return found
+
+    def expansions(self, base: Array, terms: Terms) -> list[Expansion]:
+        """Expansions by speed, last that of the body, tested at random designs.
+
+        Parameters
+        ----------
+        base : a design whose values of the variables without a basis hold
+        terms : of the variables with one
+
+        Raises
+        ------
+        ParameterError, SolverError
+            A design cannot be built, or the expansions are not exact.
+        """
+        count = len(terms.products)
+        if count > LARGEST_FIT:
+            raise SolverError(f"{count} products of functions: more than {LARGEST_FIT}")
+        columns = sorted(number for basis in terms.bases for number in basis.variables)
+        values = np.repeat(base[None], fits(terms) + TESTS, axis=0)
+        if columns:
+            values[:, columns] = spread(self.limits[columns], len(values))
+        arrays = self.arrays(values)
+        fit = [{name: part[:-TESTS] for name, part in one.items()} for one in arrays]
+        test = [{name: part[-TESTS:] for name, part in one.items()} for one in arrays]
+        expansions = self._fitted(terms, values[:-TESTS], fit)
+        error = self._error(expansions, values[-TESTS:], test)
+        if error > RELATIVE:
+            raise SolverError(f"linear in products of known functions to {error:.1g} only")
+        return expansions
+
+    def arrays(self, values: Array) -> list[dict[str, ComplexArray]]:
+        """Arrays that matter of designs, by speed, last those of the body."""
+        every = stacked(self.samples.at(values))
+        return [{n: a for n, a in one.items() if n in self.wanted} for one in every]
+
+    def _fitted(
+        self, terms: Terms, values: Array, arrays: Sequence[dict[str, ComplexArray]]
+    ) -> list[Expansion]:
+        speeds = (*self.speeds_rpm, self.speeds_rpm[0])
+        return [
+            fitted(terms, *one, arrays=a)
+            for one, a in zip(((s, values) for s in speeds), arrays, strict=True)
+        ]
+
+    @staticmethod
+    def _error(
+        expansions: Sequence[Expansion], values: Array, arrays: Sequence[dict[str, ComplexArray]]
+    ) -> float:
+        """Largest deviation of any array."""
+        errors = [
+            deviation(part, np.broadcast_to(given[name], part.shape))
+            for given, one in zip((e.at(values) for e in expansions), arrays, strict=True)
+            for name, part in one.items()
+        ]
+        return max(errors, default=0.0)
+
+
+def fits(terms: Terms) -> int:
+    """Number of designs that a fit is made of."""
+    count = len(terms.products)
+    return count + count // 2 + 4 if terms.bases else 1
+
+
+def spread(limits: Array, count: int) -> Array:
+    """Designs that fill a box evenly, shape (count, variable), the same at every call.
+
+    Parameters
+    ----------
+    limits : lowest and highest value, shape (variable, 2)
+    count : of designs
+    """
+    if len(limits) == 1:
+        share = 0.5 - 0.5 * np.cos(np.pi * (np.arange(count) + 0.5) / count)[:, None]
+    else:
+        share = qmc.LatinHypercube(len(limits), rng=_RANDOM).random(count)
+    return np.asarray(limits[:, 0] + share * (limits[:, 1] - limits[:, 0]))
+
+
+def _do_not_add(corners: ComplexArray) -> bool:
+    """Whether the effect of two changes is not the sum of theirs, shape (4, ...)."""
+    none, first, second, _ = corners
+    expected = np.stack([none, first, second, first + second - none])
+    return deviation(corners, expected) > RELATIVE

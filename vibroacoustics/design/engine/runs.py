@@ -1,0 +1,111 @@
+"""Designs that take a run each, computed once and kept in memory and on disk."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from ...base.arrays import Array
+from ...base.hashing import sha256
+from ...base.registry import plugins
+from ...results import storage
+from ...study.study import Study
+from ..space import Space
+from .on_mounts import lines_of_speed, seen_of
+from .probe import Probe, probe
+from .seen import Need, Seen
+from .sound_way import SoundWay, Ways
+
+
+@dataclass
+class CachedRuns:
+    """Computes designs with one option, each once.
+
+    Attributes
+    ----------
+    space : of the designs
+    option : of all of them
+    needs : what is asked
+    ways : to the microphones
+    """
+
+    space: Space
+    option: str
+    needs: tuple[Need, ...]
+    ways: Ways
+    _known: dict[bytes, Seen] = field(default_factory=dict, repr=False)
+
+    def __call__(self, design: Array) -> Seen:
+        """What is seen of a design, shape (1, ...).
+
+        Raises
+        ------
+        ParameterError, SolverError
+            It cannot be built, or not run.
+        """
+        key = design.tobytes()
+        if key not in self._known:
+            self._known[key] = self._cached(self.space.quick_study_of(design))
+        return self._known[key]
+
+    def _cached(self, study: Study) -> Seen:
+        way = self.ways(study)
+        material = _material(study, self.option, self.needs, way)
+        result, _ = storage.cached("design", material, lambda: _dataset(self._seen(study, way)))
+        return {need: result[str(number)].values for number, need in enumerate(self.needs)}
+
+    def _seen(self, study: Study, way: SoundWay) -> list[Array]:
+        made = probe(study, self.option, self.ways)
+        seen = seen_of_probe(self.needs, made, study.operation.speed_rpm, way)
+        return [seen[need] for need in self.needs]
+
+
+def _material(study: Study, option: str, needs: Sequence[Need], way: SoundWay) -> dict[str, Any]:
+    """Everything that shapes what is seen of a design, as JSON values."""
+    settings = study.parameters()
+    kept = ("machine", "operation", "options", "sources")
+    return {
+        **{name: settings[name] for name in kept},
+        "option": option,
+        "needs": [list(need) for need in needs],
+        "way": [way.key, way.content],
+        "plugins": plugins(),
+        "source": _source_hash(),
+    }
+
+
+@cache
+def _source_hash() -> str:
+    """Hash of the package: a change of it never meets an old cache."""
+    files = sorted(Path(__file__).parents[2].rglob("*.py"))
+    return sha256(b"".join(file.read_bytes() for file in files))
+
+
+def _dataset(seen: Sequence[Array]) -> xr.Dataset:
+    """Arrays by their number, to be stored."""
+    return xr.Dataset({
+        str(number): (tuple(f"{number}_{axis}" for axis in range(one.ndim)), one)
+        for number, one in enumerate(seen)
+    })  # fmt: skip
+
+
+def seen_of_probe(
+    needs: Sequence[Need], made: Probe, speeds_rpm: Sequence[float], way: SoundWay
+) -> dict[Need, Array]:
+    """What is seen of one design by its probe, shape (1, ...).
+
+    Parameters
+    ----------
+    needs : what is asked
+    made : probe of the design
+    speeds_rpm : of the study
+    way : of the design to the microphones
+    """
+    each = zip(speeds_rpm, made.frequency_hz, made.order, strict=True)
+    lines = [lines_of_speed(*one, way) for one in each]
+    groups = [{name: np.asarray(a)[None] for name, a in one.items()} for one in made.groups()]
+    return seen_of(needs, lines, groups[:-1], groups[-1], 1)

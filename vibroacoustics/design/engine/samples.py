@@ -1,0 +1,79 @@
+"""Probes of designs, side by side, as long as they are alike."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...base.arrays import Array, ComplexArray
+from ...base.errors import SolverError
+from .probe import Probe
+
+OneProbe = Callable[[Array], Probe]
+"""Of the values of a design, shape (variable,), to its probe."""
+
+
+class UnlikeError(SolverError):
+    """Designs differ in more than the values of their arrays."""
+
+
+def different(first: Probe, other: Probe) -> str | None:
+    """In what two probes differ beside their values; none where in nothing."""
+    if first.way != other.way:
+        return "changes the way to the microphones"
+    for one, another in zip(first.frequency_hz, other.frequency_hz, strict=True):
+        if one.shape != another.shape or not np.array_equal(one, another):
+            return "changes the frequencies of lines"
+    for part, another_part in zip(first.groups(), other.groups(), strict=True):
+        if _shapes(part) != _shapes(another_part):
+            return "changes what there is to see"
+    return None
+
+
+def _shapes(arrays: Mapping[str, ComplexArray]) -> dict[str, tuple[int, ...]]:
+    return {name: np.shape(array) for name, array in arrays.items()}
+
+
+def stacked(probes: Sequence[Probe]) -> list[dict[str, ComplexArray]]:
+    """Arrays of probes by speed, last those of the body, shape (design, ...).
+
+    Raises
+    ------
+    UnlikeError
+        They differ in more than their values.
+    """
+    for probe in probes[1:]:
+        reason = different(probes[0], probe)
+        if reason:
+            raise UnlikeError(reason)
+    groups = zip(*(probe.groups() for probe in probes), strict=True)
+    return [{name: np.array([one[name] for one in group]) for name in group[0]} for group in groups]
+
+
+@dataclass
+class Samples:
+    """Probes of designs, each made once.
+
+    Attributes
+    ----------
+    probe : makes one
+    """
+
+    probe: OneProbe
+    _known: dict[bytes, Probe] = field(default_factory=dict, repr=False)
+
+    def at(self, values: Array) -> list[Probe]:
+        """Probes of designs, shape (design, variable).
+
+        Raises
+        ------
+        ParameterError, SolverError
+            One of them cannot be built.
+        """
+        return [self._one(row) for row in values]
+
+    def _one(self, row: Array) -> Probe:
+        key = row.tobytes()
+        if key not in self._known:
+            self._known[key] = self.probe(row)
+        return self._known[key]

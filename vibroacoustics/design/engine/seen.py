@@ -1,0 +1,26 @@
+"""What is asked of designs, and what is seen of them."""
+
+from collections.abc import Mapping
+from typing import Literal, NamedTuple
+
+from ...base.arrays import Array
+
+
+class Need(NamedTuple):
+    """Something that figures are made of.
+
+    Attributes
+    ----------
+    what : sound (mean square, Pa², by receiver; of an order, or A-weighted of everything), force
+        and moment on the machine, foot (force into each), figure (reported), natural (frequencies)
+    order : of sound, force, moment and foot; none for all sound
+    name : of the reported figure
+    """
+
+    what: Literal["sound", "force", "moment", "foot", "figure", "natural"]
+    order: int | None = None
+    name: str = ""
+
+
+Seen = Mapping[Need, Array]
+"""By need, (design, speed, ...): receivers of sound, feet; of `natural` (design, mode), Hz."""

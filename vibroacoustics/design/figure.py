@@ -1,0 +1,82 @@
+"""A figure of designs: what it needs of them, and its value at each speed and microphone."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, Final
+
+from ..base.arrays import Array
+from ..base.registry import LAST, Registry
+from ..study.design import Wanted
+from .engine.seen import Need, Seen
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What a figure is of beside the designs.
+
+    Attributes
+    ----------
+    wanted : as the study's table gives it
+    speeds_rpm : of the study, shape (speed,)
+    reference : gives what is seen of the study as given without an option, shape (1, ...)
+    remainder : gives the mean square that the model leaves of the machine's level as given,
+        shape (design or 1, speed, receiver), Pa²
+    """
+
+    wanted: Wanted
+    speeds_rpm: Array
+    reference: Callable[[], Seen]
+    remainder: Callable[[], Array]
+
+
+class Figure:
+    """What designs are judged by; a further one is one file of `design.figures`, or a stranger's.
+
+    Examples
+    --------
+    >>> class HousingForce(va.Figure):
+    ...     name = "housing_force_n"
+    ...     label = "Force of all moving parts"
+    ...     def needs(self, wanted):
+    ...         return (va.Need("force", wanted.order or 1),)
+    ...     def values(self, seen, setting):
+    ...         return seen[self.needs(setting.wanted)[0]]
+    """
+
+    name: ClassVar[str]
+    """Key in study files; it ends in the unit."""
+    label: ClassVar[str] = ""
+    """Plain words, without the unit."""
+    position: ClassVar[float] = LAST
+    is_level: ClassVar[bool] = False
+    """Whether microphones are averaged as energy; `values` are then levels."""
+    of_speeds: ClassVar[bool] = True
+    """Whether it has a value at each speed."""
+
+    def needs(self, wanted: Wanted) -> tuple[Need, ...]:
+        """What it is made of.
+
+        Parameters
+        ----------
+        wanted : as the study's table gives it
+        """
+        raise NotImplementedError
+
+    def values(self, seen: Seen, setting: Setting) -> Array:
+        """Of designs, shape (design, speed), (design, speed, receiver or foot) or (design,).
+
+        Parameters
+        ----------
+        seen : by need
+        setting : what else it is of
+        """
+        raise NotImplementedError
+
+    def reference(self, setting: Setting) -> Array | None:
+        """What is taken off the values of a change, shape (1, speed, receiver); none of others."""
+        return None
+
+
+FIGURES: Final[Registry[type[Figure]]] = Registry(
+    "figure of designs", Figure, "name", "design.figures", "vibroacoustics.figures"
+)

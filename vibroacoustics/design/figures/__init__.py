@@ -1,0 +1,1 @@
+"""Figures of designs, by what they are of."""

@@ -1,0 +1,104 @@
+"""Levels at the microphones and their changes against the study as given without an option."""
+
+from typing import ClassVar
+
+from ...base.arrays import Array
+from ...base.constants import REFERENCE_PRESSURE_PA
+from ...base.decibel import mean_square_level
+from ...base.registry import register
+from ...study.design import Wanted
+from ..engine.seen import Need, Seen
+from ..figure import Figure, Setting
+
+
+def _level(mean_square: Array) -> Array:
+    return mean_square_level(mean_square, REFERENCE_PRESSURE_PA)
+
+
+@register
+class Level(Figure):
+    """A-weighted level of all modelled sound."""
+
+    name = "level_dba"
+    label = "Modelled level"
+    position = 1.0
+    is_level = True
+
+    def needs(self, wanted: Wanted) -> tuple[Need, ...]:
+        """All sound."""
+        return (Need("sound"),)
+
+    def values(self, seen: Seen, setting: Setting) -> Array:
+        """Level, dB(A)."""
+        return _level(seen[Need("sound")])
+
+
+@register
+class LevelChange(Level):
+    """Change of the A-weighted modelled level."""
+
+    name = "level_change_db"
+    label = "Change of the modelled level"
+    position = 2.0
+
+    def reference(self, setting: Setting) -> Array:
+        """Level without an option, dB(A)."""
+        return self.values(setting.reference(), setting)
+
+
+@register
+class TotalLevel(Level):
+    """A-weighted level of the machine: modelled sound and what the model leaves of its level."""
+
+    name = "level_total_dba"
+    label = "Level of the machine"
+    position = 3.0
+
+    def values(self, seen: Seen, setting: Setting) -> Array:
+        """Level, dB(A)."""
+        return _level(seen[Need("sound")] + setting.remainder())
+
+
+@register
+class TotalChange(TotalLevel):
+    """Change of the A-weighted level of the machine."""
+
+    name = "total_change_db"
+    label = "Change of the machine's level"
+    position = 4.0
+
+    def reference(self, setting: Setting) -> Array:
+        """Level without an option, dB(A)."""
+        return self.values(setting.reference(), setting)
+
+
+@register
+class OrderLevel(Figure):
+    """Level of the line of a shaft order, the first where none is given."""
+
+    name = "order_level_db"
+    label = "Level of the order"
+    position = 5.0
+    is_level: ClassVar[bool] = True
+
+    def needs(self, wanted: Wanted) -> tuple[Need, ...]:
+        """The order's sound."""
+        return (Need("sound", wanted.order or 1),)
+
+    def values(self, seen: Seen, setting: Setting) -> Array:
+        """Level, dB."""
+        (need,) = self.needs(setting.wanted)
+        return _level(seen[need])
+
+
+@register
+class OrderChange(OrderLevel):
+    """Change of the level of a shaft order."""
+
+    name = "order_change_db"
+    label = "Change of the order"
+    position = 6.0
+
+    def reference(self, setting: Setting) -> Array:
+        """Level without an option, dB."""
+        return self.values(setting.reference(), setting)

@@ -1,0 +1,202 @@
+"""Designs and what is wanted of them: one call from rows of numbers to objectives."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+
+from ..base.arrays import Array
+from ..base.errors import ParameterError
+from ..pipeline.radiating import transfer_vectors
+from ..radiation.given import Radiation
+from ..study.design import Constraint, Design, Objective, Wanted
+from ..study.study import Study
+from .engine.engine import Engine
+from .engine.option_engine import Outcome
+from .engine.seen import Need, Seen
+from .figure import FIGURES, Figure, Setting
+from .reference import reference_of, remainder_of
+from .space import Space
+from .statistics import of_each, over
+from .tolerances import Pieces
+
+MOST_PIECES: Final = 100_000
+"""That are judged side by side."""
+
+
+@dataclass(frozen=True)
+class Judged:
+    """Designs with what is wanted of them.
+
+    Attributes
+    ----------
+    values : of every objective and constraint in its unit, shape (design, wanted), objectives
+        first; not a number where a design failed
+    objectives : the same, less is always better, shape (design, objective)
+    constraints : at most zero where a design keeps to them, in their units, (design, constraint)
+    failed : reason by number of the design
+    """
+
+    values: Array
+    objectives: Array
+    constraints: Array
+    failed: Mapping[int, str] = field(default_factory=dict)
+
+
+class Problem:
+    """What a study's table `design` asks, as a function of designs.
+
+    Parameters
+    ----------
+    study : with the table
+    radiation : gives the transfer vectors; the package's where it is not given
+
+    Raises
+    ------
+    ParameterError
+        The table names what the study does not have.
+    """
+
+    def __init__(self, study: Study, radiation: Radiation = transfer_vectors) -> None:
+        self.study = study
+        self.space = Space.of(study)
+        self.design: Design = study.design  # type: ignore[assignment]
+        self.pieces = Pieces.of(study, self.space)
+        self.wanted: dict[str, Wanted] = {**self.design.objectives, **self.design.constraints}
+        self.figures = [_figure(study, self.design, name, w) for name, w in self.wanted.items()]
+        each = zip(self.figures, self.wanted.items(), strict=True)
+        needs = [_needs(study, self.design, figure, *item) for figure, item in each]
+        self._radiation = radiation
+        every = tuple(dict.fromkeys(need for some in needs for need in some))
+        self.engine = Engine(self.pieces.wide, self.pieces.limits, every, radiation)
+
+    @property
+    def names(self) -> list[str]:
+        """Of objectives and constraints, in the order of the values."""
+        return list(self.wanted)
+
+    @cached_property
+    def reference(self) -> Seen:
+        """What is seen of the study as given without an option."""
+        return reference_of(self.study, self.engine.needs, self.engine.ways)
+
+    @cached_property
+    def remainder(self) -> Array:
+        """What the model leaves of the machine's level, (option, speed, receiver), Pa²."""
+        return remainder_of(self.study, self.space.options, self._radiation)
+
+    def draws(self, count: int | None = None, number: int = 0) -> Array:
+        """Draws of the tolerances, shape (draw, scatter); the same at every call.
+
+        Parameters
+        ----------
+        count : of draws; those of the study where it is not given
+        number : of the set; sets of other numbers are independent
+        """
+        return self.pieces.draws(count or self.design.draws, number)
+
+    def evaluate(self, designs: Array, draws: Array | None = None) -> Judged:
+        """What is wanted of designs.
+
+        Parameters
+        ----------
+        designs : shape (design, variable), SI; see `Space`
+        draws : of the tolerances, shape (draw, scatter); those of `draws()` where none are given
+        """
+        draws = self.draws() if draws is None else draws
+        size = max(MOST_PIECES // len(draws), 1)
+        parts = [
+            self._judged(designs[first : first + size], draws, first)
+            for first in range(0, len(designs), size)
+        ]
+        values = np.concatenate([part[0] for part in parts]) if parts else self._no_values()
+        failed = {row: reason for _, some in parts for row, reason in some.items()}
+        return Judged(values, *self._signed(values), failed)
+
+    def by_draw(self, designs: Array, draws: Array) -> Array:
+        """Every wanted value of every piece, shape (design, draw, wanted), in its unit.
+
+        Parameters
+        ----------
+        designs : shape (design, variable), SI
+        draws : of the tolerances, shape (draw, scatter)
+        """
+        return self._of_pieces(designs, draws)[0]
+
+    def _no_values(self) -> Array:
+        return np.zeros((0, len(self.wanted)))
+
+    def _judged(self, designs: Array, draws: Array, first: int) -> tuple[Array, dict[int, str]]:
+        by_draw, outcome = self._of_pieces(designs, draws)
+        values = np.stack(
+            [
+                over(by_draw[:, :, column], 1, wanted.draws, _more_is_better(wanted))
+                for column, wanted in enumerate(self.wanted.values())
+            ],
+            axis=1,
+        )
+        failed = {first + row // len(draws): why for row, why in outcome.failed.items()}
+        values[[row - first for row in failed]] = np.nan
+        return values, failed
+
+    def _of_pieces(self, designs: Array, draws: Array) -> tuple[Array, Outcome]:
+        pieces = self.pieces.made(designs, draws).reshape(len(designs) * len(draws), -1)
+        outcome = self.engine.outcome(pieces)
+        columns = [
+            of_each(figure, outcome.seen, self._setting(wanted, pieces), _more_is_better(wanted))
+            for figure, wanted in zip(self.figures, self.wanted.values(), strict=True)
+        ]
+        return np.stack(columns, axis=1).reshape(len(designs), len(draws), -1), outcome
+
+    def _setting(self, wanted: Wanted, pieces: Array) -> Setting:
+        def remainder() -> Array:
+            choice = np.rint(pieces[:, 0]).astype(int) if len(self.space.options) > 1 else [0]
+            return np.asarray(self.remainder[choice])
+
+        speeds = np.array(self.study.operation.speed_rpm)
+        return Setting(wanted, speeds, lambda: self.reference, remainder)
+
+    def _signed(self, values: Array) -> tuple[Array, Array]:
+        """Objectives of which less is better, constraints that are met at zero and below."""
+        number = len(self.design.objectives)
+        sign = [-1.0 if w.goal == "greatest" else 1.0 for w in self.design.objectives.values()]
+        limits = [
+            (1.0, w.at_most) if w.at_most is not None else (-1.0, w.at_least or 0.0)
+            for w in self.design.constraints.values()
+        ]
+        side, limit = np.array(limits, dtype=float).reshape(-1, 2).T
+        return values[:, :number] * sign, side * (values[:, number:] - limit)
+
+
+def _more_is_better(wanted: Wanted) -> bool:
+    """Whether the smallest value is the worst."""
+    if isinstance(wanted, Objective):
+        return wanted.goal == "greatest"
+    return isinstance(wanted, Constraint) and wanted.at_least is not None
+
+
+def _where(study: Study, design: Design, name: str) -> str:
+    table = "objectives" if name in design.objectives else "constraints"
+    return f"{study.source_file}: design.{table}.{name}"
+
+
+def _figure(study: Study, design: Design, name: str, wanted: Wanted) -> Figure:
+    if name in design.objectives and name in design.constraints:
+        raise ParameterError(
+            f"{study.source_file}: design.constraints.{name}: is an objective's name too"
+        )
+    if wanted.figure not in FIGURES:
+        where = _where(study, design, name)
+        raise ParameterError(f"{where}.figure = {wanted.figure}: {FIGURES.unknown(wanted.figure)}")
+    return FIGURES[wanted.figure]()
+
+
+def _needs(
+    study: Study, design: Design, figure: Figure, name: str, wanted: Wanted
+) -> tuple[Need, ...]:
+    try:
+        return figure.needs(wanted)
+    except ParameterError as error:
+        raise ParameterError(f"{_where(study, design, name)}.{error}") from None

@@ -1,0 +1,236 @@
+"""The design space: designs as rows of numbers in SI, and each of them as a study."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Final
+
+import numpy as np
+from scipy.stats import qmc
+
+from ..base.arrays import Array
+from ..base.errors import ParameterError
+from ..base.units import si_key
+from ..base.vocabulary import REFERENCE_OPTION
+from ..study.design import DesignVariable
+from ..study.study import Study
+from .changed import changed, is_plain
+from .variable import Variable, variable_of
+
+OPTION: Final = "option"
+"""Name of the variable that chooses among options; its values are their numbers."""
+_RANDOM: Final = 11
+
+
+@dataclass(frozen=True)
+class Space:
+    """Designs of a study.
+
+    Attributes
+    ----------
+    study : with the options that designs choose among, and `none`
+    options : their names
+    variables : in the order of the columns of designs; the choice among options first, where
+        there is one
+    """
+
+    study: Study
+    options: tuple[str, ...]
+    variables: tuple[Variable, ...]
+
+    @classmethod
+    def of(cls, study: Study) -> "Space":
+        """The space that the table `design` of a study tells.
+
+        Raises
+        ------
+        ParameterError
+            The study has no such table, or an option or a value that it names is none.
+        """
+        design = study.design
+        if design is None:
+            raise ParameterError(f"{study.source_file}: design: is missing; name what varies")
+        for name in design.option:
+            if name not in study.options:
+                raise ParameterError(
+                    f"{study.source_file}: design.option = {name}: there is no such option; "
+                    f"allowed {', '.join(study.options)}"
+                )
+        variables = [_variable(study, *item, design.option) for item in design.variables.items()]
+        if len(design.option) > 1:
+            limits = 0.0, len(design.option) - 1.0
+            variables.insert(0, Variable(OPTION, "", 1.0, limits, design.option))
+        space = cls(_cut(study, design.option), design.option, tuple(variables))
+        space.check_ends(space.limits, "variables")
+        return space
+
+    @property
+    def names(self) -> list[str]:
+        """Keys of the variables."""
+        return [variable.key for variable in self.variables]
+
+    @cached_property
+    def limits(self) -> Array:
+        """Lowest and highest values in SI, shape (variable, 2)."""
+        return np.array([variable.limits for variable in self.variables]).reshape(-1, 2)
+
+    def option_of(self, design: Array) -> str:
+        """Name of the option of a design, shape (variable,)."""
+        chooses = len(self.options) > 1
+        return self.options[round(float(design[0]))] if chooses else self.options[0]
+
+    def written(self, design: Array) -> dict[str, Any]:
+        """Values of a design as a study's file writes them, by dotted key.
+
+        Those of other options than its are left out.
+        """
+        option = self.option_of(design)
+        return {
+            variable.key: variable.written(value)
+            for variable, value in zip(self.variables, design.tolist(), strict=True)
+            if variable.key != OPTION and acts_on(variable.key, option)
+        }
+
+    def study_of(self, design: Array) -> Study:
+        """The study of a design, validated as a file is, with its option and `none`.
+
+        Raises
+        ------
+        ParameterError
+            The design is refused.
+        """
+        return self._with_its_option(self.study.replace(self.written(design)), design)
+
+    def quick_study_of(self, design: Array) -> Study:
+        """The same without reading files again where the values are plain numbers.
+
+        Raises
+        ------
+        ParameterError
+            The design is refused.
+        """
+        if not self._is_plain:
+            return self.study_of(design)
+        try:
+            return self._with_its_option(changed(self.study, self.written(design)), design)
+        except ParameterError:
+            return self.study_of(design)  # which says why as of a file
+
+    @cached_property
+    def _is_plain(self) -> bool:
+        return is_plain(self.study, [name for name in self.names if name != OPTION])
+
+    def _with_its_option(self, study: Study, design: Array) -> Study:
+        names = dict.fromkeys((REFERENCE_OPTION, self.option_of(design)))
+        return study.model_copy(update={"options": {name: study.options[name] for name in names}})
+
+    def grid(self) -> Array:
+        """All combinations of the variables' values, the last variable fastest, (design, variable).
+
+        Raises
+        ------
+        ParameterError
+            A variable has no values for a grid.
+        """
+        values = [variable.in_grid() for variable in self.variables]
+        return np.stack(np.meshgrid(*values, indexing="ij"), axis=-1).reshape(-1, len(values))
+
+    def sample(self, kind: str, count: int) -> Array:
+        """Designs that fill the space evenly, the same at every call, shape (design, variable).
+
+        Parameters
+        ----------
+        kind : latin-hypercube or sobol
+        count : of designs
+        """
+        size = len(self.variables)
+        if kind == "sobol":
+            share = qmc.Sobol(size, rng=_RANDOM).random_base2((count - 1).bit_length())[:count]
+        else:
+            share = qmc.LatinHypercube(size, rng=_RANDOM).random(count)
+        columns = zip(self.variables, share.T, strict=True)
+        return np.stack([variable.at_share(column) for variable, column in columns], axis=1)
+
+    def check_ends(self, limits: Array, table: str) -> None:
+        """Refuse variables whose ends the study refuses, each with the others at their first.
+
+        Parameters
+        ----------
+        limits : of the variables, shape (variable, 2), SI
+        table : of the table `design` that the ends come of
+
+        Raises
+        ------
+        ParameterError
+            One of them is refused.
+        """
+        base = self.limits[:, 0].copy()
+        for number, variable in enumerate(self.variables):
+            ends = range(len(self.options)) if variable.key == OPTION else limits[number].tolist()
+            for value in dict.fromkeys(ends):
+                design = base.copy()
+                design[number] = value
+                self._check(variable, design, table)
+
+    def _check(self, variable: Variable, design: Array, table: str) -> None:
+        option = next((n for n in self.options if acts_on(variable.key, n)), self.options[0])
+        if len(self.options) > 1 and variable.key != OPTION:
+            design[0] = self.options.index(option)
+        try:
+            self.quick_study_of(design)
+        except ParameterError as error:
+            text = str(error).removeprefix("study.replace: ")
+            raise ParameterError(
+                f"{self.study.source_file}: design.{table}.{variable.key}: {text}"
+            ) from None
+
+
+def acts_on(key: str, option: str) -> bool:
+    """Whether a key is a value of an option, or of the machine."""
+    return not key.startswith("options.") or key.startswith(f"options.{option}.")
+
+
+def _variable(study: Study, key: str, given: DesignVariable, options: Sequence[str]) -> Variable:
+    check_key(key, options, f"{study.source_file}: design.variables.{key}")
+    try:
+        return variable_of(key, given)
+    except ParameterError as error:
+        raise ParameterError(f"{study.source_file}: {error}") from None
+
+
+def check_key(key: str, options: Sequence[str], where: str) -> None:
+    """Refuse a key that is no value of the machine or of an option that designs choose among."""
+    first, _, rest = key.partition(".")
+    if first == "machine" and rest:
+        return
+    if first == "options" and any(key.startswith(f"options.{name}.") for name in options):
+        return
+    allowed = ", ".join(["machine.…", *(f"options.{name}.…" for name in options)])
+    raise ParameterError(f"{where}: no such value; allowed {allowed}")
+
+
+def present_value(study: Study, key: str) -> float:
+    """A number of the study in SI, by its dotted key.
+
+    Raises
+    ------
+    ParameterError
+        There is none.
+    """
+    first, *tables, last = key.split(".")
+    thing: Any = study.machine if first == "machine" else study.options
+    for name in tables:
+        thing = thing.get(name) if isinstance(thing, Mapping) else getattr(thing, name, None)
+    value = getattr(thing, si_key(last)[0], None)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise ParameterError(f"{key}: there is no such number")
+    return float(value)
+
+
+def _cut(study: Study, options: Sequence[str]) -> Study:
+    """The study without the options that no design has, where the rest can stand without them."""
+    kept = {REFERENCE_OPTION, *options}
+    try:
+        return study.replace({f"options.{n}": None for n in study.options if n not in kept})
+    except ParameterError:  # something else names them
+        return study

@@ -1,0 +1,55 @@
+"""One number of a figure: over microphones, speeds and draws."""
+
+import numpy as np
+
+from ..base.arrays import Array
+from ..base.decibel import energy_mean
+from ..study.design import Statistic, Wanted
+from .engine.seen import Seen
+from .figure import Figure, Setting
+
+
+def over(values: Array, axis: int, statistic: Statistic, more_is_better: bool) -> Array:
+    """Worst value, mean, or the value that a share of the values is as good as, along an axis.
+
+    The quantile is that of sorted values without interpolation, the first that at least the share
+    reaches: what it promises, that share keeps.
+
+    Parameters
+    ----------
+    values : any shape
+    axis : that is taken away
+    statistic : worst, mean or a share
+    more_is_better : whether the smallest value is the worst
+    """
+    if statistic == "mean":
+        return np.asarray(values.mean(axis=axis))
+    share = 1.0 if statistic == "worst" else float(statistic)
+    better = -values if more_is_better else values
+    count = values.shape[axis]
+    place = min(max(int(np.ceil(share * count - 1e-9)), 1), count) - 1
+    if place == count - 1:
+        reached = better.max(axis=axis)
+    else:
+        reached = np.take(np.partition(better, place, axis=axis), place, axis=axis)
+    return np.asarray(-reached if more_is_better else reached)
+
+
+def of_each(figure: Figure, seen: Seen, setting: Setting, more_is_better: bool) -> Array:
+    """One number of each design, over microphones and speeds, shape (design,).
+
+    A mean over microphones is one of energies; a change is taken of means, or at each microphone.
+    A figure without speeds is what it is.
+    """
+    wanted: Wanted = setting.wanted
+    values, reference = figure.values(seen, setting), figure.reference(setting)
+    if values.ndim == 3 and wanted.receivers == "mean" and figure.is_level:
+        values = energy_mean(values, axis=2)
+        reference = None if reference is None else energy_mean(reference, axis=2)
+    if reference is not None:
+        values = values - reference
+    if values.ndim == 3:
+        values = over(values, 2, wanted.receivers, more_is_better)
+    if values.ndim == 2:
+        values = over(values, 1, wanted.speeds, more_is_better)
+    return values

@@ -1,0 +1,133 @@
+"""What scatters from piece to piece: draws of values about those of a design."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from scipy.stats import qmc
+
+from ..base.arrays import Array
+from ..base.errors import ParameterError
+from ..base.units import split_key
+from ..study.study import Study
+from .space import Space, check_key, present_value
+from .variable import Variable
+
+_RANDOM: Final = 4
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """How one value scatters, evenly: x (1 + r u) + d u, or in a range of its values.
+
+    Attributes
+    ----------
+    column : of the value among those of the wide space
+    ratio : r
+    distance : d, SI
+    limits : of the range, SI; none where the value scatters about what is meant
+    """
+
+    column: int
+    ratio: float = 0.0
+    distance: float = 0.0
+    limits: tuple[float, float] | None = None
+
+    def at(self, meant: Array, share: Array) -> Array:
+        """Values of pieces; shares from 0 to 1 of the way from the lowest to the highest."""
+        if self.limits is not None:
+            low, high = self.limits
+            return np.asarray(low + share * (high - low) + 0.0 * meant)
+        unit = 2.0 * share - 1.0
+        return np.asarray(meant * (1.0 + self.ratio * unit) + self.distance * unit)
+
+
+@dataclass(frozen=True)
+class Pieces:
+    """Designs as they are made.
+
+    Attributes
+    ----------
+    wide : the space with the values that scatter alone as further variables
+    scatters : of the values
+    present : values of the further variables as meant, SI
+    """
+
+    wide: Space
+    scatters: tuple[Scatter, ...]
+    present: Array
+
+    @classmethod
+    def of(cls, study: Study, space: Space) -> "Pieces":
+        """Pieces of the designs of a study.
+
+        Raises
+        ------
+        ParameterError
+            A tolerance names no number of the study.
+        """
+        design = study.design
+        names, further, scatters, present = list(space.names), [], [], []
+        for key, given in (design.tolerances if design else {}).items():
+            where = f"{study.source_file}: design.tolerances.{key}"
+            check_key(key, space.options, where)
+            unit = split_key(key.rpartition(".")[2])[1]
+            symbol, factor = (unit.symbol, unit.factor) if unit else ("", 1.0)
+            if key not in names:
+                try:
+                    value = present_value(space.study, key)
+                except ParameterError as error:
+                    raise ParameterError(f"{where}: {error}") from None
+                names.append(key)
+                present.append(value)
+                further.append(Variable(key, symbol, factor, (value, value)))
+            limits = (
+                None if given.range is None else (factor * given.range[0], factor * given.range[1])
+            )
+            scatters.append(
+                Scatter(
+                    names.index(key), given.ratio or 0.0, factor * (given.plus_minus or 0.0), limits
+                )
+            )
+        wide = Space(space.study, space.options, (*space.variables, *further))
+        pieces = cls(wide, tuple(scatters), np.array(present))
+        wide.check_ends(pieces.limits, "tolerances")
+        return pieces
+
+    @property
+    def limits(self) -> Array:
+        """Lowest and highest values of pieces, shape (variable, 2), SI."""
+        limits = self.wide.limits.copy()
+        for scatter in self.scatters:
+            ends = limits[scatter.column]
+            made = [scatter.at(ends, np.full(2, share)) for share in (0.0, 1.0)]
+            limits[scatter.column] = np.min(made), np.max(made)
+        return limits
+
+    def draws(self, count: int, number: int = 0) -> Array:
+        """Shares of the ranges, shape (draw, scatter), the same at every call.
+
+        Parameters
+        ----------
+        count : of draws
+        number : of the set; sets of other numbers are independent
+        """
+        if not self.scatters:
+            return np.zeros((1, 0))
+        sampler = qmc.LatinHypercube(len(self.scatters), rng=_RANDOM + number)
+        return np.asarray(sampler.random(count))
+
+    def made(self, designs: Array, draws: Array) -> Array:
+        """Values of pieces, shape (design, draw, variable).
+
+        Parameters
+        ----------
+        designs : shape (design, variable of the space)
+        draws : shape (draw, scatter)
+        """
+        meant = np.concatenate([designs, np.tile(self.present, (len(designs), 1))], axis=1)
+        pieces = np.repeat(meant[:, None], len(draws), axis=1)
+        for scatter, share in zip(self.scatters, draws.T, strict=True):
+            column = scatter.column
+            pieces[:, :, column] = scatter.at(meant[:, None, column], share)
+        return pieces

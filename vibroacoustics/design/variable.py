@@ -1,0 +1,117 @@
+"""A value in which designs differ."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..base.arrays import Array
+from ..base.errors import ParameterError
+from ..base.units import split_key
+from ..study.design import DesignVariable
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A value in which designs differ.
+
+    Attributes
+    ----------
+    key : dotted, with the unit of the file; `option` for the choice among options
+    unit : symbol of that unit
+    factor : from that unit to SI
+    limits : lowest and highest value in SI; numbers of the words where it takes words
+    choices : values in SI that it may take, or words; none for any value between the limits
+    points : of a grid; none where it takes some values only, or none are given
+    whole : whether the file writes whole numbers
+    """
+
+    key: str
+    unit: str
+    factor: float
+    limits: tuple[float, float]
+    choices: tuple[float | str, ...] | None = None
+    points: int | None = None
+    whole: bool = False
+
+    @property
+    def takes_words(self) -> bool:
+        """Whether its values are numbers of words."""
+        return self.choices is not None and isinstance(self.choices[0], str)
+
+    @property
+    def values(self) -> Array | None:
+        """All values that it may take, shape (value,); none where any between the limits."""
+        if self.choices is None:
+            return None
+        words = self.takes_words
+        return np.array(range(len(self.choices)) if words else self.choices, dtype=float)
+
+    def in_grid(self) -> Array:
+        """Values of a grid, shape (value,).
+
+        Raises
+        ------
+        ParameterError
+            It takes any value of a range, and no number of points is given.
+        """
+        values = self.values
+        if values is None and self.points is None:
+            raise ParameterError(
+                f"design.variables.{self.key}: a grid needs points, step or list; or choose "
+                'sampling = "sobol" or "latin-hypercube"'
+            )
+        return np.asarray(np.linspace(*self.limits, self.points or 2)) if values is None else values
+
+    def at_share(self, share: Array) -> Array:
+        """Values that so large shares of its range lie below, each equally often."""
+        low, high = self.limits
+        values = self.values
+        if values is None:
+            return np.asarray(low + share * (high - low))
+        return np.asarray(values[np.minimum((share * values.size).astype(int), values.size - 1)])
+
+    def written(self, value: float) -> Any:
+        """A value as a study's file writes it."""
+        if self.choices is not None and self.takes_words:
+            return self.choices[round(value)]
+        in_file = float(value) / self.factor
+        return round(in_file) if self.whole and abs(in_file - round(in_file)) < 1e-9 else in_file
+
+
+def variable_of(key: str, given: DesignVariable) -> Variable:
+    """A variable as the file gives it.
+
+    Raises
+    ------
+    ParameterError
+        Words and numbers are mixed, or a step makes too many values.
+    """
+    unit = split_key(key.rpartition(".")[2])[1]
+    symbol, factor = (unit.symbol, unit.factor) if unit else ("", 1.0)
+    if given.list is None:
+        return _in_range(key, given, symbol, factor)
+    words = [value for value in given.list if isinstance(value, str)]
+    if words and len(words) < len(given.list):
+        raise ParameterError(f"design.variables.{key}.list: mixes words and numbers")
+    if words:
+        return Variable(key, "", 1.0, (0.0, len(words) - 1.0), tuple(words))
+    numbers = tuple(factor * value for value in given.list if not isinstance(value, str))
+    whole = all(isinstance(value, int) for value in given.list)
+    return Variable(key, symbol, factor, (min(numbers), max(numbers)), numbers, whole=whole)
+
+
+def _in_range(key: str, given: DesignVariable, symbol: str, factor: float) -> Variable:
+    low, high = given.range or (0.0, 1.0)
+    limits = (factor * low, factor * high)
+    if given.step is None:
+        return Variable(key, symbol, factor, limits, points=given.points)
+    count = int((high - low) / given.step + 1e-9) + 1
+    if not 2 <= count <= 100_000:
+        raise ParameterError(
+            f"design.variables.{key}.step = {given.step:g} {symbol}: makes {count} values; "
+            "allowed 2 to 100000"
+        )
+    choices = tuple(factor * (low + given.step * number) for number in range(count))
+    whole = all(isinstance(value, int) for value in (low, high, given.step))
+    return Variable(key, symbol, factor, (choices[0], choices[-1]), choices, whole=whole)

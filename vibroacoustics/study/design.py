@@ -1,0 +1,139 @@
+"""The design space of a study: what varies, what is wanted, what is allowed, what scatters."""
+
+from collections.abc import Mapping
+from typing import Any, Final, Literal
+
+from pydantic import Field, field_validator, model_validator
+
+from ..base.parameters import Parameters
+
+Number = int | float
+Statistic = Literal["worst", "mean"] | float
+"""Worst, mean, or the share of the values that shall lie below (or above, where more is better)."""
+_ENDS: Final = frozenset({"range", "list", "step", "points", "ratio", "plus_minus"})
+
+
+class DesignVariable(Parameters):
+    """Values that a variable may take, in the unit of its key."""
+
+    range: tuple[Number, Number] | None = None
+    step: Number | None = Field(default=None, gt=0.0)
+    """Within the range; any value of it where there is none."""
+    list: tuple[Number | str, ...] | None = Field(default=None, min_length=1, max_length=10_000)
+    """Numbers or words in place of a range."""
+    points: int | None = Field(default=None, ge=2, le=100_000)
+    """Of a range in a grid."""
+
+    @model_validator(mode="after")
+    def _one_of_both(self) -> "DesignVariable":
+        if (self.range is None) == (self.list is None):
+            raise ValueError("give range = [lowest, highest] or list = [...]")
+        if self.list is not None and (self.step is not None or self.points is not None):
+            raise ValueError("step, points: belong to a range, not to a list")
+        if self.list is not None and len(set(self.list)) < len(self.list):
+            raise ValueError(f"list = {[*self.list]}: names a value twice")
+        if self.range is not None and not self.range[0] < self.range[1]:
+            low, high = self.range
+            raise ValueError(f"range = [{low:g}, {high:g}]: must rise")
+        return self
+
+
+class Tolerance(Parameters):
+    """How far a value lies from what is meant, evenly spread, in the unit of its key."""
+
+    ratio: float | None = Field(default=None, gt=0.0, lt=1.0)
+    """Of the value, to both sides."""
+    plus_minus: float | None = Field(default=None, gt=0.0)
+    range: tuple[float, float] | None = None
+    """The value itself, whatever is meant: the angle of a residual unbalance."""
+
+    @model_validator(mode="after")
+    def _one(self) -> "Tolerance":
+        if [self.ratio, self.plus_minus, self.range].count(None) != 2:
+            raise ValueError("give one of ratio, plus_minus and range")
+        if self.range is not None and not self.range[0] < self.range[1]:
+            raise ValueError(f"range = [{self.range[0]:g}, {self.range[1]:g}]: must rise")
+        return self
+
+
+class Wanted(Parameters):
+    """A figure of a design, one number over speeds, microphones and draws."""
+
+    figure: str = Field(min_length=1)
+    order: int | None = Field(default=None, ge=1, le=1000)
+    reported: str | None = None
+    """Name of a reported figure, for `figure = "reported"`."""
+    speeds: Statistic = "worst"
+    receivers: Statistic = "mean"
+    draws: Statistic = 0.9
+    """Over the draws of the tolerances; 0.9 is met by nine pieces of ten."""
+
+    @field_validator("speeds", "receivers", "draws")
+    @classmethod
+    def _share(cls, given: Statistic) -> Statistic:
+        if isinstance(given, float) and not 0.0 < given <= 1.0:
+            raise ValueError(f"{given:g}: allowed worst, mean or a share above 0 to 1")
+        return given
+
+
+class Objective(Wanted):
+    """A figure that shall be small, or large."""
+
+    goal: Literal["least", "greatest"] = "least"
+
+
+class Constraint(Wanted):
+    """A figure that a design must keep to, in its unit."""
+
+    at_most: float | None = None
+    at_least: float | None = None
+
+    @model_validator(mode="after")
+    def _one_limit(self) -> "Constraint":
+        if (self.at_most is None) == (self.at_least is None):
+            raise ValueError("give at_most or at_least")
+        return self
+
+
+class Design(Parameters):
+    """Table `design` of a study."""
+
+    option: tuple[str, ...] = Field(min_length=1, max_length=100)
+    """Options of the study among which a design chooses; in a file also one name."""
+    variables: dict[str, DesignVariable] = Field(default_factory=dict, max_length=64)
+    """By dotted key of an option's or the machine's value, with its unit."""
+    objectives: dict[str, Objective] = Field(min_length=1, max_length=16)
+    constraints: dict[str, Constraint] = Field(default_factory=dict, max_length=32)
+    tolerances: dict[str, Tolerance] = Field(default_factory=dict, max_length=64)
+    draws: int = Field(default=64, ge=1, le=1_000_000)
+    """Of the tolerances, the same for all designs."""
+    sampling: Literal["grid", "latin-hypercube", "sobol"] = "grid"
+    samples: int = Field(default=1000, ge=1, le=100_000_000)
+    """Designs of a sample."""
+
+    @field_validator("option", mode="before")
+    @classmethod
+    def _names(cls, given: Any) -> Any:
+        return (given,) if isinstance(given, str) else given
+
+    @field_validator("variables", "tolerances", mode="before")
+    @classmethod
+    def _dotted(cls, given: Any) -> Any:
+        return flattened(given) if isinstance(given, Mapping) else given
+
+    @model_validator(mode="after")
+    def _something_varies(self) -> "Design":
+        if not self.variables and len(self.option) < 2:
+            raise ValueError("variables: name at least one value that varies")
+        if len(set(self.option)) < len(self.option):
+            raise ValueError("option: names one twice")
+        return self
+
+
+def flattened(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Tables by dotted key, written in quotes or not: `options.weight.mass_kg = { range }`."""
+    flat: dict[str, Any] = {}
+    for key, value in table.items():
+        inner = isinstance(value, Mapping) and bool(value) and not _ENDS & set(value)
+        flat |= flattened(value, f"{prefix}{key}.") if inner else {f"{prefix}{key}": value}
+    return flat
