@@ -14,6 +14,7 @@ import typer
 from ..base.errors import VibroacousticsError
 from . import (
     curve_commands,
+    design_commands,
     messages,
     prediction_commands,
     recording_commands,
@@ -41,6 +42,7 @@ app = typer.Typer(
 app.add_typer(curve_commands.commands)
 app.add_typer(recording_commands.commands)
 app.add_typer(prediction_commands.commands)
+app.add_typer(design_commands.commands)
 app.add_typer(schema_commands.commands)
 
 StudyFile = Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study to run.")]

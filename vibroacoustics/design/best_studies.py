@@ -70,7 +70,7 @@ def _option(problem: Problem, design: np.ndarray[Any, Any]) -> Mapping[str, Any]
 
 def _given(problem: Problem, option: str) -> Mapping[str, Any]:
     """Table of an option as the study's file gives it."""
-    table: Mapping[str, Any] = problem.study.written_content()["options"][option]
+    table: Mapping[str, Any] = problem.study.as_written()["options"][option]
     return table
 
 

@@ -8,10 +8,14 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array, IndexArray
+from ..base.hashing import canonical_json
 from ..base.units import split_key
 from ..base.vocabulary import check, stamp
+from ..results.provenance import software_attributes
 from ..study.design import Constraint, Objective, Wanted
-from ..uncertainty.shares import Shares
+from ..uncertainty.shares import shares_of
+from .evaluation import Evaluation
+from .figure import Figure
 from .problem import Problem
 from .promise import Promise
 from .search.nondominated import nondominated
@@ -47,7 +51,23 @@ def searched_dataset(problem: Problem, searched: Searched) -> xr.Dataset:
     reasons = Counter(reason for reason in evaluation.failures if reason).most_common(_MOST_REASONS)
     words = {v.key: v.choices for v in problem.space.variables if v.takes_words}
     return dataset.assign_coords(coords).assign_attrs(
-        failures=json.dumps(reasons), choices=json.dumps(words)
+        software_attributes("optimise"),
+        parameters=canonical_json(problem.study.parameters()),
+        failures=json.dumps(reasons),
+        choices=json.dumps(words),
+        method=_method(problem, len(met)),
+    )
+
+
+def _method(problem: Problem, count: int) -> str:
+    """How was searched, in a sentence."""
+    search = problem.design.search
+    single = len(problem.design.objectives) == 1
+    name = "Differential evolution with a simplex at the end" if single else "NSGA-II (pymoo)"
+    return (
+        f"{name}: {search.population} designs a generation, at most {search.generations} "
+        f"generations, seed {search.seed}, {count} designs in all; {problem.design.draws} draws of "
+        "the tolerances, the same for all designs."
     )
 
 
@@ -63,18 +83,39 @@ def with_best(dataset: xr.Dataset, rows: IndexArray, promises: list[Promise]) ->
     best = xr.Dataset({name: stamp(name, one) for name, one in data.items()})
     ranks = {"best_rank": np.arange(1, len(rows) + 1)}
     draws = promises[0].draws if promises else 0
-    return check(dataset.merge(best.assign_coords(ranks)).assign_attrs(
-        {**dataset.attrs, "promise_draws": draws}
-    ))
+    return check(
+        dataset.merge(best.assign_coords(ranks)).assign_attrs(
+            {**dataset.attrs, "promise_draws": draws}
+        )
+    )
 
 
-def with_shares(dataset: xr.Dataset, shares: list[Shares]) -> xr.Dataset:
-    """The dataset with what decides each objective and constraint."""
+def with_shares(
+    dataset: xr.Dataset, problem: Problem, designs: Array, evaluation: Evaluation
+) -> xr.Dataset:
+    """The dataset with designs that fill the space, and what decides each wanted value over them.
+
+    Parameters
+    ----------
+    dataset : of the search
+    problem : that was searched
+    designs : shape (design, variable), SI
+    evaluation : of these
+    """
+    values = problem.in_units(evaluation.objectives, evaluation.constraints)
+    low, high = problem.space.limits.T
+    unit = 2.0 * (designs - low) / (high - low) - 1.0
+    shares = [shares_of(unit, column, np.ones(len(designs))) for column in values.T]
+    factors = np.array([variable.factor for variable in problem.space.variables])
     data = {
+        "spread_value": designs / factors,
+        "spread_wanted": values,
         "design_share": np.array([one.share for one in shares]),
         "design_share_quality": np.array([one.quality for one in shares]),
     }
-    return dataset.assign({name: stamp(name, one) for name, one in data.items()})
+    spread = xr.Dataset({name: stamp(name, one) for name, one in data.items()})
+    numbers = {"spread_design": np.arange(len(designs))}
+    return dataset.merge(spread.assign_coords(numbers)).assign_attrs(dataset.attrs)
 
 
 def _design_coords(problem: Problem, count: int) -> dict[str, Any]:
@@ -96,7 +137,7 @@ def _wanted_coords(problem: Problem) -> dict[str, Any]:
     return {
         "wanted": problem.names,
         "wanted_unit": ("wanted", [_unit(figure.name) for _, figure in each]),
-        "wanted_label": ("wanted", [_label(figure.label, one) for (_, one), figure in each]),
+        "wanted_label": ("wanted", [_label(figure, one) for (_, one), figure in each]),
         "wanted_role": ("wanted", [_role(one) for (_, one), _ in each]),
         "wanted_limit": ("wanted", np.array([_limit(one) for (_, one), _ in each])),
     }
@@ -107,26 +148,27 @@ def _unit(key: str) -> str:
     return unit.symbol if unit else ""
 
 
-def _label(label: str, wanted: Wanted) -> str:
-    """What a figure is, over what: `Level of a line, 1x, worst speed, 90 % of pieces`."""
-    parts = [label if wanted.reported is None else wanted.reported]
+def _label(figure: Figure, wanted: Wanted) -> str:
+    """What a figure is, over what: `Level of an order, 1×, worst speed, 90 % of pieces`."""
+    parts = [figure.label if wanted.reported is None else wanted.reported]
     parts += [f"{wanted.order}×"] if wanted.order is not None else []
-    parts.append(_over(wanted.speeds, "speed"))
-    parts.append(_over(wanted.receivers, "microphone"))
-    parts += [_over(wanted.draws, "piece")]
-    return ", ".join(parts)
+    parts += [_over(wanted.speeds, "speed")] if figure.of_speeds else []
+    parts += [_over(wanted.receivers, "microphone")] if figure.is_level else []
+    return ", ".join([*parts, _over(wanted.draws, "piece")])
 
 
 def _over(statistic: str | float, noun: str) -> str:
     if isinstance(statistic, str):
         return f"{statistic} {noun}" if statistic == "worst" else f"mean over {noun}s"
-    return f"{statistic:.0%} of {noun}s"
+    return f"{100.0 * statistic:g} % of {noun}s"
 
 
 def _role(wanted: Wanted) -> str:
     if isinstance(wanted, Objective):
         return wanted.goal
-    return "at most" if isinstance(wanted, Constraint) and wanted.at_most is not None else "at least"
+    return (
+        "at most" if isinstance(wanted, Constraint) and wanted.at_most is not None else "at least"
+    )
 
 
 def _limit(wanted: Wanted) -> float:
@@ -134,9 +176,3 @@ def _limit(wanted: Wanted) -> float:
         return float("nan")
     limit = wanted.at_most if wanted.at_most is not None else wanted.at_least
     return float("nan") if limit is None else limit
-
-
-def unit_shares(designs: Array, limits: Array) -> Array:
-    """Designs from -1 to 1 of their ranges, shape (design, variable)."""
-    low, high = limits.T
-    return np.asarray(2.0 * (designs - low) / np.maximum(high - low, 1e-300) - 1.0)

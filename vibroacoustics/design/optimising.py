@@ -7,24 +7,21 @@ import xarray as xr
 
 from ..base.arrays import Array, IndexArray
 from ..base.progress import Progress, no_progress
-from ..uncertainty.shares import shares_of
 from .evaluation import Evaluate
-from .found import searched_dataset, unit_shares, with_best, with_shares
+from .found import searched_dataset, with_best, with_shares
 from .problem import Problem
 from .promise import promise
 from .search.best import search_best
 from .search.chosen import best_by_one, best_of_front
-from .search.coded import Coding
+from .search.coded import Coding, evaluating
 from .search.front import search_front
 from .search.problem import Searched
 
-SHARE_DESIGNS: Final = 1024
-"""Designs spread evenly, from which it is told what decides."""
+SPREAD_DESIGNS: Final = 1024
+"""Spread evenly, from which it is told what decides."""
 
 
-def optimise(
-    problem: Problem, evaluate: Evaluate, progress: Progress = no_progress
-) -> xr.Dataset:
+def optimise(problem: Problem, evaluate: Evaluate, progress: Progress = no_progress) -> xr.Dataset:
     """Search the design space of a study.
 
     With one objective the best design, by differential evolution and a polish; with several the
@@ -50,7 +47,9 @@ def optimise(
     space = coding.problem(evaluate)
     sizes = settings.population, settings.generations, settings.seed
     if len(problem.design.objectives) == 1:
-        coded = search_best(space, *sizes, polish=_is_quick(problem), progress=progress)
+        here = coding.problem(evaluating(problem)).evaluate  # too many to keep one by one
+        polish = here if _is_quick(problem) else None
+        coded = search_best(space, *sizes, polish=polish, progress=progress)
     else:
         coded = search_front(space, *sizes, progress=progress)
     searched = Searched(coding.designs(coded.designs), coded.evaluation, coded.generation)
@@ -58,11 +57,12 @@ def optimise(
     found = searched_dataset(problem, searched)
     rows = _best_rows(problem, searched, found, settings.best)
     promises = [promise(problem, searched.designs[row], settings.fresh_draws) for row in rows]
-    return with_shares(with_best(found, rows, promises), _shares(problem, evaluate, searched))
+    spread = _spread(problem, searched)
+    return with_shares(with_best(found, rows, promises), problem, spread, evaluate(spread))
 
 
 def _is_quick(problem: Problem) -> bool:
-    """Whether every variable goes by linear algebra, so that single designs cost next to nothing."""
+    """Whether all goes by linear algebra, so that single designs cost next to nothing."""
     return all(
         route.linear
         for option in problem.space.options
@@ -71,9 +71,7 @@ def _is_quick(problem: Problem) -> bool:
     )
 
 
-def _best_rows(
-    problem: Problem, searched: Searched, found: xr.Dataset, count: int
-) -> IndexArray:
+def _best_rows(problem: Problem, searched: Searched, found: xr.Dataset, count: int) -> IndexArray:
     evaluation = searched.evaluation
     if evaluation.objectives.shape[1] == 1:
         allowed = found["meets_constraints"].values == 1
@@ -83,15 +81,8 @@ def _best_rows(
     return np.asarray(front[best_of_front(evaluation.objectives[front], count)])
 
 
-def _shares(problem: Problem, evaluate: Evaluate, searched: Searched) -> list[xr.Dataset]:
-    """What decides each wanted value: of designs that fill the space, or of the first generation."""
+def _spread(problem: Problem, searched: Searched) -> Array:
+    """Designs that fill the space; where each takes a run, those of the first generation."""
     if _is_quick(problem):
-        designs = problem.space.sample("sobol", SHARE_DESIGNS)
-        evaluation = evaluate(designs)
-    else:
-        first = searched.generation == 0
-        designs = searched.designs[first]
-        evaluation = evaluate(designs)
-    values: Array = problem.in_units(evaluation.objectives, evaluation.constraints)
-    unit = unit_shares(designs, problem.space.limits)
-    return [shares_of(unit, column, np.ones(len(designs))) for column in values.T]
+        return problem.space.sample("sobol", SPREAD_DESIGNS)
+    return np.asarray(searched.designs[searched.generation == 0])

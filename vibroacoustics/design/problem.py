@@ -9,6 +9,7 @@ import numpy as np
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
+from ..base.vocabulary import REFERENCE_OPTION
 from ..pipeline.radiating import transfer_vectors
 from ..radiation.given import Radiation
 from ..study.design import Constraint, Design, Objective, Wanted
@@ -125,6 +126,25 @@ class Problem:
         """
         return self._of_pieces(designs, draws)[0]
 
+    def without_option(self) -> Array:
+        """Every wanted value of the study as given without an option, shape (wanted,)."""
+        speeds = np.array(self.study.operation.speed_rpm)
+
+        def remainder() -> Array:
+            return remainder_of(self.study, (REFERENCE_OPTION,), self._radiation)
+
+        def value(figure: Figure, wanted: Wanted) -> float:
+            setting = Setting(wanted, speeds, lambda: self.reference, remainder)
+            return float(of_each(figure, self.reference, setting, more_is_better(wanted))[0])
+
+        each = zip(self.figures, self.wanted.values(), strict=True)
+        return np.array([value(figure, wanted) for figure, wanted in each])
+
+    def in_units(self, objectives: Array, constraints: Array) -> Array:
+        """Wanted values in their units, of signed objectives and constraints; see `Judged`."""
+        sign, side, limit = self._signs
+        return np.concatenate([objectives * sign, side * constraints + limit], axis=1)
+
     def _no_values(self) -> Array:
         return np.zeros((0, len(self.wanted)))
 
@@ -132,7 +152,7 @@ class Problem:
         by_draw, outcome = self._of_pieces(designs, draws)
         values = np.stack(
             [
-                over(by_draw[:, :, column], 1, wanted.draws, _more_is_better(wanted))
+                over(by_draw[:, :, column], 1, wanted.draws, more_is_better(wanted))
                 for column, wanted in enumerate(self.wanted.values())
             ],
             axis=1,
@@ -145,7 +165,7 @@ class Problem:
         pieces = self.pieces.made(designs, draws).reshape(len(designs) * len(draws), -1)
         outcome = self.engine.outcome(pieces)
         columns = [
-            of_each(figure, outcome.seen, self._setting(wanted, pieces), _more_is_better(wanted))
+            of_each(figure, outcome.seen, self._setting(wanted, pieces), more_is_better(wanted))
             for figure, wanted in zip(self.figures, self.wanted.values(), strict=True)
         ]
         return np.stack(columns, axis=1).reshape(len(designs), len(draws), -1), outcome
@@ -160,17 +180,22 @@ class Problem:
 
     def _signed(self, values: Array) -> tuple[Array, Array]:
         """Objectives of which less is better, constraints that are met at zero and below."""
-        number = len(self.design.objectives)
+        sign, side, limit = self._signs
+        return values[:, : sign.size] * sign, side * (values[:, sign.size :] - limit)
+
+    @property
+    def _signs(self) -> tuple[Array, Array, Array]:
+        """Of the objectives; of the constraints, and their limits."""
         sign = [-1.0 if w.goal == "greatest" else 1.0 for w in self.design.objectives.values()]
         limits = [
             (1.0, w.at_most) if w.at_most is not None else (-1.0, w.at_least or 0.0)
             for w in self.design.constraints.values()
         ]
         side, limit = np.array(limits, dtype=float).reshape(-1, 2).T
-        return values[:, :number] * sign, side * (values[:, number:] - limit)
+        return np.array(sign), side, limit
 
 
-def _more_is_better(wanted: Wanted) -> bool:
+def more_is_better(wanted: Wanted) -> bool:
     """Whether the smallest value is the worst."""
     if isinstance(wanted, Objective):
         return wanted.goal == "greatest"

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from ..base.arrays import Array
-from .problem import Problem
+from .problem import Problem, more_is_better
 from .statistics import over
 
 _SET: Final = 1
@@ -48,24 +48,24 @@ def promise(problem: Problem, design: Array, count: int, number: int = _SET) -> 
     as_meant = problem.by_draw(design[None], np.full((1, draws.shape[1]), 0.5))[0, 0]
     columns = []
     for values, wanted in zip(by_draw.T, problem.wanted.values(), strict=True):
-        more_is_better = problem.more_is_better(wanted)
-        value = over(values, 0, wanted.draws, more_is_better)
-        low, high = _limits(values, wanted.draws, more_is_better)
+        upwards = more_is_better(wanted)
+        value = over(values, 0, wanted.draws, upwards)
+        low, high = _limits(values, wanted.draws, upwards)
         columns.append((float(value), low, high))
     promised, low, high = np.array(columns).T
     return Promise(as_meant, promised, low, high, len(draws))
 
 
-def _limits(values: Array, statistic: str | float, more_is_better: bool) -> tuple[float, float]:
+def _limits(values: Array, statistic: str | float, upwards: bool) -> tuple[float, float]:
     """95 % limits: of a mean by its standard error, of a quantile by the order statistics."""
     count = len(values)
     if statistic == "mean":
         half = _DEVIATIONS * float(values.std()) / np.sqrt(count)
         return float(values.mean() - half), float(values.mean() + half)
     if statistic == "worst":  # of these pieces; of all that are built it may be worse
-        worst = float(values.min() if more_is_better else values.max())
+        worst = float(values.min() if upwards else values.max())
         return worst, worst
-    share = 1.0 - float(statistic) if more_is_better else float(statistic)
+    share = 1.0 - float(statistic) if upwards else float(statistic)
     half = _DEVIATIONS * np.sqrt(share * (1.0 - share) / count)
     low, high = np.quantile(values, np.clip([share - half, share + half], 0.0, 1.0))
     return float(low), float(high)

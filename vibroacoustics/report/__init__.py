@@ -8,6 +8,7 @@ from ..base.hashing import canonical_json
 from ..base.registry import plugins
 from .comparison import comparison_csv, comparison_text
 from .curve_tables import curve_csv
+from .designs.page import designs_text, render_designs
 from .figures.compared_orders import compared_order_figures
 from .figures.curves import curve_figures
 from .figures.prediction import predicted_figures
@@ -44,6 +45,7 @@ __all__ = [
     "comparison_text",
     "curve_csv",
     "curve_figures",
+    "designs_text",
     "keep",
     "kwave_text",
     "levels_csv",
@@ -59,6 +61,7 @@ __all__ = [
     "radiation_text",
     "recorded_order_figures",
     "render",
+    "render_designs",
     "speed_map_figures",
     "tracked_csv",
     "tracked_order_figures",

@@ -95,6 +95,20 @@ class Constraint(Wanted):
         return self
 
 
+class Search(Parameters):
+    """How the best designs are looked for."""
+
+    population: int = Field(default=64, ge=8, le=10_000)
+    """Designs a generation."""
+    generations: int = Field(default=100, ge=1, le=100_000)
+    seed: int = Field(default=1, ge=0, le=2**31 - 1)
+    """Of the random numbers; the same seed asks for the same designs."""
+    best: int = Field(default=5, ge=1, le=20)
+    """Designs that are told one by one."""
+    fresh_draws: int = Field(default=10_000, ge=100, le=1_000_000)
+    """Of the tolerances, that the search has not seen, behind what a design promises."""
+
+
 class Design(Parameters):
     """Table `design` of a study."""
 
@@ -110,6 +124,8 @@ class Design(Parameters):
     sampling: Literal["grid", "latin-hypercube", "sobol"] = "grid"
     samples: int = Field(default=1000, ge=1, le=100_000_000)
     """Designs of a sample."""
+
+    search: Search = Search()
 
     @field_validator("option", mode="before")
     @classmethod

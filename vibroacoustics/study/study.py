@@ -1,6 +1,7 @@
 """A study: one machine, its operating points, options, microphones and scoring."""
 
 from collections.abc import Mapping
+from copy import deepcopy
 from typing import Annotated, Any, Final
 
 from pydantic import Field, WithJsonSchema, field_validator, model_validator
@@ -353,10 +354,17 @@ class Study(Parameters):
         from .loading import study_of
         from .replacing import replaced
 
-        written = getattr(self, "_written", None)
+        return study_of(replaced(self._as_read(), values))
+
+    def as_written(self) -> dict[str, Any]:
+        """What its file says, with those that it extends; numbers as there, in their units."""
+        return deepcopy(self._as_read().content)
+
+    def _as_read(self) -> Written:
+        written: Written | None = getattr(self, "_written", None)
         if written is None:
             raise ParameterError("study: was not read by load_study; load it, then replace values")
-        return study_of(replaced(written, values))
+        return written
 
     def remember(self, written: Written) -> "Study":
         """The study itself, which remembers what its file says; copies do not."""

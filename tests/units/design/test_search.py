@@ -34,8 +34,12 @@ def rosenbrock(designs: Array) -> Evaluation:
 
 def test_best_of_rosenbrock_and_its_seed() -> None:
     """The polish ends within 1e-4 of (1, 1); the same seed asks for the same designs."""
-    first = search_best(problem([-2.0, -2.0], [2.0, 2.0], rosenbrock), 40, 60, seed=1, polish=True)
-    again = search_best(problem([-2.0, -2.0], [2.0, 2.0], rosenbrock), 40, 60, seed=1, polish=True)
+    first = search_best(
+        problem([-2.0, -2.0], [2.0, 2.0], rosenbrock), 40, 60, seed=1, polish=rosenbrock
+    )
+    again = search_best(
+        problem([-2.0, -2.0], [2.0, 2.0], rosenbrock), 40, 60, seed=1, polish=rosenbrock
+    )
     np.testing.assert_allclose(first.designs[first.best], 1.0, atol=1e-4)
     np.testing.assert_array_equal(first.designs, again.designs)
 
@@ -49,7 +53,7 @@ def test_best_under_a_constraint_with_a_whole_number() -> None:
         return evaluating((x**2 + (n - 2.4) ** 2)[:, None], (3.5 - x - n)[:, None])
 
     found = search_best(
-        problem([-5.0, 0.0], [5.0, 10.0], evaluate, [False, True]), 30, 60, seed=3, polish=True
+        problem([-5.0, 0.0], [5.0, 10.0], evaluate, [False, True]), 30, 60, seed=3, polish=evaluate
     )
     np.testing.assert_allclose(found.designs[found.best], [0.5, 3.0], atol=1e-6)
 
@@ -63,7 +67,7 @@ def test_best_goes_round_designs_that_fail() -> None:
         reasons = tuple("no solution" if one else "" for one in failed)
         return Evaluation(objective, np.zeros((len(designs), 0)), reasons)
 
-    searched = search_best(problem([-1.0], [1.0], evaluate), 20, 30, seed=0, polish=True)
+    searched = search_best(problem([-1.0], [1.0], evaluate), 20, 30, seed=0, polish=evaluate)
     assert 0.0 <= searched.designs[searched.best, 0] < 1e-6
     assert "no solution" in searched.evaluation.failures
 
@@ -72,7 +76,7 @@ def test_no_design_meets_the_constraints() -> None:
     def evaluate(designs: Array) -> Evaluation:
         return evaluating(designs, 2.0 - designs)
 
-    searched = search_best(problem([0.0], [1.0], evaluate), 10, 5, seed=0, polish=False)
+    searched = search_best(problem([0.0], [1.0], evaluate), 10, 5, seed=0)
     with pytest.raises(SolverError, match=r"none of \d+ designs meets the constraints"):
         _ = searched.best
 

@@ -15,7 +15,7 @@ from vibroacoustics.base.arrays import Array
 from vibroacoustics.base.errors import StorageError
 from vibroacoustics.design.evaluation import Evaluation
 from vibroacoustics.design.search.best import search_best
-from vibroacoustics.design.search.problem import SearchProblem, Searched
+from vibroacoustics.design.search.problem import Searched, SearchProblem
 from vibroacoustics.design.store.chunks import Stored, opened_store
 
 PLAN: dict[str, object] = {"study": "a"}
@@ -40,7 +40,7 @@ def searched_in(folder: Path, pause_s: float = 0.0) -> Searched:
         problem = SearchProblem(
             np.array([-1.0, -1.0]), np.array([1.0, 1.0]), np.zeros(2, bool), Stored(evaluate, store)
         )
-        return search_best(problem, 12, 25, seed=4, polish=False)
+        return search_best(problem, 12, 25, seed=4)
 
 
 def same(first: Searched, second: Searched) -> None:

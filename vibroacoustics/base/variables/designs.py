@@ -16,8 +16,11 @@ for _thing in (
     Coordinate("wanted_label", ("wanted",), "", "what it is, in words"),
     Coordinate("wanted_role", ("wanted",), "", "least, greatest, at most or at least"),
     Coordinate("wanted_limit", ("wanted",), "", "limit of a constraint"),
+    Coordinate("spread_design", ("spread_design",), "1", "number of a design spread evenly"),
     Coordinate("best_rank", ("best_rank",), "1", "number among the best few, from 1"),
-    Variable("design_value", ("design", "design_variable"), "", "value in its unit; choices by number"),
+    Variable(
+        "design_value", ("design", "design_variable"), "", "value in its unit; choices by number"
+    ),
     Variable("wanted_value", ("design", "wanted"), "", "objective or constraint of a design"),
     Variable("meets_constraints", ("design",), "1", "1 where a design meets every constraint"),
     Variable("on_front", ("design",), "1", "1 where none is better in every objective"),
@@ -28,7 +31,9 @@ for _thing in (
     Variable("wanted_promised_low", _OF_BEST, "", "lower 95 % limit, of the number of draws"),
     Variable("wanted_promised_high", _OF_BEST, "", "upper 95 % limit, of the number of draws"),
     Variable("wanted_reference", ("wanted",), "", "of the machine without an option"),
-    Variable("design_share", ("wanted", "design_variable"), "1", "share of the variance of designs"),
+    Variable(
+        "design_share", ("wanted", "design_variable"), "1", "share of the variance of designs"
+    ),
     Variable("design_share_quality", ("wanted",), "1", "Q2 of the fit behind the shares"),
 ):
     register(_thing)

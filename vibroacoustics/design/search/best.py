@@ -12,8 +12,8 @@ from scipy.optimize import Bounds, differential_evolution, minimize
 
 from ...base.arrays import Array
 from ...base.progress import Progress, no_progress
-from ..evaluation import Evaluation
-from .problem import History, SearchProblem, Searched
+from ..evaluation import Evaluate, Evaluation
+from .problem import History, Searched, SearchProblem
 
 _INFEASIBLE: Final = 1e9
 """Above every objective that can be met."""
@@ -30,7 +30,7 @@ def search_best(
     generations: int,
     seed: int,
     *,
-    polish: bool,
+    polish: Evaluate | None = None,
     progress: Progress = no_progress,
 ) -> Searched:
     """Look for the design with the least first objective.
@@ -41,7 +41,8 @@ def search_best(
     population : designs a generation
     generations : at most, the first included; it ends before, once a population agrees within 1e-6
     seed : of the random numbers; the same seed asks for the same designs
-    polish : whether to end with a search by simplex (Nelder and Mead) from the best one
+    polish : evaluates single designs for a search by simplex (Nelder and Mead) from the best one at
+        the end; none for no such end
     progress : called with the generations done
     """
     history = History(problem.evaluate)
@@ -67,7 +68,8 @@ def search_best(
         integrality=problem.whole,
         callback=advance,
     )
-    if polish and not problem.whole.all():
+    if polish is not None and not problem.whole.all():
+        history.ask(polish)
         _polish(problem, history)
     return history.searched()
 

@@ -10,7 +10,7 @@ import numpy as np
 from ...base.errors import ParameterError
 from ...base.progress import Progress, no_progress
 from ..evaluation import Evaluation
-from .problem import History, SearchProblem, Searched
+from .problem import History, Searched, SearchProblem
 
 _FAILED: Final = 1e30
 
@@ -53,7 +53,9 @@ def search_front(
     return history.searched()
 
 
-def _algorithm(problem: SearchProblem, population: int, generations: int, seed: int) -> tuple[Any, Any]:
+def _algorithm(
+    problem: SearchProblem, population: int, generations: int, seed: int
+) -> tuple[Any, Any]:
     """NSGA-II, set up, and the outline of the problem."""
     core = _pymoo()
     from pymoo.algorithms.moo.nsga2 import NSGA2

@@ -81,6 +81,10 @@ class History:
         self._evaluations.append(evaluation)
         return evaluation
 
+    def ask(self, evaluate: Evaluate) -> None:
+        """Ask another from now on."""
+        self._evaluate = evaluate
+
     def searched(self) -> Searched:
         """All so far."""
         sizes = [len(designs) for designs in self._designs]

@@ -23,6 +23,21 @@ from ..search.coded import evaluating
 _MAXIMUM_BYTES = 10_000_000
 
 
+def study_plan(study: Study, plugins: Sequence[Path]) -> dict[str, object]:
+    """What shapes designs and their values: a store that holds those of another plan is refused.
+
+    A longer search of the same space goes on where a shorter one ended.
+    """
+    parameters = study.parameters()
+    for name in ("generations", "best", "fresh_draws"):
+        parameters["design"]["search"].pop(name)
+    return {
+        "parameters": sha256(canonical_json(parameters).encode()),
+        "version": software_version(),
+        "plugins": [_hash_of(one) for one in plugins],
+    }
+
+
 def study_task(path: Path, study: Study, plugins: Sequence[Path]) -> bytes:
     """What a worker needs to evaluate designs of a study.
 

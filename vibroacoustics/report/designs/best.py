@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
+from ...base import rounding
 from ..tables import Table
 from .evaluated import Evaluated
 
@@ -31,26 +32,32 @@ def best_tables(found: xr.Dataset, designs: Evaluated) -> Iterator[Table]:
     )
     yield Table(
         "What they reach, as meant and as promised, beside the machine without an option",
-        ("Wanted", "without", *(part for n in head[1:] for part in (f"{n}: meant", "promised"))),
-        tuple(_reached(found, number) for number in range(found.sizes["wanted"])),
+        ("Wanted", "", "without", *head[1:]),
+        tuple(row for number in range(found.sizes["wanted"]) for row in _reached(found, number)),
+        frozenset({0, 1}),
     )
 
 
-def _reached(found: xr.Dataset, number: int) -> tuple[str, ...]:
+def _reached(found: xr.Dataset, number: int) -> Iterator[tuple[str, ...]]:
+    """A wanted value as meant and as promised."""
     unit = str(found["wanted_unit"].values[number])
-    label = str(found["wanted_label"].values[number])
-    before = float(found["wanted_reference"].values[number])
-    cells = []
-    for rank in range(found.sizes["best_rank"]):
-        meant, value, low, high = (
-            float(found[name].values[rank, number])
-            for name in ("wanted_as_meant", "wanted_promised", "wanted_promised_low",
-                         "wanted_promised_high")
-        )  # fmt: skip
-        half = max(high - value, value - low)
-        band = f" ± {half:.2g}" if half > 0.0 else ""
-        cells += [f"{meant:.4g}", f"{value:.4g}{band}"]
-    return (f"{label}, {unit}" if unit else label, f"{before:.4g}", *cells)
+    name = heading(str(found["wanted"].values[number]), unit)
+    before = shown(float(found["wanted_reference"].values[number]), unit)
+    for words, variable in (("as meant", "wanted_as_meant"), ("promised", "wanted_promised")):
+        values = found[variable].values[:, number]
+        yield (name, words, before, *(shown(float(value), unit) for value in values))
+
+
+def heading(name: str, unit: str) -> str:
+    """A name with its unit."""
+    return f"{name}, {unit}" if unit else name
+
+
+def shown(value: float, unit: str) -> str:
+    """A number with as many digits as it means: decibels with two decimals, others with four."""
+    if not np.isfinite(value):
+        return "–"
+    return rounding.fixed(value, 2) if unit.startswith("dB") else f"{value:.4g}"
 
 
 def limiting(found: xr.Dataset, designs: Evaluated) -> Iterator[str]:
@@ -78,4 +85,4 @@ def _met_just(found: xr.Dataset, row: int) -> Iterator[str]:
         value = float(found["wanted_value"].values[row, number])
         if abs(value - limit) <= 10.0 * _AT_END * max(abs(limit), 1e-12):
             unit = str(found["wanted_unit"].values[number])
-            yield f"{found['wanted_label'].values[number]} is just {role} {limit:g} {unit}".rstrip()
+            yield f"{found['wanted'].values[number]} is just {role} {limit:g} {unit}".rstrip()

@@ -20,14 +20,12 @@ class Column:
     unit : of its values; empty for a number or a choice
     values : shape (design,); of a choice the number among its words
     words : of a choice
-    more_is_better : of an objective
     """
 
     label: str
     unit: str
     values: Array
     words: tuple[str, ...] = ()
-    more_is_better: bool = False
 
     @property
     def heading(self) -> str:
@@ -46,7 +44,7 @@ class Evaluated:
 
     Attributes
     ----------
-    variables, objectives, constraints : columns
+    variables, objectives : columns
     met : which designs meet every constraint, shape (design,)
     front : of these, those of which none is better in every objective, shape (design,)
     best : numbers of the best few, the first one first
@@ -54,7 +52,6 @@ class Evaluated:
 
     variables: tuple[Column, ...]
     objectives: tuple[Column, ...]
-    constraints: tuple[Column, ...]
     met: Mask
     front: Mask
     best: IndexArray

@@ -1,23 +1,26 @@
 """The report of a search of designs as one page."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from typing import Final
 
 import numpy as np
 import xarray as xr
 
-from ...base import rounding
 from ..blocks import Block, Bullets, Details, Pictures, Text
 from ..figures.designs import front_figure, main_effects_figure, parallel_figure
 from ..figures.style import Picture, png
+from ..html import html
 from ..page import Page, Part
 from ..study import parameters
-from ..tables import Table
-from .best import best_tables, limiting
+from ..tables import Table, to_text
+from .best import best_tables, limiting, shown
+from .csv import designs_csv
 from .evaluated import Column, Evaluated
-from .reading import evaluated, variable_label
+from .reading import evaluated, objectives_of, variable_label, variables_of
 
-ABOUT = "Designs of the machine, what each objective costs the others, and what pieces will keep."
+_PANELS: Final = 4
+ABOUT: Final = "Designs, what each objective costs the others, and what built pieces will keep."
 
 
 def designs_page(found: xr.Dataset) -> Page:
@@ -32,13 +35,34 @@ def designs_page(found: xr.Dataset) -> Page:
     parts = (
         Part("best", "The best few", tuple(_best(found, designs))),
         Part("front", "Front", tuple(_front(designs))),
-        Part("deciding", "What decides", tuple(_deciding(found, designs))),
+        Part("deciding", "What decides", tuple(_deciding(found))),
         Part("searched", "What was searched", tuple(_searched(found, designs))),
     )
     shown = tuple(part for part in parts if part.blocks)
     return Page(
-        f"Designs: {study['title']}", study["machine"]["name"], found.attrs["created_utc"], shown, ABOUT
+        f"Designs: {study['title']}",
+        study["machine"]["name"],
+        found.attrs["created_utc"],
+        shown,
+        ABOUT,
     )
+
+
+def render_designs(found: xr.Dataset) -> dict[str, bytes]:
+    """Files of the report of a search, by name."""
+    page = designs_page(found)
+    return {
+        "designs.html": html(page),
+        "designs.csv": designs_csv(found),
+        **{file: picture.png for file, picture in page.pictures().items()},
+    }
+
+
+def designs_text(found: xr.Dataset) -> str:
+    """The best few for a terminal."""
+    designs = evaluated(found)
+    tables = [to_text(table, 60) for table in best_tables(found, designs)]
+    return "\n".join([*tables, *limiting(found, designs)])
 
 
 def _best(found: xr.Dataset, designs: Evaluated) -> list[Block]:
@@ -50,27 +74,33 @@ def _best(found: xr.Dataset, designs: Evaluated) -> list[Block]:
         Text(
             f"{designs.count} designs were evaluated, {allowed} meet every constraint"
             f"{_failed(found)}. As meant: a piece without tolerances. Promised: "
-            f"{found.attrs['promise_draws']} fresh pieces, drawn after the search, with the 95 % "
-            "limits that the number of draws alone leaves.",
+            f"{found.attrs['promise_draws']} fresh pieces, not seen by the search; 95 % limits "
+            f"of the number of pieces alone: {_precision(found) or 'none, nothing scatters'}.",
             "note",
         ),
     ]
 
 
 def _headline(found: xr.Dataset, designs: Evaluated) -> str:
-    """What the first of the best few reaches, beside the machine without an option."""
-    row = designs.best[0]
-    values = ", ".join(
-        f"{column.label} {column.cell(row)}{' ' + column.unit if column.unit else ''}"
-        for column in designs.variables
-    )
+    """What the first of the best few promises, beside the machine without an option."""
     reached = []
     for number, column in _aims(found, designs):
-        promised = float(found["wanted_promised"].values[0, number])
-        before = float(found["wanted_reference"].values[number])
-        without = f" (without an option {rounding.fixed(before)})" if np.isfinite(before) else ""
-        reached.append(f"{column.label}: {rounding.fixed(promised)} {column.unit}{without}")
-    return f"Best design: {values}. It reaches {'; '.join(reached)}."
+        promised = shown(float(found["wanted_promised"].values[0, number]), column.unit)
+        before = shown(float(found["wanted_reference"].values[number]), column.unit)
+        reached.append(f"{column.label} {promised} {column.unit} (without an option {before})")
+    return f"Design 1 promises {'; '.join(reached)}."
+
+
+def _precision(found: xr.Dataset) -> str:
+    """How far a promised value may be off for the number of draws, in decibels where it is one."""
+    low, value, high = (found[f"wanted_promised{end}"].values for end in ("_low", "", "_high"))
+    each = np.maximum(high - value, value - low).max(axis=0)
+    units, names = found["wanted_unit"].values, found["wanted"].values
+    return ", ".join(
+        f"{name} ± {value:.2g} {unit}".rstrip()
+        for name, unit, value in zip(names, units, each, strict=True)
+        if value > 0.0
+    )
 
 
 def _aims(found: xr.Dataset, designs: Evaluated) -> list[tuple[int, Column]]:
@@ -110,22 +140,26 @@ def _front(designs: Evaluated) -> list[Block]:
     return [Pictures(pictures)]
 
 
-def _deciding(found: xr.Dataset, designs: Evaluated) -> list[Block]:
-    effects = [_effect(designs, column, number) for number, (_, column) in
-               enumerate(_aims(found, designs), 1)]  # fmt: skip
-    first, *others = effects
-    more = [Details("Main effects of the other objectives", (Pictures(tuple(others)),))]
-    return [_shares(found), Pictures((first,)), *(more if others else [])]
+def _deciding(found: xr.Dataset) -> list[Block]:
+    variables = variables_of(found, "spread_value")
+    first, *others = [
+        Pictures(tuple(_effects(variables, column, number)))
+        for number, column in enumerate(objectives_of(found, "spread_wanted"), 1)
+    ]
+    more = [Details("Main effects of the other objectives", tuple(others))]
+    return [_shares(found), first, *(more if others else [])]
 
 
-def _effect(designs: Evaluated, column: Column, number: int) -> Picture:
-    return Picture(
-        f"main_effects_{number}",
-        f"Median and middle 80 % of {column.label} over each variable.",
-        f"{column.label} over each variable: median and middle 80 % of all designs that the search "
-        "evaluated, which crowd where it is good.",
-        png(main_effects_figure(designs, column)),
-    )
+def _effects(variables: Sequence[Column], objective: Column, number: int) -> Iterator[Picture]:
+    """An objective over each variable, some variables a picture."""
+    for start in range(0, len(variables), _PANELS):
+        yield Picture(
+            f"main_effects_{number}_{start // _PANELS + 1}",
+            f"Median and middle 80 % of {objective.label} over each variable.",
+            f"{objective.heading} over each variable: median and middle 80 % of designs that fill "
+            "the design space evenly.",
+            png(main_effects_figure(variables[start : start + _PANELS], objective)),
+        )
 
 
 def _shares(found: xr.Dataset) -> Table:
@@ -133,7 +167,7 @@ def _shares(found: xr.Dataset) -> Table:
     keys = [variable_label(str(key)) for key in found["design_variable"].values]
     rows = [
         (
-            str(found["wanted_label"].values[number]),
+            str(found["wanted"].values[number]),
             _ratio(float(found["design_share_quality"].values[number])),
             *(_ratio(float(share)) for share in found["design_share"].values[number]),
         )
@@ -157,17 +191,20 @@ def _searched(found: xr.Dataset, designs: Evaluated) -> Sequence[Block]:
     for number, column in enumerate(designs.variables):
         allowed = ", ".join(column.words) or f"{low[number]:.4g} to {high[number]:.4g}"
         rows.append((column.label, column.unit, allowed))
-    variables = Table("Variables", ("Variable", "Unit", "Allowed"), tuple(rows), frozenset({0, 1, 2}))
+    variables = Table(
+        "Variables", ("Variable", "Unit", "Allowed"), tuple(rows), frozenset({0, 1, 2})
+    )
     wanted = Table(
         "Objectives and constraints",
-        ("Wanted", "Unit", "Role", "Limit"),
+        ("Name", "What it is", "Unit", "Role", "Limit"),
         tuple(
-            (str(label), str(unit), str(role), "" if np.isnan(limit) else f"{limit:g}")
-            for label, unit, role, limit in zip(
-                *(found[f"wanted_{name}"].values for name in ("label", "unit", "role", "limit")),
+            (str(name), str(label), str(unit), str(role), "" if np.isnan(limit) else f"{limit:g}")
+            for name, label, unit, role, limit in zip(
+                found["wanted"].values,
+                *(found[f"wanted_{part}"].values for part in ("label", "unit", "role", "limit")),
                 strict=True,
             )
         ),
-        frozenset({0, 1, 2}),
+        frozenset({0, 1, 2, 3}),
     )
     return [variables, wanted, Text(found.attrs["method"], "note")]

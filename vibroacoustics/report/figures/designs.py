@@ -14,7 +14,8 @@ from .style import COLOURS, draw, legend_below, plain, shortened, wrap
 _MOST_POINTS: Final = 20_000
 _MOST_LINES: Final = 200
 _BINS: Final = 12
-_GREY, _BLUE, _RED = "#bbbbbb", COLOURS[3], COLOURS[1]
+_GREY, _BLUE = "#bbbbbb", COLOURS[3]
+_OF_BEST: Final = (COLOURS[1], COLOURS[0], COLOURS[5], COLOURS[4], COLOURS[2])
 
 
 def front_figure(designs: Evaluated) -> Figure:
@@ -39,22 +40,33 @@ def front_figure(designs: Evaluated) -> Figure:
             _number(axes, designs.best, first, other)
             axes.set_xlabel(plain(first.heading))
             axes.set_ylabel(wrap(other.heading, 34))
+            axes.set_xlim(*_near_front(first.values, front))
+            axes.set_ylim(*_near_front(other.values, front))
         legend_below(panels[-1], 3)
 
-    return draw(len(others), 2.9, paint)
+    return draw(len(others), 2.9, paint, 2 + len(designs.best) // 3)
 
 
 def _number(axes: Axes, best: IndexArray, first: Column, other: Column) -> None:
-    """The best few as open circles with their number."""
-    axes.scatter(
-        first.values[best], other.values[best], s=30, facecolors="none", edgecolors=_RED,
-        linewidths=1.3, label="best few", zorder=3,
-    )  # fmt: skip
+    """The best few as open circles, each in its colour."""
     for number, row in enumerate(best, 1):
-        axes.annotate(
-            f"{number}", (first.values[row], other.values[row]), xytext=(4, 4),
-            textcoords="offset points", color=_RED, fontsize=8.5,
+        axes.scatter(
+            first.values[row], other.values[row], s=34, facecolors="none",
+            edgecolors=_colour(number), linewidths=1.5, label=f"design {number}", zorder=3,
         )  # fmt: skip
+
+
+def _colour(number: int) -> str:
+    return _OF_BEST[(number - 1) % len(_OF_BEST)]
+
+
+def _near_front(values: Array, front: IndexArray) -> tuple[float, float]:
+    """Limits of an axis that show the front and what is near it."""
+    low, high = float(values[front].min()), float(values[front].max())
+    span = max(high - low, 1e-3 * abs(low), 1e-12)
+    more_is_better = np.median(values) < 0.5 * (low + high)
+    near, far = 0.15 * span, 1.5 * span
+    return (low - far, high + near) if more_is_better else (low - near, high + far)
 
 
 def parallel_figure(designs: Evaluated) -> Figure:
@@ -74,8 +86,10 @@ def parallel_figure(designs: Evaluated) -> Figure:
         places = np.arange(len(columns))
         axes.plot(scaled[:, front], -places, color=_BLUE, linewidth=0.6, alpha=0.45)
         for number, row in enumerate(designs.best, 1):
-            axes.plot(scaled[:, row], -places, color=_RED, linewidth=1.3)
-            axes.annotate(f"{number}", (scaled[0, row], 0.12), color=_RED, ha="center", fontsize=8)
+            axes.plot(
+                scaled[:, row], -places, color=_colour(number), linewidth=1.4, marker=".",
+                label=f"design {number}",
+            )  # fmt: skip
         axes.set_yticks(-places, [wrap(shortened(column.heading, 60), 26) for column in columns])
         for place, column in enumerate(columns):
             for share, end in ((0.0, "min"), (1.0, "max")):
@@ -88,22 +102,22 @@ def parallel_figure(designs: Evaluated) -> Figure:
         axes.set_xlim(-0.03, 1.03)
         axes.set_xticks([0.0, 1.0], ["least allowed", "greatest allowed"])
         axes.grid(visible=True, axis="y")
+        legend_below(axes, 3)
 
-    return draw(1, 0.7 + 0.45 * len(columns), paint)
+    return draw(1, 0.7 + 0.45 * len(columns), paint, 1 + len(designs.best) // 3)
 
 
-def main_effects_figure(designs: Evaluated, objective: Column) -> Figure:
-    """An objective over each variable: median of the designs, and the middle 80 % of them.
+def main_effects_figure(variables: Sequence[Column], objective: Column) -> Figure:
+    """An objective over variables: median of designs that fill the space, and 80 % of them.
 
     Parameters
     ----------
-    designs : those that did not fail count, whether they meet the constraints or not
-    objective : one of theirs
+    variables, objective : of the same designs; those that failed are not numbers
     """
     sound = np.isfinite(objective.values)
 
     def paint(panels: Sequence[Axes]) -> None:
-        for axes, variable in zip(panels, designs.variables, strict=True):
+        for axes, variable in zip(panels, variables, strict=True):
             middle, quantiles = _by_bin(variable.values[sound], objective.values[sound])
             axes.fill_between(middle, quantiles[0], quantiles[2], color=_BLUE, alpha=0.2,
                               linewidth=0, label="middle 80 % of the designs")  # fmt: skip
@@ -114,7 +128,7 @@ def main_effects_figure(designs: Evaluated, objective: Column) -> Figure:
                 axes.set_xticks(range(len(variable.words)), [wrap(w, 14) for w in variable.words])
         legend_below(panels[-1])
 
-    return draw(len(designs.variables), 2.0, paint)
+    return draw(len(variables), 1.6, paint, sharey=True)
 
 
 def _by_bin(values: Array, objective: Array) -> tuple[Array, Array]:
