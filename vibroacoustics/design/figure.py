@@ -49,7 +49,7 @@ class Figure:
     """Plain words, without the unit."""
     position: ClassVar[float] = LAST
     is_level: ClassVar[bool] = False
-    """Whether microphones are averaged as energy; `values` are then levels."""
+    """Whether it is a level: `values` are then powers over that of 0 dB, averaged as such."""
     of_speeds: ClassVar[bool] = True
     """Whether it has a value at each speed."""
 

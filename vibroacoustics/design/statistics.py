@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..base.arrays import Array
-from ..base.decibel import energy_mean
+from ..base.decibel import level_of_power
 from ..study.design import Statistic, Wanted
 from .engine.seen import Seen
 from .figure import Figure, Setting
@@ -43,9 +43,9 @@ def of_each(figure: Figure, seen: Seen, setting: Setting, more_is_better: bool) 
     """
     wanted: Wanted = setting.wanted
     values, reference = figure.values(seen, setting), figure.reference(setting)
-    if values.ndim == 3 and wanted.receivers == "mean" and figure.is_level:
-        values = energy_mean(values, axis=2)
-        reference = None if reference is None else energy_mean(reference, axis=2)
+    if figure.is_level:
+        values = _level(values, wanted)
+        reference = None if reference is None else _level(reference, wanted)
     if reference is not None:
         values = values - reference
     if values.ndim == 3:
@@ -53,3 +53,9 @@ def of_each(figure: Figure, seen: Seen, setting: Setting, more_is_better: bool) 
     if values.ndim == 2:
         values = over(values, 1, wanted.speeds, more_is_better)
     return values
+
+
+def _level(power: Array, wanted: Wanted) -> Array:
+    """Levels at each microphone, or of the mean of them."""
+    mean = power.ndim == 3 and wanted.receivers == "mean"
+    return level_of_power(power.mean(axis=2) if mean else power)

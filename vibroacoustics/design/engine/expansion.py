@@ -13,7 +13,7 @@ RELATIVE: Final = 1e-10
 """Error of a line or value that is rounding, of its largest size over the designs."""
 NOTHING: Final = 1e-12
 """What is smaller than this part of the largest of an array is rounding alone."""
-SAME: Final = 1e-14
+SAME: Final = 2e-13
 """Change, of the largest of an array, that is none."""
 
 Stack = Mapping[str, ComplexArray]
@@ -61,9 +61,12 @@ def summed(columns: Array, factors: ComplexArray) -> ComplexArray:
     if not factors[1:].any():
         return factors[:1]
     flat = factors.reshape(len(factors), -1)
-    used = flat.any(axis=1)
-    real = columns[:, used] @ np.ascontiguousarray(flat[used]).view(float)
-    return np.asarray(real.view(complex).reshape(len(columns), *factors.shape[1:]))
+    moving = np.flatnonzero(flat[1:].any(axis=0))
+    used = flat[:, moving].any(axis=1)
+    real = columns[:, used] @ np.ascontiguousarray(flat[np.ix_(used, moving)]).view(float)
+    result = np.repeat(flat[:1], len(columns), axis=0)
+    result[:, moving] = real.view(complex)
+    return result.reshape(len(columns), *factors.shape[1:])
 
 
 def fitted(terms: Terms, speed_rpm: float, values: Array, arrays: Stack) -> Expansion:

@@ -12,7 +12,7 @@ from .on_mounts import Arrays, Lines, seen_of
 from .response import a_weight, displacement, pressure
 from .seen import Need
 
-RANK: Final = 1e-15
+RANK: Final = 1e-13
 """Of the largest singular value: what is smaller is rounding."""
 SOLVED: Final = ("mass", "stiffness", "foot", "added", "foot_added", "factor")
 """Arrays that must be the same for all designs."""
@@ -37,24 +37,15 @@ class FixedSpeed:
     lines : those of the orders that are asked for but as sound
     arrays : expansion of what is no sound, at these lines
     noise : factors of the random loads, shape (product, receiver)
-    sound : by need, rows whose sums make the mean square, shape (receiver, row, product)
     """
 
     lines: Lines
     arrays: Expansion
     noise: Array
-    sound: dict[Need, Array]
 
     @classmethod
-    def of(
-        cls, needs: Sequence[Need], lines: Lines, arrays: Expansion, body: Arrays
-    ) -> "FixedSpeed":
+    def of(cls, needs: Sequence[Need], lines: Lines, arrays: Expansion) -> "FixedSpeed":
         """Prepared for what is asked."""
-        sound = {
-            need: compressed(need.order, lines, arrays, body)
-            for need in needs
-            if need.what == "sound"
-        }
         orders = {need.order for need in needs if need.what in ("force", "moment", "foot")}
         rows = np.array([row for order in orders for row in lines.row(order)], dtype=np.intp)
         figures = {need.name for need in needs if need.what == "figure"}
@@ -63,7 +54,7 @@ class FixedSpeed:
         few |= {name: factors[name] for name in figures if name in factors}
         few = {name: part for name, part in few.items() if name in figures or rows.size}
         expansion = Expansion(arrays.terms, arrays.speed_rpm, few)
-        return cls(lines.at(rows), expansion, factors["noise"].real, sound)
+        return cls(lines.at(rows), expansion, factors["noise"].real)
 
 
 def compressed(order: int | None, lines: Lines, arrays: Expansion, body: Arrays) -> Array:
@@ -107,10 +98,15 @@ class FixedMounts:
     ----------
     speeds : each of them
     body : mass, stiffness and foot, shape (1, ...)
+    sums : of the products that all sound is made of, shape (sum, product)
+    sound : by need, rows of these sums, whose own sums make the mean square, shape
+        (speed, receiver, row, sum)
     """
 
     speeds: tuple[FixedSpeed, ...]
     body: Arrays
+    sums: Array
+    sound: dict[Need, Array]
 
     @classmethod
     def of(
@@ -122,8 +118,16 @@ class FixedMounts:
     ) -> "FixedMounts":
         """Prepared for what is asked."""
         bare = {name: factors[:1] for name, factors in body.factors.items()}
-        both = zip(lines, by_speed, strict=True)
-        return cls(tuple(FixedSpeed.of(needs, *one, bare) for one in both), bare)
+        both = list(zip(lines, by_speed, strict=True))
+        speeds = tuple(FixedSpeed.of(needs, *one) for one in both)
+        rows = {
+            need: _stacked([compressed(need.order, *one, bare) for one in both])
+            for need in needs
+            if need.what == "sound"
+        }
+        nothing = np.zeros((1, len(by_speed[0].terms.products)))
+        sums = _directions(np.concatenate([nothing, *map(_scaled, rows.values())]))
+        return cls(speeds, bare, sums, {need: part @ sums.T for need, part in rows.items()})
 
     def seen(self, needs: Sequence[Need], values: Array) -> dict[Need, Array]:
         """What is seen of designs.
@@ -153,10 +157,36 @@ class FixedMounts:
         return [columns, *(one.arrays.terms.at(values, one.lines.speed_rpm) for one in rest)]
 
     def _sound(self, need: Need, by_speed: Sequence[Array]) -> Array:
-        parts = []
-        for one, columns in zip(self.speeds, by_speed, strict=True):
-            rows = one.sound[need]
-            sums = columns @ rows.reshape(-1, columns.shape[1]).T
-            square = np.square(sums, out=sums).reshape(len(columns), *rows.shape[:2]).sum(axis=-1)
-            parts.append(square if need.order is not None else square + columns @ one.noise)
-        return np.stack(parts, axis=1)
+        """Mean square, shape (design, speed, receiver)."""
+        rows, shared = self.sound[need], not self.speeds[0].arrays.terms.by_speed
+        count = len(by_speed[0])
+        square = np.empty((count, *rows.shape[:2]))
+        sums = by_speed[0] @ self.sums.T
+        for speed, of_speed in enumerate(rows):
+            if not shared:
+                sums = by_speed[speed] @ self.sums.T
+            each = sums @ of_speed.reshape(-1, len(self.sums)).T
+            each = np.square(each, out=each).reshape(count, *of_speed.shape[:2])
+            np.einsum("nrk->nr", each, out=square[:, speed])
+            if need.order is None and self.speeds[speed].noise.any():
+                square[:, speed] += by_speed[speed] @ self.speeds[speed].noise
+        return square
+
+
+def _stacked(parts: Sequence[Array]) -> Array:
+    """Rows of all speeds, those of fewer filled with zeros, (speed, receiver, row, product)."""
+    most = max(part.shape[1] for part in parts)
+    return np.stack([np.pad(part, ((0, 0), (0, most - part.shape[1]), (0, 0))) for part in parts])
+
+
+def _directions(rows: Array) -> Array:
+    """As few independent sums as all rows are made of, shape (sum, product)."""
+    _, sizes, directions = np.linalg.svd(rows, full_matrices=False)
+    return np.asarray(directions[: max(int((sizes > RANK * sizes[0]).sum()), 1)])
+
+
+def _scaled(rows: Array) -> Array:
+    """Rows of each speed and receiver over their largest, so that quiet ones count as loud ones."""
+    size = np.abs(rows).max(axis=(2, 3), keepdims=True)
+    scaled = rows / np.where(size > 0.0, size, 1.0)
+    return np.asarray(scaled.reshape(-1, rows.shape[-1]))

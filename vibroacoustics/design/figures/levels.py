@@ -4,15 +4,15 @@ from typing import ClassVar
 
 from ...base.arrays import Array
 from ...base.constants import REFERENCE_PRESSURE_PA
-from ...base.decibel import mean_square_level
 from ...base.registry import register
 from ...study.design import Wanted
 from ..engine.seen import Need, Seen
 from ..figure import Figure, Setting
 
 
-def _level(mean_square: Array) -> Array:
-    return mean_square_level(mean_square, REFERENCE_PRESSURE_PA)
+def _power(mean_square: Array) -> Array:
+    """Over that of 0 dB."""
+    return mean_square / REFERENCE_PRESSURE_PA**2
 
 
 @register
@@ -29,8 +29,8 @@ class Level(Figure):
         return (Need("sound"),)
 
     def values(self, seen: Seen, setting: Setting) -> Array:
-        """Level, dB(A)."""
-        return _level(seen[Need("sound")])
+        """Power over that of 0 dB(A)."""
+        return _power(seen[Need("sound")])
 
 
 @register
@@ -42,7 +42,7 @@ class LevelChange(Level):
     position = 2.0
 
     def reference(self, setting: Setting) -> Array:
-        """Level without an option, dB(A)."""
+        """Power without an option."""
         return self.values(setting.reference(), setting)
 
 
@@ -55,8 +55,8 @@ class TotalLevel(Level):
     position = 3.0
 
     def values(self, seen: Seen, setting: Setting) -> Array:
-        """Level, dB(A)."""
-        return _level(seen[Need("sound")] + setting.remainder())
+        """Power over that of 0 dB(A)."""
+        return _power(seen[Need("sound")] + setting.remainder())
 
 
 @register
@@ -68,7 +68,7 @@ class TotalChange(TotalLevel):
     position = 4.0
 
     def reference(self, setting: Setting) -> Array:
-        """Level without an option, dB(A)."""
+        """Power without an option."""
         return self.values(setting.reference(), setting)
 
 
@@ -86,9 +86,9 @@ class OrderLevel(Figure):
         return (Need("sound", wanted.order or 1),)
 
     def values(self, seen: Seen, setting: Setting) -> Array:
-        """Level, dB."""
+        """Power over that of 0 dB."""
         (need,) = self.needs(setting.wanted)
-        return _level(seen[need])
+        return _power(seen[need])
 
 
 @register
@@ -100,5 +100,5 @@ class OrderChange(OrderLevel):
     position = 6.0
 
     def reference(self, setting: Setting) -> Array:
-        """Level without an option, dB."""
+        """Power without an option."""
         return self.values(setting.reference(), setting)
