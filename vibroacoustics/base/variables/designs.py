@@ -31,6 +31,8 @@ for _thing in (
     Variable("wanted_promised_low", _OF_BEST, "", "lower 95 % limit, of the number of draws"),
     Variable("wanted_promised_high", _OF_BEST, "", "upper 95 % limit, of the number of draws"),
     Variable("wanted_reference", ("wanted",), "", "of the machine without an option"),
+    Variable("spread_value", ("spread_design", "design_variable"), "", "value in its unit"),
+    Variable("spread_wanted", ("spread_design", "wanted"), "", "objective or constraint"),
     Variable(
         "design_share", ("wanted", "design_variable"), "1", "share of the variance of designs"
     ),
