@@ -20,6 +20,7 @@ from .problem import Problem
 from .promise import Promise
 from .search.nondominated import nondominated
 from .search.problem import Searched
+from .space import OPTION, acts_on
 
 _MOST_REASONS: Final = 20
 
@@ -38,9 +39,8 @@ def searched_dataset(problem: Problem, searched: Searched) -> xr.Dataset:
     front[met] = nondominated(evaluation.objectives[met])
     values = problem.in_units(evaluation.objectives, evaluation.constraints)
     coords = {**_design_coords(problem, len(met)), **_wanted_coords(problem)}
-    factors = np.array([variable.factor for variable in problem.space.variables])
     data = {
-        "design_value": searched.designs / factors,
+        "design_value": _as_in_files(problem, searched.designs),
         "wanted_value": values,
         "meets_constraints": met.astype(np.int8),
         "on_front": front.astype(np.int8),
@@ -106,9 +106,8 @@ def with_shares(
     low, high = problem.space.limits.T
     unit = 2.0 * (designs - low) / (high - low) - 1.0
     shares = [shares_of(unit, column, np.ones(len(designs))) for column in values.T]
-    factors = np.array([variable.factor for variable in problem.space.variables])
     data = {
-        "spread_value": designs / factors,
+        "spread_value": _as_in_files(problem, designs),
         "spread_wanted": values,
         "design_share": np.array([one.share for one in shares]),
         "design_share_quality": np.array([one.quality for one in shares]),
@@ -116,6 +115,17 @@ def with_shares(
     spread = xr.Dataset({name: stamp(name, one) for name, one in data.items()})
     numbers = {"spread_design": np.arange(len(designs))}
     return dataset.merge(spread.assign_coords(numbers)).assign_attrs(dataset.attrs)
+
+
+def _as_in_files(problem: Problem, designs: Array) -> Array:
+    """Values in the units of files; those of other options than a design's are not numbers."""
+    space = problem.space
+    values = designs / np.array([variable.factor for variable in space.variables])
+    chosen = np.array([space.option_of(design) for design in designs])
+    for option in space.options:
+        idle = [not acts_on(name, option) and name != OPTION for name in space.names]
+        values[np.ix_(chosen == option, idle)] = np.nan
+    return np.asarray(values)
 
 
 def _design_coords(problem: Problem, count: int) -> dict[str, Any]:

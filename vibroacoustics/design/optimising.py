@@ -16,6 +16,7 @@ from .search.chosen import best_by_one, best_of_front
 from .search.coded import Coding, evaluating
 from .search.front import search_front
 from .search.problem import Searched
+from .space import OPTION, acts_on
 
 SPREAD_DESIGNS: Final = 1024
 """Spread evenly, from which it is told what decides."""
@@ -67,7 +68,7 @@ def _is_quick(problem: Problem) -> bool:
         route.linear
         for option in problem.space.options
         for key, route in problem.engine.routes(option).items()
-        if key != "option"
+        if key != OPTION and acts_on(key, option)
     )
 
 

@@ -67,7 +67,7 @@ def limiting(found: xr.Dataset, designs: Evaluated) -> Iterator[str]:
         reasons = []
         for number, column in enumerate(designs.variables):
             value, span = float(column.values[row]), high[number] - low[number]
-            if column.words or span <= 0.0:
+            if column.words or np.isnan(value) or span <= 0.0:
                 continue
             if value - low[number] < _AT_END * span:
                 reasons.append(f"{column.label} is the least allowed")

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
+from ...base.arrays import Array
 from ..tables import to_csv
 
 
@@ -30,8 +31,13 @@ def _rows(found: xr.Dataset, keys: list[str]) -> Iterator[tuple[str | float, ...
     columns: list[list[str | float]] = []
     for key, column in zip(keys, found["design_value"].values.T, strict=True):
         words = choices.get(key)
-        columns.append([words[round(v)] for v in column] if words else column.tolist())
-    columns += [list(column) for column in found["wanted_value"].values.T.tolist()]
+        columns.append([words[round(v)] for v in column] if words else _cells(column))
+    columns += [_cells(column) for column in found["wanted_value"].values.T]
     counted = [found[name].values.tolist() for name in ("meets_constraints", "on_front")]
     generation = found["search_generation"].values.tolist()
     yield from zip(np.arange(len(generation)).tolist(), generation, *columns, *counted, strict=True)
+
+
+def _cells(column: Array) -> list[str | float]:
+    """Values, empty where there is none."""
+    return ["" if np.isnan(value) else value for value in column.tolist()]

@@ -18,7 +18,8 @@ class Column:
     ----------
     label : what it is
     unit : of its values; empty for a number or a choice
-    values : shape (design,); of a choice the number among its words
+    values : shape (design,); of a choice the number among its words; not a number where a design
+        has no such value
     words : of a choice
     """
 
@@ -35,6 +36,8 @@ class Column:
     def cell(self, design: int) -> str:
         """One value in words."""
         value = float(self.values[design])
+        if np.isnan(value):
+            return "–"
         return self.words[round(value)] if self.words else f"{value:.4g}"
 
 

@@ -54,7 +54,6 @@ def objectives_of(found: xr.Dataset, name: str) -> tuple[Column, ...]:
 
 def variable_label(key: str) -> str:
     """A dotted key in words: `options.weight.mass_g` is `weight: mass`."""
-    first, *tables, last = key.split(".")
+    *tables, last = key.split(".")
     stem = split_key(last)[0].replace("_", " ")
-    inner = " ".join(tables).replace("_", " ")
-    return f"{inner}: {stem}" if inner else (stem if tables or "." in key else first)
+    return f"{tables[-1].replace('_', ' ')}: {stem}" if len(tables) > 1 else stem

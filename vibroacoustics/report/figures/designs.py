@@ -92,7 +92,7 @@ def parallel_figure(designs: Evaluated) -> Figure:
             )  # fmt: skip
         axes.set_yticks(-places, [wrap(shortened(column.heading, 60), 26) for column in columns])
         for place, column in enumerate(columns):
-            for share, end in ((0.0, "min"), (1.0, "max")):
+            for share, end in ((0.0, "nanmin"), (1.0, "nanmax")):
                 value = float(getattr(np, end)(column.values[rows]))
                 words = column.words[round(value)] if column.words else f"{value:.3g}"
                 axes.annotate(
@@ -118,7 +118,8 @@ def main_effects_figure(variables: Sequence[Column], objective: Column) -> Figur
 
     def paint(panels: Sequence[Axes]) -> None:
         for axes, variable in zip(panels, variables, strict=True):
-            middle, quantiles = _by_bin(variable.values[sound], objective.values[sound])
+            there = sound & np.isfinite(variable.values)
+            middle, quantiles = _by_bin(variable.values[there], objective.values[there])
             axes.fill_between(middle, quantiles[0], quantiles[2], color=_BLUE, alpha=0.2,
                               linewidth=0, label="middle 80 % of the designs")  # fmt: skip
             axes.plot(middle, quantiles[1], color=_BLUE, marker=".", label="median")
@@ -147,7 +148,7 @@ def _by_bin(values: Array, objective: Array) -> tuple[Array, Array]:
 
 def _share(values: Array, rows: IndexArray) -> Array:
     """Values from 0, the least of some rows, to 1, the greatest of them."""
-    low, high = float(values[rows].min()), float(values[rows].max())
+    low, high = float(np.nanmin(values[rows])), float(np.nanmax(values[rows]))
     return (values - low) / (high - low) if high > low else np.full(len(values), 0.5)
 
 
