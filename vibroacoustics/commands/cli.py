@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 
 from ..base.errors import VibroacousticsError
-from . import curve_commands, messages, prediction_commands, recording_commands
+from . import curve_commands, design_commands, messages, prediction_commands, recording_commands
 from .options import Plugins, load_plugins
 from .progress import progress_on_stderr
 
@@ -35,6 +35,7 @@ app = typer.Typer(
 app.add_typer(curve_commands.commands)
 app.add_typer(recording_commands.commands)
 app.add_typer(prediction_commands.commands)
+app.add_typer(design_commands.commands)
 
 StudyFile = Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study to run.")]
 Out = Annotated[

@@ -11,12 +11,13 @@ from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..pipeline.radiating import transfer_vectors
 from ..radiation.given import Radiation
+from ..study.criterion import CRITERIA
 from ..study.design import Constraint, Design, Objective, Wanted
 from ..study.study import Study
 from .engine.engine import Engine
 from .engine.option_engine import Outcome
 from .engine.seen import Need, Seen
-from .figure import FIGURES, Figure, Setting
+from .figure import FIGURES, DesignFigure, OfCriterion, Setting
 from .reference import reference_of, remainder_of
 from .space import Space
 from .statistics import of_each, over
@@ -112,7 +113,16 @@ class Problem:
             for first in range(0, len(designs), size)
         ]
         values = np.concatenate([part[0] for part in parts]) if parts else self._no_values()
-        failed = {row: reason for _, some in parts for row, reason in some.items()}
+        return self.judged(values, {row: why for _, some in parts for row, why in some.items()})
+
+    def judged(self, values: Array, failed: Mapping[int, str]) -> Judged:
+        """Designs whose values are known, with signs and limits.
+
+        Parameters
+        ----------
+        values : shape (design, wanted)
+        failed : reason by number of the design
+        """
         return Judged(values, *self._signed(values), failed)
 
     def by_draw(self, designs: Array, draws: Array) -> Array:
@@ -182,19 +192,21 @@ def _where(study: Study, design: Design, name: str) -> str:
     return f"{study.source_file}: design.{table}.{name}"
 
 
-def _figure(study: Study, design: Design, name: str, wanted: Wanted) -> Figure:
+def _figure(study: Study, design: Design, name: str, wanted: Wanted) -> DesignFigure:
     if name in design.objectives and name in design.constraints:
         raise ParameterError(
             f"{study.source_file}: design.constraints.{name}: is an objective's name too"
         )
-    if wanted.figure not in FIGURES:
-        where = _where(study, design, name)
-        raise ParameterError(f"{where}.figure = {wanted.figure}: {FIGURES.unknown(wanted.figure)}")
-    return FIGURES[wanted.figure]()
+    if wanted.figure in FIGURES:
+        return FIGURES[wanted.figure]()
+    if wanted.figure in CRITERIA:
+        return OfCriterion(wanted.figure)
+    where = f"{_where(study, design, name)}.figure = {wanted.figure}"
+    raise ParameterError(f"{where}: {FIGURES.unknown(wanted.figure, CRITERIA)}")
 
 
 def _needs(
-    study: Study, design: Design, figure: Figure, name: str, wanted: Wanted
+    study: Study, design: Design, figure: DesignFigure, name: str, wanted: Wanted
 ) -> tuple[Need, ...]:
     try:
         return figure.needs(wanted)
