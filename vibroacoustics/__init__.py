@@ -8,6 +8,7 @@
 `radiate(study)` computes the housing's radiation alone.
 `given_radiation(...)` makes measured transfer vectors what `run` takes.
 `score(results)` scores and ranks the options again.
+`sweep(study, {...})` computes every design of a grid or a sample of values.
 `write_report(results, folder)` writes the report with tables and figures.
 `open_results(path)` reads results from a file.
 `export_forces(results, path)` writes their forces for a machine of `kind = "table"`.
@@ -43,7 +44,8 @@ also of a machine alone, from `load_machine(path)`.
 `Source` or `Criterion`, or a `Section` or `Column` of the report, whose content `blocks` make.
 `Added`, `Case`, `Loads`, `MovingPart`, `Revolution`, `Wrench`, `OldhamRing`, `Slider` are what
 these get and return; `circling`, `constant_rotation` and `wrenches_of_parts` make forces of moving
-masses. A `Curve` over each `CurveAxis` shows what goes on inside. A `Variable`, `Coordinate` or
+masses. A `DesignFigure` of what is seen of designs, each a `Need`, is what they can be judged by. A
+`Curve` over each `CurveAxis` shows what goes on inside. A `Variable`, `Coordinate` or
 `Unit` joins the vocabulary; `stamp` labels an array as a variable, `check` tests a dataset. A
 `Reader` reads a format of recordings: it gets a `Request` and gives `Recorded`.
 
@@ -73,6 +75,9 @@ if TYPE_CHECKING:
     from .base.vocabulary import Coordinate, Variable, check, stamp
     from .commands.exporting import export_forces, export_functions, export_recording
     from .commands.outputs import write_report
+    from .design.engine.seen import Need
+    from .design.figure import DesignFigure
+    from .design.sweep import sweep
     from .machine.machine import Machine
     from .machine.option import Option
     from .machine.source import Case, Source
@@ -131,11 +136,13 @@ __all__ = [
     "Criterion",
     "Curve",
     "CurveAxis",
+    "DesignFigure",
     "Limit",
     "Loads",
     "Machine",
     "MeasuredFunction",
     "MovingPart",
+    "Need",
     "Node",
     "NominalSpeed",
     "OldhamRing",
@@ -193,6 +200,7 @@ __all__ = [
     "score",
     "speed_frequency_map",
     "stamp",
+    "sweep",
     "track_orders",
     "wrenches_of_parts",
     "write_report",
@@ -206,11 +214,13 @@ _HOME = {
     "Criterion": "study.criterion",
     "Curve": "base.curves",
     "CurveAxis": "base.curves",
+    "DesignFigure": "design.figure",
     "Limit": "results.limit",
     "Loads": "mechanics.loads",
     "Machine": "machine.machine",
     "MeasuredFunction": "recordings",
     "MovingPart": "mechanics.moving_parts",
+    "Need": "design.engine.seen",
     "Node": "recordings",
     "NominalSpeed": "study.order_analysis",
     "OldhamRing": "mechanics.capabilities",
@@ -264,6 +274,7 @@ _HOME = {
     "score": "scoring",
     "speed_frequency_map": "pipeline",
     "stamp": "base.vocabulary",
+    "sweep": "design.sweep",
     "track_orders": "pipeline",
     "wrenches_of_parts": "mechanics.moving_parts",
     "write_report": "commands.outputs",

@@ -5,6 +5,7 @@ from types import ModuleType
 from typing import Final
 
 from vibroacoustics.base.units import UNITS
+from vibroacoustics.design.figure import FIGURES
 from vibroacoustics.machine.machine import MACHINES
 from vibroacoustics.machine.option import OPTIONS
 from vibroacoustics.machine.source import SOURCES
@@ -52,6 +53,10 @@ def page() -> str:
         "## Criteria\n\nTables of `[scoring.criteria]`; less is better if `best` is below `worst`.",
         table(
             ("name", "is", "unit"), [(code(n), one.label, one.unit) for n, one in CRITERIA.items()]
+        ),
+        "## Figures of designs\n\nObjectives and constraints of `[design]`.",
+        table(
+            ("name", "is"), [(code(n), first_sentence(one.__doc__)) for n, one in FIGURES.items()]
         ),
         "## Sections of the report",
         table(("name", "title"), [(code(n), one.title) for n, one in SECTIONS.items()]),

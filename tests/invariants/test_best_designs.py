@@ -11,10 +11,10 @@ from vibroacoustics import pipeline
 from vibroacoustics.balancers.spring_mass import sprung_mass_response, tuned_mass
 from vibroacoustics.base.arrays import ComplexArray
 from vibroacoustics.base.constants import REFERENCE_PRESSURE_PA
-from vibroacoustics.design.optimising import optimise
+from vibroacoustics.design.evaluation import evaluating
+from vibroacoustics.design.optimising import searched_designs
 from vibroacoustics.design.problem import Problem
 from vibroacoustics.design.promise import promise
-from vibroacoustics.design.search.coded import evaluating
 from vibroacoustics.mechanics.capabilities import OldhamRing
 
 CLOSE_DB = 1e-3
@@ -48,7 +48,7 @@ def test_best_counterweight_is_that_of_least_squares() -> None:
     """Pressure at each microphone is linear in the two components of mass times radius."""
     study = study_with(LEFT + WEIGHT.format(mass=50.0, angle=0.0) + SEARCH)
     problem = Problem(study, made_up_radiation)
-    found = optimise(problem, evaluating(problem))
+    found = searched_designs(problem, evaluating(problem))
     level = float(found["wanted_value"].values[int(found["best_design"].values[0]), 0])
     assert level == pytest.approx(_least_squares_level(), abs=CLOSE_DB)
 
@@ -102,7 +102,7 @@ def test_best_sprung_mass_is_tuned_as_its_closed_form() -> None:
     """At the ring's height momentum m_ring + m X2/X1 is all that is left of the 1x line."""
     study = study_with(SPRUNG)
     problem = Problem(study, made_up_radiation)
-    found = optimise(problem, evaluating(problem))
+    found = searched_designs(problem, evaluating(problem))
     row = int(found["best_design"].values[0])
     ring = study.machine.require(OldhamRing).mass_kg
     turning = 2.0 * np.pi * SPEED_RPM / 60.0
@@ -129,7 +129,7 @@ def test_promise_of_a_robust_design_is_kept_by_fresh_pieces() -> None:
     )
     study = study_with(LEFT + WEIGHT.format(mass=50.0, angle=0.0) + SEARCH + tolerances)
     problem = Problem(study, made_up_radiation)
-    found = optimise(problem, evaluating(problem))
+    found = searched_designs(problem, evaluating(problem))
     design = problem.space.limits[:, 0] * 0.0 + (
         found["design_value"].values[int(found["best_design"].values[0])]
         * np.array([variable.factor for variable in problem.space.variables])

@@ -63,7 +63,7 @@ def killed_and_gone_on(study: Path, out: Path, seed: int) -> bytes:
     """SIGKILL at a random moment after the first chunk, then the same command again."""
     process = subprocess.Popen(command(study, out), stdout=subprocess.DEVNULL,
                                stderr=subprocess.DEVNULL)  # fmt: skip
-    while not list(out.glob("chunks/chunk_*")) and process.poll() is None:
+    while not list(out.glob("search_chunks/chunk_*")) and process.poll() is None:
         time.sleep(0.01)
     time.sleep(Random(seed).uniform(0.0, 1.0))
     process.send_signal(signal.SIGKILL)
@@ -83,8 +83,8 @@ def test_two_workers_equal_serial(study: Path, undisturbed: bytes, tmp_path: Pat
 
 
 def test_folder_of_another_study_is_refused(study: Path, tmp_path: Path) -> None:
-    (tmp_path / "chunks").mkdir()
-    (tmp_path / "chunks" / "plan.json").write_text("{}")
+    (tmp_path / "search_chunks").mkdir()
+    (tmp_path / "search_chunks" / "plan.json").write_text("{}")
     done = subprocess.run(command(study, tmp_path), capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert "holds designs of another study" in done.stderr

@@ -1,4 +1,4 @@
-"""Commands on the design space of a study. Heavy imports wait until they are needed."""
+"""Commands for designs. Heavy imports wait until they are needed."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -7,36 +7,91 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
+from . import messages
 from .options import Plugins, load_plugins
 from .progress import progress_on_stderr
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from ..design.evaluation import Evaluate
     from ..design.problem import Problem
 
+SWEEP_NAME: Final = "sweep.nc"
+TABLE_NAME: Final = "sweep.csv"
 DESIGNS_NAME: Final = "designs.nc"
-STORE_NAME: Final = "chunks"
 
 commands = typer.Typer()
+
+StudyFile = Annotated[
+    Path, typer.Argument(metavar="STUDY.toml", help="The study with a table `design`.")
+]
+Out = Annotated[
+    Path | None,
+    typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE STUDY."),
+]
+Workers = Annotated[
+    int, typer.Option(min=0, max=1000, help="Local processes that compute; 0: this one alone.")
+]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(metavar="ADDRESS", help="Running scheduler of dask.distributed, for its workers."),
+]
+
+
+@commands.command("sweep")
+def sweep_command(
+    study_file: StudyFile,
+    out: Out = None,
+    workers: Workers = 0,
+    scheduler: Scheduler = None,
+    plugin: Plugins = None,
+    longest: Annotated[
+        float,
+        typer.Option(
+            "--longest", metavar="HOURS", min=0.0, help="Refuse a sweep that takes longer."
+        ),
+    ] = 12.0,
+) -> None:
+    """Compute every design of a study's grid or sample: a dataset, a table and a report.
+
+    Ended at any moment, the same command goes on where it was.
+    """
+    from ..design.dataset import table_csv
+    from ..design.explaining import explained
+    from ..design.sweep import as_searched, prepare, swept
+    from . import outputs
+
+    problem, folder = _problem(study_file, out, plugin)
+    prepared = prepare(problem, 3600.0 * longest)
+    typer.echo(f"plan: {prepared.plan.text}")
+    with (
+        _evaluating(
+            problem, study_file, folder / "sweep_chunks", workers, scheduler, plugin
+        ) as evaluate,
+        progress_on_stderr() as progress,
+    ):
+        results = swept(prepared, progress, evaluate)
+        searched = as_searched(prepared, results)
+        found = explained(problem, searched, evaluate) if searched.any_allowed else None
+    tables = {TABLE_NAME: table_csv(results)}
+    if found is None:
+        messages.warn(["no design meets the constraints: there is no report of the best"])
+    else:
+        tables |= _report(problem, found, study_file, folder)
+    written = outputs.write_analysis(results, folder, SWEEP_NAME, tables, lambda _: [])
+    failed = int((results["failure"] > 0).sum())
+    if failed:
+        messages.warn([f"{failed} designs failed; {TABLE_NAME} tells why"])
+    typer.echo(f"designs: {written}")
 
 
 @commands.command("optimise")
 def optimise_command(
-    study_file: Annotated[
-        Path, typer.Argument(metavar="STUDY.toml", help="Study with a table `design`.")
-    ],
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE STUDY."),
-    ] = None,
-    workers: Annotated[
-        int,
-        typer.Option(min=0, max=1000, help="Local processes that evaluate designs; 0: this one."),
-    ] = 0,
-    scheduler: Annotated[
-        str | None,
-        typer.Option(metavar="ADDRESS", help="Running scheduler of dask.distributed, for workers."),
-    ] = None,
+    study_file: StudyFile,
+    out: Out = None,
+    workers: Workers = 0,
+    scheduler: Scheduler = None,
     plugin: Plugins = None,
 ) -> None:
     """Search the design space of a study: the best design, or the front of several objectives.
@@ -44,51 +99,70 @@ def optimise_command(
     Ended at any moment, the same command goes on where it was.
     """
     from .. import report
-    from ..design.best_studies import best_studies
-    from ..design.optimising import optimise
-    from ..design.problem import Problem
-    from ..study.loading import load_study
+    from ..design.optimising import searched_designs
     from . import outputs
 
-    load_plugins(plugin)
-    folder = out or Path("reports") / study_file.stem
-    study = load_study(study_file)
-    outputs.check_folder(folder)
-    problem = Problem(study)
+    problem, folder = _problem(study_file, out, plugin)
     with (
+        _evaluating(
+            problem, study_file, folder / "search_chunks", workers, scheduler, plugin
+        ) as evaluate,
         progress_on_stderr() as progress,
-        _evaluate(problem, study_file, folder, workers, scheduler, plugin or []) as evaluate,
     ):
-        found = optimise(problem, evaluate, progress)
-    files = report.render_designs(found)
-    texts = best_studies(problem, found, study_file, folder)
-    files |= {name: text.encode() for name, text in texts.items()}
+        found = searched_designs(problem, evaluate, progress)
+    files = _report(problem, found, study_file, folder)
     written = outputs.write_analysis(found, folder, DESIGNS_NAME, files, lambda _: [])
     typer.echo(report.designs_text(found))
     typer.echo(f"designs: {written}")
 
 
+def _problem(
+    study_file: Path, out: Path | None, plugin: list[Path] | None
+) -> "tuple[Problem, Path]":
+    """What the study asks, and the folder of its results, which can be written."""
+    from ..design.problem import Problem
+    from ..study import loading
+    from . import outputs
+
+    load_plugins(plugin)
+    folder = out or Path("reports") / study_file.stem
+    study = loading.load_study(study_file)
+    outputs.check_folder(folder)
+    return Problem(study), folder
+
+
+def _report(
+    problem: "Problem", found: "xr.Dataset", study_file: Path, folder: Path
+) -> dict[str, bytes]:
+    """Files of the report, and studies of the best few designs."""
+    from .. import report
+    from ..design.best_studies import best_studies
+
+    texts = best_studies(problem, found, study_file, folder)
+    return report.render_designs(found) | {name: text.encode() for name, text in texts.items()}
+
+
 @contextmanager
-def _evaluate(
+def _evaluating(
     problem: "Problem",
     study_file: Path,
-    folder: Path,
+    store_folder: Path,
     workers: int,
     scheduler: str | None,
-    plugins: list[Path],
+    plugins: list[Path] | None,
 ) -> "Iterator[Evaluate]":
-    """What evaluates designs: looked up in the folder, else here or by workers."""
-    from ..design.search.coded import evaluating
+    """What evaluates designs: looked up in the store, else computed here or by workers."""
+    from ..design.evaluation import evaluating
     from ..design.store.chunks import Stored, opened_store
-    from ..design.workers.cluster import PIECE, in_pieces, opened_workers, spread
+    from ..design.workers.cluster import in_pieces, opened_workers, spread
     from ..design.workers.study_task import evaluate_task, study_plan, study_task
 
-    plan = study_plan(problem.study, plugins)
-    with opened_store(folder / STORE_NAME, plan) as store:
+    given, piece = plugins or [], problem.piece
+    with opened_store(store_folder, study_plan(problem.study, given)) as store:
         if not workers and scheduler is None:
-            yield Stored(in_pieces(evaluating(problem), PIECE), store)
+            yield Stored(in_pieces(evaluating(problem), piece), store)
             return
         counts = len(problem.design.objectives), len(problem.design.constraints)
-        task = study_task(study_file, problem.study, plugins)
+        task = study_task(study_file, problem.study, given)
         with opened_workers(workers, scheduler) as client:
-            yield Stored(spread(client, evaluate_task, task, PIECE, counts), store)
+            yield Stored(spread(client, evaluate_task, task, piece, counts), store)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..base.arrays import Array
+from .problem import Problem
 
 
 @dataclass(frozen=True)
@@ -41,3 +42,14 @@ def joined(parts: list[Evaluation]) -> Evaluation:
         np.concatenate([part.constraints for part in parts]),
         tuple(reason for part in parts for reason in part.failures),
     )
+
+
+def evaluating(problem: Problem) -> Evaluate:
+    """The evaluation of designs in SI in this process."""
+
+    def evaluate(designs: Array) -> Evaluation:
+        judged = problem.evaluate(designs)
+        reasons = tuple(judged.failed.get(row, "") for row in range(len(designs)))
+        return Evaluation(judged.objectives, judged.constraints, reasons)
+
+    return evaluate

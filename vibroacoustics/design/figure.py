@@ -6,6 +6,7 @@ from typing import ClassVar, Final
 
 from ..base.arrays import Array
 from ..base.registry import LAST, Registry
+from ..study.criterion import CRITERIA
 from ..study.design import Wanted
 from .engine.seen import Need, Seen
 
@@ -29,12 +30,12 @@ class Setting:
     remainder: Callable[[], Array]
 
 
-class Figure:
+class DesignFigure:
     """What designs are judged by; a further one is one file of `design.figures`, or a stranger's.
 
     Examples
     --------
-    >>> class HousingForce(va.Figure):
+    >>> class HousingForce(va.DesignFigure):
     ...     name = "housing_force_n"
     ...     label = "Force of all moving parts"
     ...     def needs(self, wanted):
@@ -77,6 +78,28 @@ class Figure:
         return None
 
 
-FIGURES: Final[Registry[type[Figure]]] = Registry(
-    "figure of designs", Figure, "name", "design.figures", "vibroacoustics.figures"
+class OfCriterion(DesignFigure):
+    """A criterion of scorings, which takes a run of the pipeline for every design.
+
+    Parameters
+    ----------
+    name : of the criterion
+    """
+
+    def __init__(self, name: str) -> None:
+        self.name = name  # type: ignore[misc]
+        self.label = CRITERIA[name].label  # type: ignore[misc]
+
+    def needs(self, wanted: Wanted) -> tuple[Need, ...]:
+        """Its value."""
+        return (Need("criterion", None, self.name),)
+
+    def values(self, seen: Seen, setting: Setting) -> Array:
+        """In the unit of its name, shape (design,)."""
+        (need,) = self.needs(setting.wanted)
+        return seen[need]
+
+
+FIGURES: Final[Registry[type[DesignFigure]]] = Registry(
+    "figure of designs", DesignFigure, "name", "design.figures", "vibroacoustics.figures"
 )

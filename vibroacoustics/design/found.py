@@ -15,12 +15,13 @@ from ..results.provenance import software_attributes
 from ..study.design import Constraint, Objective, Wanted
 from ..uncertainty.shares import shares_of
 from .evaluation import Evaluation
-from .figure import Figure
+from .figure import DesignFigure
+from .keys import acts_on
 from .problem import Problem
 from .promise import Promise
 from .search.nondominated import nondominated
 from .search.problem import Searched
-from .space import OPTION, acts_on
+from .space import OPTION
 
 _MOST_REASONS: Final = 20
 
@@ -158,7 +159,7 @@ def _unit(key: str) -> str:
     return unit.symbol if unit else ""
 
 
-def _label(figure: Figure, wanted: Wanted) -> str:
+def _label(figure: DesignFigure, wanted: Wanted) -> str:
     """What a figure is, over what: `Level of an order, 1×, worst speed, 90 % of pieces`."""
     parts = [figure.label if wanted.reported is None else wanted.reported]
     parts += [f"{wanted.order}×"] if wanted.order is not None else []

@@ -1,28 +1,23 @@
-"""The best design of a study, or the front of several objectives: searched, proven, explained."""
+"""The best design of a study, or the front of several objectives."""
 
-from typing import Final
-
-import numpy as np
 import xarray as xr
 
-from ..base.arrays import Array, IndexArray
 from ..base.progress import Progress, no_progress
-from .evaluation import Evaluate
-from .found import searched_dataset, with_best, with_shares
+from ..pipeline.radiating import transfer_vectors
+from ..radiation.given import Radiation
+from ..study.study import Study
+from .evaluation import Evaluate, evaluating
+from .explaining import explained
 from .problem import Problem
-from .promise import promise
 from .search.best import search_best
-from .search.chosen import best_by_one, best_of_front
-from .search.coded import Coding, evaluating
+from .search.coded import Coding
 from .search.front import search_front
 from .search.problem import Searched
-from .space import OPTION, acts_on
-
-SPREAD_DESIGNS: Final = 1024
-"""Spread evenly, from which it is told what decides."""
 
 
-def optimise(problem: Problem, evaluate: Evaluate, progress: Progress = no_progress) -> xr.Dataset:
+def optimise(
+    study: Study, *, progress: Progress = no_progress, radiation: Radiation = transfer_vectors
+) -> xr.Dataset:
     """Search the design space of a study.
 
     With one objective the best design, by differential evolution and a polish; with several the
@@ -30,18 +25,49 @@ def optimise(problem: Problem, evaluate: Evaluate, progress: Progress = no_progr
 
     Parameters
     ----------
-    problem : of the study
-    evaluate : its designs in SI: here, from a store, or by workers
+    study : with a table `design`
     progress : called with the generations done
+    radiation : gives the transfer vectors: the package's, measured ones or a second method's
 
     Returns
     -------
-    dataset of all designs
+    all designs that were evaluated, the best few, what they promise, and what decides
 
     Raises
     ------
+    ParameterError
+        The table names what the study does not have, or pymoo is missing.
     SolverError
         No design meets the constraints.
+
+    Examples
+    --------
+    >>> study = va.load_study("pipelines/copeland_thesis.toml").replace({"design": {
+    ...     "option": ["counterweight-half"],
+    ...     "variables": {"options.counterweight-half.share_ratio": {"range": [0.0, 1.0]}},
+    ...     "objectives": {"foot": {"figure": "foot_force_n", "order": 1}},
+    ...     "search": {"population": 8, "generations": 10},
+    ... }})
+    >>> frequency = np.arange(25.0, 2501.0, 25.0)
+    >>> vectors = 1e-4j * frequency * np.ones((len(study.receivers), 6, 1))  # made up
+    >>> found = va.optimise(study, radiation=va.given_radiation(vectors, frequency))
+    >>> found["wanted_as_meant"].dims
+    ('best_rank', 'wanted')
+    """
+    problem = Problem(study, radiation)
+    return searched_designs(problem, evaluating(problem), progress)
+
+
+def searched_designs(
+    problem: Problem, evaluate: Evaluate, progress: Progress = no_progress
+) -> xr.Dataset:
+    """`optimise` with an evaluation of one's own.
+
+    Parameters
+    ----------
+    problem : of the study
+    evaluate : takes designs in SI: here, from a store, or by workers
+    progress : called with the generations done
     """
     settings = problem.design.search
     coding = Coding(problem.space.variables)
@@ -49,41 +75,9 @@ def optimise(problem: Problem, evaluate: Evaluate, progress: Progress = no_progr
     sizes = settings.population, settings.generations, settings.seed
     if len(problem.design.objectives) == 1:
         here = coding.problem(evaluating(problem)).evaluate  # too many to keep one by one
-        polish = here if _is_quick(problem) else None
+        polish = here if problem.is_linear else None
         coded = search_best(space, *sizes, polish=polish, progress=progress)
     else:
         coded = search_front(space, *sizes, progress=progress)
     searched = Searched(coding.designs(coded.designs), coded.evaluation, coded.generation)
-    _ = searched.best  # refuses a search without a design that is allowed
-    found = searched_dataset(problem, searched)
-    rows = _best_rows(problem, searched, found, settings.best)
-    promises = [promise(problem, searched.designs[row], settings.fresh_draws) for row in rows]
-    spread = _spread(problem, searched)
-    return with_shares(with_best(found, rows, promises), problem, spread, evaluate(spread))
-
-
-def _is_quick(problem: Problem) -> bool:
-    """Whether all goes by linear algebra, so that single designs cost next to nothing."""
-    return all(
-        route.linear
-        for option in problem.space.options
-        for key, route in problem.engine.routes(option).items()
-        if key != OPTION and acts_on(key, option)
-    )
-
-
-def _best_rows(problem: Problem, searched: Searched, found: xr.Dataset, count: int) -> IndexArray:
-    evaluation = searched.evaluation
-    if evaluation.objectives.shape[1] == 1:
-        allowed = found["meets_constraints"].values == 1
-        objective = np.where(allowed, evaluation.objectives[:, 0], np.inf)
-        return best_by_one(searched.designs, problem.space.limits, objective, count)
-    front = np.flatnonzero(found["on_front"].values)
-    return np.asarray(front[best_of_front(evaluation.objectives[front], count)])
-
-
-def _spread(problem: Problem, searched: Searched) -> Array:
-    """Designs that fill the space; where each takes a run, those of the first generation."""
-    if _is_quick(problem):
-        return problem.space.sample("sobol", SPREAD_DESIGNS)
-    return np.asarray(searched.designs[searched.generation == 0])
+    return explained(problem, searched, evaluate)

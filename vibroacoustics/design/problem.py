@@ -12,17 +12,21 @@ from ..base.errors import ParameterError
 from ..base.vocabulary import REFERENCE_OPTION
 from ..pipeline.radiating import transfer_vectors
 from ..radiation.given import Radiation
+from ..study.criterion import CRITERIA
 from ..study.design import Constraint, Design, Objective, Wanted
 from ..study.study import Study
 from .engine.engine import Engine
 from .engine.option_engine import Outcome
 from .engine.seen import Need, Seen
-from .figure import FIGURES, Figure, Setting
+from .figure import FIGURES, DesignFigure, OfCriterion, Setting
+from .keys import acts_on
 from .reference import reference_of, remainder_of
-from .space import Space
+from .space import OPTION, Space
 from .statistics import of_each, over
 from .tolerances import Pieces
 
+LINEAR_PIECE: Final = 256
+RUN_PIECE: Final = 4
 MOST_PIECES: Final = 100_000
 """That are judged side by side."""
 
@@ -79,6 +83,21 @@ class Problem:
         return list(self.wanted)
 
     @cached_property
+    def is_linear(self) -> bool:
+        """Whether all goes by linear algebra, so that a design costs next to nothing."""
+        return all(
+            route.linear
+            for option in self.space.options
+            for key, route in self.engine.routes(option).items()
+            if key != OPTION and acts_on(key, option)
+        )
+
+    @property
+    def piece(self) -> int:
+        """Designs that are evaluated together, here and by workers alike."""
+        return LINEAR_PIECE if self.is_linear else RUN_PIECE
+
+    @cached_property
     def reference(self) -> Seen:
         """What is seen of the study as given without an option."""
         return reference_of(self.study, self.engine.needs, self.engine.ways)
@@ -113,7 +132,16 @@ class Problem:
             for first in range(0, len(designs), size)
         ]
         values = np.concatenate([part[0] for part in parts]) if parts else self._no_values()
-        failed = {row: reason for _, some in parts for row, reason in some.items()}
+        return self.judged(values, {row: why for _, some in parts for row, why in some.items()})
+
+    def judged(self, values: Array, failed: Mapping[int, str]) -> Judged:
+        """Designs whose values are known, with signs and limits.
+
+        Parameters
+        ----------
+        values : shape (design, wanted)
+        failed : reason by number of the design
+        """
         return Judged(values, *self._signed(values), failed)
 
     def by_draw(self, designs: Array, draws: Array) -> Array:
@@ -133,7 +161,7 @@ class Problem:
         def remainder() -> Array:
             return remainder_of(self.study, (REFERENCE_OPTION,), self._radiation)
 
-        def value(figure: Figure, wanted: Wanted) -> float:
+        def value(figure: DesignFigure, wanted: Wanted) -> float:
             setting = Setting(wanted, speeds, lambda: self.reference, remainder)
             return float(of_each(figure, self.reference, setting, more_is_better(wanted))[0])
 
@@ -207,19 +235,21 @@ def _where(study: Study, design: Design, name: str) -> str:
     return f"{study.source_file}: design.{table}.{name}"
 
 
-def _figure(study: Study, design: Design, name: str, wanted: Wanted) -> Figure:
+def _figure(study: Study, design: Design, name: str, wanted: Wanted) -> DesignFigure:
     if name in design.objectives and name in design.constraints:
         raise ParameterError(
             f"{study.source_file}: design.constraints.{name}: is an objective's name too"
         )
-    if wanted.figure not in FIGURES:
-        where = _where(study, design, name)
-        raise ParameterError(f"{where}.figure = {wanted.figure}: {FIGURES.unknown(wanted.figure)}")
-    return FIGURES[wanted.figure]()
+    if wanted.figure in FIGURES:
+        return FIGURES[wanted.figure]()
+    if wanted.figure in CRITERIA:
+        return OfCriterion(wanted.figure)
+    where = f"{_where(study, design, name)}.figure = {wanted.figure}"
+    raise ParameterError(f"{where}: {FIGURES.unknown(wanted.figure, CRITERIA)}")
 
 
 def _needs(
-    study: Study, design: Design, figure: Figure, name: str, wanted: Wanted
+    study: Study, design: Design, figure: DesignFigure, name: str, wanted: Wanted
 ) -> tuple[Need, ...]:
     try:
         return figure.needs(wanted)

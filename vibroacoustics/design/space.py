@@ -1,6 +1,7 @@
 """The design space: designs as rows of numbers in SI, and each of them as a study."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Final
@@ -10,11 +11,11 @@ from scipy.stats import qmc
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
-from ..base.units import si_key
 from ..base.vocabulary import REFERENCE_OPTION
 from ..study.design import DesignVariable
 from ..study.study import Study
 from .changed import changed, is_plain
+from .keys import acts_on, check_key
 from .variable import Variable, variable_of
 
 OPTION: Final = "option"
@@ -60,6 +61,10 @@ class Space:
         if len(design.option) > 1:
             limits = 0.0, len(design.option) - 1.0
             variables.insert(0, Variable(OPTION, "", 1.0, limits, design.option))
+        if not variables:
+            raise ParameterError(
+                f"{study.source_file}: design.variables: name at least one value that varies"
+            )
         space = cls(_cut(study, design.option), design.option, tuple(variables))
         space.check_ends(space.limits, "variables")
         return space
@@ -132,8 +137,21 @@ class Space:
         ParameterError
             A variable has no values for a grid.
         """
-        values = [variable.in_grid() for variable in self.variables]
-        return np.stack(np.meshgrid(*values, indexing="ij"), axis=-1).reshape(-1, len(values))
+        axes = self.axes()
+        return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, len(axes))
+
+    def axes(self) -> list[Array]:
+        """Values of each variable in a grid.
+
+        Raises
+        ------
+        ParameterError
+            A variable has no values for a grid.
+        """
+        try:
+            return [variable.in_grid() for variable in self.variables]
+        except ParameterError as error:
+            raise ParameterError(f"{self.study.source_file}: {error}") from None
 
     def sample(self, kind: str, count: int) -> Array:
         """Designs that fill the space evenly, the same at every call, shape (design, variable).
@@ -152,7 +170,7 @@ class Space:
         return np.stack([variable.at_share(column) for variable, column in columns], axis=1)
 
     def check_ends(self, limits: Array, table: str) -> None:
-        """Refuse variables whose ends the study refuses, each with the others at their first.
+        """Refuse variables whose ends the study refuses, each with the others as they are given.
 
         Parameters
         ----------
@@ -164,30 +182,23 @@ class Space:
         ParameterError
             One of them is refused.
         """
-        base = self.limits[:, 0].copy()
-        for number, variable in enumerate(self.variables):
-            ends = range(len(self.options)) if variable.key == OPTION else limits[number].tolist()
-            for value in dict.fromkeys(ends):
-                design = base.copy()
-                design[number] = value
-                self._check(variable, design, table)
+        for variable, ends in zip(self.variables, limits.tolist(), strict=True):
+            for value in dict.fromkeys(ends if variable.key != OPTION else ()):
+                self._check(variable, value, table)
 
-    def _check(self, variable: Variable, design: Array, table: str) -> None:
-        option = next((n for n in self.options if acts_on(variable.key, n)), self.options[0])
-        if len(self.options) > 1 and variable.key != OPTION:
-            design[0] = self.options.index(option)
+    def _check(self, variable: Variable, value: float, table: str) -> None:
+        values = {variable.key: variable.written(value)}
         try:
-            self.quick_study_of(design)
+            if is_plain(self.study, [variable.key]):
+                with suppress(ParameterError):  # said again as of a file
+                    changed(self.study, values)
+                    return
+            self.study.replace(values)
         except ParameterError as error:
             text = str(error).removeprefix("study.replace: ")
             raise ParameterError(
                 f"{self.study.source_file}: design.{table}.{variable.key}: {text}"
             ) from None
-
-
-def acts_on(key: str, option: str) -> bool:
-    """Whether a key is a value of an option, or of the machine."""
-    return not key.startswith("options.") or key.startswith(f"options.{option}.")
 
 
 def _variable(study: Study, key: str, given: DesignVariable, options: Sequence[str]) -> Variable:
@@ -196,35 +207,6 @@ def _variable(study: Study, key: str, given: DesignVariable, options: Sequence[s
         return variable_of(key, given)
     except ParameterError as error:
         raise ParameterError(f"{study.source_file}: {error}") from None
-
-
-def check_key(key: str, options: Sequence[str], where: str) -> None:
-    """Refuse a key that is no value of the machine or of an option that designs choose among."""
-    first, _, rest = key.partition(".")
-    if first == "machine" and rest:
-        return
-    if first == "options" and any(key.startswith(f"options.{name}.") for name in options):
-        return
-    allowed = ", ".join(["machine.…", *(f"options.{name}.…" for name in options)])
-    raise ParameterError(f"{where}: no such value; allowed {allowed}")
-
-
-def present_value(study: Study, key: str) -> float:
-    """A number of the study in SI, by its dotted key.
-
-    Raises
-    ------
-    ParameterError
-        There is none.
-    """
-    first, *tables, last = key.split(".")
-    thing: Any = study.machine if first == "machine" else study.options
-    for name in tables:
-        thing = thing.get(name) if isinstance(thing, Mapping) else getattr(thing, name, None)
-    value = getattr(thing, si_key(last)[0], None)
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise ParameterError(f"{key}: there is no such number")
-    return float(value)
 
 
 def _cut(study: Study, options: Sequence[str]) -> Study:

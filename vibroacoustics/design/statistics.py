@@ -6,7 +6,7 @@ from ..base.arrays import Array
 from ..base.decibel import level_of_power
 from ..study.design import Statistic, Wanted
 from .engine.seen import Seen
-from .figure import Figure, Setting
+from .figure import DesignFigure, Setting
 
 
 def over(values: Array, axis: int, statistic: Statistic, more_is_better: bool) -> Array:
@@ -35,7 +35,7 @@ def over(values: Array, axis: int, statistic: Statistic, more_is_better: bool) -
     return np.asarray(-reached if more_is_better else reached)
 
 
-def of_each(figure: Figure, seen: Seen, setting: Setting, more_is_better: bool) -> Array:
+def of_each(figure: DesignFigure, seen: Seen, setting: Setting, more_is_better: bool) -> Array:
     """One number of each design, over microphones and speeds, shape (design,).
 
     A mean over microphones is one of energies; a change is taken of means, or at each microphone.

@@ -10,7 +10,8 @@ from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..base.units import split_key
 from ..study.study import Study
-from .space import Space, check_key, present_value
+from .keys import check_key, present_value
+from .space import Space
 from .variable import Variable
 
 _RANDOM: Final = 4

@@ -75,8 +75,8 @@ class Variable:
         """A value as a study's file writes it."""
         if self.choices is not None and self.takes_words:
             return self.choices[round(value)]
-        in_file = float(value) / self.factor
-        return round(in_file) if self.whole and abs(in_file - round(in_file)) < 1e-9 else in_file
+        in_file = float(f"{float(value) / self.factor:.14g}")
+        return int(in_file) if self.whole and in_file.is_integer() else in_file
 
 
 def variable_of(key: str, given: DesignVariable) -> Variable:

@@ -138,9 +138,7 @@ class Design(Parameters):
         return flattened(given) if isinstance(given, Mapping) else given
 
     @model_validator(mode="after")
-    def _something_varies(self) -> "Design":
-        if not self.variables and len(self.option) < 2:
-            raise ValueError("variables: name at least one value that varies")
+    def _each_once(self) -> "Design":
         if len(set(self.option)) < len(self.option):
             raise ValueError("option: names one twice")
         return self

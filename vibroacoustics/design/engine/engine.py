@@ -9,7 +9,8 @@ from ...base.arrays import Array
 from ...base.units import si_key
 from ...machine.option import Option
 from ...radiation.given import Radiation
-from ..space import OPTION, Space, acts_on
+from ..keys import acts_on
+from ..space import OPTION, Space
 from .bases import Basis
 from .closed_form import CLOSED_FORMS, of_many
 from .option_engine import ARRAYS, OptionEngine, Outcome
@@ -85,13 +86,17 @@ class Engine:
         if space.names[:1] == [OPTION]:
             limits[0] = space.options.index(option)
         explorer = Explorer(samples, limits, speeds, ARRAYS | figures)
-        linear = tuple(
-            number
-            for number, variable in enumerate(space.variables)
-            if not (variable.takes_words or (variable.whole and variable.choices is not None))
-            and acts_on(variable.key, option)
+        by_runs = any(need.what == "criterion" for need in self.needs)
+        linear = (
+            ()
+            if by_runs
+            else tuple(
+                number
+                for number, variable in enumerate(space.variables)
+                if not variable.takes_words and acts_on(variable.key, option)
+            )
         )
-        forms = _closed_forms(space, option)
+        forms = () if by_runs else _closed_forms(space, option)
         runs = CachedRuns(space, option, self.needs, self.ways)
         return OptionEngine(explorer, self.ways, self.needs, linear, forms, runs)
 

@@ -71,7 +71,9 @@ class OptionEngine:
     @cached_property
     def recognised(self) -> tuple[Terms, tuple[Route, ...]]:
         """Products in which loads and matrices are linear, and which way each variable goes."""
-        routes = [Route(False, "words or whole numbers")] * len(self.explorer.limits)
+        routes = [Route(False, "takes words, or a criterion is asked for")] * len(
+            self.explorer.limits
+        )
         base, bases = self._base(), []
         of_forms = {number for form in self.forms for number in form.variables}
         groups = dict.fromkeys(form.variables for form in self.forms)

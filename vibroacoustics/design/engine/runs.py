@@ -1,24 +1,31 @@
 """Designs that take a run each, computed once and kept in memory and on disk."""
 
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import xarray as xr
 
 from ...base.arrays import Array
 from ...base.hashing import sha256
+from ...base.progress import no_progress
 from ...base.registry import plugins
+from ...pipeline.study import run
 from ...results import storage
+from ...study.criterion import CRITERIA
 from ...study.study import Study
 from ..space import Space
 from .on_mounts import lines_of_speed, seen_of
 from .probe import Probe, probe
 from .seen import Need, Seen
 from .sound_way import SoundWay, Ways
+
+SLOW_S: Final = 0.2
+"""A run that takes longer is kept on disk, too."""
 
 
 @dataclass
@@ -38,6 +45,7 @@ class CachedRuns:
     needs: tuple[Need, ...]
     ways: Ways
     _known: dict[bytes, Seen] = field(default_factory=dict, repr=False)
+    _slow: bool = True
 
     def __call__(self, design: Array) -> Seen:
         """What is seen of a design, shape (1, ...).
@@ -53,15 +61,37 @@ class CachedRuns:
         return self._known[key]
 
     def _cached(self, study: Study) -> Seen:
+        """From memory or disk; from the first run on only slow ones are worth a file."""
         way = self.ways(study)
+        if not self._slow:
+            return self._seen(study, way)
         material = _material(study, self.option, self.needs, way)
-        result, _ = storage.cached("design", material, lambda: _dataset(self._seen(study, way)))
+        result, _ = storage.cached("design", material, lambda: self._timed(study, way))
+        self._slow = result.attrs["seconds"] >= SLOW_S
         return {need: result[str(number)].values for number, need in enumerate(self.needs)}
 
-    def _seen(self, study: Study, way: SoundWay) -> list[Array]:
+    def _timed(self, study: Study, way: SoundWay) -> xr.Dataset:
+        begin = time.perf_counter()
+        seen = self._seen(study, way)
+        result = _dataset([seen[need] for need in self.needs])
+        result.attrs["seconds"] = time.perf_counter() - begin
+        return result
+
+    def _seen(self, study: Study, way: SoundWay) -> Seen:
         made = probe(study, self.option, self.ways)
         seen = seen_of_probe(self.needs, made, study.operation.speed_rpm, way)
-        return [seen[need] for need in self.needs]
+        criteria = [need for need in self.needs if need.what == "criterion"]
+        return seen | self._scored(study, criteria) if criteria else seen
+
+    def _scored(self, study: Study, criteria: Sequence[Need]) -> dict[Need, Array]:
+        """Values of criteria, of a run of the pipeline, shape (1,)."""
+        operation = study.operation.model_copy(update={"stopping": False, "turning_back": False})
+        plain = study.model_copy(update={"ranges": (), "operation": operation})
+        results = run(plain, no_progress, self.ways.radiation)
+        return {
+            need: CRITERIA[need.name]().value(results).sel(option=[self.option]).values
+            for need in criteria
+        }
 
 
 def _material(study: Study, option: str, needs: Sequence[Need], way: SoundWay) -> dict[str, Any]:
@@ -108,4 +138,5 @@ def seen_of_probe(
     each = zip(speeds_rpm, made.frequency_hz, made.order, strict=True)
     lines = [lines_of_speed(*one, way) for one in each]
     groups = [{name: np.asarray(a)[None] for name, a in one.items()} for one in made.groups()]
-    return seen_of(needs, lines, groups[:-1], groups[-1], 1)
+    simple = [need for need in needs if need.what != "criterion"]
+    return seen_of(simple, lines, groups[:-1], groups[-1], 1)

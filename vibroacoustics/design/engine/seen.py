@@ -12,12 +12,13 @@ class Need(NamedTuple):
     Attributes
     ----------
     what : sound (mean square, Pa², by receiver; of an order, or A-weighted of everything), force
-        and moment on the machine, foot (force into each), figure (reported), natural (frequencies)
+        and moment on the machine, foot (force into each), figure (reported), natural (frequencies),
+        criterion (of scorings)
     order : of sound, force, moment and foot; none for all sound
-    name : of the reported figure
+    name : of the reported figure or the criterion
     """
 
-    what: Literal["sound", "force", "moment", "foot", "figure", "natural"]
+    what: Literal["sound", "force", "moment", "foot", "figure", "natural", "criterion"]
     order: int | None = None
     name: str = ""
 

@@ -8,10 +8,10 @@ from ...base.arrays import Array
 from ...base.registry import register
 from ...study.design import Wanted
 from ..engine.seen import Need, Seen
-from ..figure import Figure, Setting
+from ..figure import DesignFigure, Setting
 
 
-class OrderFigure(Figure):
+class OrderFigure(DesignFigure):
     """Amplitude at an order, the first where none is given."""
 
     what: ClassVar[Literal["force", "moment", "foot"]]

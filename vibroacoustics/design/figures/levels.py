@@ -7,7 +7,7 @@ from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.registry import register
 from ...study.design import Wanted
 from ..engine.seen import Need, Seen
-from ..figure import Figure, Setting
+from ..figure import DesignFigure, Setting
 
 
 def _power(mean_square: Array) -> Array:
@@ -16,7 +16,7 @@ def _power(mean_square: Array) -> Array:
 
 
 @register
-class Level(Figure):
+class Level(DesignFigure):
     """A-weighted level of all modelled sound."""
 
     name = "level_dba"
@@ -73,7 +73,7 @@ class TotalChange(TotalLevel):
 
 
 @register
-class OrderLevel(Figure):
+class OrderLevel(DesignFigure):
     """Level of the line of a shaft order, the first where none is given."""
 
     name = "order_level_db"

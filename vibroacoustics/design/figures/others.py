@@ -8,11 +8,11 @@ from ...base.registry import register
 from ...base.units import shaft_frequency_hz
 from ...study.design import Wanted
 from ..engine.seen import Need, Seen
-from ..figure import Figure, Setting
+from ..figure import DesignFigure, Setting
 
 
 @register
-class AddedMass(Figure):
+class AddedMass(DesignFigure):
     """Mass that the option adds."""
 
     name = "added_mass_kg"
@@ -29,7 +29,7 @@ class AddedMass(Figure):
 
 
 @register
-class Reported(Figure):
+class Reported(DesignFigure):
     """Any figure that the machine, the option or a source reports, in its unit."""
 
     name = "reported"
@@ -48,7 +48,7 @@ class Reported(Figure):
 
 
 @register
-class ResonanceMargin(Figure):
+class ResonanceMargin(DesignFigure):
     """Distance of the rigid motions' natural frequencies from the range of speeds."""
 
     name = "resonance_margin_ratio"

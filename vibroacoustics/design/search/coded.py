@@ -6,8 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...base.arrays import Array
-from ..evaluation import Evaluate, Evaluation
-from ..problem import Problem
+from ..evaluation import Evaluate
 from ..variable import Variable
 from .problem import SearchProblem
 
@@ -45,14 +44,3 @@ class Coding:
             for variable, column in zip(self.variables, codes.T, strict=True)
         ]
         return np.stack(columns, axis=1)
-
-
-def evaluating(problem: Problem) -> Evaluate:
-    """The evaluation of designs in SI in this process."""
-
-    def evaluate(designs: Array) -> Evaluation:
-        judged = problem.evaluate(designs)
-        reasons = tuple(judged.failed.get(row, "") for row in range(len(designs)))
-        return Evaluation(judged.objectives, judged.constraints, reasons)
-
-    return evaluate

@@ -43,6 +43,11 @@ class Searched:
     generation: IndexArray
 
     @property
+    def any_allowed(self) -> bool:
+        """Whether a design meets every constraint."""
+        return bool((self.evaluation.violation <= 0.0).any())
+
+    @property
     def best(self) -> int:
         """Row of the best design by the first objective.
 
@@ -52,7 +57,7 @@ class Searched:
             None meets the constraints.
         """
         violation = self.evaluation.violation
-        if not (violation <= 0.0).any():
+        if not self.any_allowed:
             least = float(violation.min())
             raise SolverError(
                 f"design: none of {len(self.designs)} designs meets the constraints "

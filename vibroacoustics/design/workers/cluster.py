@@ -17,8 +17,6 @@ from ...base.errors import ParameterError
 from ..evaluation import Evaluate, Evaluation, joined
 from .piece import Builder, designs_to_json, evaluate_piece, evaluation_from_json
 
-PIECE: Final = 64
-"""Designs that a worker gets at a time."""
 _DEATHS: Final = 20
 """Of workers with a piece, before its designs count as failed."""
 _CONNECTION_S: Final = 10.0

@@ -16,9 +16,8 @@ from ...base.regular_file import read_bytes
 from ...results.provenance import software_version
 from ...study.loading import load_study
 from ...study.study import Study
-from ..evaluation import Evaluate
+from ..evaluation import Evaluate, evaluating
 from ..problem import Problem
-from ..search.coded import evaluating
 
 _MAXIMUM_BYTES = 10_000_000
 

@@ -1,0 +1,57 @@
+"""The best few of many designs, what they promise, and what decides."""
+
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array, IndexArray
+from .evaluation import Evaluate
+from .found import searched_dataset, with_best, with_shares
+from .problem import Problem
+from .promise import promise
+from .search.chosen import best_by_one, best_of_front
+from .search.problem import Searched
+
+SPREAD_DESIGNS: Final = 1024
+"""Spread evenly, from which it is told what decides."""
+
+
+def explained(problem: Problem, searched: Searched, evaluate: Evaluate) -> xr.Dataset:
+    """All designs with the best few of them, told by fresh pieces, and what decides.
+
+    Parameters
+    ----------
+    problem : of the study
+    searched : designs of a search or a sweep, SI
+    evaluate : takes designs in SI
+
+    Raises
+    ------
+    SolverError
+        No design meets the constraints.
+    """
+    _ = searched.best
+    settings = problem.design.search
+    found = searched_dataset(problem, searched)
+    rows = _best_rows(problem, searched, found, settings.best)
+    promises = [promise(problem, searched.designs[row], settings.fresh_draws) for row in rows]
+    spread = _spread(problem, searched)
+    return with_shares(with_best(found, rows, promises), problem, spread, evaluate(spread))
+
+
+def _best_rows(problem: Problem, searched: Searched, found: xr.Dataset, count: int) -> IndexArray:
+    evaluation = searched.evaluation
+    if evaluation.objectives.shape[1] == 1:
+        allowed = found["meets_constraints"].values == 1
+        objective = np.where(allowed, evaluation.objectives[:, 0], np.inf)
+        return best_by_one(searched.designs, problem.space.limits, objective, count)
+    front = np.flatnonzero(found["on_front"].values)
+    return np.asarray(front[best_of_front(evaluation.objectives[front], count)])
+
+
+def _spread(problem: Problem, searched: Searched) -> Array:
+    """Designs that fill the space; where each takes a run, those of the first generation."""
+    if problem.is_linear:
+        return problem.space.sample("sobol", SPREAD_DESIGNS)
+    return np.asarray(searched.designs[searched.generation == 0])

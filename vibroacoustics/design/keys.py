@@ -1,0 +1,42 @@
+"""Dotted keys of values of a study."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from ..base.errors import ParameterError
+from ..base.units import si_key
+from ..study.study import Study
+
+
+def acts_on(key: str, option: str) -> bool:
+    """Whether a key is a value of an option, or of the machine."""
+    return not key.startswith("options.") or key.startswith(f"options.{option}.")
+
+
+def check_key(key: str, options: Sequence[str], where: str) -> None:
+    """Refuse a key that is no value of the machine or of an option that designs choose among."""
+    first, _, rest = key.partition(".")
+    if first == "machine" and rest:
+        return
+    if first == "options" and any(key.startswith(f"options.{name}.") for name in options):
+        return
+    allowed = ", ".join(["machine.…", *(f"options.{name}.…" for name in options)])
+    raise ParameterError(f"{where}: no such value; allowed {allowed}")
+
+
+def present_value(study: Study, key: str) -> float:
+    """A number of the study in SI, by its dotted key.
+
+    Raises
+    ------
+    ParameterError
+        There is none.
+    """
+    first, *tables, last = key.split(".")
+    thing: Any = study.machine if first == "machine" else study.options
+    for name in tables:
+        thing = thing.get(name) if isinstance(thing, Mapping) else getattr(thing, name, None)
+    value = getattr(thing, si_key(last)[0], None)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise ParameterError(f"{key}: there is no such number")
+    return float(value)
