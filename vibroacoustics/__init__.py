@@ -77,6 +77,7 @@ if TYPE_CHECKING:
     from .commands.outputs import write_report
     from .design.engine.seen import Need
     from .design.figure import DesignFigure
+    from .design.optimising import optimise
     from .design.sweep import sweep
     from .machine.machine import Machine
     from .machine.option import Option
@@ -189,6 +190,7 @@ __all__ = [
     "open_results",
     "orders",
     "plot",
+    "optimise",
     "predict",
     "radiate",
     "read_functions",
@@ -263,6 +265,7 @@ _HOME = {
     "load_plugin": "base.plugin_file",
     "load_study": "study.loading",
     "open_results": "results.storage",
+    "optimise": "design.optimising",
     "predict": "measured.prediction",
     "radiate": "pipeline",
     "read_functions": "recordings",
