@@ -17,7 +17,7 @@ from ..study.study import Study
 from .agreement import priors_of, remainder_level
 from .axes import LevelAxes
 from .bands import bands_between
-from .baseline import with_baseline
+from .baseline import points_of, with_baseline
 from .by_source import SourceSound
 from .insertion_loss import remaining_share
 from .weighting import WEIGHTING
@@ -121,9 +121,10 @@ def remaining_by_draw(
     """`remaining` of every draw with the baseline, shape (draw, speed, option, receiver), Pa²."""
     machines = [with_draw(study.machine, study.machine, draw) for draw in draws]
     rows = zip(sounds, machines, rests.tolist(), strict=True)
+    points = points_of(study, axes)
     return np.array(
         [
-            with_baseline(study, axes, sound, remaining(study, axes, sound, machine, rest))
+            with_baseline(study, axes, points, sound, remaining(study, axes, sound, machine, rest))
             for sound, machine, rest in rows
         ]
     )
