@@ -91,8 +91,9 @@ def levels_of(
     left = with_baseline(study, axes, points, sound, left)
     lines = line_pressure(axes, received)
     frequency = motion.results["order_frequency"]
-    levels = level_variables(axes, sound, lines["pressure_line"], frequency, left, rest)
-    levels = levels.merge(lines).merge(baseline_variables(study, axes, points, sound))
+    measured = baseline_variables(study, axes, points, sound)
+    levels = level_variables(axes, sound, lines["pressure_line"], frequency, left, rest, measured)
+    levels = levels.merge(lines).merge(measured)
     if not study.ranges:
         return levels
     bank = _bank(transmission, axes, points, cases, sound, progress)
