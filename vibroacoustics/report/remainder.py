@@ -32,7 +32,7 @@ def measured_rpm(results: xr.Dataset) -> float | None:
 
     None where there is none.
     """
-    if "baseline_share" not in results:
+    if "baseline_band_level" not in results:
         return None
     there = results["baseline_band_level"].sel(
         receiver=catalogue_receiver(results), option=REFERENCE_OPTION
@@ -43,7 +43,7 @@ def measured_rpm(results: xr.Dataset) -> float | None:
 
 def growth_sentence(results: xr.Dataset) -> str:
     """How the remainder is assumed to go with speed; where a baseline stands for it."""
-    if "baseline_share" in results:
+    if "baseline_band_level" in results:
         levels = results["baseline_band_level"].sel(option=REFERENCE_OPTION)
         measured = levels.notnull().any(["speed", "baseline_band"])
         if not measured.any():

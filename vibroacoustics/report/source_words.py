@@ -142,7 +142,7 @@ def left_out_sentence(results: xr.Dataset) -> str:
     tried, effective, computed, unsolved = draws(results)
     failed = f" {unsolved} of them have no solution." if unsolved else ""
     where = f"where the level is published{elsewhere(results)}"
-    if "baseline_share" in results:
+    if "baseline_band_level" in results:
         where = "where the sound was measured"
     return (
         f"{tried} draws were computed {where} and "
@@ -158,7 +158,7 @@ def _unresolved(results: xr.Dataset) -> str:
     tried, effective, *_ = draws(results)
     overall = overall_noise(results)["level_dba"]
     louder = float((results["bank_level"] > overall).mean())
-    agree = "the measured baseline" if "baseline_share" in results else "it"
+    agree = "the measured baseline" if "baseline_band_level" in results else "it"
     return (
         f"Shares and bands are not resolved: {tried} draws, {percent(louder)} of them louder than "
         f"the published {overall:g} dB(A) by the modelled sources alone, are worth no more than "

@@ -231,12 +231,15 @@ def test_bad_tables_are_refused_in_a_line(tmp_path, text, words):
         ("two.csv", 'scaling = "inertia"\n', "for a table of one speed; two.csv has 2"),
         ("f.uff", "", "f.uff: recorded_speed_rpm is missing"),
         ("f.nc", "", "f.nc: holds no force_order and moment_order of a run"),
+        ("h.nc", "", "h.nc: is no result file: a heap in it is damaged"),
     ],
 )
 def test_bad_names_are_refused_in_a_line(tmp_path, name, forces, words):
     (tmp_path / "f.csv").write_text(ANGLES + small_table())
     (tmp_path / "two.csv").write_text(ANGLES + small_table() + small_table(3500.0))
     (tmp_path / "f.nc").write_bytes(b"nothing")
+    heap = b"GCOL\1\0\0\0" + (4096).to_bytes(8, "little") + bytes(4096)
+    (tmp_path / "h.nc").write_bytes(heap)
     with pytest.raises(ParameterError) as refusal:
         load_machine(table_machine(tmp_path, name, forces=forces))
     assert words in str(refusal.value)
