@@ -19,6 +19,7 @@ from .measured_change import changed_orders, left_of_squares
 from .measured_points import (
     BASELINE_BANDS,
     MIDDLE_HZ,
+    REMAINDER_BANDS,
     MeasuredPoint,
     PointKey,
     holds,
@@ -61,10 +62,10 @@ def with_baseline(
 ) -> Array:
     """A-weighted mean square beside the model, shape (speed, option, receiver), Pa².
 
-    At microphones with a baseline it is what the model of the machine without an option leaves of
-    it, so that new = measured - modelled (none) + modelled (option); an option takes its insertion
-    loss off. With phases it may be below zero. Elsewhere, and beside orders that were measured
-    without third octaves, it is the remainder.
+    In bands and orders with a baseline it is what the model of the machine without an option leaves
+    of it, so that new = measured - modelled (none) + modelled (option); an option takes its
+    insertion loss off. With phases it may be below zero. Elsewhere, in bands and at microphones, it
+    is the remainder.
 
     Parameters
     ----------
@@ -72,14 +73,15 @@ def with_baseline(
     axes : of the levels
     points : of `points_of`
     sound : of every case
-    remaining : of the remainder, shape (speed, option), Pa²
+    remaining : the remainder in `REMAINDER_BANDS`, shape (speed, option, band), Pa²
     """
-    left = np.repeat(remaining[:, :, None], len(axes.receivers), axis=2)
+    left = np.repeat(remaining.sum(axis=2)[:, :, None], len(axes.receivers), axis=2)
+    numbers = [BASELINE_BANDS.index(band) for band in REMAINDER_BANDS]
     for (receiver, speed), point in points.items():
         at = axes.speeds.index(speed), slice(None), axes.receivers.index(receiver)
         changed = _changed(study, axes, (receiver, speed), point, sound)
-        if point.band.size:
-            left[at] = changed.rest @ _a_weight(MIDDLE_HZ[point.band])
+        elsewhere = ~np.isin(numbers, point.band)
+        left[at] = remaining[at[0]] @ elsewhere + changed.rest @ _a_weight(MIDDLE_HZ[point.band])
         weight = _a_weight(point.frequency_hz)
         left[at] += (changed.order - changed.modelled_order) @ weight
     return left

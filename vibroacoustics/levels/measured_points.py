@@ -16,6 +16,8 @@ from .bands import bands_between
 
 BASELINE_BANDS: Final = bands_between(3, LOWEST_HZ, HIGHEST_HZ)
 """Third octaves that a baseline may have."""
+REMAINDER_BANDS: Final = bands_between(3, 25.0, 10000.0)
+"""Third octaves of the remainder, where no baseline stands."""
 MIDDLE_HZ: Final[Array] = np.array([band.middle_hz for band in BASELINE_BANDS])
 _EDGES: Final[Array] = np.array([[band.lower_hz, band.upper_hz] for band in BASELINE_BANDS])
 

@@ -8,8 +8,11 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
+from ..base.decibel import power_of_level
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import REFERENCE_OPTION
+from ..levels.weighting import a_weighting
+from .bands import percent
 from .study import few_speeds, options, parameters, speeds
 from .tables import Table
 
@@ -63,7 +66,22 @@ def _of_bands(results: xr.Dataset) -> str:
         )
     covered = {one["microphone"]: (min(one["band_hz"]), max(one["band_hz"])) for one in rows}
     told = [f"{low:g} to {high:g} Hz at {name}" for name, (low, high) in covered.items()]
-    return f"Third octaves: {', '.join(told)}; other bands hold the model alone."
+    share = _not_measured(results)
+    size = f", up to {percent(share)} of the energy of the total level" if share > 0.005 else ""
+    return (
+        f"Third octaves: {', '.join(told)}; in other bands the remainder of the catalogue level "
+        f"stands{size}."
+    )
+
+
+def _not_measured(results: xr.Dataset) -> float:
+    """Largest share of A-weighted energy without an option outside the measured bands."""
+    bands = results["baseline_band_level"].sel(option=REFERENCE_OPTION)
+    weight = xr.DataArray(a_weighting(bands["baseline_band"].values), dims="baseline_band")
+    measured = power_of_level(bands + weight).sum("baseline_band")
+    total = power_of_level(results["level_total"].sel(option=REFERENCE_OPTION))
+    share = (1.0 - measured / total).where(bands.notnull().any("baseline_band"))
+    return float(share.max())
 
 
 def _of_orders(results: xr.Dataset) -> str:

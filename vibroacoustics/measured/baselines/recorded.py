@@ -18,8 +18,8 @@ from ...results.storage import open_results
 from ...study.baseline_files import BaselineContent, BaselineFile, BaselineReader
 from ..narrow_spectra import BANDS, NarrowSpectrum, of_spectra
 
-LEAST_COHERENCE: Final = 0.9
-"""Of an order whose phase counts; noise in four independent blocks reaches it once in 1000."""
+LEAST_COHERENCE: Final = 0.8
+"""Of an order whose phase counts; noise in five independent blocks reaches it once in 600 times."""
 SPEED_STEP_RPM: Final = 100.0
 """Of the operating points of a map, as `orders` has them."""
 _WINDOW: Final = "hann"
