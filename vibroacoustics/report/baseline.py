@@ -65,11 +65,11 @@ def _of_bands(results: xr.Dataset) -> str:
             "level stands."
         )
     covered = {one["microphone"]: (min(one["band_hz"]), max(one["band_hz"])) for one in rows}
-    told = [f"{low:g} to {high:g} Hz at {name}" for name, (low, high) in covered.items()]
+    ranges = [f"{low:g} to {high:g} Hz at {name}" for name, (low, high) in covered.items()]
     share = _not_measured(results)
     size = f", up to {percent(share)} of the energy of the total level" if share > 0.005 else ""
     return (
-        f"Third octaves: {', '.join(told)}; in other bands the remainder of the catalogue level "
+        f"Third octaves: {', '.join(ranges)}; in other bands the remainder of the catalogue level "
         f"stands{size}."
     )
 
@@ -107,28 +107,28 @@ def _of_orders(results: xr.Dataset) -> str:
 
 def _of_speeds(results: xr.Dataset) -> str:
     """Speeds of the study that were measured, lie between, or outside."""
-    told = []
+    sentences = []
     for name in microphones(results):
         between, outside = [], []
         for speed in speeds(results):
-            places = [_place(known, speed) for known in _measured_rpm(results, name)]
-            if "outside" in places:
+            positions = [_position(known, speed) for known in _measured_rpm(results, name)]
+            if "outside" in positions:
                 outside.append(f"{speed:g}")
-            elif "between" in places:
+            elif "between" in positions:
                 between.append(f"{speed:g}")
         if between:
-            told.append(
+            sentences.append(
                 f"At {name} levels at {', '.join(between)} rpm lie between measured speeds: on "
                 "straight lines of level and phase over speed, which a resonance between "
                 "them would not follow."
             )
         if outside:
-            told.append(
+            sentences.append(
                 f"At {name} nothing was measured at {', '.join(outside)} rpm: there the "
                 "remainder of the catalogue level stands, and levels are not to be set beside "
                 "those at other speeds."
             )
-    return " ".join(told)
+    return " ".join(sentences)
 
 
 def _measured_rpm(results: xr.Dataset, name: str) -> Iterator[list[float]]:
@@ -139,12 +139,12 @@ def _measured_rpm(results: xr.Dataset, name: str) -> Iterator[list[float]]:
             yield known
 
 
-def _place(known: list[float], speed: float) -> str:
+def _position(known: list[float], speed: float) -> str:
     """`measured` within the tolerance of a measured speed, else `between` or `outside`."""
     if min(abs(one / speed - 1.0) for one in known) <= _TOLERANCE / 4.0:
         return "measured"
-    inside = min(known) * (1.0 - _TOLERANCE) <= speed <= max(known) * (1.0 + _TOLERANCE)
-    if not inside:
+    within = min(known) * (1.0 - _TOLERANCE) <= speed <= max(known) * (1.0 + _TOLERANCE)
+    if not within:
         return "outside"
     return "between" if min(known) < speed < max(known) else "measured"
 
@@ -158,9 +158,9 @@ def _of_model(results: xr.Dataset) -> str:
         texts.append(f"the third octaves at {', '.join(bands)} Hz")
     if "baseline_order_share" in results:
         over = results["baseline_order_share"].where(results["baseline_order_phase"] == 0.0) > 1.0
-        found = results["baseline_order"].values[over.any(["speed", "receiver"]).values]
-        if found.size:
-            texts.append(f"the orders {', '.join(f'{order:g}' for order in found)}")
+        louder_orders = results["baseline_order"].values[over.any(["speed", "receiver"]).values]
+        if louder_orders.size:
+            texts.append(f"the orders {', '.join(f'{order:g}' for order in louder_orders)}")
     if not texts:
         return ""
     return (

@@ -21,7 +21,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
 
 
 def _applies(results: xr.Dataset) -> bool:
-    return "baseline_band_level" in results
+    return "baseline_share" in results and baseline.baseline_of(results) is not None
 
 
 register(Section("baseline", "Measured baseline", _blocks, _applies, 25.0))
