@@ -5,6 +5,7 @@ import pytest
 from support import ROOT, made_up_radiation
 
 import vibroacoustics as va
+from vibroacoustics.levels.measured_points import BASELINE_BANDS, measured_points
 from vibroacoustics.results.storage import write_results
 
 RPM = 930.0
@@ -102,6 +103,27 @@ def test_a_map_over_speed_and_frequency_is_taken_apart(tmp_path, study):
     assert third[200.0] == pytest.approx(white, abs=3.0 * 4.34 / np.sqrt(width * 40.0))
 
 
+@pytest.mark.parametrize("resolution", [0.25, 0.1])
+def test_orders_of_a_coarse_spectrum_do_not_count_twice(tmp_path, study, resolution):
+    """Six lines an order do not tell a tone from the next one; they are taken off the band."""
+    time = np.arange(60 * 1024) / 1024.0
+    tone = 0.02 * np.cos(4.0 * np.pi * SHAFT_HZ * time)
+    noise = 1e-2 * np.random.default_rng(4).standard_normal(time.size)
+    recording = va.label_recording([tone + noise], 1024.0, ["front_1m"], ["Pa"])
+    settings = va.OrderAnalysis(va.NominalSpeed(RPM), (1.0, 2.0, 3.0), 12.0, resolution)
+    write_results(va.analyse_orders(recording, settings), tmp_path / "orders.nc")
+    found = baseline(study, tmp_path, {"orders.nc": None}).measured.baseline
+    point = measured_points(found, ["front_1m"], [RPM])["front_1m", RPM]
+    for middle, truth in ((31.5, 2e-4 + 1e-4 / 512.0 * 7.3), (200.0, 1e-4 / 512.0 * 46.0)):
+        band = [each.nominal_hz for each in BASELINE_BANDS].index(middle)
+        square = point.rest[point.band == band].item()
+        if middle < 100.0:
+            square += 0.5 * abs(point.peak[1]) ** 2
+        assert 10.0 * np.log10(square / truth) == pytest.approx(0.0, abs=0.2)
+    names = [BASELINE_BANDS[number].nominal_hz for number in point.band]
+    assert names[-1] == 400.0  # above order 12 by the recording's own third octaves
+
+
 THIRDS = "microphone,speed_rpm,band_hz,level_db\n" + "\n".join(
     f"front_1m,930,{band},{level}"
     for band, level in ((16, 66.1), (31.5, 60.2), (50, 64.0), (63, 50.0), (100, 45.0))
@@ -165,8 +187,6 @@ SPEEDS = "microphone,speed_rpm,order,level_db,phase_deg\n" + "\n".join(
 def test_between_speeds_level_and_phase_go_straight(tmp_path, study):
     """From 170° on to -150° by way of 180°; without phase where one end has none."""
     keys = {"tacho_angle_deg": 0.0}
-    from vibroacoustics.levels.measured_points import measured_points
-
     found = baseline(study, tmp_path, {"speeds.csv": SPEEDS}, **keys).measured.baseline
     points = measured_points(found, ["front_1m"], [890.0, 920.0, 940.0, 970.0, 1100.0])
     assert {speed for _, speed in points} == {890.0, 920.0, 940.0, 970.0}

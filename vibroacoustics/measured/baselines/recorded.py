@@ -1,25 +1,21 @@
 """Baselines from `orders.nc` of a recording, and from its map over speed and frequency."""
 
-from collections.abc import Sequence
-from typing import Any, Final
+from itertools import product
+from typing import Final
 
 import numpy as np
 import xarray as xr
 
 from ...base.arrays import Array, ComplexArray
-from ...base.constants import REFERENCE_PRESSURE_PA
-from ...base.decibel import level_of_power, mean_square_level, power_of_level
 from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
 from ...base.units import shaft_frequency_hz
-from ...base.vocabulary import NO_ANGLE_ZERO
 from ...orders.recorded import operating_points
 from ...results.storage import open_results
 from ...study.baseline_files import BaselineContent, BaselineFile, BaselineReader
-from ..narrow_spectra import BANDS, NarrowSpectrum, of_spectra
+from ..narrow_spectra import NarrowSpectrum, of_spectra
+from ..recorded_rows import band_row, order_row
 
-LEAST_COHERENCE: Final = 0.8
-"""Of an order whose phase counts; noise in five independent blocks reaches it once in 600 times."""
 SPEED_STEP_RPM: Final = 100.0
 """Of the operating points of a map, as `orders` has them."""
 _WINDOW: Final = "hann"
@@ -106,19 +102,19 @@ def _of_orders(results: xr.Dataset, channels: dict[str, str]) -> BaselineContent
     orders = [float(order) for order in results["order"].values if order > 0.0]
     spectra = _spectra(results, channels)
     content = of_spectra(spectra, _WINDOW, orders) if spectra else BaselineContent()
-    tones = {(one["microphone"], one["speed_rpm"]): one for one in content.orders}
-    measured = []
-    for receiver, channel in channels.items():
-        for speed in results["speed"].values.tolist():
-            one = results.sel(channel=channel, speed=speed, order=orders)
-            square = _tones(orders, tones.get((receiver, speed)))
-            measured.append(
-                {"microphone": receiver, "speed_rpm": speed, "order": tuple(orders)}
-                | _levels_and_phases(one, square, str(results.attrs.get("angle_zero")))
-            )
-    bands = content.third_octaves
-    if results.sizes["speed"] == 1 and "band_level" in results:
-        bands = [_with_levels(one, results, channels, measured) for one in bands]
+    apart = {(one["microphone"], one["speed_rpm"]): one for one in content.orders}
+    measured = [
+        order_row(results, channel, key, apart.get(key))
+        for receiver, channel in channels.items()
+        for key in product([receiver], results["speed"].values.tolist())
+    ]
+    of_key = {(one["microphone"], one["speed_rpm"]): one for one in measured}
+    bands = []
+    for one in content.third_octaves:
+        key = (one["microphone"], one["speed_rpm"])
+        levels = results["band_level"].sel(channel=channels[key[0]], weighting="Z")
+        steady = levels if results.sizes["speed"] == 1 else None
+        bands.append(band_row(one, of_key[key], apart.get(key), steady))
     return BaselineContent(bands, measured)
 
 
@@ -148,53 +144,6 @@ def _spectra(results: xr.Dataset, channels: dict[str, str]) -> list[NarrowSpectr
         NarrowSpectrum(receiver, float(speeds[0]), frequency, mean.sel(channel=channel).values ** 2)
         for receiver, channel in channels.items()
     ]
-
-
-def _tones(orders: Sequence[float], tones: dict[str, Any] | None) -> Array:
-    """Mean square of each order above the noise beside it, Pa²; not a number where unknown."""
-    known = {} if tones is None else dict(zip(tones["order"], tones["level_db"], strict=True))
-    level = np.array([known.get(order, np.nan) for order in orders])
-    return np.asarray(REFERENCE_PRESSURE_PA**2 * power_of_level(level))
-
-
-def _levels_and_phases(one: xr.Dataset, tone_square: Array, angle_zero: str) -> dict[str, Any]:
-    """Of the coherent mean where the phase held, else of the power above the noise."""
-    peak = one["channel_order"].values
-    held = (one["channel_order_coherence"].values >= LEAST_COHERENCE) & (
-        angle_zero != NO_ANGLE_ZERO
-    )
-    power = np.where(np.isnan(tone_square), one["channel_order_rms"].values ** 2, tone_square)
-    level = mean_square_level(np.where(held, _square(peak), power), REFERENCE_PRESSURE_PA)
-    phase = np.angle(peak).tolist()
-    return {
-        "level_db": tuple(level.tolist()),
-        "phase_rad": tuple(
-            value if known else None for value, known in zip(phase, held.tolist(), strict=True)
-        ),
-    }
-
-
-def _with_levels(
-    row: dict[str, Any],
-    results: xr.Dataset,
-    channels: dict[str, str],
-    measured: Sequence[dict[str, Any]],
-) -> dict[str, Any]:
-    """Third octaves with those above the highest analysed order, less the orders in them."""
-    levels = results["band_level"].sel(channel=channels[row["microphone"]], weighting="Z")
-    highest = max(row["band_hz"])
-    (orders,) = (one for one in measured if one["microphone"] == row["microphone"])
-    hertz = np.array(orders["order"]) * shaft_frequency_hz(row["speed_rpm"])
-    tone = power_of_level(np.array(orders["level_db"]))
-    names, values = list(row["band_hz"]), list(row["level_db"])
-    for band in BANDS:
-        if band.nominal_hz <= highest or band.nominal_hz not in levels["band"].values:
-            continue
-        within = tone[(hertz >= band.lower_hz) & (hertz < band.upper_hz)].sum()
-        left = max(float(power_of_level(levels.sel(band=band.nominal_hz).item())) - within, 0.0)
-        names.append(band.nominal_hz)
-        values.append(float(level_of_power(left)))
-    return row | {"band_hz": tuple(names), "level_db": tuple(values)}
 
 
 register(BaselineReader("recorded", (".nc",), read))

@@ -4,6 +4,7 @@ import xarray as xr
 
 from ...base.registry import register
 from .. import baseline
+from ..baseline_tables import order_tables
 from ..blocks import Block, Bullets, Pictures, Text
 from ..figures.baseline import baseline_figures
 from ..speeds import chosen_speeds
@@ -15,7 +16,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         Text(baseline.summary(results)),
         Bullets(baseline.limits(results)),
         *chosen_speeds(results, "results.nc"),
-        *baseline.order_tables(results),
+        *order_tables(results),
         Pictures(tuple(baseline_figures(results))),
     ]
 
