@@ -188,6 +188,31 @@ def test_universal_file_over_time(tmp_path):
         load_machine(file)
 
 
+def test_spectra_of_a_universal_file_are_orders_of_their_nodes(tmp_path):
+    """Forces along, moments about the axes of a node; against the stated speed."""
+    hertz = np.array([50.0, 100.0, 150.0])
+    force, moment = np.array([1.0, 2.0j, 3.0]), np.array([0.5, 0.0, 0.1j])
+    functions = [
+        va.MeasuredFunction("spectrum", hertz, force, va.Node(7, "-z"), None, "N"),
+        va.MeasuredFunction("spectrum", hertz, moment, va.Node(7, "+rx"), None, "N m"),
+        va.MeasuredFunction("spectrum", hertz, force, va.Node(8, "+x"), None, "N"),
+    ]
+    va.export_functions(functions, tmp_path / "s.uff")
+    file = table_machine(tmp_path, "s.uff", forces="recorded_speed_rpm = 3000.0\n")
+    text = file.read_text().replace("3000.0\n", '{ value = 3000.0, source = "tacho" }\n', 1)
+    file.write_text(text)
+    table = load_machine(file).forces
+    assert table.sources == ("7", "8")
+    orders = table.at(3000.0)
+    np.testing.assert_allclose(orders[0, 2], [0.0, *-force])
+    np.testing.assert_allclose(orders[0, 3], [0.0, *moment])
+    np.testing.assert_allclose(orders[1, 0], [0.0, *force])
+    assert np.count_nonzero(orders) == 8
+    file.write_text(text.replace("3000.0", "3010.0"))
+    with pytest.raises(ParameterError, match=r"50 Hz is order 0.9967|150 Hz is order 2.99"):
+        load_machine(file)
+
+
 ROW = "3000,0,crank,1,0,0,0,0,0\n"
 LINE = "3000,1,crank" + ",1,0" * 6 + "\n"
 
