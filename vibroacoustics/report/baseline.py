@@ -61,7 +61,7 @@ def _of_bands(results: xr.Dataset) -> str:
         )
     covered = {one["microphone"]: (min(one["band_hz"]), max(one["band_hz"])) for one in rows}
     ranges = [f"{low:g} to {high:g} Hz at {name}" for name, (low, high) in covered.items()]
-    share = _not_measured(results)
+    share = not_measured(results)
     size = f", up to {percent(share)} of the energy of the total level" if share > 0.005 else ""
     return (
         f"Third octaves: {', '.join(ranges)}; in other bands the remainder of the catalogue level "
@@ -69,7 +69,7 @@ def _of_bands(results: xr.Dataset) -> str:
     )
 
 
-def _not_measured(results: xr.Dataset) -> float:
+def not_measured(results: xr.Dataset) -> float:
     """Largest share of A-weighted energy without an option outside the measured bands."""
     bands = results["baseline_band_level"].sel(option=REFERENCE_OPTION)
     weight = xr.DataArray(a_weighting(bands["baseline_band"].values), dims="baseline_band")

@@ -1,12 +1,14 @@
 """The verdict that opens the report: headline and reasons."""
 
 from collections.abc import Sequence
+from typing import Final
 
 import numpy as np
 import xarray as xr
 
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
+from .baseline import not_measured
 from .carrier import sure_sentence
 from .column_values import column
 from .comparison import comparison
@@ -29,6 +31,9 @@ from .study import (
 )
 from .tables import Table
 from .unknowns import measure_next_sentence
+
+_HALF: Final = 0.5
+"""Of the energy of the total level, from which on it is not called measured."""
 
 
 def headline(results: xr.Dataset) -> str:
@@ -157,8 +162,13 @@ def _remainder(results: xr.Dataset) -> str:
     speed = measured_rpm(results)
     if speed is not None:
         rest = rounding.fixed(remainder_band(results, speed).middle)
+        how = (
+            "most of it assumed in bands that were not measured"
+            if not_measured(results) > _HALF
+            else "as measured"
+        )
         return (
-            f"In the model {carried}. The rest, as measured {rest} dB(A) at {speed:g} rpm, comes "
+            f"In the model {carried}. The rest, {how}, {rest} dB(A) at {speed:g} rpm, comes "
             f"from sources that balancing does not touch."
         )
     return (
