@@ -80,7 +80,7 @@ model = va.run(study, radiation=rough_radiation)
 # --------------
 # It is played here: the modelled orders, tones of the gas that no model has, and noise; a tacho
 # gives its pulse at 90°.
-rate, seconds, first, last = 4096, 40.0, 800.0, 1050.0
+rate, seconds, first, last = 2048, 30.0, 800.0, 1050.0
 time = np.arange(int(rate * seconds)) / rate
 rpm = first + (last - first) * time / seconds
 angle = 2.0 * np.pi / 60.0 * (first * time + (last - first) * time**2 / (2.0 * seconds))
@@ -109,7 +109,7 @@ va.export_recording(recording, folder / "stand.csv")
 # octaves over speed need.
 command = [sys.executable, "-m", "vibroacoustics", "orders", str(folder / "stand.csv")]
 command += ["--speed", "tacho", "--pulses", "1", "--orders", "1,2,3,4,5,6,7,8,9,10"]
-command += ["--maximum-order", "100", "--resolution", "0.1", "--speed-step", "25", "--map"]
+command += ["--maximum-order", "45", "--resolution", "0.1", "--speed-step", "25", "--map"]
 done = subprocess.run([*command, "--out", str(folder)], capture_output=True, text=True, check=True)
 print("\n".join(done.stdout.splitlines()[:3]))
 

@@ -115,7 +115,7 @@ def obtained(results, option, rpm):
 def test_steady_recording_changed_is_the_truth(tmp_path, study, model):
     generator = np.random.default_rng(1)
     machine = Machine(generator)
-    orders = analysed(recorded(machine, 930.0, 930.0, 160.0, generator, 0.05))
+    orders = analysed(recorded(machine, 930.0, 930.0, 120.0, generator, 0.05))
     write_results(orders, tmp_path / "orders.nc")
     baseline = {"file": str(tmp_path / "orders.nc"), "tacho_angle_deg": TACHO_DEG}
     quiet = {"machine.overall_noise.level_dba": 0.0}  # no remainder above the recording's bands
@@ -139,16 +139,16 @@ def test_steady_recording_changed_is_the_truth(tmp_path, study, model):
 
 
 def test_run_up_changed_is_the_truth(tmp_path, study, model):
-    """At a speed that was measured, between two, and with the noise that 13 s of it have."""
+    """At a speed that was measured, between two, and with the noise that 8 s of it have."""
     generator = np.random.default_rng(2)
     machine = Machine(generator)
-    recording = recorded(machine, 810.0, 1190.0, 240.0, generator, 2.0)
+    recording = recorded(machine, 810.0, 1190.0, 160.0, generator, 2.0)
     orders = analysed(recording, speed_step_rpm=20.0, with_map=True)
     write_results(orders, tmp_path / "orders.nc")
     baseline = {"file": str(tmp_path / "orders.nc"), "tacho_angle_deg": TACHO_DEG}
     results = va.run(study.replace({"measured.baseline": baseline}), radiation=made_up_radiation)
     width = np.array([band.upper_hz - band.lower_hz for band in BANDS])
-    scatter_db = 10.0 / np.log(10.0) / np.sqrt(width * 240.0 / 19.0)  # of noise over a time
+    scatter_db = 10.0 / np.log(10.0) / np.sqrt(width * 160.0 / 19.0)  # of noise over a time
     for rpm in study.operation.speed_rpm:
         for option in ("none", OPTION):
             of_orders, of_bands = truth(machine, model, option, rpm)
