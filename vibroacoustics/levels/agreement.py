@@ -87,7 +87,7 @@ def agreement_of_points(over_db: Array, deviation_db: float, prior: Prior) -> Ar
 
     Levels of one machine at several microphones and speeds are off together, by how much of them
     is not known: their likelihoods to the power of one over their number count as one measurement
-    (composite likelihood: Varin, Reid and Firth 2011, Statistica Sinica 21, 5, section 2.3).
+    (composite likelihood: Varin, Reid and Firth 2011, Statistica Sinica 21, 5).
 
     Parameters
     ----------
