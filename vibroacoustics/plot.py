@@ -8,8 +8,8 @@ The report draws its pictures with the same functions. A notebook shows what the
 
 Of `run`: `force_over_revolution`, `force_orders`, `foot_force_orders`, `level_orders`,
 `mount_transmissibility`, `transfer`, `green_difference`, `levels`, `line_map`, `scores`,
-`rank_acceptability`, `source_third_octaves`, `option_third_octaves`, `stopping`,
-`stopping_order_map`.
+`rank_acceptability`, `source_third_octaves`, `option_third_octaves`, `baseline_third_octaves`,
+`stopping`, `stopping_order_map`.
 
 Of `radiate`: `transfer_vectors`, `unit_level_map`, `directivity`.
 
@@ -21,6 +21,7 @@ Of `speed_frequency_map`: `speed_frequency_map`, `run_up_levels`. Of `track_orde
 Of `compare`: `compared_orders`. Of `curves`: `curves`. Of `predict`: `predicted_levels`.
 """
 
+from .report.figures.baseline import baseline_third_octaves
 from .report.figures.compared_orders import compared_orders
 from .report.figures.curves import curves
 from .report.figures.directivity import directivity
@@ -38,6 +39,7 @@ from .report.figures.stopping import stopping, stopping_order_map
 from .report.figures.transfer_vectors import transfer_vectors
 
 __all__ = [
+    "baseline_third_octaves",
     "compared_orders",
     "curves",
     "directivity",

@@ -69,14 +69,18 @@ def _predicted(folder: Path) -> xr.Dataset:
 
 
 def _differences(results: xr.Dataset) -> xr.Dataset:
-    """What only k-Wave and a map give."""
+    """What only k-Wave, a map and a baseline give."""
     gap = np.zeros((results.sizes["receiver"], results.sizes["frequency"]))
     by_speed = {"speed": results["speed"], "option": results["option"]}
     shape = (results.sizes["speed"], results.sizes["option"], *GRID[0].shape)
     at = {"receiver": results["receiver"], "frequency": results["frequency"]}
     level = stamp("map_level", np.broadcast_to(30.0 - 9.0 * GRID[1], shape), by_speed)
     gaps = stamp("green_difference", gap, at)
-    return xr.Dataset({"green_difference": gaps, "map_level": level}, coords=_plane())
+    in_bands = by_speed | {"receiver": results["receiver"], "baseline_band": [100.0, 125.0]}
+    measured = np.full((*shape[:2], results.sizes["receiver"], 2), 60.0)
+    bands = stamp("baseline_band_level", measured, in_bands)
+    named = {one.name: one for one in (gaps, level, bands)}
+    return xr.Dataset(named, coords=_plane())
 
 
 def _plane() -> dict[str, tuple[tuple[str, str], np.ndarray]]:

@@ -82,6 +82,22 @@ def agreement(modelled_db: Array, deviation_db: float, prior: Prior) -> Array:
     return np.asarray(np.nan_to_num(density.sum(axis=1) / prior.density(_BELOW_DB).sum()))
 
 
+def agreement_of_points(over_db: Array, deviation_db: float, prior: Prior) -> Array:
+    """Geometric mean of the weights of draws at several points, shape (draw,), from 0 to 1.
+
+    Levels of one machine at several microphones and speeds are off together, by how much of them
+    is not known: their likelihoods to the power of one over their number count as one measurement
+    (composite likelihood: Varin, Reid and Firth 2011, Statistica Sinica 21, 5).
+
+    Parameters
+    ----------
+    over_db : what is modelled over each measured level, shape (point, draw)
+    deviation_db, prior : as of `agreement`
+    """
+    weights = np.array([agreement(one, deviation_db, prior) for one in over_db])
+    return np.asarray(np.prod(weights ** (1.0 / len(over_db)), axis=0))
+
+
 def remainder_level(modelled_db: Array, deviation_db: float, prior: Prior, share: Array) -> Array:
     """Level of each draw's remainder over the published one, shape (draw,), dB.
 

@@ -21,6 +21,7 @@ class LevelAxes:
     ----------
     speeds, options, sources, receivers : in the order of the arrays
     bands : third octaves
+    measured_orders : of the baseline at any microphone
     """
 
     speeds: Sequence[float]
@@ -28,16 +29,19 @@ class LevelAxes:
     sources: Sequence[str]
     receivers: Sequence[str]
     bands: Sequence[Band]
+    measured_orders: Sequence[float] = ()
 
     @classmethod
     def of(cls, study: Study, sources: Sequence[str], results: xr.Dataset) -> "LevelAxes":
         """Axes of a study's results with the sources of these names."""
+        baseline = None if study.measured is None else study.measured.baseline
         return cls(
             list(study.operation.speed_rpm),
             list(study.options),
             sources,
             [str(name) for name in results["receiver"].values],
             filled_thirds(study.radiation.maximum_frequency_hz),
+            () if baseline is None else baseline.all_orders,
         )
 
     def gathered(self, sound: Mapping[CaseKey, SourceSound], part: str) -> Array:

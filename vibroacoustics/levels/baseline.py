@@ -1,123 +1,211 @@
-"""What a measured baseline leaves to be explained, band by band, in place of the remainder."""
+"""Levels of a measured baseline with options, band by band and order by order."""
 
-from collections.abc import Mapping, Sequence
-from typing import Final
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
-from ..base.decibel import power_of_level
+from ..base.decibel import mean_square_level, power_of_level
 from ..base.vocabulary import REFERENCE_OPTION, check, stamp
 from ..machine.source import CaseKey
-from ..mechanics.added import third_octave_number
-from ..study.baseline import HIGHEST_HZ, LOWEST_HZ, Baseline
 from ..study.study import Study
 from .axes import LevelAxes
-from .bands import bands_between
 from .by_source import SourceSound
-from .insertion_loss import remaining_share
+from .measured_change import changed_orders, left_of_squares
+from .measured_points import (
+    BASELINE_BANDS,
+    MIDDLE_HZ,
+    REMAINDER_BANDS,
+    MeasuredPoint,
+    PointKey,
+    holds,
+    measured_points,
+)
 from .weighting import WEIGHTING
 
-BASELINE_BANDS: Final = bands_between(3, LOWEST_HZ, HIGHEST_HZ)
-"""Third octaves that a baseline may have."""
+
+@dataclass(frozen=True)
+class Changed:
+    """Mean squares at a microphone and speed with every option, Pa².
+
+    Attributes
+    ----------
+    rest : what the model leaves of the measured bands, without orders, shape (option, band)
+    beside : modelled in these bands, without the measured orders, shape (option, band)
+    order : measured orders, changed, shape (option, order)
+    modelled_order : of the model alone, shape (option, order)
+    """
+
+    rest: Array
+    beside: Array
+    order: Array
+    modelled_order: Array
+
+
+def points_of(study: Study, axes: LevelAxes) -> dict[PointKey, MeasuredPoint]:
+    """What was measured at the microphones and speeds of a study; nothing without a baseline."""
+    if study.measured is None or study.measured.baseline is None:
+        return {}
+    return measured_points(study.measured.baseline, axes.receivers, axes.speeds)
 
 
 def with_baseline(
-    study: Study, axes: LevelAxes, sound: Mapping[CaseKey, SourceSound], remaining: Array
+    study: Study,
+    axes: LevelAxes,
+    points: Mapping[PointKey, MeasuredPoint],
+    sound: Mapping[CaseKey, SourceSound],
+    remaining: Array,
 ) -> Array:
     """A-weighted mean square beside the model, shape (speed, option, receiver), Pa².
 
-    At microphones with a baseline it is what the model of the machine without an option leaves of
-    it, band by band as energy, so that new = measured - modelled (none) + modelled (option); an
-    option takes its insertion loss off. Elsewhere it is the remainder.
+    In bands and orders with a baseline it is what the model of the machine without an option leaves
+    of it, so that new = measured - modelled (none) + modelled (option); an option takes its
+    insertion loss off. With phases it may be below zero. Elsewhere, in bands and at microphones, it
+    is the remainder.
 
     Parameters
     ----------
-    study : its baseline, and options
+    study : its options
     axes : of the levels
+    points : of `points_of`
     sound : of every case
-    remaining : of the remainder, shape (speed, option), Pa²
+    remaining : the remainder in `REMAINDER_BANDS`, shape (speed, option, band), Pa²
     """
-    left = np.repeat(remaining[:, :, None], len(axes.receivers), axis=2)
-    if study.measured is None or study.measured.baseline is None:
-        return left
-    for column, receiver in enumerate(axes.receivers):
-        for row, speed in enumerate(axes.speeds):
-            rest = _rest(study.measured.baseline, axes, sound, receiver, speed)
-            if rest is None:
-                continue
-            middle_hz, square = rest
-            weighted = np.maximum(square, 0.0) * power_of_level(WEIGHTING["A"](middle_hz))
-            total = weighted.sum()
-            share = remaining_share(study.options, middle_hz, weighted) if total > 0.0 else 0.0
-            left[row, :, column] = total * share
+    left = np.repeat(remaining.sum(axis=2)[:, :, None], len(axes.receivers), axis=2)
+    numbers = [BASELINE_BANDS.index(band) for band in REMAINDER_BANDS]
+    for (receiver, speed), point in points.items():
+        at = axes.speeds.index(speed), slice(None), axes.receivers.index(receiver)
+        changed = _changed(study, axes, (receiver, speed), point, sound)
+        elsewhere = ~np.isin(numbers, point.band)
+        left[at] = remaining[at[0]] @ elsewhere + changed.rest @ _a_weight(MIDDLE_HZ[point.band])
+        weight = _a_weight(point.frequency_hz)
+        left[at] += (changed.order - changed.modelled_order) @ weight
     return left
 
 
+def over_baseline(
+    axes: LevelAxes,
+    points: Mapping[PointKey, MeasuredPoint],
+    sound: Mapping[CaseKey, SourceSound],
+    key: PointKey,
+) -> float:
+    """A-weighted level of the model over that measured, in the bands and orders measured, dB.
+
+    Not a number where the model has no solution.
+
+    Parameters
+    ----------
+    axes : with the microphone
+    points : of `points_of`
+    sound : of the case without an option at the speed
+    key : microphone and speed
+    """
+    point, column = points[key], axes.receivers.index(key[0])
+    none = sound[key[1], REFERENCE_OPTION]
+    of_bands, of_orders = _a_weight(MIDDLE_HZ[point.band]), _a_weight(point.frequency_hz)
+    chosen = _columns(axes, point)
+    modelled = none.beside[column, point.band] @ of_bands
+    modelled += 0.5 * np.abs(none.order[column, chosen]) ** 2 @ of_orders
+    measured = point.rest @ of_bands + 0.5 * np.abs(point.peak) ** 2 @ of_orders
+    if np.isnan(modelled):
+        return float("nan")
+    return float(mean_square_level(modelled, 1.0) - mean_square_level(measured, 1.0))
+
+
 def baseline_variables(
-    study: Study, axes: LevelAxes, sound: Mapping[CaseKey, SourceSound]
+    study: Study,
+    axes: LevelAxes,
+    points: Mapping[PointKey, MeasuredPoint],
+    sound: Mapping[CaseKey, SourceSound],
 ) -> xr.Dataset:
-    """What the model explains of each band of the baseline; empty where there is none.
+    """Bands and orders of the baseline with every option, and what the model explains of each.
 
     Parameters
     ----------
     study : its baseline
     axes : of the levels
+    points : of `points_of`
     sound : of every case, the values as given
     """
-    if study.measured is None or study.measured.baseline is None:
+    if not points:
         return xr.Dataset()
-    share = np.full((len(axes.speeds), len(axes.receivers), len(BASELINE_BANDS)), np.nan)
-    numbers = {band.middle_hz: number for number, band in enumerate(BASELINE_BANDS)}
-    for column, receiver in enumerate(axes.receivers):
-        for row, speed in enumerate(axes.speeds):
-            rest = _rest(study.measured.baseline, axes, sound, receiver, speed)
-            modelled = _modelled(axes, sound, receiver, speed)
-            for middle_hz, left in zip(*rest, strict=True) if rest is not None else ():
-                known = modelled.get(middle_hz, 0.0)
-                share[row, column, numbers[middle_hz]] = known / (left + known)
-    coords = {
-        "speed": list(axes.speeds),
-        "receiver": list(axes.receivers),
-        "baseline_band": [band.nominal_hz for band in BASELINE_BANDS],
+    sizes = (len(axes.speeds), len(axes.options), len(axes.receivers))
+    order = np.array(axes.measured_orders)
+    bands = np.full((*sizes, len(BASELINE_BANDS)), np.nan)
+    orders = np.full((*sizes, order.size), np.nan)
+    share, order_share = bands[:, 0].copy(), orders[:, 0].copy()
+    phase = order_share.copy()
+    none = list(axes.options).index(REFERENCE_OPTION)
+    for (receiver, speed), point in points.items():
+        s, r = axes.speeds.index(speed), axes.receivers.index(receiver)
+        changed = _changed(study, axes, (receiver, speed), point, sound)
+        chosen = _columns(axes, point)
+        orders[s][:, r, chosen] = _level(changed.order)
+        phase[s, r, chosen] = point.has_phase
+        square = 0.5 * np.abs(point.peak) ** 2
+        order_share[s, r, chosen] = _ratio(changed.modelled_order[none], square)
+        tones = changed.order @ holds(point.frequency_hz)[:, point.band]
+        bands[s][:, r, point.band] = _level(changed.rest + changed.beside + tones)
+        share[s, r, point.band] = _ratio(changed.beside[none], point.rest)
+    shared: dict[str, Any] = {"speed": list(axes.speeds), "receiver": list(axes.receivers)}
+    in_bands = {"baseline_band": [band.nominal_hz for band in BASELINE_BANDS]}
+    in_orders = {"baseline_order": order}
+    arrays = {
+        "baseline_share": (share, shared | in_bands),
+        "baseline_band_level": (bands, axes.by_receiver | in_bands),
     }
-    return check(xr.Dataset({"baseline_share": stamp("baseline_share", share, coords)}))
+    if order.size:
+        arrays |= {
+            "baseline_order_share": (order_share, shared | in_orders),
+            "baseline_order_phase": (phase, shared | in_orders),
+            "baseline_order_level": (orders, axes.by_receiver | in_orders),
+        }
+    return check(xr.Dataset({name: stamp(name, value, at) for name, (value, at) in arrays.items()}))
 
 
-def _rest(
-    baseline: Baseline,
+def _changed(
+    study: Study,
     axes: LevelAxes,
+    key: PointKey,
+    point: MeasuredPoint,
     sound: Mapping[CaseKey, SourceSound],
-    receiver: str,
-    speed: float,
-) -> tuple[Array, Array] | None:
-    """Exact midband frequencies and mean squares of the baseline less the model, Pa²."""
-    spectra = baseline.at(receiver)
-    if not spectra:
-        return None
-    numbers = third_octave_number(np.array(spectra[0].band_hz)) - third_octave_number(
-        np.array(BASELINE_BANDS[0].middle_hz)
+) -> Changed:
+    column, chosen = axes.receivers.index(key[0]), _columns(axes, point)
+    cases = [sound[key[1], option] for option in axes.options]
+    none = cases[list(axes.options).index(REFERENCE_OPTION)]
+    beside = np.array([case.beside[column, point.band] for case in cases])
+    order = np.array([case.order[column, chosen] for case in cases])
+    losses = [study.options[name].insertion_loss() for name in axes.options]
+    middle_hz, hertz = MIDDLE_HZ[point.band], point.frequency_hz
+    by_band = [1.0 if one is None else one.power_factor(middle_hz) for one in losses]
+    by_order = [1.0 if one is None else one.amplitude_factor(hertz) for one in losses]
+    rest = left_of_squares(point.rest, none.beside[column, point.band])
+    factor = np.array([one * np.ones(hertz.size) for one in by_order])
+    return Changed(
+        np.array([rest * one for one in by_band]),
+        beside,
+        changed_orders(point.peak, none.order[column, chosen], order, factor, point.has_phase),
+        0.5 * np.abs(order) ** 2,
     )
-    middle_hz = np.array([BASELINE_BANDS[int(number)].middle_hz for number in numbers])
-    modelled = _modelled(axes, sound, receiver, speed)
-    known = np.array([modelled.get(middle, 0.0) for middle in middle_hz.tolist()])
-    speeds = [one.speed_rpm for one in spectra]
-    levels = _over_speed(speed, speeds, np.array([one.level_db for one in spectra]))
-    return middle_hz, REFERENCE_PRESSURE_PA**2 * power_of_level(levels) - known
 
 
-def _over_speed(speed: float, speeds: Sequence[float], levels: Array) -> Array:
-    """Levels at a speed, by straight lines between those that were measured."""
-    return np.array([np.interp(speed, speeds, of_band) for of_band in levels.T])
+def _columns(axes: LevelAxes, point: MeasuredPoint) -> list[int]:
+    """Columns of the point's orders among all that were measured."""
+    return [axes.measured_orders.index(order) for order in point.order.tolist()]
 
 
-def _modelled(
-    axes: LevelAxes, sound: Mapping[CaseKey, SourceSound], receiver: str, speed: float
-) -> dict[float, float]:
-    """Mean square of the machine without an option in each band, by midband frequency, Pa²."""
-    column = list(axes.receivers).index(receiver)
-    square = sound[(speed, REFERENCE_OPTION)].band[:, column].sum(axis=0)
-    middles = (band.middle_hz for band in axes.bands)
-    return dict(zip(middles, square.tolist(), strict=True))
+def _a_weight(frequency_hz: Array) -> Array:
+    return power_of_level(np.asarray(WEIGHTING["A"](frequency_hz)))
+
+
+def _level(mean_square: Array) -> Array:
+    return mean_square_level(mean_square, REFERENCE_PRESSURE_PA)
+
+
+def _ratio(modelled: Array, measured: Array) -> Array:
+    """Modelled over measured; not a number where nothing was measured."""
+    return np.divide(modelled, measured, out=np.full_like(measured, np.nan), where=measured > 0.0)

@@ -1,8 +1,8 @@
 """Sound by source: lines add as phasors, noise adds as energy."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Final
+from dataclasses import dataclass, field, replace
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -18,6 +18,13 @@ A_FIRST: Final = tuple(sorted(WEIGHTINGS, key=lambda name: name != "A"))
 """Weightings of the totals of a study."""
 
 
+class Measured(NamedTuple):
+    """What a baseline has: third octaves, and orders that count apart from them."""
+
+    bands: Sequence[Band]
+    orders: Sequence[float]
+
+
 @dataclass(frozen=True)
 class SourceSound:
     """Mean squares of the pressure at the receivers, by source; those of a band are unweighted.
@@ -28,11 +35,17 @@ class SourceSound:
     alone : A-weighted, of each source alone, shape (source, receiver), Pa²
     part : what each source adds to the total by weighting, shape (weighting, source, receiver),
         Pa²; where lines of two sources cancel a part can be negative. The sum is the total
+    order : shaft orders that were measured, of all sources together, complex peaks, shape
+        (receiver, order), Pa
+    beside : of all sources without these orders in the bands of a baseline, shape (receiver,
+        band), Pa²
     """
 
     band: Array
     alone: Array
     part: Array
+    order: ComplexArray = field(default_factory=lambda: np.zeros((1, 0), dtype=complex))
+    beside: Array = field(default_factory=lambda: np.zeros((1, 0)))
 
     @property
     def unknown(self) -> "SourceSound":
@@ -51,10 +64,34 @@ def filled_thirds(maximum_frequency_hz: float) -> tuple[Band, ...]:
     return tuple(band for band in bands if band.upper_hz <= maximum_frequency_hz)
 
 
-def sound_by_source(received: ReceivedSound, bands: Sequence[Band]) -> SourceSound:
-    """Mean squares of one case, with totals by all weightings, A first."""
+def sound_by_source(
+    received: ReceivedSound, bands: Sequence[Band], measured: Measured | None = None
+) -> SourceSound:
+    """Mean squares of one case, with totals by all weightings, A first.
+
+    Parameters
+    ----------
+    received : of the case
+    bands : of the result
+    measured : bands and orders of a baseline; none where there is none
+    """
     hertz = received.lines.frequency_hz
-    return source_sound(received.pressure, hertz, received.noise, bands, A_FIRST)
+    sound = source_sound(received.pressure, hertz, received.noise, bands, A_FIRST)
+    if measured is None:
+        return sound
+    column = {name: number for number, name in enumerate(received.lines.names)}
+    lines = [column.get(f"order {order:g}") for order in measured.orders]
+    order = np.zeros((received.pressure.shape[1], len(lines)), dtype=complex)
+    for number, line in enumerate(lines):
+        if line is not None:
+            order[:, number] = received.pressure[..., line].sum(axis=0)
+    others = hertz > 0.0
+    others[[line for line in lines if line is not None]] = False
+    square = 0.5 * np.abs(received.pressure[..., others].sum(axis=0)) ** 2
+    beside = square @ _membership(hertz[others], measured.bands)
+    for random in received.noise:
+        beside += random.power @ _membership(random.frequency_hz, measured.bands)
+    return replace(sound, order=order, beside=beside)
 
 
 def source_sound(

@@ -28,17 +28,14 @@ def airborne_factor(options: Mapping[str, Option], order_frequency: xr.DataArray
     return xr.DataArray(factor, coords, ("option", *order_frequency.dims))
 
 
-def remaining_share(
-    options: Mapping[str, Option], frequency_hz: Array, mean_square: Array
-) -> Array:
-    """Share that each option leaves of the energy of a sound, shape (option,).
+def remaining_factor(options: Mapping[str, Option], frequency_hz: Array) -> Array:
+    """Mean square of a sound with each option's insertion loss over that without, (option, band).
 
     Parameters
     ----------
     options : by name
-    frequency_hz : middle of the bands of the sound, shape (band,)
-    mean_square : of the bands, shape (band,)
+    frequency_hz : middle of the bands, shape (band,)
     """
     losses = [option.insertion_loss() for option in options.values()]
     left = [1.0 if loss is None else loss.power_factor(frequency_hz) for loss in losses]
-    return np.array([np.sum(mean_square * factor) for factor in left]) / np.sum(mean_square)
+    return np.array([np.ones(len(frequency_hz)) * factor for factor in left])

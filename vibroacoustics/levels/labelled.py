@@ -29,6 +29,7 @@ def level_variables(
     order_frequency: xr.DataArray,
     remaining: Array,
     remainder: float,
+    baseline: xr.Dataset | None = None,
 ) -> xr.Dataset:
     """Levels with the values as given.
 
@@ -40,6 +41,7 @@ def level_variables(
     order_frequency : (speed, order), Hz
     remaining : mean square that the model does not explain, shape (speed, option, receiver), Pa²
     remainder : the same at the published point without an option, Pa²
+    baseline : of `baseline_variables`, whose orders stand for the modelled ones
     """
     part = axes.gathered(sound, "part")
     totals = part.sum(axis=3)  # (speed, option, weighting, receiver)
@@ -47,7 +49,12 @@ def level_variables(
     modelled = [level(totals[:, :, A_FIRST.index(name)]) for name in WEIGHTINGS]
     total = level(a_total + remaining)
     orders = pressure_line.values[..., : order_frequency.sizes["order"]].sum(axis=2)
-    order_level = _order_level(orders, order_frequency.values)
+    order_level = _order_level(orders, order_frequency)
+    if baseline is not None and "baseline_order_level" in baseline:
+        order = order_frequency["order"].values.astype(float)
+        measured = baseline["baseline_order_level"].reindex(baseline_order=order).values
+        of_baseline = _weighted(measured, order_frequency)
+        order_level = np.where(np.isnan(of_baseline), order_level, of_baseline)
     changes = {
         "change_1x": order_level[..., 1, WEIGHTINGS.index("Z")],
         "change_modelled": level(a_total),
@@ -136,8 +143,11 @@ def _level_or_none(mean_square: Array) -> Array:
     return np.where(np.isnan(mean_square), np.nan, level(np.nan_to_num(mean_square)))
 
 
-def _order_level(pressure: ComplexArray, frequency: Array) -> Array:
+def _order_level(pressure: ComplexArray, frequency: xr.DataArray) -> Array:
     """Levels of the orders, (speed, option, receiver, order, weighting)."""
-    unweighted = sound_pressure_level(pressure)
-    hertz = frequency[:, None, None, :]
+    return _weighted(sound_pressure_level(pressure), frequency)
+
+
+def _weighted(unweighted: Array, frequency: xr.DataArray) -> Array:
+    hertz = frequency.values[:, None, None, :]
     return np.stack([unweighted + WEIGHTING[name](hertz) for name in WEIGHTINGS], axis=-1)

@@ -1,7 +1,6 @@
 """What the sources leave unexplained of the machine's published level, by speed and option."""
 
 from collections.abc import Mapping, Sequence
-from typing import Final
 
 import numpy as np
 
@@ -16,14 +15,11 @@ from ..study.sampling import Draw
 from ..study.study import Study
 from .agreement import priors_of, remainder_level
 from .axes import LevelAxes
-from .bands import bands_between
-from .baseline import with_baseline
+from .baseline import points_of, with_baseline
 from .by_source import SourceSound
-from .insertion_loss import remaining_share
+from .insertion_loss import remaining_factor
+from .measured_points import REMAINDER_BANDS
 from .weighting import WEIGHTING
-
-_BANDS: Final = bands_between(3, 25.0, 10000.0)
-"""Third octaves of the remainder."""
 
 
 def remainder(
@@ -63,9 +59,10 @@ def remaining(
     machine: Machine,
     rest: float,
 ) -> Array:
-    """What there is of the remainder at each speed with each option, shape (speed, option), Pa².
+    """What there is of the remainder by third octave, A-weighted, (speed, option, band), Pa².
 
-    It grows with speed, and an option takes its insertion loss off each third octave.
+    The bands are `REMAINDER_BANDS`. It grows with speed, and an option takes its insertion loss off
+    each band.
 
     Parameters
     ----------
@@ -76,15 +73,15 @@ def remaining(
     rest : the remainder at the published speed without an option, Pa²
     """
     if rest == 0.0:
-        return np.zeros((len(axes.speeds), len(study.options)))
+        return np.zeros((len(axes.speeds), len(study.options), len(REMAINDER_BANDS)))
     receiver = list(axes.receivers).index(study.catalogue_receiver)
-    middle_hz = np.array([band.middle_hz for band in _BANDS])
+    middle_hz = np.array([band.middle_hz for band in REMAINDER_BANDS])
     modelled = _a_weighted_bands(sound[study.catalogue_case].band[:, receiver].sum(axis=0), axes)
     spectrum = spectrum_left(machine.remainder.spectrum(middle_hz), modelled, rest)
     published_rpm = study.machine.overall_noise.speed_rpm
     growth = machine.remainder.speed_factor(np.array(axes.speeds), published_rpm)
-    share = remaining_share(study.options, middle_hz, spectrum)
-    return np.asarray(rest * growth[:, None] * share)
+    factor = remaining_factor(study.options, middle_hz)
+    return np.asarray(growth[:, None, None] * factor * spectrum)
 
 
 def spectrum_left(expected: Array, modelled: Array, rest: float) -> Array:
@@ -106,8 +103,8 @@ def spectrum_left(expected: Array, modelled: Array, rest: float) -> Array:
 def _a_weighted_bands(mean_square: Array, axes: LevelAxes) -> Array:
     """A-weighted mean squares of the bands of the remainder, from those of the levels."""
     known = dict(zip(axes.bands, mean_square.tolist(), strict=True))
-    middle_hz = np.array([band.middle_hz for band in _BANDS])
-    modelled = np.array([known.get(band, 0.0) for band in _BANDS])
+    middle_hz = np.array([band.middle_hz for band in REMAINDER_BANDS])
+    modelled = np.array([known.get(band, 0.0) for band in REMAINDER_BANDS])
     return modelled * power_of_level(np.asarray(WEIGHTING["A"](middle_hz)))
 
 
@@ -121,9 +118,10 @@ def remaining_by_draw(
     """`remaining` of every draw with the baseline, shape (draw, speed, option, receiver), Pa²."""
     machines = [with_draw(study.machine, study.machine, draw) for draw in draws]
     rows = zip(sounds, machines, rests.tolist(), strict=True)
+    points = points_of(study, axes)
     return np.array(
         [
-            with_baseline(study, axes, sound, remaining(study, axes, sound, machine, rest))
+            with_baseline(study, axes, points, sound, remaining(study, axes, sound, machine, rest))
             for sound, machine, rest in rows
         ]
     )

@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Final, NamedTuple
 
+import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
@@ -11,10 +12,11 @@ from ..base.progress import Progress, no_progress
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.agreement import priors_of
 from ..levels.axes import LevelAxes
-from ..levels.baseline import baseline_variables, with_baseline
-from ..levels.by_source import SourceSound, sound_by_source
+from ..levels.baseline import baseline_variables, over_baseline, points_of, with_baseline
+from ..levels.by_source import Measured, SourceSound, sound_by_source
 from ..levels.labelled import draw_variables, level_variables
 from ..levels.lines import line_pressure
+from ..levels.measured_points import BASELINE_BANDS, MeasuredPoint, PointKey, evidence
 from ..levels.remainder import (
     over_published,
     remainder,
@@ -23,6 +25,7 @@ from ..levels.remainder import (
     remaining_by_draw,
 )
 from ..machine.source import Case, CaseKey
+from ..mechanics.received_sound import ReceivedSound
 from ..radiation.pressure import pressure_per_shell_velocity, wrench_pressure
 from ..radiation.transfer_vectors import pressure_per_velocity
 from ..sources.cases import sources_of
@@ -80,18 +83,20 @@ def levels_of(
     loads = {**catalogue.loads, **motion.loads}
     axes = LevelAxes.of(study, list(sources_of(study)), motion.results)
     received = transmission.received(cases, loads)
-    sound = {key: sound_by_source(one, axes.bands) for key, one in received.items()}
-    rest = remainder(study, axes, sound, bool(study.ranges))
+    points = points_of(study, axes)
+    sound = _by_source(study, axes, received)
+    replaced = any(receiver == study.catalogue_receiver for receiver, _ in points)
+    rest = remainder(study, axes, sound, replaced or bool(study.ranges))
     left = remaining(study, axes, sound, study.machine, rest)
-    left = with_baseline(study, axes, sound, left)
+    left = with_baseline(study, axes, points, sound, left)
     lines = line_pressure(axes, received)
     frequency = motion.results["order_frequency"]
-    levels = level_variables(axes, sound, lines["pressure_line"], frequency, left, rest)
-    levels = levels.merge(lines).merge(baseline_variables(study, axes, sound))
+    measured = baseline_variables(study, axes, points, sound)
+    levels = level_variables(axes, sound, lines["pressure_line"], frequency, left, rest, measured)
+    levels = levels.merge(lines).merge(measured)
     if not study.ranges:
         return levels
-    row, name = axes.receivers.index(study.catalogue_receiver), study.catalogue_receiver
-    bank = _bank(transmission.to(row), replace(axes, receivers=[name]), cases, sound, progress)
+    bank = _bank(transmission, axes, points, cases, sound, progress)
     levels = levels.merge(bank.labelled(study.ranges, study.machine.overall_noise.level_dba))
     levels = levels.merge(level_shares(study.ranges, bank))
     errors = {} if shell is None else projection_errors(study, shell)
@@ -105,32 +110,42 @@ def levels_of(
 def _bank(
     transmission: Transmission,
     axes: LevelAxes,
+    points: Mapping[PointKey, MeasuredPoint],
     cases: Mapping[CaseKey, Case],
     given: Sound,
     progress: Progress,
 ) -> Bank:
-    """Draws at the point of the published level, weighed by it.
+    """Draws at the point of the published level, weighed by it or, in its stead, by a baseline.
 
     Parameters
     ----------
-    transmission : to the receiver of the published level alone
-    axes : with this receiver
+    transmission : to all receivers
+    axes : of the levels
+    points : of the baseline
     cases : with that of the published level
     given : their sound with the values as given
     progress : called with the advance
     """
-    study = transmission.study
-    wanted, key = study.uncertainty.random_samples, study.catalogue_case
-    there, known = {key: cases[key]}, {key: given[key]}
+    study, measured = transmission.study, evidence(points)
+    wanted, name = study.uncertainty.random_samples, study.catalogue_receiver
+    names = list(dict.fromkeys([name, *(receiver for receiver, _ in measured)]))
+    transmission = transmission.to([axes.receivers.index(one) for one in names])
+    axes = replace(axes, receivers=names)
+    keys = [study.catalogue_case, *((speed, REFERENCE_OPTION) for _, speed in measured)]
+    there, known = {key: cases[key] for key in keys}, {key: given[key] for key in keys}
 
     def modelled_db(batch: list[Draw], before: int, expected: int) -> Array:
         def done(number: int) -> None:
             progress(_WEIGHED, before + number, expected)
 
         drawn = sound_of_draws(transmission, axes, there, known, batch, done)
-        return over_published(study, axes, [one.sound for one in drawn])
+        sounds = [one.sound for one in drawn]
+        over = [[over_baseline(axes, points, one, key) for one in sounds] for key in measured]
+        return np.array([over_published(study, axes, sounds), *over])
 
     deviation_db = study.machine.overall_noise.deviation_db
+    if measured and study.measured is not None and study.measured.baseline is not None:
+        deviation_db = study.measured.baseline.tolerance_db
     priors = priors_of(study.machine.remainder)
     bank = bank_of(batches_of_draws(study), modelled_db, deviation_db, priors, wanted)
     progress(_WEIGHED, len(bank.draws), len(bank.draws))
@@ -165,6 +180,13 @@ def _of_draws(
     return levels.merge(change_shares(study, levels))
 
 
+def _by_source(study: Study, axes: LevelAxes, received: Mapping[CaseKey, ReceivedSound]) -> Sound:
+    """Mean squares by source of every case; with a baseline its orders too."""
+    has_baseline = study.measured is not None and study.measured.baseline is not None
+    measured = Measured(BASELINE_BANDS, axes.measured_orders) if has_baseline else None
+    return {key: sound_by_source(one, axes.bands, measured) for key, one in received.items()}
+
+
 def sound_of_draws(
     transmission: Transmission,
     axes: LevelAxes,
@@ -182,8 +204,7 @@ def sound_of_draws(
         received = replace(transmission, wrench_pressure=pressure).received(
             drawn.cases, drawn.loads
         )
-        sound = {key: sound_by_source(one, axes.bands) for key, one in received.items()}
-        return DrawnSound(sound, drawn.first_order)
+        return DrawnSound(_by_source(study, axes, received), drawn.first_order)
 
     unknown = DrawnSound({key: given[key].unknown for key in cases}, unknown_first_order(cases))
     return of_every_draw(draws, sound_of, unknown, progress)

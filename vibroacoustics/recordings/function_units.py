@@ -6,7 +6,9 @@ from typing import Final, NamedTuple
 from ..base.errors import ParameterError
 from .quantities import Quantity, find_quantity, quantity
 
-ALLOWED: Final = ("acceleration", "velocity", "displacement", "force", "sound pressure")
+ALLOWED: Final = (
+    "acceleration", "velocity", "displacement", "force", "moment", "sound pressure",
+)  # fmt: skip
 _SQUARE: Final = re.compile(r"\(?(?P<unit>.*?)\)?(?:²|\^2|\*\*2)")
 
 

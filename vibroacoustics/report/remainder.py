@@ -27,10 +27,27 @@ def remainder_band(results: xr.Dataset, speed: float) -> Band:
     return Band(*map(float, over_draws(results, level).values))
 
 
+def measured_rpm(results: xr.Dataset) -> float | None:
+    """The first speed at which a baseline stands for the remainder at the catalogue's microphone.
+
+    None where there is none.
+    """
+    if "baseline_band_level" not in results:
+        return None
+    there = results["baseline_band_level"].sel(
+        receiver=catalogue_receiver(results), option=REFERENCE_OPTION
+    )
+    measured = results["speed"].values[there.notnull().any("baseline_band").values]
+    return float(measured[0]) if measured.size else None
+
+
 def growth_sentence(results: xr.Dataset) -> str:
     """How the remainder is assumed to go with speed; where a baseline stands for it."""
-    if "baseline_share" in results:
-        measured = results["baseline_share"].notnull().any(["speed", "baseline_band"])
+    if "baseline_band_level" in results:
+        levels = results["baseline_band_level"].sel(option=REFERENCE_OPTION)
+        measured = levels.notnull().any(["speed", "baseline_band"])
+        if not measured.any():
+            return _growth_sentence(results)
         names = ", ".join(map(str, results["receiver"].values[measured.values]))
         return f"{_growth_sentence(results)} At {names} the measured baseline stands in its place."
     return _growth_sentence(results)

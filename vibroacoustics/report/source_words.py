@@ -141,8 +141,11 @@ def left_out_sentence(results: xr.Dataset) -> str:
         return _unresolved(results)
     tried, effective, computed, unsolved = draws(results)
     failed = f" {unsolved} of them have no solution." if unsolved else ""
+    where = f"where the level is published{elsewhere(results)}"
+    if "baseline_band_level" in results:
+        where = "where the sound was measured"
     return (
-        f"{tried} draws were computed where the level is published{elsewhere(results)} and "
+        f"{tried} draws were computed {where} and "
         f"weighed by how well they agree with it: they are worth {effective:.0f} equal ones. "
         f"The bands rest on {computed} of them.{failed}"
     )
@@ -155,10 +158,11 @@ def _unresolved(results: xr.Dataset) -> str:
     tried, effective, *_ = draws(results)
     overall = overall_noise(results)["level_dba"]
     louder = float((results["bank_level"] > overall).mean())
+    agree = "the measured baseline" if "baseline_band_level" in results else "it"
     return (
         f"Shares and bands are not resolved: {tried} draws, {percent(louder)} of them louder than "
         f"the published {overall:g} dB(A) by the modelled sources alone, are worth no more than "
-        f"{effective:.1f} that agree with it. What follows holds at the assumed values only."
+        f"{effective:.1f} that agree with {agree}. What follows holds at the assumed values only."
     )
 
 

@@ -1,19 +1,21 @@
 """The verdict that opens the report: headline and reasons."""
 
 from collections.abc import Sequence
+from typing import Final
 
 import numpy as np
 import xarray as xr
 
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
+from .baseline import not_measured
 from .carrier import sure_sentence
 from .column_values import column
 from .comparison import comparison
 from .option_verdict import MIXED, NO_CHANGE, WORSE, OptionVerdict
 from .quantities import FOOT_FORCE, FORCE, HEARD_DB, LINE, MOMENT, TOTAL
 from .ranking_words import ranking_sentence
-from .remainder import growth_sentence
+from .remainder import growth_sentence, measured_rpm, remainder_band
 from .shifts import measurable, shift
 from .source_changes import changes_sentence
 from .source_words import carrier_sentence, left_out_sentence, shares_sentence
@@ -29,6 +31,9 @@ from .study import (
 )
 from .tables import Table
 from .unknowns import measure_next_sentence
+
+_HALF: Final = 0.5
+"""Of the energy of the total level, from which on it is not called measured."""
 
 
 def headline(results: xr.Dataset) -> str:
@@ -154,6 +159,18 @@ def _remainder(results: xr.Dataset) -> str:
         else f"the shaft orders reach {rounding.level(modelled)} dB(A) at {receiver} with some "
         "option, above the level of the whole machine"
     )
+    speed = measured_rpm(results)
+    if speed is not None:
+        rest = rounding.fixed(remainder_band(results, speed).middle)
+        how = (
+            "most of it assumed in bands that were not measured"
+            if not_measured(results) > _HALF
+            else "as measured"
+        )
+        return (
+            f"In the model {carried}. The rest, {how}, {rest} dB(A) at {speed:g} rpm, comes "
+            f"from sources that balancing does not touch."
+        )
     return (
         f"In the model {carried}. The rest, {rounding.fixed(results['level_remainder'].item(), 2)} "
         f"dB(A) at {overall_noise(results)['speed_rpm']:g} rpm, comes from sources that balancing "
@@ -197,4 +214,9 @@ def _warnings(verdicts: Sequence[OptionVerdict]) -> list[str]:
 
 
 def _total_dba(results: xr.Dataset) -> float:
-    return overall_noise(results)["level_dba"]
+    """As it was measured, else as it is published."""
+    speed = measured_rpm(results)
+    if speed is None:
+        return overall_noise(results)["level_dba"]
+    at = {"speed": speed, "option": REFERENCE_OPTION, "receiver": catalogue_receiver(results)}
+    return float(results["level_total"].sel(at).round(1))

@@ -10,8 +10,8 @@ import numpy as np
 import xarray as xr
 
 from ..base.errors import StorageError
+from ..base.heaps import check_heaps
 from .hashed import MAXIMUM_RESULTS_BYTES
-from .heaps import check_heaps
 
 LARGE_BYTES: Final = 20_000_000
 ESCAPED: Final = "escaped_attributes"

@@ -62,7 +62,8 @@ EMPTY_WHERE_NONE: Final = frozenset(
     ("reported_figure", "given_value", "projection_error", "bank_level", "tone_frequency",
      "line_order", "map_level", "map_transfer_vector", "green_difference", "level_share",
      "level_share_quality", "change_share", "change_share_quality", "change_variance",
-     "baseline_share")
+     "baseline_share", "baseline_band_level", "baseline_order_level", "baseline_order_share",
+     "baseline_order_phase")
 )  # fmt: skip
 """Not a number where there is nothing: an option without such a figure, a point in the machine, a
 microphone that k-Wave did not compute, draws that are too few."""

@@ -1,25 +1,21 @@
-"""A measured baseline: third octaves at microphones over speed, from a CSV file."""
+"""A measured baseline: third octaves and shaft orders at microphones over speed."""
 
-import csv
 from collections.abc import Iterator, Sequence
-from pathlib import Path
-from typing import Final
+from typing import Any, Final, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from ..base.decibel import power_of_level
-from ..base.errors import ParameterError
 from ..base.parameters import Parameters
-from ..base.regular_file import read_text
 from ..mechanics.added import third_octave_number
 
-COLUMNS: Final = ("microphone", "speed_rpm", "band_hz", "level_db")
-MAXIMUM_BYTES: Final = 10_000_000
 LOWEST_HZ: Final = 10.0
 HIGHEST_HZ: Final = 20000.0
 ROUNDED: Final = 0.02
 """Nominal midband frequencies are less than this share off the exact ones."""
+SPEED_TOLERANCE: Final = 0.02
+"""A speed this share outside those that were measured is taken for the nearest of them."""
 
 
 class BaselineSpectrum(Parameters):
@@ -31,6 +27,8 @@ class BaselineSpectrum(Parameters):
     """Nominal midband frequencies, rising."""
     level_db: tuple[float, ...]
     """re 20 µPa, a level for each band."""
+    without_orders: bool = False
+    """Whether the orders that were measured are taken off already."""
 
     @model_validator(mode="after")
     def _third_octaves(self) -> "BaselineSpectrum":
@@ -44,23 +42,114 @@ class BaselineSpectrum(Parameters):
         return self
 
 
-class Baseline(Parameters):
+class BaselineOrders(Parameters):
+    """Unweighted levels of shaft orders at a microphone and a speed, with phase where it is known.
+
+    The phase is that of a cosine after the pulse of the tacho.
+    """
+
+    microphone: str
+    speed_rpm: float = Field(ge=60.0, le=60000.0)
+    order: tuple[float, ...] = Field(min_length=1)
+    """Rising."""
+    level_db: tuple[float, ...]
+    """re 20 µPa, a level for each order."""
+    phase_rad: tuple[float | None, ...]
+    """None where it is not known."""
+
+    @model_validator(mode="after")
+    def _above_zero(self) -> "BaselineOrders":
+        if not self.order[0] > 0.0:
+            raise ValueError(f"order = {self.order[0]:g}: must be above 0")
+        return self
+
+
+class BaselineMicrophone(Parameters):
+    """What a microphone is called in the files."""
+
+    channel: str | None = None
+    """Of a recording."""
+    node: int | None = Field(default=None, ge=0, le=999_999_999)
+    """Of a function of frequency."""
+
+
+class BaselineSettings(Parameters):
+    """Files of the baseline, and what they do not say themselves."""
+
+    file: tuple[str, ...] = Field(min_length=1)
+    """In a study file a name, or a list of names."""
+    microphones: dict[str, BaselineMicrophone] = Field(default_factory=dict)
+    """By receiver; those that are called as in the files are left out."""
+    tacho_angle_rad: float | None = Field(default=None, ge=-7.0, le=7.0)
+    """Crank angle of the study at which the tacho gives its pulse; none for energies."""
+    recorded_speed_rpm: tuple[float, ...] = ()
+    """Of each file that states none, in their order."""
+    window: Literal["hann", "rectangular", "flat_top"] = "hann"
+    """Of narrow-band spectra."""
+    spectra: Literal["peak", "rms"] = "peak"
+    """What spectra of phasors are in."""
+    tolerance_db: float = Field(default=1.5, ge=0.1, le=10.0)
+    """Standard deviation of measured levels, for the weights of draws."""
+
+    @field_validator("file", "recorded_speed_rpm", mode="before")
+    @classmethod
+    def _one_or_several(cls, given: Any) -> Any:
+        if isinstance(given, list):
+            return tuple(given)
+        one = isinstance(given, str | int | float) and not isinstance(given, bool)
+        return (float(given) if not isinstance(given, str) else given,) if one else given
+
+
+class Baseline(BaselineSettings):
     """Measured sound of the machine without a balancer: what a study's changes are put on."""
 
-    file: str
-    spectra: tuple[BaselineSpectrum, ...] = Field(min_length=1)
+    third_octaves: tuple[BaselineSpectrum, ...] = ()
+    orders: tuple[BaselineOrders, ...] = ()
 
     @model_validator(mode="after")
     def _alike(self) -> "Baseline":
-        for name in {one.microphone for one in self.spectra}:
-            if len({one.band_hz for one in self.at(name)}) > 1:
+        for name in self.measured_at:
+            if len({one.band_hz for one in self.spectra_at(name)}) > 1:
                 raise ValueError(f"microphone {name}: has other bands at another speed")
+            if len({one.order for one in self.orders_at(name)}) > 1:
+                raise ValueError(f"microphone {name}: has other orders at another speed")
+        for name in self.measured_at:
+            for kind in (self.spectra_at(name), self.orders_at(name)):
+                speeds = [one.speed_rpm for one in kind]
+                twice = {speed for speed in speeds if speeds.count(speed) > 1}
+                if twice:
+                    raise ValueError(f"microphone {name}: {min(twice):g} rpm is there twice")
         return self
 
-    def at(self, microphone: str) -> list[BaselineSpectrum]:
-        """Spectra at a microphone, by rising speed."""
-        here = (one for one in self.spectra if one.microphone == microphone)
+    @property
+    def measured_at(self) -> tuple[str, ...]:
+        """Microphones, each once."""
+        of_bands = [one.microphone for one in self.third_octaves]
+        return tuple(dict.fromkeys([*of_bands, *(one.microphone for one in self.orders)]))
+
+    @property
+    def all_orders(self) -> tuple[float, ...]:
+        """Orders that were measured at any microphone, rising."""
+        return tuple(sorted({order for one in self.orders for order in one.order}))
+
+    def spectra_at(self, microphone: str) -> list[BaselineSpectrum]:
+        """Third octaves at a microphone, by rising speed."""
+        here = (one for one in self.third_octaves if one.microphone == microphone)
         return sorted(here, key=lambda one: one.speed_rpm)
+
+    def orders_at(self, microphone: str) -> list[BaselineOrders]:
+        """Orders at a microphone, by rising speed."""
+        here = (one for one in self.orders if one.microphone == microphone)
+        return sorted(here, key=lambda one: one.speed_rpm)
+
+    def covers(self, microphone: str, speed_rpm: float) -> bool:
+        """Whether all that was measured at a microphone reaches a speed."""
+        kinds = (self.spectra_at(microphone), self.orders_at(microphone))
+        speeds = [[one.speed_rpm for one in kind] for kind in kinds if kind]
+        return bool(speeds) and all(
+            min(one) * (1.0 - SPEED_TOLERANCE) <= speed_rpm <= max(one) * (1.0 + SPEED_TOLERANCE)
+            for one in speeds
+        )
 
 
 class MeasuredSound(Parameters):
@@ -69,59 +158,19 @@ class MeasuredSound(Parameters):
     baseline: Baseline | None = None
 
     def problems(self, receivers: Sequence[str], speeds: Sequence[float]) -> Iterator[str]:
-        """Why it does not fit a study: microphones that it has not, speeds that are not covered."""
-        spectra = () if self.baseline is None else self.baseline.spectra
-        for name in dict.fromkeys(one.microphone for one in spectra):
-            covered = [one.speed_rpm for one in spectra if one.microphone == name]
+        """Why it does not fit a study: microphones that it has not, no speed that is covered."""
+        if self.baseline is None:
+            return
+        for name in dict.fromkeys([*self.baseline.measured_at, *self.baseline.microphones]):
+            where = f"measured.baseline: microphone {name}"
             if name not in receivers:
+                yield f"{where}: not among the receivers ({', '.join(receivers)})"
+            elif name not in self.baseline.measured_at:
+                yield f"{where}: the files hold nothing of it"
+            elif not any(self.baseline.covers(name, speed) for speed in speeds):
+                known = [one.speed_rpm for one in self.baseline.spectra_at(name)]
+                known += [one.speed_rpm for one in self.baseline.orders_at(name)]
                 yield (
-                    f"measured.baseline: microphone {name}: not among the receivers "
-                    f"({', '.join(receivers)})"
+                    f"{where}: speed_rpm = {', '.join(f'{speed:g}' for speed in speeds)} rpm "
+                    f"lies outside its {min(known):g} to {max(known):g} rpm"
                 )
-            for speed in speeds:
-                if not min(covered) <= speed <= max(covered):
-                    yield (
-                        f"measured.baseline: microphone {name}: speed_rpm = {speed:g} rpm "
-                        f"lies outside its {min(covered):g} to {max(covered):g} rpm"
-                    )
-
-
-def read_baseline(path: Path) -> tuple[dict[str, object], ...]:
-    """Spectra of a table `microphone,speed_rpm,band_hz,level_db`; lines with `#` are comments.
-
-    Raises
-    ------
-    ParameterError
-        The file cannot be read, a column is missing, or a value is no number or there twice.
-    """
-    try:
-        lines = read_text(path, MAXIMUM_BYTES).splitlines()
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or "is no text in UTF-8"
-        raise ParameterError(f"{path}: cannot be read: {reason}") from None
-    numbered = [(n, line) for n, line in enumerate(lines, 1) if line.strip() and line[0] != "#"]
-    rows = zip((n for n, _ in numbered), csv.reader(line for _, line in numbered), strict=True)
-    _, head = next(rows, (0, []))
-    if tuple(name.strip() for name in head) != COLUMNS:
-        raise ParameterError(f"{path}: header must be {','.join(COLUMNS)}")
-    levels: dict[tuple[str, float], dict[float, float]] = {}
-    for number, row in rows:
-        try:
-            name, speed, band, level = row[0].strip(), *map(float, row[1:])
-        except (ValueError, IndexError):
-            raise ParameterError(
-                f"{path}: line {number}: {','.join(row)!r}: must be {','.join(COLUMNS)}"
-            ) from None
-        spectrum = levels.setdefault((name, speed), {})
-        if band in spectrum:
-            raise ParameterError(f"{path}: line {number}: band {band:g} Hz is there twice")
-        spectrum[band] = level
-    return tuple(
-        {
-            "microphone": name,
-            "speed_rpm": speed,
-            "band_hz": tuple(sorted(spectrum)),
-            "level_db": tuple(spectrum[band] for band in sorted(spectrum)),
-        }
-        for (name, speed), spectrum in levels.items()
-    )

@@ -9,7 +9,8 @@ from ..base.errors import ParameterError
 from ..machine.machine import Machine
 from ..machine.option import OPTIONS
 from ..machine.source import SOURCES
-from .baseline import read_baseline
+from .baseline import BaselineSettings
+from .baseline_files import read_baseline
 from .draws import warn_of_contradictions
 from .evidence_files import take_evidence
 from .given_values import take_given
@@ -78,7 +79,6 @@ def study_of(written: Written) -> Study:
         for name, change in take_changes(content, path)
     }
     _read_published(content, reader)
-    _read_measured(content, reader)
     _resolve_file_names(content, reader)
     for name in _FILLED_IN:
         if name in content:
@@ -86,6 +86,7 @@ def study_of(written: Written) -> Study:
             reader.problems.append(f"{path}: {name}: unknown key")
     given, evidence = take_given(content, reader), take_evidence(content, reader)
     content = reader.to_si(content, ())
+    _read_measured(content, reader)
     content.update(machine=machine, source_file=path.name, given=given, evidence=evidence)
     content["catalogue_machine"] = at_catalogue
     for name, (redesigned, change_records) in redesigns.items():
@@ -179,12 +180,22 @@ def _read_published(content: Mapping[str, Any], reader: Reader) -> None:
 
 
 def _read_measured(content: Mapping[str, Any], reader: Reader) -> None:
-    """Put the spectra of the measured baseline beside the name of its file."""
-    baseline = _table_at(content, ("measured", "baseline"))
-    if baseline is None or not isinstance(baseline.get("file"), str):
+    """Put what the files of the measured baseline hold beside their names."""
+    keys = ("measured", "baseline")
+    baseline = _table_at(content, keys)
+    if baseline is None:
         return
-    file = beside(reader.file(("measured", "baseline", "file")), baseline["file"])
-    baseline["spectra"] = read_baseline(file)
+    settings = validated(BaselineSettings, baseline, reader, keys)
+    folder = reader.file((*keys, "file"))
+    receivers = _table_at(content, ("receivers",)) or {}
+    paths = [beside(folder, name) for name in settings.file]
+    held = read_baseline(settings, paths, list(receivers))
+    baseline.update(
+        file=settings.file,
+        recorded_speed_rpm=settings.recorded_speed_rpm,
+        third_octaves=tuple(held.third_octaves),
+        orders=tuple(held.orders),
+    )
 
 
 def _resolve_file_names(content: Mapping[str, Any], reader: Reader) -> None:

@@ -1,6 +1,6 @@
 """From the loads of every case to its sound at the receivers."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -46,15 +46,15 @@ class Transmission:
     shell: ShellPath | None
     wrench_pressure: Mapping[CaseKey, BySource]
 
-    def to(self, receiver: int) -> "Transmission":
-        """To one of the receivers alone, the dimension kept."""
-        row = slice(receiver, receiver + 1)
+    def to(self, receivers: Sequence[int]) -> "Transmission":
+        """To some of the receivers alone, the dimension kept."""
+        rows = list(receivers)
         return replace(
             self,
-            rigid=_to(self.rigid, row),
-            modes=None if self.modes is None else _to(self.modes, row),
+            rigid=_to(self.rigid, rows),
+            modes=None if self.modes is None else _to(self.modes, rows),
             wrench_pressure={
-                key: {source: pressure[row] for source, pressure in by_source.items()}
+                key: {source: pressure[rows] for source, pressure in by_source.items()}
                 for key, by_source in self.wrench_pressure.items()
             },
         )
@@ -114,8 +114,8 @@ class Transmission:
         return lines_of(loads, case.shaft_frequency_hz, highest)
 
 
-def _to(pressure: PressurePerVelocity, row: slice) -> PressurePerVelocity:
-    return lambda frequency_hz: pressure(frequency_hz)[row]
+def _to(pressure: PressurePerVelocity, rows: list[int]) -> PressurePerVelocity:
+    return lambda frequency_hz: pressure(frequency_hz)[rows]
 
 
 def _path_tables(machine: Machine) -> tuple[Parameters, ...]:

@@ -10,7 +10,7 @@ import xarray as xr
 
 from ..base.arrays import Array, IndexArray
 from ..base.vocabulary import check, stamp
-from ..levels.agreement import PRIOR_NAMES, Prior, agreement, effective_draws
+from ..levels.agreement import PRIOR_NAMES, Prior, agreement_of_points, effective_draws
 from ..study.sampling import Draw
 from ..study.uncertainty import Range
 
@@ -91,8 +91,9 @@ def bank_of(
     ----------
     batches : of draws
     modelled_db : of draws, how many were before them and how many are expected in all, to what is
-        modelled over the published level, shape (draw,), dB
-    deviation_db : standard deviation of the published level
+        modelled over the published level, shape (draw,) or (1, draw), dB; further rows are over
+        levels that were measured in its stead, which then weigh the draws
+    deviation_db : standard deviation of the levels that weigh
     priors : of the remainder, that of the bands first
     wanted : how many shall be effective
     """
@@ -101,9 +102,12 @@ def bank_of(
         before = len(bank.draws)
         batch = hypercube[: MOST_DRAWS - before]
         expected = before * wanted / max(bank.effective, 1.0) if before else 2.0 * wanted
-        further = modelled_db(batch, before, max(round(expected), before + len(batch) + 1))
-        level = np.concatenate([bank.modelled_db, further])
-        weight = np.array([agreement(level, deviation_db, prior) for prior in priors])
+        count = max(round(expected), before + len(batch) + 1)
+        over = np.atleast_2d(modelled_db(batch, before, count))
+        points = over[1:] if len(over) > 1 else over
+        weights = [agreement_of_points(points, deviation_db, prior) for prior in priors]
+        weight = np.concatenate([bank.weight, weights], axis=1)
+        level = np.concatenate([bank.modelled_db, over[0]])
         bank = Bank(bank.draws + batch, level, weight, wanted)
         if bank.effective >= wanted or len(bank.draws) >= MOST_DRAWS:
             break

@@ -6,11 +6,17 @@ from sources_study import SOURCES_STUDY, run_made_up
 from support import ROOT
 
 import vibroacoustics as va
+from vibroacoustics.levels.agreement import agreement, agreement_of_points, priors_of
+from vibroacoustics.levels.measured_points import evidence
 from vibroacoustics.levels.weighting import a_weighting
+from vibroacoustics.machine.remainder import Remainder
 
 FEW = dict.fromkeys(("sources.keys", "sources.gas", "options.twin-oldham", "options.damping"))
-BANDS = np.array([25, 31.5, 40, 50, 63, 80, 100, 125, 160, 200, 250, 315, 400, 500, 630, 800, 1000])
-NOISE_DB = 40.0 + 3.0 * np.cos(np.arange(17.0))
+BANDS = np.array([
+    25, 31.5, 40, 50, 63, 80, 100, 125, 160, 200, 250, 315, 400, 500, 630, 800, 1000, 1250, 1600,
+    2000, 2500, 3150, 4000, 5000, 6300, 8000, 10000,
+])  # fmt: skip
+NOISE_DB = 40.0 + 3.0 * np.cos(np.arange(27.0))
 HOOD = {"kind": "hood", "band_hz": [100.0, 200.0], "insertion_loss_db": [10.0, 6.0]}
 
 
@@ -57,7 +63,7 @@ def test_levels_are_what_was_measured_less_the_model_and_the_option(study, witho
     receiver, speed = study.catalogue_receiver, study.operation.speed_rpm[0]
     exact_hz = 10.0 ** (np.rint(10.0 * np.log10(BANDS)) / 10.0)
     noise = power(NOISE_DB + a_weighting(exact_hz))
-    loss = np.ones(17)
+    loss = np.ones(27)
     loss[[6, 9]] = power([-10.0, -6.0])
     at = {"receiver": receiver, "speed": speed}
     for option in results["option"].values:
@@ -81,6 +87,32 @@ def test_other_microphones_and_the_model_stay_and_draws_follow(study, without, r
         at = results.sel(receiver=study.catalogue_receiver, option="none")
         spread = at["level_total_by_draw"] - at["level_total"]
         assert float(abs(spread).median()) < 3.0
+
+
+def test_draws_are_weighed_by_what_was_measured(study, without, results):
+    """By the A-weighted level of the bands, which hold all that is modelled, to 1.5 dB."""
+    receiver, speed = study.catalogue_receiver, study.operation.speed_rpm[0]
+    exact_hz = 10.0 ** (np.rint(10.0 * np.log10(BANDS)) / 10.0)
+    square = modelled_bands(without, receiver, speed) + power(NOISE_DB)
+    measured_dba = 10.0 * np.log10(np.sum(square * power(a_weighting(exact_hz))))
+    np.testing.assert_array_equal(results["bank_level"], without["bank_level"])
+    over = results["bank_level"].values - measured_dba
+    for prior in priors_of(study.machine.remainder):
+        weight = results["bank_weight"].sel(prior=prior.name).values
+        np.testing.assert_allclose(weight, agreement(over, 1.5, prior), rtol=0.03)
+    assert abs(results["bank_weight"] / without["bank_weight"] - 1.0).max() > 0.1
+
+
+def test_points_weigh_together_as_one_measurement():
+    (flat, _) = priors_of(Remainder())
+    over = np.array([-10.0, -1.0, 3.0, np.nan])
+    alone = agreement(over, 2.0, flat)
+    np.testing.assert_allclose(agreement_of_points(np.array([over] * 30), 2.0, flat), alone)
+    other = over[::-1] - 2.0
+    pair = agreement_of_points(np.array([over, other]), 2.0, flat)
+    np.testing.assert_allclose(pair, np.sqrt(alone * agreement(other, 2.0, flat)))
+    keys = [("a", speed) for speed in (900.0, 1000.0, 1100.0, 1200.0)] + [("b", 900.0)]
+    assert evidence(keys) == [("a", 900.0), ("a", 1100.0), ("a", 1200.0), ("b", 900.0)]
 
 
 WRONG = [

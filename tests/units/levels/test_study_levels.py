@@ -10,7 +10,7 @@ from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.levels.axes import LevelAxes
 from vibroacoustics.levels.bands import bands_between
 from vibroacoustics.levels.by_source import SourceSound
-from vibroacoustics.levels.insertion_loss import airborne_factor, remaining_share
+from vibroacoustics.levels.insertion_loss import airborne_factor, remaining_factor
 from vibroacoustics.levels.lines import line_pressure
 from vibroacoustics.levels.remainder import (
     over_published,
@@ -65,7 +65,7 @@ def test_option_takes_its_loss_off_lines_and_its_mean_off_the_rest():
     assert factor.dims == ("option", "speed", "order")
     assert factor.sel(option="none").values.tolist() == [[1.0, 1.0, 1.0]]
     assert factor.sel(option="hood").values[0] == pytest.approx([1.0, 0.1, 1.0])
-    share = remaining_share(HOODED, np.array([50.0, 63.0, 80.0]), np.array([6.0, 3.0, 1.0]))
+    share = remaining_factor(HOODED, np.array([50.0, 63.0, 80.0])) @ np.array([0.6, 0.3, 0.1])
     assert share == pytest.approx([1.0, 0.6 * 0.01 + 0.3 + 0.1])
 
 
@@ -91,12 +91,12 @@ def test_remainder_grows_with_speed_and_passes_a_hood_band_by_band():
     axes = LevelAxes([3000.0, 1500.0], ["none", "hood"], ["keys"], ["front"], bands)
     study = SimpleNamespace(**{**vars(STUDY), "options": HOODED})
     silent = {(3000.0, "none"): SourceSound(np.zeros((1, 1, 2)), np.zeros((1, 1)), None)}
-    left = remaining(study, axes, silent, machine, 0.81)
+    left = remaining(study, axes, silent, machine, 0.81).sum(axis=2)
     bands_of_remainder = 27  # 25 Hz to 10 kHz, of which the hood takes 20 dB off that at 50 Hz
     assert left[0] == pytest.approx([0.81, 0.81 * (1.0 - 0.99 / bands_of_remainder)])
     assert left[1] == pytest.approx(left[0] / 8.0)
     loud = SourceSound(np.array([[[1e9, 0.0]]]), np.zeros((1, 1)), None)
-    beside = remaining(study, axes, {(3000.0, "none"): loud}, machine, 0.81)
+    beside = remaining(study, axes, {(3000.0, "none"): loud}, machine, 0.81).sum(axis=2)
     assert beside[0] == pytest.approx([0.81, 0.81])
     assert np.all(remaining(study, axes, silent, machine, 0.0) == 0.0)
 

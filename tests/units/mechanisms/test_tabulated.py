@@ -188,6 +188,31 @@ def test_universal_file_over_time(tmp_path):
         load_machine(file)
 
 
+def test_spectra_of_a_universal_file_are_orders_of_their_nodes(tmp_path):
+    """Forces along, moments about the axes of a node; against the stated speed."""
+    hertz = np.array([50.0, 100.0, 150.0])
+    force, moment = np.array([1.0, 2.0j, 3.0]), np.array([0.5, 0.0, 0.1j])
+    functions = [
+        va.MeasuredFunction("spectrum", hertz, force, va.Node(7, "-z"), None, "N"),
+        va.MeasuredFunction("spectrum", hertz, moment, va.Node(7, "+rx"), None, "N m"),
+        va.MeasuredFunction("spectrum", hertz, force, va.Node(8, "+x"), None, "N"),
+    ]
+    va.export_functions(functions, tmp_path / "s.uff")
+    file = table_machine(tmp_path, "s.uff", forces="recorded_speed_rpm = 3000.0\n")
+    text = file.read_text().replace("3000.0\n", '{ value = 3000.0, source = "tacho" }\n', 1)
+    file.write_text(text)
+    table = load_machine(file).forces
+    assert table.sources == ("7", "8")
+    orders = table.at(3000.0)
+    np.testing.assert_allclose(orders[0, 2], [0.0, *-force])
+    np.testing.assert_allclose(orders[0, 3], [0.0, *moment])
+    np.testing.assert_allclose(orders[1, 0], [0.0, *force])
+    assert np.count_nonzero(orders) == 8
+    file.write_text(text.replace("3000.0", "3010.0"))
+    with pytest.raises(ParameterError, match=r"50 Hz is order 0.9967|150 Hz is order 2.99"):
+        load_machine(file)
+
+
 ROW = "3000,0,crank,1,0,0,0,0,0\n"
 LINE = "3000,1,crank" + ",1,0" * 6 + "\n"
 
@@ -231,12 +256,15 @@ def test_bad_tables_are_refused_in_a_line(tmp_path, text, words):
         ("two.csv", 'scaling = "inertia"\n', "for a table of one speed; two.csv has 2"),
         ("f.uff", "", "f.uff: recorded_speed_rpm is missing"),
         ("f.nc", "", "f.nc: holds no force_order and moment_order of a run"),
+        ("h.nc", "", "h.nc: is no result file: a heap in it is damaged"),
     ],
 )
 def test_bad_names_are_refused_in_a_line(tmp_path, name, forces, words):
     (tmp_path / "f.csv").write_text(ANGLES + small_table())
     (tmp_path / "two.csv").write_text(ANGLES + small_table() + small_table(3500.0))
     (tmp_path / "f.nc").write_bytes(b"nothing")
+    heap = b"GCOL\1\0\0\0" + (4096).to_bytes(8, "little") + bytes(4096)
+    (tmp_path / "h.nc").write_bytes(heap)
     with pytest.raises(ParameterError) as refusal:
         load_machine(table_machine(tmp_path, name, forces=forces))
     assert words in str(refusal.value)

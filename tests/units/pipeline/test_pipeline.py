@@ -58,7 +58,11 @@ NOT_MADE_HERE = {
     "sound_power_level",
     "given_value",
     "column_value",  # of strangers only
-    "baseline_share",
+    "baseline_share",  # with a measured baseline
+    "baseline_band_level",
+    "baseline_order_level",
+    "baseline_order_phase",
+    "baseline_order_share",
     "truncation",  # of measurements alone
     "truncation_error",
     "map_transfer_vector",

@@ -7,8 +7,8 @@ from support import TINY, made_up_radiation
 
 from vibroacoustics import pipeline
 from vibroacoustics.base.errors import StorageError
+from vibroacoustics.base.heaps import check_heaps
 from vibroacoustics.results import hashed
-from vibroacoustics.results.heaps import check_heaps
 from vibroacoustics.results.storage import write_results
 from vibroacoustics.study.loading import load_study
 

@@ -33,18 +33,6 @@ for _thing in (
         "level of all modelled sources",
     ),
     Variable("level_total", _CHANGES, "dB", "A-weighted level with the unmodelled remainder"),
-    Coordinate(
-        "baseline_band",
-        ("baseline_band",),
-        "Hz",
-        "nominal midband frequency of a third of an octave of the measured baseline",
-    ),
-    Variable(
-        "baseline_share",
-        ("speed", "receiver", "baseline_band"),
-        "1",
-        "modelled over measured mean square without an option; empty where none is measured",
-    ),
     Variable("level_remainder", (), "dB", "A-weighted level that the model does not explain"),
     Variable("change_1x", _CHANGES, "dB", "change of the 1x line against none"),
     Variable("change_modelled", _CHANGES, "dB", "change of the modelled A-weighted level"),

@@ -73,8 +73,11 @@ class Forces(FileTable):
 def _read(path: Path, recorded_speed_rpm: Any) -> Spectra:
     from .csv_layout import read_csv
     from .other_files import read_recorded, read_results
+    from .uff_spectra import holds_spectra, read_spectra
 
     if isinstance(recorded_speed_rpm, int | float):
+        if path.suffix.lower() in (".uff", ".unv") and holds_spectra(path):
+            return read_spectra(path, float(recorded_speed_rpm))
         return read_recorded(path, float(recorded_speed_rpm))
     suffix = path.suffix.lower()
     if suffix == ".csv":

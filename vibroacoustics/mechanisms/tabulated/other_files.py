@@ -7,11 +7,15 @@ import numpy as np
 
 from ...base.arrays import Array, ComplexArray
 from ...base.errors import ParameterError, StorageError
+from ...base.heaps import check_heaps
+from ...base.regular_file import read_bytes
 from ...base.units import shaft_frequency_hz
 from ...base.vocabulary import REFERENCE_OPTION
 from .csv_layout import ONE_SOURCE
 from .spectra import COMPONENTS, Spectra, orders_of
 
+MAXIMUM_BYTES: Final = 2**31
+"""Of results, which are read as a whole."""
 MISSED_REVOLUTION: Final = 1e-3
 """Largest part of a revolution by which a recording misses whole ones."""
 
@@ -27,13 +31,17 @@ def read_results(path: Path) -> Spectra:
     import xarray as xr
 
     try:
-        with xr.open_dataset(path, engine="netcdf4") as file:
+        content = read_bytes(path, MAXIMUM_BYTES)
+        check_heaps(content)
+        with xr.load_dataset(content, engine="netcdf4") as file:
             none = file.sel(option=REFERENCE_OPTION)
             parts = [_joined(none, name) for name in ("force_order", "moment_order")]
             speeds = tuple(float(speed) for speed in file["speed"].values)
             sources = tuple(str(source) for source in file["source"].values)
     except FileNotFoundError:
         raise ParameterError(f"{path}: no such file") from None
+    except StorageError as error:
+        raise ParameterError(f"{path}: {error}") from None
     except (KeyError, OSError, ValueError):
         raise ParameterError(f"{path}: holds no force_order and moment_order of a run") from None
     orders = np.concatenate(parts, axis=2)

@@ -49,7 +49,11 @@ def study_schema() -> Schema:
     scoring = definitions["Scoring"]["properties"]
     del scoring["published"]
     scoring["published_table"] = _FILE
-    del definitions["Baseline"]["properties"]["spectra"]
+    baseline = definitions["Baseline"]["properties"]
+    for name in ("third_octaves", "orders"):
+        del baseline[name]
+    baseline["file"] = {"anyOf": [_FILE, {"type": "array", "items": _FILE, "minItems": 1}]}
+    baseline["recorded_speed_rpm"] = {"anyOf": [{"type": "number"}, baseline["recorded_speed_rpm"]]}
     speeds = definitions["Operation"]["properties"]
     speeds["speed_rpm"] = {"anyOf": [speeds["speed_rpm"], _STEPS]}
     return _finished("Study of vibroacoustics", made)

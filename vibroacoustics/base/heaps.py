@@ -9,7 +9,7 @@ import re
 import struct
 from typing import Final
 
-from ..base.errors import StorageError
+from .errors import StorageError
 
 _COLLECTION: Final = re.compile(rb"GCOL\x01\0\0\0(.{8})", re.DOTALL)
 _HEAD: Final = struct.Struct("<HHIQ")

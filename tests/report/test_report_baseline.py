@@ -1,0 +1,69 @@
+"""What the report says of a measured baseline."""
+
+import re
+
+import pytest
+from support import ROOT, made_up_radiation
+
+import vibroacoustics as va
+from vibroacoustics.report import baseline, verdict
+from vibroacoustics.report.sections import SECTIONS
+
+ROWS = "microphone,speed_rpm,order,level_db,phase_deg\n" + "\n".join(
+    f"front_1m,{rpm},{order},{level},{phase}"
+    for rpm in (900, 1000)
+    for order, level, phase in ((1, 90.0, 10), (2, 60.0, ""))
+)
+THIRDS = "microphone,speed_rpm,band_hz,level_db\n" + "\n".join(
+    f"front_1m,{rpm},{band},{level}"
+    for rpm in (900, 1000)
+    for band, level in ((16, 90.1), (31.5, 61.0), (500, 70.0), (1000, 75.0))
+)
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("stand")
+    (folder / "orders.csv").write_text(ROWS)
+    (folder / "thirds.csv").write_text(THIRDS)
+    study = va.load_study(ROOT / "pipelines" / "reciprocating_table.toml")
+    asked = {
+        "operation.speed_rpm": [900.0, 950.0, 1200.0],
+        "operation.maximum_order": 4,
+        "measured.baseline": {
+            "file": [str(folder / "orders.csv"), str(folder / "thirds.csv")],
+            "tacho_angle_deg": 0.0,
+        },
+    }
+    return va.run(study.replace(asked), radiation=made_up_radiation)
+
+
+def test_the_section_says_what_the_data_cannot_tell(results):
+    section = SECTIONS["baseline"]
+    assert section.applies(results)
+    text = " ".join(baseline.limits(results))
+    assert "was measured at front_1m (orders.csv, thirds.csv)" in baseline.summary(results)
+    assert "Third octaves: 16 to 1000 Hz at front_1m; in other bands the remainder" in text
+    assert re.search(r"stands, up to \d+\s% of the energy of the total level", text)
+    assert "2 of 4 values (order, speed, microphone) have a phase" in text
+    assert "levels at 950 rpm lie between measured speeds" in text
+    assert "nothing was measured at 1200 rpm" in text
+    assert "At side_1m, above_1m nothing was measured" in text
+    tables = [block for block in section.blocks(results) if hasattr(block, "rows")]
+    assert [table.caption.split(",")[1].strip() for table in tables] == ["900 rpm", "950 rpm"]
+    assert [row[:4] for row in tables[0].rows] == [
+        ("1", "15.0", "yes", "90.0"), ("2", "30.0", "no", "60.0")
+    ]  # fmt: skip
+
+
+def test_the_verdict_holds_the_model_against_what_was_measured(results):
+    total = results["level_total"].sel(speed=900.0, option="none", receiver="front_1m").item()
+    text = " ".join(verdict.reasons(results, []))
+    share = baseline.not_measured(results)
+    how = "most of it assumed in bands that were not measured" if share > 0.5 else "as measured"
+    assert f"The rest, {how}, {total:.1f} dB(A) at 900 rpm" in text
+    assert f"total of {round(total, 1):g} dB(A)" in verdict.headline(results)
+
+
+def test_results_without_a_baseline_have_no_such_section(results):
+    assert not SECTIONS["baseline"].applies(results.drop_vars("baseline_share"))

@@ -1,0 +1,1 @@
+"""Formats of measured baselines, one a module."""

@@ -1,0 +1,64 @@
+"""Baselines from spectra of sound pressure: UFF datasets 58 and 58b, and CSV with units."""
+
+import numpy as np
+
+from ...base.arrays import Array
+from ...base.errors import ParameterError, StorageError
+from ...base.registry import register
+from ...recordings.functions import MeasuredFunction, read_functions
+from ...study.baseline_files import BaselineContent, BaselineFile, BaselineReader
+from ..narrow_spectra import NarrowSpectrum, of_spectra
+
+
+def read_spectra(file: BaselineFile) -> BaselineContent:
+    """Spectra (phasors) and auto spectra (mean squares) of the file at the stated speed.
+
+    Raises
+    ------
+    ParameterError
+        The file cannot be read, its speed is not stated, or it holds no spectrum of a microphone.
+    """
+    nodes = {
+        microphone.node: name
+        for name, microphone in file.settings.microphones.items()
+        if microphone.node is not None
+    }
+    try:
+        functions = read_functions(file.path)
+    except StorageError as error:
+        raise ParameterError(*error.args) from None
+    used = [
+        one
+        for one in functions
+        if one.kind in ("spectrum", "auto spectrum")
+        and one.response_unit == "Pa"
+        and one.response.number in nodes
+    ]
+    if not used:
+        there = ", ".join(map(str, functions))
+        raise ParameterError(
+            f"{file.path}: holds no spectrum in Pa of a microphone's node: name it, as in "
+            f"measured.baseline.microphones.{file.receivers[0]} = {{ node = 1 }}; there are {there}"
+        )
+    speed = file.stated_speed()
+    factor = 0.5 if file.settings.spectra == "peak" else 1.0
+    try:
+        spectra = [
+            NarrowSpectrum(
+                nodes[one.response.number], speed, one.frequency_hz, _square(one, factor)
+            )
+            for one in used
+        ]
+        return of_spectra(spectra, file.settings.window)
+    except ParameterError as error:
+        raise ParameterError(f"{file.path}: {error}") from None
+
+
+def _square(function: MeasuredFunction, factor: float) -> Array:
+    """Mean square of each line, Pa²."""
+    if function.kind == "auto spectrum":
+        return np.asarray(function.values.real)
+    return np.asarray(factor * np.abs(function.values) ** 2)
+
+
+register(BaselineReader("functions", (".uff", ".unv"), read_spectra))
