@@ -6,8 +6,16 @@ import xarray as xr
 
 from ..base.hashing import canonical_json
 from ..base.registry import plugins
+from .blocked_forces import (
+    blocked_csv,
+    blocked_markdown,
+    blocked_orders_csv,
+    blocked_text,
+    validation_csv,
+)
 from .comparison import comparison_csv, comparison_text
 from .curve_tables import curve_csv
+from .figures.blocked_forces import blocked_figures
 from .figures.compared_orders import compared_order_figures
 from .figures.curves import curve_figures
 from .figures.prediction import predicted_figures
@@ -37,6 +45,11 @@ from .study import has_sources
 from .tracked_tables import tracked_csv, tracked_text
 
 __all__ = [
+    "blocked_csv",
+    "blocked_figures",
+    "blocked_markdown",
+    "blocked_orders_csv",
+    "blocked_text",
     "check_kept",
     "compared_order_figures",
     "comparison_of_orders_csv",
@@ -63,6 +76,7 @@ __all__ = [
     "tracked_csv",
     "tracked_order_figures",
     "tracked_text",
+    "validation_csv",
 ]
 
 
