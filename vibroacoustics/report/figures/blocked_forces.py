@@ -23,6 +23,11 @@ def blocked_force(blocked: xr.Dataset) -> Figure:
     blocked : of `blocked_forces`; needs `blocked_force`, `blocked_force_low`,
         `blocked_force_high` (force_point, frequency), N
 
+    Raises
+    ------
+    ParameterError
+        The dataset holds none.
+
     Examples
     --------
     >>> blocked = va.open_results("blocked_forces.nc")
@@ -57,6 +62,11 @@ def blocked_validation(blocked: xr.Dataset) -> Figure:
     ----------
     blocked : of `blocked_forces`; needs `validation_measured`, `validation_predicted`,
         `validation_predicted_low`, `validation_predicted_high` (validation_point, frequency), dB
+
+    Raises
+    ------
+    ParameterError
+        The dataset holds none.
 
     Examples
     --------
