@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from itertools import chain
 from typing import Final, NamedTuple
 
 import xarray as xr
@@ -38,6 +39,7 @@ from ..uncertainty.drawn import drawn_cases
 from ..uncertainty.draws import drawn_values, errors_of_projection, of_every_draw
 from ..uncertainty.first_order import first_order_by_draw, unknown_first_order
 from ..uncertainty.share_variables import change_shares, level_shares
+from .calibration import ShellTest
 from .motion import Motion, motion_of
 
 Sound = dict[CaseKey, SourceSound]
@@ -58,7 +60,11 @@ class DrawnSound(NamedTuple):
 
 
 def levels_of(
-    study: Study, motion: Motion, shell: ShellPath | None, progress: Progress
+    study: Study,
+    motion: Motion,
+    shell: ShellPath | None,
+    progress: Progress,
+    test: ShellTest | None = None,
 ) -> xr.Dataset:
     """Levels of all sources with the values as given and with every draw.
 
@@ -68,6 +74,7 @@ def levels_of(
     motion : its results hold the transfer vectors
     shell : its elastic modes; none where no source drives it
     progress : called with the advance
+    test : of the shell with a hammer, which weighs the draws
 
     Raises
     ------
@@ -91,8 +98,11 @@ def levels_of(
     if not study.ranges:
         return levels
     row, name = axes.receivers.index(study.catalogue_receiver), study.catalogue_receiver
-    bank = _bank(transmission.to(row), replace(axes, receivers=[name]), cases, sound, progress)
+    bank, of_shell = _bank(
+        transmission.to(row), replace(axes, receivers=[name]), cases, sound, progress, test
+    )
     levels = levels.merge(bank.labelled(study.ranges, study.machine.overall_noise.level_dba))
+    levels = levels.merge(of_shell)
     levels = levels.merge(level_shares(study.ranges, bank))
     errors = {} if shell is None else projection_errors(study, shell)
     levels = levels.merge(errors_of_projection(study.ranges, errors))
@@ -108,8 +118,9 @@ def _bank(
     cases: Mapping[CaseKey, Case],
     given: Sound,
     progress: Progress,
-) -> Bank:
-    """Draws at the point of the published level, weighed by it.
+    test: ShellTest | None,
+) -> tuple[Bank, xr.Dataset]:
+    """Draws at the point of the published level, weighed by it; and what a test tells of them.
 
     Parameters
     ----------
@@ -118,6 +129,7 @@ def _bank(
     cases : with that of the published level
     given : their sound with the values as given
     progress : called with the advance
+    test : of the shell
     """
     study = transmission.study
     wanted, key = study.uncertainty.random_samples, study.catalogue_case
@@ -132,9 +144,18 @@ def _bank(
 
     deviation_db = study.machine.overall_noise.deviation_db
     priors = priors_of(study.machine.remainder)
-    bank = bank_of(batches_of_draws(study), modelled_db, deviation_db, priors, wanted)
+    batches, besides = batches_of_draws(study), None
+    if test is not None:
+        first = next(batches)
+        prior_db = modelled_db(first, 0, 2 * len(first))
+        batches = test.agreeing(chain([first], batches), wanted, progress)
+        besides = test.likelihood
+    bank = bank_of(batches, modelled_db, deviation_db, priors, wanted, besides)
     progress(_WEIGHED, len(bank.draws), len(bank.draws))
-    return bank
+    if test is None:
+        return bank, xr.Dataset()
+    prior_dba = prior_db + study.machine.overall_noise.level_dba
+    return bank, test.labelled(prior_dba, len(bank.draws))
 
 
 def _of_draws(

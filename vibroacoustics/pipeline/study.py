@@ -16,6 +16,7 @@ from ..results.words import words
 from ..stopping.labelled import stopping_variables
 from ..study.study import Study
 from ..transfer import on_mounts
+from .calibration import shell_test
 from .motion import motion_of
 from .radiating import line_difference, sound_field, transfer_vectors
 from .shell import shell_path
@@ -65,11 +66,12 @@ def run(
 def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
     motion = motion_of(study, progress)
     path = shell_path(study)
+    test = shell_test(study, path)
     radiated, was_cached = radiation(study, progress, () if path is None else path.modes)
     results = motion.results.merge(radiated)
     results = results.merge(sound_field(study, results))
     results = results.merge(line_difference(study, results))
-    results = results.merge(levels_of(study, motion.with_results(results), path, progress))
+    results = results.merge(levels_of(study, motion.with_results(results), path, progress, test))
     if study.operation.stopping:
         body = on_mounts(study.machine)
         results = results.merge(stopping_variables(study, study.machine, body, results, path))

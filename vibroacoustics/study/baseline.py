@@ -13,6 +13,7 @@ from ..base.errors import ParameterError
 from ..base.parameters import Parameters
 from ..base.regular_file import read_text
 from ..mechanics.added import third_octave_number
+from .measured_shell import MeasuredShell
 
 COLUMNS: Final = ("microphone", "speed_rpm", "band_hz", "level_db")
 MAXIMUM_BYTES: Final = 10_000_000
@@ -67,6 +68,8 @@ class MeasuredSound(Parameters):
     """What was measured of the machine, in place of what is assumed."""
 
     baseline: Baseline | None = None
+    shell: MeasuredShell | None = None
+    """Hammer tests, which weigh the draws."""
 
     def problems(self, receivers: Sequence[str], speeds: Sequence[float]) -> Iterator[str]:
         """Why it does not fit a study: microphones that it has not, speeds that are not covered."""

@@ -66,12 +66,12 @@ class BendingShell:
         state = flow.density_kg_per_m3, flow.sound_speed_m_per_s
         key = (flow.into, *state, frequency_hz.tobytes())
         per_flow = self._kept(
-            key, lambda: self._per_flow(gas.wall_forces(*state, frequency_hz), frequency_hz)
+            key, lambda: self.per_modal_force(gas.wall_forces(*state, frequency_hz), frequency_hz)
         )
         return per_flow * flow.volume_flow
 
-    def _per_flow(self, per_flow: ComplexArray, frequency_hz: Array) -> ComplexArray:
-        """Of forces on the modes, shape (mode, frequency)."""
+    def per_modal_force(self, per_flow: ComplexArray, frequency_hz: Array) -> ComplexArray:
+        """Of forces on the modes, shape (mode, frequency): pressure, (receiver, frequency)."""
         if self.frame:
             sound = self._of_natural_motions(self.frame, frequency_hz)
             return self.frame.per_modal_forces(sound, per_flow)

@@ -83,6 +83,7 @@ def bank_of(
     deviation_db: float,
     priors: Sequence[Prior],
     wanted: int,
+    likelihood: Callable[[int, int], Array] | None = None,
 ) -> Bank:
     """Draws until as many as are wanted are effective, or `MOST_ROUNDS` batches or `MOST_DRAWS`
     draws are through.
@@ -95,7 +96,10 @@ def bank_of(
     deviation_db : standard deviation of the published level
     priors : of the remainder, that of the bands first
     wanted : how many shall be effective
+    likelihood : of so many draws after so many, by what was measured besides, shape (draw,): a
+        factor of their weights
     """
+    besides: Array = np.zeros(0)
     bank = Bank([], np.zeros(0), np.zeros((len(priors), 0)), wanted)
     for hypercube in islice(batches, MOST_ROUNDS):
         before = len(bank.draws)
@@ -104,6 +108,9 @@ def bank_of(
         further = modelled_db(batch, before, max(round(expected), before + len(batch) + 1))
         level = np.concatenate([bank.modelled_db, further])
         weight = np.array([agreement(level, deviation_db, prior) for prior in priors])
+        if likelihood is not None:
+            besides = np.concatenate([besides, likelihood(before, len(batch))])
+            weight *= besides
         bank = Bank(bank.draws + batch, level, weight, wanted)
         if bank.effective >= wanted or len(bank.draws) >= MOST_DRAWS:
             break
