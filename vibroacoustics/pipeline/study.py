@@ -17,6 +17,7 @@ from ..stopping.labelled import stopping_variables
 from ..study.study import Study
 from ..transfer import on_mounts
 from .calibration import shell_test
+from .floor import on_measured_floor
 from .motion import motion_of
 from .radiating import line_difference, sound_field, transfer_vectors
 from .shell import shell_path
@@ -64,6 +65,7 @@ def run(
 
 
 def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
+    study = on_measured_floor(study)
     motion = motion_of(study, progress)
     path = shell_path(study)
     test = shell_test(study, path)

@@ -13,6 +13,7 @@ from ..base.errors import ParameterError
 from ..base.parameters import Parameters
 from ..base.regular_file import read_text
 from ..mechanics.added import third_octave_number
+from .measured_floor import MeasuredFloor
 from .measured_shell import MeasuredShell
 
 COLUMNS: Final = ("microphone", "speed_rpm", "band_hz", "level_db")
@@ -68,6 +69,8 @@ class MeasuredSound(Parameters):
     """What was measured of the machine, in place of what is assumed."""
 
     baseline: Baseline | None = None
+    floor: MeasuredFloor | None = None
+    """Mobility under the feet."""
     shell: MeasuredShell | None = None
     """Hammer tests, which weigh the draws."""
 
