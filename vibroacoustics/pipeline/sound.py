@@ -31,6 +31,7 @@ from ..study.draws import batches_of_draws
 from ..study.sampling import Draw
 from ..study.selection import at_speeds
 from ..study.study import Study
+from ..transfer.force_sound import ForceSound
 from ..transfer.path import ShellPath
 from ..transfer.received import BySource, Transmission, by_case_and_source
 from ..transfer.study_path import projection_errors
@@ -40,6 +41,7 @@ from ..uncertainty.draws import drawn_values, errors_of_projection, of_every_dra
 from ..uncertainty.first_order import first_order_by_draw, unknown_first_order
 from ..uncertainty.share_variables import change_shares, level_shares
 from .calibration import ShellTest
+from .force_sound import wrench_pressure_by_case
 from .motion import Motion, motion_of
 
 Sound = dict[CaseKey, SourceSound]
@@ -65,6 +67,7 @@ def levels_of(
     shell: ShellPath | None,
     progress: Progress,
     test: ShellTest | None = None,
+    by_force: ForceSound | None = None,
 ) -> xr.Dataset:
     """Levels of all sources with the values as given and with every draw.
 
@@ -75,6 +78,7 @@ def levels_of(
     shell : its elastic modes; none where no source drives it
     progress : called with the advance
     test : of the shell with a hammer, which weighs the draws
+    by_force : measured pressure per force, in place of the transfer vectors
 
     Raises
     ------
@@ -82,7 +86,7 @@ def levels_of(
         The model as given is louder than the published level, and nothing is drawn.
     """
     catalogue = _at_catalogue_speed(study, motion)
-    transmission = _transmission(study, motion, catalogue, shell)
+    transmission = _transmission(study, motion, catalogue, shell, by_force)
     cases = {**catalogue.cases, **motion.cases}
     loads = {**catalogue.loads, **motion.loads}
     axes = LevelAxes.of(study, list(sources_of(study)), motion.results)
@@ -224,8 +228,19 @@ def _at_catalogue_speed(study: Study, motion: Motion) -> Motion:
 
 
 def _transmission(
-    study: Study, motion: Motion, catalogue: Motion, shell: ShellPath | None
+    study: Study,
+    motion: Motion,
+    catalogue: Motion,
+    shell: ShellPath | None,
+    by_force: ForceSound | None,
 ) -> Transmission:
+    if by_force is not None:
+        pressure = {
+            key: of_case
+            for each in (catalogue, motion)
+            for key, of_case in wrench_pressure_by_case(each, by_force).items()
+        }
+        return Transmission(study, by_force, None, None, pressure)
     results, vectors = motion.results, motion.results["transfer_vector"]
     at_catalogue = catalogue.with_results(catalogue.results.assign(transfer_vector=vectors))
     return Transmission(

@@ -15,6 +15,7 @@ from ..base.regular_file import read_text
 from ..mechanics.added import third_octave_number
 from .measured_floor import MeasuredFloor
 from .measured_shell import MeasuredShell
+from .measured_sound_path import MeasuredSoundPath
 
 COLUMNS: Final = ("microphone", "speed_rpm", "band_hz", "level_db")
 MAXIMUM_BYTES: Final = 10_000_000
@@ -71,11 +72,14 @@ class MeasuredSound(Parameters):
     baseline: Baseline | None = None
     floor: MeasuredFloor | None = None
     """Mobility under the feet."""
+    sound: MeasuredSoundPath | None = None
+    """Pressure per force, in place of radiation and room."""
     shell: MeasuredShell | None = None
     """Hammer tests, which weigh the draws."""
 
     def problems(self, receivers: Sequence[str], speeds: Sequence[float]) -> Iterator[str]:
         """Why it does not fit a study: microphones that it has not, speeds that are not covered."""
+        yield from () if self.sound is None else self.sound.problems(receivers)
         spectra = () if self.baseline is None else self.baseline.spectra
         for name in dict.fromkeys(one.microphone for one in spectra):
             covered = [one.speed_rpm for one in spectra if one.microphone == name]

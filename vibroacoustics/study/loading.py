@@ -191,7 +191,7 @@ def _resolve_file_names(content: Mapping[str, Any], reader: Reader) -> None:
     """Make names of files relative to the file that gives them."""
     for keys in (("shell_modes", "file"), ("radiation", "body", "file")):
         _resolve(content, keys, reader)
-    for name in ("floor", "shell"):
+    for name in ("floor", "sound", "shell"):
         _resolve_list(content, ("measured", name, "frequency_responses"), reader)
     patterns = _table_at(content, ("radiation", "body", "patterns"))
     for name in () if patterns is None else patterns:

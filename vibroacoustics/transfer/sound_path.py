@@ -10,13 +10,11 @@ from ..base.decibel import amplitude_of_level
 from ..machine.shell_structure import ShellVariation
 from ..mechanics.loads import GasFlow, Lines, Noise
 from .cavity.response import DrivenGas
+from .force_sound import PressurePerVelocity, of_body
 from .frame import FrameOnShell
 from .machine import MachineOnMounts
 from .path import ShellPath, pressure_per_load
 from .yoke import YokeOnWall
-
-PressurePerVelocity = Callable[[Array], ComplexArray]
-"""Of frequencies in Hz, shape (frequency,), to shape (receiver, motion, frequency), Pa s/m."""
 
 
 @dataclass(frozen=True)
@@ -141,7 +139,9 @@ class SoundPath:
         on_shell = lines.on_shell.get(source, np.zeros_like(wrench))
         if wrench.any() or on_shell.any():
             velocity = body.response(wrench.T, frequency, on_shell.T).velocity
-            pressure = pressure + np.einsum("rdf,fd->rf", self.rigid(frequency), velocity)
+            pressure = pressure + np.einsum(
+                "rdf,fd->rf", of_body(self.rigid, body)(frequency), velocity
+            )
         if self.shell is not None and parts.any():
             per_load = self.shell.per_load(frequency)
             pressure = pressure + np.einsum("rpcf,pcf->rf", per_load, parts, optimize=True)

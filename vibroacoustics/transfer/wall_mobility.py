@@ -10,9 +10,10 @@ from ..base.arrays import Array, ComplexArray
 from ..machine.machine import Machine
 from ..machine.shell_structure import ShellStructure, ShellVariation
 from ..mechanics.loads import PARTS
+from .force_sound import PressurePerVelocity
 from .frame import frame_on_shell
 from .path import ShellPath
-from .sound_path import BendingShell, PressurePerVelocity
+from .sound_path import BendingShell
 
 Reference = int | tuple[str, str]
 """A force outwards at a point, by its number, or on a part along an axis, `fx`."""
