@@ -107,7 +107,8 @@ def levels_of(
     )
     levels = levels.merge(bank.labelled(study.ranges, study.machine.overall_noise.level_dba))
     levels = levels.merge(of_shell)
-    levels = levels.merge(level_shares(study.ranges, bank))
+    weight = of_shell["shell_weight"].values if "shell_weight" in of_shell else None
+    levels = levels.merge(level_shares(study.ranges, bank, weight))
     errors = {} if shell is None else projection_errors(study, shell)
     levels = levels.merge(errors_of_projection(study.ranges, errors))
     if not bank.suffices:
