@@ -5,6 +5,7 @@ from dataclasses import replace
 from itertools import chain
 from typing import Final, NamedTuple
 
+import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
@@ -152,7 +153,7 @@ def _bank(
     batches, besides = batches_of_draws(study), None
     if test is not None:
         first = next(batches)
-        prior_db = modelled_db(first, 0, 2 * len(first))
+        prior_db = np.atleast_2d(modelled_db(first, 0, 2 * len(first)))[0]
         batches = test.agreeing(chain([first], batches), wanted, progress)
         besides = test.likelihood
     bank = bank_of(batches, modelled_db, deviation_db, priors, wanted, besides)
