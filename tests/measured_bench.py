@@ -62,13 +62,13 @@ def state(frequency, stiffness):
     return State(seen @ solved @ shapes.T, (seen @ solved @ load)[..., 0])
 
 
-def panel():
-    """Forty modes of a simply supported plate at the four feet: shapes and angular frequencies."""
+def panel(at=CORNERS):
+    """Forty modes of a simply supported plate at some points: shapes and angular frequencies."""
     a, b, stiff, _ = PANEL
     numbers = np.array([(m, n) for m in range(1, 15) for n in range(1, 15)])
     own = stiff * np.pi**2 * ((numbers[:, 0] / a) ** 2 + (numbers[:, 1] / b) ** 2)
     first = np.argsort(own)[:40]
-    x, y = (CORNERS + np.array([0.41, 0.33])).T
+    x, y = (at + np.array([0.41, 0.33])).T
     m, n = numbers[first].T
     return 2.0 * np.sin(np.pi * np.outer(x, m) / a) * np.sin(np.pi * np.outer(y, n) / b), own[first]
 

@@ -34,6 +34,8 @@ also of a machine alone, from `load_machine(path)`.
 **Measurements alone.**
 `predict(path)` predicts levels after a change of mounts, an added mass or an absorber, with a band;
 `changed_response(...)` is its formula for arrays.
+`blocked_forces(path)` finds the blocked forces of a source where it stands (ISO 20270);
+`inverted_forces(...)` is its formula for arrays.
 
 **Figures and arrays.**
 `plot` has every figure as a function that returns a matplotlib Figure.
@@ -82,7 +84,9 @@ if TYPE_CHECKING:
     from .machine.machine import Machine
     from .machine.option import Option
     from .machine.source import Case, Source
+    from .measured.blocked_forces import blocked_forces
     from .measured.change import changed_response
+    from .measured.inversion import inverted_forces
     from .measured.prediction import predict
     from .mechanics.added import Added
     from .mechanics.capabilities import OldhamRing, Slider
@@ -169,6 +173,7 @@ __all__ = [
     "VibroacousticsError",
     "Wrench",
     "analyse_orders",
+    "blocked_forces",
     "blocks",
     "changed_response",
     "check",
@@ -181,6 +186,7 @@ __all__ = [
     "export_functions",
     "export_recording",
     "given_radiation",
+    "inverted_forces",
     "label_recording",
     "levels",
     "load_machine",
@@ -188,9 +194,9 @@ __all__ = [
     "load_study",
     "open_recording",
     "open_results",
+    "optimise",
     "orders",
     "plot",
-    "optimise",
     "predict",
     "radiate",
     "read_functions",
@@ -248,6 +254,7 @@ _HOME = {
     "VibroacousticsError": "base.errors",
     "Wrench": "mechanics.moving_parts",
     "analyse_orders": "pipeline",
+    "blocked_forces": "measured.blocked_forces",
     "changed_response": "measured.change",
     "check": "base.vocabulary",
     "check_limits": "results.order_limits",
@@ -259,6 +266,7 @@ _HOME = {
     "export_functions": "commands.exporting",
     "export_recording": "commands.exporting",
     "given_radiation": "radiation.given",
+    "inverted_forces": "measured.inversion",
     "label_recording": "recordings",
     "open_recording": "recordings",
     "load_machine": "study.loading",

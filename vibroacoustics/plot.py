@@ -18,10 +18,13 @@ Of `analyse_orders`: `order_spectrum`, `orders_over_speed`, `order_map`.
 Of `speed_frequency_map`: `speed_frequency_map`, `run_up_levels`. Of `track_orders`:
 `tracked_orders`.
 
+Of `blocked_forces`: `blocked_force`, `blocked_validation`.
+
 Of `compare`: `compared_orders`. Of `curves`: `curves`. Of `predict`: `predicted_levels`.
 """
 
 from .report.figures.baseline import baseline_third_octaves
+from .report.figures.blocked_forces import blocked_force, blocked_validation
 from .report.figures.compared_orders import compared_orders
 from .report.figures.curves import curves
 from .report.figures.directivity import directivity
@@ -40,6 +43,8 @@ from .report.figures.transfer_vectors import transfer_vectors
 
 __all__ = [
     "baseline_third_octaves",
+    "blocked_force",
+    "blocked_validation",
     "compared_orders",
     "curves",
     "directivity",

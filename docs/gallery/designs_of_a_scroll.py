@@ -2,9 +2,9 @@
 Designs: a counterweight or a sprung mass, and which mounts
 ===========================================================
 
-Which balancer, how heavy, tuned to what, on which mounts? The table ``design`` of a study says what may
-vary, what is wanted and how far pieces scatter; :func:`vibroacoustics.optimise` looks for the front. All
-keys: :doc:`/designs`.
+Which balancer, how heavy, tuned to what, on which mounts? The table ``design`` of a study says what
+may vary, what is wanted and how far pieces scatter; :func:`vibroacoustics.optimise` looks for the
+front. All keys: :doc:`/designs`.
 
 .. literalinclude:: /gallery/studies/designs.toml
    :language: toml
@@ -39,7 +39,7 @@ axes.legend()
 for rank in found["best_rank"].values:
     row = int(found["best_design"].sel(best_rank=rank))
     design = found["design_value"].sel(design=row).dropna("design_variable")
-    for key, value in zip(design["design_variable"].values, design.values):
+    for key, value in zip(design["design_variable"].values, design.values, strict=True):
         print(f"{rank}  {key:45s} {value:9.2f}")
     for name in ("line", "foot"):
         meant, promised = (

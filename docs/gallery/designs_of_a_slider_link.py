@@ -2,8 +2,9 @@
 Designs: stroke, offset and clearance of a slider-link compressor
 =================================================================
 
-Dagilis, Vaitkus and Kirejchick ask for efficiency and silence together. Both hang on the crank's radius,
-the offset of the link and the clearance of the piston; none of them is linear, so each design is a run.
+Dagilis, Vaitkus and Kirejchick ask for efficiency and silence together. Both hang on the crank's
+radius, the offset of the link and the clearance of the piston; none of them is linear, so each
+design is a run.
 
 .. literalinclude:: /gallery/studies/designs_slider_link.toml
    :language: toml

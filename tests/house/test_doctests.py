@@ -10,6 +10,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+import in_situ_bench
 import measured_bench
 import numpy as np
 import pytest
@@ -55,6 +56,9 @@ def workplace(tmp_path_factory: pytest.TempPathFactory) -> Path:
         storage.write_results(dataset, folder / name)
     _write_modes(folder / "modes.uff")
     storage.write_results(_predicted(folder / "bench"), folder / "prediction.nc")
+    (folder / "in_situ").mkdir()
+    in_situ = in_situ_bench.write(folder / "in_situ", in_situ_bench.BELOW)
+    storage.write_results(va.blocked_forces(in_situ), folder / "blocked_forces.nc")
     return folder
 
 

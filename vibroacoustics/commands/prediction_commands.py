@@ -1,4 +1,4 @@
-"""Command for changes predicted from measurements alone. Heavy imports wait until it is needed."""
+"""Commands for what measurements alone tell. Heavy imports wait until it is needed."""
 
 from pathlib import Path
 from typing import Annotated, Final
@@ -6,6 +6,7 @@ from typing import Annotated, Final
 import typer
 
 PREDICTION_NAME: Final = "prediction.nc"
+BLOCKED_NAME: Final = "blocked_forces.nc"
 
 commands = typer.Typer()
 
@@ -37,3 +38,35 @@ def predict_command(
     )
     typer.echo(report.prediction_text(predicted))
     typer.echo(f"prediction: {written}")
+
+
+@commands.command("blocked-forces")
+def blocked_forces_command(
+    file: Annotated[
+        Path, typer.Argument(metavar="FILE.toml", help="Measured files and the interface.")
+    ],
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE FILE."),
+    ] = None,
+) -> None:
+    """Find a source's blocked forces (ISO 20270) where it stands, validated on board."""
+    from .. import report
+    from ..measured.blocked_forces import blocked_forces
+    from . import outputs
+
+    folder = out or Path("reports") / file.stem
+    outputs.check_folder(folder)
+    blocked = blocked_forces(file)
+    tables = {
+        "blocked_forces.csv": report.blocked_csv(blocked),
+        "validation.csv": report.validation_csv(blocked),
+        "blocked_forces.md": report.blocked_markdown(blocked),
+    }
+    with outputs.naming(file):
+        orders = report.blocked_orders_csv(blocked)
+    if orders is not None:
+        tables["orders.csv"] = orders
+    written = outputs.write_analysis(blocked, folder, BLOCKED_NAME, tables, report.blocked_figures)
+    typer.echo(report.blocked_text(blocked))
+    typer.echo(f"blocked forces: {written}")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
-from .change import absorber_stiffness, mass_stiffness, mount_stiffness
+from .change import absorber_stiffness, mass_stiffness
 from .settings import Change, Prediction
 
 
@@ -41,10 +41,8 @@ def elements_of(settings: Prediction, change: Change, frequency_hz: Array) -> El
     for name, new in change.mounts.items():
         old = settings.mounts[name]
         rows.append(_row(points, *old.ends))
-        before, after = (
-            mount_stiffness(frequency_hz, mount.stiffness_n_per_m, mount.loss_factor_ratio)
-            for mount in (old, new)
-        )
+        along = settings.measured.points[old.ends[0]].direction
+        before, after = (mount.dynamic_stiffness(frequency_hz, along) for mount in (old, new))
         stiffness.append(after - before)
     for mass in change.masses.values():
         rows += [_row(points, point) for point in mass.points]

@@ -3,26 +3,23 @@
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array, ComplexArray
 from ..base.constants import REFERENCE_PRESSURE_PA
-from ..base.errors import VibroacousticsError
-from ..base.hashing import canonical_json, sha256
 from ..base.vocabulary import REFERENCE_OPTION, check, label_coordinates, stamp
-from ..results.provenance import software_attributes
 from .assembly import Bench, assemble
 from .band import TRIED, chosen_truncation, truncation_errors
 from .change import changed_response
 from .elements import Elements, elements_of, points_of
+from .files import attributes, naming_settings
+from .scatter import measured_again
 from .settings import Prediction, load_prediction
 from .variables import line_variables, total_variables
 
-RANDOM_STATE: Final = 19
-"""Draws are the same in every run."""
 DRAWS_OF_TRUNCATION: Final = 10
 
 
@@ -58,13 +55,8 @@ def predict(path: str | Path) -> xr.Dataset:
     """
     path = Path(path)
     settings = load_prediction(path)
-    try:
+    with naming_settings(path):
         bench = assemble(settings.measured, points_of(settings), path.parent)
-    except VibroacousticsError as error:
-        text = str(error)
-        raise type(error)(
-            text if text.startswith(str(path.parent)) else f"{path}: {text}"
-        ) from None
     return _labelled(settings, bench, path)
 
 
@@ -85,24 +77,9 @@ def _changed(bench: Bench, elements: Elements, truncation: float) -> ComplexArra
     ).T
 
 
-def _drawn(bench: Bench, count: int) -> list[Bench]:
-    """The bench measured again, with errors of the size that its own have."""
-    random = np.random.default_rng(RANDOM_STATE)
-    shape = bench.values.shape
-    return [
-        replace(
-            bench,
-            values=bench.values
-            + bench.error
-            * (random.standard_normal(shape) + 1j * random.standard_normal(shape))
-            / np.sqrt(2.0),
-        )
-        for _ in range(count)
-    ]
-
-
 def _labelled(settings: Prediction, bench: Bench, path: Path) -> xr.Dataset:
-    draws = _drawn(bench, settings.measured.draws)
+    again = measured_again(bench.values, bench.error, settings.measured.draws)
+    draws = [replace(bench, values=values) for values in again]
     measured = bench.values[bench.pressure]
     pressures, drawn = [measured], [np.array([draw.values[draw.pressure] for draw in draws])]
     truncations, errors = [0.0], [[0.0] * len(TRIED)]
@@ -124,7 +101,9 @@ def _labelled(settings: Prediction, bench: Bench, path: Path) -> xr.Dataset:
     tried_at = {"option": lines["option"], "tried_truncation": list(TRIED)}
     variables["truncation"] = stamp("truncation", truncations, {"option": lines["option"]})
     variables["truncation_error"] = stamp("truncation_error", errors, tried_at)
-    dataset = xr.Dataset(variables, attrs=_attributes(settings, bench, path))
+    about = attributes("predict", path, settings.title, settings, settings.measured)
+    about["reference_pressure_pa"] = REFERENCE_PRESSURE_PA
+    dataset = xr.Dataset(variables, attrs=about)
     return check(label_coordinates(dataset))
 
 
@@ -139,18 +118,3 @@ def _truncation(
     errors = truncation_errors(_changed(bench, elements, 0.0), tries)
     given = settings.measured.truncation_ratio
     return chosen_truncation(errors) if given is None else given, errors
-
-
-def _attributes(settings: Prediction, bench: Bench, path: Path) -> dict[str, Any]:
-    parameters = canonical_json(settings.model_dump(mode="json"))
-    named = (*settings.measured.frequency_responses, *settings.measured.operating)
-    files = {name: sha256((path.parent / name).read_bytes()) for name in named}
-    return {
-        **software_attributes(f"predict {path.name}"),
-        "title": settings.title,
-        "parameters": parameters,
-        "parameters_sha256": sha256(parameters.encode()),
-        "measured_files": canonical_json(files),
-        "draws": settings.measured.draws,
-        "reference_pressure_pa": REFERENCE_PRESSURE_PA,
-    }

@@ -1,9 +1,14 @@
 """Random errors of measured functions: from repeats, from coherence, or as stated."""
 
+from typing import Final
+
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
+
+RANDOM_STATE: Final = 19
+"""Draws are the same in every run."""
 
 
 def error_of_repeats(repeats: ComplexArray) -> Array:
@@ -40,3 +45,22 @@ def error_of_coherence(values: ComplexArray, coherence: Array, averages: int) ->
         raise ParameterError(f"coherence {coherence[outside][0]:g}: must be above 0 up to 1")
     noise = np.maximum(1.0 - coherence, 0.0)
     return np.asarray(np.abs(values) * np.sqrt(noise / (coherence * averages)))
+
+
+def measured_again(values: ComplexArray, error: Array, count: int) -> list[ComplexArray]:
+    """Functions with errors drawn anew, of the size that their own have.
+
+    Parameters
+    ----------
+    values, error : estimates and the RMS of their complex error, any shape
+    count : of draws
+    """
+    random = np.random.default_rng(RANDOM_STATE)
+    shape = values.shape
+    return [
+        values
+        + error
+        * (random.standard_normal(shape) + 1j * random.standard_normal(shape))
+        / np.sqrt(2.0)
+        for _ in range(count)
+    ]

@@ -2,14 +2,18 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
+import numpy as np
 from pydantic import Field, model_validator
 
+from ..base.arrays import Array, ComplexArray
 from ..base.parameters import Parameters
+from ..machine.mount_stiffness import MountStiffness
 from ..study.reader import Reader
-from ..study.toml_files import leaves, read_toml
+from ..study.toml_files import beside, leaves, read_toml
 from ..study.wording import validated
+from .change import mount_stiffness
 
 
 class Point(Parameters):
@@ -37,19 +41,41 @@ class Measured(Parameters):
     microphones: dict[str, Point] = Field(min_length=1)
 
 
-class MountBetween(Parameters):
-    """A mount along one direction between two points, as it was measured."""
-
-    ends: tuple[str, str]
-    stiffness_n_per_m: float = Field(gt=0.0, le=1e12)
-    loss_factor_ratio: float = Field(ge=0.0, le=2.0)
-
-
 class NewMount(Parameters):
     """What takes the place of a mount; of stiffness zero where it is removed."""
 
-    stiffness_n_per_m: float = Field(ge=0.0, le=1e12)
+    stiffness_n_per_m: float | None = Field(default=None, ge=0.0, le=1e12)
     loss_factor_ratio: float = Field(default=0.0, ge=0.0, le=2.0)
+    stiffness: MountStiffness | None = None
+    """Over frequency, in place of the constant one."""
+
+    @model_validator(mode="after")
+    def _one_stiffness(self) -> "NewMount":
+        if (self.stiffness is None) == (self.stiffness_n_per_m is None):
+            raise ValueError("needs either stiffness_n_per_mm or a table stiffness with a file")
+        if self.stiffness is not None and "loss_factor_ratio" in self.model_fields_set:
+            raise ValueError("loss_factor_percent: is in the file of the stiffness, take it out")
+        return self
+
+    def dynamic_stiffness(self, frequency_hz: Array, direction: str) -> ComplexArray:
+        """k (1 + jη), N/m, shape (frequency,); of a file its vertical one along z.
+
+        Parameters
+        ----------
+        frequency_hz : above zero, shape (frequency,)
+        direction : of the mount, `+x` to `-z`
+        """
+        if self.stiffness is not None:
+            axis = "xyz".index(direction[-1:] or "z")
+            return np.asarray(self.stiffness.at(frequency_hz)[:, axis])
+        return mount_stiffness(frequency_hz, self.stiffness_n_per_m or 0.0, self.loss_factor_ratio)
+
+
+class MountBetween(NewMount):
+    """A mount along one direction between two points, as it was measured."""
+
+    ends: tuple[str, str]
+    stiffness_n_per_m: float | None = Field(default=None, gt=0.0, le=1e12)
 
 
 class AddedMass(Parameters):
@@ -118,6 +144,14 @@ class Prediction(Parameters):
                 yield f"{where}: names a point twice"
 
 
+def name_files_beside(path: Path, content: Any) -> None:
+    """Make names of files of mounts relative to the file that gives them, at any depth."""
+    for key, value in content.items() if isinstance(content, dict) else ():
+        if key == "stiffness" and isinstance(value, dict) and isinstance(value.get("file"), str):
+            value["file"] = str(beside(path, value["file"]))
+        name_files_beside(path, value)
+
+
 def load_prediction(path: Path) -> Prediction:
     """Read a file for `predict`; docs/measured_changes.md has its tables.
 
@@ -127,5 +161,6 @@ def load_prediction(path: Path) -> Prediction:
         Anything is missing, unknown, of the wrong type or outside its allowed range.
     """
     content = read_toml(path)
+    name_files_beside(path, content)
     reader = Reader(path, dict.fromkeys(leaves(content), path))
     return validated(Prediction, reader.to_si(content, ()), reader)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from itertools import chain
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -33,6 +34,7 @@ from ..study.draws import batches_of_draws
 from ..study.sampling import Draw
 from ..study.selection import at_speeds
 from ..study.study import Study
+from ..transfer.force_sound import ForceSound
 from ..transfer.path import ShellPath
 from ..transfer.received import BySource, Transmission, by_case_and_source
 from ..transfer.study_path import projection_errors
@@ -41,6 +43,8 @@ from ..uncertainty.drawn import drawn_cases
 from ..uncertainty.draws import drawn_values, errors_of_projection, of_every_draw
 from ..uncertainty.first_order import first_order_by_draw, unknown_first_order
 from ..uncertainty.share_variables import change_shares, level_shares
+from .calibration import ShellTest
+from .force_sound import wrench_pressure_by_case
 from .motion import Motion, motion_of
 
 Sound = dict[CaseKey, SourceSound]
@@ -61,7 +65,12 @@ class DrawnSound(NamedTuple):
 
 
 def levels_of(
-    study: Study, motion: Motion, shell: ShellPath | None, progress: Progress
+    study: Study,
+    motion: Motion,
+    shell: ShellPath | None,
+    progress: Progress,
+    test: ShellTest | None = None,
+    by_force: ForceSound | None = None,
 ) -> xr.Dataset:
     """Levels of all sources with the values as given and with every draw.
 
@@ -71,6 +80,8 @@ def levels_of(
     motion : its results hold the transfer vectors
     shell : its elastic modes; none where no source drives it
     progress : called with the advance
+    test : of the shell with a hammer, which weighs the draws
+    by_force : measured pressure per force, in place of the transfer vectors
 
     Raises
     ------
@@ -78,7 +89,7 @@ def levels_of(
         The model as given is louder than the published level, and nothing is drawn.
     """
     catalogue = _at_catalogue_speed(study, motion)
-    transmission = _transmission(study, motion, catalogue, shell)
+    transmission = _transmission(study, motion, catalogue, shell, by_force)
     cases = {**catalogue.cases, **motion.cases}
     loads = {**catalogue.loads, **motion.loads}
     axes = LevelAxes.of(study, list(sources_of(study)), motion.results)
@@ -96,9 +107,11 @@ def levels_of(
     levels = levels.merge(lines).merge(measured)
     if not study.ranges:
         return levels
-    bank = _bank(transmission, axes, points, cases, sound, progress)
+    bank, of_shell = _bank(transmission, axes, points, cases, sound, progress, test)
     levels = levels.merge(bank.labelled(study.ranges, study.machine.overall_noise.level_dba))
-    levels = levels.merge(level_shares(study.ranges, bank))
+    levels = levels.merge(of_shell)
+    weight = of_shell["shell_weight"].values if "shell_weight" in of_shell else None
+    levels = levels.merge(level_shares(study.ranges, bank, weight))
     errors = {} if shell is None else projection_errors(study, shell)
     levels = levels.merge(errors_of_projection(study.ranges, errors))
     if not bank.suffices:
@@ -114,8 +127,11 @@ def _bank(
     cases: Mapping[CaseKey, Case],
     given: Sound,
     progress: Progress,
-) -> Bank:
+    test: ShellTest | None,
+) -> tuple[Bank, xr.Dataset]:
     """Draws at the point of the published level, weighed by it or, in its stead, by a baseline.
+
+    Also what a test of the shell tells of them.
 
     Parameters
     ----------
@@ -125,6 +141,7 @@ def _bank(
     cases : with that of the published level
     given : their sound with the values as given
     progress : called with the advance
+    test : of the shell
     """
     study, measured = transmission.study, evidence(points)
     wanted, name = study.uncertainty.random_samples, study.catalogue_receiver
@@ -147,9 +164,18 @@ def _bank(
     if measured and study.measured is not None and study.measured.baseline is not None:
         deviation_db = study.measured.baseline.tolerance_db
     priors = priors_of(study.machine.remainder)
-    bank = bank_of(batches_of_draws(study), modelled_db, deviation_db, priors, wanted)
+    batches, besides = batches_of_draws(study), None
+    if test is not None:
+        first = next(batches)
+        prior_db = np.atleast_2d(modelled_db(first, 0, 2 * len(first)))[0]
+        batches = test.agreeing(chain([first], batches), wanted, progress)
+        besides = test.likelihood
+    bank = bank_of(batches, modelled_db, deviation_db, priors, wanted, besides)
     progress(_WEIGHED, len(bank.draws), len(bank.draws))
-    return bank
+    if test is None:
+        return bank, xr.Dataset()
+    prior_dba = prior_db + study.machine.overall_noise.level_dba
+    return bank, test.labelled(prior_dba, len(bank.draws))
 
 
 def _of_draws(
@@ -224,8 +250,19 @@ def _at_catalogue_speed(study: Study, motion: Motion) -> Motion:
 
 
 def _transmission(
-    study: Study, motion: Motion, catalogue: Motion, shell: ShellPath | None
+    study: Study,
+    motion: Motion,
+    catalogue: Motion,
+    shell: ShellPath | None,
+    by_force: ForceSound | None,
 ) -> Transmission:
+    if by_force is not None:
+        pressure = {
+            key: of_case
+            for each in (catalogue, motion)
+            for key, of_case in wrench_pressure_by_case(each, by_force).items()
+        }
+        return Transmission(study, by_force, None, None, pressure)
     results, vectors = motion.results, motion.results["transfer_vector"]
     at_catalogue = catalogue.with_results(catalogue.results.assign(transfer_vector=vectors))
     return Transmission(

@@ -16,6 +16,9 @@ from ..results.words import words
 from ..stopping.labelled import stopping_variables
 from ..study.study import Study
 from ..transfer import on_mounts
+from .calibration import shell_test
+from .floor import on_measured_floor
+from .force_sound import force_radiation, measured_force_sound
 from .motion import motion_of
 from .radiating import line_difference, sound_field, transfer_vectors
 from .shell import shell_path
@@ -63,13 +66,20 @@ def run(
 
 
 def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
+    study = on_measured_floor(study)
     motion = motion_of(study, progress)
     path = shell_path(study)
-    radiated, was_cached = radiation(study, progress, () if path is None else path.modes)
+    test = shell_test(study, path)
+    by_force = measured_force_sound(study)
+    if by_force is not None:
+        radiated, was_cached = force_radiation(study, by_force)
+    else:
+        radiated, was_cached = radiation(study, progress, () if path is None else path.modes)
     results = motion.results.merge(radiated)
     results = results.merge(sound_field(study, results))
     results = results.merge(line_difference(study, results))
-    results = results.merge(levels_of(study, motion.with_results(results), path, progress))
+    moved = motion.with_results(results)
+    results = results.merge(levels_of(study, moved, path, progress, test, by_force))
     if study.operation.stopping:
         body = on_mounts(study.machine)
         results = results.merge(stopping_variables(study, study.machine, body, results, path))

@@ -6,9 +6,17 @@ import xarray as xr
 
 from ..base.hashing import canonical_json
 from ..base.registry import plugins
+from .blocked_forces import (
+    blocked_csv,
+    blocked_markdown,
+    blocked_orders_csv,
+    blocked_text,
+    validation_csv,
+)
 from .comparison import comparison_csv, comparison_text
 from .curve_tables import curve_csv
 from .designs.page import designs_text, render_designs
+from .figures.blocked_forces import blocked_figures
 from .figures.compared_orders import compared_order_figures
 from .figures.curves import curve_figures
 from .figures.prediction import predicted_figures
@@ -38,6 +46,11 @@ from .study import has_sources
 from .tracked_tables import tracked_csv, tracked_text
 
 __all__ = [
+    "blocked_csv",
+    "blocked_figures",
+    "blocked_markdown",
+    "blocked_orders_csv",
+    "blocked_text",
     "check_kept",
     "compared_order_figures",
     "comparison_of_orders_csv",
@@ -66,6 +79,7 @@ __all__ = [
     "tracked_csv",
     "tracked_order_figures",
     "tracked_text",
+    "validation_csv",
 ]
 
 

@@ -20,14 +20,14 @@ MATTERS: Final = 0.01
 """Unknowns with less of the variance are told as one group."""
 NOT_RESOLVED: Final = "not resolved"
 REMAINDER_WORDS: Final = "the level of what is not modelled"
-_KNOWLEDGE: Final = {"before": "by the ranges alone"}
+BEFORE: Final = "before"
 
 
 def quality_sentence(results: xr.Dataset) -> str:
     """How much of the level single unknowns explain, and whether shares are told."""
     quality = results["level_share_quality"]
     sizes = [
-        f"{_foretold(float(value))} {_knowledge(str(name))}"
+        f"{_foretold(float(value))} {_knowledge(results, str(name))}"
         for name, value in zip(quality["knowledge"].values, quality.values, strict=True)
         if np.isfinite(value)
     ]
@@ -57,7 +57,7 @@ def unknowns_table(results: xr.Dataset) -> Table:
         )
         for name in _that_matter(shares)
     ]
-    words = [_knowledge(name) for name in knowledge]
+    words = [_knowledge(results, name) for name in knowledge]
     return Table(
         f"What the modelled level hangs on: middle of the values with {band_words(results)}",
         (
@@ -140,7 +140,8 @@ def _values(results: xr.Dataset, name: str, prior: int) -> str:
     if prior >= 0 and not has_draws(results):
         return rounding.NOTHING
     values = results["bank_value"].sel(drawn_parameter=name).values
-    weight = np.ones(values.size) if prior < 0 else results["bank_weight"].values[prior]
+    before = results["shell_weight"].values if "shell_weight" in results else np.ones(values.size)
+    weight = before if prior < 0 else results["bank_weight"].values[prior]
     return Band(*map(float, weighted_quantiles(values, weight, QUANTILES))).middle_and_ends(_number)
 
 
@@ -162,5 +163,7 @@ def _with_unit(name: str) -> str:
     return f"{named(name)}, {unit}" if unit else named(name)
 
 
-def _knowledge(name: str) -> str:
-    return _KNOWLEDGE.get(name, f"with the published level, prior {name}")
+def _knowledge(results: xr.Dataset, name: str) -> str:
+    if name != BEFORE:
+        return f"with the published level, prior {name}"
+    return "with the hammer test" if "shell_weight" in results else "by the ranges alone"

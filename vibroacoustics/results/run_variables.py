@@ -29,6 +29,8 @@ TOGETHER: Final = (
      "level_remainder_by_draw"),
     ("force_1x_by_draw", "moment_1x_by_draw", "foot_force_1x_by_draw"),
     ("bank_weight", "bank_level", "bank_value"),
+    ("shell_likelihood", "shell_gain", "shell_frequency_ratio", "shell_loss_ratio", "shell_value",
+     "shell_level_before", "shell_weight"),
     ("level_share", "level_share_quality"),
     ("change_share", "change_share_quality", "change_variance"),
     ("stopping_duration", "stopping_revolutions", "stopping_shaft_speed", "stopping_force",
@@ -63,7 +65,8 @@ EMPTY_WHERE_NONE: Final = frozenset(
      "line_order", "map_level", "map_transfer_vector", "green_difference", "level_share",
      "level_share_quality", "change_share", "change_share_quality", "change_variance",
      "baseline_share", "baseline_band_level", "baseline_order_level", "baseline_order_share",
-     "baseline_order_phase")
+     "baseline_order_phase", "shell_gain", "shell_frequency_ratio", "shell_loss_ratio",
+     "shell_level_before")
 )  # fmt: skip
 """Not a number where there is nothing: an option without such a figure, a point in the machine, a
 microphone that k-Wave did not compute, draws that are too few."""

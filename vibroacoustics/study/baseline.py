@@ -9,6 +9,9 @@ from pydantic import Field, field_validator, model_validator
 from ..base.decibel import power_of_level
 from ..base.parameters import Parameters
 from ..mechanics.added import third_octave_number
+from .measured_floor import MeasuredFloor
+from .measured_shell import MeasuredShell
+from .measured_sound_path import MeasuredSoundPath
 
 LOWEST_HZ: Final = 10.0
 HIGHEST_HZ: Final = 20000.0
@@ -156,9 +159,16 @@ class MeasuredSound(Parameters):
     """What was measured of the machine, in place of what is assumed."""
 
     baseline: Baseline | None = None
+    floor: MeasuredFloor | None = None
+    """Mobility under the feet."""
+    sound: MeasuredSoundPath | None = None
+    """Pressure per force, in place of radiation and room."""
+    shell: MeasuredShell | None = None
+    """Hammer tests, which weigh the draws."""
 
     def problems(self, receivers: Sequence[str], speeds: Sequence[float]) -> Iterator[str]:
         """Why it does not fit a study: microphones that it has not, no speed that is covered."""
+        yield from () if self.sound is None else self.sound.problems(receivers)
         if self.baseline is None:
             return
         for name in dict.fromkeys([*self.baseline.measured_at, *self.baseline.microphones]):

@@ -202,6 +202,8 @@ def _resolve_file_names(content: Mapping[str, Any], reader: Reader) -> None:
     """Make names of files relative to the file that gives them."""
     for keys in (("shell_modes", "file"), ("radiation", "body", "file")):
         _resolve(content, keys, reader)
+    for name in ("floor", "sound", "shell"):
+        _resolve_list(content, ("measured", name, "frequency_responses"), reader)
     patterns = _table_at(content, ("radiation", "body", "patterns"))
     for name in () if patterns is None else patterns:
         _resolve(content, ("radiation", "body", "patterns", name), reader)
@@ -211,6 +213,16 @@ def _resolve(content: Mapping[str, Any], keys: tuple[str, ...], reader: Reader) 
     table = _table_at(content, keys[:-1])
     if table is not None and isinstance(table.get(keys[-1]), str):
         table[keys[-1]] = str(beside(reader.file(keys), table[keys[-1]]))
+
+
+def _resolve_list(content: Mapping[str, Any], keys: tuple[str, ...], reader: Reader) -> None:
+    """Of a list of names."""
+    table = _table_at(content, keys[:-1])
+    if table is not None and isinstance(table.get(keys[-1]), list):
+        file = reader.file(keys)
+        table[keys[-1]] = [
+            str(beside(file, name)) if isinstance(name, str) else name for name in table[keys[-1]]
+        ]
 
 
 def _table_at(content: Any, keys: tuple[str, ...]) -> dict[str, Any] | None:

@@ -9,9 +9,10 @@ from ..base.arrays import Array
 from ..machine.machine import Machine
 from ..machine.shell_structure import ShellStructure, ShellVariation
 from .cavity.of_machine import gas_of
+from .force_sound import PressurePerVelocity
 from .frame import frame_on_shell
 from .path import ShellPath
-from .sound_path import BendingShell, PressurePerVelocity
+from .sound_path import BendingShell
 from .transient import LOAD_SAMPLES, RESULT_SAMPLES
 from .yoke import yoke_on_wall
 

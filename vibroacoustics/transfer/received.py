@@ -20,9 +20,10 @@ from ..mechanics.received_sound import NoisePower, ReceivedSound
 from ..mechanics.scroll_shaft import ScrollShaft
 from ..study.study import Study
 from .bending import bending_shell
+from .force_sound import ForceSound, PressurePerVelocity
 from .machine import on_mounts
 from .path import ShellPath
-from .sound_path import BendingShell, PressurePerVelocity, SoundPath
+from .sound_path import BendingShell, SoundPath
 
 BySource = Mapping[str, ComplexArray]
 
@@ -115,6 +116,8 @@ class Transmission:
 
 
 def _to(pressure: PressurePerVelocity, rows: list[int]) -> PressurePerVelocity:
+    if isinstance(pressure, ForceSound):
+        return pressure.to(rows)
     return lambda frequency_hz: pressure(frequency_hz)[rows]
 
 

@@ -10,13 +10,11 @@ from ..base.decibel import amplitude_of_level
 from ..machine.shell_structure import ShellVariation
 from ..mechanics.loads import GasFlow, Lines, Noise
 from .cavity.response import DrivenGas
+from .force_sound import PressurePerVelocity, of_body
 from .frame import FrameOnShell
 from .machine import MachineOnMounts
 from .path import ShellPath, pressure_per_load
 from .yoke import YokeOnWall
-
-PressurePerVelocity = Callable[[Array], ComplexArray]
-"""Of frequencies in Hz, shape (frequency,), to shape (receiver, motion, frequency), Pa s/m."""
 
 
 @dataclass(frozen=True)
@@ -66,12 +64,12 @@ class BendingShell:
         state = flow.density_kg_per_m3, flow.sound_speed_m_per_s
         key = (flow.into, *state, frequency_hz.tobytes())
         per_flow = self._kept(
-            key, lambda: self._per_flow(gas.wall_forces(*state, frequency_hz), frequency_hz)
+            key, lambda: self.per_modal_force(gas.wall_forces(*state, frequency_hz), frequency_hz)
         )
         return per_flow * flow.volume_flow
 
-    def _per_flow(self, per_flow: ComplexArray, frequency_hz: Array) -> ComplexArray:
-        """Of forces on the modes, shape (mode, frequency)."""
+    def per_modal_force(self, per_flow: ComplexArray, frequency_hz: Array) -> ComplexArray:
+        """Of forces on the modes, shape (mode, frequency): pressure, (receiver, frequency)."""
         if self.frame:
             sound = self._of_natural_motions(self.frame, frequency_hz)
             return self.frame.per_modal_forces(sound, per_flow)
@@ -141,7 +139,9 @@ class SoundPath:
         on_shell = lines.on_shell.get(source, np.zeros_like(wrench))
         if wrench.any() or on_shell.any():
             velocity = body.response(wrench.T, frequency, on_shell.T).velocity
-            pressure = pressure + np.einsum("rdf,fd->rf", self.rigid(frequency), velocity)
+            pressure = pressure + np.einsum(
+                "rdf,fd->rf", of_body(self.rigid, body)(frequency), velocity
+            )
         if self.shell is not None and parts.any():
             per_load = self.shell.per_load(frequency)
             pressure = pressure + np.einsum("rpcf,pcf->rf", per_load, parts, optimize=True)

@@ -83,6 +83,7 @@ def bank_of(
     deviation_db: float,
     priors: Sequence[Prior],
     wanted: int,
+    likelihood: Callable[[int, int], Array] | None = None,
 ) -> Bank:
     """Draws until as many as are wanted are effective, or `MOST_ROUNDS` batches or `MOST_DRAWS`
     draws are through.
@@ -96,6 +97,8 @@ def bank_of(
     deviation_db : standard deviation of the levels that weigh
     priors : of the remainder, that of the bands first
     wanted : how many shall be effective
+    likelihood : of so many draws after so many, by what was measured besides, shape (draw,): a
+        factor of their weights
     """
     bank = Bank([], np.zeros(0), np.zeros((len(priors), 0)), wanted)
     for hypercube in islice(batches, MOST_ROUNDS):
@@ -105,7 +108,9 @@ def bank_of(
         count = max(round(expected), before + len(batch) + 1)
         over = np.atleast_2d(modelled_db(batch, before, count))
         points = over[1:] if len(over) > 1 else over
-        weights = [agreement_of_points(points, deviation_db, prior) for prior in priors]
+        weights = np.array([agreement_of_points(points, deviation_db, prior) for prior in priors])
+        if likelihood is not None:
+            weights *= likelihood(before, len(batch))
         weight = np.concatenate([bank.weight, weights], axis=1)
         level = np.concatenate([bank.modelled_db, over[0]])
         bank = Bank(bank.draws + batch, level, weight, wanted)

@@ -15,8 +15,8 @@ from ..sources.cases import loads_of, without_time_series
 from ..study.draws import with_draw
 from ..study.sampling import Draw
 from ..study.study import Study
+from ..transfer.force_sound import PressurePerVelocity
 from ..transfer.received import BySource
-from ..transfer.sound_path import PressurePerVelocity
 from .first_order import first_order
 from .wrenches import wrench_pressure
 

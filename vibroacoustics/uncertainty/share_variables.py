@@ -21,17 +21,19 @@ REMAINDER: Final = "remainder.level_db"
 """Level of what is not modelled, an unknown beside the drawn values."""
 
 
-def level_shares(ranges: Sequence[Range], bank: Bank) -> xr.Dataset:
+def level_shares(ranges: Sequence[Range], bank: Bank, before: Array | None = None) -> xr.Dataset:
     """Shares of the drawn values in the modelled level, before and by prior of the remainder.
 
     Parameters
     ----------
     ranges : of the drawn values
     bank : all draws; where they do not suffice the priors' shares are empty
+    before : weights of the draws before the published level, shape (draw,); none for equal ones
     """
+    equal = np.ones(len(bank.draws)) if before is None else before
     values = [[draw[limits.table, limits.field] for limits in ranges] for draw in bank.draws]
     unit = _positions(ranges, np.array(values))
-    weights = [np.ones(len(bank.draws)), *(bank.weight if bank.suffices else 0.0 * bank.weight)]
+    weights = [equal, *(bank.weight if bank.suffices else 0.0 * bank.weight)]
     shares = [shares_of(unit, bank.modelled_db, weight) for weight in weights]
     names = {"drawn_parameter": [limits.name for limits in ranges]}
     coords = {"knowledge": [BEFORE, *PRIOR_NAMES]}

@@ -11,8 +11,8 @@ from ..mechanics.loads import Loads
 from ..mechanics.moving_parts import Wrench
 from ..orders.spectrum import order_spectrum_at_speed
 from ..transfer import on_mounts
+from ..transfer.force_sound import PressurePerVelocity, of_body
 from ..transfer.received import BySource
-from ..transfer.sound_path import PressurePerVelocity
 
 
 def wrench_pressure(
@@ -29,7 +29,8 @@ def wrench_pressure(
     """
     orders = np.arange(highest_order + 1, dtype=np.float64)
     frequency: Array = shaft_frequency_hz(case.speed_rpm) * orders
-    body, vectors = on_mounts(case.machine), rigid(frequency)
+    body = on_mounts(case.machine)
+    vectors = of_body(rigid, body)(frequency)
     speed = case.revolution.rotation.speed_rad_per_s
     pressure = {}
     for source, load in loads.items():

@@ -182,6 +182,34 @@ def test_cross_and_auto_spectra_stand_for_spectra(tmp_path, exact):
     np.testing.assert_allclose(predicted, exact["predicted_level"].sel(option="halved"), atol=1e-9)
 
 
+def in_file(folder, values):
+    rows = "".join(f"{f:g},1,{k / 1e3:.17g},{eta:.17g}\n" for f, k, eta in values)
+    folder.joinpath("mount.csv").write_text(
+        f"frequency_hz,lateral_n_per_mm,vertical_n_per_mm,loss_factor\n{rows}"
+    )
+    return "".join(f'[changes.new.mounts.{n}.stiffness]\nfile = "mount.csv"\n' for n in ALL)
+
+
+def test_a_constant_stiffness_from_a_file_is_a_constant_one(tmp_path, exact):
+    new = in_file(tmp_path, [(0.0, 1e5, 0.1), (1000.0, 1e5, 0.1)])
+    predicted = va.predict(write(tmp_path, new, BEFORE))["predicted_level"].sel(option="new")
+    constant = exact["predicted_level"].sel(option="halved")
+    np.testing.assert_allclose(predicted, constant, atol=1e-9)
+
+
+def test_a_stiffness_over_frequency_is_that_of_the_bench(tmp_path):
+    """The truth is the bench with mounts that are linear in frequency between the rows."""
+    at = np.array([0.0, 400.0, 900.0])
+    k, eta = np.array([0.5e5, 2.0e5, 3.0e5]), np.array([0.05, 0.3, 0.4])
+    new = in_file(tmp_path, zip(at, k, eta, strict=True))
+    predicted = va.predict(write(tmp_path, new, BEFORE))["predicted_level"].sel(option="new")
+    stiffness = np.interp(FREQUENCY, at, k * (1.0 + 1j * eta))
+    after = between(B, np.repeat(stiffness[:, None], 4, axis=1), FREQUENCY)
+    np.testing.assert_allclose(
+        predicted, level(state(FREQUENCY, after).running[:, 8:].T), atol=1e-9
+    )
+
+
 def test_without_an_error_there_is_no_band(tmp_path):
     quality = "relative_error_percent = 0.0\ndraws = 50"
     predicted = va.predict(write(tmp_path, HALVED, BEFORE, quality))
@@ -236,6 +264,9 @@ WRONG = [
     ('"hammer.uff"', '"running.csv"', "is in none of the files running.csv"),
     ("relative_error_percent = 3.0", "relative_error_percent = 3.0\nlowest_frequency_hz = 2e4",
      "no operating line lies within"),
+    ("[changes.halved.mounts.one]\nstiffness_n_per_mm = 100.0", "[changes.halved.mounts.one]",
+     "needs either stiffness_n_per_mm or a table stiffness"),
+    ("stiffness_n_per_mm = 200.0", 'stiffness = { file = "no.csv" }', "no.csv: no such file"),
     ("[changes.halved", "[changes.none", "changes.none: is the name of the state as measured"),
 ]  # fmt: skip
 

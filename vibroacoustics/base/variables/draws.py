@@ -74,5 +74,24 @@ for _thing in (
         "1",
         "largest relative error of a natural frequency by projection; empty where exact",
     ),
+    Coordinate("shell_draw", ("shell_draw",), "1", "set of values held against hammer tests"),
+    Coordinate("shell_parameter", ("shell_parameter",), "", "value of the shell that is drawn"),
+    Coordinate("shell_peak", ("shell_peak",), "Hz", "clear peak of the measured mobilities"),
+    Variable("shell_likelihood", ("shell_draw",), "1", "how well its shell agrees with the tests"),
+    Variable("shell_gain", ("shell_draw",), "dB", "mean level of mobilities over those measured"),
+    Variable(
+        "shell_frequency_ratio", ("shell_draw",), "1", "natural frequencies over those measured"
+    ),
+    Variable("shell_loss_ratio", ("shell_draw",), "1", "loss factors over those measured"),
+    Variable("shell_value", ("shell_draw", "shell_parameter"), "", "value, SI unit in the name"),
+    Variable("shell_peak_loss", ("shell_peak",), "1", "loss factor of a measured peak"),
+    Variable(
+        "shell_level_before",
+        ("shell_level_draw",),
+        "dB",
+        "A-weighted level of all modelled sources by the ranges alone",
+    ),
+    Coordinate("shell_level_draw", ("shell_level_draw",), "1", "set of values by the ranges alone"),
+    Variable("shell_weight", ("bank_draw",), "1", "weight by the hammer tests alone"),
 ):
     register(_thing)

@@ -1,10 +1,13 @@
-"""What measurements alone predict of a change of mounts, masses or absorbers."""
+"""What measurements alone tell: changes of mounts, masses or absorbers, and blocked forces."""
 
 from ..registry import register
 from ..vocabulary import Coordinate, Variable
 
 _LINES = ("option", "receiver", "frequency")
 _TOTALS = ("option", "receiver", "weighting")
+_FORCES = ("force_point", "frequency")
+_VALIDATION = ("validation_point", "frequency")
+_BANDS = ("validation_point", "band")
 
 for _thing in (
     Coordinate(
@@ -33,5 +36,43 @@ for _thing in (
         "dB",
         "mean error of a line's level that measurements drawn again have with a truncation",
     ),
+    Coordinate("force_point", ("force_point",), "", "point at which a source hands its force on"),
+    Coordinate("validation_point", ("validation_point",), "", "response that no force is from"),
+    Coordinate("validation_quantity", ("validation_point",), "", "what is measured there"),
+    Variable("blocked_force", _FORCES, "N", "blocked force of a source", complex_peak=True),
+    Variable("blocked_force_low", _FORCES, "N", "lower limit of its amplitude's 90 % band"),
+    Variable("blocked_force_high", _FORCES, "N", "upper limit of its amplitude's 90 % band"),
+    Variable(
+        "blocked_force_sum",
+        ("axis", "frequency"),
+        "N",
+        "sum of the blocked forces",
+        complex_peak=True,
+    ),
+    Variable(
+        "blocked_moment_sum",
+        ("axis", "frequency"),
+        "N m",
+        "moment of the blocked forces about the centre of mass",
+        complex_peak=True,
+    ),
+    Variable("condition_number", ("frequency",), "1", "largest over smallest singular value"),
+    Variable("inversion_truncation", (), "1", "share of the largest below which values go"),
+    Variable(
+        "left_out_error",
+        ("tried_truncation",),
+        "dB",
+        "mean error of a response that the forces from all others make",
+    ),
+    Variable("validation_measured", _VALIDATION, "dB", "level of a line as measured"),
+    Variable("validation_predicted", _VALIDATION, "dB", "level of a line by the blocked forces"),
+    Variable("validation_predicted_low", _VALIDATION, "dB", "lower limit of its 90 % band"),
+    Variable("validation_predicted_high", _VALIDATION, "dB", "upper limit of its 90 % band"),
+    Variable("validation_difference", _VALIDATION, "dB", "predicted less measured level of a line"),
+    Variable("validation_band_measured", _BANDS, "dB", "level of a third octave as measured"),
+    Variable("validation_band_predicted", _BANDS, "dB", "level of it by the blocked forces"),
+    Variable("validation_band_difference", _BANDS, "dB", "predicted less measured level of it"),
+    Variable("validation_band_difference_low", _BANDS, "dB", "lower limit of its 90 % band"),
+    Variable("validation_band_difference_high", _BANDS, "dB", "upper limit of its 90 % band"),
 ):
     register(_thing)

@@ -19,9 +19,10 @@ from ...radiation.pressure import pressure_per_shell_velocity
 from ...radiation.transfer_vectors import pressure_per_velocity
 from ...study.study import Study
 from ...transfer.bending import bending_shell
+from ...transfer.force_sound import PressurePerVelocity
 from ...transfer.machine import on_mounts
 from ...transfer.path import ShellPath
-from ...transfer.sound_path import PressurePerVelocity, SoundPath
+from ...transfer.sound_path import SoundPath
 
 Noise = list[tuple[Array, Array]]
 """Frequencies, Hz, shape (frequency,), and mean squares, shape (receiver, frequency), Pa²."""

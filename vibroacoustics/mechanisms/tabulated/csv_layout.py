@@ -1,6 +1,6 @@
 """Forces over crank angle or by order from a CSV file, and back."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Final
 
@@ -145,23 +145,27 @@ def forces_csv(results: xr.Dataset, option: str = REFERENCE_OPTION) -> bytes:
     results : of `run`
     option : by name
     """
-    head = ["speed_rpm", "order", "source"]
-    for value, phase in zip(VALUES, PHASES, strict=True):
-        head += [value, phase.replace("_rad", "_deg")]
     dims = ("speed", "source", "order", "axis")
     force, moment = (
         results[name].sel(option=option).transpose(*dims).fillna(0.0)
         for name in ("force_order", "moment_order")
     )
     peaks = np.concatenate([force.values, moment.values], axis=-1)
-    rows: list[list[str | float]] = [
-        [float(speed), int(order), str(source), *_amplitude_and_phase(peaks[s, n, k])]
+    return orders_csv(
+        (float(speed), int(order), str(source), peaks[s, n, k])
         for s, speed in enumerate(force["speed"].values)
         for n, source in enumerate(force["source"].values)
         if np.any(peaks[:, n])
         for k, order in enumerate(force["order"].values)
-    ]
-    return csv_bytes(head, rows)
+    )
+
+
+def orders_csv(rows: Iterable[tuple[float, int, str, ComplexArray]]) -> bytes:
+    """A table by order of speed, order, source and complex peaks of force and moment."""
+    head = ["speed_rpm", "order", "source"]
+    for value, phase in zip(VALUES, PHASES, strict=True):
+        head += [value, phase.replace("_rad", "_deg")]
+    return csv_bytes(head, ([*row[:3], *_amplitude_and_phase(row[3])] for row in rows))
 
 
 def _amplitude_and_phase(peaks: ComplexArray) -> list[float]:

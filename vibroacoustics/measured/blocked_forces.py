@@ -1,0 +1,130 @@
+"""Blocked forces of a source where it stands, with on-board validation, as labelled arrays."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array, ComplexArray
+from ..base.decibel import level_of_amplitude
+from ..base.errors import ParameterError
+from ..base.vocabulary import check, label_coordinates
+from .band import TRIED, chosen_truncation
+from .blocked_settings import BlockedForces, load_blocked_forces
+from .blocked_variables import force_variables, inversion_variables, validation_variables
+from .files import attributes, naming_settings
+from .in_situ import InSitu, Measurement, read_in_situ, unit_of, wrench_per_force
+from .inversion import condition_number, inverted_forces, left_out_responses
+from .scatter import measured_again
+
+
+@dataclass(frozen=True)
+class Inverted:
+    """Forces and what they make at the validation.
+
+    Attributes
+    ----------
+    force : along each set of forces, N, shape (frequency, set)
+    predicted : m or Pa, shape (frequency, validation)
+    measured : the same while the source ran
+    """
+
+    force: ComplexArray
+    predicted: ComplexArray
+    measured: ComplexArray
+
+
+def blocked_forces(path: str | Path) -> xr.Dataset:
+    """Blocked forces of a source from operating responses and frequency responses (ISO 20270).
+
+    Parameters
+    ----------
+    path : TOML file with the tables `measured` and `blocked_forces`; docs/blocked_forces.md
+
+    Returns
+    -------
+    `blocked_force` (force_point, frequency) with `_low` and `_high`, the limits of a 90 % band;
+    with positions their sum `blocked_force_sum` and moment `blocked_moment_sum` (axis,
+    frequency); `condition_number`; `inversion_truncation` and the `left_out_error` that it was
+    chosen by; the validation at responses that the inversion did not use, line by line
+    `validation_measured`, `validation_predicted` and `validation_difference`, in third octaves
+    `validation_band_difference` and others
+
+    Raises
+    ------
+    ParameterError
+        Anything in the file or in the files that it names is missing, unknown, or outside its
+        range; there are fewer responses than forces.
+    StorageError
+        A file cannot be read.
+
+    Examples
+    --------
+    >>> blocked = va.blocked_forces("in_situ/in_situ.toml")
+    >>> bool(abs(blocked["validation_band_difference"]).max() < 1.0)
+    True
+    """
+    path = Path(path)
+    settings = load_blocked_forces(path)
+    with naming_settings(path):
+        bench = read_in_situ(settings, path.parent)
+        _check_determined(settings, bench)
+    return _labelled(settings, bench, path)
+
+
+def _check_determined(settings: BlockedForces, bench: InSitu) -> None:
+    responses, sets = len(bench.responses), bench.sets.shape[1]
+    if responses < sets:
+        raise ParameterError(
+            f"blocked_forces.responses: {responses} for {sets} forces: must be at least as many"
+        )
+
+
+def _inverted(measurement: Measurement, truncation: float) -> Inverted:
+    force = inverted_forces(measurement.operating, measurement.compliance, truncation)
+    predicted = (measurement.transfer @ force[..., None])[..., 0]
+    return Inverted(force, predicted, measurement.validation)
+
+
+def _truncation(settings: BlockedForces, measurement: Measurement) -> tuple[float, Array]:
+    """The truncation, given or chosen, and what each tried one makes wrong; see docs."""
+    given = settings.measured.truncation_ratio
+    rows, columns = measurement.compliance.shape[1:]
+    if rows == columns:  # without one response the others do not tell the forces
+        return given or 0.0, np.full(len(TRIED), np.nan)
+    made = left_out_responses(measurement.operating, measurement.compliance, TRIED)
+    levels = level_of_amplitude(np.abs(made)) - level_of_amplitude(np.abs(measurement.operating))
+    errors = np.abs(levels).mean(axis=(1, 2))
+    return chosen_truncation(errors) if given is None else given, errors
+
+
+def _labelled(settings: BlockedForces, bench: InSitu, path: Path) -> xr.Dataset:
+    measurement = bench.measurement(bench.values)
+    truncation, errors = _truncation(settings, measurement)
+    again = measured_again(bench.values, bench.error, settings.measured.draws)
+    drawn = [_inverted(bench.measurement(values), truncation) for values in again]
+    result, interface = _inverted(measurement, truncation), settings.blocked_forces
+    frequency = {"frequency": bench.frequency_hz}
+    variables = force_variables(
+        result.force @ bench.sets.T,
+        np.stack([one.force for one in drawn]) @ bench.sets.T,
+        {"force_point": list(interface.points), **frequency},
+        wrench_per_force(settings) if settings.needs_positions else None,
+    )
+    variables |= inversion_variables(
+        condition_number(measurement.compliance), truncation, errors, bench.frequency_hz
+    )
+    units = [unit_of(settings, name) for name in interface.validation]
+    variables |= validation_variables(
+        result.predicted,
+        result.measured,
+        np.array([one.predicted for one in drawn]),
+        np.array([one.measured for one in drawn]),
+        units,
+        {"validation_point": list(interface.validation), **frequency},
+    )
+    about = attributes("blocked-forces", path, settings.title, settings, settings.measured)
+    if interface.speed_rpm is not None:
+        about["speed_rpm"] = interface.speed_rpm
+    return check(label_coordinates(xr.Dataset(variables, attrs=about)))

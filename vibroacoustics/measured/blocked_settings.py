@@ -1,0 +1,107 @@
+"""What a file for `blocked-forces` may say."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from pydantic import Field, model_validator
+
+from ..base.parameters import Parameters
+from ..study.reader import Reader
+from ..study.toml_files import leaves, read_toml
+from ..study.wording import validated
+from .settings import Measured, Point
+
+
+class MeasuredBench(Measured):
+    """Measurements that need no microphone."""
+
+    microphones: dict[str, Point] = Field(default_factory=dict)
+
+
+class Position(Parameters):
+    """Of a point, from the machine's centre of mass at rest, in its axes."""
+
+    x_m: float = Field(ge=-10.0, le=10.0)
+    y_m: float = Field(ge=-10.0, le=10.0)
+    z_m: float = Field(ge=-10.0, le=10.0)
+
+
+class Interface(Parameters):
+    """Where a source hands its forces on, and what they are inverted from and validated at."""
+
+    points: tuple[str, ...] = Field(min_length=1)
+    responses: tuple[str, ...] = Field(min_length=1)
+    validation: tuple[str, ...] = Field(min_length=1)
+    rigid_source: bool = False
+    """Whether the points move as one rigid body, so that only its force and moment count."""
+    speed_rpm: float | None = Field(default=None, ge=60.0, le=60000.0)
+    """At which it ran; its orders are written where it is given."""
+    positions: dict[str, Position] = Field(default_factory=dict)
+
+
+class BlockedForces(Parameters):
+    """Measurements on a source where it stands, and its interface."""
+
+    title: str = Field(min_length=1, max_length=200)
+    measured: MeasuredBench
+    blocked_forces: Interface
+
+    @model_validator(mode="after")
+    def _names_are_known(self) -> "BlockedForces":
+        problem = next(self._problems(), None)
+        if problem is not None:
+            raise ValueError(problem)
+        return self
+
+    def _problems(self) -> Iterator[str]:
+        """What names something that is not there or does not fit, or nothing."""
+        interface, measured = self.blocked_forces, self.measured
+        both = set(measured.points) & set(measured.microphones)
+        if both:
+            yield f"measured.microphones.{min(both)}: is the name of a point too"
+        for field, known in {
+            "points": [*measured.points],
+            "responses": [*measured.points],
+            "validation": [*measured.points, *measured.microphones],
+        }.items():
+            names: tuple[str, ...] = getattr(interface, field)
+            for name in names:
+                if name not in known:
+                    yield (
+                        f"blocked_forces.{field} = {name}: no such point; known are "
+                        f"{', '.join(known)}"
+                    )
+            if len(set(names)) < len(names):
+                yield f"blocked_forces.{field}: names a point twice"
+        for name in interface.validation:
+            if name in interface.responses:
+                yield (
+                    f"blocked_forces.validation = {name}: is among the responses that the forces "
+                    "are inverted from, and validates nothing"
+                )
+        for name in sorted({*interface.points, *interface.positions}) * self.needs_positions:
+            if name not in interface.positions or name not in interface.points:
+                where = f"blocked_forces.positions.{name}"
+                yield f"{where}: must be one of each of blocked_forces.points, and none else"
+            elif not measured.points[name].direction:
+                yield f"measured.points.{name}: needs a direction, as a force has one"
+
+    @property
+    def needs_positions(self) -> bool:
+        """Whether positions of the points are given or asked for."""
+        interface = self.blocked_forces
+        asked = interface.rigid_source or interface.speed_rpm is not None
+        return asked or bool(interface.positions)
+
+
+def load_blocked_forces(path: Path) -> BlockedForces:
+    """Read a file for `blocked-forces`; docs/blocked_forces.md has its tables.
+
+    Raises
+    ------
+    ParameterError
+        Anything is missing, unknown, of the wrong type or outside its allowed range.
+    """
+    content = read_toml(path)
+    reader = Reader(path, dict.fromkeys(leaves(content), path))
+    return validated(BlockedForces, reader.to_si(content, ()), reader)

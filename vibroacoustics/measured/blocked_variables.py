@@ -1,0 +1,137 @@
+"""Blocked forces and their validation as variables of the vocabulary."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array, ComplexArray
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.decibel import level_of_amplitude, level_of_power
+from ..base.vocabulary import AXES, stamp
+from ..levels.bands import Band, bands_between
+from ..mechanics.added import third_octave_number
+from .band import TRIED, amplitude_band, power_band
+
+REFERENCE_ACCELERATION: Final = 1e-6
+"""m/s², ISO 1683."""
+
+Variables = dict[str, xr.DataArray]
+
+
+def force_variables(
+    force: ComplexArray, drawn: ComplexArray, coords: Mapping[str, Any], wrench: Array | None
+) -> Variables:
+    """Forces with their band, and their sum and moment where positions are known.
+
+    Parameters
+    ----------
+    force : peak, N, shape (frequency, point)
+    drawn : of measurements drawn again, shape (draw, frequency, point)
+    coords : `force_point` and `frequency`
+    wrench : force and moment per force, shape (6, point)
+    """
+    low, high = amplitude_band(force, drawn)
+    variables = {
+        "blocked_force": stamp("blocked_force", force.T, coords),
+        "blocked_force_low": stamp("blocked_force_low", low.T, coords),
+        "blocked_force_high": stamp("blocked_force_high", high.T, coords),
+    }
+    if wrench is not None:
+        total = wrench @ force.T
+        at = {"axis": list(AXES), "frequency": coords["frequency"]}
+        variables["blocked_force_sum"] = stamp("blocked_force_sum", total[:3], at)
+        variables["blocked_moment_sum"] = stamp("blocked_moment_sum", total[3:], at)
+    return variables
+
+
+def inversion_variables(
+    condition: Array, truncation: float, errors: Array, frequency_hz: Array
+) -> Variables:
+    """How well the inversion is conditioned, and what its truncation was chosen by."""
+    tried = {"tried_truncation": list(TRIED)}
+    return {
+        "condition_number": stamp("condition_number", condition, {"frequency": frequency_hz}),
+        "inversion_truncation": stamp("inversion_truncation", truncation),
+        "left_out_error": stamp("left_out_error", errors, tried),
+    }
+
+
+def validation_variables(
+    predicted: ComplexArray,
+    measured: ComplexArray,
+    drawn: ComplexArray,
+    drawn_measured: ComplexArray,
+    units: Sequence[str],
+    coords: Mapping[str, Any],
+) -> Variables:
+    """Levels by the forces beside those measured, line by line and in third octaves.
+
+    Parameters
+    ----------
+    predicted, measured : displacement, m, or pressure, Pa, shape (frequency, validation)
+    drawn, drawn_measured : of measurements drawn again, shape (draw, frequency, validation)
+    units : `m` or `Pa` of each; displacements become accelerations
+    coords : `validation_point` and `frequency`
+    """
+    frequency = np.asarray(coords["frequency"])
+    are_points = np.array([unit == "m" for unit in units])
+    derived = (2.0 * np.pi * frequency[:, None]) ** 2 / REFERENCE_ACCELERATION
+    # effective values over the reference
+    scale = np.where(are_points, derived, 1.0 / REFERENCE_PRESSURE_PA) / np.sqrt(2.0)
+    predicted, measured = predicted * scale, measured * scale
+    drawn, drawn_measured = drawn * scale, drawn_measured * scale
+    low, high = amplitude_band(predicted, drawn)
+    lines = {
+        "validation_measured": np.abs(measured),
+        "validation_predicted": np.abs(predicted),
+        "validation_predicted_low": low,
+        "validation_predicted_high": high,
+        "validation_difference": np.abs(predicted) / np.maximum(np.abs(measured), 1e-300),
+    }
+    at = {
+        **coords,
+        "validation_quantity": (
+            "validation_point",
+            ["acceleration" if unit == "m" else "sound pressure" for unit in units],
+        ),
+    }
+    variables = {
+        name: stamp(name, level_of_amplitude(values).T, at) for name, values in lines.items()
+    }
+    bands = bands_between(3, frequency[0], frequency[-1])
+    by_band = {key: value for key, value in at.items() if key != "frequency"}
+    return variables | _band_variables(
+        _powers(predicted, frequency, bands),
+        _powers(measured, frequency, bands),
+        _powers(drawn, frequency, bands) / _powers(drawn_measured, frequency, bands),
+        {**by_band, "band": [band.nominal_hz for band in bands]},
+    )
+
+
+def _band_variables(
+    predicted: Array, measured: Array, ratios: Array, at: Mapping[str, Any]
+) -> Variables:
+    """Of powers re the reference, shape (validation, band); empty bands are no numbers.
+
+    `ratios` are those of measurements drawn again, shape (draw, validation, band).
+    """
+    ratio = predicted / measured
+    low, high = power_band(ratio, ratios)
+    powers = {
+        "validation_band_measured": measured,
+        "validation_band_predicted": predicted,
+        "validation_band_difference": ratio,
+        "validation_band_difference_low": low,
+        "validation_band_difference_high": high,
+    }
+    return {name: stamp(name, level_of_power(values), at) for name, values in powers.items()}
+
+
+def _powers(values: ComplexArray, frequency_hz: Array, bands: Sequence[Band]) -> Array:
+    """Of all lines of each band, shape (..., validation, band); no number where it has none."""
+    numbers = third_octave_number(np.array([band.middle_hz for band in bands]))
+    lines = third_octave_number(frequency_hz)[:, None] == numbers
+    powers = np.swapaxes(np.abs(values) ** 2, -1, -2) @ lines.astype(float)
+    return np.asarray(np.where(lines.any(axis=0), powers, np.nan))

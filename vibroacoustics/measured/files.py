@@ -1,0 +1,50 @@
+"""Files that a file of settings names: errors in them, and their hashes."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from ..base.errors import VibroacousticsError
+from ..base.hashing import canonical_json, sha256
+from ..base.parameters import Parameters
+from ..results.provenance import software_attributes
+from .settings import Measured
+
+
+@contextmanager
+def naming_settings(path: Path) -> Iterator[None]:
+    """Put the file of settings before an error that names no file beside it."""
+    try:
+        yield
+    except VibroacousticsError as error:
+        text = str(error)
+        raise type(error)(
+            text if text.startswith(str(path.parent)) else f"{path}: {text}"
+        ) from None
+
+
+def attributes(
+    command: str, path: Path, title: str, settings: Parameters, measured: Measured
+) -> dict[str, Any]:
+    """Where a result of measured functions comes from: settings, hashes of files, software.
+
+    Parameters
+    ----------
+    command : that made it
+    path : of the settings
+    title : of the settings
+    settings : all of them
+    measured : with the names of the files
+    """
+    parameters = canonical_json(settings.model_dump(mode="json"))
+    named = (*measured.frequency_responses, *measured.operating)
+    files = {name: sha256((path.parent / name).read_bytes()) for name in named}
+    return {
+        **software_attributes(f"{command} {path.name}"),
+        "title": title,
+        "parameters": parameters,
+        "parameters_sha256": sha256(parameters.encode()),
+        "measured_files": canonical_json(files),
+        "draws": measured.draws,
+    }

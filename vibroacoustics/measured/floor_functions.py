@@ -1,0 +1,98 @@
+"""Mobility under the feet of a machine from measured functions."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ..base.arrays import Array, ComplexArray
+from ..base.errors import ParameterError
+from ..machine.floor import FloorMobility
+from ..recordings import MeasuredFunction, Node
+from ..recordings.functions import read_functions
+from ..study.measured_floor import FloorPoint, MeasuredFloor
+from .grouped import Key, by_key, unsigned
+
+
+def read_floor(settings: MeasuredFloor, feet: Sequence[str]) -> FloorMobility:
+    """Driving-point mobilities, repeats averaged, as the table that a machine's file names.
+
+    Parameters
+    ----------
+    settings : files and points
+    feet : names of the machine's
+
+    Raises
+    ------
+    ParameterError
+        A function is missing, or in a wrong unit; a foot has none, or is none of the machine's.
+    StorageError
+        A file cannot be read.
+    """
+    groups = by_key(
+        [
+            function
+            for name in settings.frequency_responses
+            for function in read_functions(Path(name), units=settings.units)
+        ]
+    )
+    names, rows = [], []
+    for foot in dict.fromkeys(point.foot for point in settings.points.values()):
+        table = _of_foot([p for p in settings.points.values() if p.foot == foot], groups)
+        names += [foot] * len(table)
+        rows.append(table)
+    frequency, *columns = np.concatenate(rows).T
+    files = ", ".join(Path(name).name for name in settings.frequency_responses)
+    mobility = FloorMobility(
+        file=files,
+        foot=tuple(names),
+        frequency_hz=tuple(frequency.tolist()),
+        vertical_m_per_ns=tuple(columns[0].tolist()),
+        vertical_phase_rad=tuple(columns[1].tolist()),
+        lateral_m_per_ns=tuple(columns[2].tolist()),
+        lateral_phase_rad=tuple(columns[3].tolist()),
+    )
+    reason = mobility.why_not_under(feet)
+    if reason:
+        raise ParameterError(f"measured.floor: {reason}")
+    return mobility
+
+
+def _of_foot(points: Sequence[FloorPoint], groups: dict[Key, list[MeasuredFunction]]) -> Array:
+    """Frequency, then amplitude and phase up and down and sideways, shape (frequency, 5)."""
+    by_axis = {point.is_vertical: _driving_point(point, groups) for point in points}
+    frequency, vertical = by_axis[True]
+    lateral: ComplexArray = np.zeros(frequency.size, dtype=complex)
+    if False in by_axis:
+        at, values = by_axis[False]
+        if at[0] > frequency[0] or at[-1] < frequency[-1]:
+            raise ParameterError(
+                f"measured.floor: {points[0].foot}: sideways from {at[0]:g} to {at[-1]:g} Hz, must "
+                f"cover {frequency[0]:g} to {frequency[-1]:g} Hz as up and down"
+            )
+        lateral = np.interp(frequency, at, values)
+    columns = [frequency, *(part(each) for each in (vertical, lateral) for part in (abs, np.angle))]
+    return np.stack(columns, axis=1)
+
+
+def _driving_point(
+    point: FloorPoint, groups: dict[Key, list[MeasuredFunction]]
+) -> tuple[Array, ComplexArray]:
+    """Frequencies and complex mobility, m/(N s)."""
+    node = unsigned(Node(point.node, point.direction))
+    functions = groups.get(("frequency response", node, node))
+    if functions is None:
+        raise ParameterError(
+            f"measured.floor: frequency response {node}/{node} of {point.foot} is in none of the "
+            "files"
+        )
+    first = functions[0].frequency_hz
+    for one in functions:
+        if one.reference_unit != "N":
+            raise ParameterError(
+                f"measured.floor: {one}: reference in {one.reference_unit}: must be a force, N"
+            )
+        if one.frequency_hz.shape != first.shape or not np.allclose(one.frequency_hz, first):
+            raise ParameterError(f"measured.floor: {one}: repeats differ in their frequencies")
+    mobilities = [one.with_response_in("m/s").values for one in functions]
+    return first, np.asarray(np.mean(mobilities, axis=0))

@@ -1,0 +1,145 @@
+"""Functions measured on a source where it stands, put to its interface."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..base.arrays import Array, ComplexArray, IndexArray
+from ..recordings import Node
+from .assembly import node_of
+from .blocked_settings import BlockedForces
+from .grouped import unsigned
+from .inversion import rigid_forces, rigid_wrench
+from .library import Library
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """Responses per force and while the source runs, along the points' directions.
+
+    Attributes
+    ----------
+    compliance : of the responses, m/N, shape (frequency, response, force)
+    operating : of the responses, m, shape (frequency, response)
+    transfer : of the validation, m/N or Pa/N, shape (frequency, validation, force)
+    validation : m or Pa, shape (frequency, validation)
+    """
+
+    compliance: ComplexArray
+    operating: ComplexArray
+    transfer: ComplexArray
+    validation: ComplexArray
+
+
+@dataclass(frozen=True)
+class InSitu:
+    """What was measured, each function once, and which of them is where.
+
+    Attributes
+    ----------
+    frequency_hz : shape (frequency,)
+    values, error : functions and the RMS of their complex error, shape (function, frequency)
+    compliance, transfer : function of each response and validation by force
+    operating, validation : function of each response and validation
+    forces, responses, validations : sign of each one's direction
+    sets : of forces that are solved for, shape (force, set)
+    """
+
+    frequency_hz: Array
+    values: ComplexArray
+    error: Array
+    compliance: IndexArray
+    transfer: IndexArray
+    operating: IndexArray
+    validation: IndexArray
+    forces: Array
+    responses: Array
+    validations: Array
+    sets: Array
+
+    def measurement(self, values: ComplexArray) -> Measurement:
+        """The matrices of functions with some values, shape (function, frequency)."""
+        by_line = values.T
+        forces = self.forces[:, None] * self.sets
+        return Measurement(
+            self.responses[:, None] * by_line[:, self.compliance] @ forces,
+            self.responses * by_line[:, self.operating],
+            self.validations[:, None] * by_line[:, self.transfer] @ forces,
+            self.validations * by_line[:, self.validation],
+        )
+
+
+def read_in_situ(settings: BlockedForces, folder: Path) -> InSitu:
+    """The functions that blocked forces and their validation need.
+
+    Parameters
+    ----------
+    settings : files, points and interface
+    folder : of the file that names the files
+
+    Raises
+    ------
+    ParameterError
+        A function was not measured, in another unit, at other frequencies, or without an error.
+    StorageError
+        A file cannot be read.
+    """
+    interface, measured = settings.blocked_forces, settings.measured
+    library = Library(measured, folder)
+    known = measured.points | measured.microphones
+    forces, responses, validations = (
+        [node_of(known[name]) for name in names]
+        for names in (interface.points, interface.responses, interface.validation)
+    )
+    units = [unit_of(settings, name) for name in interface.validation]
+
+    def numbers(nodes: Sequence[Node], units: Sequence[str]) -> tuple[IndexArray, IndexArray]:
+        pairs = [(unsigned(node), unit) for node, unit in zip(nodes, units, strict=True)]
+        by_force = [
+            [library.response(node, unsigned(force), unit) for force in forces]
+            for node, unit in pairs
+        ]
+        return np.array(by_force), np.array([library.operating(*pair) for pair in pairs])
+
+    compliance, operating = numbers(responses, ["m"] * len(responses))
+    transfer, validation = numbers(validations, units)
+    values, errors = library.estimates
+    sets = np.eye(len(forces))
+    if interface.rigid_source:
+        sets = rigid_forces(wrench_per_force(settings))
+    return InSitu(
+        frequency_hz=library.frequency_hz,
+        values=values,
+        error=errors,
+        compliance=compliance,
+        operating=operating,
+        transfer=transfer,
+        validation=validation,
+        forces=_signs(forces),
+        responses=_signs(responses),
+        validations=_signs(validations),
+        sets=sets,
+    )
+
+
+def unit_of(settings: BlockedForces, name: str) -> str:
+    """Of what a point or a microphone measures: m or Pa."""
+    return "m" if name in settings.measured.points else "Pa"
+
+
+def wrench_per_force(settings: BlockedForces) -> Array:
+    """Force and moment about the centre of mass per force at each point, shape (6, point)."""
+    interface = settings.blocked_forces
+    positions = [interface.positions[name] for name in interface.points]
+    directions = [settings.measured.points[name].direction for name in interface.points]
+    vectors = [
+        [(-1.0 if along[0] == "-" else 1.0) * float(along[-1] == each) for each in "xyz"]
+        for along in directions
+    ]
+    return rigid_wrench(np.array([(at.x_m, at.y_m, at.z_m) for at in positions]), np.array(vectors))
+
+
+def _signs(nodes: Sequence[Node]) -> Array:
+    return np.array([-1.0 if node.direction.startswith("-") else 1.0 for node in nodes])

@@ -1,0 +1,228 @@
+"""Draws of the shell held against hammer tests: those that agree go on."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array, ComplexArray
+from ..base.errors import ParameterError, SolverError
+from ..base.progress import Progress
+from ..base.vocabulary import check, stamp
+from ..machine.machine import Machine
+from ..measured.shell_functions import ShellMobilities, read_shell_mobilities
+from ..study.draws import with_draw
+from ..study.measured_shell import MeasuredShell
+from ..study.sampling import Draw
+from ..study.study import Study
+from ..transfer.path import ShellPath
+from ..transfer.wall_mobility import Reference, Wall, wall_mobility, wall_of
+from ..uncertainty.shell_agreement import ShellAgreement, Tolerances, shell_agreement
+from ..uncertainty.shell_features import Features, features
+
+MOST_TRIED: Final = 8192
+"""Draws that are held against a test."""
+CHANCE: Final = 0.3
+"""A draw whose likelihood is less than this part of the best one goes on by chance only."""
+LEAST_LIKELIHOOD: Final = float(np.exp(-0.5 * 3.0 * 3.0**2))
+"""Of gain, frequencies and loss factors three tolerances off each."""
+OF_THE_SHELL: Final = ("structure", "variation", "frame", "shaft")
+"""Tables that mobilities hang on."""
+NO_MACHINE: Final = ShellAgreement(0.0, np.nan, np.nan, np.nan)
+
+
+@dataclass
+class ShellTest:
+    """A hammer test of the shell, and how draws agree with it.
+
+    Attributes
+    ----------
+    study : with its machine
+    path : modes and joints of the shell
+    settings : points and tolerances
+    mobilities : as measured
+    measured : their features
+    wall : points of the wall
+    tried : all draws that were held against it
+    agreements : of each of them
+    weights : of those that went on
+    reference : likelihood to which weights are related
+    """
+
+    study: Study
+    path: ShellPath
+    settings: MeasuredShell
+    mobilities: ShellMobilities
+    measured: Features
+    wall: Wall
+    tried: list[Draw] = field(default_factory=list)
+    agreements: list[ShellAgreement] = field(default_factory=list)
+    weights: list[float] = field(default_factory=list)
+    reference: float = 0.0
+
+    def agreeing(
+        self, batches: Iterable[list[Draw]], wanted: int, progress: Progress
+    ) -> Iterator[list[Draw]]:
+        """Batches of draws that go on.
+
+        A draw of likelihood L goes on with the probability min(1, L/c) and the weight max(L, c), so
+        that none is computed whose weight would be next to nothing, and the sum of weights is right
+        on average (Russian roulette: Kahn 1956, Use of different Monte Carlo sampling techniques,
+        RAND P-766).
+
+        Parameters
+        ----------
+        batches : of draws from the ranges alone
+        wanted : how many a batch shall have
+        progress : called with the number of draws that were held against the test
+
+        Raises
+        ------
+        ParameterError
+            No draw agrees.
+        """
+        random = np.random.default_rng(self.study.uncertainty.seed)
+        done = 0
+        for batch in batches:
+            self.agreements += [self._agreement(draw) for draw in batch]
+            self.tried += batch
+            progress("draws at the hammer test", len(self.tried), MOST_TRIED)
+            likelihood = np.array([one.likelihood for one in self.agreements])
+            least, fresh = CHANCE * likelihood.max(), likelihood[done:]
+            is_last = len(self.tried) >= MOST_TRIED
+            suffices = np.minimum(fresh, least).sum() >= wanted * least or is_last
+            if likelihood.max() >= LEAST_LIKELIHOOD and suffices:
+                self.reference = self.reference or float(likelihood.max())
+                goes = fresh > least * random.uniform(size=fresh.size)
+                self.weights += np.maximum(fresh, least)[goes].tolist()
+                yield [draw for draw, go in zip(self.tried[done:], goes, strict=True) if go]
+                done = len(self.tried)
+            if is_last:
+                break
+        if self.reference == 0.0:
+            raise ParameterError(self._why_none())
+
+    def likelihood(self, before: int, count: int) -> Array:
+        """Weights of draws that went on over that of the best, shape (count,)."""
+        return np.array(self.weights[before : before + count]) / self.reference
+
+    def _why_none(self) -> str:
+        best = max(self.agreements, key=lambda one: one.likelihood, default=NO_MACHINE)
+        return (
+            f"measured.shell: none of {len(self.tried)} draws agrees with the hammer test within "
+            f"three tolerances; the best one has {best.gain_db:+.1f} dB, "
+            f"{best.frequency_ratio:.3f} of the natural frequencies and {best.loss_ratio:.2f} of "
+            "the loss factors; check points and units, or give wider ranges or tolerances"
+        )
+
+    def _agreement(self, draw: Draw) -> ShellAgreement:
+        try:
+            return self.of_machine(with_draw(self.study.machine, self.study.machine, draw))
+        except (ParameterError, SolverError):
+            return NO_MACHINE
+
+    def of_machine(self, machine: Machine) -> ShellAgreement:
+        """Agreement of a machine's shell.
+
+        Raises
+        ------
+        ParameterError
+            Frame or joints do not fit the shell.
+        """
+        settings = self.settings
+        tolerances = Tolerances(
+            settings.gain_tolerance_db,
+            settings.frequency_tolerance_ratio,
+            settings.loss_tolerance_ratio,
+        )
+        drawn = features(self.mobility(machine), self.mobilities.frequency_hz)
+        return shell_agreement(self.measured, drawn, tolerances)
+
+    def mobility(self, machine: Machine) -> ComplexArray:
+        """Of the measured pairs, m/(N s), shape (mobility, frequency)."""
+        parts, names = self.settings.parts, list(self.settings.wall)
+        used = list(dict.fromkeys(self.mobilities.reference))
+        references: list[Reference] = [
+            names.index(one) if one in names else (parts[one].part, parts[one].component)
+            for one in used
+        ]
+        every = wall_mobility(
+            machine, self.path, self.wall, references, self.mobilities.frequency_hz
+        )
+        rows = [names.index(name) for name in self.mobilities.response]
+        return np.asarray(every[rows, [used.index(one) for one in self.mobilities.reference]])
+
+    def labelled(self, before_dba: Array, gone: int) -> xr.Dataset:
+        """How all draws agree, their values, and the peaks that were measured.
+
+        Parameters
+        ----------
+        before_dba : modelled level of draws from the ranges alone, shape (draw,)
+        gone : number of draws whose sound was computed
+        """
+        ranges = [one for one in self.study.ranges if one.table.split(".")[0] in OF_THE_SHELL]
+        draws = {"shell_draw": np.arange(1, len(self.tried) + 1)}
+        arrays = {
+            name: stamp(name, [getattr(one, part) for one in self.agreements], draws)
+            for name, part in {
+                "shell_likelihood": "likelihood",
+                "shell_gain": "gain_db",
+                "shell_frequency_ratio": "frequency_ratio",
+                "shell_loss_ratio": "loss_ratio",
+            }.items()
+        }
+        values = [[draw[one.table, one.field] for one in ranges] for draw in self.tried]
+        named = {**draws, "shell_parameter": [one.name for one in ranges]}
+        arrays["shell_value"] = stamp("shell_value", values, named)
+        numbers = {"shell_level_draw": np.arange(1, len(before_dba) + 1)}
+        arrays["shell_level_before"] = stamp("shell_level_before", before_dba, numbers)
+        going = {"bank_draw": np.arange(1, gone + 1)}
+        arrays["shell_weight"] = stamp("shell_weight", self.likelihood(0, gone), going)
+        peaks = {"shell_peak": self.measured.peak_hz}
+        arrays["shell_peak_loss"] = stamp("shell_peak_loss", self.measured.loss_ratio, peaks)
+        settings, frequency = self.settings, self.mobilities.frequency_hz
+        arrays["shell_likelihood"].attrs |= {
+            "mobilities": len(self.mobilities.mobility),
+            "unused": self.mobilities.unused,
+            "lowest_frequency_hz": float(frequency[0]),
+            "highest_frequency_hz": float(frequency[-1]),
+            "gain_tolerance_db": settings.gain_tolerance_db,
+            "frequency_tolerance_ratio": settings.frequency_tolerance_ratio,
+            "loss_tolerance_ratio": settings.loss_tolerance_ratio,
+        }
+        if not self.measured.peak_hz.size:
+            del arrays["shell_peak_loss"]
+        return check(xr.Dataset(arrays))
+
+
+def shell_test(study: Study, path: ShellPath | None) -> ShellTest | None:
+    """The hammer test that a study names; none where it names none.
+
+    Raises
+    ------
+    ParameterError
+        No source drives an elastic shell, nothing is drawn, or a file does not fit.
+    StorageError
+        A file cannot be read.
+    """
+    settings = None if study.measured is None else study.measured.shell
+    if settings is None:
+        return None
+    if path is None:
+        raise ParameterError("measured.shell: no source drives an elastic shell")
+    if not study.ranges:
+        raise ParameterError("measured.shell: weighs draws, and no value has a range")
+    points = settings.wall.values()
+    try:
+        wall = wall_of(
+            path,
+            np.array([point.angle_rad for point in points]),
+            np.array([point.height_m for point in points]),
+        )
+    except ParameterError as error:
+        raise ParameterError(f"measured.shell.wall: {error}") from None
+    mobilities = read_shell_mobilities(settings, study.radiation.maximum_frequency_hz)
+    measured = features(mobilities.mobility, mobilities.frequency_hz)
+    return ShellTest(study, path, settings, mobilities, measured, wall)

@@ -1,0 +1,170 @@
+"""Blocked forces and their validation, as plain text, CSV and Markdown."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import xarray as xr
+
+from ..base import rounding
+from ..base.errors import ParameterError
+from ..base.units import shaft_frequency_hz
+from ..mechanisms.tabulated.csv_layout import orders_csv
+from .tables import Table, escape_markdown, to_csv, to_markdown, to_text
+
+ON_ORDER = 0.01
+"""Largest distance of a line from an order, in orders."""
+SOURCE = "blocked_forces"
+
+
+def blocked_text(blocked: xr.Dataset) -> str:
+    """The validation in third octaves and over all lines, and the truncations."""
+    tables = (_validation(blocked), _bands(blocked), _truncation(blocked))
+    return "\n".join([*(to_text(table, 32) for table in tables), *_notes(blocked)])
+
+
+def blocked_markdown(blocked: xr.Dataset) -> bytes:
+    """A short report: tables, notes and the figures beside it."""
+    parts = [
+        f"# {escape_markdown(blocked.attrs['title'])}",
+        f"Blocked forces (ISO 20270). Computed {blocked.attrs['created_utc']}.",
+        to_markdown(_validation(blocked)),
+        "![On-board validation](validation.png)",
+        to_markdown(_bands(blocked)),
+        "![Blocked forces](blocked_forces.png)",
+        to_markdown(_truncation(blocked)),
+        "\n".join(f"- {note}" for note in _notes(blocked)),
+    ]
+    return ("\n\n".join(parts) + "\n").encode()
+
+
+def blocked_csv(blocked: xr.Dataset) -> bytes:
+    """Every blocked force at every line: amplitude with its 90 % band, and phase."""
+    head = ("point", "frequency_hz", "force_n", "phase_deg", "low_n", "high_n")
+    return to_csv(head, _forces(blocked))
+
+
+def _forces(blocked: xr.Dataset) -> Iterator[tuple[str | float, ...]]:
+    frequency = blocked["frequency"].values
+    for point in map(str, blocked["force_point"].values):
+        at = blocked.sel(force_point=point)
+        force = at["blocked_force"].values
+        columns = (abs(force), np.degrees(np.angle(force)), at["blocked_force_low"].values,
+                   at["blocked_force_high"].values)  # fmt: skip
+        for row in zip(frequency, *columns, strict=True):
+            yield (point, *map(float, row))
+
+
+def validation_csv(blocked: xr.Dataset) -> bytes:
+    """Every line of every validation: measured, predicted with its band, difference."""
+    head = ("validation", "quantity", "frequency_hz", "measured_db", "predicted_db", "low_db",
+            "high_db", "difference_db")  # fmt: skip
+    names = [f"validation_{end}" for end in (
+        "measured", "predicted", "predicted_low", "predicted_high", "difference"
+    )]  # fmt: skip
+    rows: Iterator[tuple[str | float, ...]] = (
+        (str(name), str(at["validation_quantity"].item()), *map(float, row))
+        for name in blocked["validation_point"].values
+        for at in [blocked.sel(validation_point=name)]
+        for row in zip(
+            blocked["frequency"].values, *(at[each].values for each in names), strict=True
+        )
+    )
+    return to_csv(head, rows)
+
+
+def blocked_orders_csv(blocked: xr.Dataset) -> bytes | None:
+    """Force and moment by order as the machine by table reads them; none without a speed.
+
+    Raises
+    ------
+    ParameterError
+        No line is an order of the speed.
+    """
+    speed = blocked.attrs.get("speed_rpm")
+    if speed is None:
+        return None
+    force = blocked["blocked_force_sum"].values
+    peaks = np.concatenate([force, blocked["blocked_moment_sum"].values])
+    shaft_hz = shaft_frequency_hz(float(speed))
+    order = blocked["frequency"].values / shaft_hz
+    lines = np.flatnonzero((np.abs(order - np.rint(order)) <= ON_ORDER) & (order > 0.5))
+    numbers = np.rint(order[lines]).astype(int)
+    if len(lines) == 0 or len(set(numbers.tolist())) < len(numbers):
+        count = "no line is" if len(lines) == 0 else "several lines are"
+        raise ParameterError(
+            f"blocked_forces.speed_rpm = {speed:g} rpm: {count} within {ON_ORDER:g} of an order, "
+            f"a multiple of {shaft_hz:g} Hz; give operating spectra at the orders"
+        )
+    return orders_csv(
+        (float(speed), int(number), SOURCE, peaks[:, line])
+        for number, line in zip(numbers, lines, strict=True)
+    )
+
+
+def _validation(blocked: xr.Dataset) -> Table:
+    bands = blocked["validation_band_difference"]
+    rows = []
+    for name in map(str, blocked["validation_point"].values):
+        at, of_bands = blocked.sel(validation_point=name), bands.sel(validation_point=name)
+        lines, largest = np.abs(at["validation_difference"].values), of_bands.dropna("band")
+        worst = largest[int(np.argmax(np.abs(largest.values)))]
+        rows.append(
+            (
+                name,
+                str(at["validation_quantity"].item()),
+                rounding.fixed(float(np.median(lines)), 2),
+                rounding.fixed(float(np.quantile(lines, 0.9)), 2),
+                rounding.fixed(float(np.abs(largest).mean()), 2),
+                f"{rounding.signed(worst.item(), 2)} at {worst['band'].item():g} Hz",
+            )
+        )
+    head = ("Validation", "", "lines: median", "90 % of lines", "third octaves: mean", "largest")
+    caption = "Predicted against measured where no force is inverted from, dB"
+    return Table(caption, head, tuple(rows), frozenset({0, 1}))
+
+
+def _bands(blocked: xr.Dataset) -> Table:
+    rows = []
+    for name in map(str, blocked["validation_point"].values):
+        at = blocked.sel(validation_point=name).dropna("band", subset=["validation_band_measured"])
+        for number in range(at.sizes["band"]):
+            one = at.isel(band=number)
+            low, high = (one[f"validation_band_difference_{end}"].item() for end in ("low", "high"))
+            rows.append(
+                (
+                    name,
+                    f"{one['band'].item():g}",
+                    rounding.fixed(one["validation_band_measured"].item()),
+                    rounding.fixed(one["validation_band_predicted"].item()),
+                    rounding.signed(one["validation_band_difference"].item(), 2),
+                    f"{rounding.signed(low, 2)} to {rounding.signed(high, 2)}",
+                )
+            )
+    head = ("Validation", "Hz", "measured", "predicted", "difference", "90 % band")
+    caption = "Third octaves, dB re 20 µPa, or re 1 µm/s²"
+    return Table(caption, head, tuple(rows), frozenset({0}))
+
+
+def _truncation(blocked: xr.Dataset) -> Table:
+    errors = blocked["left_out_error"]
+    cells = ["–" if np.isnan(error) else rounding.fixed(error, 2) for error in errors.values]
+    head = ("taken", *(f"{share:.1%}" for share in errors["tried_truncation"].values))
+    return Table(
+        "Truncation of singular values: the one taken, and the mean error with each of a response "
+        "that the forces from all others make, dB",
+        head,
+        ((f"{blocked['inversion_truncation'].item():.1%}", *cells),),
+    )
+
+
+def _notes(blocked: xr.Dataset) -> list[str]:
+    frequency, condition = blocked["frequency"].values, blocked["condition_number"].values
+    notes = [
+        f"{frequency.size} lines from {frequency[0]:g} to {frequency[-1]:g} Hz.",
+        f"Condition number: median {np.median(condition):.3g}, largest {condition.max():.3g} at "
+        f"{frequency[int(np.argmax(condition))]:g} Hz.",
+        f"Bands are of {blocked.attrs['draws']} draws of the random errors of the measurements.",
+    ]
+    if np.all(np.isnan(blocked["left_out_error"].values)):
+        notes.append("As many responses as forces: no truncation could be chosen; measure more.")
+    return notes

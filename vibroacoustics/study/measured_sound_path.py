@@ -1,0 +1,75 @@
+"""Hammer tests from the machine, or the floor under its feet, to the microphones."""
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+
+from pydantic import Field, model_validator
+
+from ..base.parameters import Parameters
+from .measured_shell import Hit
+
+_POSITION = ("x_m", "y_m", "z_m")
+
+
+class ForcePoint(Hit):
+    """Where a hammer hit: the machine at a position, or the floor under a foot."""
+
+    foot: str | None = None
+    """Its name; none on the machine."""
+    x_m: float | None = Field(default=None, ge=-10.0, le=10.0)
+    y_m: float | None = Field(default=None, ge=-10.0, le=10.0)
+    z_m: float | None = Field(default=None, ge=-10.0, le=10.0)
+    """From the centre of mass at rest."""
+
+    @model_validator(mode="after")
+    def _one_of_both(self) -> "ForcePoint":
+        given = [name for name in _POSITION if getattr(self, name) is not None]
+        if (self.foot is None) != (len(given) == len(_POSITION)) or (self.foot and given):
+            raise ValueError("needs either foot or x_mm, y_mm and z_mm")
+        return self
+
+
+class MicrophoneNode(Parameters):
+    """Node of a microphone in the measured functions."""
+
+    node: int = Field(ge=0, le=999_999_999)
+
+
+class MeasuredSoundPath(Parameters):
+    """Sound pressure per force, in place of radiation and room."""
+
+    frequency_responses: tuple[str, ...] = Field(min_length=1)
+    units: dict[str, str] = Field(default_factory=dict)
+    points: dict[str, ForcePoint] = Field(min_length=1)
+    microphones: dict[str, MicrophoneNode] = Field(min_length=1)
+    """By the study's receiver."""
+
+    @model_validator(mode="after")
+    def _of_one_kind(self) -> "MeasuredSoundPath":
+        kinds = {point.foot is None for point in self.points.values()}
+        if len(kinds) > 1:
+            raise ValueError("points: some are on the machine, some under feet; must be one")
+        counted = Counter(
+            (point.foot, point.direction[1]) for point in self.points.values() if point.foot
+        )
+        for (foot, axis), count in counted.items():
+            if count > 1:
+                raise ValueError(f"points: {count} points along {axis} under {foot}, must be one")
+        return self
+
+    @property
+    def is_at_feet(self) -> bool:
+        """Whether the floor under the feet was hit, not the machine."""
+        return next(iter(self.points.values())).foot is not None
+
+    def problems(self, receivers: Sequence[str]) -> Iterator[str]:
+        """Why it does not fit a study."""
+        for name in receivers:
+            if name not in self.microphones:
+                yield f"measured.sound.microphones.{name}: is missing, the study has this receiver"
+        for name in self.microphones:
+            if name not in receivers:
+                yield (
+                    f"measured.sound.microphones.{name}: not among the receivers "
+                    f"({', '.join(receivers)})"
+                )

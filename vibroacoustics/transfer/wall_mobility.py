@@ -1,0 +1,104 @@
+"""Velocity of points of the shell's wall by forces on the wall and on the parts in it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ..base.arrays import Array, ComplexArray
+from ..machine.machine import Machine
+from ..machine.shell_structure import ShellStructure, ShellVariation
+from ..mechanics.loads import PARTS
+from .force_sound import PressurePerVelocity
+from .frame import frame_on_shell
+from .path import ShellPath
+from .sound_path import BendingShell
+
+Reference = int | tuple[str, str]
+"""A force outwards at a point, by its number, or on a part along an axis, `fx`."""
+_AXES: Final = ("fx", "fy", "fz")
+
+
+def wall_points(angle_rad: Array, height_m: Array, radius_m: float) -> tuple[Array, Array]:
+    """Points of a round wall from the centre of mass, m, and outward normals, both (point, 3).
+
+    Parameters
+    ----------
+    angle_rad : from x towards y, shape (point,)
+    height_m : shape (point,)
+    radius_m : of the wall
+    """
+    normal = np.stack([np.cos(angle_rad), np.sin(angle_rad), np.zeros_like(angle_rad)], axis=1)
+    return radius_m * normal + np.outer(height_m, [0.0, 0.0, 1.0]), normal
+
+
+@dataclass(frozen=True)
+class Wall:
+    """Outward velocities of points of the wall.
+
+    Attributes
+    ----------
+    modes : per velocity of each mode of a path, shape (point, mode)
+    rigid : per velocity of the six rigid motions, shape (point, 6)
+    """
+
+    modes: Array
+    rigid: Array
+
+
+def wall_of(path: ShellPath, angle_rad: Array, height_m: Array) -> Wall:
+    """Points of the wall of a path; see `wall_points`."""
+    points, normal = wall_points(angle_rad, height_m, path.radius_m)
+    modes = [(mode.velocity(points) * normal).sum(axis=1) for mode in path.modes]
+    rigid = np.concatenate([normal, np.cross(points, normal)], axis=1)
+    return Wall(np.stack(modes, axis=1), rigid)
+
+
+def wall_mobility(
+    machine: Machine,
+    path: ShellPath,
+    wall: Wall,
+    references: Sequence[Reference],
+    frequency_hz: Array,
+) -> ComplexArray:
+    """Outward velocity of points per force, m/(N s), shape (point, reference, frequency).
+
+    By the modes of the shell, with its frame where it has one, as the sources drive them. A force
+    on the wall drives the elastic modes alone: what the rigid machine does of it is left out.
+
+    Parameters
+    ----------
+    machine : wall, frame, how the real shell differs
+    path : modes and joints of the study
+    wall : points
+    references : forces
+    frequency_hz : above zero, shape (frequency,)
+
+    Raises
+    ------
+    ParameterError
+        Frame or joints do not fit the shell.
+    """
+    structure, variation = machine.table(ShellStructure), machine.table(ShellVariation)
+    shell_path = path.with_structure(structure)
+    shell = BendingShell(
+        shell_path, _at_all(wall.modes), _at_all(wall.rigid), structure.loss_factor_ratio,
+        variation, frame_on_shell(machine, shell_path),
+    )  # fmt: skip
+    columns = []
+    for reference in references:
+        if isinstance(reference, int):
+            driven = np.repeat(wall.modes[reference][:, None], frequency_hz.size, axis=1)
+            columns.append(shell.per_modal_force(driven.astype(complex), frequency_hz))
+        else:
+            part, axis = PARTS.index(reference[0]), _AXES.index(reference[1])
+            columns.append(shell.per_load(frequency_hz)[:, part, axis])
+    return np.stack(columns, axis=1)
+
+
+def _at_all(per_velocity: Array) -> PressurePerVelocity:
+    """The same at all frequencies."""
+    return lambda frequency_hz: np.repeat(
+        per_velocity[:, :, None].astype(complex), frequency_hz.size, axis=2
+    )
