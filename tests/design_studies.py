@@ -14,6 +14,7 @@ from vibroacoustics.base.decibel import mean_square_level
 from vibroacoustics.design.engine.engine import Engine
 from vibroacoustics.design.engine.seen import Need
 from vibroacoustics.design.space import Space
+from vibroacoustics.radiation.given import Radiation
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.study import Study
 
@@ -50,17 +51,21 @@ def design_table(option: str, variables: dict[str, str]) -> str:
     return "\n".join([f"[design]\noption = {option}", "[design.variables]", *lines, OBJECTIVE])
 
 
-def engine_of(study: Study, needs: tuple[Need, ...] = NEEDS) -> Engine:
+def engine_of(
+    study: Study, needs: tuple[Need, ...] = NEEDS, radiation: Radiation = made_up_radiation
+) -> Engine:
     """Engine of the study's designs."""
     space = Space.of(study)
-    return Engine(space, space.limits, needs, made_up_radiation)
+    return Engine(space, space.limits, needs, radiation)
 
 
-def largest_difference_db(engine: Engine, study: Study, designs: Array) -> float:
+def largest_difference_db(
+    engine: Engine, study: Study, designs: Array, radiation: Radiation = made_up_radiation
+) -> float:
     """Between engine and pipeline, of all that is seen of designs."""
     outcome = engine.outcome(designs)
     assert not outcome.failed
-    runs = [_run(engine, study, design) for design in designs]
+    runs = [_run(engine, study, design, radiation) for design in designs]
     return max(
         _of_need(need, seen[row], run)
         for row, run in enumerate(runs)
@@ -68,9 +73,9 @@ def largest_difference_db(engine: Engine, study: Study, designs: Array) -> float
     )
 
 
-def _run(engine: Engine, study: Study, design: Array) -> xr.Dataset:
-    changed = study.replace(engine.space.written(design)).model_copy(update={"ranges": ()})
-    results = pipeline.run(changed, radiation=made_up_radiation)
+def _run(engine: Engine, study: Study, design: Array, radiation: Radiation) -> xr.Dataset:
+    changed = study.replace(engine.space.written(design))
+    results = pipeline.run(changed, radiation=radiation)
     return results.sel(option=engine.space.option_of(design))
 
 

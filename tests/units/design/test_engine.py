@@ -130,6 +130,8 @@ def test_choice_among_options():
     designs = engine.space.sample("latin-hypercube", 3)
     assert set(designs[:, 0]) == {0.0, 1.0, 2.0}
     assert largest_difference_db(engine, study, designs) < CLOSE_DB
+    assert all(routes(engine, "weight").values())
+    assert all(routes(engine, "none").values())
 
 
 class Kinked(Option):

@@ -87,18 +87,18 @@ class Engine:
             limits[0] = space.options.index(option)
         explorer = Explorer(samples, limits, speeds, ARRAYS | figures)
         by_runs = any(need.what == "criterion" for need in self.needs)
-        linear = (
-            ()
-            if by_runs
-            else tuple(
-                number
-                for number, variable in enumerate(space.variables)
-                if not variable.takes_words and acts_on(variable.key, option)
-            )
-        )
-        forms = () if by_runs else _closed_forms(space, option)
+        variables = dict(enumerate(space.variables))
+        idle = [
+            n for n, one in variables.items() if one.key == OPTION or not acts_on(one.key, option)
+        ]
+        linear = [n for n, one in variables.items() if n not in idle and not one.takes_words]
+        forms = _closed_forms(space, option)
+        if by_runs:
+            linear, forms = [], ()
         runs = CachedRuns(space, option, self.needs, self.ways)
-        return OptionEngine(explorer, self.ways, self.needs, linear, forms, runs)
+        return OptionEngine(
+            explorer, self.ways, self.needs, tuple(linear), tuple(idle), forms, runs
+        )
 
     def _probe(self, option: str, design: Array) -> Probe:
         return probe(self.space.quick_study_of(design), option, self.ways)

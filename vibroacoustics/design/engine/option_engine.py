@@ -11,7 +11,7 @@ from ...base.arrays import Array, IndexArray
 from ...base.errors import ParameterError, SolverError
 from .bases import Basis
 from .linear_designs import LinearDesigns
-from .recognition import TESTS, Explorer, Route, fits
+from .recognition import NO_EFFECT, TESTS, Explorer, Route, fits
 from .seen import Need, Seen
 from .sound_way import Ways
 from .terms import Terms, products_of
@@ -56,6 +56,7 @@ class OptionEngine:
     ways : ways to the microphones
     needs : what is asked
     linear : numbers of the variables that may be linear
+    idle : of those that say nothing of the option
     forms : closed forms of the option
     run : computes one design
     """
@@ -64,6 +65,7 @@ class OptionEngine:
     ways: Ways
     needs: tuple[Need, ...]
     linear: tuple[int, ...]
+    idle: tuple[int, ...]
     forms: tuple[Basis, ...]
     run: Run
     _groups: dict[bytes, LinearDesigns | None] = field(default_factory=dict, repr=False)
@@ -74,6 +76,8 @@ class OptionEngine:
         routes = [Route(False, "takes words, or a criterion is asked for")] * len(
             self.explorer.limits
         )
+        for number in self.idle:
+            routes[number] = Route(True, NO_EFFECT)
         base, bases = self._base(), []
         of_forms = {number for form in self.forms for number in form.variables}
         groups = dict.fromkeys(form.variables for form in self.forms)
@@ -127,10 +131,10 @@ class OptionEngine:
 
     def _linear(self, terms: Terms, values: Array, of_runs: Sequence[int]) -> LinearDesigns | None:
         """Designs of one set of values that take a run; none where runs of each are less."""
+        if of_runs and (not terms.bases or len(values) <= fits(terms) + TESTS):
+            return None  # whatever was fitted before: the same designs give the same bits
         key = values[0, of_runs].tobytes()
         if key not in self._groups:
-            if of_runs and (not terms.bases or len(values) <= fits(terms) + TESTS):
-                return None
             self._groups[key] = self._prepared(terms, values[0], of_runs)
         return self._groups[key]
 
