@@ -20,6 +20,8 @@ FEATURES = {
     "run in Python": "va.run",
     "values of a study changed": "va.Study.replace",
     "study from a file": "va.load_study",
+    "sweep of designs": "command sweep",
+    "sweep in Python": "va.sweep",
     "radiation alone": "command radiation",
     "radiation alone, in Python": "va.radiate",
     "measured transfer vectors": "va.given_radiation",

@@ -27,11 +27,11 @@ def over(values: Array, axis: int, statistic: Statistic, more_is_better: bool) -
     share = 1.0 if statistic == "worst" else float(statistic)
     better = -values if more_is_better else values
     count = values.shape[axis]
-    place = min(max(int(np.ceil(share * count - 1e-9)), 1), count) - 1
-    if place == count - 1:
+    rank = min(max(int(np.ceil(share * count - 1e-9)), 1), count) - 1
+    if rank == count - 1:
         reached = better.max(axis=axis)
     else:
-        reached = np.take(np.partition(better, place, axis=axis), place, axis=axis)
+        reached = np.take(np.partition(better, rank, axis=axis), rank, axis=axis)
     return np.asarray(-reached if more_is_better else reached)
 
 

@@ -23,7 +23,7 @@ class Variable:
     limits : lowest and highest value in SI; numbers of the words where it takes words
     choices : values in SI that it may take, or words; none for any value between the limits
     points : of a grid; none where it takes some values only, or none are given
-    whole : whether the file writes whole numbers
+    integer : whether the file writes whole numbers
     """
 
     key: str
@@ -32,7 +32,7 @@ class Variable:
     limits: tuple[float, float]
     choices: tuple[float | str, ...] | None = None
     points: int | None = None
-    whole: bool = False
+    integer: bool = False
 
     @property
     def takes_words(self) -> bool:
@@ -76,7 +76,7 @@ class Variable:
         if self.choices is not None and self.takes_words:
             return self.choices[round(value)]
         in_file = float(f"{float(value) / self.factor:.14g}")
-        return int(in_file) if self.whole and in_file.is_integer() else in_file
+        return int(in_file) if self.integer and in_file.is_integer() else in_file
 
 
 def variable_of(key: str, given: DesignVariable) -> Variable:
@@ -97,8 +97,8 @@ def variable_of(key: str, given: DesignVariable) -> Variable:
     if words:
         return Variable(key, "", 1.0, (0.0, len(words) - 1.0), tuple(words))
     numbers = tuple(factor * value for value in given.list if not isinstance(value, str))
-    whole = all(isinstance(value, int) for value in given.list)
-    return Variable(key, symbol, factor, (min(numbers), max(numbers)), numbers, whole=whole)
+    integer = all(isinstance(value, int) for value in given.list)
+    return Variable(key, symbol, factor, (min(numbers), max(numbers)), numbers, integer=integer)
 
 
 def _in_range(key: str, given: DesignVariable, symbol: str, factor: float) -> Variable:
@@ -113,5 +113,5 @@ def _in_range(key: str, given: DesignVariable, symbol: str, factor: float) -> Va
             "allowed 2 to 100000"
         )
     choices = tuple(factor * (low + given.step * number) for number in range(count))
-    whole = all(isinstance(value, int) for value in (low, high, given.step))
-    return Variable(key, symbol, factor, (choices[0], choices[-1]), choices, whole=whole)
+    integer = all(isinstance(value, int) for value in (low, high, given.step))
+    return Variable(key, symbol, factor, (choices[0], choices[-1]), choices, integer=integer)

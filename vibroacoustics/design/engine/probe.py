@@ -33,11 +33,11 @@ class Probe:
         noise (receiver,): A-weighted mean square of random loads, Pa²
         factor (line,): what the option's insertion loss leaves of the pressure
         and one of shape () for each reported figure
+        and, where stiffness changes over frequency, what is added to it:
+        added (line, motion, motion), foot_added (line, foot, 3, motion)
     body : arrays by name, of the shapes
         mass, stiffness (motion, motion): complex with the structural loss
         foot (foot, 3, motion): force into each foot per motion
-    added, foot_added : stiffness over frequency in addition, by speed, (line, motion, motion) and
-        (line, foot, 3, motion); none where it is constant
     way : hash of what the way from motion to microphones consists of
     """
 

@@ -91,15 +91,15 @@ class Explorer:
         """Numbers of pairs of bases whose effects do not just add."""
         share = np.random.default_rng(_RANDOM).uniform(0.1, 0.9, base.size)
         other = self.limits[:, 0] + share * np.ptp(self.limits, axis=1)
-        found = []
+        meeting = []
         for pair in combinations(range(len(bases)), 2):
             corners = np.repeat(base[None], 4, axis=0)
             for number, rows in zip(pair, ([1, 3], [2, 3]), strict=True):
                 columns = list(bases[number].variables)
                 corners[np.ix_(rows, columns)] = other[columns]
             if any(_do_not_add(part) for one in self.arrays(corners) for part in one.values()):
-                found.append(pair)
-        return found
+                meeting.append(pair)
+        return meeting
 
     def expansions(self, base: Array, terms: Terms) -> list[Expansion]:
         """Expansions by speed, last that of the body, tested at random designs.

@@ -16,6 +16,11 @@ class Need(NamedTuple):
         criterion (of scorings)
     order : of sound, force, moment and foot; none for all sound
     name : of the reported figure or the criterion
+
+    Examples
+    --------
+    >>> va.Need("force", 2).order
+    2
     """
 
     what: Literal["sound", "force", "moment", "foot", "figure", "natural", "criterion"]
