@@ -19,9 +19,8 @@ from .engine.engine import Engine
 from .engine.option_engine import Outcome
 from .engine.seen import Need, Seen
 from .figure import FIGURES, DesignFigure, OfCriterion, Setting
-from .keys import acts_on
 from .reference import reference_of, remainder_of
-from .space import OPTION, Space
+from .space import Space
 from .statistics import of_each, over
 from .tolerances import Pieces
 
@@ -85,12 +84,8 @@ class Problem:
     @cached_property
     def is_linear(self) -> bool:
         """Whether all goes by linear algebra, so that a design costs next to nothing."""
-        return all(
-            route.linear
-            for option in self.space.options
-            for key, route in self.engine.routes(option).items()
-            if key != OPTION and acts_on(key, option)
-        )
+        routes = [self.engine.routes(option).values() for option in self.space.options]
+        return all(route.linear for each in routes for route in each)
 
     @property
     def piece(self) -> int:

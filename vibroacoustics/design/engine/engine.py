@@ -56,15 +56,10 @@ class Engine:
             rows = np.flatnonzero(np.rint(values[:, 0]) == number)
             if not rows.size:
                 continue
-            part = self.of_option(option).outcome(self._acting(values[rows], option))
+            part = self.of_option(option).outcome(values[rows])
             result.take(rows, part.seen, len(values))
             result.failed |= {int(rows[row]): reason for row, reason in part.failed.items()}
         return result
-
-    def _acting(self, values: Array, option: str) -> Array:
-        """The values with those of other options held, as they make no difference."""
-        acts = np.array([acts_on(name, option) for name in self.space.names])
-        return np.where(acts, values, self.space.limits[:, 0])
 
     def routes(self, option: str) -> dict[str, Route]:
         """Which way each variable goes in designs with an option, by its key."""
