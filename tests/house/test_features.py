@@ -72,6 +72,8 @@ FEATURES = {
     "inner curves, critical speed, in Python": "va.curves",
     "inner curves drawn": "va.plot.curves",
     "machine from a file": "va.load_machine",
+    "errors of a file, cost of a run": "command check",
+    "schemas for editors": "command schema",
     "forces drawn": "va.plot.force_over_revolution",
     "directivity drawn": "va.plot.directivity",
     "level map drawn": "va.plot.line_map",

@@ -13,6 +13,7 @@ import typer
 
 from ..base.errors import VibroacousticsError
 from . import (
+    check_commands,
     curve_commands,
     messages,
     prediction_commands,
@@ -42,6 +43,7 @@ app.add_typer(curve_commands.commands)
 app.add_typer(recording_commands.commands)
 app.add_typer(prediction_commands.commands)
 app.add_typer(schema_commands.commands)
+app.add_typer(check_commands.commands)
 
 StudyFile = Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study to run.")]
 Out = Annotated[
