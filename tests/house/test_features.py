@@ -72,6 +72,7 @@ FEATURES = {
     "inner curves, critical speed, in Python": "va.curves",
     "inner curves drawn": "va.plot.curves",
     "machine from a file": "va.load_machine",
+    "machine and study to begin with": "command new",
     "errors of a file, cost of a run": "command check",
     "schemas for editors": "command schema",
     "forces drawn": "va.plot.force_over_revolution",
