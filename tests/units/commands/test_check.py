@@ -72,7 +72,7 @@ def middle_s(cost: RunCost, *without: str) -> float:
     return sqrt(sum(one.low_s for one in counted) * sum(one.high_s for one in counted))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_time_is_within_a_factor_of_two() -> None:
     study = load_study(PIPELINES / "zhao_minicrank.toml")
     cost = run_cost(study)
