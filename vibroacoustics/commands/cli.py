@@ -5,7 +5,6 @@ Heavy imports wait until a command needs them.
 
 import gc
 import sys
-from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
@@ -13,14 +12,17 @@ import typer
 
 from ..base.errors import VibroacousticsError
 from . import (
+    check_commands,
     curve_commands,
     design_commands,
     messages,
     prediction_commands,
     recording_commands,
+    run_commands,
     schema_commands,
+    score_commands,
 )
-from .options import Plugins, load_plugins
+from .options import NoCache, Plugins, load_plugins, used_cache
 from .progress import progress_on_stderr
 
 if TYPE_CHECKING:
@@ -34,26 +36,42 @@ at the usual 700 it takes a tenth of a run's time."""
 app = typer.Typer(
     help="From mechanism to microphone: forces, feet and sound of a compressor.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
 
+app.add_typer(run_commands.commands)
 app.add_typer(curve_commands.commands)
 app.add_typer(recording_commands.commands)
 app.add_typer(prediction_commands.commands)
 app.add_typer(design_commands.commands)
 app.add_typer(schema_commands.commands)
+app.add_typer(check_commands.commands)
+app.add_typer(score_commands.commands)
 
 StudyFile = Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study to run.")]
 Out = Annotated[
     Path | None,
     typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE STUDY."),
 ]
-NoCache = Annotated[
-    bool, typer.Option("--no-cache", help="Neither read nor write the cache of the radiation.")
-]
 ResultsFile = Annotated[Path, typer.Argument(metavar="RESULTS.nc", help="Results of a run.")]
+
+
+def _print_version(asked: bool) -> None:
+    if asked:
+        from importlib.metadata import version
+
+        typer.echo(f"vibroacoustics {version('vibroacoustics')}")
+        raise typer.Exit
+
+
+@app.callback()
+def of_all_commands(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print it.")
+    ] = False,
+) -> None:
+    """From mechanism to microphone: forces, feet and sound of a compressor."""
 
 
 def main() -> None:
@@ -63,33 +81,12 @@ def main() -> None:
         with messages.warnings_in_one_line():
             app()
     except VibroacousticsError as error:
-        for line in str(error).splitlines():
-            print(f"error: {' '.join(line.split())}", file=sys.stderr)
+        for line in messages.lines_of(error):
+            print(line, file=sys.stderr)
         sys.exit(INPUT_ERROR)
     except MemoryError as error:
         print(f"error: not enough memory: {error}", file=sys.stderr)
         sys.exit(INPUT_ERROR)
-
-
-@app.command("run")
-def run_command(
-    study_file: StudyFile,
-    out: Out = None,
-    plugin: Plugins = None,
-    no_cache: NoCache = False,
-) -> None:
-    """Run a study and write results.nc, report.html, tables and figures."""
-    from .. import pipeline, report
-    from . import outputs
-
-    study, folder = _study_and_folder(study_file, out, plugin)
-    with _cache(no_cache), progress_on_stderr() as progress:
-        results = pipeline.run(study, progress)
-    written = outputs.write_report(results, folder)
-    typer.echo(report.comparison_text(results))
-    typer.echo(report.kwave_text(results), nl=False)
-    typer.echo(f"report: {written}")
-    messages.warn(outputs.older_files(folder))
 
 
 @app.command("radiation")
@@ -104,7 +101,7 @@ def radiation_command(
     from . import outputs
 
     study, folder = _study_and_folder(study_file, out, plugin)
-    with _cache(no_cache), progress_on_stderr() as progress:
+    with used_cache(no_cache), progress_on_stderr() as progress:
         radiated = pipeline.radiate(study, progress)
     written = outputs.write_radiation(radiated, folder)
     typer.echo(report.radiation_text(radiated))
@@ -126,30 +123,6 @@ def report_command(
     folder = out or results_file.parent
     typer.echo(f"report: {outputs.write_report_again(results_file, folder)}")
     messages.warn(outputs.older_files(folder))
-
-
-@app.command("score")
-def score_command(
-    results_file: ResultsFile,
-    scoring_of: Annotated[
-        Path | None,
-        typer.Option("--scoring", metavar="STUDY.toml", help="Take scales and weights from here."),
-    ] = None,
-    plugin: Plugins = None,
-) -> None:
-    """Score the options again and print the ranking."""
-    from .. import scoring
-    from ..results import manifest
-    from ..study import loading
-    from . import outputs
-
-    load_plugins(plugin)
-    results, _ = outputs.open_run(results_file)
-    messages.warn(manifest.mixed(results_file.parent))
-    settings = loading.load_study(scoring_of).scoring if scoring_of else None
-    with outputs.naming(scoring_of or results_file):
-        scores = scoring.score(results, settings)
-    typer.echo(scoring.ranking_text(scores))
 
 
 @app.command("cache")
@@ -197,10 +170,3 @@ def _study_and_folder(
     study = loading.load_study(study_file)
     outputs.check_folder(folder)
     return study, folder
-
-
-def _cache(unused: bool) -> AbstractContextManager[None]:
-    """The use of the cache that is asked for."""
-    from ..results import storage
-
-    return storage.without_cache() if unused else nullcontext()

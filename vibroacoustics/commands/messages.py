@@ -1,16 +1,65 @@
-"""Warnings as single lines on stderr, at the moment when they come up."""
+"""Warnings as single lines on stderr, at the moment when they come up; a log besides."""
 
 import sys
+import time
 import warnings
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from typing import Any
+from contextvars import ContextVar
+from pathlib import Path
+from typing import Any, Final, TextIO
+
+from ..base.errors import StorageError, VibroacousticsError
+
+_LOG: Final[ContextVar[TextIO | None]] = ContextVar("_LOG", default=None)
+
+
+@contextmanager
+def logged(path: Path | None) -> Iterator[None]:
+    """Append what is noted to a file, each line with its time; nothing without one.
+
+    Raises
+    ------
+    StorageError
+        The file cannot be written.
+    """
+    if path is None:
+        yield
+        return
+    try:
+        file = path.open("a", encoding="utf-8", buffering=1)
+    except OSError as error:
+        raise StorageError(f"{path}: cannot be written: {error.strerror}") from None
+    with file:
+        token = _LOG.set(file)
+        try:
+            yield
+        except VibroacousticsError as error:
+            for line in lines_of(error):
+                note(line)
+            raise
+        finally:
+            _LOG.reset(token)
+
+
+def note(line: str) -> None:
+    """Write a line to the log, where there is one."""
+    file = _LOG.get()
+    if file is not None:
+        file.write(f"{time.strftime('%Y-%m-%d %H:%M:%S')} {line}\n")
+
+
+def lines_of(error: VibroacousticsError) -> list[str]:
+    """An error as it is printed."""
+    return [f"error: {' '.join(line.split())}" for line in str(error).splitlines()]
 
 
 def warn(lines: Iterable[str]) -> None:
     """Print each as a warning."""
     for line in lines:
-        print(f"warning: {' '.join(line.split())}", file=sys.stderr)
+        words = f"warning: {' '.join(line.split())}"
+        note(words)
+        print(words, file=sys.stderr)
 
 
 @contextmanager

@@ -1,5 +1,6 @@
 """Options that several commands share."""
 
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Annotated
 
@@ -22,6 +23,17 @@ LimitsFile = Annotated[
         "The exit code is 0 where they are exceeded, too.",
     ),
 ]
+
+NoCache = Annotated[
+    bool, typer.Option("--no-cache", help="Neither read nor write the cache of the radiation.")
+]
+
+
+def used_cache(unused: bool) -> AbstractContextManager[None]:
+    """The use of the cache that is asked for."""
+    from ..results import storage
+
+    return storage.without_cache() if unused else nullcontext()
 
 
 def load_plugins(plugins: list[Path] | None) -> None:

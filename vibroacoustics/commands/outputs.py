@@ -20,6 +20,7 @@ RESULTS_NAME: Final = "results.nc"
 REPORT_NAME: Final = "report.html"
 TRANSFER_VECTORS_NAME: Final = "transfer_vectors.nc"
 ORDERS_NAME: Final = "orders.nc"
+ORDERS_REPORT_NAME: Final = "orders.html"
 COMPARISON_NAME: Final = "compared_orders.nc"
 LIMITS_NAME: Final = "orders_limits.csv"
 COMPARED_LIMITS_NAME: Final = "compared_orders_limits.csv"
@@ -175,13 +176,15 @@ def write_radiation(radiated: xr.Dataset, folder: str | Path) -> Path:
 
 
 def write_orders(results: xr.Dataset, folder: str | Path) -> Path:
-    """Write the orders of a recording with their tables and figures; see `write_radiation`."""
+    """Write the orders of a recording with page, tables and figures; see `write_radiation`."""
     tables = {"orders.csv": report.orders_csv(results)}
     if "equivalent_level" in results:
         tables["levels.csv"] = report.levels_csv(results)
     if "order_limit" in results:
         tables[LIMITS_NAME] = report.limits_csv(results)
-    return write_analysis(results, folder, ORDERS_NAME, tables, report.recorded_order_figures)
+    pictures = report.recorded_order_figures(results)
+    tables[ORDERS_REPORT_NAME] = report.orders_html(results, pictures)
+    return write_analysis(results, folder, ORDERS_NAME, tables, lambda _: pictures)
 
 
 def write_comparison(compared: xr.Dataset, folder: str | Path) -> Path:

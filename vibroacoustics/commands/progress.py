@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from ..base.progress import Progress
+from . import messages
 
 SHORTEST_S: Final = 1.0
 """A stage that takes less is not worth a line."""
@@ -17,20 +18,40 @@ PAUSE_S: Final = 30.0
 
 
 @contextmanager
-def progress_on_stderr() -> Iterator[Progress]:
-    """A bar with remaining time; where stderr is no terminal, lines."""
-    if not sys.stderr.isatty():
-        yield Lines(lambda line: print(line, file=sys.stderr, flush=True))
-        return
+def progress_on_stderr(quiet: bool = False, verbose: bool = False) -> Iterator[Progress]:
+    """A bar with remaining time; where stderr is no terminal, lines. The log gets lines.
+
+    Parameters
+    ----------
+    quiet : nothing on stderr
+    verbose : lines, and every stage has one
+    """
+    shortest_s = 0.0 if verbose else SHORTEST_S
+    if quiet:
+        yield Lines(messages.note, shortest_s=shortest_s)
+    elif verbose or not sys.stderr.isatty():
+        yield Lines(_print_and_note, shortest_s=shortest_s)
+    else:
+        with _bar() as progress:
+            yield progress
+
+
+def _print_and_note(line: str) -> None:
+    messages.note(line)
+    print(line, file=sys.stderr, flush=True)
+
+
+@contextmanager
+def _bar() -> Iterator[Progress]:
     from rich.console import Console
     from rich.progress import (
         BarColumn,
-        Progress,
         TaskID,
         TextColumn,
         TimeElapsedColumn,
         TimeRemainingColumn,
     )
+    from rich.progress import Progress as Bars
 
     columns = (
         TextColumn("{task.description}"),
@@ -40,9 +61,11 @@ def progress_on_stderr() -> Iterator[Progress]:
         TimeRemainingColumn(),
     )
     tasks: dict[str, TaskID] = {}
-    with Progress(*columns, console=Console(stderr=True)) as bar:
+    lines = Lines(messages.note)
+    with Bars(*columns, console=Console(stderr=True)) as bar:
 
         def advance(description: str, done: int, total: int) -> None:
+            lines(description, done, total)
             if description not in tasks:
                 tasks[description] = bar.add_task(description, total=total)
             bar.update(tasks[description], completed=done, total=total)
@@ -68,12 +91,16 @@ class Lines:
     ----------
     write : takes a line
     clock : in s
+    shortest_s : a stage that takes less gets no line
     """
 
     def __init__(
-        self, write: Callable[[str], None], clock: Callable[[], float] = time.monotonic
+        self,
+        write: Callable[[str], None],
+        clock: Callable[[], float] = time.monotonic,
+        shortest_s: float = SHORTEST_S,
     ) -> None:
-        self._write, self._clock = write, clock
+        self._write, self._clock, self._shortest_s = write, clock, shortest_s
         self._stages: dict[str, _Stage] = {}
         self._lock = threading.Lock()
 
@@ -85,7 +112,7 @@ class Lines:
             elapsed = now - stage.begin_s
             if done >= total:
                 del self._stages[task]
-                if elapsed >= SHORTEST_S:
+                if elapsed >= self._shortest_s:
                     self._write(f"progress: {task}: done in {elapsed:.0f} s")
             elif now >= stage.due_s and done > stage.done:
                 stage.due_s = now + PAUSE_S

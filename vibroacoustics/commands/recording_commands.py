@@ -91,7 +91,7 @@ def orders_command(
     limits: LimitsFile = None,
     plugin: Plugins = None,
 ) -> None:
-    """Find the orders of a recording: netCDF, CSV, figures and a table."""
+    """Find the orders of a recording: orders.html, netCDF, CSV, figures and a table."""
     from .. import pipeline, report
     from . import arguments, checking, outputs, reading
 
@@ -112,6 +112,7 @@ def orders_command(
     typer.echo(report.orders_text(results))
     checking.print_margins(results, folder / outputs.LIMITS_NAME)
     typer.echo(f"orders: {written}")
+    typer.echo(f"report: {folder / outputs.ORDERS_REPORT_NAME}")
 
 
 @commands.command("compare")

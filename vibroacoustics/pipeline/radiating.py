@@ -1,6 +1,6 @@
 """The housing's radiation: transfer vectors, and what map and sound power make of them."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import xarray as xr
 
@@ -10,26 +10,44 @@ from ..base.progress import Progress, no_progress
 from ..base.vocabulary import check, label_coordinates
 from ..levels import sound_field as levels
 from ..levels.insertion_loss import airborne_factor
+from ..machine.shell import Shell
 from ..radiation.given import Radiation
 from ..radiation.pressure import pressure_on_map, pressure_on_surface, wrench_pressure
 from ..results import provenance, storage
+from ..study.radiation import RadiationSettings
+from ..study.receivers import Receiver
 from ..study.study import Study
 from .shell import shell_path
+
+_Inputs = tuple[
+    Shell,
+    Mapping[str, Receiver],
+    RadiationSettings,
+    radiation.SoundField,
+    Sequence[radiation.SurfaceMotion],
+    tuple[str, ...],
+]
 
 
 def transfer_vectors(
     study: Study, progress: Progress, motions: Sequence[radiation.SurfaceMotion] = ()
 ) -> tuple[xr.Dataset, bool]:
     """Pressure per velocity of the housing and of the motions; from the cache if it is there."""
-    sound_field = radiation.SoundField.of_study(study)
-    at_all = study.radiation.kwave_receivers == "all"
-    by_kwave = tuple(study.receivers) if at_all else (study.catalogue_receiver,)
-    inputs = (study.machine.shell, study.receivers, study.radiation, sound_field, motions, by_kwave)
+    inputs = inputs_of(study, motions)
     return storage.cached(
         "transfer-vectors",
         radiation.cache_key_material(*inputs),
         lambda: radiation.transfer_vectors(*inputs, progress),
     )
+
+
+def inputs_of(study: Study, motions: Sequence[radiation.SurfaceMotion]) -> _Inputs:
+    """What the transfer vectors of a study follow from."""
+    sound_field = radiation.SoundField.of_study(study)
+    at_all = study.radiation.kwave_receivers == "all"
+    by_kwave = tuple(study.receivers) if at_all else (study.catalogue_receiver,)
+    shell, settings = study.machine.shell, study.radiation
+    return shell, study.receivers, settings, sound_field, motions, by_kwave
 
 
 def radiate(

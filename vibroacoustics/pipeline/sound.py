@@ -88,8 +88,8 @@ def levels_of(
     ParameterError
         The model as given is louder than the published level, and nothing is drawn.
     """
-    catalogue = _at_catalogue_speed(study, motion)
-    transmission = _transmission(study, motion, catalogue, shell, by_force)
+    catalogue = at_catalogue_speed(study, motion)
+    transmission = transmission_of(study, motion, catalogue, shell, by_force)
     cases = {**catalogue.cases, **motion.cases}
     loads = {**catalogue.loads, **motion.loads}
     axes = LevelAxes.of(study, list(sources_of(study)), motion.results)
@@ -236,7 +236,7 @@ def sound_of_draws(
     return of_every_draw(draws, sound_of, unknown, progress)
 
 
-def _at_catalogue_speed(study: Study, motion: Motion) -> Motion:
+def at_catalogue_speed(study: Study, motion: Motion) -> Motion:
     """The case of the published level, without a balancer, where it is none of the study's."""
     key = study.catalogue_case
     if key in motion.cases:
@@ -249,13 +249,23 @@ def _at_catalogue_speed(study: Study, motion: Motion) -> Motion:
     return replace(motion, cases={key: case}, loads={key: loads})
 
 
-def _transmission(
+def transmission_of(
     study: Study,
     motion: Motion,
     catalogue: Motion,
     shell: ShellPath | None,
-    by_force: ForceSound | None,
+    by_force: ForceSound | None = None,
 ) -> Transmission:
+    """The way of the sound to the receivers, with that of the moving parts as given.
+
+    Parameters
+    ----------
+    study : with all options
+    motion : its results hold the transfer vectors
+    catalogue : at the point of the published level
+    shell : its elastic modes; none where no source drives it
+    by_force : measured pressure per force, in place of the transfer vectors
+    """
     if by_force is not None:
         pressure = {
             key: of_case

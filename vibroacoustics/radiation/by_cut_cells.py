@@ -49,16 +49,16 @@ class ByCutCells:
     def __init__(self, task: Task) -> None:
         settings = task.settings
         self._task = task
-        self._near = near_fields(
+        self.near = near_fields(
             task.scene, settings.near_field_spacing_m, settings.maximum_frequency_hz
         )
-        check_memory(self._near, len(task.patterns), task.frequency_hz.size, len(task.kwave))
-        _check_receivers(task, self._near)
-        check_walls(task.scene.body, self._near[-1].grid, settings.near_field_spacing_m)
+        check_memory(self.near, len(task.patterns), task.frequency_hz.size, len(task.kwave))
+        _check_receivers(task, self.near)
+        check_walls(task.scene.body, self.near[-1].grid, settings.near_field_spacing_m)
 
     def clear(self, points: Array) -> NDArray[np.bool_]:
         """Whether points (point, 3) lie outside the boxes and in front of every wall."""
-        return outside(self._near, self._task.scene.walls, points)
+        return outside(self.near, self._task.scene.walls, points)
 
     def pressures(
         self, elsewhere: Sequence[Microphones], progress: Progress
@@ -74,7 +74,7 @@ class ByCutCells:
         SolverError
             A field is not finite or has not died down.
         """
-        task, near = self._task, self._near
+        task, near = self._task, self.near
         room = Room(task.kwave_microphones, partial(room_greens, near[0].box, task, progress))
         side = MachineSide(
             task.scene,
@@ -100,7 +100,7 @@ class ByCutCells:
 
     def attributes(self) -> dict[str, Any]:
         """What the result says about its solution."""
-        grid = self._near[0].grid
+        grid = self.near[0].grid
         return {
             "solver": solver("cut cells", "image sources", self._task),
             "receiver_solvers": json.dumps(self._task.solvers("image sources")),

@@ -166,7 +166,7 @@ class NearField:
                 watch=Watch(watched, self._to_points(parity, points, frequency_hz[watched])),
                 other_parts=largest,
                 pulse_width_s=self.pulse_width_s,
-                passage_s=self._passage_s,
+                passage_s=self.passage_s,
                 progress=progress,
             )
             spectrum, largest = advance_run(run, grid, self.cells)
@@ -181,7 +181,8 @@ class NearField:
         return np.stack([matrix @ green.T for green in greens])
 
     @property
-    def _passage_s(self) -> float:
+    def passage_s(self) -> float:
+        """Time that sound takes through the diagonal of the box, s."""
         diagonal = float(np.linalg.norm(self.box.upper - self.box.lower))
         return diagonal / SPEED_OF_SOUND_M_PER_S
 

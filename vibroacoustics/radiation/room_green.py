@@ -104,9 +104,7 @@ def _run(
     threads: int,
 ) -> BoxField:
     width, time_step = pulse_width_s(maximum_frequency_hz), grid.time_step_s
-    pulse_steps = int(np.ceil(pulse_duration_s(width) / time_step))
-    passage = _furthest_m(grid, box) / SPEED_OF_SOUND_M_PER_S + _SETTLING_S
-    steps = pulse_steps + int(np.ceil(passage / time_step))
+    pulse_steps, steps = steps_of(grid, box, maximum_frequency_hz)
     # Sources act in the middle of a step and end with the pulse.
     source_time = time_step * (np.arange(pulse_steps) + 0.5)
     volume_velocity = pulse(source_time, width)
@@ -128,6 +126,15 @@ def _run(
         1j * omega * AIR_DENSITY_KG_PER_M3 * transform(frequency_hz, source_time, volume_velocity)
     )
     return recorder.field(source / per_sample)
+
+
+def steps_of(grid: RoomGrid, box: Box, maximum_frequency_hz: float) -> tuple[int, int]:
+    """Time steps of the pulse, and of the whole run."""
+    time_step = grid.time_step_s
+    duration = pulse_duration_s(pulse_width_s(maximum_frequency_hz))
+    pulse_steps = int(np.ceil(duration / time_step))
+    passage = _furthest_m(grid, box) / SPEED_OF_SOUND_M_PER_S + _SETTLING_S
+    return pulse_steps, pulse_steps + int(np.ceil(passage / time_step))
 
 
 def _furthest_m(grid: RoomGrid, box: Box) -> float:

@@ -26,7 +26,7 @@ from .device import engine_name
 from .interpolation import Interpolant, interpolant
 from .kwave import kwave_version
 from .patterns import SurfaceMotion, rigid_body, surface_motion
-from .revolution.method import by_revolution
+from .revolution.method import ByRevolution, by_revolution
 from .scene import file_patterns, machine_body, position_m, scene
 from .sound_field import NO_SOUND_FIELD, SoundField, field_parts, labelled_fields
 from .task import Task
@@ -73,6 +73,32 @@ def transfer_vectors(
     SolverError
         A field is not finite, not plausible or has not died down.
     """
+    task = task_of(shell, receivers, settings, sound_field, motions, kwave_receivers)
+    surroundings, frequency_hz = task.scene, task.frequency_hz
+    method = method_of(shell, task)
+    parts = field_parts(method.clear, surroundings, shell.floor_z_m, sound_field, task.tabulated)
+    vectors, elsewhere = method.pressures([part.microphones for part in parts], progress)
+    names = [pattern.name for pattern in task.patterns[len(RIGID_BODY_DOFS) :]]
+    dataset = _labelled(vectors, task.positions, task.table_hz, names)
+    dataset = dataset.merge(labelled_fields(parts, elsewhere, frequency_hz, surroundings))
+    return check(dataset).assign_attrs(
+        room_solver=settings.room_solver,
+        surroundings=settings.surroundings.model_dump_json(),
+        room_time_step_courant_number=room_grid.COURANT_NUMBER,
+        **({"room_engine": engine_name()} if task.kwave else {}),
+        **method.attributes(),
+    )
+
+
+def task_of(
+    shell: Shell,
+    receivers: Mapping[str, Receiver],
+    settings: RadiationSettings,
+    sound_field: SoundField = NO_SOUND_FIELD,
+    motions: Sequence[SurfaceMotion] = (),
+    kwave_receivers: Collection[str] | None = None,
+) -> Task:
+    """What a method of radiation is given; see `transfer_vectors`."""
     surroundings = scene(shell, settings)
     extra = [
         *file_patterns(settings.body, surroundings.machine),
@@ -85,19 +111,12 @@ def transfer_vectors(
     patterns = [*map(rigid_body, RIGID_BODY_DOFS), *extra]
     frequency_hz = np.concatenate([table, sound_field.line_frequency_hz])
     kwave = kwave_names(receivers, settings, kwave_receivers)
-    task = Task(surroundings, patterns, positions, settings, frequency_hz, table.size, kwave)
-    method = by_revolution(shell, task) if settings.revolution else ByCutCells(task)
-    parts = field_parts(method.clear, surroundings, shell.floor_z_m, sound_field, task.tabulated)
-    vectors, elsewhere = method.pressures([part.microphones for part in parts], progress)
-    dataset = _labelled(vectors, positions, table, [pattern.name for pattern in extra])
-    dataset = dataset.merge(labelled_fields(parts, elsewhere, frequency_hz, surroundings))
-    return check(dataset).assign_attrs(
-        room_solver=settings.room_solver,
-        surroundings=settings.surroundings.model_dump_json(),
-        room_time_step_courant_number=room_grid.COURANT_NUMBER,
-        **({"room_engine": engine_name()} if kwave else {}),
-        **method.attributes(),
-    )
+    return Task(surroundings, patterns, positions, settings, frequency_hz, table.size, kwave)
+
+
+def method_of(shell: Shell, task: Task) -> ByRevolution | ByCutCells:
+    """Boundary elements on the meridian where body and surroundings allow it, else cut cells."""
+    return by_revolution(shell, task) if task.settings.revolution else ByCutCells(task)
 
 
 def pressure_per_velocity(transfer_vector: xr.DataArray) -> Interpolant:

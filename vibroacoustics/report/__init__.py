@@ -36,6 +36,7 @@ from .order_tables import (
     orders_csv,
     orders_text,
 )
+from .orders_page import orders_html
 from .page import page_of
 from .prediction import prediction_csv, prediction_markdown, prediction_text
 from .radiation_figures import radiation_figures
@@ -65,6 +66,7 @@ __all__ = [
     "limits_csv",
     "limits_text",
     "orders_csv",
+    "orders_html",
     "orders_text",
     "predicted_figures",
     "prediction_csv",

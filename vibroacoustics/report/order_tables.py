@@ -56,6 +56,13 @@ class _ComparedOrder(NamedTuple):
 
 def orders_text(results: xr.Dataset) -> str:
     """Where the speed comes from, the orders at some operating points, levels of sound pressure."""
+    tables = orders_tables(results)
+    texts = (to_text(table, WIDEST_CHANNEL) for table in tables)
+    return "\n".join([*orders_facts(results), "", *texts])
+
+
+def orders_facts(results: xr.Dataset) -> list[str]:
+    """Where the speed comes from, and how finely orders are resolved."""
     attrs = results.attrs
     facts = [
         f"speed: {attrs['speed_source']}",
@@ -67,10 +74,15 @@ def orders_text(results: xr.Dataset) -> str:
         facts.append(_faults_line(results["fault_time"]))
     if "left_out" in attrs:
         facts.append(f"left out: {attrs['left_out']}")
+    return facts
+
+
+def orders_tables(results: xr.Dataset) -> list[Table]:
+    """Orders at some operating points, and levels of sound pressure where there are some."""
     tables = [_orders_table(results)]
     if "equivalent_level" in results:
         tables.append(_levels_table(results))
-    return "\n".join([*facts, "", *(to_text(table, WIDEST_CHANNEL) for table in tables)])
+    return tables
 
 
 def orders_csv(results: xr.Dataset) -> bytes:

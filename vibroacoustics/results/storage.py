@@ -115,7 +115,7 @@ def cached(
     """
     if not _CACHE_IS_USED.get():
         return compute(), False
-    path = cache.folder() / f"{kind}-{sha256(canonical_json(material).encode())[:32]}.nc"
+    path = _entry(kind, material)
     if (result := _known(path)) is not None:
         return result, True
     with ExitStack() as stack:
@@ -126,6 +126,15 @@ def cached(
         if can_be_written:
             _keep(result, path)
     return result, False
+
+
+def is_cached(kind: str, material: Mapping[str, Any]) -> bool:
+    """Whether `cached` would find a result, if it is whole."""
+    return _CACHE_IS_USED.get() and _entry(kind, material).exists()
+
+
+def _entry(kind: str, material: Mapping[str, Any]) -> Path:
+    return cache.folder() / f"{kind}-{sha256(canonical_json(material).encode())[:32]}.nc"
 
 
 def _known(path: Path) -> xr.Dataset | None:

@@ -130,7 +130,7 @@ def load_machine(path: str | Path) -> Machine:
 
 
 _FILLED_IN: Final = (
-    "records", "ranges", "held_ranges", "source_file", "given", "catalogue_machine",
+    "records", "ranges", "held_ranges", "source_file", "given", "catalogue_machine", "coarsened",
 )  # fmt: skip
 """Here, not by a file."""
 

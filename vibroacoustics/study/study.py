@@ -159,6 +159,8 @@ class Study(Parameters):
     measured: MeasuredSound | None = None
     """What was measured of the machine's sound, in place of its overall noise."""
     records: tuple[ParameterRecord, ...] = ()
+    coarsened: tuple[str, ...] = ()
+    """What was made coarser for a first look, and the error that is expected."""
     source_file: str = ""
 
     @field_validator("options", "receivers")
@@ -370,6 +372,12 @@ class Study(Parameters):
         """The study itself, which remembers what its file says; copies do not."""
         object.__setattr__(self, "_written", written)
         return self
+
+    def marked_coarse(self, words: tuple[str, ...]) -> "Study":
+        """The study, with what was made coarser in it."""
+        marked = self.model_copy(update={"coarsened": words})
+        written: Written | None = getattr(self, "_written", None)
+        return marked if written is None else marked.remember(written)
 
     def parameters(self) -> dict[str, Any]:
         """All parameters as plain JSON values."""

@@ -54,6 +54,7 @@ def analysed(recording: Path, cache: Path) -> Path:
 def test_orders_writes_everything(analysed: Path) -> None:
     assert {path.name for path in analysed.iterdir()} == {
         "orders.nc",
+        "orders.html",
         "files.json",
         "orders.csv",
         "levels.csv",
@@ -78,6 +79,15 @@ def test_orders_writes_everything(analysed: Path) -> None:
     # 96.67 revolutions: the part beyond whole ones puts less than 0.1 dB on the mean square
     level = 10.0 * np.log10(mean_square) - 20.0 * np.log10(20e-6)
     assert float(levels["Z"]["leq_db"]) == pytest.approx(level, abs=0.1)
+
+
+def test_page_of_the_orders(analysed: Path) -> None:
+    page = (analysed / "orders.html").read_text(encoding="utf-8")
+    assert page.count("data:image/png;base64,") == len(list(analysed.glob("*.png")))
+    for words in ("microphone 1", "speed: tacho tacho", "Orders are multiples of the shaft"):
+        assert words in page
+    assert "balancing" not in page
+    assert "<script" not in page
 
 
 def test_png_files_are_whole(analysed: Path) -> None:

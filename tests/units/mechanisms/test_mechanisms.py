@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from support import CRANK_ANGLE, machine_parts, turning
 
+from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.mechanics.moving_parts import wrench
 from vibroacoustics.mechanisms.oldham_scroll.ring import oldham_ring
 from vibroacoustics.mechanisms.oldham_scroll.rotating_set import (
@@ -56,3 +57,25 @@ def test_counterweight_keeps_its_mass_moment():
     weight = counterweight("w", -1.5e-3, 0.025, 0.05, CRANK_ANGLE)
     assert weight.mass_kg == pytest.approx(0.06)
     assert weight.position_m[0, 0] == pytest.approx(-0.025)  # opposite the crank pin
+
+
+def test_machine_without_a_brake(thesis_study):
+    """The counterweights then balance scroll and pin alone."""
+    bare = thesis_study.machine.model_copy(update={"brake": None, "turning_back": None})
+    parts = rotating_set(bare, CRANK_ANGLE)
+    assert [part.source for part in parts] == [
+        "orbiting_scroll", "crank_pin", "upper_counterweight", "lower_counterweight",
+    ]  # fmt: skip
+    force, moment = wrench(parts, turning(50.0))
+    largest = max(np.abs(part.mass_kg * part.position_m).max() for part in parts)
+    rounding = 1e-9 * largest * (2.0 * np.pi * 50.0) ** 2
+    assert np.abs(force).max() < rounding
+    assert np.abs(moment).max() < rounding
+
+
+def test_study_of_a_machine_without_a_brake(thesis_study):
+    study = thesis_study.replace({"machine.without": ["brake", "turning_back"]})
+    assert study.machine.brake is None
+    assert not [record for record in study.records if record.field.startswith("brake.")]
+    with pytest.raises(ParameterError, match="turning_back: needs the table brake"):
+        thesis_study.replace({"machine.without": ["brake"]})

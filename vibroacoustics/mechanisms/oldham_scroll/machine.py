@@ -88,11 +88,13 @@ class OldhamScroll(Machine):
         in_proportion("discharge_dome.tube_diameter_m", "opening.tube_diameter_m"),
         in_proportion("suction_pockets.sound_speed_m_per_s", "suction_annulus.sound_speed_m_per_s"),
     )
+    reads: ClassVar[frozenset[str]] = Machine.reads | {"brake"}
     kinematics: Kinematics
     oldham: Ring
     orbiting_scroll: OrbitingPart
     crank_pin: OrbitingPart
-    brake: OrbitingPart
+    brake: OrbitingPart | None = None
+    """Against turning back; none where a valve or nothing does that."""
     counterweights: BalancePlanes
     """The mass moments follow from two-plane balance of the orbiting parts."""
     wraps: ScrollWraps | None = None
@@ -144,6 +146,12 @@ class OldhamScroll(Machine):
         return self
 
     @model_validator(mode="after")
+    def _brake_jams(self) -> "OldhamScroll":
+        if self.turning_back is not None and self.brake is None:
+            raise ValueError("turning_back: needs the table brake; leave out both or none")
+        return self
+
+    @model_validator(mode="after")
     def _gas_fits(self) -> "OldhamScroll":
         for name, table in (
             ("discharge_dome", self.discharge_dome),
@@ -171,7 +179,7 @@ class OldhamScroll(Machine):
         return oldham_scroll(self, speed_rpm, samples)
 
     def moving_parts(self, crank_angle: Array) -> tuple[MovingPart, ...]:
-        """Ring, orbiting scroll, pin, brake and counterweights."""
+        """Ring, orbiting scroll, pin, a brake where there is one, and counterweights."""
         from .revolution import scroll_parts
 
         return scroll_parts(self, crank_angle)

@@ -1,4 +1,4 @@
-"""Orbiting scroll, crank pin and brake with the two counterweights that balance them."""
+"""Orbiting scroll, crank pin and, if any, brake with the two counterweights that balance them."""
 
 import numpy as np
 
@@ -19,11 +19,9 @@ def rotating_set(machine: OldhamScroll, crank_angle: Array) -> tuple[MovingPart,
     crank_angle : shape (samples,), rad
     """
     radius = machine.kinematics.orbit_radius_m
-    orbiting = {
-        "orbiting_scroll": machine.orbiting_scroll,
-        "crank_pin": machine.crank_pin,
-        "brake": machine.brake,
-    }
+    orbiting = {"orbiting_scroll": machine.orbiting_scroll, "crank_pin": machine.crank_pin}
+    if machine.brake is not None:
+        orbiting["brake"] = machine.brake
     moments = [part.mass_kg * (part.radius_m or radius) for part in orbiting.values()]
     heights = [part.height_m for part in orbiting.values()]
     planes = machine.counterweights

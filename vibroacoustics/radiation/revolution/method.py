@@ -26,13 +26,13 @@ class ByRevolution:
     """Boundary elements on two meshes, and the microphones."""
 
     def __init__(self, side: RevolutionSide, task: Task) -> None:
-        self._side = side
+        self.side = side
         self._task = task
         _check_receivers(side, task)
 
     def clear(self, points: Array) -> NDArray[np.bool_]:
         """Whether points (point, 3) lie off the body and above the floor."""
-        return self._side.clear(points)
+        return self.side.clear(points)
 
     def pressures(
         self, elsewhere: Sequence[Microphones], progress: Progress
@@ -44,7 +44,7 @@ class ByRevolution:
         return self._at_receivers(progress), [self._at(asked, progress) for asked in elsewhere]
 
     def _at_receivers(self, progress: Progress) -> Vectors:
-        task, side = self._task, self._side
+        task, side = self._task, self.side
         closed = by_name(side.spectrum(task.receivers.points, task.table_hz, _NAME, progress))
         if not task.kwave:
             return closed
@@ -60,18 +60,18 @@ class ByRevolution:
         """Pressures (point, pattern, frequency); those of the table are interpolated."""
         frequency_hz = self._task.frequency_hz[asked.frequencies]
         if asked.frequencies == self._task.table:
-            sampled = self._side.spectrum(asked.points, frequency_hz, "sound field", progress)
+            sampled = self.side.spectrum(asked.points, frequency_hz, "sound field", progress)
             pressure = np.moveaxis(sampled.pressure, 0, -1)
         else:
             by_line = [
-                self._side.finer_pressures(float(line), asked.points) for line in frequency_hz
+                self.side.finer_pressures(float(line), asked.points) for line in frequency_hz
             ]
             pressure = np.stack(by_line, axis=-1)
         return pressure[:, : asked.patterns]
 
     def attributes(self) -> dict[str, Any]:
         """What the result says about its solution."""
-        side = self._side
+        side = self.side
         fine, coarse = (radiator.mesh for radiator in side.radiators)
         return {
             "solver": solver(_NAME, "image sources", self._task),

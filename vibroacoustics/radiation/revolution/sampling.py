@@ -39,7 +39,7 @@ class Sampled:
 
 def sample(table_hz: Array, delay_s: Array, solve: Solve) -> Sampled:
     """Solve as few of evenly spaced frequencies as `TOLERANCE` allows; `delay_s` (receiver,)."""
-    solved = _first(table_hz)
+    solved = first_solved(table_hz)
     pressure, error = solve(solved)
     while True:
         smooth = pressure / _trend(table_hz[solved], delay_s)
@@ -58,7 +58,7 @@ def sample(table_hz: Array, delay_s: Array, solve: Solve) -> Sampled:
         error = np.concatenate([error, new_error])[order]
 
 
-def _first(table_hz: Array) -> IndexArray:
+def first_solved(table_hz: Array) -> IndexArray:
     """Even steps, half and a quarter of the first one, and both ends."""
     last = table_hz.size - 1
     step = max(1, round(_FIRST_HZ / table_hz[0]))

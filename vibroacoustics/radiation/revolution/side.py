@@ -147,17 +147,21 @@ def error_of(fine: ComplexArray, coarse: ComplexArray) -> Array:
     return error
 
 
-def _check_memory(radiator: Radiator) -> None:
-    """Refuse meshes that do not fit."""
+def memory_bytes(radiator: Radiator) -> float:
+    """Memory that the finer mesh takes at its peak, solved in as many threads as processors."""
     nodes = len(radiator.mesh.points)
     layers = 2.0 * radiator.orders * 1.2 * nodes**2
-    needed = 16.0 * (
+    return 16.0 * (
         processors() * (layers + 4.0 * nodes**2) + _FREQUENCIES * radiator.columns * nodes
     )
-    available = float(psutil.virtual_memory().available)
+
+
+def _check_memory(radiator: Radiator) -> None:
+    """Refuse meshes that do not fit."""
+    needed, available = memory_bytes(radiator), float(psutil.virtual_memory().available)
     if needed > available:
         raise ParameterError(
-            f"radiation.maximum_frequency_hz: boundary elements with {nodes} nodes and "
-            f"{radiator.orders} orders need {needed / 2**30:.3g} GiB, {available / 2**30:.3g} GiB "
-            "are available"
+            f"radiation.maximum_frequency_hz: boundary elements with {len(radiator.mesh.points)} "
+            f"nodes and {radiator.orders} orders need {needed / 2**30:.3g} GiB, "
+            f"{available / 2**30:.3g} GiB are available"
         )

@@ -21,7 +21,7 @@ _STEPS: Final[Schema] = {
     "properties": {key: {"type": "number"} for key in ("start", "stop", "step")},
 }
 _FILLED_IN: Final = (
-    "records", "ranges", "held_ranges", "source_file", "given", "catalogue_machine",
+    "records", "ranges", "held_ranges", "source_file", "given", "catalogue_machine", "coarsened",
 )  # fmt: skip
 
 

@@ -1,0 +1,44 @@
+"""Command that scores options again. Heavy imports wait until it runs."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from . import messages
+from .options import Plugins, load_plugins
+
+commands = typer.Typer()
+
+
+@commands.command("score")
+def score_command(
+    results_file: Annotated[Path, typer.Argument(metavar="RESULTS.nc", help="Results of a run.")],
+    scoring_of: Annotated[
+        Path | None,
+        typer.Option("--scoring", metavar="STUDY.toml", help="Take scales and weights from here."),
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", help="Folder of what is written; default: scored, beside the file."),
+    ] = None,
+    plugin: Plugins = None,
+) -> None:
+    """Score the options again: print the ranking, write results and report with it."""
+    from .. import scoring
+    from ..results import manifest
+    from ..scoring.again import scored_again
+    from ..study import loading
+    from . import outputs
+
+    load_plugins(plugin)
+    folder = out or results_file.parent / "scored"
+    outputs.check_folder(folder)
+    results, _ = outputs.open_run(results_file)
+    messages.warn(manifest.mixed(results_file.parent))
+    settings = loading.load_study(scoring_of).scoring if scoring_of else None
+    with outputs.naming(scoring_of or results_file):
+        scored = scored_again(results, settings)
+    written = outputs.write_report(scored, folder)
+    typer.echo(scoring.ranking_text(scored))
+    typer.echo(f"report: {written}")

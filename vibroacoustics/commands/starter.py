@@ -1,0 +1,89 @@
+"""Files to begin with: a shipped machine and study of each kind, put side by side in one folder."""
+
+import re
+from importlib import resources
+from importlib.resources.abc import Traversable
+from pathlib import Path
+from typing import Final
+
+from ..base.errors import ParameterError
+from ..machine.machine import MACHINES
+
+STUDIES: Final = {
+    "oldham-scroll": "copeland_thesis.toml",
+    "minicrank-scroll": "zhao_minicrank.toml",
+    "reciprocating": "mayekawa_wbhe.toml",
+    "hermetic-reciprocating": "estupinan_hermetic.toml",
+    "slider-link": "dagilis_slider_link.toml",
+    "table": "reciprocating_table.toml",
+}
+"""The study that stands for a kind."""
+STUDY_NAME: Final = "study.toml"
+MACHINE_NAME: Final = "machine.toml"
+SCHEMAS_NAME: Final = "schemas"
+_SHIPPED: Final = re.compile(r'"(?:\.\./)+(?:data/)?(machines|tables)/([^"]+)"')
+_HEAD: Final = """\
+#:schema {schemas}/{schema}.json
+# From {name} of vibroacoustics: put the values of your machine in place of these.
+# Units are in the keys; a value may be a number or {{ value, source, range }}, and what has a range
+# is drawn from it.
+"""
+
+
+def starting_files(kind: str) -> dict[str, bytes]:
+    """Study, machine and the tables they read, by name; the schemas are not among them.
+
+    Parameters
+    ----------
+    kind : of machine
+
+    Raises
+    ------
+    ParameterError
+        There is no such kind, or none of the package's studies is of it.
+    """
+    MACHINES[kind]  # refuses what is unknown
+    if kind not in STUDIES:
+        raise ParameterError(f"kind = {kind}: has no study here; allowed {', '.join(STUDIES)}")
+    name = STUDIES[kind]
+    study = _without_published((_shipped() / "pipelines" / name).read_text(encoding="utf-8"))
+    files = {STUDY_NAME: study}
+    pending = _SHIPPED.findall(study)
+    while pending:
+        folder, file = pending.pop()
+        text = (_shipped() / "data" / folder / file).read_text(encoding="utf-8")
+        if _new_name(folder, file) not in files:
+            pending += _SHIPPED.findall(text)
+            files[_new_name(folder, file)] = text
+    machine = next(file for folder, file in _SHIPPED.findall(study) if folder == "machines")
+    named = {
+        STUDY_NAME: ("study", f"pipelines/{name}"),
+        MACHINE_NAME: ("machine", f"data/machines/{machine}"),
+    }
+    return {file: _rewritten(text, *named.get(file, ())).encode() for file, text in files.items()}
+
+
+def _shipped() -> Traversable:
+    """Folder of the shipped files: in the package, or the repository that it is installed from."""
+    package = resources.files(__package__.partition(".")[0])
+    packed = package / "shipped"
+    return packed if packed.is_dir() else Path(str(package)).parent
+
+
+def _new_name(folder: str, file: str) -> str:
+    return MACHINE_NAME if folder == "machines" else file
+
+
+def _without_published(text: str) -> str:
+    """A study without the published values of the machine that it was made for."""
+    text = re.sub(r"(?m)^# Published values.*\n\[evidence\]\n(?:.+\n)*\n?", "", text)
+    return re.sub(r'(?m)^\[scoring\]\npublished_table = ".*"\n\n?', "", text)
+
+
+def _rewritten(text: str, schema: str = "", name: str = "") -> str:
+    """A file whose others lie beside it, with a head that says where it is from."""
+    text = _SHIPPED.sub(lambda match: f'"{_new_name(*match.groups())}"', text)
+    if not schema:
+        return text
+    head = _HEAD.format(schemas=SCHEMAS_NAME, schema=schema, name=name)
+    return head + text.partition("\n")[2]

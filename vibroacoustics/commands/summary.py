@@ -1,0 +1,53 @@
+"""What a run says to other programs."""
+
+import csv
+import io
+from math import isfinite
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from ..study.study import Study
+from .outputs import REPORT_NAME, RESULTS_NAME
+
+_ROWS = ("comparison", "scores")
+
+
+def summary(study: Study, results: xr.Dataset, folder: Path, seconds: float) -> dict[str, Any]:
+    """A run as plain JSON values: files, time, and the rows of its tables.
+
+    Parameters
+    ----------
+    study : that was run
+    results : of it, already written
+    folder : where they are
+    seconds : that it took
+    """
+    return {
+        "study": study.source_file,
+        "title": study.title,
+        "machine": study.machine.name,
+        "results": str(folder / RESULTS_NAME),
+        "report": str(folder / REPORT_NAME),
+        "seconds": round(seconds, 1),
+        "draws": int(results.sizes.get("draw", 0)),
+        "coarsened": list(study.coarsened),
+        **{name: _rows((folder / f"{name}.csv").read_text(encoding="utf-8")) for name in _ROWS},
+    }
+
+
+def _rows(text: str) -> list[dict[str, Any]]:
+    """Rows of a table by head; numbers as numbers, empty cells as null."""
+    return [
+        {head: _value(cell) for head, cell in row.items()}
+        for row in csv.DictReader(io.StringIO(text))
+    ]
+
+
+def _value(cell: str) -> str | float | None:
+    try:
+        number = float(cell)
+    except ValueError:
+        return cell or None
+    return number if isfinite(number) else None

@@ -1,0 +1,108 @@
+"""A study made coarser for a first look, and what that may cost in accuracy."""
+
+from math import sqrt
+from typing import Any, Final
+
+from ..base.constants import SPEED_OF_SOUND_M_PER_S
+from .study import Study
+
+MOST_SPEEDS: Final = 7
+LEAST_DRAWS: Final = 8
+_FEWER_DRAWS: Final = 5
+_COARSER_GRID: Final = 1.5
+_NODES_PER_WAVE: Final = 8.0
+_END: Final = 0.05
+"""Share of the draws beyond each end of a band of 90 %."""
+_DENSITY: Final = 0.1031
+"""Of the normal distribution at its 5 % quantile."""
+
+
+def coarse(study: Study) -> Study:
+    """The study with fewer speeds and draws, a coarser grid and without k-Wave.
+
+    `coarsened` of the result says what was changed and what error is expected.
+
+    Parameters
+    ----------
+    study : from `load_study`
+
+    Raises
+    ------
+    ParameterError
+        The study was not read from a file.
+    """
+    changes = [
+        change for part in (_speeds, _room, _grid, _draws) if (change := part(study)) is not None
+    ]
+    values: dict[str, Any] = {}
+    for changed, _ in changes:
+        values |= changed
+    words = tuple(words for _, words in changes)
+    return study.replace(values).marked_coarse(words) if values else study
+
+
+_Change = tuple[dict[str, Any], str] | None
+"""Values to replace, and the words for it; none where nothing is to be done."""
+
+
+def _speeds(study: Study) -> _Change:
+    operation = study.operation
+    speeds, supplies = operation.speed_rpm, operation.supply_frequency_hz
+    if len(speeds) <= MOST_SPEEDS:
+        return None
+    last = len(speeds) - 1
+    kept = {round(step * last / (MOST_SPEEDS - 1)) for step in range(MOST_SPEEDS)}
+    published = study.machine.overall_noise.speed_rpm
+    kept |= {number for number, speed in enumerate(speeds) if speed == published}
+    chosen = sorted(kept)
+    values: dict[str, Any] = {"operation.speed_rpm": [speeds[number] for number in chosen]}
+    if supplies is not None:
+        values["operation.supply_frequency_hz"] = [supplies[number] for number in chosen]
+    return values, f"{len(chosen)} of {len(speeds)} speeds; resonances between them are not seen"
+
+
+def _room(study: Study) -> _Change:
+    if study.radiation.room_solver == "closed-form":
+        return None
+    words = (
+        "image sources in closed form instead of k-Wave in the room: 0.1 dB, and exact for hard "
+        "walls"
+    )
+    return {"radiation.room_solver": "closed-form"}, words
+
+
+def _grid(study: Study) -> _Change:
+    settings = study.radiation
+    spacing = settings.near_field_spacing_m
+    largest = SPEED_OF_SOUND_M_PER_S / settings.maximum_frequency_hz / _NODES_PER_WAVE
+    coarser = 1e-4 * int(1e4 * min(_COARSER_GRID * spacing, largest, 0.05))
+    cabinet = settings.surroundings.cabinet
+    if settings.revolution or cabinet is not None or coarser <= spacing:
+        return None
+    words = (
+        f"cut cells of {1e3 * coarser:g} instead of {1e3 * spacing:g} mm: their error grows "
+        f"{(coarser / spacing) ** 2:.2g} times; what is estimated of it stands under Radiation"
+    )
+    return {"radiation.near_field_spacing_mm": 1e3 * coarser}, words
+
+
+def _draws(study: Study) -> _Change:
+    wanted = study.uncertainty.random_samples
+    fewer = max(LEAST_DRAWS, wanted // _FEWER_DRAWS)
+    if not study.ranges or fewer >= wanted:
+        return None
+    before, after = (standard_error_of_end(draws) for draws in (wanted, fewer))
+    words = (
+        f"{fewer} instead of {wanted} effective draws: each end of a band of 90 % has a standard "
+        f"error of {after:.2f} instead of {before:.2f} standard deviations of the level"
+    )
+    return {"uncertainty.random_samples": fewer}, words
+
+
+def standard_error_of_end(draws: int) -> float:
+    """Standard error of the 5 % quantile of so many draws, over the standard deviation.
+
+    √(p (1 - p)/n)/φ, for draws from a normal distribution (David and Nagaraja, Order Statistics,
+    2003, section 10.2).
+    """
+    return sqrt(_END * (1.0 - _END) / draws) / _DENSITY
