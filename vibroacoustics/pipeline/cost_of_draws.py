@@ -57,7 +57,7 @@ def levels_cost(
     there = replace(axes, receivers=[study.catalogue_receiver])
     start = time.process_time()
     drawn = sound_of_draws(
-        transmission.to(row), there, {key: cases[key]}, {key: sound[key]}, draws, _nothing
+        transmission.to([row]), there, {key: cases[key]}, {key: sound[key]}, draws, _nothing
     )
     one_s = (time.process_time() - start) / len(draws)
     low, high = _draws_expected(study, there, drawn, known)
