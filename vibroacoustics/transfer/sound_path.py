@@ -1,6 +1,6 @@
 """From the loads of all sources in one case to sound pressure at the receivers."""
 
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -8,9 +8,10 @@ import numpy as np
 from ..base.arrays import Array, ComplexArray
 from ..base.decibel import amplitude_of_level
 from ..machine.shell_structure import ShellVariation
+from ..machine.source import Shared
 from ..mechanics.loads import GasFlow, Lines, Noise
 from .cavity.response import DrivenGas
-from .frame import FrameOnShell
+from .frame import FrameOnShell, SoundPerForce
 from .machine import MachineOnMounts
 from .path import ShellPath, pressure_per_load
 from .yoke import YokeOnWall
@@ -43,7 +44,7 @@ class BendingShell:
     frame: FrameOnShell | None = None
     gas: Mapping[str, DrivenGas] = field(default_factory=dict)
     yoke: YokeOnWall | None = None
-    _known: dict[Hashable, ComplexArray] = field(default_factory=dict, repr=False)
+    _known: Shared = field(default_factory=Shared, repr=False)
 
     def per_load(self, frequency_hz: Array) -> ComplexArray:
         """Pressure per load on a part, (receiver, part, component, frequency).
@@ -51,12 +52,7 @@ class BendingShell:
         Kept, as cases share their frequencies.
         """
         key = "load", frequency_hz.tobytes()
-        return self._kept(key, lambda: self._per_load(frequency_hz))
-
-    def _kept(self, key: Hashable, compute: Callable[[], ComplexArray]) -> ComplexArray:
-        if key not in self._known:
-            self._known[key] = compute()
-        return self._known[key]
+        return self._known(key, lambda: self._per_load(frequency_hz))
 
     def of_gas(self, flow: GasFlow, frequency_hz: Array) -> ComplexArray:
         """Pressure of a space of gas in the shell on its wall, shape (receiver, frequency)."""
@@ -65,7 +61,7 @@ class BendingShell:
             return np.zeros((1, frequency_hz.size), dtype=complex)
         state = flow.density_kg_per_m3, flow.sound_speed_m_per_s
         key = (flow.into, *state, frequency_hz.tobytes())
-        per_flow = self._kept(
+        per_flow = self._known(
             key, lambda: self._per_flow(gas.wall_forces(*state, frequency_hz), frequency_hz)
         )
         return per_flow * flow.volume_flow
@@ -73,24 +69,24 @@ class BendingShell:
     def _per_flow(self, per_flow: ComplexArray, frequency_hz: Array) -> ComplexArray:
         """Of forces on the modes, shape (mode, frequency)."""
         if self.frame:
-            sound = self._of_natural_motions(self.frame, frequency_hz)
-            return self.frame.per_modal_forces(sound, per_flow)
+            of_modes = self._through(self.frame, frequency_hz).of_modes
+            return np.asarray(np.einsum("rmf,mf->rf", of_modes, per_flow))
         return np.asarray(self._of_modes(per_flow[:, None, None], frequency_hz)[:, 0, 0])
 
     def _per_load(self, frequency_hz: Array) -> ComplexArray:
         if self.frame:
-            return self.frame.per_load(self._of_natural_motions(self.frame, frequency_hz))
+            return self._through(self.frame, frequency_hz).of_loads
         return self._of_modes(self.path.forces_of_parts(), frequency_hz)
 
-    def _of_natural_motions(self, frame: FrameOnShell, frequency_hz: Array) -> ComplexArray:
-        """Of shell and frame together; kept, as gas and parts drive the same ones."""
+    def _through(self, frame: FrameOnShell, frequency_hz: Array) -> SoundPerForce:
+        """Of shell and frame together; kept, as gas and parts drive the same."""
 
-        def sound() -> ComplexArray:
+        def sound() -> SoundPerForce:
             gain = amplitude_of_level(self.variation.mobility_change_db)
             modes = gain * self.pressure_per_velocity(frequency_hz)
             return frame.sound(np.concatenate([modes, self.rigid(frequency_hz)], 1), frequency_hz)
 
-        return self._kept(("natural motions", frequency_hz.tobytes()), sound)
+        return self._known(("frame", frequency_hz.tobytes()), sound)
 
     def _of_modes(self, forces: Array | ComplexArray, frequency_hz: Array) -> ComplexArray:
         """Of generalised forces, as `pressure_per_load`."""
