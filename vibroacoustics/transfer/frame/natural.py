@@ -1,9 +1,10 @@
 """Natural motions of a system with loss, and what modes answer to forces at any frequency."""
 
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
 
 from ...base.arrays import Array, ComplexArray
@@ -65,7 +66,7 @@ def answers(squares: Array | ComplexArray, omega: Array) -> ComplexArray:
     return result
 
 
-def times(matrix: Array, values: ComplexArray) -> ComplexArray:
+def times(matrix: NDArray[np.floating[Any]], values: ComplexArray) -> ComplexArray:
     """A real matrix (m, n) times complex values (..., n, frequency), as one of twice as many."""
     parts = np.ascontiguousarray(values).view(np.float64)
     return np.asarray(np.matmul(matrix, parts).view(np.complex128))
