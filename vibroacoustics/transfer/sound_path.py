@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..base.arrays import Array, ComplexArray
+from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.decibel import amplitude_of_level
 from ..machine.shell_structure import ShellVariation
 from ..machine.source import Shared
@@ -60,18 +60,28 @@ class BendingShell:
         if gas is None:
             return np.zeros((1, frequency_hz.size), dtype=complex)
         state = flow.density_kg_per_m3, flow.sound_speed_m_per_s
-        key = (flow.into, *state, frequency_hz.tobytes())
-        per_flow = self._known(
-            key, lambda: self._per_flow(gas.wall_forces(*state, frequency_hz), frequency_hz)
-        )
-        return per_flow * flow.volume_flow
+        flows = np.flatnonzero(flow.volume_flow)  # at the tones there is none
 
-    def _per_flow(self, per_flow: ComplexArray, frequency_hz: Array) -> ComplexArray:
-        """Of forces on the modes, shape (mode, frequency)."""
+        def per_flow() -> ComplexArray:
+            forces = gas.wall_forces(*state, frequency_hz[flows])
+            return self._per_flow(forces, frequency_hz, flows)
+
+        key = (flow.into, *state, frequency_hz.tobytes(), flows.tobytes())
+        some = self._known(key, per_flow) * flow.volume_flow[flows]
+        pressure = np.zeros((len(some), frequency_hz.size), dtype=complex)
+        pressure[:, flows] = some
+        return pressure
+
+    def _per_flow(
+        self, forces: ComplexArray, frequency_hz: Array, flows: IndexArray
+    ) -> ComplexArray:
+        """Of forces on the modes at some of the frequencies, shape (mode, flow)."""
         if self.frame:
-            of_modes = self._through(self.frame, frequency_hz).of_modes
-            return np.asarray(np.einsum("rmf,mf->rf", of_modes, per_flow))
-        return np.asarray(self._of_modes(per_flow[:, None, None], frequency_hz)[:, 0, 0])
+            of_modes = self._through(self.frame, frequency_hz).of_modes[..., flows]
+            return np.asarray(np.einsum("rmf,mf->rf", of_modes, forces))
+        every = np.zeros((len(forces), 1, 1, frequency_hz.size), dtype=complex)
+        every[:, 0, 0, flows] = forces
+        return np.asarray(self._of_modes(every, frequency_hz)[:, 0, 0, flows])
 
     def _per_load(self, frequency_hz: Array) -> ComplexArray:
         if self.frame:

@@ -69,7 +69,7 @@ def runge_kutta_step(
     copy(state, work.trial)
     drive = start
     for stage in range(4):
-        if stage == 1 or stage == 3:
+        if stage in (1, 3):
             drive = drive_at(time + (step if stage == 3 else 0.5 * step), c)
         weight = step / (3.0 if stage in (1, 2) else 6.0)
         state_rate(drive, work.trial, contacts, c, work.keys, work.rate)

@@ -13,8 +13,7 @@ from ...machine.shell_structure import ShellVariation
 from ...mechanics.critical_speed import free_scroll_shaft
 from ...mechanics.scroll_shaft import ScrollShaft
 from ..path import ShellPath
-from ..shell_modes import modal_forces
-from ..shell_modes.loads import PatchLoads
+from ..shell_modes import patch_forces
 from ..shell_modes.projection import ProjectedModes
 from ..shell_modes.statics import local_flexibility_factor
 from .contacts import Contacts, contacts_of
@@ -48,7 +47,7 @@ def frame_on_shell(machine: Machine, path: ShellPath) -> FrameOnShell | None:
     shaft = free_scroll_shaft(machine.table(ScrollShaft), SHAFT_ELEMENT_M)
     inner = inner_set(frame, shaft, contacts)
     factor = machine.table(ShellVariation).frequency_factor_ratio
-    driven = np.concatenate([modal_forces(wall.shell, PatchLoads(j)) for j in contacts.joints], 1)
+    driven = np.concatenate([patch_forces(wall.shell, joint) for joint in contacts.joints], 1)
     residual = _residual(path, wall, contacts, driven) / factor**2
     on_shell = FrameOnShell(
         inner,

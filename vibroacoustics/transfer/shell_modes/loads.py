@@ -80,19 +80,6 @@ class JointLoads:
         return complex(np.exp(1j * order * joint.first_angle_rad) * spread)
 
 
-@dataclass(frozen=True)
-class PatchLoads:
-    """Unit forces outwards, up and around on each weld of a joint, one weld after another."""
-
-    joint: Joint
-
-    def generalised(self, meridian: Meridian, around: Around) -> Array:
-        """As of any `Load`."""
-        factors = patch_factors(self.joint, around)
-        loads = mean_over_band(meridian, self.joint)[:, None] * factors
-        return loads.reshape(len(loads), -1)
-
-
 def weld_angles(joint: Joint) -> Array:
     """Middles of the welds from x, shape (weld,), rad."""
     return joint.first_angle_rad + 2.0 * np.pi * np.arange(joint.welds) / joint.welds
