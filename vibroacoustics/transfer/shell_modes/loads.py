@@ -1,5 +1,6 @@
 """Forces on the shell through the joints of internal parts."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final, Protocol
@@ -85,12 +86,15 @@ def weld_angles(joint: Joint) -> Array:
     return joint.first_angle_rad + 2.0 * np.pi * np.arange(joint.welds) / joint.welds
 
 
-def patch_factors(joint: Joint, around: Around) -> Array:
-    """Mean over each weld of the factors of a motion: outwards, up, around; shape (weld, 3)."""
-    n, angles = around.order, weld_angles(joint)
-    radial, sideways = around.radial(angles), around.around(angles)
-    mean = np.sinc(n * joint.spread_rad / (2.0 * np.pi))
-    return np.asarray(mean * np.stack([radial, radial, sideways], axis=1))
+def patch_factors(joint: Joint, arounds: Sequence[Around]) -> Array:
+    """Mean over each weld of the factors of motions: outwards, up, around; (motion, weld, 3)."""
+    order = np.array([around.order for around in arounds])[:, None]
+    turn = order * (
+        weld_angles(joint) - np.array([around.angle_rad for around in arounds])[:, None]
+    )
+    mean = np.sinc(order * joint.spread_rad / (2.0 * np.pi))[..., None]
+    radial, sideways = np.cos(turn), np.where(order, np.sin(turn), 1.0)
+    return np.asarray(mean * np.stack([radial, radial, sideways], axis=-1))
 
 
 @lru_cache(maxsize=32)

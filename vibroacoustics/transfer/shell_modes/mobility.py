@@ -44,9 +44,9 @@ def patch_forces(shell: ElasticShell, joint: Joint) -> Array:
     mean = mean_over_band(shell.meridian, joint)
     reached = np.flatnonzero(mean.any(axis=1))
     forces = np.empty((len(shell.modes), joint.welds, 3))
-    for around, (rows, shapes) in shell.by_around.items():
-        moved = shapes[:, reached] @ mean[reached]
-        forces[rows] = moved[:, None] * patch_factors(joint, around)
+    factors = patch_factors(joint, list(shell.by_around))
+    for (rows, shapes), factor in zip(shell.by_around.values(), factors, strict=True):
+        forces[rows] = (shapes[:, reached] @ mean[reached])[:, None] * factor
     return forces.reshape(len(forces), -1)
 
 
