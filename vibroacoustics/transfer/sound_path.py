@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import Final
 
 import numpy as np
 
@@ -15,6 +16,9 @@ from .frame import FrameOnShell, SoundPerForce
 from .machine import MachineOnMounts
 from .path import ShellPath, pressure_per_load
 from .yoke import YokeOnWall
+
+_SAME_DECIMALS: Final = 9
+"""Frequencies in Hz that agree so far are one: no resonance is so sharp."""
 
 PressurePerVelocity = Callable[[Array], ComplexArray]
 """Of frequencies in Hz, shape (frequency,), to shape (receiver, motion, frequency), Pa s/m."""
@@ -45,6 +49,7 @@ class BendingShell:
     gas: Mapping[str, DrivenGas] = field(default_factory=dict)
     yoke: YokeOnWall | None = None
     _known: Shared = field(default_factory=Shared, repr=False)
+    _loads: dict[float, ComplexArray] = field(default_factory=dict, repr=False)
 
     def per_load(self, frequency_hz: Array) -> ComplexArray:
         """Pressure per load on a part, (receiver, part, component, frequency).
@@ -77,16 +82,24 @@ class BendingShell:
     ) -> ComplexArray:
         """Of forces on the modes at some of the frequencies, shape (mode, flow)."""
         if self.frame:
-            of_modes = self._through(self.frame, frequency_hz).of_modes[..., flows]
+            of_modes = self._through(self.frame, frequency_hz).of_modes(flows)
             return np.asarray(np.einsum("rmf,mf->rf", of_modes, forces))
         every = np.zeros((len(forces), 1, 1, frequency_hz.size), dtype=complex)
         every[:, 0, 0, flows] = forces
         return np.asarray(self._of_modes(every, frequency_hz)[:, 0, 0, flows])
 
     def _per_load(self, frequency_hz: Array) -> ComplexArray:
-        if self.frame:
-            return self._through(self.frame, frequency_hz).of_loads
-        return self._of_modes(self.path.forces_of_parts(), frequency_hz)
+        if self.frame is None:
+            return self._of_modes(self.path.forces_of_parts(), frequency_hz)
+        names = np.round(frequency_hz, _SAME_DECIMALS).tolist()
+        new = [number for number, name in enumerate(names) if name not in self._loads]
+        if 2 * len(new) > len(names):  # all, as gas that acts at them asks for
+            new = list(range(len(names)))
+        if new:  # noise shares its frequencies with lines
+            of_loads = self._through(self.frame, frequency_hz[new]).of_loads
+            each = np.moveaxis(of_loads, -1, 0)
+            self._loads.update(zip((names[n] for n in new), each, strict=True))
+        return np.stack([self._loads[name] for name in names], axis=-1)
 
     def _through(self, frame: FrameOnShell, frequency_hz: Array) -> SoundPerForce:
         """Of shell and frame together; kept, as gas and parts drive the same."""

@@ -4,6 +4,7 @@ Parts and shell, each free, answer by their natural motions; the forces at the c
 that close the gaps between them, frequency by frequency, for many frequencies at once.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -24,11 +25,12 @@ class SoundPerForce(NamedTuple):
     Attributes
     ----------
     of_loads : per load on a part, shape (receiver, part, component, frequency)
-    of_modes : per generalised force on a mode of the shell, shape (receiver, mode, frequency)
+    of_modes : per generalised force on a mode of the shell at some of the frequencies, given by
+        index, shape (receiver, mode, some)
     """
 
     of_loads: ComplexArray
-    of_modes: ComplexArray
+    of_modes: Callable[[IndexArray], ComplexArray]
 
 
 @dataclass(frozen=True)
@@ -84,7 +86,11 @@ class FrameOnShell:
         together = np.linalg.solve(self.machine_mass, self.inner.rigid.T @ self.inner.loads)
         of_loads = times(together.T, rigid) / omega**2
         of_loads += self._drives_of_parts.T @ through
-        of_modes = (modes - times(self.modal_forces, forces)) * shell
+
+        def of_modes(some: IndexArray) -> ComplexArray:
+            moved = times(self.modal_forces, forces[..., some])
+            return np.asarray((modes[..., some] - moved) * shell[:, some])
+
         shape = len(forces), len(PARTS), PART_COMPONENTS, frequency_hz.size
         return SoundPerForce(of_loads.reshape(shape), of_modes)
 
