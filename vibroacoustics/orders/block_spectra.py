@@ -65,20 +65,20 @@ def block_spectra(
     scaled = window * (2.0 / length)  # S1 = N
     chunk = max(_CHUNK_SAMPLES // length, 1)
 
-    def fill(job: tuple[int, int]) -> None:
-        row, begin = job
+    def fill(job: tuple[slice, int]) -> None:
+        some, begin = job
         blocks = slice(begin, begin + chunk)
-        windowed = sliding_window_view(rows[row], length)[starts[blocks]] * scaled
+        windowed = sliding_window_view(rows[some], length, axis=-1)[:, starts[blocks]] * scaled
         # Modulo N, many blocks begin at the same sample, and the sine keeps all its digits.
         begins, of_block = np.unique(grid_index[blocks] % length, return_inverse=True)
         turns = np.outer(begins, np.arange(lines)) % length / length
         turned = np.exp(-2j * np.pi * turns)[of_block]
-        np.multiply(real_transform(windowed)[:, :lines], turned, out=amplitude[row, blocks])
+        np.multiply(real_transform(windowed)[..., :lines], turned, out=amplitude[some, blocks])
 
-    jobs = [(row, begin) for row in range(len(rows)) for begin in range(0, starts.size, chunk)]
+    each = [slice(row, row + 1) for row in range(len(rows))]
+    jobs = [(row, begin) for row in each for begin in range(0, starts.size, chunk)]
     if rows.shape[0] * starts.size * length <= _CHUNK_SAMPLES:  # less work than threads are
-        for job in jobs:
-            fill(job)
+        fill((slice(None), 0))
     else:
         with ThreadPoolExecutor(_THREADS) as pool:
             list(pool.map(fill, jobs))

@@ -1,6 +1,6 @@
 """The motor's torque as two sources: its answer to the load's ripple, and its own pulsation."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import ClassVar, Final
 
 import numpy as np
@@ -18,6 +18,7 @@ from .part_loads import about_z, stator_loads
 
 TWICE_LINE: Final = "2 x line"
 TWICE_LINE_FIGURE: Final = "foot_force_2x_line_n"
+_FIGURE: Final = {TWICE_LINE: TWICE_LINE_FIGURE}
 LOWEST_LINE_HZ: Final = 10.0
 """Sidebands below are no sound."""
 
@@ -71,13 +72,16 @@ class MotorPulsation(_MotorTorque):
             for line in (*balance.line, *balance.sidebands)
             if LOWEST_LINE_HZ <= line.frequency_hz <= case.maximum_frequency_hz
         ]
-        return Loads(tones=tuple(map(_tone, kept)))
+        return Loads(tones=_tones(kept))
 
 
-def _tone(line: TorqueLine) -> Tone:
-    on_parts, roll = stator_loads([line])
-    figure = TWICE_LINE_FIGURE if line.name == TWICE_LINE else None
-    return Tone(line.name, line.frequency_hz, about_z(roll)[:, 0], on_parts[..., 0], figure)
+def _tones(lines: Sequence[TorqueLine]) -> tuple[Tone, ...]:
+    on_parts, roll = stator_loads(lines)
+    rows = zip(lines, about_z(roll).T, np.moveaxis(on_parts, -1, 0), strict=True)
+    return tuple(
+        Tone(line.name, line.frequency_hz, wrench, parts, _FIGURE.get(line.name))
+        for line, wrench, parts in rows
+    )
 
 
 def _balance(case: Case, before: Mapping[str, Loads]) -> TorqueLines:

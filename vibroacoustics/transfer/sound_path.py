@@ -1,20 +1,25 @@
 """From the loads of all sources in one case to sound pressure at the receivers."""
 
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Final
 
 import numpy as np
 
-from ..base.arrays import Array, ComplexArray
+from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.decibel import amplitude_of_level
 from ..machine.shell_structure import ShellVariation
+from ..machine.source import Shared
 from ..mechanics.loads import GasFlow, Lines, Noise
 from .cavity.response import DrivenGas
 from .force_sound import PressurePerVelocity, of_body
-from .frame import FrameOnShell
+from .frame import FrameOnShell, SoundPerForce
 from .machine import MachineOnMounts
 from .path import ShellPath, pressure_per_load
 from .yoke import YokeOnWall
+
+_SAME_DECIMALS: Final = 9
+"""Frequencies in Hz that agree so far are one: no resonance is so sharp."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +46,8 @@ class BendingShell:
     frame: FrameOnShell | None = None
     gas: Mapping[str, DrivenGas] = field(default_factory=dict)
     yoke: YokeOnWall | None = None
-    _known: dict[Hashable, ComplexArray] = field(default_factory=dict, repr=False)
+    _known: Shared = field(default_factory=Shared, repr=False)
+    _loads: dict[float, ComplexArray] = field(default_factory=dict, repr=False)
 
     def per_load(self, frequency_hz: Array) -> ComplexArray:
         """Pressure per load on a part, (receiver, part, component, frequency).
@@ -49,12 +55,7 @@ class BendingShell:
         Kept, as cases share their frequencies.
         """
         key = "load", frequency_hz.tobytes()
-        return self._kept(key, lambda: self._per_load(frequency_hz))
-
-    def _kept(self, key: Hashable, compute: Callable[[], ComplexArray]) -> ComplexArray:
-        if key not in self._known:
-            self._known[key] = compute()
-        return self._known[key]
+        return self._known(key, lambda: self._per_load(frequency_hz))
 
     def of_gas(self, flow: GasFlow, frequency_hz: Array) -> ComplexArray:
         """Pressure of a space of gas in the shell on its wall, shape (receiver, frequency)."""
@@ -62,33 +63,59 @@ class BendingShell:
         if gas is None:
             return np.zeros((1, frequency_hz.size), dtype=complex)
         state = flow.density_kg_per_m3, flow.sound_speed_m_per_s
-        key = (flow.into, *state, frequency_hz.tobytes())
-        per_flow = self._kept(
-            key, lambda: self.per_modal_force(gas.wall_forces(*state, frequency_hz), frequency_hz)
-        )
-        return per_flow * flow.volume_flow
+        flows = np.flatnonzero(flow.volume_flow)  # at the tones there is none
 
-    def per_modal_force(self, per_flow: ComplexArray, frequency_hz: Array) -> ComplexArray:
-        """Of forces on the modes, shape (mode, frequency): pressure, (receiver, frequency)."""
+        def per_flow() -> ComplexArray:
+            forces = gas.wall_forces(*state, frequency_hz[flows])
+            return self.per_modal_force(forces, frequency_hz, flows)
+
+        key = (flow.into, *state, frequency_hz.tobytes(), flows.tobytes())
+        some = self._known(key, per_flow) * flow.volume_flow[flows]
+        pressure = np.zeros((len(some), frequency_hz.size), dtype=complex)
+        pressure[:, flows] = some
+        return pressure
+
+    def per_modal_force(
+        self, forces: ComplexArray, frequency_hz: Array, some: IndexArray | None = None
+    ) -> ComplexArray:
+        """Pressure of forces on the modes, shape (receiver, some).
+
+        Parameters
+        ----------
+        forces : at some of the frequencies, shape (mode, some)
+        frequency_hz : shape (frequency,)
+        some : numbers of these; all where it is not given
+        """
+        at = np.arange(frequency_hz.size) if some is None else some
         if self.frame:
-            sound = self._of_natural_motions(self.frame, frequency_hz)
-            return self.frame.per_modal_forces(sound, per_flow)
-        return np.asarray(self._of_modes(per_flow[:, None, None], frequency_hz)[:, 0, 0])
+            of_modes = self._through(self.frame, frequency_hz).of_modes(at)
+            return np.asarray(np.einsum("rmf,mf->rf", of_modes, forces))
+        every = np.zeros((len(forces), 1, 1, frequency_hz.size), dtype=complex)
+        every[:, 0, 0, at] = forces
+        return np.asarray(self._of_modes(every, frequency_hz)[:, 0, 0, at])
 
     def _per_load(self, frequency_hz: Array) -> ComplexArray:
-        if self.frame:
-            return self.frame.per_load(self._of_natural_motions(self.frame, frequency_hz))
-        return self._of_modes(self.path.forces_of_parts(), frequency_hz)
+        if self.frame is None:
+            return self._of_modes(self.path.forces_of_parts(), frequency_hz)
+        names = np.round(frequency_hz, _SAME_DECIMALS).tolist()
+        new = [number for number, name in enumerate(names) if name not in self._loads]
+        if 2 * len(new) > len(names):  # all, as gas that acts at them asks for
+            new = list(range(len(names)))
+        if new:  # noise shares its frequencies with lines
+            of_loads = self._through(self.frame, frequency_hz[new]).of_loads
+            each = np.moveaxis(of_loads, -1, 0)
+            self._loads.update(zip((names[n] for n in new), each, strict=True))
+        return np.stack([self._loads[name] for name in names], axis=-1)
 
-    def _of_natural_motions(self, frame: FrameOnShell, frequency_hz: Array) -> ComplexArray:
-        """Of shell and frame together; kept, as gas and parts drive the same ones."""
+    def _through(self, frame: FrameOnShell, frequency_hz: Array) -> SoundPerForce:
+        """Of shell and frame together; kept, as gas and parts drive the same."""
 
-        def sound() -> ComplexArray:
+        def sound() -> SoundPerForce:
             gain = amplitude_of_level(self.variation.mobility_change_db)
             modes = gain * self.pressure_per_velocity(frequency_hz)
             return frame.sound(np.concatenate([modes, self.rigid(frequency_hz)], 1), frequency_hz)
 
-        return self._kept(("natural motions", frequency_hz.tobytes()), sound)
+        return self._known(("frame", frequency_hz.tobytes()), sound)
 
     def _of_modes(self, forces: Array | ComplexArray, frequency_hz: Array) -> ComplexArray:
         """Of generalised forces, as `pressure_per_load`."""

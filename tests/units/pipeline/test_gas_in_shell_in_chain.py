@@ -172,8 +172,8 @@ def answers_of_modes(on_shell, frequency_hz):
     """Velocity of modes and rigid motions per force on each mode, (mode, motion, frequency)."""
     count = on_shell.natural_hz.size
     each = np.repeat(np.eye(count + 6)[..., None], frequency_hz.size, axis=-1)
-    sound = on_shell.sound(each, frequency_hz)
-    return np.array([on_shell.per_modal_forces(sound, one[:count]) for one in each[:count]])
+    of_modes = on_shell.sound(each, frequency_hz).of_modes
+    return of_modes(np.arange(frequency_hz.size)).swapaxes(0, 1)
 
 
 # --- bad input ---

@@ -16,7 +16,7 @@ from vibroacoustics.mechanics.loads import (
 )
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer.frame import FrameOnShell, contacts_of, inner_set
-from vibroacoustics.transfer.frame.on_shell import SHAFT_ELEMENT_M
+from vibroacoustics.transfer.frame.of_machine import SHAFT_ELEMENT_M
 
 MACHINE = load_study(ROOT / "tests" / "studies" / "sources_made_up.toml").machine
 STRUCTURE = MACHINE.structure.model_copy(
@@ -153,5 +153,5 @@ def test_peaks_of_the_base_case():
 def test_a_stator_that_nothing_holds_feels_nothing():
     frame = frame_with(contacts={"land_n_per_m": 0.0})
     got = on_rigid_shell(frame, np.array([48.3, 517.0, 1333.0, 2900.0]))
-    assert abs(got[..., 6 * STATOR :]).max() < 1e-12 * abs(got).max()
+    assert abs(got[..., 6 * STATOR :]).max() < 1e-9 * abs(got).max()
     assert not got[:, STATOR].any()

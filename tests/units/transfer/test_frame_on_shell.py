@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from frames import frame_with
+from scipy.linalg import block_diag
 from support import ROOT
 
 from vibroacoustics.base.errors import ParameterError
@@ -11,6 +12,7 @@ from vibroacoustics.machine.shell_structure import Joint
 from vibroacoustics.mechanics.loads import PARTS
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer.frame import frame_on_shell
+from vibroacoustics.transfer.frame.symmetric import solve_symmetric, upper_pairs
 from vibroacoustics.transfer.path import computed_path
 from vibroacoustics.transfer.shell_modes import elastic_shell, velocity_per_force
 from vibroacoustics.transfer.shell_modes.harmonic import Harmonic
@@ -50,7 +52,7 @@ def velocities(on_shell, frequency_hz):
     """Of the shell's modes and then its rigid motions per load, (motion, part, 6, frequency)."""
     count = on_shell.natural_hz.size + 6
     each = np.repeat(np.eye(count)[..., None], frequency_hz.size, axis=-1)
-    return on_shell.per_load(on_shell.sound(each, frequency_hz))
+    return on_shell.sound(each, frequency_hz).of_loads
 
 
 def motion_of_parts(on_shell, frequency_hz):
@@ -91,7 +93,7 @@ def test_nothing_moves_at_frequency_zero(on_shell):
         assert np.all(np.isfinite(array))
 
 
-def test_natural_motions_give_what_elimination_gives(on_shell):
+def test_contacts_give_what_elimination_of_the_parts_gives(on_shell):
     """Frequency by frequency: f = Y B q, (D + Bᵀ Y B) q = P, Y = (1 + k C)⁻¹ k."""
     inner, contacts = on_shell.inner, on_shell.contacts
     held, rows = contacts.stiffness[:, None], contacts.rigid
@@ -111,6 +113,51 @@ def test_natural_motions_give_what_elimination_gives(on_shell):
         elastic = velocities(on_shell, at)[:-6].reshape(-1, expected.shape[1])
         driven = modes * (on_shell.modal_forces @ expected)
         assert elastic == pytest.approx(driven, abs=1e-9 * abs(driven).max())
+
+
+def test_contacts_give_what_natural_motions_of_all_together_give(on_shell):
+    """K x = ω² M x with the contacts in K; loads freed of what moves the machine as one body."""
+    inner, count = on_shell.inner, on_shell.natural_hz.size
+    shell = np.concatenate([on_shell.modal_forces.T, on_shell.contacts.rigid], axis=1)
+    stretch = np.concatenate([inner.contacts, -shell], axis=1)
+    wall = on_shell.residual / (1.0 + 1j * on_shell.loss_factor_ratio)
+    held = np.linalg.inv(np.diag(1.0 / on_shell.contacts.stiffness) + wall)
+    lossy = (2.0 * np.pi * on_shell.natural_hz) ** 2 * (1.0 + 1j * on_shell.loss_factor_ratio)
+    elastic = np.diag(on_shell.modal_mass_kg * lossy)
+    stiffness = block_diag(inner.stiffness, elastic, np.zeros((6, 6)))
+    stiffness = stiffness + stretch.T @ held @ stretch
+    mass = block_diag(inner.mass, np.diag(on_shell.modal_mass_kg), on_shell.shell_mass)
+    free = np.concatenate([inner.rigid, np.zeros((count, 6)), np.eye(6)])
+    together = free @ np.linalg.solve(free.T @ mass @ free, free.T)
+    squares, shapes = np.linalg.eig(np.linalg.solve(mass, stiffness))
+    freed = np.eye(len(mass)) - mass @ together
+    drives = np.linalg.solve(shapes, np.linalg.solve(mass, freed))
+    loads = np.concatenate([inner.loads, np.zeros((count + 6, inner.loads.shape[1]))])
+    for frequency in FREQUENCY[1:]:
+        omega = 2.0 * np.pi * frequency
+        moved = (shapes / (squares - omega**2)) @ drives
+        each = np.eye(count + 6)[..., None]
+        of_loads, of_modes = on_shell.sound(each, np.array([frequency]))
+        expected = 1j * omega * (moved @ loads)[len(inner.mass) :]
+        got = of_loads.reshape(expected.shape)
+        assert got == pytest.approx(expected, abs=1e-8 * abs(expected).max())
+        expected = 1j * omega * moved[len(inner.mass) :, len(inner.mass) : -6]
+        assert of_modes(np.array([0]))[..., 0] == pytest.approx(
+            expected, abs=1e-8 * abs(expected).max()
+        )
+
+
+def test_systems_side_by_side():
+    """Complex symmetric matrices as a library solves them, more of them than go at a time."""
+    drawn = np.random.default_rng(1).normal(size=(4, 200, 7, 7))
+    matrix = drawn[0] + drawn[0].swapaxes(1, 2) + 1j * (drawn[1] @ drawn[1].swapaxes(1, 2))
+    right = np.moveaxis(drawn[2] + 1j * drawn[3], 0, -1)[:, :3]
+    rows, columns = upper_pairs(7)
+    packed = matrix[:, rows, columns].T
+    got = np.ascontiguousarray(right)
+    solve_symmetric(packed.real.copy(), packed.imag.copy(), got)
+    expected = np.linalg.solve(matrix, np.moveaxis(right, -1, 0))
+    np.testing.assert_allclose(np.moveaxis(got, -1, 0), expected, rtol=1e-9, atol=1e-12)
 
 
 def test_steady_flexibility_is_the_sum_over_all_modes(path):

@@ -23,7 +23,7 @@ CONTACT_LAWS: Final[dict[str, Callable[[float], float]]] = {
 }
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@numba.njit(cache=True, nogil=True, error_model="numpy", inline="always")
 def contact_force(depth: float, closing_ratio: float, stiffness: float, hysteresis: float) -> float:
     """Push of a face, N; never a pull.
 

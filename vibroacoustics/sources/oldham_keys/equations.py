@@ -46,7 +46,7 @@ class Coupling(NamedTuple):
     ring_force: Array
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@numba.njit(cache=True, nogil=True, error_model="numpy", inline="always")
 def spline_value(spline: Array, angle: float) -> float:
     """Value of a periodic cubic spline of equal pieces over one turn."""
     pieces = spline.shape[1]
@@ -60,14 +60,31 @@ def spline_value(spline: Array, angle: float) -> float:
     return float(value)
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
-def key_motion(time: float, state: Array, c: Coupling, keys: Array) -> None:
+class Drive(NamedTuple):
+    """What the shaft's angle sets: its sine and cosine, force on the ring, moment on the scroll."""
+
+    sine: float
+    cosine: float
+    ring_force: float
+    moment: float
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def drive_at(time: float, c: Coupling) -> Drive:
+    """At a time from crank angle zero, s; the same for all motions at this time."""
+    angle = c.angular_speed * time
+    force, moment = spline_value(c.ring_force, angle), spline_value(c.moment, angle)
+    return Drive(np.sin(angle), np.cos(angle), force, moment)
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def key_motion(drive: Drive, state: Array, c: Coupling, keys: Array) -> None:
     """Displacement and velocity of each key across its slot, into rows of `keys`.
 
     The lever arm of the scroll's slots is counted from the scroll's centre, which orbits.
     """
-    sway = c.stroke * np.sin(c.angular_speed * time)
-    sway_rate = c.angular_speed * c.stroke * np.cos(c.angular_speed * time)
+    sway = c.stroke * drive.sine
+    sway_rate = c.angular_speed * c.stroke * drive.cosine
     for key in range(2):
         arm = c.radius if key == 0 else -c.radius
         lever = arm - sway
@@ -77,22 +94,22 @@ def key_motion(time: float, state: Array, c: Coupling, keys: Array) -> None:
         keys[RATE, 2 + key] = state[5] + arm * state[6]
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
-def key_forces(time: float, state: Array, contacts: Array, c: Coupling, keys: Array) -> None:
+@numba.njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def key_forces(drive: Drive, state: Array, contacts: Array, c: Coupling, keys: Array) -> None:
     """Motion of the ring's keys and forces on them, into all rows of `keys`.
 
     Parameters
     ----------
-    time : from crank angle zero, s
+    drive : of the time
     state : coordinates and their rates, shape (8,)
     contacts : shape (2, 4)
     c : constants
     keys : shape (4, 4); it is changed
     """
-    key_motion(time, state, c, keys)
+    key_motion(drive, state, c, keys)
     orbital = c.angular_speed * c.stroke
-    along_scroll = state[5] - orbital * np.cos(c.angular_speed * time)
-    along_housing = state[4] - orbital * np.sin(c.angular_speed * time)
+    along_scroll = state[5] - orbital * drive.cosine
+    along_housing = state[4] - orbital * drive.sine
     friction_scroll = -c.friction * np.tanh(along_scroll / c.sticking_speed)
     friction_housing = -c.friction * np.tanh(along_housing / c.sticking_speed)
     for key in range(KEYS):
@@ -107,23 +124,22 @@ def key_forces(time: float, state: Array, contacts: Array, c: Coupling, keys: Ar
         keys[FRICTION, key] = push * (friction_scroll if key < 2 else friction_housing)
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@numba.njit(cache=True, nogil=True, error_model="numpy", inline="always")
 def state_rate(
-    time: float, state: Array, contacts: Array, c: Coupling, keys: Array, result: Array
+    drive: Drive, state: Array, contacts: Array, c: Coupling, keys: Array, result: Array
 ) -> None:
     """Newton's and Euler's laws for ring and scroll, into `result`; arguments of `key_forces`."""
-    key_forces(time, state, contacts, c, keys)
-    angle = c.angular_speed * time
+    key_forces(drive, state, contacts, c, keys)
     normal, friction = keys[NORMAL], keys[FRICTION]
-    along_x = normal[0] + normal[1] + friction[2] + friction[3] + spline_value(c.ring_force, angle)
+    along_x = normal[0] + normal[1] + friction[2] + friction[3] + drive.ring_force
     along_y = normal[2] + normal[3] + friction[0] + friction[1]
     on_ring = c.radius * (normal[1] - normal[0] + normal[2] - normal[3])
-    sway = c.stroke * np.sin(angle)
+    sway = c.stroke * drive.sine
     on_scroll = (c.radius - sway) * normal[0] - (c.radius + sway) * normal[1]
     for coordinate in range(COORDINATES):
         result[coordinate] = state[COORDINATES + coordinate]
     # The scroll's centre, from which u counts, accelerates by -ω² r cos θ.
-    result[4] = along_x / c.mass + c.angular_speed**2 * c.stroke * np.cos(angle)
+    result[4] = along_x / c.mass + c.angular_speed**2 * c.stroke * drive.cosine
     result[5] = along_y / c.mass
     result[6] = on_ring / c.ring_inertia
-    result[7] = (spline_value(c.moment, angle) + on_scroll) / c.scroll_inertia
+    result[7] = (drive.moment + on_scroll) / c.scroll_inertia

@@ -16,6 +16,8 @@ from .equations import (
     SHIFT,
     SIDE,
     Coupling,
+    Drive,
+    drive_at,
     key_forces,
     key_motion,
     state_rate,
@@ -36,7 +38,7 @@ class Work(NamedTuple):
     end: Array
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@numba.njit(cache=True, nogil=True, error_model="numpy", inline="always")
 def copy(source: Array, target: Array) -> None:
     """Element by element, which numba compiles in a tenth of the time of a slice's assignment."""
     for n in range(source.size):
@@ -45,23 +47,32 @@ def copy(source: Array, target: Array) -> None:
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def runge_kutta_step(
-    time: float, step: float, state: Array, contacts: Array, c: Coupling, work: Work
+    time: float,
+    step: float,
+    start: Drive,
+    state: Array,
+    contacts: Array,
+    c: Coupling,
+    work: Work,
 ) -> None:
     """Classical Runge-Kutta step of fourth order, into `work.end`; contacts stay as they are.
 
     Parameters
     ----------
     time, step : start and length of the step, s
+    start : at the time
     state : coordinates and their rates, shape (8,)
     contacts, c : see `key_forces`
     work : it is changed
     """
     copy(state, work.end)
     copy(state, work.trial)
+    drive = start
     for stage in range(4):
-        lead = 0.0 if stage == 0 else (step if stage == 3 else 0.5 * step)
+        if stage in (1, 3):
+            drive = drive_at(time + (step if stage == 3 else 0.5 * step), c)
         weight = step / (3.0 if stage in (1, 2) else 6.0)
-        state_rate(time + lead, work.trial, contacts, c, work.keys, work.rate)
+        state_rate(drive, work.trial, contacts, c, work.keys, work.rate)
         reach = step if stage == 2 else 0.5 * step
         for n in range(state.size):
             work.end[n] += weight * work.rate[n]
@@ -145,14 +156,15 @@ def advance(
     done = 0.0
     while done < duration:
         step = duration - done
-        key_motion(time + done, state, c, work.before)
-        runge_kutta_step(time + done, step, state, contacts, c, work)
-        key_motion(time + duration, work.end, c, work.after)
+        start = drive_at(time + done, c)
+        key_motion(start, state, c, work.before)
+        runge_kutta_step(time + done, step, start, state, contacts, c, work)
+        key_motion(drive_at(time + duration, c), work.end, c, work.after)
         key, share, face = first_event(step, work.before, work.after, contacts, c.clearance)
         if key >= 0:
             step *= share
-            runge_kutta_step(time + done, step, state, contacts, c, work)
-            key_motion(time + done + step, work.end, c, work.after)
+            runge_kutta_step(time + done, step, start, state, contacts, c, work)
+            key_motion(drive_at(time + done + step, c), work.end, c, work.after)
             if contacts[SIDE, key] == 0.0:
                 impact_speed[key] = face * work.after[RATE, key]
                 contacts[APPROACH, key] = max(impact_speed[key], c.least_approach)
@@ -197,7 +209,8 @@ def integrate(
         for part in range(steps):
             time = ((first + sample) * steps + part) * step
             advance(time, step, state, contacts, c, impact_speed[sample], work)
-        key_forces((first + sample + 1) * sample_interval, state, contacts, c, work.keys)
+        end = drive_at((first + sample + 1) * sample_interval, c)
+        key_forces(end, state, contacts, c, work.keys)
         copy(state, motion[sample])
         copy(work.keys[NORMAL], normal[sample])
         copy(work.keys[FRICTION], friction[sample])

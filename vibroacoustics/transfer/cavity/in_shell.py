@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ...base.arrays import Array
+from ...base.arrays import Array, IndexArray
 from ..shell_modes.meridian import Meridian
 from ..shell_modes.modes import Around, ShellMode
 from .modes import GasOrder
@@ -69,23 +69,26 @@ class GasInShell:
         tube_area_m2 : 0 where there is no tube
         quality_ratio : Q
         """
-        parts = []
+        parts, walls = [], []
         for gas, on_wall in zip(self.orders, self._on_wall, strict=True):
             driven = gas.at(source.radius_m, source.height_m)
             squares, shapes = gas.with_attachment(driven)
             at_source = driven @ shapes
             at_tube = gas.at(tube.radius_m, tube.height_m) @ shapes
-            for around, forces in on_wall.items():
+            for around, (modes, forces) in on_wall.items():
                 of_twin = source.around(around) * at_source, tube.around(around) * at_tube
-                parts.append((squares, *of_twin, shapes.T @ forces))
-        squares, at_source, at_tube, wall = (
-            np.concatenate(rows) for rows in zip(*parts, strict=True)
-        )
-        return DrivenGas(squares, at_source, at_tube, wall, tube_area_m2, quality_ratio)
+                parts.append((squares, *of_twin))
+                wall = np.zeros((squares.size, len(self.modes)))
+                wall[:, modes] = shapes.T @ forces
+                walls.append(wall)
+        squares, at_source, at_tube = (np.concatenate(rows) for rows in zip(*parts, strict=True))
+        on_modes = np.concatenate(walls)
+        return DrivenGas(squares, at_source, at_tube, on_modes, tube_area_m2, quality_ratio)
 
     @cached_property
-    def _on_wall(self) -> tuple[dict[Around, Array], ...]:
-        """Of each order by twin: force on the wall's modes per pressure of a node, (node, wall)."""
+    def _on_wall(self) -> tuple[dict[Around, tuple[IndexArray, Array]], ...]:
+        """Of each order by twin: modes of the wall, force on these per pressure of a node,
+        (node, mode)."""
         load = WallPressure(self.profile, self.under_cap)
         arounds = dict.fromkeys(mode.around for mode in self.modes)
         return tuple(
@@ -93,9 +96,7 @@ class GasInShell:
             for gas in self.orders
         )
 
-    def _of_twin(self, load: WallPressure, around: Around) -> Array:
-        shapes = np.zeros((self.modes[0].shape.size, len(self.modes)))
-        for column, mode in enumerate(self.modes):
-            if mode.around == around:
-                shapes[:, column] = mode.shape
-        return np.asarray(load.generalised(self.meridian, around).T @ shapes)
+    def _of_twin(self, load: WallPressure, around: Around) -> tuple[IndexArray, Array]:
+        alike = [row for row, mode in enumerate(self.modes) if mode.around == around]
+        shapes = np.stack([self.modes[row].shape for row in alike], axis=1)
+        return np.array(alike), load.generalised(self.meridian, around).T @ shapes

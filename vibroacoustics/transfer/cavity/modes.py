@@ -54,18 +54,22 @@ class GasOrder:
         source : its share of each node, shape (node,)
         """
         squares, shapes = self.modes
-        stiffness, mass = self._matrices
-        free, given = shapes[self._free], source[self._free]
-        left = given - mass @ (free @ (free.T @ given))
+        free, given, moved = shapes[self._free], source[self._free], self._moved
+        left = given - moved @ (free.T @ given)
         steady = cho_solve(self._held, left, check_finite=False)
-        steady -= free @ (free.T @ (mass @ steady))
-        size = float(steady @ mass @ steady)
+        steady -= free @ (moved.T @ steady)
+        size = float(steady @ self._matrices[1] @ steady)
         if size <= 0.0 or not np.any(given):
             return squares, shapes
         column = np.zeros((self._count, 1))
         column[self._free, 0] = steady / np.sqrt(size)
-        square = float(steady @ stiffness @ steady) / size
+        square = float(steady @ left) / size  # the stiffness makes of it what is left
         return np.append(squares, square), np.hstack([shapes, column])
+
+    @cached_property
+    def _moved(self) -> Array:
+        """Mass times the modes, shape (free node, mode)."""
+        return np.asarray(self._matrices[1] @ self.modes[1][self._free])
 
     @property
     def _count(self) -> int:

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from ...base.arrays import Array, ComplexArray
 
@@ -69,5 +70,5 @@ class DrivenGas:
         forces = np.zeros((self.on_wall.shape[1], frequency_hz.size), dtype=complex)
         moves = frequency_hz > 0.0
         pressure = self.of_flow(density, sound_speed, frequency_hz[moves])
-        forces[:, moves] = self.on_wall.T @ pressure
+        forces[:, moves] = csr_array(self.on_wall.T) @ pressure  # orders around do not mix
         return forces

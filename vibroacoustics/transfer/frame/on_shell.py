@@ -1,32 +1,36 @@
-"""A machine's frame in its elastic shell: what loads on the parts do to the shell."""
+"""A machine's frame in its elastic shell: what loads on the parts do to the shell.
 
+Parts and shell, each free, answer by their natural motions; the forces at the contacts are those
+that close the gaps between them, frequency by frequency, for many frequencies at once.
+"""
+
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Final
+from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import block_diag
 
-from ...base.arrays import Array, ComplexArray
-from ...base.errors import ParameterError
-from ...machine.frame import Frame
-from ...machine.housing import Housing
-from ...machine.machine import Machine
-from ...machine.shell_structure import ShellVariation
-from ...mechanics.critical_speed import free_scroll_shaft
+from ...base.arrays import Array, ComplexArray, IndexArray
 from ...mechanics.loads import PART_COMPONENTS, PARTS
-from ...mechanics.scroll_shaft import ScrollShaft
-from ..path import ShellPath
-from ..shell_modes import modal_forces
-from ..shell_modes.loads import PatchLoads
-from ..shell_modes.projection import ProjectedModes
-from ..shell_modes.statics import local_flexibility_factor
-from .contacts import Contacts, contacts_of
-from .inner import InnerSet, inner_set
-from .natural import NaturalMotions, natural_motions
+from .contacts import Contacts
+from .inner import InnerSet
+from .natural import NaturalMotions, answers, natural_motions, times
+from .symmetric import AT_A_TIME, solve_symmetric, upper_pairs
 
-SHAFT_ELEMENT_M: Final = 0.04
-"""A sixth of the wavelength of bending at 4 kHz; cubic shapes err by 0.1 % of a frequency."""
+
+class SoundPerForce(NamedTuple):
+    """Pressure at the receivers.
+
+    Attributes
+    ----------
+    of_loads : per load on a part, shape (receiver, part, component, frequency)
+    of_modes : per generalised force on a mode of the shell at some of the frequencies, given by
+        index, shape (receiver, mode, some)
+    """
+
+    of_loads: ComplexArray
+    of_modes: Callable[[IndexArray], ComplexArray]
 
 
 @dataclass(frozen=True)
@@ -58,35 +62,37 @@ class FrameOnShell:
         """Of what moves with the shell as a rigid body, shape (6, 6), kg and kg m²."""
         return self.machine_mass - self.inner.rigid_mass
 
-    @cached_property
-    def motions(self) -> NaturalMotions:
-        """Of the parts, the shell's modes and its rigid motion together; all but the machine's as
-        one rigid body."""
-        bodies = self.inner.mass, np.diag(self.modal_mass_kg), self.shell_mass
-        stretch, elastic = self._stretch, self._elastic
-        stiffness = block_diag(self.inner.stiffness, np.diag(elastic), np.zeros((6, 6)))
-        stiffness = stiffness + stretch.T @ self._held @ stretch
-        still = np.zeros((elastic.size, 6))
-        free = np.concatenate([self.inner.rigid, still, np.eye(6)])
-        return natural_motions(block_diag(*bodies), stiffness, free)
+    def sound(self, pressure_per_velocity: ComplexArray, frequency_hz: Array) -> SoundPerForce:
+        """Pressure per load on the parts and per force on the shell's modes.
 
-    @property
-    def _elastic(self) -> ComplexArray:
-        """Stiffness of the modes, N/m."""
-        squares = (2.0 * np.pi * self.natural_hz) ** 2
-        return np.asarray(self.modal_mass_kg * squares * (1.0 + 1j * self.loss_factor_ratio))
+        None at frequency zero; without that of the machine as one rigid body.
 
-    @cached_property
-    def _stretch(self) -> Array:
-        """Of the contacts per freedom of the parts, mode and rigid motion of the shell."""
-        shell = np.concatenate([self.modal_forces.T, self.contacts.rigid], axis=1)
-        return np.concatenate([self.inner.contacts, -shell], axis=1)
+        Parameters
+        ----------
+        pressure_per_velocity : of the shell's modes and then its six rigid motions about the
+            centre of mass, shape (receiver, motion, frequency), Pa s/m and Pa s/rad
+        frequency_hz : shape (frequency,)
+        """
+        per_velocity = pressure_per_velocity * (2j * np.pi * frequency_hz)
+        omega = 2.0 * np.pi * np.where(frequency_hz > 0.0, frequency_hz, 1.0)
+        modes, rigid = np.split(per_velocity, [self.natural_hz.size], axis=1)
+        shell = answers(self._squares, omega) / self.modal_mass_kg[:, None]
+        parts = answers(self.motions.squares, omega)
+        # By reciprocity: motions of the contacts as the receivers drive the shell.
+        moved = times(self.modal_forces.T, modes * shell)
+        moved -= times(np.linalg.solve(self.shell_mass, self.contacts.rigid.T).T, rigid) / omega**2
+        forces = np.moveaxis(self._joined(shell, parts, omega, np.moveaxis(moved, 0, 1)), 0, 1)
+        through = (self._at_contacts.T @ forces) * parts
+        together = np.linalg.solve(self.machine_mass, self.inner.rigid.T @ self.inner.loads)
+        of_loads = times(together.T, rigid) / omega**2
+        of_loads += self._drives_of_parts.T @ through
 
-    @cached_property
-    def _held(self) -> ComplexArray:
-        """Force per stretch, each contact in series with the residual flexibility of the wall."""
-        wall = self.residual / (1.0 + 1j * self.loss_factor_ratio)
-        return np.asarray(np.linalg.inv(np.diag(1.0 / self.contacts.stiffness) + wall))
+        def of_modes(some: IndexArray) -> ComplexArray:
+            moved = times(self.modal_forces, forces[..., some])
+            return np.asarray((modes[..., some] - moved) * shell[:, some])
+
+        shape = len(forces), len(PARTS), PART_COMPONENTS, frequency_hz.size
+        return SoundPerForce(of_loads.reshape(shape), of_modes)
 
     def contact_forces(self, frequency_hz: Array) -> ComplexArray:
         """Forces on the shell per load on a part, (frequency, contact, part times component).
@@ -97,116 +103,93 @@ class FrameOnShell:
         ----------
         frequency_hz : shape (frequency,)
         """
-        forces = self._held @ self._stretch @ self.motions.shapes
-        answer = self.motions.per_drive(frequency_hz)
-        return np.asarray((forces * answer.T[:, None]) @ self._drives_of_parts)
+        omega = 2.0 * np.pi * np.where(frequency_hz > 0.0, frequency_hz, 1.0)
+        shell = answers(self._squares, omega) / self.modal_mass_kg[:, None]
+        parts = answers(self.motions.squares, omega)
+        moved = np.einsum("cn,nf,nl->clf", self._at_contacts, parts, self._drives_of_parts)
+        forces = self._joined(shell, parts, omega, moved) * (frequency_hz > 0.0)
+        return np.moveaxis(forces, -1, 0)
 
-    def sound(self, pressure_per_velocity: ComplexArray, frequency_hz: Array) -> ComplexArray:
-        """Pressure per drive of each natural motion, (receiver, natural motion, frequency).
-
-        None at frequency zero; without that of the machine as one rigid body.
-
-        Parameters
-        ----------
-        pressure_per_velocity : of the shell's modes and then its six rigid motions about the
-            centre of mass, shape (receiver, motion, frequency), Pa s/m and Pa s/rad
-        frequency_hz : shape (frequency,)
-        """
-        of_shell = self.motions.shapes[len(self.inner.mass) :]
-        sound = np.moveaxis(np.tensordot(pressure_per_velocity, of_shell, (1, 0)), -1, 1)
-        velocity = 2j * np.pi * frequency_hz * self.motions.per_drive(frequency_hz)
-        return np.asarray(sound * velocity)
-
-    def per_load(self, sound: ComplexArray) -> ComplexArray:
-        """Pressure per load on a part, (receiver, part, component, frequency).
+    def _joined(
+        self, shell: ComplexArray, parts: ComplexArray, omega: Array, moved: ComplexArray
+    ) -> ComplexArray:
+        """Forces that close the gaps of the contacts, shape (contact, side, frequency).
 
         Parameters
         ----------
-        sound : of the natural motions
+        shell, parts : answers of the modes and of the parts' motions, shape (motion, frequency)
+        omega : shape (frequency,)
+        moved : gaps without them, shape (contact, side, frequency)
         """
-        per_load = np.moveaxis(np.tensordot(sound, self._drives_of_parts, (1, 0)), -1, 1)
-        shape = len(sound), len(PARTS), PART_COMPONENTS, sound.shape[-1]
-        return np.asarray(per_load.reshape(shape))
+        forces = np.empty(moved.shape, dtype=complex)
+        for first in range(0, omega.size, AT_A_TIME):
+            at = slice(first, first + AT_A_TIME)
+            some = np.ascontiguousarray(moved[..., at])
+            solve_symmetric(*self._compliance(shell[:, at], parts[:, at], omega[at]), some)
+            forces[..., at] = some
+        return forces
 
-    def per_modal_forces(self, sound: ComplexArray, driven: ComplexArray) -> ComplexArray:
-        """Pressure of a shell whose modes something else drives, shape (receiver, frequency).
+    def _compliance(
+        self, shell: ComplexArray, parts: ComplexArray, omega: Array
+    ) -> tuple[Array, Array]:
+        """Of gaps per force between contacts, m/N, real and imaginary part, (pair, frequency)."""
+        order, first = self._alike
+        shell, still = shell[order[first]], np.ones((1, omega.size))
+        rest = np.concatenate([still, -1.0 / omega[None] ** 2])
+        real = np.concatenate([shell.real, parts.real, -parts.imag, rest])
+        imaginary = np.concatenate([shell.imag, parts.imag, parts.real, rest])
+        per_real, per_imaginary = self._pairs
+        return per_real @ real, per_imaginary @ imaginary
 
-        Parameters
-        ----------
-        sound : of the natural motions
-        driven : generalised forces on the modes, shape (mode, frequency), N
+    @cached_property
+    def _pairs(self) -> tuple[Array, Array]:
+        """Real and imaginary part of the gap of a contact per force on another, (pair, share).
+
+        Shares of modes that differ, of the parts' motions twice, of springs with the wall's
+        residual, of the shell's rigid motion.
         """
-        parts = len(self.inner.mass)
-        drives = self.motions.drives[:, parts : parts + len(driven)] @ driven
-        return np.asarray(np.einsum("rnf,nf->rf", sound, drives))
+        rows, columns = upper_pairs(len(self.contacts.part))
+        order, first = self._alike
+        modes = self.modal_forces.T[:, order]
+        shell = np.add.reduceat(modes[rows] * modes[columns], first, axis=1)
+        driven = (self.motions.drives @ self.inner.contacts.T).T
+        parts = self._at_contacts[rows] * driven[columns]
+        springs = np.diag(1.0 / self.contacts.stiffness)
+        springs = (springs + self.residual / (1.0 + 1j * self.loss_factor_ratio))[rows, columns]
+        rigid = self.contacts.rigid @ np.linalg.solve(self.shell_mass, self.contacts.rigid.T)
+        rest = np.stack([springs.real, rigid[rows, columns]], axis=1)
+        lost = np.stack([springs.imag, np.zeros(rows.size)], axis=1)
+        return (
+            np.concatenate([shell, parts.real, parts.imag, rest], axis=1),
+            np.concatenate([shell, parts.real, parts.imag, lost], axis=1),
+        )
+
+    @cached_property
+    def _alike(self) -> tuple[IndexArray, IndexArray]:
+        """Order of the modes in which those that answer alike, as twins do, follow one another,
+        and the first of each."""
+        order = np.lexsort((self.modal_mass_kg, self.natural_hz))
+        values = np.stack([self.natural_hz, self.modal_mass_kg])[:, order]
+        differs = np.any(np.diff(values, prepend=np.nan) != 0.0, axis=0)
+        return order, np.flatnonzero(differs)
+
+    @cached_property
+    def motions(self) -> NaturalMotions:
+        """Of the parts, free of the shell."""
+        return natural_motions(self.inner.mass, self.inner.stiffness)
+
+    @property
+    def _squares(self) -> ComplexArray:
+        """Of the modes with loss, rad²/s²."""
+        squares = (2.0 * np.pi * self.natural_hz) ** 2
+        return np.asarray(squares * (1.0 + 1j * self.loss_factor_ratio))
+
+    @property
+    def _at_contacts(self) -> ComplexArray:
+        """Motion of the contacts per motion of the parts, shape (contact, motion)."""
+        return np.asarray(self.inner.contacts @ self.motions.shapes)
 
     @property
     def _drives_of_parts(self) -> ComplexArray:
-        """Of each natural motion per load on a part, shape (motion, part times component)."""
-        return np.asarray(self.motions.drives[:, : len(self.inner.mass)] @ self.inner.loads)
-
-
-def frame_on_shell(machine: Machine, path: ShellPath) -> FrameOnShell | None:
-    """The machine's frame in its shell; none where it has no frame.
-
-    Parameters
-    ----------
-    machine : frame, shaft, mass, how the real shell differs
-    path : modes with the machine's structure
-
-    Raises
-    ------
-    ParameterError
-        The modes are measured, the parts weigh more than the machine, or a contact lies beyond the
-        wall.
-    """
-    if not machine.has_table(Frame):
-        return None
-    frame, wall = machine.table(Frame), path.wall
-    if wall is None:
-        raise ParameterError("shell_modes: measured modes and a frame do not go together")
-    contacts = contacts_of(frame, path.structure, wall.shell.meridian.wall_radius_m)
-    shaft = free_scroll_shaft(machine.table(ScrollShaft), SHAFT_ELEMENT_M)
-    inner = inner_set(frame, shaft, contacts)
-    factor = machine.table(ShellVariation).frequency_factor_ratio
-    driven = np.concatenate([modal_forces(wall.shell, PatchLoads(j)) for j in contacts.joints], 1)
-    residual = _residual(path, wall, contacts, driven) / factor**2
-    on_shell = FrameOnShell(
-        inner,
-        contacts,
-        driven[path.rows],
-        residual,
-        factor * path.natural_hz,
-        path.modal_mass_kg,
-        path.structure.loss_factor_ratio,
-        _machine_mass(machine.housing),
-    )
-    _check_shell_mass(machine.housing, on_shell)
-    return on_shell
-
-
-def _residual(path: ShellPath, wall: ProjectedModes, contacts: Contacts, driven: Array) -> Array:
-    """Steady flexibility at the contacts without that of the path's modes."""
-    given, rows = wall.shell, path.rows
-    modes = [given.modes[row] for row in rows]
-    stiffness = np.array(
-        [mode.modal_mass_kg * (2.0 * np.pi * mode.frequency_hz) ** 2 for mode in modes]
-    )
-    left = wall.flexibility.at(contacts.joints) - driven[rows].T @ (
-        driven[rows] / stiffness[:, None]
-    )
-    return np.asarray(left * local_flexibility_factor(given.structure, path.structure))
-
-
-def _machine_mass(housing: Housing) -> Array:
-    moments = (housing.inertia_xx_kg_m2, housing.inertia_yy_kg_m2, housing.inertia_zz_kg_m2)
-    return np.diag([*[housing.mass_kg] * 3, *moments])
-
-
-def _check_shell_mass(housing: Housing, on_shell: FrameOnShell) -> None:
-    if np.linalg.eigvalsh(on_shell.shell_mass)[0] <= 0.0:
-        raise ParameterError(
-            f"housing.mass_kg = {housing.mass_kg:g} kg: frame and shaft weigh "
-            f"{on_shell.inner.rigid_mass[0, 0]:.3g} kg or turn as heavily; nothing is left for "
-            "the shell"
-        )
+        """Of each motion of the parts per load on a part, shape (motion, part times component)."""
+        return np.asarray(self.motions.drives @ self.inner.loads)

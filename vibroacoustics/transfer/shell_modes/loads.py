@@ -1,5 +1,6 @@
 """Forces on the shell through the joints of internal parts."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final, Protocol
@@ -80,30 +81,20 @@ class JointLoads:
         return complex(np.exp(1j * order * joint.first_angle_rad) * spread)
 
 
-@dataclass(frozen=True)
-class PatchLoads:
-    """Unit forces outwards, up and around on each weld of a joint, one weld after another."""
-
-    joint: Joint
-
-    def generalised(self, meridian: Meridian, around: Around) -> Array:
-        """As of any `Load`."""
-        factors = patch_factors(self.joint, around)
-        loads = mean_over_band(meridian, self.joint)[:, None] * factors
-        return loads.reshape(len(loads), -1)
-
-
 def weld_angles(joint: Joint) -> Array:
     """Middles of the welds from x, shape (weld,), rad."""
     return joint.first_angle_rad + 2.0 * np.pi * np.arange(joint.welds) / joint.welds
 
 
-def patch_factors(joint: Joint, around: Around) -> Array:
-    """Mean over each weld of the factors of a motion: outwards, up, around; shape (weld, 3)."""
-    n, angles = around.order, weld_angles(joint)
-    radial, sideways = around.radial(angles), around.around(angles)
-    mean = np.sinc(n * joint.spread_rad / (2.0 * np.pi))
-    return np.asarray(mean * np.stack([radial, radial, sideways], axis=1))
+def patch_factors(joint: Joint, arounds: Sequence[Around]) -> Array:
+    """Mean over each weld of the factors of motions: outwards, up, around; (motion, weld, 3)."""
+    order = np.array([around.order for around in arounds])[:, None]
+    turn = order * (
+        weld_angles(joint) - np.array([around.angle_rad for around in arounds])[:, None]
+    )
+    mean = np.sinc(order * joint.spread_rad / (2.0 * np.pi))[..., None]
+    radial, sideways = np.cos(turn), np.where(order, np.sin(turn), 1.0)
+    return np.asarray(mean * np.stack([radial, radial, sideways], axis=-1))
 
 
 @lru_cache(maxsize=32)

@@ -1,7 +1,7 @@
 """The shell's middle surface as a chain of straight pieces, turned about the z axis."""
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import pairwise
 from typing import Any, Final
 
@@ -63,6 +63,9 @@ class Meridian:
 
         Of the two elements at the nearest node the closer one.
         """
+        return _located(self, np.ascontiguousarray(points, dtype=np.float64).tobytes())
+
+    def _next_to(self, points: Array) -> tuple[IndexArray, Array]:
         _, node = self._tree.query(points)
         pairs = np.stack([np.maximum(node - 1, 0), np.minimum(node, self.elements - 1)])
         ahead = points - self.nodes[pairs]
@@ -77,6 +80,14 @@ class Meridian:
     @cached_property
     def _tree(self) -> Any:
         return cKDTree(self.nodes)
+
+
+@lru_cache(maxsize=4)
+def _located(meridian: Meridian, points: bytes) -> tuple[IndexArray, Array]:
+    """`Meridian.locate`; kept, as all modes are asked for at the same places."""
+    element, along = meridian._next_to(np.frombuffer(points).reshape(-1, 2))
+    element.flags.writeable = along.flags.writeable = False
+    return element, along
 
 
 def bending_wavelength_m(structure: ShellStructure, frequency_hz: float) -> float:

@@ -3,7 +3,8 @@
 import numpy as np
 
 from ...base.arrays import Array, ComplexArray
-from .loads import Load
+from ...machine.shell_structure import Joint
+from .loads import Load, mean_over_band, patch_factors
 from .modes import ElasticShell
 
 
@@ -18,12 +19,35 @@ def modal_forces(shell: ElasticShell, load: Load) -> Array:
     shell : its modes
     load : unit loads
     """
-    by_around = {
-        around: load.generalised(shell.meridian, around)
-        for around in {mode.around for mode in shell.modes}
-    }
-    rows = [mode.shape @ by_around[mode.around] for mode in shell.modes]
-    return np.array(rows).reshape(len(rows), -1)
+    parts = [
+        shapes @ load.generalised(shell.meridian, around)
+        for around, (_, shapes) in shell.by_around.items()
+    ]
+    rows = np.concatenate([rows for rows, _ in shell.by_around.values()])
+    return np.asarray(np.concatenate(parts)[np.argsort(rows)])
+
+
+def patch_forces(shell: ElasticShell, joint: Joint) -> Array:
+    """Generalised force of each mode per unit force outwards, up and around on each weld of a
+    joint, one weld after another, shape (mode, contact).
+
+    Parameters
+    ----------
+    shell : its modes
+    joint : welds
+
+    Raises
+    ------
+    ParameterError
+        The joint reaches beyond the wall.
+    """
+    mean = mean_over_band(shell.meridian, joint)
+    reached = np.flatnonzero(mean.any(axis=1))
+    forces = np.empty((len(shell.modes), joint.welds, 3))
+    factors = patch_factors(joint, list(shell.by_around))
+    for (rows, shapes), factor in zip(shell.by_around.values(), factors, strict=True):
+        forces[rows] = (shapes[:, reached] @ mean[reached])[:, None] * factor
+    return forces.reshape(len(forces), -1)
 
 
 def velocity_per_force(

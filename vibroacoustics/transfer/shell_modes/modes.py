@@ -6,7 +6,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from ...base.arrays import Array
+from ...base.arrays import Array, IndexArray
 from ...base.errors import ParameterError
 from ...machine.shell import Shell
 from ...machine.shell_structure import ShellStructure
@@ -134,6 +134,17 @@ class ElasticShell:
                     f"of more than {MAXIMUM_ORDER} waves around; allowed are {MAXIMUM_ORDER}"
                 )
         return tuple(Harmonic(self.meridian, self.structure, n) for n in range(order))
+
+    @cached_property
+    def by_around(self) -> dict[Around, tuple[IndexArray, Array]]:
+        """Numbers and shapes of the modes that vary alike around, shape (mode, freedom)."""
+        rows: dict[Around, list[int]] = {}
+        for row, mode in enumerate(self.modes):
+            rows.setdefault(mode.around, []).append(row)
+        return {
+            around: (np.array(of), np.array([self.modes[row].shape for row in of]))
+            for around, of in rows.items()
+        }
 
     @cached_property
     def modes(self) -> tuple[ShellMode, ...]:

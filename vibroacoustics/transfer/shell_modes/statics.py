@@ -46,13 +46,12 @@ class WallFlexibility:
         kind = np.concatenate(
             [np.tile(3 * j + np.arange(3), joint.welds) for j, joint in enumerate(joints)]
         )
-        total = np.zeros((kind.size, kind.size))
-        for order, of_wall in enumerate(self._by_order):
-            between = shapes.T @ of_wall[np.ix_(rows, rows)] @ shapes
-            for around in self.shell.arounds(order):
-                factor = np.concatenate([patch_factors(j, around).ravel() for j in joints])
-                total += np.outer(factor, factor) * between[np.ix_(kind, kind)]
-        return total
+        of_order = [shapes.T @ wall[np.ix_(rows, rows)] @ shapes for wall in self._by_order]
+        arounds = [each for order in range(STATIC_ORDERS) for each in self.shell.arounds(order)]
+        between = np.array([of_order[around.order] for around in arounds])[:, kind][..., kind]
+        factors = [patch_factors(joint, arounds).reshape(len(arounds), -1) for joint in joints]
+        factor = np.concatenate(factors, axis=1)
+        return np.asarray(np.sum(factor[:, :, None] * factor[:, None] * between, axis=0))
 
     def of_band(self, joint: Joint, order: int) -> float:
         """Mean displacement outwards of a band per generalised force cos nθ on it, m/N.
