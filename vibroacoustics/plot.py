@@ -8,7 +8,7 @@ The report draws its pictures with the same functions. A notebook shows what the
 
 Of `run`: `force_over_revolution`, `force_orders`, `foot_force_orders`, `level_orders`,
 `mount_transmissibility`, `transfer`, `green_difference`, `levels`, `line_map`, `scores`,
-`rank_acceptability`, `source_third_octaves`, `option_third_octaves`, `stopping`,
+`rank_acceptability`, `source_third_octaves`, `option_third_octaves`, `path_shares`, `stopping`,
 `stopping_order_map`.
 
 Of `radiate`: `transfer_vectors`, `unit_level_map`, `directivity`.
@@ -28,6 +28,7 @@ from .report.figures.forces import force_over_revolution
 from .report.figures.maps import line_map, unit_level_map
 from .report.figures.mounts import mount_transmissibility
 from .report.figures.orders import foot_force_orders, force_orders, level_orders
+from .report.figures.paths import path_shares
 from .report.figures.prediction import predicted_levels
 from .report.figures.radiation import green_difference, levels, transfer
 from .report.figures.recorded_maps import run_up_levels, speed_frequency_map, tracked_orders
@@ -53,6 +54,7 @@ __all__ = [
     "order_map",
     "order_spectrum",
     "orders_over_speed",
+    "path_shares",
     "predicted_levels",
     "rank_acceptability",
     "run_up_levels",

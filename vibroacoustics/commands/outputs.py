@@ -29,6 +29,7 @@ REPORT_FILES: Final = (
     "comparison.md",
     "scores.csv",
     "sources.csv",
+    "paths.csv",
     "figures/*.png",
 )
 """What a report may consist of."""

@@ -38,6 +38,7 @@ from ..uncertainty.drawn import drawn_cases
 from ..uncertainty.draws import drawn_values, errors_of_projection, of_every_draw
 from ..uncertainty.first_order import first_order_by_draw, unknown_first_order
 from ..uncertainty.share_variables import change_shares, level_shares
+from .contributions import contributions_of
 from .motion import Motion, motion_of
 
 Sound = dict[CaseKey, SourceSound]
@@ -88,6 +89,7 @@ def levels_of(
     frequency = motion.results["order_frequency"]
     levels = level_variables(axes, sound, lines["pressure_line"], frequency, left, rest)
     levels = levels.merge(lines).merge(baseline_variables(study, axes, sound))
+    levels = levels.merge(contributions_of(transmission, motion, axes, levels))
     if not study.ranges:
         return levels
     row, name = axes.receivers.index(study.catalogue_receiver), study.catalogue_receiver

@@ -28,6 +28,8 @@ from .order_tables import (
     orders_text,
 )
 from .page import page_of
+from .path_tables import paths_csv
+from .paths import has_paths
 from .prediction import prediction_csv, prediction_markdown, prediction_text
 from .radiation_figures import radiation_figures
 from .radiation_tables import kwave_text, radiation_text
@@ -81,6 +83,7 @@ def render(results: xr.Dataset, results_sha256: str = "") -> dict[str, bytes]:
         "comparison.md": markdown(page),
         "scores.csv": scores_csv(results),
         **({"sources.csv": sources_csv(results)} if has_sources(results) else {}),
+        **({"paths.csv": paths_csv(results)} if has_paths(results) else {}),
         **{file: picture.png for file, picture in page.pictures().items()},
     }
 
