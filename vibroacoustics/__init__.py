@@ -27,6 +27,8 @@ also of a machine alone, from `load_machine(path)`.
 `speed_frequency_map(recording, ...)` gives spectra over speed and frequency (Campbell).
 `compare(first, second)` compares orders of two results in level and phase.
 `read_limits(path)` reads limits of orders, each a `Limit`.
+`read_figure_limits(path)` reads limits of bands, totals and criteria too, each a `FigureLimit`.
+`mean_of_runs(runs, specimens)` averages recordings of several runs and specimens.
 `check_limits(results, limits)` holds orders of a recording, a study or a comparison against them.
 `SpeedChannel`, `NominalSpeed`, `TacholessSpeed` say where the speed comes from.
 
@@ -111,8 +113,10 @@ if TYPE_CHECKING:
     from .report import blocks
     from .report.columns import Column
     from .report.sections import Section
+    from .results.figure_limit import FigureLimit
     from .results.limit import Limit
-    from .results.limits_file import read_limits
+    from .results.limits_file import read_figure_limits, read_limits
+    from .results.mean_of_runs import mean_of_runs
     from .results.order_comparison import compare
     from .results.order_limits import check_limits
     from .results.storage import open_results
@@ -131,6 +135,7 @@ __all__ = [
     "Criterion",
     "Curve",
     "CurveAxis",
+    "FigureLimit",
     "Limit",
     "Loads",
     "Machine",
@@ -178,12 +183,14 @@ __all__ = [
     "load_machine",
     "load_plugin",
     "load_study",
+    "mean_of_runs",
     "open_recording",
     "open_results",
     "orders",
     "plot",
     "predict",
     "radiate",
+    "read_figure_limits",
     "read_functions",
     "read_limits",
     "read_modes",
@@ -206,6 +213,7 @@ _HOME = {
     "Criterion": "study.criterion",
     "Curve": "base.curves",
     "CurveAxis": "base.curves",
+    "FigureLimit": "results.figure_limit",
     "Limit": "results.limit",
     "Loads": "mechanics.loads",
     "Machine": "machine.machine",
@@ -252,10 +260,12 @@ _HOME = {
     "load_machine": "study.loading",
     "load_plugin": "base.plugin_file",
     "load_study": "study.loading",
+    "mean_of_runs": "results.mean_of_runs",
     "open_results": "results.storage",
     "predict": "measured.prediction",
     "radiate": "pipeline",
     "read_functions": "recordings",
+    "read_figure_limits": "results.limits_file",
     "read_limits": "results.limits_file",
     "read_modes": "recordings",
     "read_recording": "recordings",

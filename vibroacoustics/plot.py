@@ -18,7 +18,9 @@ Of `analyse_orders`: `order_spectrum`, `orders_over_speed`, `order_map`.
 Of `speed_frequency_map`: `speed_frequency_map`, `run_up_levels`. Of `track_orders`:
 `tracked_orders`.
 
-Of `compare`: `compared_orders`. Of `curves`: `curves`. Of `predict`: `predicted_levels`.
+Of `compare`: `compared_orders`, `order_differences`.
+
+Of `curves`: `curves`. Of `predict`: `predicted_levels`.
 """
 
 from .report.figures.compared_orders import compared_orders
@@ -27,6 +29,7 @@ from .report.figures.directivity import directivity
 from .report.figures.forces import force_over_revolution
 from .report.figures.maps import line_map, unit_level_map
 from .report.figures.mounts import mount_transmissibility
+from .report.figures.order_differences import order_differences
 from .report.figures.orders import foot_force_orders, force_orders, level_orders
 from .report.figures.paths import path_shares
 from .report.figures.prediction import predicted_levels
@@ -51,6 +54,7 @@ __all__ = [
     "line_map",
     "mount_transmissibility",
     "option_third_octaves",
+    "order_differences",
     "order_map",
     "order_spectrum",
     "orders_over_speed",

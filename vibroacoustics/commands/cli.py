@@ -13,6 +13,7 @@ import typer
 
 from ..base.errors import VibroacousticsError
 from . import (
+    comparison_commands,
     curve_commands,
     messages,
     prediction_commands,
@@ -40,6 +41,7 @@ app = typer.Typer(
 
 app.add_typer(curve_commands.commands)
 app.add_typer(recording_commands.commands)
+app.add_typer(comparison_commands.commands)
 app.add_typer(prediction_commands.commands)
 app.add_typer(schema_commands.commands)
 

@@ -6,6 +6,8 @@ import xarray as xr
 
 from ..base.hashing import canonical_json
 from ..base.registry import plugins
+from .compared.limits import broken_lines, figure_limits_csv
+from .compared.page import comparison_html
 from .comparison import comparison_csv, comparison_text
 from .curve_tables import curve_csv
 from .figures.compared_orders import compared_order_figures
@@ -39,13 +41,16 @@ from .study import has_sources
 from .tracked_tables import tracked_csv, tracked_text
 
 __all__ = [
+    "broken_lines",
     "check_kept",
     "compared_order_figures",
+    "comparison_html",
     "comparison_of_orders_csv",
     "comparison_of_orders_text",
     "comparison_text",
     "curve_csv",
     "curve_figures",
+    "figure_limits_csv",
     "keep",
     "kwave_text",
     "levels_csv",

@@ -50,10 +50,25 @@ def limits_csv(checked: xr.Dataset) -> bytes:
 def limits_text(checked: xr.Dataset) -> str:
     """The worst margin of each channel and order, and how many exceed their limit."""
     worst = _worst(checked)
+    table = order_limits_table(checked)
+    return "\n".join([to_text(table, WIDEST_CHANNEL), _verdict(worst), *_not_checked(checked)])
+
+
+def order_limits_table(checked: xr.Dataset) -> Table:
+    """The worst margin of each channel and order."""
     caption = "Limits: the least margin of each order over the speeds, above 0 below the limit"
     head = ("Channel", "Order", "at rpm", "RMS", "limit", "unit", "margin, dB", "")
-    table = Table(caption, head, tuple(map(_cells, worst)), frozenset({0, 5, 7}))
-    return "\n".join([to_text(table, WIDEST_CHANNEL), _verdict(worst), *_not_checked(checked)])
+    return Table(caption, head, tuple(map(_cells, _worst(checked))), frozenset({0, 5, 7}))
+
+
+def broken_orders(checked: xr.Dataset) -> list[str]:
+    """A line for each order of a channel that exceeds its limit, with its worst speed."""
+    return [
+        f"{row.subject}: {_shown(row.value, row.unit)} {row.unit} is above "
+        f"{_shown(row.limit, row.unit)} {row.unit}"
+        for row in _worst(checked)
+        if row.margin_db < 0.0
+    ]
 
 
 def _cells(row: _Checked) -> tuple[str, ...]:

@@ -19,12 +19,13 @@ class Part(NamedTuple):
 
 
 class Page(NamedTuple):
-    """The report: title, machine, when its results were made, sections."""
+    """The report: title, machine, when its results were made, sections, what it is about."""
 
     title: str
     machine: str
     created: str
     parts: tuple[Part, ...]
+    about: str = "What each way of balancing does to the forces, to the feet and to the sound."
 
     def pictures(self) -> dict[str, Picture]:
         """All figures by the name of their file."""
