@@ -8,6 +8,7 @@ import xarray as xr
 from ...base import rounding
 from ...base.arrays import Array
 from ...results.figure_limits import PRESSURE, Compared
+from ..order_tables import shown_speeds
 from ..tables import Table
 
 
@@ -28,7 +29,7 @@ def levels_tables(compared: Compared) -> list[Table]:
         for channel, unit in zip(
             compared.orders["channel"].values, compared.orders["channel_unit"].values, strict=True
         )
-        for speed in compared.orders["speed"].values
+        for speed in sorted(shown_speeds(compared.orders))
         if str(unit) == "Pa"
     ]
     return [table for one in rows if (table := _table(compared, *one)) is not None]

@@ -4,6 +4,7 @@ from typing import Final
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from ...base import rounding
 from ...base.arrays import Array
@@ -67,32 +68,36 @@ def known_channels(compared: xr.Dataset) -> list[str]:
 
 def summary(compared: xr.Dataset) -> str:
     """How far the results are apart where they are loud."""
-    sizes, worst = [], (0.0, "")
-    for channel in known_channels(compared):
-        there = compared.sel(channel=channel)
-        for speed in there["speed"].values:
-            at_speed = there.sel(speed=speed)
-            for order in loud_orders(at_speed):
-                difference = float(at_speed["order_difference"].sel(order=order))
-                sizes.append(abs(difference))
-                words = f"order {order:g} of {channel} at {speed:.0f} rpm"
-                worst = max(worst, (abs(difference), f"{words}, {rounding.signed(difference)} dB"))
-    if not sizes:
+    difference = compared["order_difference"].values
+    loud = _loud(compared)
+    if not loud.any():
         return "The results have no order in common that stands out of rounding."
-    middle = rounding.fixed(float(np.median(sizes)), 2)
-    text = (
-        f"Of {len(sizes)} orders within {WITHIN_DB:g} dB of the strongest of their channel, B "
-        f"differs from A by {middle} dB in the middle"
+    size = np.where(loud, np.abs(difference), -1.0)
+    worst = np.unravel_index(int(size.argmax()), size.shape)
+    channel, speed, order = (
+        compared[dim].values[at]
+        for dim, at in zip(("channel", "speed", "order"), worst, strict=True)
     )
-    return f"{text}, most in {worst[1]}." if worst[1] else f"{text}."
+    middle = rounding.fixed(float(np.median(size[loud])), 2)
+    return (
+        f"Of {int(loud.sum())} orders within {WITHIN_DB:g} dB of the strongest of their channel at "
+        f"their speed, B differs from A by {middle} dB in the middle, most in order {order:g} of "
+        f"{channel} at {speed:.0f} rpm, {rounding.signed(float(difference[worst]))} dB."
+    )
 
 
 def loud_orders(at_speed: xr.Dataset) -> Array:
     """Known orders of a channel at a speed that are within a range of its strongest."""
-    rms = np.maximum(at_speed["channel_order_rms"].values, at_speed["compared_order_rms"].values)
-    known = np.isfinite(at_speed["order_difference"].values)
-    loud = level_of_amplitude(rms / max(float(rms.max()), 1e-300)) > -WITHIN_DB
-    return np.asarray(at_speed["order"].values[known & loud])
+    return np.asarray(at_speed["order"].values[_loud(at_speed)])
+
+
+def _loud(compared: xr.Dataset) -> NDArray[np.bool_]:
+    """Known orders within a range of the strongest of channel and speed, shape (..., order)."""
+    rms = np.maximum(compared["channel_order_rms"].values, compared["compared_order_rms"].values)
+    strongest = rms.max(axis=-1, keepdims=True)
+    ratio = rms / np.where(strongest > 0.0, strongest, 1.0)
+    known = np.isfinite(compared["order_difference"].values)
+    return np.asarray(known & (level_of_amplitude(ratio) > -WITHIN_DB))
 
 
 def _size(rms: float, unit: str) -> str:

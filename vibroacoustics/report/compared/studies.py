@@ -10,6 +10,7 @@ import xarray as xr
 from ...base import rounding
 from ...results.figure_limits import Compared
 from .. import labels
+from ..order_tables import shown_speeds
 from ..study import parameters
 from ..tables import Table
 
@@ -47,7 +48,10 @@ def inputs_table(compared: Compared) -> Table:
 def _figures(compared: Compared) -> Iterator[Figure]:
     (_, first, option, _), (_, second, other, _) = compared.sides()
     speeds = (compared.orders[name].values for name in ("speed", "compared_speed"))
+    shown = shown_speeds(compared.orders)
     for speed, other_speed in zip(*speeds, strict=True):
+        if speed not in shown:
+            continue
         one = first.sel(speed=speed, option=option)
         two = second.sel(speed=other_speed, option=other)
         yield from _amplitudes(one, two, f"{speed:.0f} rpm")

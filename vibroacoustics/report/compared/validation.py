@@ -10,6 +10,7 @@ from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.decibel import level_of_amplitude
 from ...results.figure_limits import PRESSURE, Compared
 from ..evidence import Rung, grid_error_db
+from ..order_tables import shown_speeds
 from ..study import has_draws
 from .levels import levels_at
 from .orders import known_channels, loud_orders
@@ -37,7 +38,7 @@ def _orders(compared: Compared, study_first: bool) -> Iterator[Rung]:
         there = orders.sel(channel=channel)
         unit = str(there["channel_unit"].item())
         named = channel if study_first else str(there["compared_channel"].item())
-        for speed in there["speed"].values:
+        for speed in sorted(shown_speeds(orders)):
             at_speed = there.sel(speed=speed)
             for order in loud_orders(at_speed):
                 one = at_speed.sel(order=order)
@@ -67,7 +68,7 @@ def _totals(compared: Compared, study_first: bool) -> Iterator[Rung]:
         if str(there["channel_unit"].item()) != "Pa":
             continue
         named = channel if study_first else str(there["compared_channel"].item())
-        for speed in there["speed"].values:
+        for speed in sorted(shown_speeds(orders)):
             both = levels_at(compared, channel, float(speed))
             if both is None:
                 continue
