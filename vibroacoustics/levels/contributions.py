@@ -39,10 +39,26 @@ def energies(split: Contributions, bands: Sequence[Band]) -> tuple[Array, Array]
     return alone, part
 
 
+def of_motions(split: Contributions) -> Array:
+    """A-weighted mean squares of the lines of each motion alone and of its part in the sum.
+
+    Returns
+    -------
+    shape (2, motion, receiver), Pa²
+    """
+    pressure = split.by_motion
+    audible = _audible(split.frequency_hz)
+    alone = 0.5 * np.abs(pressure) ** 2 @ audible
+    return np.stack([alone, 0.5 * (pressure * pressure.sum(axis=0).conj()).real @ audible])
+
+
 def _columns(frequency_hz: Array, bands: Sequence[Band]) -> Array:
     """Weights of frequencies, shape (frequency, band + 1)."""
-    audible = weighting_power("A", frequency_hz) * (frequency_hz > 0.0)
-    return np.column_stack([membership(frequency_hz, bands), audible])
+    return np.column_stack([membership(frequency_hz, bands), _audible(frequency_hz)])
+
+
+def _audible(frequency_hz: Array) -> Array:
+    return weighting_power("A", frequency_hz) * (frequency_hz > 0.0)
 
 
 def contribution_variables(
@@ -67,6 +83,11 @@ def contribution_variables(
         held = [order for order in orders if order < split.frequency_hz.size]
         pressure[at][rows, :, : len(held)] = split.pressure[..., held]
         alone[at][rows], part[at][rows] = energies(split, axes.bands)
+    motions = list(dict.fromkeys(name for split in cases.values() for name in split.motions))
+    radiated = np.zeros((2, *shape[:2], len(motions), shape[3]))
+    for (speed, option), split in cases.items():
+        rows = [motions.index(name) for name in split.motions]
+        radiated[:, speeds.index(speed), axes.options.index(option), rows] = of_motions(split)
     total = part.sum(axis=2, keepdims=True)
     share = part / np.where(total > 0.0, total, 1.0)
     coords = _coordinates(axes, names, speeds)
@@ -74,10 +95,15 @@ def contribution_variables(
     banded = {**coords, "band": [band.nominal_hz for band in axes.bands]}
     of_all = {name: values for name, values in banded.items() if not name.startswith("path")}
     of_all["path_speed"] = speeds
+    lines = radiated[1].sum(axis=2, keepdims=True)
+    by_motion = {name: values for name, values in of_all.items() if name != "band"}
+    by_motion["radiating_motion"] = motions
     arrays = {
         "path_pressure": (pressure, ordered),
         "path_level": (level(alone[..., -1]), coords),
         "path_share": (share[..., -1], coords),
+        "motion_level": (level(radiated[0]), by_motion),
+        "motion_share": (radiated[1] / np.where(lines > 0.0, lines, 1.0), by_motion),
         "path_band_level": (level(alone[..., :-1]), banded),
         "path_band_share": (share[..., :-1], banded),
         "modelled_band_level": (level(total[:, :, 0, :, :-1]), of_all),

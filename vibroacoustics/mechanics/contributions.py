@@ -51,12 +51,16 @@ class Contributions:
     frequency_hz : of the lines, shape (line,), orders from zero first
     pressure : complex peaks, shape (path, receiver, line), Pa; their sum is that of all sources
     noise : of the sources that have some
+    motions : what radiates: the housing's six motions as a rigid body, modes of its shell
+    by_motion : pressure of all sources by motion, shape (motion, receiver, line), Pa; same sum
     """
 
     names: tuple[PathName, ...]
     frequency_hz: Array
     pressure: ComplexArray
-    noise: tuple[NoiseContribution, ...] = ()
+    noise: tuple[NoiseContribution, ...]
+    motions: tuple[str, ...]
+    by_motion: ComplexArray
 
     def behind(self, loss: InsertionLoss | None) -> "Contributions":
         """What an insertion loss leaves of it."""
@@ -67,5 +71,6 @@ class Contributions:
             replace(one, alone=factor * one.alone, part=factor * one.part)
             for one, factor in zip(self.noise, factors, strict=True)
         ]
-        pressure = self.pressure * loss.amplitude_factor(self.frequency_hz)
-        return replace(self, pressure=pressure, noise=tuple(noise))
+        factor = loss.amplitude_factor(self.frequency_hz)
+        pressure, by_motion = factor * self.pressure, factor * self.by_motion
+        return replace(self, pressure=pressure, noise=tuple(noise), by_motion=by_motion)

@@ -11,6 +11,7 @@ from ..base import rounding
 from ..base.arrays import Array
 from ..base.decibel import power_of_level, sound_pressure_level
 from ..base.vocabulary import REFERENCE_OPTION
+from .labels import DOF_WORDS
 from .paths import (
     LEAST,
     at_path_speed,
@@ -62,6 +63,22 @@ def paths_table(results: xr.Dataset, receiver: str) -> Table:
         f"{len(share)}; all modelled sound is {rounding.level(total)} dB(A)"
     )
     return Table(caption, head, tuple(rows), frozenset({0, 1, 5}))
+
+
+def motions_table(results: xr.Dataset, receiver: str) -> Table:
+    """The leading motions that radiate: of the housing as a rigid body, modes of its shell."""
+    there = at_path_speed(results, receiver)
+    share, alone = there["motion_share"].values, there["motion_level"].values
+    rows, so_far = [], 0.0
+    for row in leading(share):
+        so_far += share[row]
+        name = str(there["radiating_motion"].values[row])
+        words = f"housing {DOF_WORDS[name]}" if name in DOF_WORDS else f"shell mode {name}"
+        cells = rounding.level(float(alone[row])), signed_percent(share[row])
+        rows.append((words, *cells, signed_percent(so_far)))
+    head = ("Motion", "Alone, dB(A)", "Share", "Shares so far")
+    caption = f"{receiver}: motions that radiate the lines of all sources; noise is not in it"
+    return Table(caption, head, tuple(rows))
 
 
 def orders_table(results: xr.Dataset, receiver: str) -> Table:

@@ -10,6 +10,7 @@ from ..base.vocabulary import RIGID_BODY_DOFS
 from ..mechanics.contributions import Contributions, NoiseContribution, PathName
 from ..mechanics.loads import PARTS, YOKE_ORDERS, Lines, Loads, Noise
 from .machine import MachineOnMounts
+from .radiating_motions import by_motion, motion_names
 from .sound_path import BendingShell, SoundPath
 
 HOUSING: Final = "housing"
@@ -54,7 +55,21 @@ def contributions(
         if path.shell is not None and part.density.any()
     ]
     stacked = np.array([pressure[name] for name in names])
-    return Contributions(names, lines.frequency_hz, stacked, tuple(noise))
+    motions, radiated = _by_motion(path, lines, names, stacked)
+    return Contributions(names, lines.frequency_hz, stacked, tuple(noise), motions, radiated)
+
+
+def _by_motion(
+    path: SoundPath, lines: Lines, names: tuple[PathName, ...], pressure: ComplexArray
+) -> tuple[tuple[str, ...], ComplexArray]:
+    """Names of the housing's motions and the shell's modes, and the pressure of each."""
+    rows = [[name[1:] == (HOUSING, motion) for name in names] for motion in RIGID_BODY_DOFS]
+    rigid = np.array([pressure[row].sum(axis=0) for row in rows])
+    if path.shell is None:
+        return RIGID_BODY_DOFS, rigid
+    of_shell = by_motion(path.shell, lines)
+    modes, own = of_shell[:-6], of_shell[-6:]
+    return (*RIGID_BODY_DOFS, *motion_names(path.shell)), np.concatenate([rigid + own, modes])
 
 
 def _silence(pressure: Paths, lines: Lines) -> ComplexArray:

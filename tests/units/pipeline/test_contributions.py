@@ -8,12 +8,28 @@ from support import PIPELINES, made_up_transfer_vectors
 from vibroacoustics import pipeline
 from vibroacoustics.base.decibel import power_of_level
 from vibroacoustics.base.vocabulary import REFERENCE_OPTION
+from vibroacoustics.levels.contributions import contribution_variables
+from vibroacoustics.pipeline import contributions
 from vibroacoustics.study.loading import load_study
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def results():
     return run_made_up(load_study(SOURCES_STUDY))
+
+
+@pytest.fixture(autouse=True)
+def motions_add_up(monkeypatch):
+    """In every run here what radiates is what the paths bring, line by line, to 1e-9."""
+
+    def checked(axes, cases, orders):
+        for split in cases.values():
+            total = split.pressure.sum(axis=0)
+            limit = 1e-9 * np.abs(total).max()
+            np.testing.assert_allclose(split.by_motion.sum(axis=0), total, atol=limit)
+        return contribution_variables(axes, cases, orders)
+
+    monkeypatch.setattr(contributions, "contribution_variables", checked)
 
 
 def assert_adds_up(results):
@@ -29,6 +45,7 @@ def assert_adds_up(results):
             of_source.sum("path").values, line.values, atol=1e-9 * np.abs(line).max().item()
         )
     np.testing.assert_allclose(results["path_share"].sum("path"), 1.0, rtol=1e-9)
+    np.testing.assert_allclose(results["motion_share"].sum("radiating_motion"), 1.0, rtol=1e-9)
     total = power_of_level(results["level_modelled"].sel(speed=speeds, weighting="A"))
     shares = results["path_share"].groupby("path_source").sum()
     expected = results["source_share"].sel(speed=speeds)
@@ -45,8 +62,11 @@ def test_paths_of_several_sources_add_up(results):
     bands = results["path_band_share"].sum("path").values
     np.testing.assert_allclose(bands[bands != 0.0], 1.0, rtol=1e-9)
 
+    check_single_paths(results)
 
-def test_a_path_alone_is_as_loud_as_its_source_where_it_is_the_only_one(results):
+
+def check_single_paths(results):
+    """A path of the moving parts is a transfer vector times the velocity of its motion."""
     alone = results["path_level"].groupby("path_source").count("path")
     assert (alone > 1).all()
     moving = results.isel(path=(results["path_source"] == "moving_parts").values)

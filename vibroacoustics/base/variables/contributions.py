@@ -6,6 +6,7 @@ from ..registry import register
 from ..vocabulary import Coordinate, Variable
 
 _PATHS: Final = ("path_speed", "option", "path", "receiver")
+_MOTIONS: Final = ("path_speed", "option", "radiating_motion", "receiver")
 
 for _thing in (
     Coordinate("path", ("path",), "", "source, port and direction of a path of sound"),
@@ -20,6 +21,24 @@ for _thing in (
         "Pa",
         "sound pressure by path; the paths add up to that of all sources",
         complex_peak=True,
+    ),
+    Coordinate(
+        "radiating_motion",
+        ("radiating_motion",),
+        "",
+        "motion of the housing as a rigid body, or mode of its shell",
+    ),
+    Variable(
+        "motion_level",
+        _MOTIONS,
+        "dB",
+        "A-weighted level of all lines of a motion alone, without noise",
+    ),
+    Variable(
+        "motion_share",
+        _MOTIONS,
+        "1",
+        "share of the A-weighted energy of the modelled lines; negative where it works against",
     ),
     Variable("path_level", _PATHS, "dB", "A-weighted level of a path alone"),
     Variable(

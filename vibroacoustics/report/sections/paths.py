@@ -8,6 +8,7 @@ from ..figures.paths import foot_figure, path_figure
 from ..foot_paths import foot_orders, foot_table
 from ..path_tables import (
     bands_table,
+    motions_table,
     options_table,
     orders_table,
     partial_sums_table,
@@ -52,6 +53,7 @@ def _of_receiver(results: xr.Dataset, receiver: str) -> list[Block]:
     return [
         paths_table(results, receiver),
         Pictures((path_figure(results, receiver),)),
+        motions_table(results, receiver),
         orders_table(results, receiver),
         partial_sums_table(results, receiver, order),
         Details(f"By third octave at {receiver}", (bands_table(results, receiver),)),

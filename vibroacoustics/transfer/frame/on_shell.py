@@ -99,7 +99,7 @@ class FrameOnShell:
         """
         forces = self._held @ self._stretch @ self.motions.shapes
         answer = self.motions.per_drive(frequency_hz)
-        return np.asarray((forces * answer.T[:, None]) @ self._drives_of_parts)
+        return np.asarray((forces * answer.T[:, None]) @ self.drives_of_parts)
 
     def sound(self, pressure_per_velocity: ComplexArray, frequency_hz: Array) -> ComplexArray:
         """Pressure per drive of each natural motion, (receiver, natural motion, frequency).
@@ -124,7 +124,7 @@ class FrameOnShell:
         ----------
         sound : of the natural motions
         """
-        per_load = np.moveaxis(np.tensordot(sound, self._drives_of_parts, (1, 0)), -1, 1)
+        per_load = np.moveaxis(np.tensordot(sound, self.drives_of_parts, (1, 0)), -1, 1)
         shape = len(sound), len(PARTS), PART_COMPONENTS, sound.shape[-1]
         return np.asarray(per_load.reshape(shape))
 
@@ -141,7 +141,7 @@ class FrameOnShell:
         return np.asarray(np.einsum("rnf,nf->rf", sound, drives))
 
     @property
-    def _drives_of_parts(self) -> ComplexArray:
+    def drives_of_parts(self) -> ComplexArray:
         """Of each natural motion per load on a part, shape (motion, part times component)."""
         return np.asarray(self.motions.drives[:, : len(self.inner.mass)] @ self.inner.loads)
 
