@@ -48,17 +48,17 @@ def unknowns_table(results: xr.Dataset) -> Table:
     """Unknowns that matter: their values before and after the published level, their shares."""
     shares = results["level_share"]
     knowledge = [str(name) for name in shares["knowledge"].values]
-    told = knowledge if _any_resolved(results) else knowledge[:1]
+    columns = knowledge if _any_resolved(results) else knowledge[:1]
     rows = [
         (
             _with_unit(results, name),
             *(_values(results, name, number) for number in range(-1, len(knowledge) - 1)),
-            *(_share(results, name, one) for one in told),
+            *(_share(results, name, one) for one in columns),
         )
         for name in _that_matter(shares)
     ]
     words = [_knowledge(name) for name in knowledge]
-    shares_of = [f"share of the variance {_knowledge(name)}" for name in told]
+    shares_of = [f"share of the variance {_knowledge(name)}" for name in columns]
     return Table(
         f"What the modelled level hangs on: middle of the values with {band_words(results)}",
         (

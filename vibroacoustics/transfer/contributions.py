@@ -68,8 +68,8 @@ def _by_motion(
     if path.shell is None:
         return RIGID_BODY_DOFS, rigid
     of_shell = by_motion(path.shell, lines)
-    modes, own = of_shell[:-6], of_shell[-6:]
-    return (*RIGID_BODY_DOFS, *motion_names(path.shell)), np.concatenate([rigid + own, modes])
+    modes, as_body = of_shell[:-6], of_shell[-6:]
+    return (*RIGID_BODY_DOFS, *motion_names(path.shell)), np.concatenate([rigid + as_body, modes])
 
 
 def _silence(pressure: Paths, lines: Lines) -> ComplexArray:

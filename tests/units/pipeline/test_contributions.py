@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from sources_study import SOURCES_STUDY, run_made_up
-from support import PIPELINES, made_up_transfer_vectors
+from support import PIPELINES, made_up_transfer_vectors, tiny_run
 
 from vibroacoustics import pipeline
 from vibroacoustics.base.decibel import power_of_level
@@ -117,3 +117,11 @@ def test_paths_through_frame_yoke_and_gas_add_up(name):
     draws = {"uncertainty.random_samples": 4}
     results = run_made_up(shortened(name, **draws), gain=0.01)
     assert_adds_up(results)
+
+
+def test_paths_are_behind_the_insertion_loss_of_an_option():
+    hood = 'kind = "hood"\nband_hz = [50.0, 100.0]\ninsertion_loss_db = [6.0, 20.0]\n'
+    results = tiny_run(f"[options.hood]\n{hood}")
+    assert_adds_up(results)
+    level = results["path_level"].max("path").sel(option=["none", "hood"]).squeeze()
+    assert np.diff(level).item() < -6.0 + 1e-6

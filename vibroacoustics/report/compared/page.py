@@ -1,6 +1,7 @@
 """The page of a comparison, of the same blocks as the report of a study."""
 
 from collections.abc import Sequence
+from typing import Final
 
 import xarray as xr
 
@@ -19,6 +20,9 @@ from .limits import limit_blocks, limits_sentence
 from .orders import is_pressure, known_channels, orders_table, summary
 from .studies import inputs_table, key_figures
 from .validation import is_study, rungs_of
+
+MOST_ROWS: Final = 40
+"""Of a table that is not folded."""
 
 
 def comparison_html(
@@ -88,7 +92,9 @@ def _validation(compared: Compared) -> list[Part]:
         "(spread of the draws; of levels in all) and u_D (scatter of the runs and specimens), in "
         "the form of ASME V&V 20. What is not known counts as zero, so u is a lower limit."
     )
-    table = rungs_table("The study beside the recordings", rungs)
+    table: Block = rungs_table("The study beside the recordings", rungs)
+    if len(rungs) > MOST_ROWS:
+        table = Details(f"All {len(rungs)} figures", (table,))
     return [Part("validation", "Validation", (Text(note, "note"), table))]
 
 

@@ -18,7 +18,7 @@ Figure = tuple[str, str, float, float]
 """Words, unit and the values of both."""
 MOST_ROWS: Final = 60
 _NO_INPUT: Final = ("records", "source_file", "title", "options")
-"""Of the parameters, what is no input of its own."""
+"""Of the parameters, what is no input of its known_inputs."""
 _AMPLITUDES: Final = {
     "force_amplitude": ("Force", "N"),
     "moment_amplitude": ("Moment", "N m"),
@@ -101,9 +101,9 @@ def _cells(first: float, second: float, unit: str) -> tuple[str, ...]:
 def _inputs(result: xr.Dataset, option: str) -> dict[str, Any]:
     """All parameters of a study with the chosen option's, by their names joined by dots."""
     known = parameters(result)
-    chosen = {"option": option, f"options.{option}": known["options"].get(option)}
-    own = {name: value for name, value in known.items() if name not in _NO_INPUT}
-    return dict(_flat({**own, "option": {"name": option, **(chosen[f"options.{option}"] or {})}}))
+    of_option = {"name": option, **(known["options"].get(option) or {})}
+    others = {name: value for name, value in known.items() if name not in _NO_INPUT}
+    return dict(_flat({**others, "option": of_option}))
 
 
 def _flat(table: Any, name: str = "") -> Iterator[tuple[str, Any]]:
