@@ -8,7 +8,7 @@ import xarray as xr
 from ..base.vocabulary import WEIGHTINGS
 from ..levels.axes import LevelAxes
 from ..levels.contributions import contribution_variables
-from ..radiation.pressure import wrench_pressure_by_motion
+from ..radiation.transfer_vectors import interpolate_transfer_vector
 from ..study.study import Study
 from ..transfer.received import Transmission, by_case_and_source
 from .motion import Motion
@@ -35,10 +35,21 @@ def contributions_of(
     """
     speeds = chosen_speeds(transmission.study)
     cases = {key: case for key, case in motion.cases.items() if key[0] in speeds}
-    pressure = wrench_pressure_by_motion(motion.results.sel(speed=speeds), "transfer_vector")
-    of_wrenches = by_case_and_source(pressure, motion.source_of_wrench)
+    by_motion = _pressure_by_motion(motion.results.sel(speed=speeds))
+    of_wrenches = by_case_and_source(by_motion, motion.source_of_wrench)
     split = transmission.contributions(cases, motion.loads, of_wrenches)
     return contribution_variables(axes, dict(split), loudest_orders(levels))
+
+
+def _pressure_by_motion(results: xr.Dataset) -> xr.DataArray:
+    """Pressure of every wrench at every order by the six motions of the housing, as dof.
+
+    Orders beyond the table are silent, as in `radiation.pressure`: its highest frequency stands
+    for theirs.
+    """
+    vectors = results["transfer_vector"]
+    frequency = results["order_frequency"].clip(max=vectors["frequency"].max().item())
+    return results["velocity_order"] * interpolate_transfer_vector(vectors, frequency)
 
 
 def chosen_speeds(study: Study) -> list[float]:

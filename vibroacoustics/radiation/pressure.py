@@ -22,12 +22,6 @@ def wrench_pressure(results: xr.Dataset, name: str) -> xr.DataArray:
     return _at_orders(results["velocity_order"], results[name], results["order_frequency"])
 
 
-def wrench_pressure_by_motion(results: xr.Dataset, name: str) -> xr.DataArray:
-    """As `wrench_pressure`, not summed over the six motions of the housing, which stay as dof."""
-    frequency = results["order_frequency"]
-    return results["velocity_order"] * _vectors_at(results[name], frequency)
-
-
 def pressure_on_surface(velocity: xr.DataArray, results: xr.Dataset) -> xr.DataArray:
     """Pressure at the positions of the measurement surface, here called receivers, Pa.
 
@@ -58,11 +52,8 @@ def pressure_on_map(velocity: xr.DataArray, results: xr.Dataset) -> xr.DataArray
 def _at_orders(
     velocity: xr.DataArray, vectors: xr.DataArray, order_frequency: xr.DataArray
 ) -> xr.DataArray:
-    pressure: xr.DataArray = xr.dot(velocity, _vectors_at(vectors, order_frequency), dim="dof")
-    return pressure
-
-
-def _vectors_at(vectors: xr.DataArray, order_frequency: xr.DataArray) -> xr.DataArray:
     """Orders beyond the table are silent: its highest frequency stands for theirs."""
     frequency = order_frequency.clip(max=vectors["frequency"].max().item())
-    return interpolate_transfer_vector(vectors, frequency)
+    at_orders = interpolate_transfer_vector(vectors, frequency)
+    pressure: xr.DataArray = xr.dot(velocity, at_orders, dim="dof")
+    return pressure
