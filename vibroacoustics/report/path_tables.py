@@ -85,7 +85,8 @@ def orders_table(results: xr.Dataset, receiver: str) -> Table:
     """The leading paths of each of the loudest orders."""
     there = at_path_speed(results, receiver)["path_pressure"].transpose("path", "path_order")
     level = sound_pressure_level(there.values.sum(axis=0))
-    shown = sorted(np.argsort(-level, kind="stable")[:_ORDERS])
+    loudest = np.argsort(-level, kind="stable")[:_ORDERS]
+    shown = sorted(at for at in loudest if level[at] >= rounding.LEVEL_FLOOR_DB)
     rows = [
         (f"{there['path_order'].values[at]:g}×", rounding.level(float(level[at])), *named)
         for at in shown

@@ -33,6 +33,12 @@ def has_paths(results: xr.Dataset) -> bool:
     return "path_share" in results and bool(results["path_share"].any())
 
 
+def has_motions(results: xr.Dataset) -> bool:
+    """Whether what radiates tells more than the paths do: of several sources, or of modes."""
+    sources = set(results["path_source"].values.tolist())
+    return len(sources) > 1 or results.sizes["radiating_motion"] > len(DOF_WORDS)
+
+
 def path_speed(results: xr.Dataset) -> float:
     """Speed at which paths are shown: of the published level, or the nearest to it."""
     speeds = results["path_speed"].values

@@ -95,6 +95,8 @@ def _table(compared: Compared, channel: str, speed: float) -> Table | None:
             for one, row in zip(both, at, strict=True)
         ]
         rows.append(_row(f"{band:g} Hz", *pairs))
+    if len(rows) == 1:  # no third octave in common; levels in all are in other tables
+        return None
     is_known = any(row[-1] != rounding.NOTHING for row in rows)
     head = ("Band", "A", "B", "B − A, dB", "u of the mean, dB")
     caption = (

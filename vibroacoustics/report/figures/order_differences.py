@@ -83,6 +83,8 @@ def order_differences(compared: xr.Dataset, channels: Sequence[str] = ()) -> Fig
             axes.set_title(f"{speed:.0f} rpm", loc="left")
             axes.set_ylabel("B − A, dB")
             whole_number_ticks(axes)
+        highest = difference["order"].where(difference.notnull()).max().item()
+        panels[-1].set_xlim(0.0, highest + 0.5)
         panels[-1].set_xlabel("Shaft order")
         legend_below(panels[0], 2)
 

@@ -14,7 +14,7 @@ from ..path_tables import (
     partial_sums_table,
     paths_table,
 )
-from ..paths import has_paths, leading_sentence, loudest_order, path_speed
+from ..paths import has_motions, has_paths, leading_sentence, loudest_order, path_speed
 from ..study import catalogue_receiver, other_receivers
 from . import Section
 
@@ -53,7 +53,7 @@ def _of_receiver(results: xr.Dataset, receiver: str) -> list[Block]:
     return [
         paths_table(results, receiver),
         Pictures((path_figure(results, receiver),)),
-        motions_table(results, receiver),
+        *([motions_table(results, receiver)] if has_motions(results) else ()),
         orders_table(results, receiver),
         partial_sums_table(results, receiver, order),
         Details(f"By third octave at {receiver}", (bands_table(results, receiver),)),
