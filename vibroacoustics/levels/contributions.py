@@ -15,7 +15,8 @@ from .bands import Band
 from .by_source import membership, weighting_power
 from .labelled import level
 
-_DIMS: Final = ("path_speed", "option", "path", "receiver")
+SILENT: Final = 1e-12
+"""Of the largest mean square, 120 dB below it: a smaller sum is near rounding and has no shares."""
 
 
 def energies(split: Contributions, bands: Sequence[Band]) -> tuple[Array, Array]:
@@ -89,7 +90,7 @@ def contribution_variables(
         rows = [motions.index(name) for name in split.motions]
         radiated[:, speeds.index(speed), axes.options.index(option), rows] = of_motions(split)
     total = part.sum(axis=2, keepdims=True)
-    share = part / np.where(total > 0.0, total, 1.0)
+    share = _shares(part, total)
     coords = _coordinates(axes, names, speeds)
     ordered = {**coords, "path_order": [float(order) for order in orders]}
     banded = {**coords, "band": [band.nominal_hz for band in axes.bands]}
@@ -103,7 +104,7 @@ def contribution_variables(
         "path_level": (level(alone[..., -1]), coords),
         "path_share": (share[..., -1], coords),
         "motion_level": (level(radiated[0]), by_motion),
-        "motion_share": (radiated[1] / np.where(lines > 0.0, lines, 1.0), by_motion),
+        "motion_share": (_shares(radiated[1], lines), by_motion),
         "path_band_level": (level(alone[..., :-1]), banded),
         "path_band_share": (share[..., :-1], banded),
         "modelled_band_level": (level(total[:, :, 0, :, :-1]), of_all),
@@ -111,6 +112,12 @@ def contribution_variables(
     return check(
         xr.Dataset({name: stamp(name, values, at) for name, (values, at) in arrays.items()})
     )
+
+
+def _shares(part: Array, total: Array) -> Array:
+    """Parts over their sum; none of what is silent beside the loudest."""
+    sounds = total > SILENT * total.max(initial=0.0)
+    return np.where(sounds, part / np.where(sounds, total, 1.0), 0.0)
 
 
 def _coordinates(

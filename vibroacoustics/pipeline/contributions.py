@@ -17,6 +17,8 @@ MOST_SPEEDS: Final = 3
 """The slowest, the fastest, and that of the published level or a middle one."""
 MOST_ORDERS: Final = 12
 """The loudest ones after weighting by A, anywhere."""
+QUIETEST_DB: Final = -40.0
+"""Orders below this everywhere are none of them."""
 ALWAYS: Final = (1, 2)
 """Orders that are among them."""
 
@@ -68,5 +70,5 @@ def loudest_orders(levels: xr.Dataset) -> list[int]:
     level = levels["order_level"].isel(weighting=WEIGHTINGS.index("A"))
     loudest = level.max(("speed", "option", "receiver")).values
     ranked = [int(order) for order in np.argsort(-loudest, kind="stable") if order > 0]
-    others = [order for order in ranked if order not in ALWAYS]
+    others = [one for one in ranked if one not in ALWAYS and loudest[one] >= QUIETEST_DB]
     return sorted([*ALWAYS, *others[: MOST_ORDERS - len(ALWAYS)]])
