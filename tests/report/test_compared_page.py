@@ -14,7 +14,6 @@ from vibroacoustics import (
     label_recording,
     mean_of_runs,
 )
-from vibroacoustics.commands.outputs import write_orders
 from vibroacoustics.report import compared_order_figures, comparison_html
 from vibroacoustics.report.compared.levels import levels_tables
 from vibroacoustics.report.compared.studies import inputs_table, key_figures
@@ -59,7 +58,9 @@ def page_of(compared, figures=()):
 
 
 def test_options_side_by_side(study):
-    compared = Compared(compare(study, study, other_option="counterweight-half"), study, study)
+    pairs = {name: name for name in (MICROPHONE, "force x")}
+    orders = compare(study, study, pairs, other_option="counterweight-half")
+    compared = Compared(orders, study, study)
     force = {row[0]: row for row in key_figures(compared).rows}["Force, 1×, 2900 rpm"]
     values = study["force_amplitude"].sel(order=1).squeeze("speed")
     expected = float(values.sel(option="counterweight-half") / values.sel(option="none"))
@@ -114,8 +115,7 @@ def test_command_with_runs_options_and_limits(study, tmp_path):
     result = write_results(study, tmp_path / "results.nc")
     files = []
     for number, gain in enumerate((1.0, 1.1)):
-        write_orders(recording(study, gain), tmp_path / str(number))
-        files.append(tmp_path / str(number) / "orders.nc")
+        files.append(write_results(recording(study, gain), tmp_path / f"{number}.nc"))
     limits, out = tmp_path / "limits.csv", tmp_path / "out"
     to = ("compare", result, *files, "--pair", f"{MICROPHONE}=front", "--out", out)
     header = "channel,order,band_hz,criterion,limit,unit,side\n"

@@ -7,10 +7,17 @@ import numpy as np
 import pytest
 from support import tiny_run
 
-from vibroacoustics.report import render
 from vibroacoustics.report.foot_paths import foot_table
-from vibroacoustics.report.path_tables import orders_table, partial_sums_table, paths_table
+from vibroacoustics.report.html import html
+from vibroacoustics.report.page import Page, Part
+from vibroacoustics.report.path_tables import (
+    orders_table,
+    partial_sums_table,
+    paths_csv,
+    paths_table,
+)
 from vibroacoustics.report.paths import leading, leading_sentence, phasor_shares, relation
+from vibroacoustics.report.sections import SECTIONS
 
 
 @pytest.fixture(scope="module")
@@ -67,9 +74,11 @@ def test_forces_of_the_feet_are_those_of_the_results(results):
 
 
 def test_files_of_the_report(results):
-    files = render(results)
-    rows = list(csv.DictReader(io.StringIO(files["paths.csv"].decode())))
+    rows = list(csv.DictReader(io.StringIO(paths_csv(results).decode())))
     shares = [float(r["share_of_modelled_energy"]) for r in rows if r["option"] == "none"]
     assert sum(shares) == pytest.approx(1.0, rel=1e-7)
-    assert '<section id="paths">' in files["report.html"].decode()
-    assert "figures/paths_1_front_1m.png" in files
+    section = SECTIONS["paths"]
+    assert section.applies(results)
+    page = Page("T", "M", "now", (Part("paths", section.title, tuple(section.blocks(results))),))
+    assert set(page.pictures()) == {"figures/paths_1_front_1m.png", "figures/paths_feet.png"}
+    assert "Forces into the feet" in html(page).decode()
