@@ -28,6 +28,8 @@ also of a machine alone, from `load_machine(path)`.
 `speed_frequency_map(recording, ...)` gives spectra over speed and frequency (Campbell).
 `compare(first, second)` compares orders of two results in level and phase.
 `read_limits(path)` reads limits of orders, each a `Limit`.
+`read_figure_limits(path)` reads limits of bands, totals and criteria too, each a `FigureLimit`.
+`mean_of_runs(runs, specimens)` averages recordings of several runs and specimens.
 `check_limits(results, limits)` holds orders of a recording, a study or a comparison against them.
 `SpeedChannel`, `NominalSpeed`, `TacholessSpeed` say where the speed comes from.
 
@@ -121,8 +123,10 @@ if TYPE_CHECKING:
     from .report import blocks
     from .report.columns import Column
     from .report.sections import Section
+    from .results.figure_limit import FigureLimit
     from .results.limit import Limit
-    from .results.limits_file import read_limits
+    from .results.limits_file import read_figure_limits, read_limits
+    from .results.mean_of_runs import mean_of_runs
     from .results.order_comparison import compare
     from .results.order_limits import check_limits
     from .results.storage import open_results
@@ -142,6 +146,7 @@ __all__ = [
     "Curve",
     "CurveAxis",
     "DesignFigure",
+    "FigureLimit",
     "Limit",
     "Loads",
     "Machine",
@@ -192,6 +197,7 @@ __all__ = [
     "load_machine",
     "load_plugin",
     "load_study",
+    "mean_of_runs",
     "open_recording",
     "open_results",
     "optimise",
@@ -199,6 +205,7 @@ __all__ = [
     "plot",
     "predict",
     "radiate",
+    "read_figure_limits",
     "read_functions",
     "read_limits",
     "read_modes",
@@ -223,6 +230,7 @@ _HOME = {
     "Curve": "base.curves",
     "CurveAxis": "base.curves",
     "DesignFigure": "design.figure",
+    "FigureLimit": "results.figure_limit",
     "Limit": "results.limit",
     "Loads": "mechanics.loads",
     "Machine": "machine.machine",
@@ -272,11 +280,13 @@ _HOME = {
     "load_machine": "study.loading",
     "load_plugin": "base.plugin_file",
     "load_study": "study.loading",
+    "mean_of_runs": "results.mean_of_runs",
     "open_results": "results.storage",
     "optimise": "design.optimising",
     "predict": "measured.prediction",
     "radiate": "pipeline",
     "read_functions": "recordings",
+    "read_figure_limits": "results.limits_file",
     "read_limits": "results.limits_file",
     "read_modes": "recordings",
     "read_recording": "recordings",

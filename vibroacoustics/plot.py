@@ -9,7 +9,7 @@ The report draws its pictures with the same functions. A notebook shows what the
 Of `run`: `force_over_revolution`, `force_orders`, `foot_force_orders`, `level_orders`,
 `mount_transmissibility`, `transfer`, `green_difference`, `levels`, `line_map`, `scores`,
 `rank_acceptability`, `source_third_octaves`, `option_third_octaves`, `baseline_third_octaves`,
-`stopping`, `stopping_order_map`.
+`path_shares`, `stopping`, `stopping_order_map`.
 
 Of `radiate`: `transfer_vectors`, `unit_level_map`, `directivity`.
 
@@ -20,7 +20,9 @@ Of `speed_frequency_map`: `speed_frequency_map`, `run_up_levels`. Of `track_orde
 
 Of `blocked_forces`: `blocked_force`, `blocked_validation`.
 
-Of `compare`: `compared_orders`. Of `curves`: `curves`. Of `predict`: `predicted_levels`.
+Of `compare`: `compared_orders`, `order_differences`.
+
+Of `curves`: `curves`. Of `predict`: `predicted_levels`.
 """
 
 from .report.figures.baseline import baseline_third_octaves
@@ -31,7 +33,9 @@ from .report.figures.directivity import directivity
 from .report.figures.forces import force_over_revolution
 from .report.figures.maps import line_map, unit_level_map
 from .report.figures.mounts import mount_transmissibility
+from .report.figures.order_differences import order_differences
 from .report.figures.orders import foot_force_orders, force_orders, level_orders
+from .report.figures.paths import path_shares
 from .report.figures.prediction import predicted_levels
 from .report.figures.radiation import green_difference, levels, transfer
 from .report.figures.recorded_maps import run_up_levels, speed_frequency_map, tracked_orders
@@ -57,9 +61,11 @@ __all__ = [
     "line_map",
     "mount_transmissibility",
     "option_third_octaves",
+    "order_differences",
     "order_map",
     "order_spectrum",
     "orders_over_speed",
+    "path_shares",
     "predicted_levels",
     "rank_acceptability",
     "run_up_levels",

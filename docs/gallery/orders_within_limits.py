@@ -4,7 +4,8 @@ Orders within limits
 
 A test stand asks one question: are all orders below their limits? Limits are a CSV file; ``orders``
 and ``compare`` take it with ``--limits``, ``va.check_limits`` holds results of a study against it.
-Columns and rules: :doc:`/orders`.
+``compare`` knows limits of third octaves, levels in all and criteria, too, and ends with exit code
+1 where one is broken. Columns and rules: :doc:`/orders`.
 """
 
 import subprocess
@@ -52,6 +53,24 @@ print(done.stdout)
 # -----------
 # Results that hold limits are drawn with them.
 figure = va.plot.order_spectrum(va.open_results(folder / "orders.nc"), "shell")
+
+# %%
+# Limits of more than orders
+# --------------------------
+# ``compare`` holds two results beside each other, here the recording and itself; its page is
+# ``compared.html``. The exit code tells a script what to do, a line each what is broken.
+(folder / "more.csv").write_text(
+    "channel,order,band_hz,limit,unit,side\n"
+    "front,1,,45,dB,\n"
+    "front,,50,40,dB,\n"
+    "front,,,5,dB(A),lowest\n",
+    encoding="utf-8",
+)
+command = [sys.executable, "-m", "vibroacoustics", "compare", "orders.nc", "orders.nc"]
+command += ["--limits", "more.csv", "--out", "compared"]
+done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=folder)
+print("exit code", done.returncode)
+print(*(line for line in done.stdout.splitlines() if line.startswith("broken")), sep="\n")
 
 # %%
 # The same limits for a prediction

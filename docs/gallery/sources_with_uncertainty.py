@@ -30,6 +30,15 @@ print(
 )
 
 # %%
+# Which way it comes
+# ------------------
+# Source, where it acts, in which direction: shares of the modelled energy add up to one over all
+# paths, and those that work against the others are negative (:doc:`/report`).
+share = results["path_share"].sel(option="none", path_speed=2900.0)
+for path in share["path"].values[np.argsort(-abs(share.values))[:6]]:
+    print(f"{path:35s} {100.0 * share.sel(path=path).item():+6.1f} %")
+
+# %%
 # With the draws
 # --------------
 # Draws were weighed by how well they agree with the published level; those that do went on.

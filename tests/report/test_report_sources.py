@@ -12,6 +12,7 @@ from test_report import PUBLISHED_DBA, make_results
 
 from vibroacoustics.base.vocabulary import DERIVED_SUPPLY, GIVEN_SUPPLY, WEIGHTINGS, check, stamp
 from vibroacoustics.report import comparison_text, render
+from vibroacoustics.report.acceptability import too_close_words
 from vibroacoustics.report.assumptions import not_modelled, remainder_sentence
 from vibroacoustics.report.bands import Band, draws, percent
 from vibroacoustics.report.drawn_words import drawn_sentences, held_sentence
@@ -562,3 +563,11 @@ def test_bands_and_shares_in_words() -> None:
     assert Band(6.9, 6.9, 6.9).middle_and_ends(lambda value: f"{value:.1f}") == "6.9"
     texts = [percent(share).replace("\u00a0", " ") for share in (0.2, 0.0123, -0.05, 1e-6, np.nan)]
     assert texts == ["20 %", "1.2 %", "−5.0 %", "< 0.01 %", "–"]
+
+
+def test_options_that_rank_first_by_nothing_are_named(results: xr.Dataset) -> None:
+    """`idle` does what none does: a first place of its is no difference."""
+    share = results["first_place_share"].copy(data=[0.5, 0.46, 0.04])
+    words = too_close_words(results.assign(first_place_share=share)).replace("\u00a0", " ")
+    assert "too small to be measured: idle (4.0 %). Ranks count" in words
+    assert too_close_words(results.assign(first_place_share=share * [1.0, 1.0, 0.0])) == ""

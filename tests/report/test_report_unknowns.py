@@ -1,10 +1,14 @@
 """What the level hangs on, in words: shares where they are resolved, what to measure next."""
 
+import json
+
 import numpy as np
 import pytest
 from test_report_sources import with_sources
 
+from vibroacoustics.base import rounding
 from vibroacoustics.base.vocabulary import stamp
+from vibroacoustics.report.drawn_words import file_unit
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.unknowns import (
     NOT_RESOLVED,
@@ -93,3 +97,33 @@ def test_the_report_has_the_section(quality):
     first, *_ = section.blocks(results)
     assert first.words.startswith("Measure next")
     assert not section.applies(results.drop_vars("level_share"))
+
+
+def test_values_are_in_the_units_of_the_file():
+    results = with_unknowns()
+    parameters = json.loads(results.attrs["parameters"])
+    record = dict(parameters["records"][0], field="mounts.pitch_mm")
+    of_file = results.assign_attrs(
+        parameters=json.dumps({**parameters, "records": [record, *parameters["records"]]})
+    )
+    assert file_unit(results, "mounts.pitch_m") == ("m", 1.0)
+    assert file_unit(of_file, "mounts.pitch_m") == ("mm", 1e-3)
+    of_file["level_share"][:, 2] = 0.3
+    row = next(row for row in unknowns_table(of_file).rows if row[0] == "mounts pitch, mm")
+    assert row[1] == "100"
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(1e8, "1·10⁸"), (123456.0, "123000"), (0.01234, "0.0123"), (-2.5, "−2.5"),
+     (-1.55e-5, "−1.55·10⁻⁵"), (0.0, "0"), (np.nan, "–")],
+)  # fmt: skip
+def test_three_digits_of_any_size(value, text):
+    assert rounding.three_digits(value) == text
+
+
+def test_one_column_says_that_no_share_is_resolved():
+    table = unknowns_table(with_unknowns(quality=(0.1, 0.2, np.nan)))
+    assert table.head[4:] == ("share of the variance",)
+    assert {row[4:] for row in table.rows} == {(NOT_RESOLVED,)}
+    assert {len(row) for row in table.rows} == {len(table.head)}

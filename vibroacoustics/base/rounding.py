@@ -12,6 +12,9 @@ FORCE_FLOOR: Final = 1e-6
 """Forces (N) and moments (N m) below are rounding errors: shown as 0."""
 
 NOTHING: Final = "–"
+_SMALL: Final = 1e-3
+_LARGE: Final = 1e6
+_RAISED: Final = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def significant(value: float, digits: int = 3) -> str:
@@ -22,6 +25,17 @@ def significant(value: float, digits: int = 3) -> str:
         return "0"
     decimals = digits - 1 - int(np.floor(np.log10(abs(value))))
     return _minus(f"{value:.{max(decimals, 0)}f}")
+
+
+def three_digits(value: float) -> str:
+    """Any size to three digits: `0.0123`, `123000`, `1.2·10¹⁰`."""
+    if not np.isfinite(value):
+        return NOTHING
+    if value == 0.0 or _SMALL <= abs(value) < _LARGE:
+        return _minus(np.format_float_positional(float(f"{value:.3g}"), trim="-"))
+    mantissa, _, power = f"{value:.2e}".partition("e")
+    digits = mantissa.rstrip("0").rstrip(".")
+    return _minus(f"{digits}·10") + str(int(power)).translate(_RAISED)
 
 
 def fixed(value: float, decimals: int = 1) -> str:

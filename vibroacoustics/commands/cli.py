@@ -13,6 +13,7 @@ import typer
 from ..base.errors import VibroacousticsError
 from . import (
     check_commands,
+    comparison_commands,
     curve_commands,
     design_commands,
     messages,
@@ -43,6 +44,7 @@ app = typer.Typer(
 app.add_typer(run_commands.commands)
 app.add_typer(curve_commands.commands)
 app.add_typer(recording_commands.commands)
+app.add_typer(comparison_commands.commands)
 app.add_typer(prediction_commands.commands)
 app.add_typer(design_commands.commands)
 app.add_typer(schema_commands.commands)

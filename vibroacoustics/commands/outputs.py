@@ -1,7 +1,7 @@
 """What a run leaves on disk: the dataset, the report, its tables and figures."""
 
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
@@ -13,6 +13,7 @@ from ..base.errors import ParameterError, SchemaError, StorageError
 from ..report.figures import Picture
 from ..results import manifest, storage
 from ..results.complete import check_run
+from ..results.figure_limits import CheckedFigure, Compared
 from ..results.files import write
 from ..results.provenance import RECORDING_SCHEMA_VERSION, SCHEMA_VERSION
 
@@ -24,12 +25,15 @@ ORDERS_REPORT_NAME: Final = "orders.html"
 COMPARISON_NAME: Final = "compared_orders.nc"
 LIMITS_NAME: Final = "orders_limits.csv"
 COMPARED_LIMITS_NAME: Final = "compared_orders_limits.csv"
+COMPARED_FIGURES_NAME: Final = "compared_figures_limits.csv"
+COMPARISON_REPORT_NAME: Final = "compared.html"
 REPORT_FILES: Final = (
     REPORT_NAME,
     "comparison.csv",
     "comparison.md",
     "scores.csv",
     "sources.csv",
+    "paths.csv",
     "figures/*.png",
 )
 """What a report may consist of."""
@@ -187,12 +191,19 @@ def write_orders(results: xr.Dataset, folder: str | Path) -> Path:
     return write_analysis(results, folder, ORDERS_NAME, tables, lambda _: pictures)
 
 
-def write_comparison(compared: xr.Dataset, folder: str | Path) -> Path:
-    """Write compared orders with their table and figures; see `write_radiation`."""
-    tables = {"compared_orders.csv": report.comparison_of_orders_csv(compared)}
-    if "order_limit" in compared:
-        tables[COMPARED_LIMITS_NAME] = report.limits_csv(compared)
-    return write_analysis(compared, folder, COMPARISON_NAME, tables, report.compared_order_figures)
+def write_comparison(
+    compared: Compared, figures: Sequence[CheckedFigure], folder: str | Path
+) -> Path:
+    """Write compared orders with their page, tables and figures; see `write_radiation`."""
+    orders = compared.orders
+    tables = {"compared_orders.csv": report.comparison_of_orders_csv(orders)}
+    if "order_limit" in orders:
+        tables[COMPARED_LIMITS_NAME] = report.limits_csv(orders)
+    if figures:
+        tables[COMPARED_FIGURES_NAME] = report.figure_limits_csv(figures)
+    pictures = report.compared_order_figures(orders)
+    tables[COMPARISON_REPORT_NAME] = report.comparison_html(compared, figures, pictures)
+    return write_analysis(orders, folder, COMPARISON_NAME, tables, lambda _: pictures)
 
 
 def write_analysis(

@@ -1,4 +1,4 @@
-"""Commands for recordings: orders, compare, track, map, export.
+"""Commands for recordings: orders, track, map, export.
 
 Heavy imports wait until a command needs them.
 """
@@ -113,47 +113,6 @@ def orders_command(
     checking.print_margins(results, folder / outputs.LIMITS_NAME)
     typer.echo(f"orders: {written}")
     typer.echo(f"report: {folder / outputs.ORDERS_REPORT_NAME}")
-
-
-@commands.command("compare")
-def compare_command(
-    first: Annotated[Path, typer.Argument(metavar="A.nc", help="Results of `run` or `orders`.")],
-    second: Annotated[Path, typer.Argument(metavar="B.nc", help="Results to compare with.")],
-    pair: Annotated[
-        list[str] | None,
-        typer.Option(metavar="CHANNEL_OF_A=CHANNEL_OF_B", help="Default: channels of one name."),
-    ] = None,
-    option: Annotated[str, typer.Option(help="Balancing option of a study.")] = "none",
-    tacho_angle: Annotated[
-        float, typer.Option(help="Crank angle of A where B's tacho gives its pulse, degrees.")
-    ] = 0.0,
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder of the results; default: that of B.")
-    ] = None,
-    limits: LimitsFile = None,
-) -> None:
-    """Compare two results order by order, in level and phase."""
-    from math import radians
-
-    from .. import report
-    from ..results import order_comparison
-    from . import arguments, checking, outputs
-
-    folder = out or second.parent
-    outputs.check_folder(folder)
-    allowed = checking.read(limits)
-    compared = order_comparison.compare(
-        outputs.open_orders(first),
-        outputs.open_orders(second),
-        arguments.assignments("--pair", pair),
-        option,
-        radians(tacho_angle),
-    )
-    compared = checking.held_against(compared, allowed)
-    written = outputs.write_comparison(compared, folder)
-    typer.echo(report.comparison_of_orders_text(compared))
-    checking.print_margins(compared, folder / outputs.COMPARED_LIMITS_NAME)
-    typer.echo(f"compared orders: {written}")
 
 
 @commands.command("track")

@@ -88,9 +88,9 @@ def sound_by_source(
     others = hertz > 0.0
     others[[line for line in lines if line is not None]] = False
     square = 0.5 * np.abs(received.pressure[..., others].sum(axis=0)) ** 2
-    beside = square @ _membership(hertz[others], measured.bands)
+    beside = square @ membership(hertz[others], measured.bands)
     for random in received.noise:
-        beside += random.power @ _membership(random.frequency_hz, measured.bands)
+        beside += random.power @ membership(random.frequency_hz, measured.bands)
     return replace(sound, order=order, beside=beside)
 
 
@@ -114,23 +114,25 @@ def source_sound(
     alone = 0.5 * np.abs(pressure) ** 2
     shared = 0.5 * (pressure * pressure.sum(axis=0).conj()).real
     audible = frequency_hz > 0.0
-    weight = np.stack([_power(name, frequency_hz) * audible for name in weightings])
-    band = alone @ _membership(frequency_hz, bands)
+    weight = np.stack([weighting_power(name, frequency_hz) * audible for name in weightings])
+    band = alone @ membership(frequency_hz, bands)
     weighted, part = alone @ weight[0], np.moveaxis(shared @ weight.T, -1, 0)
     for random in noise:
-        band[random.source] += random.power @ _membership(random.frequency_hz, bands)
-        loud = np.stack([random.power @ _power(name, random.frequency_hz) for name in weightings])
+        band[random.source] += random.power @ membership(random.frequency_hz, bands)
+        loud = np.stack(
+            [random.power @ weighting_power(name, random.frequency_hz) for name in weightings]
+        )
         weighted[random.source] += loud[0]
         part[:, random.source] += loud
     return SourceSound(band, weighted, part)
 
 
-def _power(weighting: str, frequency_hz: Array) -> Array:
+def weighting_power(weighting: str, frequency_hz: Array) -> Array:
     """Factor of a weighting on mean squares."""
     return power_of_level(WEIGHTING[weighting](frequency_hz))
 
 
-def _membership(frequency_hz: Array, bands: Sequence[Band]) -> Array:
+def membership(frequency_hz: Array, bands: Sequence[Band]) -> Array:
     """1 where a frequency lies in a band, shape (frequency, band)."""
     edges = np.array([(band.lower_hz, band.upper_hz) for band in bands])
     within = (frequency_hz[:, None] >= edges[:, 0]) & (frequency_hz[:, None] < edges[:, 1])

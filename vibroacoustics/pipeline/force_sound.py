@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 
-import numpy as np
 import xarray as xr
 
 from ..base.arrays import ComplexArray
@@ -75,6 +74,17 @@ def wrench_pressure_by_case(
     motion : with its results, cases and names of sources
     sound : of forces
     """
+    by_motion = wrench_pressure_by_motion(motion, sound)
+    return {
+        key: {source: one.sum(axis=1) for source, one in by_source.items()}
+        for key, by_source in by_motion.items()
+    }
+
+
+def wrench_pressure_by_motion(
+    motion: Motion, sound: ForceSound
+) -> dict[CaseKey, Mapping[str, ComplexArray]]:
+    """The same by motion of the housing, shape (receiver, 6, order)."""
     pressure: dict[CaseKey, Mapping[str, ComplexArray]] = {}
     options = motion.results["option"].values.tolist()
     for key, case in motion.cases.items():
@@ -82,10 +92,9 @@ def wrench_pressure_by_case(
         at = motion.results.sel(speed=key[0], option=option)
         velocity = at["velocity_order"].transpose(*_WRENCH)
         vectors = sound.of(on_mounts(case.machine))(at["order_frequency"].values)
-        of_wrenches = np.einsum("sdf,rdf->srf", velocity.values, vectors)
         by_source: dict[str, ComplexArray] = {}
-        for name, one in zip(velocity["source"].values, of_wrenches, strict=True):
+        for name, one in zip(velocity["source"].values, velocity.values, strict=True):
             source = motion.source_of_wrench[str(name)]
-            by_source[source] = by_source.get(source, 0.0) + one
+            by_source[source] = by_source.get(source, 0.0) + one * vectors
         pressure[key] = by_source
     return pressure

@@ -44,6 +44,7 @@ from ..uncertainty.draws import drawn_values, errors_of_projection, of_every_dra
 from ..uncertainty.first_order import first_order_by_draw, unknown_first_order
 from ..uncertainty.share_variables import change_shares, level_shares
 from .calibration import ShellTest
+from .contributions import contributions_of
 from .force_sound import wrench_pressure_by_case
 from .motion import Motion, motion_of
 
@@ -105,6 +106,7 @@ def levels_of(
     measured = baseline_variables(study, axes, points, sound)
     levels = level_variables(axes, sound, lines["pressure_line"], frequency, left, rest, measured)
     levels = levels.merge(lines).merge(measured)
+    levels = levels.merge(contributions_of(transmission, motion, axes, levels, by_force))
     if not study.ranges:
         return levels
     bank, of_shell = _bank(transmission, axes, points, cases, sound, progress, test)

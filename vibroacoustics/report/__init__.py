@@ -13,6 +13,8 @@ from .blocked_forces import (
     blocked_text,
     validation_csv,
 )
+from .compared.limits import broken_lines, figure_limits_csv
+from .compared.page import comparison_html
 from .comparison import comparison_csv, comparison_text
 from .curve_tables import curve_csv
 from .designs.page import designs_text, render_designs
@@ -38,6 +40,8 @@ from .order_tables import (
 )
 from .orders_page import orders_html
 from .page import page_of
+from .path_tables import paths_csv
+from .paths import has_paths
 from .prediction import prediction_csv, prediction_markdown, prediction_text
 from .radiation_figures import radiation_figures
 from .radiation_tables import kwave_text, radiation_text
@@ -52,14 +56,17 @@ __all__ = [
     "blocked_markdown",
     "blocked_orders_csv",
     "blocked_text",
+    "broken_lines",
     "check_kept",
     "compared_order_figures",
+    "comparison_html",
     "comparison_of_orders_csv",
     "comparison_of_orders_text",
     "comparison_text",
     "curve_csv",
     "curve_figures",
     "designs_text",
+    "figure_limits_csv",
     "keep",
     "kwave_text",
     "levels_csv",
@@ -100,6 +107,7 @@ def render(results: xr.Dataset, results_sha256: str = "") -> dict[str, bytes]:
         "comparison.md": markdown(page),
         "scores.csv": scores_csv(results),
         **({"sources.csv": sources_csv(results)} if has_sources(results) else {}),
+        **({"paths.csv": paths_csv(results)} if has_paths(results) else {}),
         **{file: picture.png for file, picture in page.pictures().items()},
     }
 

@@ -4,8 +4,10 @@ from collections.abc import Sequence
 
 import xarray as xr
 
+from ..base.vocabulary import REFERENCE_OPTION
 from ..scoring.scores import ANY_WEIGHTS, OF_THE_STUDY
 from .bands import percent
+from .option_verdict import NO_CHANGE, option_verdicts
 from .scores import ranked
 from .study import has_draws
 from .tables import Table
@@ -21,6 +23,23 @@ def acceptability_words(results: xr.Dataset, winners: Sequence[str]) -> str:
     return (
         f": by these weights in {by_study:.0f} % of the draws, and with draws and weights at "
         f"random in {whatever:.0f} %"
+    )
+
+
+def too_close_words(results: xr.Dataset) -> str:
+    """Options that cannot be measured apart from the reference, and how often they rank first."""
+    first = results["first_place_share"]
+    texts = [
+        f"{of.option} ({percent(float(first.sel(option=of.option)))})"
+        for of in option_verdicts(results)
+        if of.judgement == NO_CHANGE and float(first.sel(option=of.option)) > 0.0
+    ]
+    if not texts:
+        return ""
+    return (
+        f"First by differences from {REFERENCE_OPTION} too small to be measured: "
+        f"{', '.join(texts)}. Ranks count every difference; read these with those of "
+        f"{REFERENCE_OPTION}."
     )
 
 

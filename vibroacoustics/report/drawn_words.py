@@ -6,6 +6,7 @@ from typing import Any, Final
 import numpy as np
 import xarray as xr
 
+from ..base.units import split_key
 from . import labels
 from .bands import percent
 from .study import parameters
@@ -54,6 +55,16 @@ def named(dotted: str) -> str:
     """Plain words for a drawn value by its dotted name, without its unit."""
     table, _, field = dotted.rpartition(".")
     return f"{_table(table)} {labels.name(field).lower()}"
+
+
+def file_unit(results: xr.Dataset, dotted: str) -> tuple[str, float]:
+    """Symbol and factor to SI of the unit in which a file gives a drawn value; else SI."""
+    for record in parameters(results).get("records", ()):
+        table, _, key = str(record["field"]).rpartition(".")
+        stem, unit = split_key(key)
+        if unit is not None and f"{table}.{stem}_{unit.si_suffix}" == dotted:
+            return unit.symbol, unit.factor
+    return labels.unit(dotted.rpartition(".")[2]), 1.0
 
 
 def _with_range(item: dict[str, Any]) -> str:

@@ -88,14 +88,14 @@ def _catalogue_level(results: xr.Dataset) -> Iterator[Rung]:
         "dB(A)",
         simulated,
         noise["level_dba"],
-        _grid_error_db(results, receiver),
+        grid_error_db(results, receiver),
         float(np.std(drawn)) if drawn.size else 0.0,
         noise.get("deviation_db", _DEVIATION_DB),
         _source(results, "overall_noise.level_dba"),
     )
 
 
-def _grid_error_db(results: xr.Dataset, receiver: str) -> float:
+def grid_error_db(results: xr.Dataset, receiver: str) -> float:
     """Of the transfer vectors, from their grids, rms over motions and frequencies."""
     error, size = 0.0, 0.0
     for name in ("transfer_vector", "pattern_transfer_vector"):

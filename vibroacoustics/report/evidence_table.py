@@ -1,5 +1,7 @@
 """Results beside published values as a table."""
 
+from collections.abc import Iterable
+
 import xarray as xr
 
 from ..base import rounding
@@ -8,13 +10,17 @@ from .tables import Table
 
 
 def evidence_table(results: xr.Dataset) -> Table:
+    """All that is published of what the results hold."""
+    return rungs_table("Results beside published values", rungs(results))
+
+
+def rungs_table(caption: str, shown: Iterable[Rung]) -> Table:
     """A rung a row."""
     head = (
         "Quantity", "Unit", "Simulation S", "Data D", "E = S − D", "u_num", "u_input", "u_D",
         "u", "Verdict", "Data from",
     )  # fmt: skip
-    rows = tuple(_row(rung) for rung in rungs(results))
-    return Table("Results beside published values", head, rows, frozenset({0, 1, 9, 10}))
+    return Table(caption, head, tuple(map(_row, shown)), frozenset({0, 1, 9, 10}))
 
 
 def _row(rung: Rung) -> tuple[str, ...]:

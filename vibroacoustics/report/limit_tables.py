@@ -61,6 +61,16 @@ def order_limits_table(checked: xr.Dataset) -> Table:
     return Table(caption, head, tuple(map(_cells, _worst(checked))), frozenset({0, 5, 7}))
 
 
+def broken_orders(checked: xr.Dataset) -> list[str]:
+    """A line for each order of a channel that exceeds its limit, with its worst speed."""
+    return [
+        f"{row.subject}: {_shown(row.value, row.unit)} {row.unit} is above "
+        f"{_shown(row.limit, row.unit)} {row.unit}"
+        for row in _worst(checked)
+        if row.margin_db < 0.0
+    ]
+
+
 def _cells(row: _Checked) -> tuple[str, ...]:
     return (
         f"{row.result}: {row.channel}" if row.result else row.channel,

@@ -120,7 +120,7 @@ def _left_out_s(results: xr.Dataset, weighting: str) -> float:
 def comparison_of_orders_text(compared: xr.Dataset) -> str:
     """Table of the orders that both results have, and of their differences."""
     every = list(_compared_rows(compared))
-    shown = _shown_speeds(compared)
+    shown = shown_speeds(compared)
     rows = tuple(
         (
             row.channel,
@@ -207,7 +207,7 @@ def _labels_of_orders(results: xr.Dataset) -> Iterator[dict[str, Any]]:
 
 
 def _orders_table(results: xr.Dataset) -> Table:
-    shown = _shown_speeds(results)
+    shown = shown_speeds(results)
     rows = tuple(
         (
             row.channel,
@@ -235,7 +235,7 @@ def _orders_table(results: xr.Dataset) -> Table:
     return Table(caption, head, rows, frozenset({0, 1}))
 
 
-def _shown_speeds(results: xr.Dataset) -> set[float]:
+def shown_speeds(results: xr.Dataset) -> set[float]:
     """Some operating points, from the lowest to the highest."""
     speeds = results["speed"].values
     indices = np.linspace(0, speeds.size - 1, _MOST_SPEEDS).round().astype(int)

@@ -8,9 +8,8 @@ import xarray as xr
 from ..base import rounding
 from ..base.quantiles import weighted_quantiles
 from ..base.vocabulary import REFERENCE_OPTION
-from . import labels
 from .bands import QUANTILES, Band, band_words, draws, percent
-from .drawn_words import named
+from .drawn_words import file_unit, named
 from .study import catalogue_receiver, has_draws, overall_noise, speeds
 from .tables import Table
 
@@ -49,21 +48,23 @@ def unknowns_table(results: xr.Dataset) -> Table:
     """Unknowns that matter: their values before and after the published level, their shares."""
     shares = results["level_share"]
     knowledge = [str(name) for name in shares["knowledge"].values]
+    columns = knowledge if _any_resolved(results) else knowledge[:1]
     rows = [
         (
-            _with_unit(name),
+            _with_unit(results, name),
             *(_values(results, name, number) for number in range(-1, len(knowledge) - 1)),
-            *(_share(results, name, one) for one in knowledge),
+            *(_share(results, name, one) for one in columns),
         )
         for name in _that_matter(shares)
     ]
     words = [_knowledge(results, name) for name in knowledge]
+    shares_of = [f"share of the variance {_knowledge(results, name)}" for name in columns]
     return Table(
         f"What the modelled level hangs on: middle of the values with {band_words(results)}",
         (
             "Unknown",
             *(f"value {word}" for word in words),
-            *(f"share of the variance {word}" for word in words),
+            *(shares_of if _any_resolved(results) else ["share of the variance"]),
         ),
         (*rows, _others(results)),
     )
@@ -118,11 +119,17 @@ def _others(results: xr.Dataset) -> tuple[str, ...]:
     knowledge = [str(name) for name in shares["knowledge"].values]
     together = [
         percent(float(others.sel(knowledge=one).sum())) if _resolved(results, one) else NOT_RESOLVED
-        for one in knowledge
+        for one in (knowledge if _any_resolved(results) else knowledge[:1])
     ]
     count = others.sizes["drawn_parameter"]
     name = f"{count} other{'s' * (count != 1)}, less than {100.0 * MATTERS:g}\u00a0% each"
     return (name, *(rounding.NOTHING for _ in knowledge), *together)
+
+
+def _any_resolved(results: xr.Dataset) -> bool:
+    """Whether any share is told; where none is, one column says so."""
+    knowledge = results["level_share"]["knowledge"].values
+    return any(_resolved(results, str(one)) for one in knowledge)
 
 
 def _resolved(results: xr.Dataset, knowledge: str) -> bool:
@@ -139,10 +146,11 @@ def _values(results: xr.Dataset, name: str, prior: int) -> str:
     """Middle and band of an unknown's values by a prior; by equal weights for -1."""
     if prior >= 0 and not has_draws(results):
         return rounding.NOTHING
-    values = results["bank_value"].sel(drawn_parameter=name).values
+    values = results["bank_value"].sel(drawn_parameter=name).values / file_unit(results, name)[1]
     before = results["shell_weight"].values if "shell_weight" in results else np.ones(values.size)
     weight = before if prior < 0 else results["bank_weight"].values[prior]
-    return Band(*map(float, weighted_quantiles(values, weight, QUANTILES))).middle_and_ends(_number)
+    ends = Band(*map(float, weighted_quantiles(values, weight, QUANTILES)))
+    return ends.middle_and_ends(rounding.three_digits)
 
 
 def _width(results: xr.Dataset, option: int, speed: float) -> float:
@@ -153,13 +161,8 @@ def _width(results: xr.Dataset, option: int, speed: float) -> float:
     return float(high - low)
 
 
-def _number(value: float) -> str:
-    """Three digits, whatever the size."""
-    return f"{value:.3g}".replace("-", "−")
-
-
-def _with_unit(name: str) -> str:
-    unit = labels.unit(name.rpartition(".")[2])
+def _with_unit(results: xr.Dataset, name: str) -> str:
+    unit = file_unit(results, name)[0]
     return f"{named(name)}, {unit}" if unit else named(name)
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from itertools import product
-from typing import Any, Final
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 import xarray as xr
@@ -26,6 +26,7 @@ NEGLIGIBLE: Final = 1e-9
 """Of the largest order of the same unit in a result: below, a simulated order is rounding (spectra
 of accelerations are good to about 1e-11), and no recorder has a range of 180 dB."""
 ORDER_TOLERANCE: Final = 1e-6
+Orders: TypeAlias = xr.DataArray | xr.Dataset
 
 
 def compare(
@@ -34,6 +35,7 @@ def compare(
     pairs: Mapping[str, str] | None = None,
     option: str = REFERENCE_OPTION,
     tacho_angle_rad: float = 0.0,
+    other_option: str | None = None,
 ) -> xr.Dataset:
     """Order by order, in level and phase, at the speeds that both results have.
 
@@ -43,6 +45,7 @@ def compare(
     pairs : channel of the second for each channel of the first; without it, those of one name
     option : the balancing option of a study that is compared
     tacho_angle_rad : crank angle of the first result at which the second's tacho gives its pulse
+    other_option : that of the second, where it is another one
 
     Returns
     -------
@@ -72,13 +75,16 @@ def compare(
     """
     if not np.isfinite(tacho_angle_rad):
         raise ParameterError(f"tacho_angle = {tacho_angle_rad:g}: must be a finite angle")
-    ours, theirs = (channel_orders(result, option) for result in (first, second))
+    if other_option is not None and "option" not in second.coords:
+        raise ParameterError(f"other option {other_option!r}: {_title(second)} has no options")
+    other_option = option if other_option is None else other_option
+    ours, theirs = channel_orders(first, option), channel_orders(second, other_option)
     names = _pairs(ours, theirs, pairs)
-    order = _common_orders(ours, theirs)
-    speeds = _common_speeds(ours, theirs)
+    order = common_orders(ours, theirs)
+    speeds = common_speeds(ours, theirs)
     here = {"channel": list(names), "speed": speeds[:, 0], "order": order}
     there = {"channel": list(names.values()), "speed": speeds[:, 1], "order": order}
-    reference, other = _at(ours, here), _at(theirs, there)
+    reference, other = values_at(ours, here), values_at(theirs, there)
     turned = other * np.exp(-1j * order * tacho_angle_rad)
     known = ~(_negligible(ours, here) | _negligible(theirs, there))
     with np.errstate(divide="ignore", invalid="ignore"):  # of what is not known
@@ -101,7 +107,7 @@ def compare(
             "compared_channel": ("channel", there["channel"]),
         },
     )
-    compared.attrs = _attributes(first, second, option, tacho_angle_rad)
+    compared.attrs = _attributes(first, second, (option, other_option), tacho_angle_rad)
     return check(label_coordinates(compared))
 
 
@@ -211,7 +217,7 @@ def listed(units: Mapping[str, str]) -> str:
     return ", ".join(f"{name} [{unit}]" for name, unit in units.items())
 
 
-def _common_orders(ours: xr.DataArray, theirs: xr.DataArray) -> Array:
+def common_orders(ours: Orders, theirs: Orders) -> Array:
     """Orders that both have, without order 0."""
     order, other = (np.asarray(result["order"].values, dtype=float) for result in (ours, theirs))
     there = np.abs(order[:, None] - other).min(axis=1) < ORDER_TOLERANCE
@@ -224,7 +230,7 @@ def _common_orders(ours: xr.DataArray, theirs: xr.DataArray) -> Array:
     return common
 
 
-def _common_speeds(ours: xr.DataArray, theirs: xr.DataArray) -> Array:
+def common_speeds(ours: Orders, theirs: Orders) -> Array:
     """Pairs of speeds (pair, 2) within the tolerance, each the nearest to the other."""
     speed, other = (np.asarray(result["speed"].values, dtype=float) for result in (ours, theirs))
     distance = np.abs(speed[:, None] - other)
@@ -241,8 +247,8 @@ def _common_speeds(ours: xr.DataArray, theirs: xr.DataArray) -> Array:
     return pairs
 
 
-def _at(result: xr.DataArray, selection: Mapping[str, Any]) -> NDArray[Any]:
-    """Values (channel, speed, order) at channels, speeds and orders that the result has."""
+def values_at(result: xr.DataArray, selection: Mapping[str, Any]) -> NDArray[Any]:
+    """Values (channel, speed, order) at channels, speeds and orders that a result has."""
     chosen = result.sel(channel=selection["channel"], speed=selection["speed"])
     chosen = chosen.sel(order=selection["order"], method="nearest", tolerance=ORDER_TOLERANCE)
     return np.asarray(chosen.transpose("channel", "speed", "order").values)
@@ -253,8 +259,8 @@ def _negligible(result: xr.DataArray, selection: Mapping[str, Any]) -> NDArray[n
     size = abs(result.where(result["order"] > 0.0, 0.0))
     largest = size.max(("speed", "order")).groupby("channel_unit").max()
     largest_of_unit = largest.sel(channel_unit=result["channel_unit"]).drop_vars("channel_unit")
-    least = _at(NEGLIGIBLE * largest_of_unit.broadcast_like(size), selection)
-    return np.asarray(_at(size, selection) <= least)
+    least = values_at(NEGLIGIBLE * largest_of_unit.broadcast_like(size), selection)
+    return np.asarray(values_at(size, selection) <= least)
 
 
 def _phase(values: ComplexArray, reference: ComplexArray) -> Array:
@@ -267,14 +273,14 @@ def _coherence(result: xr.Dataset, selection: Mapping[str, Any]) -> Array:
     """Coherence of a recording's orders; 1 for simulated ones."""
     if "channel_order_coherence" not in result:
         return np.ones([len(labels) for labels in selection.values()])
-    return _at(result["channel_order_coherence"], selection)
+    return values_at(result["channel_order_coherence"], selection)
 
 
 def _rms(result: xr.Dataset, orders: xr.DataArray, selection: Mapping[str, Any]) -> Array:
     """RMS in the bands of a recording's orders; of simulated ones from their peaks."""
     if "channel_order_rms" in result:
-        return _at(result["channel_order_rms"], selection)
-    return np.asarray(np.abs(_at(orders, selection)) / np.sqrt(2.0))
+        return values_at(result["channel_order_rms"], selection)
+    return np.asarray(np.abs(values_at(orders, selection)) / np.sqrt(2.0))
 
 
 def _angle_zero(result: xr.Dataset) -> str:
@@ -286,9 +292,12 @@ def _title(result: xr.Dataset) -> str:
 
 
 def _attributes(
-    first: xr.Dataset, second: xr.Dataset, option: str, tacho_angle_rad: float
+    first: xr.Dataset, second: xr.Dataset, options: tuple[str, str], tacho_angle_rad: float
 ) -> dict[str, Any]:
-    names = f"A: {_title(first)}", f"B: {_title(second)}"
+    names: tuple[str, ...] = f"A: {_title(first)}", f"B: {_title(second)}"
+    if options[0] != options[1]:
+        both = zip(names, (first, second), options, strict=True)
+        names = tuple(f"{name}, {one}" if "option" in of.coords else name for name, of, one in both)
     return {
         **software_attributes(f"compare {names[0]} with {names[1]}"),
         "title": f"Orders of {names[1]} against {names[0]}",
@@ -296,6 +305,7 @@ def _attributes(
         "second": names[1],
         "first_angle_zero": _angle_zero(first),
         "second_angle_zero": _angle_zero(second),
-        "option": option,
+        "option": options[0],
+        "other_option": options[1],
         "tacho_angle_rad": tacho_angle_rad,
     }

@@ -37,6 +37,8 @@ TOGETHER: Final = (
      "stopping_moment", "stopping_fast_level", "stopping_fast_maximum_level",
      "stopping_peak_level", "stopping_foot_force"),
     ("order_sound_power_level", "sound_power_level"),
+    ("path_pressure", "path_level", "path_share", "path_band_level", "path_band_share",
+     "modelled_band_level", "motion_level", "motion_share"),
     ("published_score", "published_sum", "recomputed_sum"),
 )  # fmt: skip
 """Variables that stand in a run all or none."""
@@ -47,12 +49,14 @@ NEEDS: Final = {
     "green_difference": ("line_difference", "transfer_vector_closed_form"),
     "block_velocity_order": ("velocity_order",),
     "stopping_order_map": ("stopping_force",),
+    "path_share": ("foot_force_order",),
 }
 """Further variables, and what stands beside each."""
 COORDINATES_OF: Final = {
     "criterion_value": ("criterion_label", "criterion_unit"),
     "block_velocity_order": ("order_frequency",),
     "map_level": ("map_x", "map_y", "map_z"),
+    "path_share": ("path_source", "path_port", "path_direction"),
     "stopping_order_map": ("stopping_block_time", "stopping_block_speed"),
 }
 """Coordinates that stand beside a variable, apart from those of its dimensions."""
@@ -84,6 +88,8 @@ LABELS: Final[dict[str, tuple[str, ...]]] = {
     "stopping_phase": ("steady", "stopping"),
 }
 """What a dimension must hold; others are free."""
+AMONG: Final = {"path_speed": "speed", "path_order": "order"}
+"""Dimensions whose values are some of those of another."""
 IN_ORDER: Final = ("axis", "dof")
 """Dimensions that hold nothing else, in this order."""
 LARGEST: Final = 1e30
@@ -170,6 +176,9 @@ def _check_labels(results: xr.Dataset) -> None:
     for dim in IN_ORDER:
         if tuple(results[dim].values) != LABELS[dim]:
             raise SchemaError(f"coordinate {dim}: must be {', '.join(LABELS[dim])}")
+    for dim, all_of_it in AMONG.items():
+        if dim in results.coords and not np.isin(results[dim], results[all_of_it]).all():
+            raise SchemaError(f"coordinate {dim}: must be among those of {all_of_it}")
     order = results["order"].values
     if order.size <= HIGHEST_COLUMN or (order != np.arange(order.size)).any():
         raise SchemaError(

@@ -1,6 +1,6 @@
 """From the loads of every case to its sound at the receivers."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -15,11 +15,13 @@ from ..machine.machine import Machine
 from ..machine.shell_structure import ShellStructure, ShellVariation
 from ..machine.source import Case, CaseKey, Shared
 from ..machine.stator_yoke import StatorYoke
+from ..mechanics.contributions import Contributions
 from ..mechanics.loads import Lines, Loads, lines_of
 from ..mechanics.received_sound import NoisePower, ReceivedSound
 from ..mechanics.scroll_shaft import ScrollShaft
 from ..study.study import Study
 from .bending import bending_shell
+from .contributions import contributions
 from .force_sound import ForceSound, PressurePerVelocity
 from .machine import on_mounts
 from .path import ShellPath
@@ -80,6 +82,29 @@ class Transmission:
             sound[key] = received.behind(self.study.option_of(key).insertion_loss())
         return sound
 
+    def contributions(
+        self,
+        cases: Mapping[CaseKey, Case],
+        loads: Mapping[CaseKey, Mapping[str, Loads]],
+        of_wrenches: Mapping[CaseKey, BySource],
+    ) -> Iterator[tuple[CaseKey, Contributions]]:
+        """Sound of every case by path, behind its option's insertion loss, one case at a time.
+
+        Parameters
+        ----------
+        cases, loads : as for `received`
+        of_wrenches : pressure of the wrenches by motion of the housing, (receiver, 6, order), Pa
+        """
+        known = Shared()
+        for key, case in cases.items():
+            machine = case.machine
+            path = known(_path_tables(machine), partial(self._sound_path, machine))
+            orders = self._orders(case, next(iter(of_wrenches[key].values())))
+            lines = self._lines(case, loads[key], orders)
+            wrenches = {name: values[..., :orders] for name, values in of_wrenches[key].items()}
+            split = contributions(path, on_mounts(machine), lines, loads[key], wrenches)
+            yield key, split.behind(self.study.option_of(key).insertion_loss())
+
     def _sound_path(self, machine: Machine) -> SoundPath:
         return SoundPath(self.rigid, self._bending_shell(machine))
 
@@ -91,8 +116,8 @@ class Transmission:
     def _of_case(
         self, case: Case, loads: Mapping[str, Loads], of_wrenches: BySource, path: SoundPath
     ) -> ReceivedSound:
-        receivers, tabulated = next(iter(of_wrenches.values())).shape
-        orders = min(tabulated, self.study.highest_order(case.speed_rpm) + 1)  # silent beyond
+        first = next(iter(of_wrenches.values()))
+        receivers, orders = len(first), self._orders(case, first)
         lines = self._lines(case, loads, orders)
         pressure = np.zeros((len(loads), receivers, lines.frequency_hz.size), dtype=complex)
         for number, of_source in enumerate(path.pressure(on_mounts(case.machine), lines).values()):
@@ -106,6 +131,10 @@ class Transmission:
             for part in load.noise
         ]
         return ReceivedSound(lines, pressure, tuple(noise))
+
+    def _orders(self, case: Case, of_wrench: ComplexArray) -> int:
+        """Orders from zero that the wrenches sound at; silent beyond."""
+        return min(of_wrench.shape[-1], self.study.highest_order(case.speed_rpm) + 1)
 
     def _lines(self, case: Case, loads: Mapping[str, Loads], orders: int) -> Lines:
         """With as many orders as the wrenches have; on a shell up to the highest frequency."""
@@ -131,15 +160,14 @@ def _path_tables(machine: Machine) -> tuple[Parameters, ...]:
 def by_case_and_source(
     pressure: xr.DataArray, source_of_wrench: Mapping[str, str]
 ) -> dict[CaseKey, BySource]:
-    """Pressure of the wrenches, shape (receiver, order), summed over those of one source.
+    """Pressure of the wrenches, shape (receiver, ..., order), summed over those of one source.
 
     Parameters
     ----------
     pressure : of every wrench, which the dimension source names, Pa
     source_of_wrench : by the wrench's name
     """
-    dims = ("speed", "option", "source", "receiver", "order")
-    values = pressure.transpose(*dims).values
+    values = pressure.transpose("speed", "option", "source", "receiver", ..., "order").values
     sources = np.array([source_of_wrench[str(name)] for name in pressure["source"].values])
     rows = {source: np.flatnonzero(sources == source) for source in dict.fromkeys(sources.tolist())}
     return {

@@ -139,6 +139,7 @@ def test_compare_study_with_recording(analysed: Path, cache: Path, tmp_path: Pat
         "compared_orders.nc",
         "files.json",
         "compared_orders.csv",
+        "compared.html",
         "compared_1_acceleration_tx.png",
     }
     compared = open_results(tmp_path / "out" / "compared_orders.nc")
@@ -157,7 +158,7 @@ def test_compare_with_itself_beside_it(analysed: Path, tmp_path: Path) -> None:
 
 
 def test_orders_and_comparison_with_limits(recording: Path, tmp_path: Path) -> None:
-    """Exceeded limits are told, exit code 0; without limits the next time their file goes."""
+    """Exceeded limits are told, exit code 0, of `compare` 1; without limits their file goes."""
     limits, out = tmp_path / "limits.csv", tmp_path / "out"
     limits.write_text("channel,order,limit,unit\nshell,1,0.2,m/s²\n*,2,40,dB\n", encoding="utf-8")
     to = ("orders", recording, "--speed", "tacho", "--out", out)
@@ -174,8 +175,11 @@ def test_orders_and_comparison_with_limits(recording: Path, tmp_path: Path) -> N
     assert not open_results(out / "orders.nc")["within_limit"].all()
     orders = out / "orders.nc"
     outcome = command_here("compare", orders, orders, "--limits", limits)
-    assert outcome.returncode == 0, outcome.stderr
+    assert outcome.returncode == 1, outcome.stderr
+    assert outcome.stderr == ""
     assert "2 of 4 orders exceed their limits" in outcome.stdout
+    broken = [line for line in outcome.stdout.splitlines() if line.startswith("broken: ")]
+    assert [line.split(" at ")[0] for line in broken] == ["broken: order 1 of shell"] * 2
     assert (out / "compared_orders_limits.csv").is_file()
     assert command_here(*to).returncode == 0
     assert not (out / "orders_limits.csv").exists()

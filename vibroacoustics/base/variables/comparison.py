@@ -27,3 +27,15 @@ for _thing in (
     ),
 ):
     register(_thing)
+
+for _short, _dims in (
+    ("order", ("channel", "speed", "order")),
+    ("equivalent", ("channel", "weighting")),
+    ("band", ("channel", "weighting", "band")),
+):
+    for _name, _words in (
+        ("run_deviation", "standard deviation of the level between runs of one specimen"),
+        ("specimen_deviation", "standard deviation of the level between specimens"),
+        ("mean_uncertainty", "standard uncertainty of the level's mean over runs and specimens"),
+    ):
+        register(Variable(f"{_short}_{_name}", _dims, "dB", _words))

@@ -24,11 +24,17 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         ),
         scores.scores_table(results),
         *filter(None, [acceptability.acceptability_table(results)]),
+        *_too_close(results),
         Pictures(tuple(score_figures(results))),
         scores.criteria_table(results),
         scores.values_table(results),
         *_published(results),
     ]
+
+
+def _too_close(results: xr.Dataset) -> list[Block]:
+    words = acceptability.too_close_words(results)
+    return [Text(words, "note")] if words else []
 
 
 def _published(results: xr.Dataset) -> list[Block]:

@@ -1,0 +1,103 @@
+"""Limits of bands, totals, criteria and lowest values: files, margins, what is refused."""
+
+import numpy as np
+import pytest
+from support import tiny_run
+
+from vibroacoustics import FigureLimit, compare, read_figure_limits
+from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.report import broken_lines
+from vibroacoustics.results.figure_limits import Compared, check_figures
+
+MICROPHONE = "pressure front_1m"
+
+
+@pytest.fixture(scope="module")
+def compared():
+    study = tiny_run()
+    orders = compare(study, study, other_option="counterweight-half")
+    return Compared(orders, study, study)
+
+
+def rows_of(compared, *limits):
+    return {row.result: row for row in check_figures(compared, limits)}
+
+
+def test_total_of_a_study_has_the_remainder(compared):
+    rows = rows_of(compared, FigureLimit(60.0, "dB(A)", MICROPHONE))
+    level = compared.first["level_total"].sel(option="counterweight-half", receiver="front_1m")
+    assert rows["B"].value == pytest.approx(level.item())
+    assert rows["B"].margin == pytest.approx(60.0 - level.item())
+
+
+def test_criterion_of_each_option(compared):
+    values = compared.first["criterion_value"].sel(criterion="foot_force_1x_n")
+    middle = float(values.mean())
+    rows = rows_of(compared, FigureLimit(middle, "N", criterion="foot_force_1x_n"))
+    assert rows["A"].is_within == bool(values.sel(option="none") <= middle)
+    assert rows["A"].is_within != rows["B"].is_within
+    (line,) = broken_lines(compared.orders, list(rows.values()))
+    assert line.startswith("criterion foot_force_1x_n in A: ")
+    assert line.endswith("N (limit)")
+
+
+def test_lowest_order_in_another_unit(compared):
+    rms = abs(compared.orders["channel_order"].sel(channel="velocity tx", order=1.0).item())
+    limit = FigureLimit(1e3 * rms / np.sqrt(2.0), "mm/s", "velocity tx", order=1.0, side="lowest")
+    rows = rows_of(compared, limit)
+    assert rows["A"].margin == pytest.approx(0.0, abs=1e-9)
+    assert rows["B"].margin < 0.0
+
+
+def test_band_of_the_modelled_sound(compared):
+    rows = rows_of(compared, FigureLimit(40.0, "dB", MICROPHONE, band_hz=50.0))
+    band = compared.first["modelled_band_level"].sel(option="none", receiver="front_1m", band=50.0)
+    assert rows["A"].value == pytest.approx(band.item())
+
+
+@pytest.mark.parametrize(
+    ("limit", "words"),
+    [
+        (FigureLimit(1.0, "dB", "front"), "channel = 'front', in dB: must be one of"),
+        (FigureLimit(1.0, "dB(A)", "force x"), "channel = 'force x', in dB"),
+        (FigureLimit(1.0, "m/s", "force x", order=1.0), "channel = 'force x', in m/s"),
+        (FigureLimit(1.0, "dB", MICROPHONE, band_hz=51.0), "neither result has such a figure"),
+        (FigureLimit(1.0, "N", criterion="force"), "neither result has such a figure"),
+        (FigureLimit(1.0, "kg", criterion="foot_force_1x_n"), "unit = 'kg'"),
+    ],
+)
+def test_limits_of_what_is_not_there(compared, limit, words):
+    with pytest.raises(ParameterError, match=words.replace("(", "\\(")):
+        check_figures(compared, [limit])
+
+
+def test_file_of_all_kinds(tmp_path):
+    path = tmp_path / "limits.csv"
+    rows = ("front,1,,,60,dB,", "front,,500,,45,dB,highest", "front,2,,,1,mPa,lowest",
+            ",,,added_mass_kg,1,kg,", "front,,,,62,dB(A),")  # fmt: skip
+    header = "channel,order,band_hz,criterion,limit,unit,side"
+    path.write_text("\n".join((header, *rows)))
+    orders, figures = read_figure_limits(path)
+    assert [(one.channel, one.order) for one in orders] == [("front", 1.0)]
+    assert [one.figure for one in figures] == ["band", "order", "criterion", "total"]
+    assert figures[1].origin == f"{path}: line 4"
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("front,1,500,,60,dB,", "line 2: order, band_hz, criterion: one of them"),
+        ("front,1,,,60,dB,upper", "line 2: side = 'upper': must be highest or lowest"),
+        ("front,,500,,60,Pa,", "line 2: unit = 'Pa': of a band must be one of dB"),
+        ("front,,,,60,N,", "line 2: unit = 'N': of a total must be one of dB, dB"),
+        ("front,,-5,,60,dB,", "line 2: band_hz = -5: must be a number above 0"),
+        ("front,,,,x,dB,", "line 2: limit = 'x': must be a number"),
+        (",,500,,60,dB,", "line 2: channel = '': must be a channel's name"),
+        ("front,,,mass,60,kg,", "line 2: channel = 'front': must be"),
+    ],
+)
+def test_lines_that_are_refused(line, words, tmp_path):
+    path = tmp_path / "limits.csv"
+    path.write_text(f"channel,order,band_hz,criterion,limit,unit,side\n{line}\n")
+    with pytest.raises(ParameterError, match=words):
+        read_figure_limits(path)

@@ -1,0 +1,135 @@
+"""Levels and shares of the paths of sound, labelled."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array
+from ..base.vocabulary import check, stamp
+from ..machine.source import CaseKey
+from ..mechanics.contributions import Contributions, PathName
+from .axes import LevelAxes
+from .bands import Band
+from .by_source import membership, weighting_power
+from .labelled import level
+
+SILENT: Final = 1e-12
+"""Of the largest mean square, 120 dB below it: a smaller sum is near rounding and has no shares."""
+
+
+def energies(split: Contributions, bands: Sequence[Band]) -> tuple[Array, Array]:
+    """Mean squares of each path alone and what each adds to the sum of all.
+
+    Lines add as phasors: a path p adds ½ Re{p Σp*} to the mean square of a line, which is negative
+    where it works against the others; lines of different frequencies add as energy.
+
+    Returns
+    -------
+    alone, part : shape (path, receiver, band + 1), Pa²; unweighted by band, A-weighted in all last
+    """
+    pressure = split.pressure
+    of_lines = _columns(split.frequency_hz, bands)
+    alone = 0.5 * np.abs(pressure) ** 2 @ of_lines
+    part = 0.5 * (pressure * pressure.sum(axis=0).conj()).real @ of_lines
+    for noise in split.noise:
+        of_noise = _columns(noise.frequency_hz, bands)
+        alone[list(noise.rows)] += noise.alone @ of_noise
+        part[list(noise.rows)] += noise.part @ of_noise
+    return alone, part
+
+
+def of_motions(split: Contributions) -> Array:
+    """A-weighted mean squares of the lines of each motion alone and of its part in the sum.
+
+    Returns
+    -------
+    shape (2, motion, receiver), Pa²
+    """
+    pressure = split.by_motion
+    audible = _audible(split.frequency_hz)
+    alone = 0.5 * np.abs(pressure) ** 2 @ audible
+    return np.stack([alone, 0.5 * (pressure * pressure.sum(axis=0).conj()).real @ audible])
+
+
+def _columns(frequency_hz: Array, bands: Sequence[Band]) -> Array:
+    """Weights of frequencies, shape (frequency, band + 1)."""
+    return np.column_stack([membership(frequency_hz, bands), _audible(frequency_hz)])
+
+
+def _audible(frequency_hz: Array) -> Array:
+    return weighting_power("A", frequency_hz) * (frequency_hz > 0.0)
+
+
+def contribution_variables(
+    axes: LevelAxes, cases: Mapping[CaseKey, Contributions], orders: Sequence[int]
+) -> xr.Dataset:
+    """Pressure of the paths at some orders, levels alone and shares in band and in all.
+
+    Parameters
+    ----------
+    axes : of the levels
+    cases : sound by path at some speeds with every option
+    orders : at which the pressure is kept
+    """
+    names = list(dict.fromkeys(name for split in cases.values() for name in split.names))
+    speeds = list(dict.fromkeys(speed for speed, _ in cases))
+    shape = len(speeds), len(axes.options), len(names), len(axes.receivers)
+    pressure = np.zeros((*shape, len(orders)), dtype=complex)
+    alone, part = (np.zeros((*shape, len(axes.bands) + 1)) for _ in range(2))
+    for (speed, option), split in cases.items():
+        at = speeds.index(speed), axes.options.index(option)
+        rows = [names.index(name) for name in split.names]
+        held = [order for order in orders if order < split.frequency_hz.size]
+        pressure[at][rows, :, : len(held)] = split.pressure[..., held]
+        alone[at][rows], part[at][rows] = energies(split, axes.bands)
+    motions = list(dict.fromkeys(name for split in cases.values() for name in split.motions))
+    radiated = np.zeros((2, *shape[:2], len(motions), shape[3]))
+    for (speed, option), split in cases.items():
+        rows = [motions.index(name) for name in split.motions]
+        radiated[:, speeds.index(speed), axes.options.index(option), rows] = of_motions(split)
+    total = part.sum(axis=2, keepdims=True)
+    share = _shares(part, total)
+    coords = _coordinates(axes, names, speeds)
+    ordered = {**coords, "path_order": [float(order) for order in orders]}
+    banded = {**coords, "band": [band.nominal_hz for band in axes.bands]}
+    of_all = {name: values for name, values in banded.items() if not name.startswith("path")}
+    of_all["path_speed"] = speeds
+    lines = radiated[1].sum(axis=2, keepdims=True)
+    by_motion = {name: values for name, values in of_all.items() if name != "band"}
+    by_motion["radiating_motion"] = motions
+    arrays = {
+        "path_pressure": (pressure, ordered),
+        "path_level": (level(alone[..., -1]), coords),
+        "path_share": (share[..., -1], coords),
+        "motion_level": (level(radiated[0]), by_motion),
+        "motion_share": (_shares(radiated[1], lines), by_motion),
+        "path_band_level": (level(alone[..., :-1]), banded),
+        "path_band_share": (share[..., :-1], banded),
+        "modelled_band_level": (level(total[:, :, 0, :, :-1]), of_all),
+    }
+    return check(
+        xr.Dataset({name: stamp(name, values, at) for name, (values, at) in arrays.items()})
+    )
+
+
+def _shares(part: Array, total: Array) -> Array:
+    """Parts over their sum; none of what is silent beside the loudest."""
+    sounds = total > SILENT * total.max(initial=0.0)
+    return np.where(sounds, part / np.where(sounds, total, 1.0), 0.0)
+
+
+def _coordinates(
+    axes: LevelAxes, names: Sequence[PathName], speeds: Sequence[float]
+) -> dict[str, Any]:
+    return {
+        "path_speed": list(speeds),
+        "option": list(axes.options),
+        "receiver": list(axes.receivers),
+        "path": [f"{name.source}: {name.port} {name.direction}" for name in names],
+        **{
+            f"path_{field}": ("path", [getattr(name, field) for name in names])
+            for field in PathName._fields
+        },
+    }

@@ -1,0 +1,76 @@
+"""Sound at the receivers by path: what makes it, where that acts, along or about which axis."""
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+from ..base.arrays import Array, ComplexArray
+from .added import InsertionLoss
+
+
+class PathName(NamedTuple):
+    """A path of sound.
+
+    Attributes
+    ----------
+    source : what makes the sound
+    port : where it acts: `housing`, a part in the shell, a space of gas, the stator's yoke
+    direction : motion of the housing (`tx` … `rz`), force or moment on a part (`fx` … `mz`), a
+        wave around the yoke, the flow into a space
+    """
+
+    source: str
+    port: str
+    direction: str
+
+
+@dataclass(frozen=True)
+class NoiseContribution:
+    """Mean squares of a source's noise by path.
+
+    Attributes
+    ----------
+    rows : of its paths among those of the case
+    frequency_hz : shape (frequency,)
+    alone : of each path alone, shape (path, receiver, frequency), Pa²
+    part : what each path adds to the sum, negative where it works against it, as `alone`
+    """
+
+    rows: tuple[int, ...]
+    frequency_hz: Array
+    alone: Array
+    part: Array
+
+
+@dataclass(frozen=True)
+class Contributions:
+    """Sound of one case by path.
+
+    Attributes
+    ----------
+    names : of the paths
+    frequency_hz : of the lines, shape (line,), orders from zero first
+    pressure : complex peaks, shape (path, receiver, line), Pa; their sum is that of all sources
+    noise : of the sources that have some
+    motions : what radiates: the housing's six motions as a rigid body, modes of its shell
+    by_motion : pressure of all sources by motion, shape (motion, receiver, line), Pa; same sum
+    """
+
+    names: tuple[PathName, ...]
+    frequency_hz: Array
+    pressure: ComplexArray
+    noise: tuple[NoiseContribution, ...]
+    motions: tuple[str, ...]
+    by_motion: ComplexArray
+
+    def behind(self, loss: InsertionLoss | None) -> "Contributions":
+        """What an insertion loss leaves of it."""
+        if loss is None:
+            return self
+        factors = [loss.power_factor(one.frequency_hz) for one in self.noise]
+        noise = [
+            replace(one, alone=factor * one.alone, part=factor * one.part)
+            for one, factor in zip(self.noise, factors, strict=True)
+        ]
+        factor = loss.amplitude_factor(self.frequency_hz)
+        pressure, by_motion = factor * self.pressure, factor * self.by_motion
+        return replace(self, pressure=pressure, noise=tuple(noise), by_motion=by_motion)

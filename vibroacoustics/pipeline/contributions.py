@@ -1,0 +1,84 @@
+"""Sound by path, with the values as given, at few speeds and orders."""
+
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from ..base.vocabulary import WEIGHTINGS
+from ..levels.axes import LevelAxes
+from ..levels.contributions import contribution_variables
+from ..radiation.transfer_vectors import interpolate_transfer_vector
+from ..study.study import Study
+from ..transfer.force_sound import ForceSound
+from ..transfer.received import Transmission, by_case_and_source
+from .force_sound import wrench_pressure_by_motion
+from .motion import Motion
+
+MOST_SPEEDS: Final = 3
+"""The slowest, the fastest, and that of the published level or a middle one."""
+MOST_ORDERS: Final = 12
+"""The loudest ones after weighting by A, anywhere."""
+QUIETEST_DB: Final = -40.0
+"""Orders below this everywhere are none of them."""
+ALWAYS: Final = (1, 2)
+"""Orders that are among them."""
+
+
+def contributions_of(
+    transmission: Transmission,
+    motion: Motion,
+    axes: LevelAxes,
+    levels: xr.Dataset,
+    by_force: ForceSound | None = None,
+) -> xr.Dataset:
+    """What comes by which path; no draws, as the values as given tell the paths.
+
+    Parameters
+    ----------
+    transmission : from loads to sound
+    motion : its results hold the transfer vectors
+    axes : of the levels
+    levels : with `order_level`
+    by_force : measured pressure per force, in place of the transfer vectors
+    """
+    speeds = chosen_speeds(transmission.study)
+    cases = {key: case for key, case in motion.cases.items() if key[0] in speeds}
+    if by_force is None:
+        by_motion = _pressure_by_motion(motion.results.sel(speed=speeds))
+        of_wrenches = by_case_and_source(by_motion, motion.source_of_wrench)
+    else:
+        of_wrenches = wrench_pressure_by_motion(motion, by_force)
+    split = transmission.contributions(cases, motion.loads, of_wrenches)
+    return contribution_variables(axes, dict(split), loudest_orders(levels))
+
+
+def _pressure_by_motion(results: xr.Dataset) -> xr.DataArray:
+    """Pressure of every wrench at every order by the six motions of the housing, as dof.
+
+    Orders beyond the table are silent, as in `radiation.pressure`: its highest frequency stands
+    for theirs.
+    """
+    vectors = results["transfer_vector"]
+    frequency = results["order_frequency"].clip(max=vectors["frequency"].max().item())
+    return results["velocity_order"] * interpolate_transfer_vector(vectors, frequency)
+
+
+def chosen_speeds(study: Study) -> list[float]:
+    """All speeds, or three of them."""
+    speeds = list(study.operation.speed_rpm)
+    if len(speeds) <= MOST_SPEEDS:
+        return speeds
+    published = study.machine.overall_noise.speed_rpm
+    middle = published if published in speeds else float(np.mean(speeds))
+    wanted = {min(speeds), min(speeds, key=lambda speed: abs(speed - middle)), max(speeds)}
+    return [speed for speed in speeds if speed in wanted]
+
+
+def loudest_orders(levels: xr.Dataset) -> list[int]:
+    """Orders at which paths are told apart."""
+    level = levels["order_level"].isel(weighting=WEIGHTINGS.index("A"))
+    loudest = level.max(("speed", "option", "receiver")).values
+    ranked = [int(order) for order in np.argsort(-loudest, kind="stable") if order > 0]
+    others = [one for one in ranked if one not in ALWAYS and loudest[one] >= QUIETEST_DB]
+    return sorted([*ALWAYS, *others[: MOST_ORDERS - len(ALWAYS)]])

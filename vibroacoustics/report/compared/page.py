@@ -1,0 +1,160 @@
+"""The page of a comparison, of the same blocks as the report of a study."""
+
+from collections.abc import Sequence
+from typing import Final
+
+import xarray as xr
+
+from ...results.figure_limits import CheckedFigure, Compared
+from ...results.mean_of_runs import runs_of
+from ..blocks import Block, Details, Pictures, Text
+from ..evidence import COVERAGE, Rung
+from ..evidence_table import rungs_table
+from ..figures.order_differences import difference_picture
+from ..figures.style import Picture
+from ..html import html
+from ..page import Page, Part
+from ..tables import Table
+from .levels import levels_tables
+from .limits import limit_blocks, limits_sentence
+from .orders import is_pressure, known_channels, orders_table, summary
+from .studies import inputs_table, key_figures
+from .validation import is_study, rungs_of
+
+MOST_ROWS: Final = 40
+"""Of a table that is not folded."""
+
+
+def comparison_html(
+    compared: Compared, figures: Sequence[CheckedFigure], pictures: Sequence[Picture]
+) -> bytes:
+    """The page.
+
+    Parameters
+    ----------
+    compared : two results, with what limits of orders say
+    figures : other figures that have a limit
+    pictures : orders of each channel in both results
+    """
+    orders = compared.orders
+    parts = [
+        Part("verdict", "What comes out", tuple(_verdict(compared, figures))),
+        *_limits(compared, figures),
+        *_figures_of_studies(compared),
+        *_validation(compared),
+        Part("orders", "Orders", tuple(_orders(orders, pictures))),
+        *_levels(compared),
+        *_runs(compared),
+        *_inputs(compared),
+        Part("results", "The two results", (_results(compared),)),
+    ]
+    about = "Two results beside each other: A is the reference, differences are B less A."
+    of_both = f"{orders.attrs['first']}; {orders.attrs['second']}"
+    created = str(orders.attrs["created_utc"])
+    return html(Page("Comparison", of_both, created, tuple(parts), about))
+
+
+def _verdict(compared: Compared, figures: Sequence[CheckedFigure]) -> list[Block]:
+    blocks: list[Block] = []
+    if figures or "order_limit" in compared.orders:
+        blocks.append(Text(limits_sentence(compared.orders, figures), "headline"))
+    blocks.append(Text(summary(compared.orders), "strong"))
+    rungs = rungs_of(compared)
+    return [*blocks, Text(_agreement(rungs))] if rungs else blocks
+
+
+def _agreement(rungs: Sequence[Rung]) -> str:
+    agree, known = sum(rung.agrees for rung in rungs), sum(rung.uncertainty > 0.0 for rung in rungs)
+    return (
+        f"Of {len(rungs)} figures of the study beside the recordings {agree} differ by less than "
+        f"{COVERAGE:g} times the validation uncertainty; it is known, in part at least, of {known}."
+    )
+
+
+def _limits(compared: Compared, figures: Sequence[CheckedFigure]) -> list[Part]:
+    if not figures and "order_limit" not in compared.orders:
+        return []
+    return [Part("limits", "Limits", tuple(limit_blocks(compared.orders, figures)))]
+
+
+def _figures_of_studies(compared: Compared) -> list[Part]:
+    if not (is_study(compared.first) and is_study(compared.second)):
+        return []
+    return [Part("figures", "Key figures", (key_figures(compared),))]
+
+
+def _validation(compared: Compared) -> list[Part]:
+    rungs = rungs_of(compared)
+    if not rungs:
+        return []
+    note = (
+        "E = S − D; u is the root of the sum of squares of u_num (grids of the radiation), u_input "
+        "(spread of the draws; of levels in all) and u_D (scatter of the runs and specimens), in "
+        "the form of ASME V&V 20. What is not known counts as zero, so u is a lower limit."
+    )
+    table: Block = rungs_table("The study beside the recordings", rungs)
+    if len(rungs) > MOST_ROWS:
+        table = Details(f"All {len(rungs)} figures", (table,))
+    return [Part("validation", "Validation", (Text(note, "note"), table))]
+
+
+def _orders(orders: xr.Dataset, pictures: Sequence[Picture]) -> list[Block]:
+    channels = known_channels(orders)
+    if not channels:
+        return [Text(summary(orders))]
+    drawn = dict(zip(_drawn_channels(orders), pictures, strict=True))
+    loud = dict(zip(map(str, orders["channel"].values), is_pressure(orders), strict=True))
+    first = [name for name in channels if loud[name]] or channels[:1]
+    blocks: list[Block] = [Pictures((difference_picture(orders),))]
+    for name in channels:
+        of_channel: tuple[Block, ...] = (orders_table(orders, name), Pictures((drawn[name],)))
+        blocks += of_channel if name in first else [Details(name, of_channel)]
+    return blocks
+
+
+def _drawn_channels(orders: xr.Dataset) -> list[str]:
+    """Channels that have a picture, in their order in the dataset."""
+    known = orders["order_difference"].notnull().any(("speed", "order")).values
+    return [str(name) for name in orders["channel"].values[known]]
+
+
+def _levels(compared: Compared) -> list[Part]:
+    tables = levels_tables(compared)
+    return [Part("levels", "Levels", tuple(tables))] if tables else []
+
+
+def _runs(compared: Compared) -> list[Part]:
+    runs = runs_of(compared.orders)
+    if not runs:
+        return []
+    rows = [(str(number), run["file"], run["specimen"]) for number, run in enumerate(runs, 1)]
+    note = (
+        "Means are energy means over the runs of each specimen and then over the specimens. "
+        "Deviations are of levels: between runs of one specimen, and between specimens without "
+        "what the runs scatter; where each specimen ran once, the two cannot be told apart. The "
+        "uncertainty of the mean of one specimen holds for that specimen alone."
+    )
+    table = Table("Runs", ("Run", "Recording", "Specimen"), tuple(rows), frozenset({0, 1, 2}))
+    return [Part("runs", "Runs and specimens", (Text(note, "note"), table))]
+
+
+def _inputs(compared: Compared) -> list[Part]:
+    if not (is_study(compared.first) and is_study(compared.second)):
+        return []
+    return [Part("inputs", "What differs in the inputs", (inputs_table(compared),))]
+
+
+def _results(compared: Compared) -> Table:
+    rows = [
+        (
+            letter,
+            str(result.attrs.get("title", "")),
+            option if is_study(result) else "",
+            ", ".join(f"{speed:.0f}" for speed in result["speed"].values[:6]),
+            str(result.attrs.get("created_utc", "")),
+            str(result.attrs.get("software_version", "")),
+        )
+        for letter, result, option, _ in compared.sides()
+    ]
+    head = ("Result", "Title", "Option", "Speeds, rpm", "Computed (UTC)", "Version")
+    return Table("Where they come from", head, tuple(rows), frozenset(range(6)))

@@ -1,0 +1,201 @@
+"""Figures of two results against their limits: totals, bands, orders from below, criteria."""
+
+from collections.abc import Iterator, Sequence
+from typing import Final, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.decibel import level_of_amplitude
+from ..base.errors import ParameterError
+from ..base.vocabulary import REFERENCE_OPTION
+from ..recordings.quantities import quantity
+from .figure_limit import WEIGHTED, FigureLimit
+from .limit import EVERY_CHANNEL, PRESSURE_UNIT
+from .order_comparison import ORDER_TOLERANCE, channel_units, listed
+
+PRESSURE: Final = "pressure "
+"""With what channels of a study begin that are microphones."""
+
+
+class CheckedFigure(NamedTuple):
+    """A figure of one of two results beside its limit; values are in the limit's unit."""
+
+    result: str
+    figure: str
+    speed_rpm: float
+    value: float
+    limit: float
+    unit: str
+    side: str
+    margin: float
+    origin: str
+
+    @property
+    def is_within(self) -> bool:
+        """Whether the limit holds."""
+        return self.margin >= 0.0
+
+
+class Compared(NamedTuple):
+    """Two results and what was compared of them.
+
+    Attributes
+    ----------
+    orders : of `compare`
+    first, second : of `run`, `analyse_orders` or `mean_of_runs`
+    """
+
+    orders: xr.Dataset
+    first: xr.Dataset
+    second: xr.Dataset
+
+    def sides(self) -> Iterator[tuple[str, xr.Dataset, str, str]]:
+        """Letter, result, option, and the name of its channels in the comparison."""
+        attrs = self.orders.attrs
+        option = str(attrs.get("option", REFERENCE_OPTION))
+        yield "A", self.first, option, "channel"
+        yield "B", self.second, str(attrs.get("other_option", option)), "compared_channel"
+
+
+def check_figures(compared: Compared, limits: Sequence[FigureLimit]) -> list[CheckedFigure]:
+    """Hold figures of both results against their limits.
+
+    Parameters
+    ----------
+    compared : two results
+    limits : of `read_figure_limits`, or made as `FigureLimit`
+
+    Raises
+    ------
+    ParameterError
+        A limit is for a channel, band, criterion or unit that neither result has.
+    """
+    return [row for limit in limits for row in _checked(compared, limit)]
+
+
+def _checked(compared: Compared, limit: FigureLimit) -> list[CheckedFigure]:
+    channels = [] if limit.criterion else _channels(compared.orders, limit)
+    rows = [
+        CheckedFigure(
+            letter, subject, speed, value, limit.limit, limit.unit, limit.side,
+            limit.margin(value), limit.origin,
+        )
+        for letter, result, option, names in compared.sides()
+        for subject, speed, value in _values(
+            compared.orders, result, option, names, limit, channels
+        )
+        if np.isfinite(value) and _holds(limit, speed)
+    ]  # fmt: skip
+    if not rows:
+        raise ParameterError(f"{limit.origin}: {limit.subject}: neither result has such a figure")
+    return rows
+
+
+def _holds(limit: FigureLimit, speed: float) -> bool:
+    """Whether a limit is for a speed; what has none is of all speeds."""
+    rounded = np.rint(speed)
+    return bool(np.isnan(speed) or limit.speed_from_rpm <= rounded <= limit.speed_to_rpm)
+
+
+def _channels(orders: xr.Dataset, limit: FigureLimit) -> list[int]:
+    """Rows of the compared channels that a limit is for."""
+    units = channel_units(orders)
+    names = [orders[name].values for name in ("channel", "compared_channel")]
+    unit_of_all = PRESSURE_UNIT if limit.unit in WEIGHTED else quantity(limit.unit).unit
+    rows = [
+        row
+        for row, unit in enumerate(units.values())
+        if limit.channel in (EVERY_CHANNEL, *(str(one[row]) for one in names))
+        and unit == unit_of_all
+    ]
+    if not rows:
+        raise ParameterError(
+            f"{limit.origin}: channel = {limit.channel!r}, in {limit.unit}: must be one of "
+            f"{listed(units)}"
+        )
+    return rows
+
+
+Values = Iterator[tuple[str, float, float]]
+"""Subject, speed (not a number where it is of all), value in the limit's unit."""
+
+
+def _values(
+    orders: xr.Dataset,
+    result: xr.Dataset,
+    option: str,
+    names: str,
+    limit: FigureLimit,
+    channels: Sequence[int],
+) -> Values:
+    if limit.criterion:
+        yield from _criterion(result, option, limit)
+    for row in channels:
+        channel = str(orders[names].values[row])
+        if limit.figure == "order":
+            yield from _orders(orders.isel(channel=row), names, channel, limit)
+        elif "force_order" in result:
+            yield from _of_study(result, option, channel, limit)
+        else:
+            yield from _of_recording(result, channel, limit)
+
+
+def _orders(there: xr.Dataset, names: str, channel: str, limit: FigureLimit) -> Values:
+    name = "channel_order_rms" if names == "channel" else "compared_order_rms"
+    at = np.flatnonzero(np.abs(there["order"].values - (limit.order or 0.0)) < ORDER_TOLERANCE)
+    for speed, rms in zip(there["speed"].values, there[name].values[:, at], strict=True):
+        for value in rms:
+            level = float(level_of_amplitude(value / REFERENCE_PRESSURE_PA))
+            yield f"order {limit.order:g} of {channel}", speed, limit.in_unit(value, level)
+
+
+def _of_study(result: xr.Dataset, option: str, channel: str, limit: FigureLimit) -> Values:
+    """Totals with the remainder by A, of the modelled sound by others; modelled bands."""
+    receiver = channel.removeprefix(PRESSURE)
+    subject = limit.subject.replace(limit.channel, channel)
+    if limit.figure == "band":
+        if "modelled_band_level" in result and limit.band_hz in result["band"].values:
+            level = result["modelled_band_level"].sel(
+                option=option, receiver=receiver, band=limit.band_hz
+            )
+            yield from _by_speed(subject, level["path_speed"].values, level.values)
+        return
+    weighting = WEIGHTED[limit.unit]
+    level = result["level_total"]
+    if weighting != "A":
+        level = result["level_modelled"].sel(weighting=weighting)
+    of_option = level.sel(option=option, receiver=receiver)
+    yield from _by_speed(subject, of_option["speed"].values, of_option.values)
+
+
+def _of_recording(result: xr.Dataset, channel: str, limit: FigureLimit) -> Values:
+    """Equivalent levels over all of the recording."""
+    at = {"channel": channel, "weighting": WEIGHTED[limit.unit]}
+    name = "band_level" if limit.figure == "band" else "equivalent_level"
+    if name not in result:
+        return
+    level = result[name].sel(at)
+    if limit.figure == "band":
+        level = level.isel(band=np.flatnonzero(level["band"].values == limit.band_hz))
+    for value in np.atleast_1d(level.values):
+        yield limit.subject.replace(limit.channel, channel), float("nan"), float(value)
+
+
+def _by_speed(subject: str, speeds: Array, values: Array) -> Values:
+    for speed, value in zip(speeds, values, strict=True):
+        yield subject, float(speed), float(value)
+
+
+def _criterion(result: xr.Dataset, option: str, limit: FigureLimit) -> Values:
+    if "criterion_value" not in result or limit.criterion not in result["criterion"].values:
+        return
+    value = result["criterion_value"].sel(criterion=limit.criterion, option=option)
+    unit = str(value["criterion_unit"].item())
+    if unit != limit.unit:
+        raise ParameterError(
+            f"{limit.origin}: unit = {limit.unit!r}: criterion {limit.criterion} is in {unit}"
+        )
+    yield limit.subject, float("nan"), float(value)

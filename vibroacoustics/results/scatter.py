@@ -1,0 +1,56 @@
+"""Scatter of levels over runs and specimens: energy mean, deviations, uncertainty of the mean."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ..base.arrays import Array
+from ..base.decibel import energy_mean
+
+
+class Scatter(NamedTuple):
+    """Of levels over several runs; not a number where the runs do not tell.
+
+    Attributes
+    ----------
+    mean : energy mean of the specimens' energy means, dB
+    run_deviation : standard deviation between runs of one specimen, dB
+    specimen_deviation : between specimens without what runs scatter; with it where each specimen
+        ran once, dB
+    uncertainty : standard uncertainty of the mean, dB
+    """
+
+    mean: Array
+    run_deviation: Array
+    specimen_deviation: Array
+    uncertainty: Array
+
+
+def scatter(level_db: Array, specimens: Sequence[str]) -> Scatter:
+    """Analysis of variance in one way, random effects (ISO 5725-2:2019, 7.4), every specimen alike.
+
+    With n_i runs of k specimens, s_w² = Σ (n_i - 1) s_i² / Σ (n_i - 1) of the runs and s_m² of the
+    specimens' mean levels, s_b² = s_m² - s_w² mean(1/n_i), at least 0. The mean's uncertainty is
+    s_m/√k; of one specimen s_w/√n, which holds for that specimen alone.
+
+    Parameters
+    ----------
+    level_db : shape (run, ...)
+    specimens : of each run
+    """
+    names = list(dict.fromkeys(specimens))
+    groups = [level_db[[one == name for one in specimens]] for name in names]
+    count = np.array([len(group) for group in groups])
+    nothing = np.full(level_db.shape[1:], np.nan)
+    run = nothing
+    if (count > 1).any():
+        squares = [(len(g) - 1) * np.var(g, axis=0, ddof=1) for g in groups if len(g) > 1]
+        run = np.sqrt(np.sum(squares, axis=0) / np.sum(count - 1))
+    mean = energy_mean(np.array([energy_mean(group) for group in groups]))
+    if len(groups) == 1:
+        return Scatter(mean, run, nothing, run / np.sqrt(count[0]))
+    of_means = np.var([group.mean(axis=0) for group in groups], axis=0, ddof=1)
+    between = of_means - np.nan_to_num(run) ** 2 * np.mean(1.0 / count)
+    specimen = np.sqrt(np.maximum(between, 0.0))
+    return Scatter(mean, run, specimen, np.sqrt(of_means / len(groups)))
