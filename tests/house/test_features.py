@@ -22,6 +22,8 @@ FEATURES = {
     "study from a file": "va.load_study",
     "sweep of designs": "command sweep",
     "sweep in Python": "va.sweep",
+    "best designs": "command optimise",
+    "best designs, in Python": "va.optimise",
     "radiation alone": "command radiation",
     "radiation alone, in Python": "va.radiate",
     "measured transfer vectors": "va.given_radiation",
