@@ -40,7 +40,8 @@ class DrawnChain:
         reached = []
 
         def stop(*arguments):
-            reached.extend(arguments[:4])
+            transmission, axes, _, cases, given, *_ = arguments
+            reached.extend([transmission, axes, cases, given])
             raise _ReachedError
 
         with pytest.MonkeyPatch.context() as patch:

@@ -8,7 +8,8 @@
 `radiate(study)` computes the housing's radiation alone.
 `given_radiation(...)` makes measured transfer vectors what `run` takes.
 `score(results)` scores and ranks the options again.
-`sweep(study, {...})` computes every design of a grid or a sample of values.
+`sweep(study, {...})` computes every design of a grid or a sample of values;
+`optimise(study)` searches for the best designs of its table `[design]`.
 `write_report(results, folder)` writes the report with tables and figures.
 `open_results(path)` reads results from a file.
 `export_forces(results, path)` writes their forces for a machine of `kind = "table"`.

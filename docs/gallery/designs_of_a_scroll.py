@@ -4,7 +4,8 @@ Designs: a counterweight or a sprung mass, and which mounts
 
 Which balancer, how heavy, tuned to what, on which mounts? The table ``design`` of a study says what
 may vary, what is wanted and how far pieces scatter; :func:`vibroacoustics.optimise` looks for the
-front. All keys: :doc:`/designs`.
+front, on the command line ``vibroacoustics optimise designs.toml``; ``vibroacoustics sweep`` computes
+a grid or a sample of the same table instead. All keys: :doc:`/designs`.
 
 .. literalinclude:: /gallery/studies/designs.toml
    :language: toml
@@ -16,15 +17,15 @@ from rough_radiation import rough_radiation
 import vibroacoustics as va
 
 study = va.load_study("studies/designs.toml")
-found = va.optimise(study, radiation=rough_radiation)
+search = va.optimise(study, radiation=rough_radiation)
 
 # %%
 # The front
 # ---------
 # No design of the front is better than another in both objectives. The sprung mass holds it: a
 # counterweight turns, the ring's force swings to and fro, so at best half of it goes.
-values = found["wanted_value"].sel(wanted=["line", "foot"])
-allowed, front = found["meets_constraints"] == 1, found["on_front"] == 1
+values = search["wanted_value"].sel(wanted=["line", "foot"])
+allowed, front = search["meets_constraints"] == 1, search["on_front"] == 1
 figure, axes = plt.subplots(layout="constrained", figsize=(6.4, 4.0))
 axes.plot(*values[allowed].T, ".", color="0.75", label="allowed designs")
 axes.plot(*values[front].T, "o", label="front")
@@ -36,14 +37,14 @@ axes.legend()
 # What pieces keep
 # ----------------
 # Nine of ten pieces out of 2000 that the search has not seen reach the promised values.
-for rank in found["best_rank"].values:
-    row = int(found["best_design"].sel(best_rank=rank))
-    design = found["design_value"].sel(design=row).dropna("design_variable")
+for rank in search["best_rank"].values:
+    row = int(search["best_design"].sel(best_rank=rank))
+    design = search["design_value"].sel(design=row).dropna("design_variable")
     for key, value in zip(design["design_variable"].values, design.values, strict=True):
         print(f"{rank}  {key:45s} {value:9.2f}")
     for name in ("line", "foot"):
         meant, promised = (
-            found[kind].sel(best_rank=rank, wanted=name).item()
+            search[kind].sel(best_rank=rank, wanted=name).item()
             for kind in ("wanted_as_meant", "wanted_promised")
         )
         print(f"{rank}  {name:10s} as meant {meant:6.2f}, promised {promised:6.2f}")
@@ -52,5 +53,5 @@ for rank in found["best_rank"].values:
 # What decides
 # ------------
 # Share of each variable alone in the variance over the whole space; below Q² = 0.5 they say little.
-print(found["design_share"].to_pandas().T.round(2).to_string())
-print(found["design_share_quality"].to_pandas().round(2).to_string())
+print(search["design_share"].to_pandas().T.round(2).to_string())
+print(search["design_share_quality"].to_pandas().round(2).to_string())

@@ -42,7 +42,9 @@ rows = [
 # Machine and study
 # -----------------
 # The machine is a copy of one that comes with the package, with names of files and a few values of
-# its own; so is the study.
+# its own; so is the study. ``vibroacoustics new table`` writes both with comments to start from,
+# ``vibroacoustics schema`` what an editor needs to complete keys, and
+# ``vibroacoustics check study.toml`` tells mistakes, time and memory before a run.
 data = Path("../../data")
 machine = (data / "machines" / "reciprocating_table.toml").read_text()
 machine = machine.replace("../tables/reciprocating_forces.csv", "forces.csv")

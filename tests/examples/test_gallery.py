@@ -3,6 +3,7 @@
 import ast
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -59,8 +60,7 @@ def test_there_is_a_page_for_every_command(job):
 
 def extended(text: str) -> list[str]:
     """Studies of `pipelines` that the gallery's studies extend."""
-    return [line.split("/")[-1].removesuffix('.toml"') for line in text.splitlines()
-            if line.startswith("extends")]  # fmt: skip
+    return re.findall(r'^extends = ".*/pipelines/(.*)\.toml"$', text, re.MULTILINE)
 
 
 @pytest.mark.parametrize(

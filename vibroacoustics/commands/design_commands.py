@@ -73,12 +73,12 @@ def sweep_command(
     ):
         results = swept(prepared, progress, evaluate)
         searched = as_searched(prepared, results)
-        found = explained(problem, searched, evaluate) if searched.any_allowed else None
+        search = explained(problem, searched, evaluate) if searched.any_allowed else None
     tables = {TABLE_NAME: table_csv(results)}
-    if found is None:
+    if search is None:
         messages.warn(["no design meets the constraints: there is no report of the best"])
     else:
-        tables |= _report(problem, found, study_file, folder)
+        tables |= _report(problem, search, study_file, folder)
     written = outputs.write_analysis(results, folder, SWEEP_NAME, tables, lambda _: [])
     failed = int((results["failure"] > 0).sum())
     if failed:
@@ -109,10 +109,10 @@ def optimise_command(
         ) as evaluate,
         progress_on_stderr() as progress,
     ):
-        found = searched_designs(problem, evaluate, progress)
-    files = _report(problem, found, study_file, folder)
-    written = outputs.write_analysis(found, folder, DESIGNS_NAME, files, lambda _: [])
-    typer.echo(report.designs_text(found))
+        search = searched_designs(problem, evaluate, progress)
+    files = _report(problem, search, study_file, folder)
+    written = outputs.write_analysis(search, folder, DESIGNS_NAME, files, lambda _: [])
+    typer.echo(report.designs_text(search))
     typer.echo(f"designs: {written}")
 
 
@@ -132,14 +132,14 @@ def _problem(
 
 
 def _report(
-    problem: "Problem", found: "xr.Dataset", study_file: Path, folder: Path
+    problem: "Problem", search: "xr.Dataset", study_file: Path, folder: Path
 ) -> dict[str, bytes]:
     """Files of the report, and studies of the best few designs."""
     from .. import report
     from ..design.best_studies import best_studies
 
-    texts = best_studies(problem, found, study_file, folder)
-    return report.render_designs(found) | {name: text.encode() for name, text in texts.items()}
+    texts = best_studies(problem, search, study_file, folder)
+    return report.render_designs(search) | {name: text.encode() for name, text in texts.items()}
 
 
 @contextmanager

@@ -16,7 +16,7 @@ _SOURCE = "found by a search of designs"
 
 
 def best_studies(
-    problem: Problem, found: xr.Dataset, study_file: Path, folder: Path
+    problem: Problem, search: xr.Dataset, study_file: Path, folder: Path
 ) -> dict[str, str]:
     """Texts of study files by name: one with the best few as options, or one for each of them.
 
@@ -25,13 +25,13 @@ def best_studies(
     Parameters
     ----------
     problem : that was searched
-    found : its best few designs
+    search : its best few designs
     study_file : that was searched
     folder : of the new files
     """
     base = os.path.relpath(study_file.resolve(), folder.resolve())
     factors = np.array([variable.factor for variable in problem.space.variables])
-    rows = found["design_value"].values[found["best_design"].values] * factors
+    rows = search["design_value"].values[search["best_design"].values] * factors
     head = {"extends": Path(base).as_posix()}
     title = problem.study.title
     if any(key.startswith("machine.") for key in problem.space.names):

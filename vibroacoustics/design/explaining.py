@@ -7,7 +7,7 @@ import xarray as xr
 
 from ..base.arrays import Array, IndexArray
 from .evaluation import Evaluate
-from .found import searched_dataset, with_best, with_shares
+from .search_dataset import searched_dataset, with_best, with_shares
 from .problem import Problem
 from .promise import promise
 from .search.chosen import best_by_one, best_of_front
@@ -33,20 +33,20 @@ def explained(problem: Problem, searched: Searched, evaluate: Evaluate) -> xr.Da
     """
     _ = searched.best
     settings = problem.design.search
-    found = searched_dataset(problem, searched)
-    rows = _best_rows(problem, searched, found, settings.best)
+    search = searched_dataset(problem, searched)
+    rows = _best_rows(problem, searched, search, settings.best)
     promises = [promise(problem, searched.designs[row], settings.fresh_draws) for row in rows]
     spread = _spread(problem, searched)
-    return with_shares(with_best(found, rows, promises), problem, spread, evaluate(spread))
+    return with_shares(with_best(search, rows, promises), problem, spread, evaluate(spread))
 
 
-def _best_rows(problem: Problem, searched: Searched, found: xr.Dataset, count: int) -> IndexArray:
+def _best_rows(problem: Problem, searched: Searched, search: xr.Dataset, count: int) -> IndexArray:
     evaluation = searched.evaluation
     if evaluation.objectives.shape[1] == 1:
-        allowed = found["meets_constraints"].values == 1
+        allowed = search["meets_constraints"].values == 1
         objective = np.where(allowed, evaluation.objectives[:, 0], np.inf)
         return best_by_one(searched.designs, problem.space.limits, objective, count)
-    front = np.flatnonzero(found["on_front"].values)
+    front = np.flatnonzero(search["on_front"].values)
     return np.asarray(front[best_of_front(evaluation.objectives[front], count)])
 
 

@@ -50,8 +50,8 @@ def optimise(
     ... }})
     >>> frequency = np.arange(25.0, 2501.0, 25.0)
     >>> vectors = 1e-4j * frequency * np.ones((len(study.receivers), 6, 1))  # made up
-    >>> found = va.optimise(study, radiation=va.given_radiation(vectors, frequency))
-    >>> found["wanted_as_meant"].dims
+    >>> search = va.optimise(study, radiation=va.given_radiation(vectors, frequency))
+    >>> search["wanted_as_meant"].dims
     ('best_rank', 'wanted')
     """
     problem = Problem(study, radiation)

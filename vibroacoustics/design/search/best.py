@@ -65,10 +65,10 @@ def search_best(
         polish=False,
         vectorized=True,
         updating="deferred",
-        integrality=problem.whole,
+        integrality=problem.integer,
         callback=advance,
     )
-    if polish is not None and not problem.whole.all():
+    if polish is not None and not problem.integer.all():
         history.ask(polish)
         _polish(problem, history)
     return history.searched()
@@ -85,7 +85,7 @@ def _polish(problem: SearchProblem, history: History) -> None:
     """Add what a simplex from the best design asks for, the whole numbers held."""
     searched = history.searched()
     start = searched.designs[int(np.argmin(comparable(searched.evaluation)))]
-    free = np.flatnonzero(~problem.whole)
+    free = np.flatnonzero(~problem.integer)
     span = (problem.upper - problem.lower)[free]
 
     def objective(share: Array) -> float:
@@ -116,7 +116,7 @@ def _simplex(begin: Array, size: float = 1e-2) -> Array:
 
 
 def _rounded(problem: SearchProblem, designs: Array) -> Array:
-    return np.where(problem.whole, np.round(designs), designs)
+    return np.where(problem.integer, np.round(designs), designs)
 
 
 def _latin_hypercube(problem: SearchProblem, population: int, seed: int) -> Array:

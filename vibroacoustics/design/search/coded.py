@@ -34,8 +34,8 @@ class Coding:
             for variable in self.variables
         ]
         lower, upper = np.array(ends, dtype=float).T
-        whole = np.array([variable.values is not None for variable in self.variables])
-        return SearchProblem(lower, upper, whole, lambda codes: evaluate(self.designs(codes)))
+        integer = np.array([variable.values is not None for variable in self.variables])
+        return SearchProblem(lower, upper, integer, lambda codes: evaluate(self.designs(codes)))
 
     def designs(self, codes: Array) -> Array:
         """Designs in SI, shape (design, variable)."""

@@ -44,10 +44,10 @@ def search_front(
     while algorithm.has_next():
         infills = algorithm.ask()
         designs = np.array(infills.get("X"), dtype=float)
-        designs = np.where(problem.whole, np.round(designs), designs)
+        designs = np.where(problem.integer, np.round(designs), designs)
         infills.set("X", designs)
         evaluation = history(designs)
-        _tell(algorithm, infills, evaluation, outline)
+        _advance(algorithm, infills, evaluation, outline)
         done += 1
         progress("designs", done, generations)
     return history.searched()
@@ -60,13 +60,13 @@ def _algorithm(
     core = _pymoo()
     from pymoo.algorithms.moo.nsga2 import NSGA2
 
-    outline = core.Problem(n_var=len(problem.whole), xl=problem.lower, xu=problem.upper)
+    outline = core.Problem(n_var=len(problem.integer), xl=problem.lower, xu=problem.upper)
     algorithm = NSGA2(pop_size=population)
     algorithm.setup(outline, termination=("n_gen", generations), seed=seed, verbose=False)
     return algorithm, outline
 
 
-def _tell(algorithm: Any, infills: Any, evaluation: Evaluation, outline: Any) -> None:
+def _advance(algorithm: Any, infills: Any, evaluation: Evaluation, outline: Any) -> None:
     """Hand the evaluation of a generation to the algorithm."""
     from pymoo.core.evaluator import Evaluator
     from pymoo.problems.static import StaticProblem

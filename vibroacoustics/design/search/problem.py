@@ -17,13 +17,13 @@ class SearchProblem:
     Attributes
     ----------
     lower, upper : bounds of the variables, shape (variable,)
-    whole : variables that take whole numbers only (choices by their number), shape (variable,)
+    integer : variables that take whole numbers only (choices by their number), shape (variable,)
     evaluate : evaluates a batch of designs
     """
 
     lower: Array
     upper: Array
-    whole: npt.NDArray[np.bool_]
+    integer: npt.NDArray[np.bool_]
     evaluate: Evaluate
 
 

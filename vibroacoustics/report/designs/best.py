@@ -13,12 +13,12 @@ _AT_END = 1e-3
 """Share of a variable's range, or of a limit, that counts as at it."""
 
 
-def best_tables(found: xr.Dataset, designs: Evaluated) -> Iterator[Table]:
+def best_tables(search: xr.Dataset, designs: Evaluated) -> Iterator[Table]:
     """Values of the best few, and what they reach as meant and as promised.
 
     Parameters
     ----------
-    found : dataset of a search
+    search : dataset of a search
     designs : the same as columns
     """
     head = ("Variable", *(f"{n}" for n in range(1, len(designs.best) + 1)))
@@ -33,18 +33,18 @@ def best_tables(found: xr.Dataset, designs: Evaluated) -> Iterator[Table]:
     yield Table(
         "What they reach, as meant and as promised, beside the machine without an option",
         ("Wanted", "", "without", *head[1:]),
-        tuple(row for number in range(found.sizes["wanted"]) for row in _reached(found, number)),
+        tuple(row for number in range(search.sizes["wanted"]) for row in _reached(search, number)),
         frozenset({0, 1}),
     )
 
 
-def _reached(found: xr.Dataset, number: int) -> Iterator[tuple[str, ...]]:
+def _reached(search: xr.Dataset, number: int) -> Iterator[tuple[str, ...]]:
     """A wanted value as meant and as promised."""
-    unit = str(found["wanted_unit"].values[number])
-    name = heading(str(found["wanted"].values[number]), unit)
-    before = shown(float(found["wanted_reference"].values[number]), unit)
+    unit = str(search["wanted_unit"].values[number])
+    name = heading(str(search["wanted"].values[number]), unit)
+    before = shown(float(search["wanted_reference"].values[number]), unit)
     for words, variable in (("as meant", "wanted_as_meant"), ("promised", "wanted_promised")):
-        values = found[variable].values[:, number]
+        values = search[variable].values[:, number]
         yield (name, words, before, *(shown(float(value), unit) for value in values))
 
 
@@ -60,9 +60,9 @@ def shown(value: float, unit: str) -> str:
     return rounding.fixed(value, 2) if unit.startswith("dB") else f"{value:.4g}"
 
 
-def limiting(found: xr.Dataset, designs: Evaluated) -> Iterator[str]:
+def limiting(search: xr.Dataset, designs: Evaluated) -> Iterator[str]:
     """What limits each of the best few: constraints that it just meets, ends of ranges."""
-    low, high = found["design_low"].values, found["design_high"].values
+    low, high = search["design_low"].values, search["design_high"].values
     for rank, row in enumerate(designs.best, 1):
         reasons = []
         for number, column in enumerate(designs.variables):
@@ -73,16 +73,16 @@ def limiting(found: xr.Dataset, designs: Evaluated) -> Iterator[str]:
                 reasons.append(f"{column.label} is the least allowed")
             elif high[number] - value < _AT_END * span:
                 reasons.append(f"{column.label} is the greatest allowed")
-        reasons += _met_just(found, int(row))
+        reasons += _met_just(search, int(row))
         yield f"Design {rank}: " + ("; ".join(reasons) or "nothing limits it") + "."
 
 
-def _met_just(found: xr.Dataset, row: int) -> Iterator[str]:
-    for number, role in enumerate(found["wanted_role"].values):
-        limit = float(found["wanted_limit"].values[number])
+def _met_just(search: xr.Dataset, row: int) -> Iterator[str]:
+    for number, role in enumerate(search["wanted_role"].values):
+        limit = float(search["wanted_limit"].values[number])
         if np.isnan(limit):
             continue
-        value = float(found["wanted_value"].values[row, number])
+        value = float(search["wanted_value"].values[row, number])
         if abs(value - limit) <= 10.0 * _AT_END * max(abs(limit), 1e-12):
-            unit = str(found["wanted_unit"].values[number])
-            yield f"{found['wanted'].values[number]} is just {role} {limit:g} {unit}".rstrip()
+            unit = str(search["wanted_unit"].values[number])
+            yield f"{search['wanted'].values[number]} is just {role} {limit:g} {unit}".rstrip()

@@ -10,31 +10,31 @@ from ...base.arrays import Array
 from ..tables import to_csv
 
 
-def designs_csv(found: xr.Dataset) -> bytes:
+def designs_csv(search: xr.Dataset) -> bytes:
     """A line a design: its values by dotted key, objectives and constraints, whether it is allowed.
 
     Parameters
     ----------
-    found : dataset of a search
+    search : dataset of a search
     """
-    keys = [str(key) for key in found["design_variable"].values]
+    keys = [str(key) for key in search["design_variable"].values]
     wanted = [
         f"{name} ({unit})" if unit else str(name)
-        for name, unit in zip(found["wanted"].values, found["wanted_unit"].values, strict=True)
+        for name, unit in zip(search["wanted"].values, search["wanted_unit"].values, strict=True)
     ]
     head = ("design", "generation", *keys, *wanted, "meets_constraints", "on_front")
-    return to_csv(head, _rows(found, keys))
+    return to_csv(head, _rows(search, keys))
 
 
-def _rows(found: xr.Dataset, keys: list[str]) -> Iterator[tuple[str | float, ...]]:
-    choices = json.loads(found.attrs["choices"])
+def _rows(search: xr.Dataset, keys: list[str]) -> Iterator[tuple[str | float, ...]]:
+    choices = json.loads(search.attrs["choices"])
     columns: list[list[str | float]] = []
-    for key, column in zip(keys, found["design_value"].values.T, strict=True):
+    for key, column in zip(keys, search["design_value"].values.T, strict=True):
         words = choices.get(key)
         columns.append([words[round(v)] for v in column] if words else _cells(column))
-    columns += [_cells(column) for column in found["wanted_value"].values.T]
-    counted = [found[name].values.tolist() for name in ("meets_constraints", "on_front")]
-    generation = found["search_generation"].values.tolist()
+    columns += [_cells(column) for column in search["wanted_value"].values.T]
+    counted = [search[name].values.tolist() for name in ("meets_constraints", "on_front")]
+    generation = search["search_generation"].values.tolist()
     yield from zip(np.arange(len(generation)).tolist(), generation, *columns, *counted, strict=True)
 
 

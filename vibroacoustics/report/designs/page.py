@@ -23,79 +23,79 @@ _PANELS: Final = 4
 ABOUT: Final = "Designs, what each objective costs the others, and what built pieces will keep."
 
 
-def designs_page(found: xr.Dataset) -> Page:
+def designs_page(search: xr.Dataset) -> Page:
     """The page of a search.
 
     Parameters
     ----------
-    found : dataset of a search of designs, with the study's parameters as attribute
+    search : dataset of a search of designs, with the study's parameters as attribute
     """
-    designs = evaluated(found)
-    study = parameters(found)
+    designs = evaluated(search)
+    study = parameters(search)
     parts = (
-        Part("best", "The best few", tuple(_best(found, designs))),
+        Part("best", "The best few", tuple(_best(search, designs))),
         Part("front", "Front", tuple(_front(designs))),
-        Part("deciding", "What decides", tuple(_deciding(found))),
-        Part("searched", "What was searched", tuple(_searched(found, designs))),
+        Part("deciding", "What decides", tuple(_deciding(search))),
+        Part("searched", "What was searched", tuple(_searched(search, designs))),
     )
     shown = tuple(part for part in parts if part.blocks)
     return Page(
         f"Designs: {study['title']}",
         study["machine"]["name"],
-        found.attrs["created_utc"],
+        search.attrs["created_utc"],
         shown,
         ABOUT,
     )
 
 
-def render_designs(found: xr.Dataset) -> dict[str, bytes]:
+def render_designs(search: xr.Dataset) -> dict[str, bytes]:
     """Files of the report of a search, by name."""
-    page = designs_page(found)
+    page = designs_page(search)
     return {
         "designs.html": html(page),
-        "designs.csv": designs_csv(found),
+        "designs.csv": designs_csv(search),
         **{file: picture.png for file, picture in page.pictures().items()},
     }
 
 
-def designs_text(found: xr.Dataset) -> str:
+def designs_text(search: xr.Dataset) -> str:
     """The best few for a terminal."""
-    designs = evaluated(found)
-    tables = [to_text(table, 60) for table in best_tables(found, designs)]
-    return "\n".join([*tables, *limiting(found, designs)])
+    designs = evaluated(search)
+    tables = [to_text(table, 60) for table in best_tables(search, designs)]
+    return "\n".join([*tables, *limiting(search, designs)])
 
 
-def _best(found: xr.Dataset, designs: Evaluated) -> list[Block]:
+def _best(search: xr.Dataset, designs: Evaluated) -> list[Block]:
     allowed = int(designs.met.sum())
     return [
-        Text(_headline(found, designs), "headline"),
-        *best_tables(found, designs),
-        Bullets(tuple(limiting(found, designs))),
+        Text(_headline(search, designs), "headline"),
+        *best_tables(search, designs),
+        Bullets(tuple(limiting(search, designs))),
         Text(
             f"{designs.count} designs were evaluated, {allowed} meet every constraint"
-            f"{_failed(found)}. As meant: a piece without tolerances. Promised: "
-            f"{found.attrs['promise_draws']} fresh pieces, not seen by the search; 95 % limits "
-            f"of the number of pieces alone: {_precision(found) or 'none, nothing scatters'}.",
+            f"{_failed(search)}. As meant: a piece without tolerances. Promised: "
+            f"{search.attrs['promise_draws']} fresh pieces, not seen by the search; 95 % limits "
+            f"of the number of pieces alone: {_precision(search) or 'none, nothing scatters'}.",
             "note",
         ),
     ]
 
 
-def _headline(found: xr.Dataset, designs: Evaluated) -> str:
+def _headline(search: xr.Dataset, designs: Evaluated) -> str:
     """What the first of the best few promises, beside the machine without an option."""
     reached = []
-    for number, column in _aims(found, designs):
-        promised = shown(float(found["wanted_promised"].values[0, number]), column.unit)
-        before = shown(float(found["wanted_reference"].values[number]), column.unit)
+    for number, column in _aims(search, designs):
+        promised = shown(float(search["wanted_promised"].values[0, number]), column.unit)
+        before = shown(float(search["wanted_reference"].values[number]), column.unit)
         reached.append(f"{column.label} {promised} {column.unit} (without an option {before})")
     return f"Design 1 promises {'; '.join(reached)}."
 
 
-def _precision(found: xr.Dataset) -> str:
+def _precision(search: xr.Dataset) -> str:
     """How far a promised value may be off for the number of draws, in decibels where it is one."""
-    low, value, high = (found[f"wanted_promised{end}"].values for end in ("_low", "", "_high"))
+    low, value, high = (search[f"wanted_promised{end}"].values for end in ("_low", "", "_high"))
     each = np.maximum(high - value, value - low).max(axis=0)
-    units, names = found["wanted_unit"].values, found["wanted"].values
+    units, names = search["wanted_unit"].values, search["wanted"].values
     return ", ".join(
         f"{name} ± {value:.2g} {unit}".rstrip()
         for name, unit, value in zip(names, units, each, strict=True)
@@ -103,15 +103,15 @@ def _precision(found: xr.Dataset) -> str:
     )
 
 
-def _aims(found: xr.Dataset, designs: Evaluated) -> list[tuple[int, Column]]:
+def _aims(search: xr.Dataset, designs: Evaluated) -> list[tuple[int, Column]]:
     """Numbers of the objectives among what is wanted, with their columns."""
-    roles = found["wanted_role"].values
+    roles = search["wanted_role"].values
     numbers = [n for n, role in enumerate(roles) if role in ("least", "greatest")]
     return list(zip(numbers, designs.objectives, strict=True))
 
 
-def _failed(found: xr.Dataset) -> str:
-    reasons = json.loads(found.attrs["failures"])
+def _failed(search: xr.Dataset) -> str:
+    reasons = json.loads(search.attrs["failures"])
     if not reasons:
         return ""
     count = sum(number for _, number in reasons)
@@ -140,14 +140,14 @@ def _front(designs: Evaluated) -> list[Block]:
     return [Pictures(pictures)]
 
 
-def _deciding(found: xr.Dataset) -> list[Block]:
-    variables = variables_of(found, "spread_value")
+def _deciding(search: xr.Dataset) -> list[Block]:
+    variables = variables_of(search, "spread_value")
     first, *others = [
         Pictures(tuple(_effects(variables, column, number)))
-        for number, column in enumerate(objectives_of(found, "spread_wanted"), 1)
+        for number, column in enumerate(objectives_of(search, "spread_wanted"), 1)
     ]
     more = [Details("Main effects of the other objectives", tuple(others))]
-    return [_shares(found), first, *(more if others else [])]
+    return [_shares(search), first, *(more if others else [])]
 
 
 def _effects(variables: Sequence[Column], objective: Column, number: int) -> Iterator[Picture]:
@@ -162,16 +162,16 @@ def _effects(variables: Sequence[Column], objective: Column, number: int) -> Ite
         )
 
 
-def _shares(found: xr.Dataset) -> Table:
+def _shares(search: xr.Dataset) -> Table:
     """Share of each variable in the variance of each wanted value, and how good the fit is."""
-    keys = [variable_label(str(key)) for key in found["design_variable"].values]
+    keys = [variable_label(str(key)) for key in search["design_variable"].values]
     rows = [
         (
-            str(found["wanted"].values[number]),
-            _ratio(float(found["design_share_quality"].values[number])),
-            *(_ratio(float(share)) for share in found["design_share"].values[number]),
+            str(search["wanted"].values[number]),
+            _ratio(float(search["design_share_quality"].values[number])),
+            *(_ratio(float(share)) for share in search["design_share"].values[number]),
         )
-        for number in range(found.sizes["wanted"])
+        for number in range(search.sizes["wanted"])
     ]
     return Table(
         "Share of each variable alone in the variance over the design space; below Q² = 0.5 the "
@@ -185,8 +185,8 @@ def _ratio(share: float) -> str:
     return f"{share:.2f}" if np.isfinite(share) else "–"
 
 
-def _searched(found: xr.Dataset, designs: Evaluated) -> Sequence[Block]:
-    low, high = found["design_low"].values, found["design_high"].values
+def _searched(search: xr.Dataset, designs: Evaluated) -> Sequence[Block]:
+    low, high = search["design_low"].values, search["design_high"].values
     rows = []
     for number, column in enumerate(designs.variables):
         allowed = ", ".join(column.words) or f"{low[number]:.4g} to {high[number]:.4g}"
@@ -200,11 +200,11 @@ def _searched(found: xr.Dataset, designs: Evaluated) -> Sequence[Block]:
         tuple(
             (str(name), str(label), str(unit), str(role), "" if np.isnan(limit) else f"{limit:g}")
             for name, label, unit, role, limit in zip(
-                found["wanted"].values,
-                *(found[f"wanted_{part}"].values for part in ("label", "unit", "role", "limit")),
+                search["wanted"].values,
+                *(search[f"wanted_{part}"].values for part in ("label", "unit", "role", "limit")),
                 strict=True,
             )
         ),
         frozenset({0, 1, 2, 3}),
     )
-    return [variables, wanted, Text(found.attrs["method"], "note")]
+    return [variables, wanted, Text(search.attrs["method"], "note")]

@@ -9,45 +9,45 @@ from ...base.units import split_key
 from .evaluated import Column, Evaluated
 
 
-def evaluated(found: xr.Dataset) -> Evaluated:
+def evaluated(search: xr.Dataset) -> Evaluated:
     """Columns of the variables, objectives and constraints.
 
     Parameters
     ----------
-    found : of a search of designs
+    search : of a search of designs
     """
     return Evaluated(
-        variables_of(found, "design_value"),
-        objectives_of(found, "wanted_value"),
-        found["meets_constraints"].values == 1,
-        found["on_front"].values == 1,
-        found["best_design"].values.astype(np.intp),
+        variables_of(search, "design_value"),
+        objectives_of(search, "wanted_value"),
+        search["meets_constraints"].values == 1,
+        search["on_front"].values == 1,
+        search["best_design"].values.astype(np.intp),
     )
 
 
-def variables_of(found: xr.Dataset, name: str) -> tuple[Column, ...]:
+def variables_of(search: xr.Dataset, name: str) -> tuple[Column, ...]:
     """Columns of the variables of the designs in a variable of the dataset."""
-    choices = json.loads(found.attrs["choices"])
+    choices = json.loads(search.attrs["choices"])
     return tuple(
         Column(
             variable_label(str(key)),
-            str(found["design_unit"].values[number]),
-            found[name].values[:, number],
+            str(search["design_unit"].values[number]),
+            search[name].values[:, number],
             tuple(map(str, choices.get(str(key), ()))),
         )
-        for number, key in enumerate(found["design_variable"].values)
+        for number, key in enumerate(search["design_variable"].values)
     )
 
 
-def objectives_of(found: xr.Dataset, name: str) -> tuple[Column, ...]:
+def objectives_of(search: xr.Dataset, name: str) -> tuple[Column, ...]:
     """Columns of the objectives of the designs in a variable of the dataset."""
     return tuple(
         Column(
-            str(found["wanted"].values[number]),
-            str(found["wanted_unit"].values[number]),
-            found[name].values[:, number],
+            str(search["wanted"].values[number]),
+            str(search["wanted_unit"].values[number]),
+            search[name].values[:, number],
         )
-        for number, role in enumerate(found["wanted_role"].values)
+        for number, role in enumerate(search["wanted_role"].values)
         if role in ("least", "greatest")
     )
 

@@ -83,20 +83,20 @@ def parallel_figure(designs: Evaluated) -> Figure:
 
     def paint(panels: Sequence[Axes]) -> None:
         (axes,) = panels
-        places = np.arange(len(columns))
-        axes.plot(scaled[:, front], -places, color=_BLUE, linewidth=0.6, alpha=0.45)
+        heights = np.arange(len(columns))
+        axes.plot(scaled[:, front], -heights, color=_BLUE, linewidth=0.6, alpha=0.45)
         for number, row in enumerate(designs.best, 1):
             axes.plot(
-                scaled[:, row], -places, color=_colour(number), linewidth=1.4, marker=".",
+                scaled[:, row], -heights, color=_colour(number), linewidth=1.4, marker=".",
                 label=f"design {number}",
             )  # fmt: skip
-        axes.set_yticks(-places, [wrap(shortened(column.heading, 60), 26) for column in columns])
-        for place, column in enumerate(columns):
+        axes.set_yticks(-heights, [wrap(shortened(column.heading, 60), 26) for column in columns])
+        for height, column in enumerate(columns):
             for share, end in ((0.0, "nanmin"), (1.0, "nanmax")):
                 value = float(getattr(np, end)(column.values[rows]))
                 words = column.words[round(value)] if column.words else f"{value:.3g}"
                 axes.annotate(
-                    plain(words), (share, -place), xytext=(0, -10), textcoords="offset points",
+                    plain(words), (share, -height), xytext=(0, -10), textcoords="offset points",
                     ha="left" if share == 0.0 else "right", fontsize=7.5, color="#555555",
                 )  # fmt: skip
         axes.set_xlim(-0.03, 1.03)
