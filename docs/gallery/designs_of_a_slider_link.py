@@ -16,14 +16,14 @@ from rough_radiation import rough_radiation
 import vibroacoustics as va
 
 study = va.load_study("studies/designs_slider_link.toml")
-found = va.optimise(study, radiation=rough_radiation)
+search = va.optimise(study, radiation=rough_radiation)
 
 # %%
 # Efficiency against force
 # ------------------------
 # A longer stroke and a wide clearance help the efficiency; the force grows with the stroke.
-values = found["wanted_value"].sel(wanted=["efficiency", "foot"])
-front = found["on_front"] == 1
+values = search["wanted_value"].sel(wanted=["efficiency", "foot"])
+front = search["on_front"] == 1
 figure, axes = plt.subplots(layout="constrained", figsize=(6.4, 4.0))
 axes.plot(*values.T, ".", color="0.75", label="designs")
 axes.plot(*values[front].sortby(values[front][:, 0]).T, "o-", label="front")
@@ -33,6 +33,6 @@ axes.legend()
 # %%
 # The designs of the front
 # ------------------------
-shown = found["design_value"][front].to_pandas()
+shown = search["design_value"][front].to_pandas()
 shown.columns = [key.rpartition(".")[2] for key in shown.columns]
 print(shown.join(values[front].to_pandas()).round(3).to_string())

@@ -7,11 +7,11 @@ import xarray as xr
 
 from ..base.arrays import Array, IndexArray
 from .evaluation import Evaluate
-from .search_dataset import searched_dataset, with_best, with_shares
 from .problem import Problem
 from .promise import promise
 from .search.chosen import best_by_one, best_of_front
 from .search.problem import Searched
+from .search_dataset import searched_dataset, with_best, with_shares
 
 SPREAD_DESIGNS: Final = 1024
 """Spread evenly, from which it is told what decides."""

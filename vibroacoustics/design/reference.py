@@ -13,8 +13,7 @@ from ..pipeline.study import run
 from ..radiation.given import Radiation
 from ..study.selection import at_speeds
 from ..study.study import Study
-from .engine.probe import probe
-from .engine.runs import seen_of_probe
+from .engine.runs import seen_of_run
 from .engine.seen import Need, Seen
 from .engine.sound_way import Ways
 
@@ -23,8 +22,7 @@ def reference_of(study: Study, needs: Sequence[Need], ways: Ways) -> Seen:
     """What is seen of the study as given without an option, shape (1, ...)."""
     speeds = study.operation.speed_rpm
     alone = at_speeds(study, speeds, {REFERENCE_OPTION: study.options[REFERENCE_OPTION]})
-    made = probe(alone, REFERENCE_OPTION, ways)
-    return seen_of_probe(needs, made, speeds, ways(alone))
+    return seen_of_run(alone, REFERENCE_OPTION, needs, ways)
 
 
 def remainder_of(study: Study, options: Sequence[str], radiation: Radiation) -> Array:

@@ -64,34 +64,42 @@ class CachedRuns:
         """From memory or disk; from the first run on only slow ones are worth a file."""
         way = self.ways(study)
         if not self._slow:
-            return self._seen(study, way)
+            return seen_of_run(study, self.option, self.needs, self.ways)
         material = _material(study, self.option, self.needs, way)
-        result, _ = storage.cached("design", material, lambda: self._timed(study, way))
+        result, _ = storage.cached("design", material, lambda: self._timed(study))
         self._slow = result.attrs["seconds"] >= SLOW_S
         return {need: result[str(number)].values for number, need in enumerate(self.needs)}
 
-    def _timed(self, study: Study, way: SoundWay) -> xr.Dataset:
+    def _timed(self, study: Study) -> xr.Dataset:
         begin = time.perf_counter()
-        seen = self._seen(study, way)
+        seen = seen_of_run(study, self.option, self.needs, self.ways)
         result = _dataset([seen[need] for need in self.needs])
         result.attrs["seconds"] = time.perf_counter() - begin
         return result
 
-    def _seen(self, study: Study, way: SoundWay) -> Seen:
-        made = probe(study, self.option, self.ways)
-        seen = seen_of_probe(self.needs, made, study.operation.speed_rpm, way)
-        criteria = [need for need in self.needs if need.what == "criterion"]
-        return seen | self._scored(study, criteria) if criteria else seen
 
-    def _scored(self, study: Study, criteria: Sequence[Need]) -> dict[Need, Array]:
-        """Values of criteria, of a run of the pipeline, shape (1,)."""
-        operation = study.operation.model_copy(update={"stopping": False, "turning_back": False})
-        plain = study.model_copy(update={"ranges": (), "operation": operation})
-        results = run(plain, no_progress, self.ways.radiation)
-        return {
-            need: CRITERIA[need.name]().value(results).sel(option=[self.option]).values
-            for need in criteria
-        }
+def seen_of_run(study: Study, option: str, needs: Sequence[Need], ways: Ways) -> Seen:
+    """What is seen of one design with an option, shape (1, ...).
+
+    Raises
+    ------
+    ParameterError, SolverError
+        It cannot be built, or not run.
+    """
+    made = probe(study, option, ways)
+    seen = seen_of_probe(needs, made, study.operation.speed_rpm, ways(study))
+    criteria = [need for need in needs if need.what == "criterion"]
+    return seen | _scored(study, option, criteria, ways) if criteria else seen
+
+
+def _scored(study: Study, option: str, criteria: Sequence[Need], ways: Ways) -> dict[Need, Array]:
+    """Values of criteria, of a run of the pipeline, shape (1,)."""
+    operation = study.operation.model_copy(update={"stopping": False, "turning_back": False})
+    plain = study.model_copy(update={"ranges": (), "operation": operation})
+    results = run(plain, no_progress, ways.radiation)
+    return {
+        need: CRITERIA[need.name]().value(results).sel(option=[option]).values for need in criteria
+    }
 
 
 def _material(study: Study, option: str, needs: Sequence[Need], way: SoundWay) -> dict[str, Any]:

@@ -8,8 +8,9 @@ from ...base.arrays import Array
 from ...base.errors import ParameterError
 from .machine import JournalBearing, ThrustBearing
 
-HALVINGS: Final = 60
-"""Halvings of the eccentricity's interval, down to the rounding of a double."""
+MOST_STEPS: Final = 60
+"""As many halvings come down to the rounding of a double; Newton's steps are about seven."""
+ROUNDING: Final = 4.0 * np.finfo(float).eps
 
 
 def short_bearing_friction(eccentricity_ratio: Array, length_per_diameter: float) -> Array:
@@ -36,23 +37,36 @@ def short_bearing_friction(eccentricity_ratio: Array, length_per_diameter: float
 def eccentricity_ratio(load_coefficient: Array, length_per_diameter: float) -> Array:
     """Eccentricity ratio at which a short bearing carries a load.
 
-    The load times (1 - ε²)² is a bounded, rising function of ε, solved by bisection.
+    The load times (1 - ε²)² is a bounded, rising function of ε: Newton's steps, halved intervals
+    where one would leave what is known to hold the root.
 
     Parameters
     ----------
     load_coefficient : Φ_p (22), at least zero
     length_per_diameter : l/d
     """
-
     low, high = np.zeros_like(load_coefficient), np.ones_like(load_coefficient)
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        square = middle * middle
-        root = np.sqrt(np.pi**2 + (16.0 - np.pi**2) * square)
-        carried = 0.5 * length_per_diameter**2 * middle * root
-        below = carried < load_coefficient * (1.0 - square) ** 2
-        low, high = np.where(below, middle, low), np.where(below, high, middle)
-    return np.asarray(np.minimum(low, np.nextafter(1.0, 0.0)))
+    ratio = 0.5 * high
+    for _ in range(MOST_STEPS):
+        excess, slope = _excess(ratio, load_coefficient, length_per_diameter)
+        low, high = np.where(excess < 0.0, ratio, low), np.where(excess < 0.0, high, ratio)
+        step = ratio - excess / slope
+        before, ratio = ratio, np.where((low <= step) & (step <= high), step, 0.5 * (low + high))
+        if np.all(np.abs(ratio - before) <= ROUNDING * ratio):
+            break
+    return np.asarray(np.minimum(ratio, np.nextafter(1.0, 0.0)))
+
+
+def _excess(
+    ratio: Array, load_coefficient: Array, length_per_diameter: float
+) -> tuple[Array, Array]:
+    """Load that a bearing carries beyond the given one, times (1 - ε²)², and its slope over ε."""
+    square = ratio * ratio
+    growth, half = 16.0 - np.pi**2, 0.5 * length_per_diameter**2
+    root = np.sqrt(np.pi**2 + growth * square)
+    excess = half * ratio * root - load_coefficient * (1.0 - square) ** 2
+    slope = half * (root + growth * square / root) + 4.0 * load_coefficient * ratio * (1.0 - square)
+    return excess, slope
 
 
 def journal_friction_moment(
