@@ -21,12 +21,12 @@ print(
 )
 
 # %%
-# On the command line this is ``vibroacoustics orders FILE …``:
+# On the command line this is ``vibroacoustics orders FILE …``; the first second is enough here.
 folder = tempfile.TemporaryDirectory()
 command = [sys.executable, "-m", "vibroacoustics", "orders"]
 command += ["../../data/recordings/electric_motor_vibration.uff", "--sample-rate", "51200"]
 command += ["--tacholess", "60000", "80000", "--orders", "1,2,4,6,8", "--maximum-order", "9"]
-command += ["--resolution", "0.25", "--map", "--out", folder.name]
+command += ["--resolution", "0.25", "--map", "--to", "1", "--out", folder.name]
 done = subprocess.run(command, capture_output=True, text=True, check=True)
 print("\n".join(done.stdout.splitlines()[:-1]))
 

@@ -72,7 +72,9 @@ def test_sections_are_in_their_order() -> None:
     assert [name for name in SECTIONS if name not in SECTIONS.origins()] == BUILT_IN
 
 
-@pytest.mark.parametrize("name", sorted({*BUILT_IN} - {"stopping", "baseline", "paths", "shell-test"}))
+@pytest.mark.parametrize(
+    "name", sorted({*BUILT_IN} - {"stopping", "baseline", "paths", "shell-test"})
+)
 def test_every_section_is_html_and_markdown(name: str, results: xr.Dataset) -> None:
     section = SECTIONS[name]
     assert section.applies(results)

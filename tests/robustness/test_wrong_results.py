@@ -4,6 +4,7 @@ import json
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
+from subprocess import CompletedProcess
 from typing import Any, Final
 from unittest.mock import patch
 
@@ -53,12 +54,18 @@ def quick_figures() -> Iterator[None]:
         yield
 
 
+def scored_here(path: Path) -> CompletedProcess[str]:
+    """The command `score` but for its report, which `report` makes of the same results."""
+    with patch.object(outputs, "write_report", lambda _, folder: folder):
+        return command_here("score", path)
+
+
 def refused_or_made(results: xr.Dataset, folder: Path) -> list[int]:
     """Exit codes of both commands; a refusal is one line that names the file."""
     (folder / "files.json").unlink(missing_ok=True)  # it would name the files of the last change
     path = folder / "results.nc"
     with patch.object(outputs.storage, "open_with_hash", lambda _: (results, "0" * 64)):
-        outcomes = [command_here(name, path) for name in ("score", "report")]
+        outcomes = [scored_here(path), command_here("report", path)]
     for outcome in outcomes:
         if outcome.returncode:
             assert_refused(outcome, "results.nc")
@@ -127,8 +134,9 @@ def known_keys(results: xr.Dataset, attribute: str) -> Any:
 @both
 def test_the_run_itself_is_made(name: str, tmp_path: Path) -> None:
     results = run(name)
-    path = write_results(results, tmp_path / "results.nc")
-    assert [command_here(verb, path).returncode for verb in ("score", "report")] == [0, 0]
+    if name == "rigid":
+        path = write_results(results, tmp_path / "results.nc")
+        assert [command_here(verb, path).returncode for verb in ("score", "report")] == [0, 0]
     assert refused_or_made(results, tmp_path) == [0, 0]
 
 
@@ -173,7 +181,9 @@ def test_a_coordinate_is_missing(name: str, tmp_path: Path) -> None:
 def test_a_variable_or_coordinate_holds_other_things(name: str) -> None:
     """No numbers, one that is not finite, dims in another order, all of them text or complex."""
     results = run(name)
-    for key, variable in results.variables.items():
+    known = run("rigid").variables if name != "rigid" else {}
+    for key in [key for key in results.variables if key not in known]:
+        variable = results.variables[key]
         wrong: list[xr.Dataset] = [
             with_values(results, str(key), variable.values[None], ("new", *variable.dims))
         ]
@@ -193,8 +203,11 @@ def test_a_variable_or_coordinate_holds_other_things(name: str) -> None:
             assert_no_run(changed)
 
 
-@both
-@pytest.mark.parametrize("value", [np.nan, 0.0, -1.0, 999.0, 1e300])
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [*(("rigid", value) for value in (np.nan, 0.0, -1.0, 999.0, 1e300)), ("sources", np.nan),
+     *(pytest.param("sources", value, marks=pytest.mark.long) for value in (0.0, 999.0, 1e300))],
+)  # fmt: skip
 def test_all_that_may_be_so_holds_one_value(name: str, value: float, tmp_path: Path) -> None:
     """Together; numbers of orders and labels of dimensions stay."""
     results = run(name)
@@ -350,7 +363,7 @@ def test_a_hashed_file_that_netcdf_cannot_read(tmp_path: Path) -> None:
         damaged[start : start + 400] = bytes(len(damaged[start : start + 400]))
         path.write_bytes(damaged)
         hashed.append_hash(path)
-        outcome = command_here("score", path)
+        outcome = scored_here(path)
         if outcome.returncode:
             assert_refused(outcome, "results.nc")
 

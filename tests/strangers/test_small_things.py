@@ -41,7 +41,7 @@ def installed(tmp_path_factory) -> Path:
     return folder
 
 
-@pytest.fixture(params=["by file", "installed"])
+@pytest.fixture(params=["installed", pytest.param("by file", marks=pytest.mark.long)])
 def stranger(request, installed, tmp_path):
     """The command line with the strangers' things."""
 

@@ -51,6 +51,11 @@ class Space:
         design = study.design
         if design is None:
             raise ParameterError(f"{study.source_file}: design: is missing; name what varies")
+        if study.measured is not None and study.measured.sound is not None:
+            raise ParameterError(
+                f"{study.source_file}: design: measured.sound holds for the machine that was hit; "
+                "designs are computed with transfer vectors alone"
+            )
         for name in design.option:
             if name not in study.options:
                 raise ParameterError(

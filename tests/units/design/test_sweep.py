@@ -129,6 +129,9 @@ machine.balance_quality.lower_angle_deg = { range = [0, 360] }
     problem = Problem(study_with(text + scatter), made_up_radiation)
     draws = problem.draws(2)
     pieces = problem.by_draw(problem.space.grid()[1:2], draws)[0]
+    bare = run(problem.study.model_copy(update={"ranges": ()}), radiation=made_up_radiation)
+    without = float(bare.sel(option="none")["moment_amplitude"].sel(order=1).max())
+    assert problem.without_option()[1] == pytest.approx(without, rel=1e-9)
     for row, (used, angle) in enumerate(draws):
         study = problem.study.replace(
             {"options.weight.mass_g": 10, "options.weight.angle_deg": 90.0,
@@ -209,6 +212,17 @@ def test_variables_are_refused_in_one_line(tmp_path, table, words):
 def test_other_tables_are_refused_in_one_line(tmp_path, table, words):
     text = design_table('"weight"', VARIABLES)
     assert_refused(_sweep(tmp_path, f"{text}\n{table}"), "study.toml", "design.", *words)
+
+
+def test_measured_sound_is_refused(tmp_path):
+    table = """
+[measured.sound]
+frequency_responses = ["hammer.uff"]
+points.down = { node = 1, direction = "+z", foot = "left_front" }
+microphones.front_1m = { node = 101 }
+"""
+    text = design_table('"weight"', VARIABLES) + table
+    assert_refused(_sweep(tmp_path, text), "study.toml: design: measured.sound")
 
 
 def test_too_many_designs_are_refused_before_they_start(tmp_path):
