@@ -4,8 +4,8 @@ Designs: a counterweight or a sprung mass, and which mounts
 
 Which balancer, how heavy, tuned to what, on which mounts? The table ``design`` of a study says what
 may vary, what is wanted and how far pieces scatter; :func:`vibroacoustics.optimise` looks for the
-front, on the command line ``vibroacoustics optimise designs.toml``; ``vibroacoustics sweep`` computes
-a grid or a sample of the same table instead. All keys: :doc:`/designs`.
+front, on the command line ``vibroacoustics optimise designs.toml``; ``vibroacoustics sweep`` takes
+a grid or a sample of the same table. All keys: :doc:`/designs`.
 
 .. literalinclude:: /gallery/studies/designs.toml
    :language: toml
