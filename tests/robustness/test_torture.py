@@ -28,10 +28,8 @@ def test_of_storage() -> None:
     assert all(row[1:] == [str(TRIES), "0", "0", "0", "0"] for row in rows), outcome.stdout
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "name", ["signal_a_command", pytest.param("kill_a_command", marks=pytest.mark.long)]
-)
+@pytest.mark.long
+@pytest.mark.parametrize("name", ["kill_a_command", "signal_a_command"])
 def test_of_a_command(name: str) -> None:
     import commands_torture
     import torture
