@@ -16,7 +16,7 @@ from support import assert_refused, command_here, tiny_run
 from test_report_browser import _browser_paths
 
 from vibroacoustics.commands import printing
-from vibroacoustics.commands.outputs import with_pdf, write_report, write_report_again
+from vibroacoustics.commands.outputs import with_pdf, write_report
 from vibroacoustics.report.blocks import Beside, Block, Details, Lights, Text
 from vibroacoustics.report.html import html
 from vibroacoustics.report.page import Page, Part, page_of
@@ -94,27 +94,42 @@ def test_every_page_has_a_pdf_of_its_name() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("paper", [pytest.param("letter", marks=pytest.mark.long), "a4"])
-def test_every_table_is_in_the_pdf(paper: str, results: xr.Dataset, tmp_path: Path) -> None:
-    write_report(results, tmp_path)
-    write_report_again(
-        tmp_path / "results.nc", tmp_path, printing.Printer(_browser_paths()[0], paper)
-    )
-    reader = PdfReader(BytesIO((tmp_path / "report.pdf").read_bytes()))
-    size = reader.pages[0].mediabox
-    assert (round(size.width), round(size.height)) == SIZES[paper]
-    pages = [page.extract_text() for page in reader.pages]
-    text = _squeezed("".join(re.sub(r"^\d+ / \d+$", "", page, flags=re.M) for page in pages))
-    parts = page_of(results).parts
-    wanted = [_squeezed(cell) for part in parts for row in _rows(part.blocks) for cell in row]
+def test_every_table_is_in_the_pdf(results: xr.Dataset) -> None:
+    page = page_of(results)
+    reader = _read(printing.Printer(_browser_paths()[0], "a4").printed(html(page)))
+    assert _size(reader) == SIZES["a4"]
+    pages = [sheet.extract_text() for sheet in reader.pages]
+    text = _squeezed("".join(re.sub(r"^\d+ / \d+$", "", sheet, flags=re.M) for sheet in pages))
+    wanted = [_squeezed(cell) for part in page.parts for row in _rows(part.blocks) for cell in row]
     assert len(wanted) > 500
     assert [cell for cell in wanted if cell not in text] == []
-    for number, page in enumerate(pages, 1):
-        assert f"{number} / {len(pages)}" in page
-    for part in parts:
+    for number, sheet in enumerate(pages, 1):
+        assert f"{number} / {len(pages)}" in sheet
+    for part in page.parts:
         assert _squeezed(part.title) in text
     for name in ("front_1m", "side_1m", "rear_1m"):
         assert _squeezed(f"2900 rpm (1× at 48.3 Hz), microphone {name}") in text
+
+
+@pytest.mark.long
+def test_the_command_prints_on_letter(results: xr.Dataset, tmp_path: Path) -> None:
+    write_report(results, tmp_path)
+    file = tmp_path / "results.nc"
+    outcome = command_here("report", file, "--pdf", "--paper", "letter")
+    assert outcome.returncode == 0, outcome.stderr
+    assert outcome.stdout.splitlines()[1] == f"pdf: {tmp_path / 'report.pdf'}"
+    assert outcome.stderr == ""
+    assert _size(_read((tmp_path / "report.pdf").read_bytes())) == SIZES["letter"]
+
+
+def _read(pdf: bytes) -> PdfReader:
+    return PdfReader(BytesIO(pdf))
+
+
+def _size(reader: PdfReader) -> tuple[int, int]:
+    """Of the first page, points."""
+    sheet = reader.pages[0].mediabox
+    return round(sheet.width), round(sheet.height)
 
 
 def _squeezed(text: str) -> str:

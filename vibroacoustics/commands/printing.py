@@ -67,7 +67,11 @@ class Printer(NamedTuple):
         ]
         try:
             done = subprocess.run(  # noqa: S603 - a browser by its name, and files of ours
-                command, capture_output=True, timeout=_LONGEST_S, stdin=subprocess.DEVNULL
+                command,
+                capture_output=True,
+                timeout=_LONGEST_S,
+                stdin=subprocess.DEVNULL,
+                check=False,  # browsers give 0 whatever happens; the file tells
             )
         except subprocess.TimeoutExpired:
             return f" within {_LONGEST_S:g} s"

@@ -115,6 +115,7 @@ class Lights:
     head : what the columns are, the options first
     rows : the options
     note : how to read it
+    block : kind of block
     """
 
     caption: str

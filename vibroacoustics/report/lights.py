@@ -89,6 +89,6 @@ def _note(results: xr.Dataset) -> str:
     return (
         f"Numbers and bars: {over}; bars end at ±100 % and ±20 dB. Grey: less than "
         f"{100.0 * least.force_ratio:g} % or {least.level_db:g} dB, which could not be measured. "
-        "Mixed: better at a speed or microphone, worse at another. Not sure: beyond grey in some draws, but "
-        f"not in more than {100.0 * least.draws_ratio:g} % of them."
+        "Mixed: better at a speed or microphone, worse at another. Not sure: beyond grey in some "
+        f"draws, but not in more than {100.0 * least.draws_ratio:g} % of them."
     )

@@ -40,7 +40,7 @@ def outline(shell: Mapping[str, Any], body: Mapping[str, Any]) -> Outline:
     if kind == "sphere":
         radius = body["diameter_m"] / 2.0
         circle = radius * _circle()
-        return Outline(circle + [0.0, bottom + radius], circle, floor)
+        return Outline(circle + np.array([0.0, bottom + radius]), circle, floor)
     radius = shell["outer_diameter_m"] / 2.0
     return Outline(_cylinder(shell, radius, bottom), radius * _circle(), floor)
 

@@ -37,7 +37,7 @@ def words(at: Sequence[float], text: str, anchor: str = "start", **looks: Any) -
     return f"<text {where}{_looks(looks)}>{escape(text)}</text>"
 
 
-def disc(at: Sequence[float], radius: float, **looks: Any) -> str:
+def disc(at: Sequence[float] | Array, radius: float, **looks: Any) -> str:
     """A circle about a point."""
     return f'<circle cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="{radius:g}"{_looks(looks)}/>'
 

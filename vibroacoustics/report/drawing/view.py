@@ -9,7 +9,7 @@ from ...base.arrays import Array, ComplexArray
 from . import svg
 from .loads import turn
 
-_NICE: Final = np.array([digit * 10.0**power for power in range(-6, 7) for digit in (1, 2, 5)])
+_NICE: Final = np.outer(np.logspace(-6, 6, 13), [1, 2, 5]).ravel()
 _FLAT: Final = 0.03
 """Ellipses with a smaller ratio of their axes are drawn as a line with two heads."""
 

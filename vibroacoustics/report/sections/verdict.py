@@ -30,13 +30,12 @@ def coarse_words(results: xr.Dataset) -> list[Block]:
 
 def _drawing_and_chart(results: xr.Dataset) -> list[Block]:
     picture, chart = machine_picture(results), lights(results)
-    drawing = [Pictures((picture,))] if picture else []
     if chart is None:
-        return [*drawing]
+        return [Pictures((picture,))] if picture else []
     ranking = Text(ranking_sentence(results, option_verdicts(results)))
     if picture is None:
         return [chart, ranking]
-    return [Beside(*drawing, chart), ranking]
+    return [Beside(Pictures((picture,)), chart), ranking]
 
 
 register(Section("verdict", "Verdict", _blocks, position=10.0, folded=False))
