@@ -1,5 +1,6 @@
 """The drawing and the chart that open the report."""
 
+import json
 import re
 from collections.abc import Sequence
 
@@ -9,6 +10,7 @@ import xarray as xr
 from support import tiny_run
 from test_report import make_results
 
+from vibroacoustics.base.errors import SchemaError
 from vibroacoustics.report.blocks import Beside, Lights
 from vibroacoustics.report.drawing import machine_picture
 from vibroacoustics.report.drawing.loads import loads, turn
@@ -18,6 +20,7 @@ from vibroacoustics.report.lights import light, lights
 from vibroacoustics.report.quantities import FORCE, LINE
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.shifts import Shift
+from vibroacoustics.results.complete import check_run
 from vibroacoustics.study.scoring import Measurable
 
 SHELL = {
@@ -156,3 +159,34 @@ def test_drawing_is_light_and_loads_nothing(results: xr.Dataset) -> None:
     for scale in (" mm<", " N<", " N foot<"):
         assert scale in text
     assert "nan" not in text
+
+
+@pytest.mark.parametrize(
+    ("table", "broken"),
+    [
+        ("machine", {"shell": {**SHELL, "height_m": "tall"}}),
+        ("machine", {"mounts": {"pitch_m": None}}),
+        ("machine", {"feet": {"foot_1": {"x_m": 0.1}}}),
+        ("radiation", {"body": {"kind": "box", "length_m": 0.1}}),
+        ("radiation", {"surroundings": {"walls": {"top": {"distance_m": 1.0}}}}),
+    ],
+)
+def test_results_with_a_broken_geometry_are_refused(
+    results: xr.Dataset, table: str, broken: dict[str, object]
+) -> None:
+    parameters = json.loads(results.attrs["parameters"])
+    parameters[table] |= broken
+    attrs = {**results.attrs, "parameters": json.dumps(parameters)}
+    attrs.pop("parameters_sha256")
+    changed = results.copy()
+    changed.attrs = attrs
+    with pytest.raises(SchemaError, match=next(iter(broken))):
+        check_run(changed)
+
+
+def test_older_results_have_no_drawing_and_the_chart_alone(results: xr.Dataset) -> None:
+    older = results.drop_vars("foot_force_order")
+    assert machine_picture(older) is None
+    blocks = SECTIONS["verdict"].blocks(older)
+    assert not any(isinstance(block, Beside) for block in blocks)
+    assert any(isinstance(block, Lights) for block in blocks)

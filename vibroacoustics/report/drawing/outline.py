@@ -46,13 +46,18 @@ def outline(shell: Mapping[str, Any], body: Mapping[str, Any]) -> Outline:
 
 
 def feet_m(machine: Mapping[str, Any]) -> Array:
-    """Feet (x, y, z) from the centre of mass, shape (foot, 3); four in a square if not given."""
+    """Feet (x, y, z) from the centre of mass, shape (foot, 3); four in a square if not given.
+
+    None in files of older versions, which hold no mounts.
+    """
     under = -machine["shell"]["centre_of_mass_height_m"]
     feet = machine.get("feet")
     if feet:
         given = [foot for _, foot in sorted(feet.items()) if foot is not None]
         heights = [under if foot.get("height_m") is None else foot["height_m"] for foot in given]
         return np.array([(f["x_m"], f["y_m"], z) for f, z in zip(given, heights, strict=True)])
+    if not machine.get("mounts"):
+        return np.empty((0, 3))
     half = machine["mounts"]["pitch_m"] / 2.0
     return np.array([(x, y, under) for x in (half, -half) for y in (half, -half)])
 

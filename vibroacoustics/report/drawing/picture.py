@@ -28,11 +28,13 @@ LONGEST_FOOT_FORCE: Final = 26.0
 def machine_picture(results: xr.Dataset) -> Picture | None:
     """Machine, feet, forces at 1× without a balancer, and microphones; None in older files."""
     machine, acting = parameters(results)["machine"], loads(results)
-    if acting is None or "shell" not in machine:
+    if acting is None or not machine.get("shell"):
         return None
-    body = parameters(results)["radiation"].get("body", {})
+    body = parameters(results)["radiation"].get("body") or {}
     lines = outline(machine["shell"], body)
     feet = feet_m(machine)
+    if len(feet) != len(acting.foot_force_n):
+        return None
     receivers = _receivers_m(results, lines.floor_z_m)
     parts = [*_side(lines, feet, acting), *_above(lines, feet, receivers, _walls_m(results))]
     return Picture(
