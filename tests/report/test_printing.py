@@ -11,6 +11,8 @@ from unicodedata import normalize
 
 import pytest
 import xarray as xr
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 from pypdf import PdfReader
 from support import assert_refused, command_here, tiny_run
 from test_report_browser import _browser_paths
@@ -18,6 +20,7 @@ from test_report_browser import _browser_paths
 from vibroacoustics.commands import printing
 from vibroacoustics.commands.outputs import with_pdf, write_report
 from vibroacoustics.report.blocks import Beside, Block, Details, Lights, Text
+from vibroacoustics.report.figures import style
 from vibroacoustics.report.html import html
 from vibroacoustics.report.page import Page, Part, page_of
 from vibroacoustics.report.paper import for_paper
@@ -33,6 +36,18 @@ SIZES = {"a4": (595, 842), "letter": (612, 792)}
 @pytest.fixture(scope="module")
 def results() -> xr.Dataset:
     return tiny_run(options=MICROPHONES)
+
+
+@pytest.fixture
+def blank_figures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Figures of their size without curves, which take longer to draw than to print."""
+
+    def blank(width_inch: float, height_inch: float, paint: object) -> Figure:
+        figure = style.Drawing(figsize=(width_inch, height_inch), dpi=style.DOTS_PER_INCH)
+        FigureCanvasAgg(figure)
+        return figure
+
+    monkeypatch.setattr(style, "render", blank)
 
 
 def folded_page() -> bytes:
@@ -94,6 +109,7 @@ def test_every_page_has_a_pdf_of_its_name() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("blank_figures")
 def test_every_table_is_in_the_pdf(results: xr.Dataset) -> None:
     page = page_of(results)
     reader = _read(printing.Printer(_browser_paths()[0], "a4").printed(html(page)))
