@@ -18,6 +18,7 @@ pytestmark = pytest.mark.slow
 
 HEADINGS = (
     "Verdict",
+    "Reasons, and each option in words",
     "Comparison",
     "Orders",
     "Force over a revolution",
@@ -85,6 +86,7 @@ def test_nothing_is_logged(opened: Chrome) -> None:
 def test_the_page_does_not_scroll_sideways(opened: Chrome) -> None:
     for details in opened.find_elements(By.TAG_NAME, "summary"):
         details.click()
+    assert not opened.find_elements(By.CSS_SELECTOR, "details:not([open])")
     width, window = opened.execute_script(
         "return [document.documentElement.scrollWidth, window.innerWidth]"
     )
@@ -104,8 +106,27 @@ def test_every_section_has_its_heading(opened: Chrome) -> None:
     assert len(opened.find_elements(By.TAG_NAME, "h1")) == 1
 
 
+def test_first_screen_shows_every_option_and_folds_the_rest(opened: Chrome) -> None:
+    rows = opened.find_elements(By.CSS_SELECTOR, "#verdict .lights tbody tr")
+    assert len(rows) == 2
+    assert all(row.is_displayed() for row in rows)
+    assert "+80" in rows[0].text
+    bottom = opened.execute_script(
+        "return arguments[0].getBoundingClientRect().bottom + window.scrollY", rows[-1]
+    )
+    assert bottom < 1200.0
+    shown = [part.is_displayed() for part in opened.find_elements(By.CSS_SELECTOR, ".part > div")]
+    assert shown == [False] * (len(HEADINGS) - 1)
+
+
+def test_a_link_opens_its_section(opened: Chrome) -> None:
+    opened.get(f"{opened.current_url.partition('#')[0]}#assumptions")
+    assert opened.find_element(By.ID, "assumptions").is_displayed()
+
+
 def test_other_microphones_open_on_click(opened: Chrome) -> None:
-    details = opened.find_element(By.TAG_NAME, "details")
+    _open(opened, "comparison")
+    details = opened.find_element(By.CSS_SELECTOR, "#comparison details")
     assert not details.find_element(By.TAG_NAME, "table").is_displayed()
     details.find_element(By.TAG_NAME, "summary").click()
     assert details.find_element(By.TAG_NAME, "table").is_displayed()
@@ -119,7 +140,15 @@ def test_all_text_can_be_read(opened: Chrome) -> None:
     assert smallest >= 12.0
 
 
+def _open(browser: Chrome, section: str) -> None:
+    """Unfold a section."""
+    browser.execute_script(
+        "document.getElementById(arguments[0]).closest('details').open = true", section
+    )
+
+
 def test_the_name_of_a_row_stays_in_view(opened: Chrome) -> None:
+    _open(opened, "comparison")
     cell = opened.find_element(By.CSS_SELECTOR, "#comparison tbody th")
     scroll = opened.find_element(By.CSS_SELECTOR, "#comparison .scroll")
     opened.execute_script("arguments[0].scrollLeft = 200", scroll)

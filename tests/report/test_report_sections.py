@@ -20,6 +20,7 @@ from vibroacoustics.report.study import few_speeds, few_speeds_words, speeds
 from vibroacoustics.report.tables import Table
 
 PNG = b"\x89PNG and so on"
+LIGHT = blocks.Light("not sure", "−7 to 0", (-0.07, 0.0), 0.05)
 EVERY_BLOCK = (
     blocks.Text("see there", "note", (("there", "scores"),)),
     blocks.Text("It is loud.", "headline"),
@@ -27,12 +28,21 @@ EVERY_BLOCK = (
     blocks.Bullets(("first", "a|b")),
     blocks.Definitions((blocks.Definition("term", "no change", "words"),)),
     Table("Caption µ", ("Option", "N"), (("none", "1"),)),
+    blocks.Beside(
+        blocks.Text("narrow"),
+        blocks.Lights(
+            "Chart",
+            ("Option", "1× force, %"),
+            (blocks.LightRow("half", "mixed", (LIGHT,)),),
+            "Read.",
+        ),
+    ),
     blocks.Details("Fold", (blocks.Pictures((Picture("one", "alt", "caption", PNG),)),)),
 )
 BUILT_IN = [
-    "verdict", "comparison", "baseline", "sources", "paths", "shell-test", "unknowns", "orders",
-    "forces", "mounts", "radiation", "stopping", "scores", "evidence", "assumptions", "errata",
-    "provenance",
+    "verdict", "reasons", "comparison", "baseline", "sources", "paths", "shell-test", "unknowns",
+    "orders", "forces", "mounts", "radiation", "stopping", "scores", "evidence", "assumptions",
+    "errata", "provenance",
 ]  # fmt: skip
 
 
@@ -59,6 +69,10 @@ def test_every_block_is_in_both_forms() -> None:
     assert "- a\\|b" in in_markdown
     assert "![alt](figures/one.png)" in in_markdown
     assert "| none | 1 |" in in_markdown
+    assert "| half: mixed | not sure (−7 to 0) |" in in_markdown
+    assert re.search(r'<div class="beside"><div>\s*<p>narrow</p>', in_html)
+    assert 'aria-label="not sure"' in in_html
+    assert 'class="bar not-sure"' in in_html
     assert page.pictures()["figures/one.png"].png == PNG
 
 
@@ -88,12 +102,21 @@ def test_every_section_is_html_and_markdown(name: str, results: xr.Dataset) -> N
     assert captions or "<img " in in_html
 
 
-def test_contents_lead_to_every_other_section(results: xr.Dataset) -> None:
-    page = render(results)["report.html"].decode()
-    contents = re.search(r"<nav.*?</nav>", page, re.DOTALL)
+def test_contents_lead_to_every_other_section() -> None:
+    parts = tuple(Part(name, name.upper(), EVERY_BLOCK) for name in ("one", "two", "three"))
+    contents = re.search(r"<nav.*?</nav>", html(Page("T", "M", "now", parts)).decode(), re.DOTALL)
     assert contents is not None
-    ids = re.findall(r'<section id="(.*?)">', page)
-    assert re.findall(r'href="#(.*?)"', contents[0]) == ids[1:]
+    assert re.findall(r'href="#(.*?)"', contents[0]) == ["two", "three"]
+
+
+def test_folded_sections_are_the_contents_and_links_lead_into_them(results: xr.Dataset) -> None:
+    page = render(results)["report.html"].decode()
+    assert "<nav" not in page
+    folded = re.findall(
+        r'<details class="part"><summary><h2>.*?</h2></summary>\s*<div id="(.*?)">', page
+    )
+    assert len(folded) == len(re.findall("<h2>", page)) - 1
+    assert set(re.findall(r'href="#([a-z_]*?)">', page)) <= {"verdict", *folded}
 
 
 def test_names_and_units_of_the_columns() -> None:

@@ -23,7 +23,7 @@ from . import (
     schema_commands,
     score_commands,
 )
-from .options import NoCache, Plugins, load_plugins, used_cache
+from .options import NoCache, Paper, Pdf, Plugins, load_plugins, used_cache
 from .progress import progress_on_stderr
 
 if TYPE_CHECKING:
@@ -117,13 +117,20 @@ def report_command(
         Path | None, typer.Option("--out", help="Folder of the report; default: that of the file.")
     ] = None,
     plugin: Plugins = None,
+    pdf: Pdf = False,
+    paper: Paper = None,
 ) -> None:
-    """Write the report of results again, without computing anything."""
+    """Write the report of results again, without computing anything; as PDF, too."""
     from . import outputs
+    from .printing import printer
 
     load_plugins(plugin)
+    prints = printer(pdf, paper)
     folder = out or results_file.parent
-    typer.echo(f"report: {outputs.write_report_again(results_file, folder)}")
+    written = outputs.write_report_again(results_file, folder, prints)
+    typer.echo(f"report: {written}")
+    if prints is not None:
+        typer.echo(f"pdf: {written.with_suffix('.pdf')}")
     messages.warn(outputs.older_files(folder))
 
 

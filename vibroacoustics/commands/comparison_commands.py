@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
+from .options import Paper, Pdf
+
 if TYPE_CHECKING:
     import xarray as xr
 
@@ -52,6 +54,8 @@ def compare_command(
             "The exit code is 1 where one is broken.",
         ),
     ] = None,
+    pdf: Pdf = False,
+    paper: Paper = None,
 ) -> None:
     """Compare two results order by order, in level and phase: compared.html, tables, figures."""
     from math import radians
@@ -62,7 +66,9 @@ def compare_command(
     from ..results.limits_file import read_figure_limits
     from ..results.mean_of_runs import with_scatter
     from . import arguments, checking, outputs
+    from .printing import printer
 
+    prints = printer(pdf, paper)
     folder = out or others[0].parent
     outputs.check_folder(folder)
     of_orders, of_figures = read_figure_limits(limits) if limits else ((), ())
@@ -78,7 +84,7 @@ def compare_command(
     orders = checking.held_against(with_scatter(orders, other), of_orders)
     compared = Compared(orders, reference, other)
     figures = check_figures(compared, of_figures)
-    written = outputs.write_comparison(compared, figures, folder)
+    written = outputs.write_comparison(compared, figures, folder, prints)
     typer.echo(report.comparison_of_orders_text(orders))
     _print_limits(compared, figures, folder)
     typer.echo(f"compared orders: {written}")

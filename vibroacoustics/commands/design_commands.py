@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 
 from . import messages
-from .options import Plugins, load_plugins
+from .options import Paper, Pdf, Plugins, load_plugins
 from .progress import progress_on_stderr
 
 if TYPE_CHECKING:
@@ -52,6 +52,8 @@ def sweep_command(
             "--longest", metavar="HOURS", min=0.0, help="Refuse a sweep that takes longer."
         ),
     ] = 12.0,
+    pdf: Pdf = False,
+    paper: Paper = None,
 ) -> None:
     """Compute every design of a study's grid or sample: a dataset, a table and a report.
 
@@ -61,7 +63,9 @@ def sweep_command(
     from ..design.explaining import explained
     from ..design.sweep import as_searched, prepare, swept
     from . import outputs
+    from .printing import printer
 
+    prints = printer(pdf, paper)
     problem, folder = _problem(study_file, out, plugin)
     prepared = prepare(problem, 3600.0 * longest)
     typer.echo(f"plan: {prepared.plan.text}")
@@ -78,7 +82,7 @@ def sweep_command(
     if search is None:
         messages.warn(["no design meets the constraints: there is no report of the best"])
     else:
-        tables |= _report(problem, search, study_file, folder)
+        tables |= outputs.with_pdf(_report(problem, search, study_file, folder), prints)
     written = outputs.write_analysis(results, folder, SWEEP_NAME, tables, lambda _: [])
     failed = int((results["failure"] > 0).sum())
     if failed:
@@ -93,6 +97,8 @@ def optimise_command(
     workers: Workers = 0,
     scheduler: Scheduler = None,
     plugin: Plugins = None,
+    pdf: Pdf = False,
+    paper: Paper = None,
 ) -> None:
     """Search the design space of a study: the best design, or the front of several objectives.
 
@@ -101,7 +107,9 @@ def optimise_command(
     from .. import report
     from ..design.optimising import searched_designs
     from . import outputs
+    from .printing import printer
 
+    prints = printer(pdf, paper)
     problem, folder = _problem(study_file, out, plugin)
     with (
         _evaluating(
@@ -110,7 +118,7 @@ def optimise_command(
         progress_on_stderr() as progress,
     ):
         search = searched_designs(problem, evaluate, progress)
-    files = _report(problem, search, study_file, folder)
+    files = outputs.with_pdf(_report(problem, search, study_file, folder), prints)
     written = outputs.write_analysis(search, folder, DESIGNS_NAME, files, lambda _: [])
     typer.echo(report.designs_text(search))
     typer.echo(f"designs: {written}")

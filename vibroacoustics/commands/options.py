@@ -29,6 +29,17 @@ NoCache = Annotated[
 ]
 
 
+Pdf = Annotated[
+    bool,
+    typer.Option(
+        "--pdf", help="Print the page as PDF, too; needs Chromium, Chrome or Edge on PATH."
+    ),
+]
+Paper = Annotated[
+    str | None, typer.Option(metavar="SIZE", help="Of the PDF: a4 or letter; default: a4.")
+]
+
+
 def used_cache(unused: bool) -> AbstractContextManager[None]:
     """The use of the cache that is asked for."""
     from ..results import storage

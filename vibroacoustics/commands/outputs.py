@@ -16,6 +16,7 @@ from ..results.complete import check_run
 from ..results.figure_limits import CheckedFigure, Compared
 from ..results.files import write
 from ..results.provenance import RECORDING_SCHEMA_VERSION, SCHEMA_VERSION
+from .printing import Printer
 
 RESULTS_NAME: Final = "results.nc"
 REPORT_NAME: Final = "report.html"
@@ -34,7 +35,9 @@ REPORT_FILES: Final = (
     "scores.csv",
     "sources.csv",
     "paths.csv",
+    "report.pdf",
     "figures/*.png",
+    "figures/*.svg",
 )
 """What a report may consist of."""
 
@@ -146,7 +149,7 @@ def write_report(results: xr.Dataset, folder: str | Path) -> Path:
     return Path(folder) / REPORT_NAME
 
 
-def write_report_again(results_file: Path, folder: Path) -> Path:
+def write_report_again(results_file: Path, folder: Path, printer: Printer | None = None) -> Path:
     """Write the report of results that are on disk, its tables and figures, together or not at all.
 
     Returns
@@ -154,10 +157,15 @@ def write_report_again(results_file: Path, folder: Path) -> Path:
     path of the report
     """
     results, digest = open_run(results_file)
-    files = report.render(results, digest)
+    files = with_pdf(report.render(results, digest), printer)
     with manifest.replacing(folder, results_file.name, digest) as staged:
         _stage(files, staged)
     return folder / REPORT_NAME
+
+
+def with_pdf(files: Mapping[str, bytes], printer: Printer | None) -> dict[str, bytes]:
+    """The files, and those that a printer makes of their pages."""
+    return {**files, **(printer.pages(files) if printer else {})}
 
 
 def older_files(folder: Path) -> list[str]:
@@ -192,7 +200,10 @@ def write_orders(results: xr.Dataset, folder: str | Path) -> Path:
 
 
 def write_comparison(
-    compared: Compared, figures: Sequence[CheckedFigure], folder: str | Path
+    compared: Compared,
+    figures: Sequence[CheckedFigure],
+    folder: str | Path,
+    printer: Printer | None = None,
 ) -> Path:
     """Write compared orders with their page, tables and figures; see `write_radiation`."""
     orders = compared.orders
@@ -203,6 +214,7 @@ def write_comparison(
         tables[COMPARED_FIGURES_NAME] = report.figure_limits_csv(figures)
     pictures = report.compared_order_figures(orders)
     tables[COMPARISON_REPORT_NAME] = report.comparison_html(compared, figures, pictures)
+    tables = with_pdf(tables, printer)
     return write_analysis(orders, folder, COMPARISON_NAME, tables, lambda _: pictures)
 
 
@@ -219,7 +231,10 @@ def write_analysis(
     -------
     path of the dataset
     """
-    files = {**tables, **{f"{picture.name}.png": picture.png for picture in figures(results)}}
+    files = {
+        **tables,
+        **{f"{picture.name}.{picture.ending}": picture.png for picture in figures(results)},
+    }
     with manifest.replacing(Path(folder), name) as staged:
         storage.stage_results(results, staged / name)
         _stage(files, staged)

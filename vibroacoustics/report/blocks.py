@@ -79,6 +79,62 @@ class Pictures:
 
 
 @dataclass(frozen=True)
+class Light:
+    """What an option does to one quantity: a coloured sign, the change, its band.
+
+    Attributes
+    ----------
+    word : of the sign
+    change : as text
+    band : lowest and highest, of -1 to 1, the ends of the cell's scale
+    zone : up to which a change could not be measured, of the same scale
+    """
+
+    word: Literal["better", "worse", "mixed", "not sure", "no difference"]
+    change: str
+    band: tuple[float, float]
+    zone: float
+
+
+@dataclass(frozen=True)
+class LightRow:
+    """An option with the sign of its verdict and a light for each quantity."""
+
+    name: str
+    word: Literal["better", "worse", "mixed", "not sure", "no difference"]
+    lights: tuple[Light, ...]
+
+
+@dataclass(frozen=True)
+class Lights:
+    """A chart of options and quantities as traffic lights with bands.
+
+    Attributes
+    ----------
+    caption : above it
+    head : what the columns are, the options first
+    rows : the options
+    note : how to read it
+    block : kind of block
+    """
+
+    caption: str
+    head: tuple[str, ...]
+    rows: tuple[LightRow, ...]
+    note: str
+    block: Literal["lights"] = field(default="lights", kw_only=True, repr=False)
+
+
+@dataclass(frozen=True)
+class Beside:
+    """A narrow block and a wide one, side by side where there is room."""
+
+    narrow: "Block"
+    wide: "Block"
+    block: Literal["beside"] = field(default="beside", kw_only=True, repr=False)
+
+
+@dataclass(frozen=True)
 class Details:
     """Blocks that are folded below a summary."""
 
@@ -88,7 +144,7 @@ class Details:
 
 
 Block: TypeAlias = Annotated[
-    Text | Heading | Bullets | Definitions | Table | Pictures | Details,
+    Text | Heading | Bullets | Definitions | Table | Pictures | Lights | Beside | Details,
     Field(discriminator="block"),
 ]
 
@@ -124,6 +180,8 @@ def pictures(blocks: Sequence[Block]) -> Iterator[Picture]:
             yield from block.pictures
         elif isinstance(block, Details):
             yield from pictures(block.blocks)
+        elif isinstance(block, Beside):
+            yield from pictures((block.narrow, block.wide))
 
 
 @cache

@@ -9,6 +9,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
 from .blocks import Text
+from .figures.style import Picture
 from .page import Page
 
 
@@ -38,11 +39,15 @@ def html(page: Page, results_sha256: str = "") -> bytes:
 
 def _policy(style: str) -> str:
     """What a browser may do with the page: show its one style and its figures, run nothing."""
-    digest = base64.b64encode(hashlib.sha256(style.encode()).digest()).decode()
     return (
-        f"default-src 'none'; img-src data:; style-src 'sha256-{digest}'; "
+        f"default-src 'none'; img-src data:; style-src '{style_hash(style)}'; "
         "base-uri 'none'; form-action 'none'"
     )
+
+
+def style_hash(style: str) -> str:
+    """By which the policy of a page knows its style."""
+    return f"sha256-{base64.b64encode(hashlib.sha256(style.encode()).digest()).decode()}"
 
 
 def _linked(text: Text) -> Markup:
@@ -59,5 +64,6 @@ def _breakable(text: str) -> Markup:
     return Markup("<wbr>").join(re.split(r"(?<=[._])(?=[^\W\d_])", text))
 
 
-def _data_address(png: bytes) -> str:
-    return f"data:image/png;base64,{base64.b64encode(png).decode()}"
+def _data_address(picture: Picture) -> str:
+    kind = {"png": "png", "svg": "svg+xml"}[picture.ending]
+    return f"data:image/{kind};base64,{base64.b64encode(picture.png).decode()}"

@@ -2,7 +2,17 @@
 
 from functools import singledispatch
 
-from .blocks import Block, Bullets, Definitions, Details, Heading, Pictures, Text
+from .blocks import (
+    Beside,
+    Block,
+    Bullets,
+    Definitions,
+    Details,
+    Heading,
+    Lights,
+    Pictures,
+    Text,
+)
 from .page import Page, figure_file
 from .tables import Table, escape_markdown, to_markdown
 
@@ -61,6 +71,21 @@ def _pictures(block: Pictures) -> str:
         f"{escape_markdown(picture.caption)}"
         for picture in block.pictures
     )
+
+
+@_block.register
+def _lights(block: Lights) -> str:
+    rows = tuple(
+        (f"{row.name}: {row.word}", *(f"{light.word} ({light.change})" for light in row.lights))
+        for row in block.rows
+    )
+    words = frozenset(range(len(block.head)))
+    return f"{to_markdown(Table(block.caption, block.head, rows, words))}\n\n{block.note}"
+
+
+@_block.register
+def _beside(block: Beside) -> str:
+    return f"{_block(block.narrow)}\n\n{_block(block.wide)}"
 
 
 @_block.register

@@ -11,11 +11,12 @@ from .study import parameters
 
 
 class Part(NamedTuple):
-    """A section with its blocks."""
+    """A section with its blocks; folded ones open at a click, at a link to them and on paper."""
 
     name: str
     title: str
     blocks: tuple[Block, ...]
+    folded: bool = False
 
 
 class Page(NamedTuple):
@@ -27,6 +28,12 @@ class Page(NamedTuple):
     parts: tuple[Part, ...]
     about: str = "What each way of balancing does to the forces, to the feet and to the sound."
 
+    @property
+    def contents(self) -> tuple[Part, ...]:
+        """What is listed below the first section: nothing where others are a list, folded."""
+        rest = self.parts[1:]
+        return () if any(part.folded for part in rest) else rest
+
     def pictures(self) -> dict[str, Picture]:
         """All figures by the name of their file."""
         of_parts = (picture for part in self.parts for picture in pictures(part.blocks))
@@ -36,7 +43,7 @@ class Page(NamedTuple):
 def page_of(results: xr.Dataset) -> Page:
     """The page of a finished run."""
     parts = tuple(
-        Part(section.name, section.title, tuple(section.blocks(results)))
+        Part(section.name, section.title, tuple(section.blocks(results)), section.folded)
         for section in sections_of(results)
     )
     of_study = parameters(results)
@@ -45,4 +52,4 @@ def page_of(results: xr.Dataset) -> Page:
 
 def figure_file(picture: Picture) -> str:
     """File of a figure beside the report."""
-    return f"figures/{file_name(picture.name)}.png"
+    return f"figures/{file_name(picture.name)}.{picture.ending}"

@@ -98,10 +98,22 @@ class Shift:
 
     def size(self) -> str:
         """`+22 to +24 %` of forces, `+2.2 to +25.2 dB` of levels: over draws and speeds."""
+        return f"{self.span_of(self.extent)} {self.unit}"
+
+    def span_of(self, changes: Array) -> str:
+        """`+22 to +24`, of changes in their unit."""
+        return rounding.span(changes, rounding.signed if self.quantity.is_level else _percent)
+
+    @property
+    def unit(self) -> str:
+        """Of a change."""
+        return "dB" if self.quantity.is_level else "%"
+
+    @property
+    def extent(self) -> Array:
+        """Quantiles of the change over the draws at every speed: dB of levels, % of forces."""
         drawn = weighted_quantiles(self.drawn_db, self.weight, QUANTILES).ravel()
-        if not self.quantity.is_level:
-            return f"{rounding.span(100.0 * (amplitude_of_level(drawn) - 1.0), _percent)} %"
-        return f"{rounding.span(drawn, rounding.signed)} dB"
+        return drawn if self.quantity.is_level else 100.0 * (amplitude_of_level(drawn) - 1.0)
 
     def sentence(self) -> str:
         """`grows by 81 % (to at most 120 N)` and the like, without the quantity's name."""

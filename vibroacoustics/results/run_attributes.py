@@ -3,7 +3,7 @@
 Further keys are free: machines, options and sources have their own.
 """
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -59,6 +59,24 @@ class Suspension(Part):
     height_m: Number
 
 
+class Shell(Part):
+    outer_diameter_m: Positive
+    height_m: Positive
+    dome_height_m: Number
+    centre_of_mass_height_m: Number
+    floor_clearance_m: Number
+
+
+class Mounts(Part):
+    pitch_m: Number
+
+
+class Foot(Part):
+    x_m: Number
+    y_m: Number
+    height_m: Number | None = None
+
+
 class Stopping(Part):
     shift_rad: Number
     shift_duration_s: Number
@@ -76,6 +94,9 @@ class Machine(RedesignedMachine):
     errata: list[Erratum]
     housing: RigidBody
     stopping: Stopping | None = None
+    shell: Shell | None = None
+    mounts: Mounts | None = None
+    feet: dict[str, Foot | None] | None = None
 
 
 class Option(Part):
@@ -153,8 +174,34 @@ class Evidence(Part):
     forces: list[PublishedForce] = []
 
 
+class ShellBody(Part):
+    kind: Literal["shell", "mesh"]
+
+
+class BoxBody(Part):
+    kind: Literal["box"]
+    length_m: Positive
+    width_m: Positive
+    height_m: Positive
+
+
+class SphereBody(Part):
+    kind: Literal["sphere"]
+    diameter_m: Positive
+
+
+class Wall(Part):
+    distance_m: Positive
+
+
+class Surroundings(Part):
+    walls: dict[Literal["-x", "+x", "-y", "+y"], Wall] = {}
+
+
 class Radiation(Part):
     maximum_frequency_hz: Number | None = None
+    body: Annotated[ShellBody | BoxBody | SphereBody, Field(discriminator="kind")] | None = None
+    surroundings: Surroundings | str | None = None
 
 
 class Parameters(Part):

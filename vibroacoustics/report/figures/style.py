@@ -5,7 +5,7 @@ import re
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from itertools import cycle, islice
-from typing import Any, Final, NamedTuple
+from typing import Any, Final, Literal, NamedTuple
 
 import matplotlib
 import numpy as np
@@ -54,12 +54,16 @@ STYLE: Final[dict[str, Any]] = {
 
 
 class Picture(NamedTuple):
-    """A finished figure: file name without ending, text in its place, caption, PNG."""
+    """A finished figure: file name without ending, text in its place, caption, content of its file.
+
+    The content is PNG, or SVG where the ending says so.
+    """
 
     name: str
     alt: str
     caption: str
     png: Base64Bytes
+    ending: Literal["png", "svg"] = "png"
 
 
 class Drawing(Figure):

@@ -25,6 +25,7 @@ class Section:
     blocks : makes what stands in it from the results, its pictures too
     applies : whether results have such a section
     position : from top to bottom; a stranger's are the last
+    folded : below its heading, to be opened by the reader
 
     Examples
     --------
@@ -40,6 +41,7 @@ class Section:
     blocks: Callable[[xr.Dataset], Sequence[Block]]
     applies: Callable[[xr.Dataset], bool] = _always
     position: float = LAST
+    folded: bool = True
 
 
 SECTIONS: Final[Registry[Section]] = Registry(

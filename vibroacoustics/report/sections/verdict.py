@@ -1,26 +1,23 @@
-"""What balancing does, in a few sentences, and what each option does."""
-
-from collections.abc import Sequence
+"""The first screen: what balancing does, in one sentence, one drawing and one chart."""
 
 import xarray as xr
 
 from ...base.registry import register
-from .. import extremes, verdict
-from ..blocks import Block, Bullets, Definition, Definitions, Heading, Text
-from ..option_verdict import OptionVerdict, option_verdicts
+from .. import verdict
+from ..blocks import Beside, Block, Bullets, Pictures, Text
+from ..drawing import machine_picture
+from ..lights import lights
+from ..option_verdict import option_verdicts
+from ..ranking_words import ranking_sentence
 from ..study import parameters
 from . import Section
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
-    table = extremes.extremes_table(results)
-    verdicts = option_verdicts(results)
     return [
         Text(verdict.headline(results), "headline"),
         *coarse_words(results),
-        Bullets(tuple(verdict.reasons(results, verdicts))),
-        *filter(None, [verdict.options_table(verdicts), table]),
-        *_options(verdicts),
+        *_drawing_and_chart(results),
     ]
 
 
@@ -31,13 +28,14 @@ def coarse_words(results: xr.Dataset) -> list[Block]:
     return [Text(first), Bullets(tuple(coarsened))] if coarsened else []
 
 
-def _options(verdicts: Sequence[OptionVerdict]) -> list[Block]:
-    entries = tuple(
-        Definition(of_option.option, of_option.judgement, " ".join(of_option.sentences))
-        for of_option in verdicts
-    )
-    title = Heading("Option by option, against no balancer")
-    return [title, Definitions(entries)] if entries else []
+def _drawing_and_chart(results: xr.Dataset) -> list[Block]:
+    picture, chart = machine_picture(results), lights(results)
+    if chart is None:
+        return [Pictures((picture,))] if picture else []
+    ranking = Text(ranking_sentence(results, option_verdicts(results)))
+    if picture is None:
+        return [chart, ranking]
+    return [Beside(Pictures((picture,)), chart), ranking]
 
 
-register(Section("verdict", "Verdict", _blocks, position=10.0))
+register(Section("verdict", "Verdict", _blocks, position=10.0, folded=False))

@@ -1,0 +1,107 @@
+"""Pages as PDF, by a browser without a window. It reads one file and nothing else."""
+
+import os
+import shutil
+import subprocess
+from collections.abc import Mapping
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Final, NamedTuple
+
+from ..base.errors import ParameterError, StorageError
+
+BROWSERS: Final = (
+    "chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome",
+    "microsoft-edge", "microsoft-edge-stable", "msedge",
+)  # fmt: skip
+"""Programs that print without a window, as they are called on PATH."""
+_LONGEST_S: Final = 300.0
+_OPTIONS: Final = (
+    "--headless", "--disable-gpu", "--disable-dev-shm-usage", "--disable-extensions",
+    "--disable-background-networking", "--no-first-run", "--no-pdf-header-footer",
+    "--host-resolver-rules=MAP * ~NOTFOUND",
+)  # fmt: skip
+
+
+class Printer(NamedTuple):
+    """A browser and the size of the sheets."""
+
+    browser: str
+    paper: str
+
+    def pages(self, files: Mapping[str, bytes]) -> dict[str, bytes]:
+        """A PDF for each HTML page among files, named like it.
+
+        Raises
+        ------
+        StorageError
+            The browser gives none.
+        """
+        return {
+            f"{name.removesuffix('.html')}.pdf": self.printed(content)
+            for name, content in files.items()
+            if name.endswith(".html")
+        }
+
+    def printed(self, page: bytes) -> bytes:
+        """One page."""
+        from ..report.paper import for_paper
+
+        with TemporaryDirectory(prefix="vibroacoustics_", ignore_cleanup_errors=True) as folder:
+            source, target = Path(folder) / "page.html", Path(folder) / "page.pdf"
+            source.write_bytes(for_paper(page, self.paper))
+            message = self._print(source, target)
+            if not target.is_file() or not target.read_bytes().startswith(b"%PDF"):
+                raise StorageError(f"--pdf: {self.browser} printed nothing{message}")
+            return target.read_bytes()
+
+    def _print(self, source: Path, target: Path) -> str:
+        """Print, and what the browser said last."""
+        command = [
+            self.browser,
+            *_OPTIONS,
+            *(["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []),
+            f"--user-data-dir={source.parent / 'profile'}",
+            f"--print-to-pdf={target}",
+            source.as_uri(),
+        ]
+        try:
+            done = subprocess.run(  # noqa: S603 - a browser by its name, and files of ours
+                command,
+                capture_output=True,
+                timeout=_LONGEST_S,
+                stdin=subprocess.DEVNULL,
+                check=False,  # browsers give 0 whatever happens; the file tells
+            )
+        except subprocess.TimeoutExpired:
+            return f" within {_LONGEST_S:g} s"
+        except OSError as error:
+            return f": {error.strerror}"
+        lines = done.stderr.decode(errors="replace").strip().splitlines()
+        return f": {lines[-1]}" if lines else ""
+
+
+def printer(wanted: bool, paper: str | None) -> Printer | None:
+    """What prints, sought before anything is computed or written; None where no PDF is wanted.
+
+    Raises
+    ------
+    ParameterError
+        There is no such paper, or no browser that prints.
+    """
+    from ..report.paper import PAPERS
+
+    if not wanted:
+        if paper is not None:
+            raise ParameterError(f"--paper {paper}: is of the PDF; give --pdf as well")
+        return None
+    name = (paper or "a4").lower()
+    if name not in PAPERS:
+        raise ParameterError(f"--paper {paper}: must be {' or '.join(PAPERS)}")
+    browser = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if browser is None:
+        raise ParameterError(
+            "--pdf: needs a browser that prints without a window; on PATH is none of "
+            f"{', '.join(BROWSERS)}"
+        )
+    return Printer(browser, name)

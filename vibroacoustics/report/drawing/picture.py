@@ -1,0 +1,151 @@
+"""The drawing: the machine from the side with forces, from above with microphones, to scale."""
+
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+
+from ...base import rounding
+from ...base.arrays import Array
+from ..figures.style import Picture
+from ..quantities import FOOT_FORCE, FORCE, MOMENT
+from ..study import parameters
+from . import svg
+from .loads import Loads, loads
+from .outline import Outline, feet_m, outline
+from .view import View, axes_cross, bar, fitted
+
+WIDTH: Final = 360.0
+HEIGHT: Final = 400.0
+FORCE_COLOUR: Final = "#b34700"
+FOOT_COLOUR: Final = "#0072b2"
+ROOM_COLOUR: Final = "#00785a"
+FILL: Final = "#e7ebef"
+LONGEST_FORCE: Final = 62.0
+LONGEST_FOOT_FORCE: Final = 26.0
+
+
+def machine_picture(results: xr.Dataset) -> Picture | None:
+    """Machine, feet, forces at 1× without a balancer, and microphones; None in older files."""
+    machine, acting = parameters(results)["machine"], loads(results)
+    if acting is None or not machine.get("shell"):
+        return None
+    body = parameters(results)["radiation"].get("body") or {}
+    lines = outline(machine["shell"], body)
+    feet = feet_m(machine)
+    if len(feet) != len(acting.foot_force_n):
+        return None
+    receivers = _receivers_m(results, lines.floor_z_m)
+    parts = [*_side(lines, feet, acting), *_above(lines, feet, receivers, _walls_m(results))]
+    return Picture(
+        "machine",
+        "The machine from the side with its feet and the forces at 1×, and from above with the "
+        "microphones, both to scale; sizes are in the caption.",
+        _caption(results, acting, body),
+        svg.drawing(WIDTH, HEIGHT, parts, "Machine, feet, forces and microphones"),
+        "svg",
+    )
+
+
+def _side(lines: Outline, feet: Array, acting: Loads) -> list[str]:
+    """Along y: outline, feet, floor, force at the centre of mass, forces into the feet."""
+    floor = np.array([(0.0, lines.floor_z_m)])
+    around = np.concatenate([lines.side, feet[:, [0, 2]], floor])
+    view = fitted((0, 2), around, (110, 14), (140, 150))
+    level = view.at(floor)[0, 1]
+    largest_foot = max(float(np.abs(acting.foot_force_n).max()), 1e-12)
+    largest = max(acting.force_amplitude_n, 1e-12)
+    foot_scale, scale = LONGEST_FOOT_FORCE / largest_foot, LONGEST_FORCE / largest
+    ground = np.array([(20.0, level), (340.0, level)])
+    parts = [
+        svg.path(view.at(lines.side), True, fill=FILL, stroke=svg.INK, stroke_width=1.2),
+        svg.path(ground, stroke=svg.SOFT, stroke_dasharray="5 3"),
+        *(_mount(view, foot, level) for foot in feet),
+    ]
+    for foot, peak in zip(feet, acting.foot_force_n, strict=True):
+        parts += view.vector(peak, foot, foot_scale, FOOT_COLOUR)
+    parts += view.vector(acting.force_n, np.zeros(3), scale, FORCE_COLOUR)
+    parts.append(svg.disc(view.origin, 3, fill=svg.INK))
+    return [
+        *parts,
+        axes_cross((20, 60), "x", "z"),
+        svg.words((340, 24), "from the side", "end", fill=svg.SOFT),
+        bar((20, 192), view.scale, "m", 50.0),
+        bar((132, 192), scale, "N", 50.0, FORCE_COLOUR),
+        bar((236, 192), foot_scale, "N foot", 40.0, FOOT_COLOUR),
+    ]
+
+
+def _mount(view: View, foot: Array, level: float) -> str:
+    x, y = view.of(foot)
+    low = max(level, y + 3.0)
+    sides = np.array([(x - 4, y), (x + 4, y), (x + 6, low), (x - 6, low)])
+    return svg.path(sides, True, fill="#fff", stroke=svg.INK)
+
+
+def _above(
+    lines: Outline, feet: Array, receivers: dict[str, Array], walls: list[tuple[int, float]]
+) -> list[str]:
+    """Along z: outline, feet, walls, numbered microphones."""
+    points = [point[:2] for point in receivers.values()]
+    points += [np.where(np.arange(2) == axis, at, 0.0) for axis, at in walls]
+    around = np.concatenate([lines.above, np.array(points).reshape(-1, 2)])
+    view = fitted((0, 1), around, (40, 220), (280, 140))
+    parts = [_wall(view, axis, at) for axis, at in walls]
+    parts.append(svg.path(view.at(lines.above), True, fill=FILL, stroke=svg.INK))
+    parts += [svg.disc(view.of(foot), 1.5, fill=svg.INK) for foot in feet]
+    for number, point in enumerate(receivers.values(), 1):
+        x, y = view.of(point)
+        parts.append(svg.disc((x, y), 8, fill=ROOM_COLOUR))
+        looks = {"fill": "#fff", "stroke": "none", "font_size": 11}
+        parts.append(svg.words((x, y + 4), str(number), "middle", **looks))
+    return [
+        *parts,
+        axes_cross((20, 256), "x", "y"),
+        svg.words((340, 218), "from above", "end", fill=svg.SOFT),
+        bar((20, 392), view.scale, "m", 90.0),
+    ]
+
+
+def _wall(view: View, axis: int, at_m: float) -> str:
+    x, y = view.at(np.full(2, at_m))
+    ends = [(x, 214.0), (x, 374.0)] if axis == 0 else [(14.0, y), (346.0, y)]
+    return svg.path(np.array(ends), stroke=svg.SOFT, stroke_width=3)
+
+
+def _receivers_m(results: xr.Dataset, floor_z_m: float) -> dict[str, Array]:
+    stand = parameters(results)["receivers"]
+    names = [str(name) for name in results["receiver"].values]
+    return {
+        name: np.array(
+            [stand[name]["x_m"], stand[name]["y_m"], floor_z_m + stand[name]["height_m"]]
+        )
+        for name in names
+    }
+
+
+def _walls_m(results: xr.Dataset) -> list[tuple[int, float]]:
+    """Number of the axis across each wall, and its coordinate."""
+    surroundings = parameters(results)["radiation"].get("surroundings")
+    walls = surroundings.get("walls", {}) if isinstance(surroundings, dict) else {}
+    return [
+        ("xy".index(side[1]), (-1.0 if side[0] == "-" else 1.0) * wall["distance_m"])
+        for side, wall in walls.items()
+    ]
+
+
+def _caption(results: xr.Dataset, acting: Loads, body: dict[str, Any]) -> str:
+    stand = parameters(results)["receivers"]
+    heights = [
+        f"{number} {name}, {rounding.fixed(stand[str(name)]['height_m'], 2)} m high"
+        for number, name in enumerate(results["receiver"].values, 1)
+    ]
+    foot = float(np.linalg.norm(acting.foot_force_n, axis=1).max())
+    mesh = " The mesh that radiates is drawn as the shell." if body.get("kind") == "mesh" else ""
+    return (
+        f"At 1× and {acting.speed_rpm:g} rpm without a balancer: force "
+        f"{FORCE.write(acting.force_amplitude_n)} and moment "
+        f"{MOMENT.write(acting.moment_amplitude_nm)} about the centre of mass (dot), at most "
+        f"{FOOT_FORCE.write(foot)} into a foot; an arrow is a peak, a loop what it draws over a "
+        f"revolution. Microphones: {'; '.join(heights)}.{mesh}"
+    )
