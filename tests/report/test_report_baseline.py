@@ -3,39 +3,15 @@
 import re
 
 import pytest
-from support import ROOT, made_up_radiation
+from sound_studies import result_with_baseline
 
-import vibroacoustics as va
 from vibroacoustics.report import baseline, verdict
 from vibroacoustics.report.sections import SECTIONS
-
-ROWS = "microphone,speed_rpm,order,level_db,phase_deg\n" + "\n".join(
-    f"front_1m,{rpm},{order},{level},{phase}"
-    for rpm in (900, 1000)
-    for order, level, phase in ((1, 90.0, 10), (2, 60.0, ""))
-)
-THIRDS = "microphone,speed_rpm,band_hz,level_db\n" + "\n".join(
-    f"front_1m,{rpm},{band},{level}"
-    for rpm in (900, 1000)
-    for band, level in ((16, 90.1), (31.5, 61.0), (500, 70.0), (1000, 75.0))
-)
 
 
 @pytest.fixture(scope="module")
 def results(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("stand")
-    (folder / "orders.csv").write_text(ROWS)
-    (folder / "thirds.csv").write_text(THIRDS)
-    study = va.load_study(ROOT / "pipelines" / "reciprocating_table.toml")
-    asked = {
-        "operation.speed_rpm": [900.0, 950.0, 1200.0],
-        "operation.maximum_order": 4,
-        "measured.baseline": {
-            "file": [str(folder / "orders.csv"), str(folder / "thirds.csv")],
-            "tacho_angle_deg": 0.0,
-        },
-    }
-    return va.run(study.replace(asked), radiation=made_up_radiation)
+    return result_with_baseline(tmp_path_factory.mktemp("stand"))
 
 
 def test_the_section_says_what_the_data_cannot_tell(results):
