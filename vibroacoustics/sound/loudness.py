@@ -39,7 +39,7 @@ class Loudness(NamedTuple):
         """Loudness level: 40 + 10 lb N; below 1 sone 40 (N + 0.0005)^0.35 (ISO 532-1, 5.8)."""
         if self.loudness_sone >= 1.0:
             return float(40.0 + 10.0 * np.log2(self.loudness_sone))
-        return max(40.0 * (self.loudness_sone + 0.0005) ** 0.35, 3.0)
+        return float(max(40.0 * (self.loudness_sone + 0.0005) ** 0.35, 3.0))
 
 
 def available() -> bool:

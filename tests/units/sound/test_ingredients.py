@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-import xarray as xr
-from sound_studies import a_level, result_with_baseline
+from sound_studies import a_level
 
 from vibroacoustics.base.errors import ParameterError, SchemaError
 from vibroacoustics.levels.axes import LevelAxes
@@ -12,11 +11,6 @@ from vibroacoustics.levels.continuous import noise_levels
 from vibroacoustics.mechanics.loads import Lines
 from vibroacoustics.mechanics.received_sound import NoisePower, ReceivedSound
 from vibroacoustics.sound.ingredients import ingredients
-
-
-@pytest.fixture(scope="module")
-def results(tmp_path_factory) -> xr.Dataset:
-    return result_with_baseline(tmp_path_factory.mktemp("stand"))
 
 
 @pytest.mark.parametrize("speed", [900.0, 950.0, 1200.0])  # measured, between, not measured
