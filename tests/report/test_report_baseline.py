@@ -7,6 +7,9 @@ from sound_studies import result_with_baseline
 
 from vibroacoustics.report import baseline, verdict
 from vibroacoustics.report.sections import SECTIONS
+from vibroacoustics.report.tones import tone_row
+from vibroacoustics.sound import loudness, tones
+from vibroacoustics.sound.ingredients import ingredients
 
 
 @pytest.fixture(scope="module")
@@ -43,3 +46,37 @@ def test_the_verdict_holds_the_model_against_what_was_measured(results):
 
 def test_results_without_a_baseline_have_no_such_section(results):
     assert not SECTIONS["baseline"].applies(results.drop_vars("baseline_share"))
+
+
+def test_tones_and_loudness_of_every_option_stand_in_a_table(results):
+    section = SECTIONS["tones"]
+    assert section.applies(results)
+    table, *_, note = section.blocks(results)
+    assert table.caption.endswith("at front_1m, 900 rpm")
+    assert [row[0] for row in table.rows] == [str(name) for name in results["option"].values]
+    assert {row[1] for row in table.rows} == {"none"}  # orders 1 to 4 of 15 Hz are below 89.1 Hz
+    assert "ECMA-418-1" in note.words
+    assert not section.applies(results.drop_vars("noise_band_level"))
+
+
+def test_a_prominent_tone_is_named_with_its_ratios(results):
+    loud = results.copy()
+    loud["tone_frequency"] = 10.0 * loud["tone_frequency"]
+    at_150_hz = {"line": "order 1", "receiver": "above_1m"}
+    loud["pressure_line"] = loud["pressure_line"].copy()
+    loud["pressure_line"].loc[at_150_hz] = 1.0
+    parts = ingredients(loud, "none", "above_1m", 900.0)
+    (tone, *others) = tones.prominent(tones.tones(tones.tonal_spectrum(parts)))
+    assert tone.name == "order 1"
+    name, hertz, _, over_noise, over_bands = tone_row(tone)
+    assert (name, hertz) == ("order 1", "150.0")
+    assert over_noise.endswith("(14.9)")
+    assert over_bands.endswith("(17.2)")
+    assert not others
+
+
+def test_without_mosqito_the_section_says_what_to_install(results, monkeypatch):
+    monkeypatch.setattr(loudness, "find_spec", lambda name: None)
+    *tables, note = SECTIONS["tones"].blocks(results)
+    assert "pip install 'vibroacoustics[sound]'" in note.words
+    assert "sone" not in tables[0].head

@@ -5,6 +5,8 @@ file that could not be had). DIN 45692:2009, clause 6: 5 % or 0.05 acum, narrow-
 critical band wide of 4 sone; its values and those of ISO as MoSQITo's validation cites them.
 """
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -65,7 +67,7 @@ def test_loudness_of_third_octaves():
 def test_sharpness_of_narrow_noise():
     hertz = np.arange(1.0, 12000.0)
     gain = filter_gain(hertz)
-    edges = zip(BARK_EDGES[1:], BARK_EDGES[2:], strict=False)
+    edges = pairwise(BARK_EDGES[1:])
     shape = np.array([gain[(hertz >= low) & (hertz < high)].mean(axis=0) for low, high in edges])
     level = np.full(len(NARROW), 60.0)
     for _ in range(8):  # each towards 4 sone, which double every 10 dB
