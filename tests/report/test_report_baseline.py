@@ -8,7 +8,7 @@ from sound_studies import result_with_baseline
 from vibroacoustics.report import baseline, verdict
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.tones import tone_row
-from vibroacoustics.sound import loudness, tones
+from vibroacoustics.sound import loudness, tonality
 from vibroacoustics.sound.ingredients import ingredients
 
 
@@ -64,9 +64,9 @@ def test_a_prominent_tone_is_named_with_its_ratios(results):
     loud["tone_frequency"] = 10.0 * loud["tone_frequency"]
     at_150_hz = {"line": "order 1", "receiver": "above_1m"}
     loud["pressure_line"] = loud["pressure_line"].copy()
-    loud["pressure_line"].loc[at_150_hz] = 1.0
+    loud["pressure_line"].loc[at_150_hz] = 30.0
     parts = ingredients(loud, "none", "above_1m", 900.0)
-    (tone, *others) = tones.prominent(tones.tones(tones.tonal_spectrum(parts)))
+    (tone, *others) = tonality.prominent(tonality.tones(tonality.tonal_spectrum(parts)))
     assert tone.name == "order 1"
     name, hertz, _, over_noise, over_bands = tone_row(tone)
     assert (name, hertz) == ("order 1", "150.0")

@@ -7,7 +7,7 @@ from ..report.tables import Table, to_text
 from ..report.tones import TONE_HEAD, tone_row
 from ..sound.loudness import NEEDED, available, recorded_loudness
 from ..sound.recorded import narrow_bands, recorded_spectrum
-from ..sound.tones import Tone, tones
+from ..sound.tonality import Tone, tones
 
 MOST_TONES = 20
 _PROMINENT = {(True, True): "both", (True, False): "noise", (False, True): "bands"}

@@ -9,7 +9,7 @@ from ..sound.critical_bands import noise_criterion_db, prominence_criterion_db
 from ..sound.ingredients import Ingredients, ingredients
 from ..sound.loudness import Loudness, available, loudness_of
 from ..sound.of_results import most_prominent
-from ..sound.tones import Tone, prominent, tonal_spectrum, tones
+from ..sound.tonality import Tone, prominent, tonal_spectrum, tones
 from .study import catalogue_receiver, few_speeds, options, speeds
 from .tables import Table
 

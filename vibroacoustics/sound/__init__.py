@@ -10,7 +10,7 @@ from .ingredients import Ingredients, SoundBands, SoundLines, ingredients
 from .loudness import Loudness, loudness_of, recorded_loudness
 from .recorded import NarrowBands, narrow_bands, recorded_spectrum
 from .rendering import rendered, whole_revolutions
-from .tones import TonalSpectrum, Tone, prominent, tonal_spectrum, tones
+from .tonality import TonalSpectrum, Tone, prominent, tonal_spectrum, tones
 
 __all__ = [
     "Ingredients",

@@ -9,7 +9,7 @@ import xarray as xr
 from .critical_bands import noise_criterion_db, prominence_criterion_db
 from .ingredients import Ingredients, ingredients
 from .loudness import loudness_of
-from .tones import Tone, tonal_spectrum, tones
+from .tonality import Tone, tonal_spectrum, tones
 
 MOST_EXCESS_DB = 60.0
 """Of a tone without any noise about it."""

@@ -8,7 +8,7 @@ from scipy import signal as filters
 from ..base.arrays import Array, IndexArray
 from ..base.errors import ParameterError
 from .critical_bands import HIGHEST_TONE_HZ, LOWEST_TONE_HZ, critical_band, critical_bandwidth
-from .tones import TonalSpectrum
+from .tonality import TonalSpectrum
 
 SEGMENT_S: Final = 4.0
 """Lines of 0.25 Hz, less than 1 % of the lowest tone."""

@@ -8,7 +8,7 @@ from vibroacoustics.sound import critical_bands
 from vibroacoustics.sound.critical_bands import band_above, band_below, critical_band
 from vibroacoustics.sound.ingredients import Ingredients, SoundBands, SoundLines
 from vibroacoustics.sound.recorded import narrow_bands, recorded_spectrum
-from vibroacoustics.sound.tones import TonalSpectrum, prominent, tonal_spectrum, tones
+from vibroacoustics.sound.tonality import TonalSpectrum, prominent, tonal_spectrum, tones
 
 REFERENCE = 4e-10
 RATE = 48000.0
