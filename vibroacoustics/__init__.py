@@ -42,7 +42,11 @@ also of a machine alone, from `load_machine(path)`.
 
 **Figures and arrays.**
 `plot` has every figure as a function that returns a matplotlib Figure.
-`orders` and `levels` have the steps of an analysis as functions of arrays.
+`orders` and `levels` have the steps of an analysis as functions of arrays, `sound` those of
+listening, tones, loudness and sharpness.
+
+**Sound.**
+`listen(results, folder)` writes the sound of options at microphones as WAV or FLAC.
 
 **Things of your own.**
 `register(thing)` and `load_plugin(path)` take them in: a class derived from `Option`, `Machine`,
@@ -64,7 +68,7 @@ from typing import TYPE_CHECKING, Any
 from .base.lazy import imported
 
 if TYPE_CHECKING:
-    from . import levels, orders, plot
+    from . import levels, orders, plot, sound
     from .base.curves import Curve, CurveAxis
     from .base.errors import (
         ParameterError,
@@ -79,6 +83,7 @@ if TYPE_CHECKING:
     from .base.units import Unit
     from .base.vocabulary import Coordinate, Variable, check, stamp
     from .commands.exporting import export_forces, export_functions, export_recording
+    from .commands.listening import listen
     from .commands.outputs import write_report
     from .design.engine.seen import Need
     from .design.figure import DesignFigure
@@ -195,6 +200,7 @@ __all__ = [
     "inverted_forces",
     "label_recording",
     "levels",
+    "listen",
     "load_machine",
     "load_plugin",
     "load_study",
@@ -214,6 +220,7 @@ __all__ = [
     "register",
     "run",
     "score",
+    "sound",
     "speed_frequency_map",
     "stamp",
     "sweep",
@@ -277,6 +284,7 @@ _HOME = {
     "given_radiation": "radiation.given",
     "inverted_forces": "measured.inversion",
     "label_recording": "recordings",
+    "listen": "commands.listening",
     "open_recording": "recordings",
     "load_machine": "study.loading",
     "load_plugin": "base.plugin_file",
@@ -301,7 +309,13 @@ _HOME = {
     "wrenches_of_parts": "mechanics.moving_parts",
     "write_report": "commands.outputs",
 }
-_MODULES = {"blocks": "report.blocks", "levels": "levels", "orders": "orders", "plot": "plot"}
+_MODULES = {
+    "blocks": "report.blocks",
+    "levels": "levels",
+    "orders": "orders",
+    "plot": "plot",
+    "sound": "sound",
+}
 
 
 def __getattr__(name: str) -> Any:

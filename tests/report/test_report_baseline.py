@@ -3,39 +3,18 @@
 import re
 
 import pytest
-from support import ROOT, made_up_radiation
+from sound_studies import result_with_baseline
 
-import vibroacoustics as va
 from vibroacoustics.report import baseline, verdict
 from vibroacoustics.report.sections import SECTIONS
-
-ROWS = "microphone,speed_rpm,order,level_db,phase_deg\n" + "\n".join(
-    f"front_1m,{rpm},{order},{level},{phase}"
-    for rpm in (900, 1000)
-    for order, level, phase in ((1, 90.0, 10), (2, 60.0, ""))
-)
-THIRDS = "microphone,speed_rpm,band_hz,level_db\n" + "\n".join(
-    f"front_1m,{rpm},{band},{level}"
-    for rpm in (900, 1000)
-    for band, level in ((16, 90.1), (31.5, 61.0), (500, 70.0), (1000, 75.0))
-)
+from vibroacoustics.report.tones import tone_row
+from vibroacoustics.sound import loudness, tonality
+from vibroacoustics.sound.ingredients import ingredients
 
 
 @pytest.fixture(scope="module")
 def results(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("stand")
-    (folder / "orders.csv").write_text(ROWS)
-    (folder / "thirds.csv").write_text(THIRDS)
-    study = va.load_study(ROOT / "pipelines" / "reciprocating_table.toml")
-    asked = {
-        "operation.speed_rpm": [900.0, 950.0, 1200.0],
-        "operation.maximum_order": 4,
-        "measured.baseline": {
-            "file": [str(folder / "orders.csv"), str(folder / "thirds.csv")],
-            "tacho_angle_deg": 0.0,
-        },
-    }
-    return va.run(study.replace(asked), radiation=made_up_radiation)
+    return result_with_baseline(tmp_path_factory.mktemp("stand"))
 
 
 def test_the_section_says_what_the_data_cannot_tell(results):
@@ -67,3 +46,37 @@ def test_the_verdict_holds_the_model_against_what_was_measured(results):
 
 def test_results_without_a_baseline_have_no_such_section(results):
     assert not SECTIONS["baseline"].applies(results.drop_vars("baseline_share"))
+
+
+def test_tones_and_loudness_of_every_option_stand_in_a_table(results):
+    section = SECTIONS["tones"]
+    assert section.applies(results)
+    table, *_, note = section.blocks(results)
+    assert table.caption.endswith("at front_1m, 900 rpm")
+    assert [row[0] for row in table.rows] == [str(name) for name in results["option"].values]
+    assert {row[1] for row in table.rows} == {"none"}  # orders 1 to 4 of 15 Hz are below 89.1 Hz
+    assert "ECMA-418-1" in note.words
+    assert not section.applies(results.drop_vars("noise_band_level"))
+
+
+def test_a_prominent_tone_is_named_with_its_ratios(results):
+    loud = results.copy()
+    loud["tone_frequency"] = 10.0 * loud["tone_frequency"]
+    at_150_hz = {"line": "order 1", "receiver": "above_1m"}
+    loud["pressure_line"] = loud["pressure_line"].copy()
+    loud["pressure_line"].loc[at_150_hz] = 30.0
+    parts = ingredients(loud, "none", "above_1m", 900.0)
+    (tone, *others) = tonality.prominent(tonality.tones(tonality.tonal_spectrum(parts)))
+    assert tone.name == "order 1"
+    name, hertz, _, over_noise, over_bands = tone_row(tone)
+    assert (name, hertz) == ("order 1", "150.0")
+    assert over_noise.endswith("(14.9)")
+    assert over_bands.endswith("(17.2)")
+    assert not others
+
+
+def test_without_mosqito_the_section_says_what_to_install(results, monkeypatch):
+    monkeypatch.setattr(loudness, "find_spec", lambda name: None)
+    *tables, note = SECTIONS["tones"].blocks(results)
+    assert "pip install 'vibroacoustics[sound]'" in note.words
+    assert "sone" not in tables[0].head

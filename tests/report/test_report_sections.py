@@ -41,6 +41,7 @@ EVERY_BLOCK = (
 )
 BUILT_IN = [
     "verdict", "reasons", "comparison", "baseline", "sources", "paths", "shell-test", "unknowns",
+    "tones",
     "orders", "forces", "mounts", "radiation", "stopping", "scores", "evidence", "assumptions",
     "errata", "provenance",
 ]  # fmt: skip
@@ -87,7 +88,7 @@ def test_sections_are_in_their_order() -> None:
 
 
 @pytest.mark.parametrize(
-    "name", sorted({*BUILT_IN} - {"stopping", "baseline", "paths", "shell-test"})
+    "name", sorted({*BUILT_IN} - {"stopping", "baseline", "paths", "shell-test", "tones"})
 )
 def test_every_section_is_html_and_markdown(name: str, results: xr.Dataset) -> None:
     section = SECTIONS[name]

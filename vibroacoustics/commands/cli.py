@@ -16,6 +16,7 @@ from . import (
     comparison_commands,
     curve_commands,
     design_commands,
+    listen_commands,
     messages,
     prediction_commands,
     recording_commands,
@@ -50,6 +51,7 @@ app.add_typer(design_commands.commands)
 app.add_typer(schema_commands.commands)
 app.add_typer(check_commands.commands)
 app.add_typer(score_commands.commands)
+app.add_typer(listen_commands.commands)
 
 StudyFile = Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study to run.")]
 Out = Annotated[

@@ -1,4 +1,4 @@
-"""Commands for recordings: orders, track, map, export.
+"""Commands for recordings: orders, track, map, export, tones.
 
 Heavy imports wait until a command needs them.
 """
@@ -216,3 +216,26 @@ def export_command(
         recording_file, unit, calibration, channels, sample_rate, from_s, to_s, plugin
     ).at_once()
     typer.echo(f"recording: {exporting.export_recording(recording, out)}")
+
+
+@commands.command("tones")
+@in_own_words
+def tones_command(
+    recording_file: Recording,
+    unit: Units = None,
+    calibration: Calibration = None,
+    channels: Channels = None,
+    sample_rate: SampleRate = None,
+    from_s: From = None,
+    to_s: To = None,
+    plugin: Plugins = None,
+) -> None:
+    """Print the tones of a steady recording, prominent or not, with loudness and sharpness."""
+    from . import outputs, reading
+    from .recorded_tones import tones_text
+
+    recording = reading.Reading(
+        recording_file, unit, calibration, channels, sample_rate, from_s, to_s, plugin
+    ).at_once()
+    with outputs.naming(recording_file):
+        typer.echo(tones_text(recording))

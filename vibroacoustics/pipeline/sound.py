@@ -15,6 +15,7 @@ from ..levels.agreement import priors_of
 from ..levels.axes import LevelAxes
 from ..levels.baseline import baseline_variables, over_baseline, points_of, with_baseline
 from ..levels.by_source import Measured, SourceSound, sound_by_source
+from ..levels.continuous import noise_levels
 from ..levels.labelled import draw_variables, level_variables
 from ..levels.lines import line_pressure
 from ..levels.measured_points import BASELINE_BANDS, MeasuredPoint, PointKey, evidence
@@ -100,12 +101,13 @@ def levels_of(
     replaced = any(receiver == study.catalogue_receiver for receiver, _ in points)
     rest = remainder(study, axes, sound, replaced or bool(study.ranges))
     left = remaining(study, axes, sound, study.machine, rest)
+    noise = noise_levels(axes, received, left)
     left = with_baseline(study, axes, points, sound, left)
     lines = line_pressure(axes, received)
     frequency = motion.results["order_frequency"]
     measured = baseline_variables(study, axes, points, sound)
     levels = level_variables(axes, sound, lines["pressure_line"], frequency, left, rest, measured)
-    levels = levels.merge(lines).merge(measured)
+    levels = levels.merge(lines).merge(measured).merge(noise)
     levels = levels.merge(contributions_of(transmission, motion, axes, levels, by_force))
     if not study.ranges:
         return levels

@@ -39,6 +39,7 @@ TOGETHER: Final = (
     ("order_sound_power_level", "sound_power_level"),
     ("path_pressure", "path_level", "path_share", "path_band_level", "path_band_share",
      "modelled_band_level", "motion_level", "motion_share"),
+    ("noise_band_level", "remainder_band_level"),
     ("published_score", "published_sum", "recomputed_sum"),
 )  # fmt: skip
 """Variables that stand in a run all or none."""

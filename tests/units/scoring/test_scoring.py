@@ -111,7 +111,7 @@ def test_a_perfect_option_still_gets_finite_scores():
 
 def test_every_criterion_of_a_study_exists(thesis_study):
     assert set(thesis_study.scoring.criteria) <= set(criterion.CRITERIA)
-    assert list(CRITERIA) == list(criterion.CRITERIA)  # a seed's weightings follow this order
+    assert list(CRITERIA) == list(criterion.CRITERIA)[:5]  # a seed's weightings follow this order
 
 
 # --- utilities -----------------------------------------------------------------------------------

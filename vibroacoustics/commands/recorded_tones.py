@@ -1,0 +1,55 @@
+"""Tones, loudness and sharpness of recorded sound as text."""
+
+import xarray as xr
+
+from ..base.errors import ParameterError
+from ..report.tables import Table, to_text
+from ..report.tones import TONE_HEAD, tone_row
+from ..sound.loudness import NEEDED, available, recorded_loudness
+from ..sound.recorded import narrow_bands, recorded_spectrum
+from ..sound.tonality import Tone, tones
+
+MOST_TONES = 20
+_PROMINENT = {(True, True): "both", (True, False): "noise", (False, True): "bands"}
+
+
+def tones_text(recording: xr.Dataset) -> str:
+    """Tones of every channel in Pa, with loudness and sharpness where mosqito is installed.
+
+    Parameters
+    ----------
+    recording : as from `read_recording`
+
+    Raises
+    ------
+    ParameterError
+        No channel is in Pa, or the recording is too short.
+    """
+    signal = recording["signal"]
+    microphones = signal.isel(channel=signal["channel_unit"].values == "Pa")
+    if not microphones.sizes["channel"]:
+        units = ", ".join(sorted(set(map(str, signal["channel_unit"].values))))
+        raise ParameterError(f"channels: none is in Pa (there are {units}); see --unit")
+    rate = float(recording.attrs["sample_rate_hz"])
+    texts = [_of_channel(channel, rate) for channel in microphones]
+    return "\n".join(texts if available() else [*texts, f"{NEEDED}\n"]).rstrip("\n")
+
+
+def _of_channel(channel: xr.DataArray, sample_rate_hz: float) -> str:
+    name = str(channel["channel"].item())
+    bands = narrow_bands(channel.values, sample_rate_hz)
+    judged = [tone for tone in tones(recorded_spectrum(bands)) if tone.noise_ratio_db > 0.0]
+    rows = tuple((*tone_row(tone), _which(tone)) for tone in judged[:MOST_TONES])
+    caption = f"{name}: {len(judged)} tones above the noise of their critical band"
+    text = to_text(Table(caption, (*TONE_HEAD, "prominent"), rows, frozenset({0, 5})))
+    if not available():
+        return text
+    loud = recorded_loudness(bands)
+    return (
+        f"{text}loudness {loud.loudness_sone:.3g} sone, sharpness {loud.sharpness_acum:.2f} acum\n"
+    )
+
+
+def _which(tone: Tone) -> str:
+    """By which of the two ratios it is prominent."""
+    return _PROMINENT.get((tone.prominent_by_noise, tone.prominent_by_bands), "no")

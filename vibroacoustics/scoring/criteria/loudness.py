@@ -1,0 +1,25 @@
+"""Loudness of the sound."""
+
+import xarray as xr
+
+from ...base.registry import register
+from ...sound import of_results
+from ...study.criterion import Criterion
+
+
+@register
+class Loudness(Criterion):
+    """Loudness (ISO 532-1), mean of the microphones.
+
+    Worst over the speeds; of the values as given. It needs mosqito, extra `sound`.
+    """
+
+    name = "loudness_sone"
+    label = "Loudness (ISO 532-1), mean of the microphones"
+    unit = "sone"
+    position = 6.0
+
+    def value(self, results: xr.Dataset) -> xr.DataArray:
+        """Value of each option, sone."""
+        worst: xr.DataArray = of_results.loudness(results).mean("receiver").max("speed")
+        return worst

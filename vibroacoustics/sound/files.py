@@ -1,0 +1,73 @@
+"""Sound files: WAV of 32-bit floats and FLAC of 24 bits, at a stated pressure at full scale."""
+
+import io
+from collections.abc import Callable
+from typing import Final
+
+import numpy as np
+from scipy.io import wavfile
+
+from ..base.arrays import Array
+from ..base.errors import ParameterError
+from .gain import peak_of_tone
+
+CALIBRATION_HZ: Final = 1000.0
+
+
+def wav_bytes(sound: Array, sample_rate_hz: int) -> bytes:
+    """A WAV file of 32-bit floats."""
+    content = io.BytesIO()
+    wavfile.write(content, sample_rate_hz, sound.astype(np.float32))
+    return content.getvalue()
+
+
+def flac_bytes(sound: Array, sample_rate_hz: int) -> bytes:
+    """A FLAC file of 24 bits.
+
+    Raises
+    ------
+    ParameterError
+        soundfile is not installed.
+    """
+    try:
+        import soundfile
+    except ImportError:
+        raise ParameterError(
+            "format = flac: needs soundfile: pip install 'vibroacoustics[sound]'"
+        ) from None
+    content = io.BytesIO()
+    soundfile.write(content, sound, sample_rate_hz, format="FLAC", subtype="PCM_24")
+    return content.getvalue()
+
+
+FORMATS: Final[dict[str, Callable[[Array, int], bytes]]] = {"wav": wav_bytes, "flac": flac_bytes}
+
+
+def at_gain(pressure_pa: Array, full_scale_pa: float) -> Array:
+    """Samples of a file, between -1 and 1.
+
+    Raises
+    ------
+    ParameterError
+        The sound exceeds full scale.
+    """
+    highest = float(np.max(np.abs(pressure_pa), initial=0.0))
+    if highest > full_scale_pa:
+        raise ParameterError(
+            f"full scale = {full_scale_pa:g} Pa: the sound reaches {highest:.3g} Pa; give as much"
+        )
+    return pressure_pa / full_scale_pa
+
+
+def calibration_tone(level_db: float, samples: int, sample_rate_hz: int) -> Array:
+    """A tone of 1 kHz of a level, Pa.
+
+    Raises
+    ------
+    ParameterError
+        The level is not between 0 and 140 dB.
+    """
+    if not 0.0 <= level_db <= 140.0:
+        raise ParameterError(f"calibration = {level_db:g} dB: must be between 0 and 140 dB")
+    turn = 2.0 * np.pi * CALIBRATION_HZ / sample_rate_hz
+    return np.asarray(peak_of_tone(level_db) * np.sin(turn * np.arange(samples)))

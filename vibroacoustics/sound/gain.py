@@ -1,0 +1,56 @@
+"""One gain for all sounds of a study: pascal at full scale."""
+
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.decibel import amplitude_of_level, power_of_level
+
+_CREST: Final = 5.5
+"""Largest value of ten minutes of Gaussian noise over its effective value."""
+
+
+def full_scale_of(results: xr.Dataset, calibration_db: float | None = None) -> float:
+    """Pressure at full scale that no option exceeds at any microphone and speed, Pa.
+
+    A number 1, 2 or 5 times a power of ten, so that files of one study, made at different times,
+    have the same gain.
+
+    Parameters
+    ----------
+    results : of a run, with its noise by third octave
+    calibration_db : level of a tone that has to fit, too
+    """
+    peak = abs(results["pressure_line"].sum("sound_source")).sum("line")
+    square = _square(results["noise_band_level"]) + _square(results["remainder_band_level"])
+    if "baseline_band_level" in results:
+        square = square + _square(results["baseline_band_level"])
+    if "baseline_order_level" in results:
+        level = results["baseline_order_level"].fillna(-np.inf)
+        of_orders = np.sqrt(2.0) * REFERENCE_PRESSURE_PA * amplitude_of_level(level)
+        peak = peak + of_orders.sum("baseline_order")
+    highest = float((peak + _CREST * np.sqrt(square)).max())
+    if calibration_db is not None:
+        highest = max(highest, peak_of_tone(calibration_db))
+    return _rounded_up(highest)
+
+
+def peak_of_tone(level_db: float) -> float:
+    """Peak of a tone of a level, Pa."""
+    return float(np.sqrt(2.0) * REFERENCE_PRESSURE_PA * amplitude_of_level(level_db))
+
+
+def _square(level: xr.DataArray) -> xr.DataArray:
+    """Mean square of all bands, Pa²."""
+    square = REFERENCE_PRESSURE_PA**2 * power_of_level(level.fillna(-np.inf))
+    return square.sum([dim for dim in level.dims if str(dim).endswith("band")])
+
+
+def _rounded_up(value: float) -> float:
+    """The next of 1, 2, 5, 10, 20, …; of silence the threshold of hearing."""
+    value = max(value, REFERENCE_PRESSURE_PA)
+    decade = 10.0 ** np.floor(np.log10(value))
+    steps = [round(step * decade, 12) for step in (1.0, 2.0, 5.0, 10.0)]
+    return float(next(step for step in steps if step >= value * (1.0 - 1e-9)))

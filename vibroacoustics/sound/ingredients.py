@@ -1,0 +1,173 @@
+"""What the sound of an option at a microphone is made of: lines with phase and bands of noise."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array, ComplexArray
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.decibel import amplitude_of_level, power_of_level
+from ..base.errors import ParameterError, SchemaError
+from ..base.units import shaft_frequency_hz
+from ..mechanics.added import third_octave_number
+
+_ORDER = "order "
+DUST = 1e-9
+"""Of a band's mean square: less is what rounding leaves where lines are taken out."""
+
+
+@dataclass(frozen=True)
+class SoundLines:
+    """Tones, rising in frequency.
+
+    Attributes
+    ----------
+    frequency_hz : shape (line,)
+    pressure_pa : complex peaks at the same crank angle, x(t) = Re{P exp(+jωt)}, shape (line,)
+    name : of each, such as `order 2`
+    """
+
+    frequency_hz: Array
+    pressure_pa: ComplexArray
+    name: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class SoundBands:
+    """Noise in third octaves (base ten: a band reaches from 10^-0.05 to 10^0.05 of its centre).
+
+    Attributes
+    ----------
+    centre_hz : exact midband frequencies, shape (band,)
+    pressure_pa : effective values of the noise, without tones, shape (band,)
+    """
+
+    centre_hz: Array
+    pressure_pa: Array
+
+
+@dataclass(frozen=True)
+class Ingredients:
+    """All that a sound is made of.
+
+    Attributes
+    ----------
+    lines : tones with phase
+    bands : noise
+    """
+
+    lines: SoundLines
+    bands: SoundBands
+
+    @property
+    def mean_square(self) -> float:
+        """Of the sound, Pa²."""
+        return float(
+            0.5 * np.sum(np.abs(self.lines.pressure_pa) ** 2) + np.sum(self.bands.pressure_pa**2)
+        )
+
+
+def ingredients(results: xr.Dataset, option: str, microphone: str, speed: float) -> Ingredients:
+    """Lines with phase and bands of noise of an option at a microphone and speed.
+
+    The one source of every rendering: of `vibroacoustics listen` as of the report's page. Lines are
+    the sum of all sources; orders of a measured baseline have its levels, with the phases of the
+    model (0 where it has no such order). Noise is that of the sources and what the model does not
+    explain: the remainder of the catalogue level or, in bands that were measured, the baseline.
+    Their sum is `level_total`, with A-weighting of noise at its midband frequencies.
+
+    Parameters
+    ----------
+    results : of a run
+    option, microphone : names in the results
+    speed : one of theirs, rpm
+
+    Returns
+    -------
+    lines above 0 Hz that sound, and bands that hold noise
+
+    Raises
+    ------
+    ParameterError
+        The results hold no such option, microphone or speed.
+    SchemaError
+        The results are of a version that kept no noise.
+    """
+    case = _case(results, option, microphone, speed)
+    lines = _measured_orders(case, _modelled_lines(case))
+    number = third_octave_number(case["noise_band"].values)
+    square = _square(case["noise_band_level"]) + _square(case["remainder_band_level"])
+    if "baseline_band_level" in case:
+        square = _measured_bands(case, lines, number, square)
+    loud = square > 0.0
+    bands = SoundBands(10.0 ** (number[loud] / 10.0), np.sqrt(square[loud]))
+    return Ingredients(lines, bands)
+
+
+def _case(results: xr.Dataset, option: str, microphone: str, speed: float) -> xr.Dataset:
+    asked: dict[str, str | float]
+    asked = {"option": option, "receiver": microphone, "speed": speed}
+    words = {"option": "option", "receiver": "microphone", "speed": "speed"}
+    if "noise_band_level" not in results:
+        raise SchemaError("the results hold no noise of third octaves: run the study again")
+    for dim, value in asked.items():
+        there = results[dim].values
+        if value not in there:
+            unit = " rpm" if dim == "speed" else ""
+            known = ", ".join(f"{one:g}" if dim == "speed" else str(one) for one in there)
+            raise ParameterError(
+                f"{words[dim]} = {value}{unit}: the results hold no such one; there are {known}"
+            )
+    names = (
+        "pressure_line", "noise_band_level", "remainder_band_level", "baseline_band_level",
+        "baseline_order_level",
+    )  # fmt: skip
+    return results[[name for name in names if name in results]].sel(asked)
+
+
+def _modelled_lines(case: xr.Dataset) -> SoundLines:
+    """Lines of all sources together that sound."""
+    pressure = case["pressure_line"].sum("sound_source").values
+    hertz = case["tone_frequency"].values
+    sounds = (hertz > 0.0) & (pressure != 0.0)
+    names = tuple(str(name) for name in case["line"].values[sounds])
+    return _rising(hertz[sounds], pressure[sounds], names)
+
+
+def _rising(hertz: Array, pressure: ComplexArray, names: tuple[str, ...]) -> SoundLines:
+    order = np.argsort(hertz, kind="stable")
+    return SoundLines(hertz[order], pressure[order], tuple(names[number] for number in order))
+
+
+def _measured_orders(case: xr.Dataset, lines: SoundLines) -> SoundLines:
+    """The lines with the levels of a baseline's orders."""
+    if "baseline_order_level" not in case:
+        return lines
+    peak = dict(zip(lines.name, lines.pressure_pa, strict=True))
+    hertz = dict(zip(lines.name, lines.frequency_hz, strict=True))
+    for order, level in zip(
+        case["baseline_order"].values, case["baseline_order_level"].values, strict=True
+    ):
+        if np.isfinite(level):
+            name = f"{_ORDER}{order:g}"
+            size = np.sqrt(2.0) * REFERENCE_PRESSURE_PA * amplitude_of_level(float(level))
+            peak[name] = size * np.exp(1j * np.angle(peak.get(name, 1.0)))
+            hertz[name] = order * shaft_frequency_hz(float(case["speed"]))
+    return _rising(np.array(list(hertz.values())), np.array(list(peak.values())), tuple(peak))
+
+
+def _measured_bands(case: xr.Dataset, lines: SoundLines, number: Array, otherwise: Array) -> Array:
+    """Mean squares of the noise, Pa²: measured bands less their lines, others as they are."""
+    levels = case["baseline_band_level"].reindex(baseline_band=case["noise_band"].values)
+    of_lines = third_octave_number(lines.frequency_hz)[:, None] == number
+    tones = (0.5 * np.abs(lines.pressure_pa) ** 2) @ of_lines
+    measured = REFERENCE_PRESSURE_PA**2 * power_of_level(levels.values)
+    left = np.where(measured - tones > DUST * measured, measured - tones, 0.0)
+    return np.where(np.isnan(measured), otherwise, left)
+
+
+def _square(level: xr.DataArray) -> Array:
+    """Mean squares of levels, Pa²; nothing of those that stand for silence."""
+    square = REFERENCE_PRESSURE_PA**2 * power_of_level(level.values)
+    return np.where(level.values > -200.0, square, 0.0)

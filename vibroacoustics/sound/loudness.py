@@ -1,0 +1,136 @@
+"""Loudness of stationary sound (ISO 532-1, Zwicker) and sharpness (DIN 45692), by mosqito."""
+
+from collections.abc import Sequence
+from importlib.util import find_spec
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from ..base.arrays import Array
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.decibel import mean_square_level
+from ..base.errors import ParameterError
+from .ingredients import Ingredients
+from .recorded import NarrowBands
+
+CENTRES_HZ: Final[Array] = 10.0 ** (np.arange(14, 42) / 10.0)
+"""Exact midband frequencies of the third octaves from 25 Hz to 12.5 kHz."""
+NEEDED: Final = "loudness and sharpness need mosqito: pip install 'vibroacoustics[sound]'"
+_ACROSS: Final = 20
+_SILENT_DB: Final = -60.0
+_QUIET_SONE: Final = 0.1
+"""Below it sharpness is not judged."""
+
+
+class Loudness(NamedTuple):
+    """What an ear makes of a sound.
+
+    Attributes
+    ----------
+    loudness_sone : N, in a free field from the front
+    sharpness_acum : S; not a number of a sound that is hardly audible
+    """
+
+    loudness_sone: float
+    sharpness_acum: float
+
+    @property
+    def level_phon(self) -> float:
+        """Loudness level: 40 + 10 lb N; below 1 sone 40 (N + 0.0005)^0.35 (ISO 532-1, 5.8)."""
+        if self.loudness_sone >= 1.0:
+            return float(40.0 + 10.0 * np.log2(self.loudness_sone))
+        return float(max(40.0 * (self.loudness_sone + 0.0005) ** 0.35, 3.0))
+
+
+def available() -> bool:
+    """Whether mosqito is installed."""
+    return find_spec("mosqito") is not None
+
+
+def loudness_of(parts: Sequence[Ingredients]) -> list[Loudness]:
+    """Loudness and sharpness of computed sounds.
+
+    Parameters
+    ----------
+    parts : of `ingredients`
+
+    Raises
+    ------
+    ParameterError
+        mosqito is not installed, or a band below 300 Hz exceeds 120 dB.
+    """
+    return loudness_of_thirds(np.array([_thirds(part) for part in parts]))
+
+
+def recorded_loudness(bands: NarrowBands) -> Loudness:
+    """Loudness and sharpness of a stationary recording.
+
+    Parameters
+    ----------
+    bands : of `narrow_bands`
+
+    Raises
+    ------
+    ParameterError
+        As `loudness_of`.
+    """
+    audible = bands.frequency_hz > 0.0
+    square = bands.mean_square[audible] @ filter_gain(bands.frequency_hz[audible])
+    (one,) = loudness_of_thirds(square[None])
+    return one
+
+
+def loudness_of_thirds(mean_square: Array) -> list[Loudness]:
+    """Loudness and sharpness from third octaves (ISO 532-1, 5.4 and Annex A).
+
+    Parameters
+    ----------
+    mean_square : in the bands `CENTRES_HZ`, shape (sound, band), Pa²
+
+    Raises
+    ------
+    ParameterError
+        As `loudness_of`.
+    """
+    if not available():
+        raise ParameterError(NEEDED)
+    from mosqito.sq_metrics.loudness.loudness_zwst._calc_slopes import _calc_slopes
+    from mosqito.sq_metrics.loudness.loudness_zwst._main_loudness import _main_loudness
+    from mosqito.sq_metrics.sharpness.sharpness_din.sharpness_din_from_loudness import (
+        sharpness_din_from_loudness,
+    )
+
+    level_db = np.maximum(mean_square_level(mean_square, REFERENCE_PRESSURE_PA), _SILENT_DB)
+    try:
+        core = _main_loudness(level_db.T, "free")
+    except ValueError as error:
+        raise ParameterError(f"loudness: {' '.join(str(error).split())}") from None
+    total, specific = _calc_slopes(core)
+    sharp = sharpness_din_from_loudness(np.maximum(total, _QUIET_SONE), specific)
+    sharp = np.where(np.asarray(total) < _QUIET_SONE, np.nan, sharp)
+    pairs = zip(np.atleast_1d(total), np.atleast_1d(sharp), strict=True)
+    return [Loudness(float(sone), float(acum)) for sone, acum in pairs]
+
+
+def filter_gain(frequency_hz: Array) -> Array:
+    """What third-octave filters let through of powers, shape (frequency, band).
+
+    Butterworth's of third order, 1/(1 + ((f/f_m - f_m/f)/b)^6), with b such that white noise comes
+    out with the power of its band; a tone near an edge counts in two bands, as it does in a meter.
+
+    Parameters
+    ----------
+    frequency_hz : above zero
+    """
+    ratio = frequency_hz[:, None] / CENTRES_HZ
+    width = (10.0**0.05 - 10.0**-0.05) * np.sinc(1.0 / 6.0)
+    return np.asarray(1.0 / (1.0 + ((ratio - 1.0 / ratio) / width) ** 6))
+
+
+def _thirds(parts: Ingredients) -> Array:
+    """Mean squares in the bands `CENTRES_HZ`, Pa²; noise is even over the logarithm in its band."""
+    lines = 0.5 * np.abs(parts.lines.pressure_pa) ** 2 @ filter_gain(parts.lines.frequency_hz)
+    across = 10.0 ** ((np.arange(_ACROSS) + 0.5) / (10.0 * _ACROSS) - 0.05)
+    hertz = parts.bands.centre_hz[:, None] * across
+    gain = filter_gain(hertz.ravel()).reshape(*hertz.shape, CENTRES_HZ.size).mean(axis=1)
+    return np.asarray(lines + parts.bands.pressure_pa**2 @ gain)
