@@ -30,9 +30,9 @@ EVERY_BLOCK = (
     blocks.Details("Fold", (blocks.Pictures((Picture("one", "alt", "caption", PNG),)),)),
 )
 BUILT_IN = [
-    "verdict", "comparison", "baseline", "sources", "paths", "shell-test", "unknowns", "orders",
-    "forces", "mounts", "radiation", "stopping", "scores", "evidence", "assumptions", "errata",
-    "provenance",
+    "verdict", "comparison", "baseline", "sources", "paths", "structure-borne", "shell-test",
+    "unknowns", "orders", "forces", "mounts", "radiation", "stopping", "scores", "evidence",
+    "assumptions", "errata", "provenance",
 ]  # fmt: skip
 
 
@@ -73,7 +73,7 @@ def test_sections_are_in_their_order() -> None:
 
 
 @pytest.mark.parametrize(
-    "name", sorted({*BUILT_IN} - {"stopping", "baseline", "paths", "shell-test"})
+    "name", sorted({*BUILT_IN} - {"stopping", "baseline", "paths", "structure-borne", "shell-test"})
 )
 def test_every_section_is_html_and_markdown(name: str, results: xr.Dataset) -> None:
     section = SECTIONS[name]

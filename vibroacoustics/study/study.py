@@ -26,6 +26,7 @@ from .receivers import Receiver
 from .scoring import Scoring, check_given, check_scales
 from .sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
 from .speeds import MOST_SPEEDS, speed_range
+from .structure_borne import StructureBorne
 from .toml_files import Written
 from .uncertainty import HeldRange, MeasuredModes, Range, Uncertainty
 
@@ -145,6 +146,8 @@ class Study(Parameters):
     sound_power: SoundPowerSettings | None = None
     map: MapSettings | None = None
     directivity: DirectivitySettings | None = None
+    structure_borne: StructureBorne | None = None
+    """Plate under the feet whose sound is computed beside that by air."""
     sources: dict[str, AnySource] = Field(default_factory=dict)
     """Who drives the machine beside its moving parts."""
     uncertainty: Uncertainty = Uncertainty()
