@@ -21,9 +21,12 @@ from ..study.body import (
 from ..study.radiation import RadiationSettings
 from ..study.receivers import Receiver
 from ..study.surroundings import Cabinet, Opening, PanelSide
-from .arrays import Array
+from .arrays import Array, ComplexArray
 from .bodies import Body, block, cylinder, join_bodies, read_mesh, sphere
+from .exact import green_rows
 from .mirrors import Mirror
+from .outdoors.green import Outdoors
+from .outdoors.of_study import check_barrier, outdoors_of
 from .patterns import Pattern, sampled
 from .surface_points import SurfacePoints
 
@@ -42,6 +45,33 @@ class Scene:
     panels: tuple[Body, ...]
     """Those of a cabinet, which stand still."""
     walls: tuple[Mirror, ...]
+    outdoors: Outdoors | None = None
+    """What takes the place of the hard floor on the way to the microphones."""
+
+    @property
+    def room(self) -> str:
+        """How sound travels on where k-Wave does not compute it, in words."""
+        return "image sources" if self.outdoors is None else "spherical waves over ground"
+
+    @property
+    def upright_walls(self) -> tuple[Mirror, ...]:
+        """Those but the floor."""
+        return tuple(wall for wall in self.walls if wall.axis != 2)
+
+    def green_rows(
+        self, points: Array, receivers: Array, frequency_hz: Array
+    ) -> Iterator[ComplexArray]:
+        """Green's functions in closed form, (receiver, point), one frequency after the other.
+
+        Parameters
+        ----------
+        points : about the machine, (point, 3), m
+        receivers : (receiver, 3), m
+        frequency_hz : shape (frequency,)
+        """
+        if self.outdoors is None:
+            return green_rows(points, receivers, frequency_hz, self.walls)
+        return self.outdoors.rows(points, receivers, frequency_hz, self.upright_walls)
 
     @cached_property
     def body(self) -> Body:
@@ -93,13 +123,17 @@ def scene(shell: Shell, settings: RadiationSettings) -> Scene:
                 f"{'xyz'[wall.axis]}; needed at least {1e3 * least:g} mm"
             )
     cabinet = settings.surroundings.cabinet
-    if cabinet is None:
-        return Scene(machine, (), walls)
-    _check_fits(machine, cabinet, shell.floor_z_m)
-    with_cabinet = Scene(machine, tuple(cabinet_panels(cabinet, shell.floor_z_m)), walls)
-    if any(wall.depth_m(np.stack(with_cabinet.body.bounds())).min() < -1e-9 for wall in walls):
+    outdoors = outdoors_of(shell, settings.surroundings)
+    if cabinet is not None:
+        _check_fits(machine, cabinet, shell.floor_z_m)
+    panels = () if cabinet is None else tuple(cabinet_panels(cabinet, shell.floor_z_m))
+    result = Scene(machine, panels, walls, outdoors)
+    check_barrier(outdoors, np.stack(result.body.bounds()))
+    if cabinet is not None and any(
+        wall.depth_m(np.stack(result.body.bounds())).min() < -1e-9 for wall in walls
+    ):
         raise ParameterError("radiation.surroundings.cabinet: its panels reach through a wall")
-    return with_cabinet
+    return result
 
 
 def machine_body(shell: Shell, body: RadiatingBody) -> Body:

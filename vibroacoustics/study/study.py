@@ -203,10 +203,12 @@ class Study(Parameters):
         self._check_orders()
         self._check_sources()
         surroundings = self.radiation.surroundings
-        if self.sound_power and (surroundings.walls or surroundings.cabinet):
+        if self.sound_power and (
+            surroundings.walls or surroundings.cabinet or surroundings.is_outdoors
+        ):
             raise ValueError(
-                "sound_power: ISO 3744 measures over a hard floor alone; "
-                "radiation.surroundings has walls or a cabinet"
+                "sound_power: ISO 3744 measures over a hard floor alone; radiation.surroundings "
+                f"has {'ground or a barrier' if surroundings.is_outdoors else 'walls or a cabinet'}"
             )
         return self
 
