@@ -53,8 +53,7 @@ class Barrier:
         share = self._gap(points) / (self._gap(points) + self._gap(receiver))
         hidden = points[..., 2] + share * (receiver[2] - points[..., 2]) < self.top_m
         fresnel = np.where(hidden, 1.0, -1.0) * wavenumber * (over - direct) / np.pi
-        gain_db: Array = -attenuation_db(fresnel)
-        size = amplitude_of_level(gain_db) / (4.0 * np.pi * direct)
+        size = 1.0 / (amplitude_of_level(attenuation_db(fresnel)) * 4.0 * np.pi * direct)
         return np.asarray(size * np.exp(-1j * wavenumber * np.where(hidden, over, direct)))
 
     def _gap(self, points: Array) -> Array:
