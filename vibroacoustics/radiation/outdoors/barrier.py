@@ -53,7 +53,8 @@ class Barrier:
         share = self._gap(points) / (self._gap(points) + self._gap(receiver))
         hidden = points[..., 2] + share * (receiver[2] - points[..., 2]) < self.top_m
         fresnel = np.where(hidden, 1.0, -1.0) * wavenumber * (over - direct) / np.pi
-        size = 1.0 / (amplitude_of_level(attenuation_db(fresnel)) * 4.0 * np.pi * direct)
+        loss_db = attenuation_db(fresnel).astype(np.float64)
+        size = 1.0 / (4.0 * np.pi * direct * amplitude_of_level(loss_db))
         return np.asarray(size * np.exp(-1j * wavenumber * np.where(hidden, over, direct)))
 
     def _gap(self, points: Array) -> Array:
