@@ -30,11 +30,12 @@ from vibroacoustics.mechanisms.oldham_scroll.rotating_set import (
 )
 from vibroacoustics.orders import order_spectrum, semi_major_axis
 from vibroacoustics.radiation.bodies import sphere
+from vibroacoustics.radiation.cabinet import cabinet_panels
 from vibroacoustics.radiation.exact import box_green
 from vibroacoustics.radiation.machine_side import EXTRAPOLATION
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.near_step import Fields
-from vibroacoustics.radiation.scene import Scene, cabinet_panels
+from vibroacoustics.radiation.scene import Scene
 from vibroacoustics.study.surroundings import Cabinet
 from vibroacoustics.transfer import MachineOnMounts
 

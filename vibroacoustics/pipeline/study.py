@@ -23,6 +23,7 @@ from .motion import motion_of
 from .radiating import line_difference, sound_field, transfer_vectors
 from .shell import shell_path
 from .sound import levels_of
+from .structure_borne import structure_borne_sound
 
 
 def run(
@@ -80,6 +81,7 @@ def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
     results = results.merge(line_difference(study, results))
     moved = motion.with_results(results)
     results = results.merge(levels_of(study, moved, path, progress, test, by_force))
+    results = results.merge(structure_borne_sound(study, moved, results))
     if study.operation.stopping:
         body = on_mounts(study.machine)
         results = results.merge(stopping_variables(study, study.machine, body, results, path))

@@ -102,8 +102,8 @@ class ByCutCells:
         """What the result says about its solution."""
         grid = self.near[0].grid
         return {
-            "solver": solver("cut cells", "image sources", self._task),
-            "receiver_solvers": json.dumps(self._task.solvers("image sources")),
+            "solver": solver("cut cells", self._task.scene.room, self._task),
+            "receiver_solvers": json.dumps(self._task.solvers(self._task.scene.room)),
             "near_field_cells": " x ".join(map(str, grid.shape)),
             "near_field_spacing_m": grid.spacing_m,
             "near_field_time_step_s": grid.time_step_s,

@@ -12,7 +12,6 @@ from ..base.progress import Progress, no_progress
 from ..base.threads import in_threads
 from .arrays import Array, ComplexArray
 from .box import BoxField
-from .exact import green_rows
 from .join import join, rows_of
 from .mirrors import Mirror
 from .near_field import NearField
@@ -190,7 +189,7 @@ class MachineSide:
         near = self._near[grid]
         layers = np.concatenate([near.box.inner, near.box.outer])
         frequency_hz = self._frequency_hz[asked.frequencies]
-        greens = green_rows(layers, asked.points[points], frequency_hz, self._scene.walls)
+        greens = self._scene.green_rows(layers, asked.points[points], frequency_hz)
         values[points, chosen] = join(near.recording, fields, self._indices(asked), greens)
 
 
@@ -208,6 +207,7 @@ def near_fields(scene: Scene, spacing_m: float, maximum_frequency_hz: float) -> 
             maximum_frequency_hz,
             scene.near_walls,
             cells_per_unit=cells,
+            joins_floor=scene.outdoors is not None,
         )
         for cells in (_UNIT_CELLS, _UNIT_CELLS - 1)
     ]

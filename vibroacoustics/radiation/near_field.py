@@ -14,6 +14,7 @@ of the wall's flux that is even or odd along the mirrored axes: a rigid motion h
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cached_property
 from itertools import product
 from typing import Final
@@ -58,8 +59,10 @@ class NearField:
         walls: Sequence[Mirror] = (),
         box_margin_m: float = BOX_MARGIN_M,
         cells_per_unit: int = 3,
+        joins_floor: bool = False,
     ) -> None:
-        self.grid: NearGrid = near_grid(body, spacing_m, walls, box_margin_m, cells_per_unit)
+        grid = near_grid(body, spacing_m, walls, box_margin_m, cells_per_unit)
+        self.grid: NearGrid = replace(grid, joins_floor=joins_floor)
         self._body = body
         self._walls = walls
         self.pulse_width_s = pulse_width_s(maximum_frequency_hz)
@@ -68,7 +71,8 @@ class NearField:
     def box(self) -> Box:
         """The box through which the sound field leaves."""
         grid = self.grid
-        return closed_box(grid.edges, grid.box_start, grid.box_stop, grid.on_walls)
+        sides = grid.on_walls, grid.joins_floor
+        return closed_box(grid.edges, grid.box_start, grid.box_stop, *sides)
 
     @cached_property
     def recording(self) -> Recording:

@@ -57,6 +57,8 @@ class NearGrid:
     box_stop: tuple[int, int, int]
     on_walls: frozenset[Side]
     """Sides of the grid, and of the box, that lie on hard walls."""
+    joins_floor: bool = False
+    """Whether the box has its side on the floor, too; see `Box`."""
     mirrored: tuple[int, ...] = ()
     """Axes along which body and grid are symmetric about the grid's middle plane."""
 
@@ -74,6 +76,7 @@ class NearGrid:
             box_start=(start[0], start[1], start[2]),
             box_stop=(stop[0], stop[1], stop[2]),
             on_walls=self.on_walls | {(axis, -1) for axis in self.mirrored},
+            joins_floor=self.joins_floor,
         )
 
     @property
@@ -98,7 +101,12 @@ class NearGrid:
     def box_pairs(self) -> int:
         """Number of pairs of cells across the faces of the box."""
         size = np.subtract(self.box_stop, self.box_start)
-        return sum(int(np.prod(size)) // int(size[axis]) for axis, _ in open_sides(self.on_walls))
+        return sum(int(np.prod(size)) // int(size[axis]) for axis, _ in self.box_sides)
+
+    @property
+    def box_sides(self) -> list[Side]:
+        """Sides that the box has."""
+        return open_sides(self.on_walls, self.joins_floor)
 
     @property
     def time_step_s(self) -> float:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from .arrays import Array, ComplexArray, IndexArray
-from .box import Box, open_sides
+from .box import Box
 from .near_grid import NearGrid
 from .symmetry import images, signs
 
@@ -69,13 +69,14 @@ def recording(grid: NearGrid, box: Box) -> Recording:
 def _layers(grid: NearGrid) -> IndexArray:
     """Flat indices of the cells inside and outside of each face of the box, (2, pair)."""
     layers = []
-    for axis, sign in open_sides(grid.on_walls):
+    for axis, sign in grid.box_sides:
         ranges: list[IndexArray] = [
             np.arange(a, b) for a, b in zip(grid.box_start, grid.box_stop, strict=True)
         ]
         inner_cell = grid.box_stop[axis] - 1 if sign > 0 else grid.box_start[axis]
         side = []
-        for cell in (inner_cell, inner_cell + sign):
+        outer_cell = inner_cell if (axis, sign) in grid.on_walls else inner_cell + sign
+        for cell in (inner_cell, outer_cell):
             ranges[axis] = np.array([cell])
             side.append(np.ravel_multi_index(np.ix_(*ranges), grid.shape).ravel())
         layers.append(np.stack(side))

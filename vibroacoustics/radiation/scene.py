@@ -20,10 +20,13 @@ from ..study.body import (
 )
 from ..study.radiation import RadiationSettings
 from ..study.receivers import Receiver
-from ..study.surroundings import Cabinet, Opening, PanelSide
-from .arrays import Array
+from .arrays import Array, ComplexArray
 from .bodies import Body, block, cylinder, join_bodies, read_mesh, sphere
+from .cabinet import cabinet_panels, check_fits
+from .exact import green_rows
 from .mirrors import Mirror
+from .outdoors.green import Outdoors
+from .outdoors.of_study import check_barrier, outdoors_of
 from .patterns import Pattern, sampled
 from .surface_points import SurfacePoints
 
@@ -42,6 +45,33 @@ class Scene:
     panels: tuple[Body, ...]
     """Those of a cabinet, which stand still."""
     walls: tuple[Mirror, ...]
+    outdoors: Outdoors | None = None
+    """What takes the place of the hard floor on the way to the microphones."""
+
+    @property
+    def room(self) -> str:
+        """How sound travels on where k-Wave does not compute it, in words."""
+        return "image sources" if self.outdoors is None else "spherical waves over ground"
+
+    @property
+    def upright_walls(self) -> tuple[Mirror, ...]:
+        """Those but the floor."""
+        return tuple(wall for wall in self.walls if wall.axis != 2)
+
+    def green_rows(
+        self, points: Array, receivers: Array, frequency_hz: Array
+    ) -> Iterator[ComplexArray]:
+        """Green's functions in closed form, (receiver, point), one frequency after the other.
+
+        Parameters
+        ----------
+        points : about the machine, (point, 3), m
+        receivers : (receiver, 3), m
+        frequency_hz : shape (frequency,)
+        """
+        if self.outdoors is None:
+            return green_rows(points, receivers, frequency_hz, self.walls)
+        return self.outdoors.rows(points, receivers, frequency_hz, self.upright_walls)
 
     @cached_property
     def body(self) -> Body:
@@ -93,13 +123,17 @@ def scene(shell: Shell, settings: RadiationSettings) -> Scene:
                 f"{'xyz'[wall.axis]}; needed at least {1e3 * least:g} mm"
             )
     cabinet = settings.surroundings.cabinet
-    if cabinet is None:
-        return Scene(machine, (), walls)
-    _check_fits(machine, cabinet, shell.floor_z_m)
-    with_cabinet = Scene(machine, tuple(cabinet_panels(cabinet, shell.floor_z_m)), walls)
-    if any(wall.depth_m(np.stack(with_cabinet.body.bounds())).min() < -1e-9 for wall in walls):
+    outdoors = outdoors_of(shell, settings.surroundings)
+    if cabinet is not None:
+        check_fits(machine, cabinet, shell.floor_z_m)
+    panels = () if cabinet is None else tuple(cabinet_panels(cabinet, shell.floor_z_m))
+    result = Scene(machine, panels, walls, outdoors)
+    check_barrier(outdoors, np.stack(result.body.bounds()))
+    if cabinet is not None and any(
+        wall.depth_m(np.stack(result.body.bounds())).min() < -1e-9 for wall in walls
+    ):
         raise ParameterError("radiation.surroundings.cabinet: its panels reach through a wall")
-    return with_cabinet
+    return result
 
 
 def machine_body(shell: Shell, body: RadiatingBody) -> Body:
@@ -166,74 +200,3 @@ def room_walls(shell: Shell, settings: RadiationSettings) -> tuple[Mirror, ...]:
 def position_m(shell: Shell, receiver: Receiver) -> Array:
     """Receiver (x, y, z) about the centre of mass; its height counts from the floor's level."""
     return np.array([receiver.x_m, receiver.y_m, shell.floor_z_m + receiver.height_m])
-
-
-def _check_fits(machine: Body, cabinet: Cabinet, floor_z_m: float) -> None:
-    lower, upper = machine.bounds()
-    room = np.array([cabinet.depth_m, cabinet.width_m, 2.0 * (floor_z_m + cabinet.height_m)]) / 2.0
-    gap = float(min(np.min(room - upper), np.min(room[:2] + lower[:2])))
-    if gap < _LEAST_GAP_M:
-        raise ParameterError(
-            f"radiation.surroundings.cabinet: the machine is {1e3 * gap:.4g} mm off the panels; "
-            f"needed at least {1e3 * _LEAST_GAP_M:g} mm"
-        )
-
-
-def cabinet_panels(cabinet: Cabinet, floor_z_m: float) -> Iterator[Body]:
-    """The panels of a cabinet as blocks that overlap at its edges.
-
-    A panel with an opening is four blocks around it.
-    """
-    half = np.array([cabinet.depth_m / 2.0, cabinet.width_m / 2.0])
-    inner_lower = np.array([*-half, floor_z_m])
-    inner_upper = np.array([*half, floor_z_m + cabinet.height_m])
-    thickness = cabinet.panel_thickness_m
-    outer_lower, outer_upper = inner_lower - thickness, inner_upper + thickness
-    outer_lower[2] = floor_z_m
-    for side, (axis, upward) in _SIDES.items():
-        if side in cabinet.open_sides:
-            continue
-        lower, upper = outer_lower.copy(), outer_upper.copy()
-        if upward:
-            lower[axis] = inner_upper[axis]
-        else:
-            upper[axis] = inner_lower[axis]
-        opening = cabinet.openings.get(side)
-        if opening is None:
-            yield block(lower, upper)
-        else:
-            yield from _around_opening(lower, upper, axis, opening, floor_z_m)
-
-
-_SIDES: Final[dict[PanelSide, tuple[int, bool]]] = {
-    "-x": (0, False),
-    "+x": (0, True),
-    "-y": (1, False),
-    "+y": (1, True),
-    "top": (2, True),
-}
-
-
-def _around_opening(
-    lower: Array, upper: Array, axis: int, opening: Opening, floor_z_m: float
-) -> Iterator[Body]:
-    """What a rectangular hole leaves of a panel: four blocks, fewer if it reaches an edge."""
-    along, up = [other for other in range(3) if other != axis]
-    middle_up = opening.up_m + (floor_z_m if up == 2 else 0.0)
-    hole_lower, hole_upper = lower.copy(), upper.copy()
-    for across, middle, size in (
-        (along, opening.along_m, opening.width_m),
-        (up, middle_up, opening.height_m),
-    ):
-        hole_lower[across] = np.clip(middle - size / 2.0, lower[across], upper[across])
-        hole_upper[across] = np.clip(middle + size / 2.0, lower[across], upper[across])
-    strip_lower, strip_upper = lower.copy(), upper.copy()
-    for across in (along, up):
-        before, after = strip_upper.copy(), strip_lower.copy()
-        before[across], after[across] = hole_lower[across], hole_upper[across]
-        for block_lower, block_upper in ((strip_lower, before), (after, strip_upper)):
-            if np.all(block_upper - block_lower > 1e-9):
-                yield block(block_lower, block_upper)
-        # What is left between both strips, with the hole in it.
-        strip_lower, strip_upper = strip_lower.copy(), strip_upper.copy()
-        strip_lower[across], strip_upper[across] = hole_lower[across], hole_upper[across]

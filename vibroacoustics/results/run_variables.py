@@ -40,6 +40,9 @@ TOGETHER: Final = (
     ("path_pressure", "path_level", "path_share", "path_band_level", "path_band_share",
      "modelled_band_level", "motion_level", "motion_share"),
     ("noise_band_level", "remainder_band_level"),
+    ("structure_borne_input_power", "structure_borne_power", "structure_borne_line_level",
+     "structure_borne_line_low", "structure_borne_line_high", "structure_borne_level",
+     "structure_borne_level_low", "structure_borne_level_high", "level_both_ways"),
     ("published_score", "published_sum", "recomputed_sum"),
 )  # fmt: skip
 """Variables that stand in a run all or none."""

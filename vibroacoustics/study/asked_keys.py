@@ -29,6 +29,7 @@ _BY_UNIT: Final = {
     "m3": "cm3",
     "f": "uf",
     "h": "mh",
+    "pa_s_per_m2": "kpa_s_per_m2",
 }
 _LONGEST_KEY: Final = 100
 _LIKENESS: Final = 0.7

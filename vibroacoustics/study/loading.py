@@ -25,6 +25,7 @@ from .machine_file import (
 from .published_table import read_published_table
 from .ranges import is_used, ranges_of, tables_used
 from .reader import Reader
+from .structure_borne import StructureBorne
 from .study import Study
 from .toml_files import Written, beside, read_with_base
 from .wording import validated
@@ -87,10 +88,15 @@ def study_of(written: Written) -> Study:
     given, evidence = take_given(content, reader), take_evidence(content, reader)
     content = reader.to_si(content, ())
     _read_measured(content, reader)
+    plate = _plate(content, reader)
+    if plate is not None:
+        machine, at_catalogue = plate.under(machine), at_catalogue and plate.under(at_catalogue)
     content.update(machine=machine, source_file=path.name, given=given, evidence=evidence)
     content["catalogue_machine"] = at_catalogue
     for name, (redesigned, change_records) in redesigns.items():
-        content["options"][name]["machine"] = redesigned
+        content["options"][name]["machine"] = (
+            redesigned if plate is None else plate.under(redesigned)
+        )
         machine_records += change_records
     validate_kinds(content, "options", OPTIONS, reader)
     validate_kinds(content, "sources", SOURCES, reader)
@@ -196,6 +202,14 @@ def _read_measured(content: Mapping[str, Any], reader: Reader) -> None:
         third_octaves=tuple(held.third_octaves),
         orders=tuple(held.orders),
     )
+
+
+def _plate(content: Mapping[str, Any], reader: Reader) -> StructureBorne | None:
+    """The plate under the feet; none where there is none, or a measured floor in its stead."""
+    table = _table_at(content, ("structure_borne",))
+    if table is None or _table_at(content, ("measured", "floor")) is not None:
+        return None
+    return validated(StructureBorne, table, reader, ("structure_borne",))
 
 
 def _resolve_file_names(content: Mapping[str, Any], reader: Reader) -> None:

@@ -54,6 +54,15 @@ class RadiationSettings(Parameters):
         return self
 
     @model_validator(mode="after")
+    def _room_fits(self) -> "RadiationSettings":
+        if self.surroundings.is_outdoors and self.room_solver == "k-wave":
+            raise ValueError(
+                'room_solver = "k-wave": has hard and absorbing walls alone; take "closed-form" '
+                "over ground or a barrier"
+            )
+        return self
+
+    @model_validator(mode="after")
     def _grids_resolve_the_wave(self) -> "RadiationSettings":
         for name, nodes, highest_hz in (
             ("near_field_spacing_m", 8.0, self.maximum_frequency_hz),

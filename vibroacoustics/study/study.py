@@ -26,6 +26,7 @@ from .receivers import Receiver
 from .scoring import Scoring, check_given, check_scales
 from .sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
 from .speeds import MOST_SPEEDS, speed_range
+from .structure_borne import StructureBorne
 from .toml_files import Written
 from .uncertainty import HeldRange, MeasuredModes, Range, Uncertainty
 
@@ -145,6 +146,8 @@ class Study(Parameters):
     sound_power: SoundPowerSettings | None = None
     map: MapSettings | None = None
     directivity: DirectivitySettings | None = None
+    structure_borne: StructureBorne | None = None
+    """Plate under the feet whose sound is computed beside that by air."""
     sources: dict[str, AnySource] = Field(default_factory=dict)
     """Who drives the machine beside its moving parts."""
     uncertainty: Uncertainty = Uncertainty()
@@ -200,10 +203,12 @@ class Study(Parameters):
         self._check_orders()
         self._check_sources()
         surroundings = self.radiation.surroundings
-        if self.sound_power and (surroundings.walls or surroundings.cabinet):
+        if self.sound_power and (
+            surroundings.walls or surroundings.cabinet or surroundings.is_outdoors
+        ):
             raise ValueError(
-                "sound_power: ISO 3744 measures over a hard floor alone; "
-                "radiation.surroundings has walls or a cabinet"
+                "sound_power: ISO 3744 measures over a hard floor alone; radiation.surroundings "
+                f"has {'ground or a barrier' if surroundings.is_outdoors else 'walls or a cabinet'}"
             )
         return self
 

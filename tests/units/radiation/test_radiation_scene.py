@@ -9,13 +9,13 @@ from support import whole_surface
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.machine.shell import Shell
 from vibroacoustics.radiation.bodies import block, join_bodies
+from vibroacoustics.radiation.cabinet import cabinet_panels
 from vibroacoustics.radiation.cut_cells import cut_cells
 from vibroacoustics.radiation.mirrors import images
 from vibroacoustics.radiation.near_grid import near_grid
 from vibroacoustics.radiation.patterns import Pattern, rigid_body
 from vibroacoustics.radiation.scene import (
     Scene,
-    cabinet_panels,
     file_patterns,
     machine_body,
     position_m,

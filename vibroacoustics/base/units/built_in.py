@@ -32,6 +32,8 @@ for _unit in (
     Unit("gpa", "GPa", "pa", 1e9),
     Unit("mpa", "MPa", "pa", 1e6),
     Unit("pa", "Pa", "pa", 1.0),
+    Unit("kpa_s_per_m2", "kPa s/m²", "pa_s_per_m2", 1e3),  # of a flow resistivity
+    Unit("pa_s_per_m2", "Pa s/m²", "pa_s_per_m2", 1.0),
     Unit("pa_s", "Pa s", "pa_s", 1.0),
     Unit("deg", "°", "rad", 0.017453292519943295),
     Unit("rad", "rad", "rad", 1.0),

@@ -15,9 +15,10 @@ from ..at_kwave import Vectors, closed_greens, differences_db, solver, with_kwav
 from ..room_green import check_receiver
 from ..room_greens import room_greens
 from ..task import Microphones, Task
+from .over_ground import over_ground
 from .profile import shell_profile
 from .receivers import addition, by_name, join_box
-from .side import RevolutionSide
+from .side import Addition, RevolutionSide
 
 _NAME: Final = "boundary elements"
 
@@ -45,7 +46,9 @@ class ByRevolution:
 
     def _at_receivers(self, progress: Progress) -> Vectors:
         task, side = self._task, self.side
-        closed = by_name(side.spectrum(task.receivers.points, task.table_hz, _NAME, progress))
+        points, table_hz = task.receivers.points, task.table_hz
+        over_ground = self._over_ground(points, table_hz)
+        closed = by_name(side.spectrum(points, table_hz, _NAME, progress, over_ground))
         if not task.kwave:
             return closed
         box = join_box(side, task.settings.room_spacing_m)
@@ -59,23 +62,40 @@ class ByRevolution:
     def _at(self, asked: Microphones, progress: Progress) -> ComplexArray:
         """Pressures (point, pattern, frequency); those of the table are interpolated."""
         frequency_hz = self._task.frequency_hz[asked.frequencies]
+        added = self._over_ground(asked.points, frequency_hz)
         if asked.frequencies == self._task.table:
-            sampled = self.side.spectrum(asked.points, frequency_hz, "sound field", progress)
+            side, name = self.side, "sound field"
+            sampled = side.spectrum(asked.points, frequency_hz, name, progress, added)
             pressure = np.moveaxis(sampled.pressure, 0, -1)
         else:
             by_line = [
                 self.side.finer_pressures(float(line), asked.points) for line in frequency_hz
             ]
+            if added is not None:
+                by_line = [one + added(number) for number, one in enumerate(by_line)]
             pressure = np.stack(by_line, axis=-1)
         return pressure[:, : asked.patterns]
+
+    def _over_ground(self, points: Array, frequency_hz: Array) -> Addition | None:
+        """What ground and barrier add at points, by index of the frequency; none on a floor."""
+        by_wall = over_ground(self._task.scene, points)
+        if by_wall is None:
+            return None
+        return lambda index: self.side.added(float(frequency_hz[index]), by_wall)
+
+    @property
+    def _solver(self) -> str:
+        """What computes a microphone without k-Wave."""
+        scene = self._task.scene
+        return _NAME if scene.outdoors is None else f"{_NAME}, {scene.room}"
 
     def attributes(self) -> dict[str, Any]:
         """What the result says about its solution."""
         side = self.side
         fine, coarse = (radiator.mesh for radiator in side.radiators)
         return {
-            "solver": solver(_NAME, "image sources", self._task),
-            "receiver_solvers": json.dumps(self._task.solvers(_NAME)),
+            "solver": solver(_NAME, self._task.scene.room, self._task),
+            "receiver_solvers": json.dumps(self._task.solvers(self._solver)),
             "boundary_elements": f"{len(fine.lengths)}, coarser {len(coarse.lengths)}",
             "boundary_element_longest_m": float(fine.lengths.max()),
             "boundary_element_shortest_m": float(fine.lengths.min()),

@@ -31,20 +31,20 @@ class Radiator:
     ) -> None:
         self.mesh = mesh
         self.floor_z_m = floor_z_m
-        self._patterns = len(patterns)
-        self._columns = by_order(mesh, patterns)
-        self._velocity = [column.velocity for column in self._columns]
+        self.patterns = len(patterns)
+        self.by_order = by_order(mesh, patterns)
+        self._velocity = [column.velocity for column in self.by_order]
         self._null_points = null_points(mesh)
 
     @property
     def orders(self) -> int:
         """Number of orders around, from 0."""
-        return len(self._columns)
+        return len(self.by_order)
 
     @property
     def columns(self) -> int:
         """Number of velocities over all orders."""
-        return sum(column.pattern.size for column in self._columns)
+        return sum(column.pattern.size for column in self.by_order)
 
     def solve(self, frequency_hz: float) -> WallPressure:
         """Pressure on the wall at a frequency."""
@@ -61,4 +61,4 @@ class Radiator:
         fields = radiated(self.mesh, circles, k, self._velocity, wall.orders, self.floor_z_m)
         angle = np.arctan2(points[:, 1], points[:, 0])
         around = [field[circle.ravel()] for field in fields]
-        return at_angles(self._columns, around, angle, self._patterns)
+        return at_angles(self.by_order, around, angle, self.patterns)

@@ -15,6 +15,7 @@ from ...base.threads import in_threads, processors
 from ..arrays import Array, ComplexArray, IndexArray
 from ..patterns import Pattern
 from .mesh import mesh
+from .over_ground import AtFrequency
 from .profile import Profile, above_floor
 from .radiator import Radiator, WallPressure
 from .sampling import Sampled, sample
@@ -100,6 +101,10 @@ class RevolutionSide:
     def finer_pressures(self, frequency_hz: float, points: Array) -> ComplexArray:
         """Pressure at points (point, 3), (point, pattern), Pa."""
         return self.radiators[0].pressures(self._walls(frequency_hz)[0], points)
+
+    def added(self, frequency_hz: float, by_wall: AtFrequency) -> ComplexArray:
+        """What the finer mesh's wall adds besides, (point, pattern), Pa."""
+        return by_wall(self.radiators[0], self._walls(frequency_hz)[0])
 
     def _walls(self, frequency_hz: float) -> list[WallPressure]:
         if frequency_hz not in self._solved:

@@ -1,0 +1,103 @@
+"""Levels of a plate under the feet at the microphones, labelled."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array
+from ..base.constants import (
+    AIR_DENSITY_KG_PER_M3,
+    REFERENCE_PRESSURE_PA,
+    SPEED_OF_SOUND_M_PER_S,
+)
+from ..base.decibel import energy_sum, mean_square_level
+from ..base.vocabulary import WEIGHTINGS, check, stamp
+from .by_source import weighting_power
+
+
+@dataclass(frozen=True)
+class PlateSound:
+    """What a plate makes of the lines of all cases, shapes (speed, option, line).
+
+    Attributes
+    ----------
+    input_power_w, power_w : into it, and as sound to one side; zero where there is no line
+    variance : of the sound power by the plate's modes, over its squared mean
+    """
+
+    input_power_w: Array
+    power_w: Array
+    variance: Array
+
+
+def mean_square_per_power(distance_m: Array, absorption_area_m2: float | None) -> Array:
+    """Mean square of pressure per sound power in front of a plate: ρ c (1/(2π r²) + 4/A), Pa²/W.
+
+    A source in a wall, and the diffuse field of the room (Kuttruff, Room Acoustics, chapter on
+    diffuse fields).
+
+    Parameters
+    ----------
+    distance_m : from the middle of the feet, shape (...)
+    absorption_area_m2 : of the room; none for an open half space
+    """
+    diffuse = 0.0 if absorption_area_m2 is None else 4.0 / absorption_area_m2
+    direct = 1.0 / (2.0 * np.pi * np.asarray(distance_m, dtype=float) ** 2)
+    return np.asarray(AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S * (direct + diffuse))
+
+
+def structure_borne_variables(
+    sound: PlateSound,
+    per_power: Array,
+    frequency_hz: Array,
+    spread: Mapping[str, tuple[Array, Array]],
+    level_total: xr.DataArray,
+    lines: Sequence[str],
+) -> xr.Dataset:
+    """Levels by the feet and the plate, told apart from what comes by air.
+
+    Parameters
+    ----------
+    sound : of all cases
+    per_power : mean square per power at each receiver, shape (receiver,), Pa²/W
+    frequency_hz : of the lines, shape (speed, line); not a number where there is none
+    spread : `line`, shapes (speed, option, line), and `total`, (speed, option): levels that 5 % and
+        95 % lie below, over that of the mean power, dB
+    level_total : by air, (speed, option, receiver)
+    lines : their names
+    """
+    power = sound.power_w[:, :, None, :] * per_power[:, None]
+    by_weighting = np.stack([weight_of(name, frequency_hz) for name in WEIGHTINGS], axis=-1)
+    weighted = power[..., None] * by_weighting[:, None, None]
+    total = _level(weighted.sum(axis=-2))
+    audible = total[..., WEIGHTINGS.index("A")]
+    by_air = level_total.transpose("speed", "option", "receiver").values
+    low, high = (bound[..., None] for bound in spread["total"])
+    coords = {name: level_total[name].values for name in ("speed", "option", "receiver")}
+    cases = {name: coords[name] for name in ("speed", "option")}
+    by_line, weightings = {"line": list(lines)}, {"weighting": list(WEIGHTINGS)}
+    values: dict[str, tuple[Array, dict[str, Any]]] = {
+        "structure_borne_input_power": (sound.input_power_w, {**cases, **by_line}),
+        "structure_borne_power": (sound.power_w, {**cases, **by_line}),
+        "structure_borne_line_level": (_level(weighted), {**coords, **by_line, **weightings}),
+        "structure_borne_line_low": (spread["line"][0], {**cases, **by_line}),
+        "structure_borne_line_high": (spread["line"][1], {**cases, **by_line}),
+        "structure_borne_level": (total, {**coords, **weightings}),
+        "structure_borne_level_low": (audible + low, coords),
+        "structure_borne_level_high": (audible + high, coords),
+        "level_both_ways": (energy_sum(np.stack([by_air, audible]), axis=0), coords),
+    }
+    return check(xr.Dataset({name: stamp(name, *one) for name, one in values.items()}))
+
+
+def weight_of(weighting: str, frequency_hz: Array) -> Array:
+    """Factor of a weighting on mean squares; none where there is no line."""
+    there = np.nan_to_num(frequency_hz) > 0.0
+    return weighting_power(weighting, np.where(there, frequency_hz, 1.0)) * there
+
+
+def _level(mean_square: Array) -> Array:
+    return mean_square_level(mean_square, REFERENCE_PRESSURE_PA)

@@ -1,0 +1,1 @@
+"""Sound over ground that gives way to it, and over a barrier."""
