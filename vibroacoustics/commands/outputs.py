@@ -34,6 +34,7 @@ REPORT_FILES: Final = (
     "scores.csv",
     "sources.csv",
     "paths.csv",
+    "speeds.csv",
     "figures/*.png",
 )
 """What a report may consist of."""
