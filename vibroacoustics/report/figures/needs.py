@@ -19,8 +19,8 @@ def needs(*variables: str, from_: str = "`run`", any_of: bool = False) -> Callab
     Parameters
     ----------
     from_ : what gives results that have them
+    any_of : one of the variables is enough
     variables : names of the vocabulary
-    any_of : one of them is enough
     """
 
     def guarded(make: Maker) -> Maker:

@@ -96,8 +96,9 @@ def over_speed_picture(
 
     Parameters
     ----------
-    orders, channel, option : as of `orders_over_speed`
+    orders : as of `orders_over_speed`
     name : of the file
+    channel, option : as of `orders_over_speed`
     """
     cuts = order_cuts(orders, channel, option)
     which = "" if len(cuts.rms) > 1 or "block_order_rms" in orders else f", option {option}"
