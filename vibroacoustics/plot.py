@@ -11,37 +11,44 @@ Of `run`: `force_over_revolution`, `force_orders`, `foot_force_orders`, `level_o
 `rank_acceptability`, `source_third_octaves`, `option_third_octaves`, `baseline_third_octaves`,
 `path_shares`, `stopping`, `stopping_order_map`.
 
+Over several speeds of `run`: `levels_over_speed`, `source_levels_over_speed`,
+`orders_over_speed`, `speed_frequency_map`, `campbell`.
+
 Of `radiate`: `transfer_vectors`, `unit_level_map`, `directivity`.
 
 Of `analyse_orders`: `order_spectrum`, `orders_over_speed`, `order_map`.
 
-Of `speed_frequency_map`: `speed_frequency_map`, `run_up_levels`. Of `track_orders`:
+Of `speed_frequency_map`: `speed_frequency_map`, `levels_over_speed`. Of `track_orders`:
 `tracked_orders`.
 
 Of `blocked_forces`: `blocked_force`, `blocked_validation`.
 
-Of `compare`: `compared_orders`, `order_differences`.
+Of `compare`: `compared_orders`, `order_differences`, `orders_over_speed`.
 
 Of `curves`: `curves`. Of `predict`: `predicted_levels`.
 """
 
 from .report.figures.baseline import baseline_third_octaves
 from .report.figures.blocked_forces import blocked_force, blocked_validation
+from .report.figures.campbell import campbell
 from .report.figures.compared_orders import compared_orders
 from .report.figures.curves import curves
 from .report.figures.directivity import directivity
 from .report.figures.forces import force_over_revolution
+from .report.figures.levels_over_speed import levels_over_speed, source_levels_over_speed
 from .report.figures.maps import line_map, unit_level_map
 from .report.figures.mounts import mount_transmissibility
 from .report.figures.order_differences import order_differences
 from .report.figures.orders import foot_force_orders, force_orders, level_orders
+from .report.figures.orders_over_speed import orders_over_speed
 from .report.figures.paths import path_shares
 from .report.figures.prediction import predicted_levels
 from .report.figures.radiation import green_difference, levels, transfer
-from .report.figures.recorded_maps import run_up_levels, speed_frequency_map, tracked_orders
-from .report.figures.recorded_orders import order_map, order_spectrum, orders_over_speed
+from .report.figures.recorded_maps import tracked_orders
+from .report.figures.recorded_orders import order_map, order_spectrum
 from .report.figures.scores import rank_acceptability, scores
 from .report.figures.sources import option_third_octaves, source_third_octaves
+from .report.figures.speed_maps import speed_frequency_map
 from .report.figures.stopping import stopping, stopping_order_map
 from .report.figures.transfer_vectors import transfer_vectors
 
@@ -49,6 +56,7 @@ __all__ = [
     "baseline_third_octaves",
     "blocked_force",
     "blocked_validation",
+    "campbell",
     "compared_orders",
     "curves",
     "directivity",
@@ -58,6 +66,7 @@ __all__ = [
     "green_difference",
     "level_orders",
     "levels",
+    "levels_over_speed",
     "line_map",
     "mount_transmissibility",
     "option_third_octaves",
@@ -68,8 +77,8 @@ __all__ = [
     "path_shares",
     "predicted_levels",
     "rank_acceptability",
-    "run_up_levels",
     "scores",
+    "source_levels_over_speed",
     "source_third_octaves",
     "speed_frequency_map",
     "stopping",

@@ -42,7 +42,7 @@ figure = va.plot.speed_frequency_map(mapped, "front")
 
 # %%
 # The level over the speed has its peak where order 4 meets 140 Hz, at 2100 rpm.
-figure = va.plot.run_up_levels(mapped)
+figure = va.plot.levels_over_speed(mapped)
 level = mapped["block_level"].sel(channel="front", weighting="Z")
 loudest = level["block_speed"][int(np.argmax(level.values))].item()
 print(f"loudest at {loudest:.0f} rpm, {level.max().item():.0f} dB")

@@ -35,6 +35,7 @@ REPORT_FILES: Final = (
     "scores.csv",
     "sources.csv",
     "paths.csv",
+    "speeds.csv",
     "report.pdf",
     "figures/*.png",
     "figures/*.svg",

@@ -10,6 +10,7 @@ from .outputs import write_analysis
 
 TRACKED_NAME: Final = "tracked_orders.nc"
 SPEED_MAP_NAME: Final = "speed_map.nc"
+SPEED_MAP_REPORT_NAME: Final = "speed_map.html"
 
 
 def write_tracked(tracked: xr.Dataset, folder: str | Path) -> Path:
@@ -19,5 +20,7 @@ def write_tracked(tracked: xr.Dataset, folder: str | Path) -> Path:
 
 
 def write_speed_map(mapped: xr.Dataset, folder: str | Path) -> Path:
-    """Write a speed-frequency map with its figures; see `write_analysis`."""
-    return write_analysis(mapped, folder, SPEED_MAP_NAME, {}, report.speed_map_figures)
+    """Write a speed-frequency map with page and figures; see `write_analysis`."""
+    pictures = report.speed_map_figures(mapped)
+    page = {SPEED_MAP_REPORT_NAME: report.speed_map_html(mapped, pictures)}
+    return write_analysis(mapped, folder, SPEED_MAP_NAME, page, lambda _: pictures)

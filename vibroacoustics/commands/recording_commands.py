@@ -181,7 +181,7 @@ def map_command(
     out: Out = None,
     plugin: Plugins = None,
 ) -> None:
-    """Draw a recording over speed and frequency (Campbell), and its level over the speed."""
+    """Draw a recording over speed and frequency, its level over the speed: page, figures."""
     from .. import pipeline
     from . import arguments, outputs, reading, recorded_outputs
 
@@ -193,6 +193,7 @@ def map_command(
     ).at_once()
     mapped = pipeline.speed_frequency_map(recording, source, resolution, maximum_frequency)
     typer.echo(f"speed-frequency map: {recorded_outputs.write_speed_map(mapped, folder)}")
+    typer.echo(f"report: {folder / recorded_outputs.SPEED_MAP_REPORT_NAME}")
 
 
 @commands.command("export")

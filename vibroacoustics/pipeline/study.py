@@ -16,6 +16,7 @@ from ..results.words import words
 from ..stopping.labelled import stopping_variables
 from ..study.study import Study
 from ..transfer import on_mounts
+from ..transfer.natural_frequencies import natural_variables
 from .calibration import shell_test
 from .floor import on_measured_floor
 from .force_sound import force_radiation, measured_force_sound
@@ -77,6 +78,8 @@ def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
     else:
         radiated, was_cached = radiation(study, progress, () if path is None else path.modes)
     results = motion.results.merge(radiated)
+    of_any_case, highest = next(iter(motion.loads.values())), study.radiation.maximum_frequency_hz
+    results = results.merge(natural_variables(study.machine, path, of_any_case, highest))
     results = results.merge(sound_field(study, results))
     results = results.merge(line_difference(study, results))
     moved = motion.with_results(results)

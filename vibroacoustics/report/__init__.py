@@ -30,6 +30,7 @@ from .kept_columns import kept as kept_columns
 from .kept_sections import keep_sections
 from .kept_sections import kept as kept_sections
 from .limit_tables import limits_csv, limits_text
+from .map_page import speed_map_html
 from .markdown import markdown
 from .order_tables import (
     comparison_of_orders_csv,
@@ -39,6 +40,7 @@ from .order_tables import (
     orders_text,
 )
 from .orders_page import orders_html
+from .over_speed.avoid_table import avoid_csv, avoided
 from .page import page_of
 from .path_tables import paths_csv
 from .paths import has_paths
@@ -47,7 +49,7 @@ from .radiation_figures import radiation_figures
 from .radiation_tables import kwave_text, radiation_text
 from .scores import scores_csv
 from .source_tables import sources_csv
-from .study import has_sources
+from .study import has_sources, over_speed
 from .tracked_tables import tracked_csv, tracked_text
 
 __all__ = [
@@ -85,6 +87,7 @@ __all__ = [
     "render",
     "render_designs",
     "speed_map_figures",
+    "speed_map_html",
     "tracked_csv",
     "tracked_order_figures",
     "tracked_text",
@@ -108,6 +111,7 @@ def render(results: xr.Dataset, results_sha256: str = "") -> dict[str, bytes]:
         "scores.csv": scores_csv(results),
         **({"sources.csv": sources_csv(results)} if has_sources(results) else {}),
         **({"paths.csv": paths_csv(results)} if has_paths(results) else {}),
+        **({"speeds.csv": avoid_csv(avoided(results))} if over_speed(results) else {}),
         **{file: picture.png for file, picture in page.pictures().items()},
     }
 

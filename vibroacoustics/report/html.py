@@ -27,6 +27,7 @@ def html(page: Page, results_sha256: str = "") -> bytes:
     )
     environment.filters |= {
         "data_address": _data_address,
+        "full_address": _full_address,
         "breakable": _breakable,
         "linked": _linked,
     }
@@ -65,5 +66,12 @@ def _breakable(text: str) -> Markup:
 
 
 def _data_address(picture: Picture) -> str:
-    kind = {"png": "png", "svg": "svg+xml"}[picture.ending]
-    return f"data:image/{kind};base64,{base64.b64encode(picture.png).decode()}"
+    return _address(picture.png, {"png": "png", "svg": "svg+xml"}[picture.ending])
+
+
+def _full_address(picture: Picture) -> str:
+    return _address(picture.full_png, "png")
+
+
+def _address(content: bytes, kind: str) -> str:
+    return f"data:image/{kind};base64,{base64.b64encode(content).decode()}"

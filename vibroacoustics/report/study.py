@@ -12,6 +12,8 @@ from ..base.vocabulary import REFERENCE_OPTION
 
 MOST_SPEEDS: Final = 6
 """Speeds that get a table, a panel or a curve of their own."""
+FEWEST_OVER_SPEED: Final = 3
+"""Speeds from which on curves over the speed are drawn."""
 
 
 def parameters(results: xr.Dataset) -> dict[str, Any]:
@@ -89,6 +91,11 @@ def first_order_hz(results: xr.Dataset) -> Array:
 def many_speeds(results: xr.Dataset) -> bool:
     """Whether there are more speeds than are shown one by one."""
     return len(speeds(results)) > MOST_SPEEDS
+
+
+def over_speed(results: xr.Dataset) -> bool:
+    """Whether there are speeds enough to be drawn over."""
+    return len(speeds(results)) >= FEWEST_OVER_SPEED
 
 
 def few_speeds(results: xr.Dataset) -> xr.Dataset:

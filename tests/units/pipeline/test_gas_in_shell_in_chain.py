@@ -25,6 +25,7 @@ from vibroacoustics.sources.scroll_gas.opening import steady_opening
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer.cavity.of_machine import gas_of
 from vibroacoustics.transfer.frame import frame_on_shell
+from vibroacoustics.transfer.natural_frequencies import gas_frequencies
 from vibroacoustics.transfer.shell_modes import velocity_per_force
 
 WITHOUT = 'without = ["frame"]\n'
@@ -71,6 +72,19 @@ def test_the_port_feeds_the_dome(study):
     assert flow.volume_flow[0] == pytest.approx(mass.mean() / 112.0)
     lines = all_lines(case, loads_of(study, case))
     assert lines.flows["gas"][0].volume_flow.shape == lines.frequency_hz.shape
+
+
+def test_natural_frequencies_of_the_gas(study):
+    """Of the annulus about c n/(2 pi R) with its mean radius; none of spaces that are not fed."""
+    annulus, flows = study.machine.suction_annulus, flows_of(study)
+    speeds = {name: flow.sound_speed_m_per_s for name, flow in flows.items()}
+    named = gas_frequencies(study.machine, path_of(study), speeds)
+    mean = 0.5 * (annulus.inner_radius_m + study.machine.shell.radius_m)
+    once = speeds[SUCTION_ANNULUS] / (2.0 * np.pi * mean)
+    assert named[f"{SUCTION_ANNULUS}_n2_1"] == pytest.approx(2.0 * once, rel=0.01)
+    assert list(named.values()) == sorted(named.values())
+    some = gas_frequencies(study.machine, path_of(study), {DISCHARGE_DOME: 178.0})
+    assert {name.partition("_n")[0] for name in some} == {DISCHARGE_DOME}
 
 
 def test_the_pockets_draw_on_the_annulus(study):

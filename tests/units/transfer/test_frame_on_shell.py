@@ -1,5 +1,7 @@
 """The frame in the elastic shell: conservation, reciprocity, elimination, flexibility."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from frames import frame_with
@@ -12,7 +14,9 @@ from vibroacoustics.machine.shell_structure import Joint
 from vibroacoustics.mechanics.loads import PARTS
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer.frame import frame_on_shell
+from vibroacoustics.transfer.frame.natural import answers
 from vibroacoustics.transfer.frame.symmetric import solve_symmetric, upper_pairs
+from vibroacoustics.transfer.natural_frequencies import framed_hz
 from vibroacoustics.transfer.path import computed_path
 from vibroacoustics.transfer.shell_modes import elastic_shell, velocity_per_force
 from vibroacoustics.transfer.shell_modes.harmonic import Harmonic
@@ -91,6 +95,32 @@ def test_nothing_moves_at_frequency_zero(on_shell):
     for array in (velocities(on_shell, FREQUENCY).T, on_shell.contact_forces(FREQUENCY)):
         assert not array[0].any()
         assert np.all(np.isfinite(array))
+
+
+def test_natural_frequencies_make_the_contacts_infinitely_compliant(on_shell):
+    """Without loss: there the compliance of the gaps has no inverse, or a mode moves no contact."""
+    still = replace(on_shell, loss_factor_ratio=0.0)
+    still = replace(
+        still, contacts=replace(still.contacts, stiffness=still.contacts.stiffness.real)
+    )
+    still = replace(still, inner=replace(still.inner, stiffness=still.inner.stiffness.real))
+    hertz = framed_hz(on_shell)
+    hertz = hertz[hertz < 1500.0]
+    alone = [*still.natural_hz, *np.sqrt(np.abs(still.motions.squares)) / (2.0 * np.pi)]
+    coupled = [one for one in hertz if abs(np.array(alone) / one - 1.0).min() > 1e-9]
+    assert len(coupled) >= 8
+
+    def least(frequency_hz):
+        omega = np.array([2.0 * np.pi * frequency_hz])
+        shell = answers(still._squares, omega) / still.modal_mass_kg[:, None]
+        pairs, _ = still._compliance(shell, answers(still.motions.squares, omega), omega)
+        full = np.zeros((len(still.contacts.part),) * 2)
+        rows, columns = upper_pairs(len(full))
+        full[rows, columns] = full[columns, rows] = pairs[:, 0]
+        return abs(np.linalg.eigvalsh(full)).min()
+
+    for one in coupled:
+        assert least(one) < 1e-2 * max(least(0.999 * one), least(1.001 * one))
 
 
 def test_contacts_give_what_elimination_of_the_parts_gives(on_shell):

@@ -42,6 +42,15 @@ for _thing in (
         "force into the foot, semi-major axis, peak",
     ),
     Variable("natural_frequency", ("mode",), "Hz", "natural frequency on the mounts"),
+    Coordinate("shell_mode", ("shell_mode",), "", "elastic mode of the shell, with its frame"),
+    Coordinate("gas_mode", ("gas_mode",), "", "mode of a space of gas in the shell"),
+    Variable(
+        "shell_frequency",
+        ("shell_mode",),
+        "Hz",
+        "natural frequency of the shell, with the parts in it where there is a frame",
+    ),
+    Variable("gas_frequency", ("gas_mode",), "Hz", "natural frequency of gas in rigid walls"),
     Variable("mode_shape", ("mode", "body", "dof"), "kg-1/2", "mass-normalised shape of the mode"),
     Variable(
         "mount_transmissibility",

@@ -18,6 +18,7 @@ from ..tables import Table
 from .levels import levels_tables
 from .limits import limit_blocks, limits_sentence
 from .orders import is_pressure, known_channels, orders_table, summary
+from .over_speed import channel_pictures, over_speed_parts
 from .studies import inputs_table, key_figures
 from .validation import is_study, rungs_of
 
@@ -41,6 +42,7 @@ def comparison_html(
         Part("verdict", "What comes out", tuple(_verdict(compared, figures))),
         *_limits(compared, figures),
         *_figures_of_studies(compared),
+        *over_speed_parts(compared),
         *_validation(compared),
         Part("orders", "Orders", tuple(_orders(orders, pictures))),
         *_levels(compared),
@@ -107,7 +109,8 @@ def _orders(orders: xr.Dataset, pictures: Sequence[Picture]) -> list[Block]:
     first = [name for name in channels if loud[name]] or channels[:1]
     blocks: list[Block] = [Pictures((difference_picture(orders),))]
     for name in channels:
-        of_channel: tuple[Block, ...] = (orders_table(orders, name), Pictures((drawn[name],)))
+        pictures_of = (*(channel_pictures(orders, name) if name in first else ()), drawn[name])
+        of_channel: tuple[Block, ...] = (orders_table(orders, name), Pictures(pictures_of))
         blocks += of_channel if name in first else [Details(name, of_channel)]
     return blocks
 

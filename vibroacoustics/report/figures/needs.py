@@ -13,20 +13,22 @@ from ...base.vocabulary import VARIABLES
 Maker = TypeVar("Maker", bound=Callable[..., Figure])
 
 
-def needs(*variables: str, from_: str = "`run`") -> Callable[[Maker], Maker]:
+def needs(*variables: str, from_: str = "`run`", any_of: bool = False) -> Callable[[Maker], Maker]:
     """Refuse, in one line, a dataset without the variables that a figure is drawn from.
 
     Parameters
     ----------
     from_ : what gives results that have them
+    any_of : one of the variables is enough
     variables : names of the vocabulary
     """
 
     def guarded(make: Maker) -> Maker:
         @wraps(make)
         def checked(results: xr.Dataset, *args: Any, **kwargs: Any) -> Figure:
-            for name in variables:
-                if name not in results:
+            missing = [name for name in variables if name not in results]
+            for name in missing:
+                if not any_of or len(missing) == len(variables):
                     raise ParameterError(
                         f"plot.{make.__name__}: these results hold no {name} "
                         f"({VARIABLES[name].long_name}); it comes from {from_}"

@@ -11,12 +11,12 @@ from matplotlib.ticker import NullLocator
 
 from .map_levels import map_level
 from .needs import chosen, needs
+from .orders_over_speed import over_speed_picture
 from .style import (
     COLOURS,
     Picture,
     draw,
     legend_below,
-    line_looks,
     numbered_file_name,
     png,
     shortened,
@@ -27,9 +27,6 @@ _MAP_RANGE_DB: Final = 60.0
 _QUIETEST: Final = 1e-5
 """Lowest amplitude of a logarithmic axis, as a share of the largest."""
 
-_OF_LIMITS: Final = {"linewidth": 0.8, "marker": "_", "markersize": 4.0, "linestyle": "-"}
-"""Look of limits, in the colour of their order."""
-
 
 def recorded_order_figures(results: xr.Dataset) -> list[Picture]:
     """For each channel: mean spectrum, orders over speed in a run-up, and map if there is one."""
@@ -38,7 +35,7 @@ def recorded_order_figures(results: xr.Dataset) -> list[Picture]:
         name = numbered_file_name(number, channel)
         pictures.append(_spectrum_picture(results, channel, name))
         if _is_run_up(results):
-            pictures.append(_over_speed_picture(results, channel, name))
+            pictures.append(over_speed_picture(results, f"orders_{name}", channel))
         if "order_map" in results:
             pictures.append(_map_picture(results, channel, name))
     return pictures
@@ -100,14 +97,6 @@ def _steady_limits(of_channel: xr.Dataset) -> xr.DataArray | None:
     return steady if steady.size else None
 
 
-def _limits_by_block(of_channel: xr.Dataset) -> xr.DataArray | None:
-    """Limits of each block of revolutions: those of its operating point."""
-    limits = _limits(of_channel)
-    if limits is None:
-        return None
-    return limits.sel(speed=of_channel["block_speed"].sortby("block_speed"), method="nearest")
-
-
 def _draw_steady_limits(axes: Axes, limits: xr.DataArray, band_order: float) -> None:
     half = 0.5 * band_order
     orders = limits["order"].values
@@ -164,60 +153,6 @@ def _spectrum_picture(results: xr.Dataset, channel: str, name: str) -> Picture:
         f"Mean order spectrum of {channel}, to order {highest:g}.",
         f"Mean order spectrum of {channel}: root of the mean power over the blocks.",
         png(order_spectrum(results, channel)),
-    )
-
-
-@needs("block_order_rms", from_="`analyse_orders`")
-def orders_over_speed(orders: xr.Dataset, channel: str | None = None) -> Figure:
-    """Order cuts of a channel over the speed, block by block: a line an order.
-
-    With `order_limit` (of `check_limits`), limits are drawn in the colours of their orders.
-
-    Parameters
-    ----------
-    orders : of `analyse_orders`; needs `block_order_rms` (channel, block, order), root
-        mean square in the channel's unit
-    channel : one of the dataset's channels; default: the first
-
-    Raises
-    ------
-    ParameterError
-        The dataset holds none, or there is no such channel.
-
-    Examples
-    --------
-    >>> orders = va.open_results("orders.nc")
-    >>> va.plot.orders_over_speed(orders).savefig("orders_over_speed.png")
-    """
-    of_channel, title = _of_channel(orders, channel)
-    cuts = of_channel["block_order_rms"].sortby("block_speed")
-    numbers = cuts["order"].values
-    limits = _limits_by_block(of_channel)
-
-    def paint(panels: Sequence[Axes]) -> None:
-        (axes,) = panels
-        for order, look in zip(numbers, line_looks(numbers.size), strict=True):
-            axes.plot(cuts["block_speed"], cuts.sel(order=order), label=f"{order:g}×", **look)
-            if limits is not None:
-                axes.plot(
-                    cuts["block_speed"], limits.sel(order=order), **(look | _OF_LIMITS),
-                    label="limits" if order == numbers[0] else None,
-                )  # fmt: skip
-        _logarithmic(axes, cuts, limits)
-        axes.set_xlabel("Speed, rpm")
-        axes.set_ylabel(f"RMS in the order's band, {_unit(of_channel)}")
-        axes.set_title(title, loc="left")
-        legend_below(axes, 4)
-
-    return draw(1, 2.6, paint, -(-(numbers.size + (limits is not None)) // 4))
-
-
-def _over_speed_picture(results: xr.Dataset, channel: str, name: str) -> Picture:
-    return Picture(
-        f"orders_{name}",
-        f"Orders of {channel} over the speed.",
-        f"Orders of {channel} over the speed, block by block.",
-        png(orders_over_speed(results, channel)),
     )
 
 

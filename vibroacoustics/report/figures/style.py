@@ -14,11 +14,14 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import LogLocator, MaxNLocator
+from PIL import Image
 from pydantic import Base64Bytes
 
 from ...base.arrays import Array
 
 WIDTH_INCH: Final = 4.6
+FULL_WIDTH_INCH: Final = 9.2
+"""Of figures over the speed where there is room."""
 DOTS_PER_INCH: Final = 160
 LEGEND_ROW_INCH: Final = 0.2
 
@@ -56,7 +59,8 @@ STYLE: Final[dict[str, Any]] = {
 class Picture(NamedTuple):
     """A finished figure: file name without ending, text in its place, caption, content of its file.
 
-    The content is PNG, or SVG where the ending says so.
+    The content is PNG, or SVG where the ending says so. `full_png` is the same figure as wide as a
+    page, for where there is room; empty for none.
     """
 
     name: str
@@ -64,6 +68,7 @@ class Picture(NamedTuple):
     caption: str
     png: Base64Bytes
     ending: Literal["png", "svg"] = "png"
+    full_png: Base64Bytes = b""
 
 
 class Drawing(Figure):
@@ -74,6 +79,8 @@ class Drawing(Figure):
 
 
 NOTHING_TO_DRAW: Final = "Every value is too small to draw."
+PALETTE: Final = 255
+"""Colours of a small picture."""
 FAST: Final = {"compress_level": 1}
 """Larger files by a third, written in half the time."""
 
@@ -83,6 +90,7 @@ def draw(
     panel_height_inch: float,
     paint: Callable[[Sequence[Axes]], None],
     legend_rows: int = 1,
+    width_inch: float = WIDTH_INCH,
     **share: Any,
 ) -> Figure:
     """Panels below each other, painted by `paint`, with room for a legend below."""
@@ -93,7 +101,7 @@ def draw(
         with matplotlib.rc_context({"axes.titley": 1.0}):
             paint(figure.subplots(panels, 1, squeeze=False, **share)[:, 0])
 
-    return render(WIDTH_INCH, height_inch, paint_panels)
+    return render(width_inch, height_inch, paint_panels)
 
 
 def render(width_inch: float, height_inch: float, paint: Callable[[Figure], None]) -> Figure:
@@ -119,6 +127,29 @@ def _say_where_empty(axes: Axes) -> None:
         axes.set(**{f"{name}scale": "linear" for name in empty})
         axes.set(**{f"{name}ticks": [] for name in empty if name == "x"})
         axes.text(0.5, 0.5, NOTHING_TO_DRAW, transform=axes.transAxes, ha="center", va="center")
+
+
+def in_both_widths(name: str, alt: str, caption: str, make: Callable[[float], Figure]) -> Picture:
+    """A picture that is narrow on a phone and as wide as the page where there is room.
+
+    Parameters
+    ----------
+    name, alt, caption : of the picture
+    make : draws the figure at a width, inch
+    """
+    narrow, full = (small_png(make(width)) for width in (WIDTH_INCH, FULL_WIDTH_INCH))
+    return Picture(name, alt, caption, narrow, full)
+
+
+def small_png(figure: Figure) -> bytes:
+    """PNG of a figure with a palette: a third of the size, no difference that the eye sees."""
+    content = io.BytesIO()
+    with Image.open(io.BytesIO(png(figure))) as drawn:
+        reduced = drawn.convert("RGB").quantize(
+            PALETTE, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE
+        )
+        reduced.save(content, "png", compress_level=9)
+    return content.getvalue()
 
 
 def png(figure: Figure) -> bytes:
@@ -163,6 +194,11 @@ def logarithmic_ticks(axes: Axes) -> None:
 def whole_number_ticks(axes: Axes) -> None:
     """Ticks of the abscissa at whole numbers only, as of orders."""
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+
+
+def shade(axes: Axes, first: float, last: float) -> None:
+    """A band over a range of the abscissa."""
+    axes.axvspan(first, last, color=COLOURS[1], alpha=0.13, lw=0)
 
 
 def legend_below(axes: Axes, columns: int = 2) -> None:

@@ -29,19 +29,35 @@ def gas_of(machine: Machine, path: ShellPath) -> Mapping[str, DrivenGas]:
     ParameterError
         The modes of the wall are measured.
     """
-    gas = {}
-    if machine.has_table(DischargeDome):
-        gas[DISCHARGE_DOME] = _dome(machine, machine.table(DischargeDome), path)
-    if machine.has_table(SuctionAnnulus):
-        gas[SUCTION_ANNULUS] = _annulus(machine, machine.table(SuctionAnnulus), path)
+    spaces, gas = spaces_of(machine, path), {}
+    if DISCHARGE_DOME in spaces:
+        gas[DISCHARGE_DOME] = _dome(machine.table(DischargeDome), spaces[DISCHARGE_DOME])
+    if SUCTION_ANNULUS in spaces:
+        gas[SUCTION_ANNULUS] = _annulus(machine.table(SuctionAnnulus), spaces[SUCTION_ANNULUS])
     return gas
 
 
-def _dome(machine: Machine, dome: DischargeDome, path: ShellPath) -> DrivenGas:
-    space = path.gas.get(dome.depth_m)
-    if space is None:
-        profile = _under_cap(machine.shell, _thickness(path), dome.depth_m)
-        space = path.gas[dome.depth_m] = _in_shell(profile, True, path)
+def spaces_of(machine: Machine, path: ShellPath) -> Mapping[str, GasInShell]:
+    """The same spaces, whatever drives them; parameters and errors as of `gas_of`."""
+    spaces = {}
+    if machine.has_table(DischargeDome):
+        depth = machine.table(DischargeDome).depth_m
+        if depth not in path.gas:
+            profile = _under_cap(machine.shell, _thickness(path), depth)
+            path.gas[depth] = _in_shell(profile, True, path)
+        spaces[DISCHARGE_DOME] = path.gas[depth]
+    if machine.has_table(SuctionAnnulus):
+        annulus = machine.table(SuctionAnnulus)
+        bounds = annulus.inner_radius_m, annulus.lower_height_m, annulus.upper_height_m
+        if bounds not in path.gas:
+            inner, *faces = bounds
+            profile = annulus_profile(inner, machine.shell.radius_m - _thickness(path), *faces)
+            path.gas[bounds] = _in_shell(profile, False, path)
+        spaces[SUCTION_ANNULUS] = path.gas[bounds]
+    return spaces
+
+
+def _dome(dome: DischargeDome, space: GasInShell) -> DrivenGas:
     radius, floor = float(space.profile.radius[-1]), float(space.profile.lower[-1])
     port = Mouth(dome.port_offset_m, floor, (dome.port_angle_rad,))
     tube = Mouth(radius, floor + dome.tube_height_m, (dome.tube_angle_rad,))
@@ -49,13 +65,7 @@ def _dome(machine: Machine, dome: DischargeDome, path: ShellPath) -> DrivenGas:
     return space.driven(port, tube, area, dome.quality_ratio)
 
 
-def _annulus(machine: Machine, annulus: SuctionAnnulus, path: ShellPath) -> DrivenGas:
-    bounds = annulus.inner_radius_m, annulus.lower_height_m, annulus.upper_height_m
-    space = path.gas.get(bounds)
-    if space is None:
-        inner, *faces = bounds
-        profile = annulus_profile(inner, machine.shell.radius_m - _thickness(path), *faces)
-        space = path.gas[bounds] = _in_shell(profile, False, path)
+def _annulus(annulus: SuctionAnnulus, space: GasInShell) -> DrivenGas:
     first, count = annulus.inlet_angle_rad, annulus.inlets
     angles = tuple(first + 2.0 * np.pi * n / count for n in range(count))
     inlets = Mouth(annulus.inner_radius_m, annulus.inlet_height_m, angles)

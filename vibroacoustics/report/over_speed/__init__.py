@@ -1,0 +1,1 @@
+"""Results along the axis of speed: curves, lines and modes that cross, speeds to avoid."""

@@ -1,0 +1,113 @@
+"""Levels over the speed with their bands: by option, by source, of recordings."""
+
+from collections.abc import Sequence
+from typing import Final, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from ...base.arrays import Array
+from ...base.vocabulary import REFERENCE_OPTION
+from ..bands import quantiles
+from ..figures.needs import chosen
+from ..source_words import source_name
+from ..study import catalogue_receiver, has_draws, options
+
+MOST_CURVES: Final = 8
+STEADY_RATIO: Final = 0.02
+"""A speed that stays within this share of its mean is no run-up."""
+
+
+class LevelCurve(NamedTuple):
+    """A level over the speed.
+
+    Attributes
+    ----------
+    label : of what
+    speed_rpm : rising, shape (point,)
+    level_db : shape (point,)
+    band_db : lowest and highest of the draws, shape (2, point); none without draws
+    """
+
+    label: str
+    speed_rpm: Array
+    level_db: Array
+    band_db: Array | None = None
+
+
+def option_curves(
+    results: xr.Dataset, name: str, receiver: str | None = None, of: Sequence[str] = ()
+) -> list[LevelCurve]:
+    """Of the options, A-weighted, as given; with its band that of the first.
+
+    Parameters
+    ----------
+    results : of a run
+    name : `level_total` or `level_modelled`
+    receiver : default: that of the catalogue's noise
+    of : options; default: the first eight
+    """
+    at = {"receiver": chosen(results, "receiver", receiver or catalogue_receiver(results))}
+    names = [chosen(results, "option", one) for one in of] or options(results)[:MOST_CURVES]
+    given = results[name].sel(at)
+    given = given.sel(weighting="A") if "weighting" in given.dims else given
+    bands = quantiles(results, name).sel(at) if has_draws(results) else None
+    return [_curve(given, bands if one == names[0] else None, one, option=one) for one in names]
+
+
+def source_curves(
+    results: xr.Dataset, receiver: str | None = None, option: str = REFERENCE_OPTION
+) -> list[LevelCurve]:
+    """Of each source alone, A-weighted, with its band.
+
+    Parameters
+    ----------
+    results : of a run
+    receiver : default: that of the catalogue's noise
+    option : one of the results
+    """
+    at = {
+        "receiver": chosen(results, "receiver", receiver or catalogue_receiver(results)),
+        "option": chosen(results, "option", option),
+    }
+    given = results["source_level"].sel(at)
+    bands = quantiles(results, "source_level").sel(at) if has_draws(results) else None
+    return [
+        _curve(given, bands, source_name(results, source), sound_source=source)
+        for source in map(str, given["sound_source"].values)
+    ]
+
+
+def recorded_curves(mapped: xr.Dataset, channel: str | None = None) -> list[LevelCurve]:
+    """Of a channel of sound pressure, by weighting, block by block.
+
+    Parameters
+    ----------
+    mapped : of `speed_frequency_map`
+    channel : default: the first of sound pressure
+    """
+    of_pressure = mapped.sel(channel=mapped["channel_unit"] == "Pa")
+    there = of_pressure["block_level"].sel(channel=chosen(of_pressure, "channel", channel))
+    there = there.sortby("block_speed")
+    return [
+        LevelCurve(
+            "unweighted" if weighting == "Z" else f"{weighting}-weighted",
+            there["block_speed"].values,
+            there.sel(weighting=weighting).values,
+        )
+        for weighting in map(str, there["weighting"].values)
+    ]
+
+
+def is_run_up(speed_rpm: xr.DataArray) -> bool:
+    """Whether the speed of a recording's blocks goes up or down."""
+    return bool(np.ptp(speed_rpm.values) > STEADY_RATIO * float(speed_rpm.mean()))
+
+
+def _curve(given: xr.DataArray, bands: xr.DataArray | None, label: str, **at: str) -> LevelCurve:
+    level = given.sel(at).sortby("speed")
+    band = None
+    if bands is not None:
+        rows = bands.sel(at).sortby("speed").transpose("quantile", "speed").values
+        band = rows[[0, -1]]
+    return LevelCurve(label, level["speed"].values, level.values, band)

@@ -1,0 +1,105 @@
+"""Natural frequencies above those on the mounts: of the shell with its frame, of gas in it."""
+
+from collections.abc import Mapping
+from typing import Final
+
+import numpy as np
+import xarray as xr
+from scipy.linalg import block_diag, eigh
+
+from ..base.arrays import Array
+from ..base.vocabulary import check, stamp
+from ..machine.machine import Machine
+from ..machine.shell_structure import ShellStructure, ShellVariation
+from ..mechanics.loads import Loads
+from .cavity.of_machine import spaces_of
+from .frame import FrameOnShell, frame_on_shell
+from .path import ShellPath
+
+_FREE_HZ: Final = 1.0
+"""Below it parts and shell move without strain."""
+Named = dict[str, float]
+
+
+def natural_variables(
+    machine: Machine, path: ShellPath | None, loads: Mapping[str, Loads], highest_hz: float
+) -> xr.Dataset:
+    """`shell_frequency` and `gas_frequency`, without loss, up to a frequency; none without a shell.
+
+    Parameters
+    ----------
+    machine : as given
+    path : modes of its shell; none where no source drives it
+    loads : of all sources in one case; their flows say how fast sound is in the spaces of gas
+    highest_hz : of the sound
+    """
+    if path is None:
+        return xr.Dataset()
+    named = {
+        "shell": shell_frequencies(machine, path),
+        "gas": gas_frequencies(machine, path, sound_speeds(loads)) if path.wall else {},
+    }
+    arrays = {}
+    for what, every in named.items():
+        kept = {name: hertz for name, hertz in every.items() if hertz <= highest_hz}
+        if kept:
+            coords = {f"{what}_mode": list(kept)}
+            arrays[f"{what}_frequency"] = stamp(f"{what}_frequency", list(kept.values()), coords)
+    return check(xr.Dataset(arrays))
+
+
+def shell_frequencies(machine: Machine, path: ShellPath) -> Named:
+    """Of the shell, with the parts in it where the machine has a frame, by name, Hz, rising."""
+    shell = path.with_structure(machine.table(ShellStructure))
+    frame = frame_on_shell(machine, shell)
+    if frame is not None:
+        hertz = framed_hz(frame)
+        return {f"with_parts_{number:03d}": float(one) for number, one in enumerate(hertz, 1)}
+    factor = machine.table(ShellVariation).frequency_factor_ratio
+    named = zip((mode.name for mode in shell.modes), factor * shell.natural_hz, strict=True)
+    return {name: float(hertz) for name, hertz in sorted(named, key=lambda one: one[1])}
+
+
+def framed_hz(frame: FrameOnShell) -> Array:
+    """Of shell and parts joined at their contacts, without loss, free in space, Hz, rising.
+
+    Coordinates are the shell's modes, its six rigid motions and the freedoms of the parts; the
+    gaps at the contacts are held by their springs in series with what the modes leave out. At
+    these frequencies the compliance of the contacts has no inverse.
+    """
+    squares = (2.0 * np.pi * frame.natural_hz) ** 2
+    rigid = np.zeros((6, 6))
+    gaps = np.hstack([frame.modal_forces.T, frame.contacts.rigid, -frame.inner.contacts])
+    held = np.linalg.inv(np.diag((1.0 / frame.contacts.stiffness).real) + frame.residual)
+    stiffness = block_diag(
+        np.diag(frame.modal_mass_kg * squares), rigid, frame.inner.stiffness.real
+    )
+    mass = block_diag(np.diag(frame.modal_mass_kg), frame.shell_mass, frame.inner.mass)
+    stiffness += gaps.T @ held @ gaps
+    values = eigh(stiffness, mass, eigvals_only=True, check_finite=False)
+    hertz = np.sqrt(np.maximum(values, 0.0)) / (2.0 * np.pi)
+    return np.asarray(hertz[hertz > _FREE_HZ])
+
+
+def gas_frequencies(machine: Machine, path: ShellPath, sound_speed: Mapping[str, float]) -> Named:
+    """Of the spaces of gas in rigid walls that a source feeds, by name, Hz, rising.
+
+    Parameters
+    ----------
+    machine : its tables of spaces
+    path : modes of the wall as given
+    sound_speed : by the name of a space's table, m/s
+    """
+    named = {}
+    for name, space in spaces_of(machine, path).items():
+        for gas in space.orders if name in sound_speed else ():
+            numbers = np.sqrt(gas.modes[0])
+            hertz = sound_speed[name] * numbers[numbers > 0.0] / (2.0 * np.pi)
+            for number, one in enumerate(hertz[hertz > _FREE_HZ], 1):
+                named[f"{name}_n{gas.order}_{number}"] = float(one)
+    return dict(sorted(named.items(), key=lambda one: one[1]))
+
+
+def sound_speeds(loads: Mapping[str, Loads]) -> dict[str, float]:
+    """Of the spaces of gas that the loads feed, by the name of their table, m/s."""
+    return {flow.into: flow.sound_speed_m_per_s for load in loads.values() for flow in load.flows}
