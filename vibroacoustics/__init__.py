@@ -11,6 +11,8 @@
 `sweep(study, {...})` computes every design of a grid or a sample of values;
 `optimise(study)` searches for the best designs of its table `[design]`.
 `write_report(results, folder)` writes the report with tables and figures.
+`data_sheet(results, option)` makes the data sheet of an option, a `DataSheet`, predicted;
+`write_data_sheet(sheet, folder)` writes it as page, CSV and JSON.
 `open_results(path)` reads results from a file.
 `export_forces(results, path)` writes their forces for a machine of `kind = "table"`.
 `curves(study)` shows what goes on inside: pressures, films, friction, torques, critical speeds;
@@ -26,6 +28,8 @@ also of a machine alone, from `load_machine(path)`.
 `Node`s; `export_functions(functions, path)` writes them as UFF or CSV.
 `analyse_orders(recording, settings)` finds orders and levels; settings are an `OrderAnalysis`.
 `track_orders(recording, ...)` follows orders over time (Vold-Kalman).
+`sound_power(recordings, surface, ...)` gives a machine's sound power from the microphones around
+it (ISO 3744), on a `MeasurementSurface`.
 `speed_frequency_map(recording, ...)` gives spectra over speed and frequency (Campbell).
 `compare(first, second)` compares orders of two results in level and phase.
 `read_limits(path)` reads limits of orders, each a `Limit`.
@@ -85,6 +89,7 @@ if TYPE_CHECKING:
     from .commands.exporting import export_forces, export_functions, export_recording
     from .commands.listening import listen
     from .commands.outputs import write_report
+    from .commands.sheets import write_data_sheet
     from .design.engine.seen import Need
     from .design.figure import DesignFigure
     from .design.optimising import optimise
@@ -108,9 +113,11 @@ if TYPE_CHECKING:
     )
     from .mechanics.rotation import constant_rotation
     from .pipeline import (
+        MeasurementSurface,
         analyse_orders,
         radiate,
         run,
+        sound_power,
         speed_frequency_map,
         track_orders,
     )
@@ -128,6 +135,8 @@ if TYPE_CHECKING:
     from .recordings.recorded import Recorded, Request
     from .report import blocks
     from .report.columns import Column
+    from .report.data_sheet.model import DataSheet
+    from .report.data_sheet.sheet import data_sheet
     from .report.sections import Section
     from .results.figure_limit import FigureLimit
     from .results.limit import Limit
@@ -151,12 +160,14 @@ __all__ = [
     "Criterion",
     "Curve",
     "CurveAxis",
+    "DataSheet",
     "DesignFigure",
     "FigureLimit",
     "Limit",
     "Loads",
     "Machine",
     "MeasuredFunction",
+    "MeasurementSurface",
     "MovingPart",
     "Need",
     "Node",
@@ -193,6 +204,7 @@ __all__ = [
     "compare",
     "constant_rotation",
     "curves",
+    "data_sheet",
     "export_forces",
     "export_functions",
     "export_recording",
@@ -221,11 +233,13 @@ __all__ = [
     "run",
     "score",
     "sound",
+    "sound_power",
     "speed_frequency_map",
     "stamp",
     "sweep",
     "track_orders",
     "wrenches_of_parts",
+    "write_data_sheet",
     "write_report",
 ]
 
@@ -237,12 +251,14 @@ _HOME = {
     "Criterion": "study.criterion",
     "Curve": "base.curves",
     "CurveAxis": "base.curves",
+    "DataSheet": "report.data_sheet.model",
     "DesignFigure": "design.figure",
     "FigureLimit": "results.figure_limit",
     "Limit": "results.limit",
     "Loads": "mechanics.loads",
     "Machine": "machine.machine",
     "MeasuredFunction": "recordings",
+    "MeasurementSurface": "pipeline",
     "MovingPart": "mechanics.moving_parts",
     "Need": "design.engine.seen",
     "Node": "recordings",
@@ -278,6 +294,7 @@ _HOME = {
     "compare": "results.order_comparison",
     "constant_rotation": "mechanics.rotation",
     "curves": "sources.curves",
+    "data_sheet": "report.data_sheet.sheet",
     "export_forces": "commands.exporting",
     "export_functions": "commands.exporting",
     "export_recording": "commands.exporting",
@@ -302,11 +319,13 @@ _HOME = {
     "register": "base.registry",
     "run": "pipeline",
     "score": "scoring",
+    "sound_power": "pipeline",
     "speed_frequency_map": "pipeline",
     "stamp": "base.vocabulary",
     "sweep": "design.sweep",
     "track_orders": "pipeline",
     "wrenches_of_parts": "mechanics.moving_parts",
+    "write_data_sheet": "commands.sheets",
     "write_report": "commands.outputs",
 }
 _MODULES = {

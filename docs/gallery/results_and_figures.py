@@ -63,3 +63,24 @@ axes.legend(fontsize="small")
 with tempfile.TemporaryDirectory() as folder:
     va.write_report(results, folder)
     print(*sorted(path.name for path in Path(folder).iterdir()), sep="\n")
+
+# %%
+# The data sheet
+# --------------
+# ``vibroacoustics datasheet RESULTS.nc --option twin-oldham`` writes what a maker states of a
+# machine, predicted (:doc:`/data_sheet`). Bands outside the model are empty; beside them stands the
+# remainder of the published level.
+sheet = va.data_sheet(results, "twin-oldham", points_m={"discharge": (0.0, 0.08, 0.35)})
+power = sheet.sound_power
+print(f"L_WA = {power.level_dba:.1f} dB, of the model alone {power.modelled_dba:.1f} dB")
+for one in sheet.vibration[-3:]:
+    print(one.point, one.direction, f"{1e6 * one.displacement_peak_to_peak_m:.3g} µm p-p")
+figure, axes = plt.subplots(layout="constrained")
+for name, width, colour in (("total_db", 0.8, "0.8"), ("modelled_db", 0.4, "C0")):
+    bands = np.array([getattr(band, name) for band in power.bands], dtype=float)
+    axes.bar(range(bands.size), bands, width, color=colour, label=name)
+axes.set_xticks(range(0, 21, 5), [f"{band.band_hz:g}" for band in power.bands[::5]])
+axes.set(xlabel="third octave, Hz", ylabel="sound power level, dB re 1 pW")
+axes.legend(fontsize="small")
+with tempfile.TemporaryDirectory() as folder:
+    print(va.write_data_sheet(sheet, folder).name)

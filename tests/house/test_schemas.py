@@ -7,6 +7,7 @@ import pytest
 from support import ROOT
 from toml_language_server import SCHEMAS, marked_lines
 
+from vibroacoustics.report import data_sheet_schema
 from vibroacoustics.study.schema.files import machine_schema, study_schema
 
 OF_KIND = {"study": study_schema, "machine": machine_schema}
@@ -18,6 +19,10 @@ FILES = [(file, kind) for name, kind in FOLDERS.items() for file in (ROOT / name
 def test_shipped_schema_is_current(kind: str) -> None:
     """`vibroacoustics schema --out data/schemas` writes them again."""
     assert json.loads((SCHEMAS / f"{kind}.json").read_text()) == OF_KIND[kind]()
+
+
+def test_shipped_schema_of_a_data_sheet_is_current() -> None:
+    assert json.loads((SCHEMAS / "data_sheet.json").read_text()) == data_sheet_schema()
 
 
 def test_every_file_names_its_schema() -> None:

@@ -121,6 +121,24 @@ def numbers(option: str, texts: Sequence[str] | None) -> dict[str, float]:
     return {name: _number(option, value) for name, value in assignments(option, texts).items()}
 
 
+def points(option: str, texts: Sequence[str] | None) -> dict[str, tuple[float, float, float]]:
+    """`NAME=X,Y,HEIGHT` of every text, mm, as positions in m.
+
+    Raises
+    ------
+    ParameterError
+        See `assignments`; or a value is not three numbers within 20 m.
+    """
+    positions = {}
+    for name, text in assignments(option, texts).items():
+        numbers_mm = [_number(option, part) for part in text.split(",")]
+        if len(numbers_mm) != len("xyz") or not all(abs(one) <= 20e3 for one in numbers_mm):
+            raise ParameterError(f"{option} {name}={text}: must be three numbers up to 20000 mm")
+        x, y, height = (1e-3 * one for one in numbers_mm)
+        positions[name] = (x, y, height)
+    return positions
+
+
 def _number(option: str, text: str) -> float:
     try:
         return float(text)

@@ -15,6 +15,7 @@ from . import (
     check_commands,
     comparison_commands,
     curve_commands,
+    data_sheet_commands,
     design_commands,
     listen_commands,
     messages,
@@ -23,6 +24,7 @@ from . import (
     run_commands,
     schema_commands,
     score_commands,
+    sound_power_commands,
 )
 from .options import NoCache, Paper, Pdf, Plugins, load_plugins, used_cache
 from .progress import progress_on_stderr
@@ -45,12 +47,14 @@ app = typer.Typer(
 app.add_typer(run_commands.commands)
 app.add_typer(curve_commands.commands)
 app.add_typer(recording_commands.commands)
+app.add_typer(sound_power_commands.commands)
 app.add_typer(comparison_commands.commands)
 app.add_typer(prediction_commands.commands)
 app.add_typer(design_commands.commands)
 app.add_typer(schema_commands.commands)
 app.add_typer(check_commands.commands)
 app.add_typer(score_commands.commands)
+app.add_typer(data_sheet_commands.commands)
 app.add_typer(listen_commands.commands)
 
 StudyFile = Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study to run.")]

@@ -26,6 +26,12 @@ _ARGUMENTS: Final = {
     "speed_rpm": "--rpm",
     "orders": "--orders",
     "poles": "--poles",
+    "absorption_area_m2": "--absorption-area",
+    "radius_m": "--hemisphere",
+    "length_m": "--box, length",
+    "width_m": "--box, width",
+    "height_m": "--box, height",
+    "distance_m": "--box, distance",
 }
 """Arguments, as messages write them with ` =` behind or `give` before, and the options."""
 _GIVEN: Final = {"units": "--unit", "calibration": "--calibration"}

@@ -1,7 +1,7 @@
 """Commands that write files to begin with, and their schemas. Heavy imports wait until they run."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -40,26 +40,36 @@ def new_command(
 
 @commands.command("schema")
 def schema_command(
-    out: Annotated[Path, typer.Option("--out", help="Folder of the two files.")] = Path("schemas"),
+    out: Annotated[Path, typer.Option("--out", help="Folder of the files.")] = Path("schemas"),
     plugin: Plugins = None,
 ) -> None:
-    """Write JSON schemas of study and machine files: editors then complete and check keys."""
+    """Write JSON schemas: of study and machine files, for editors, and of a data sheet."""
     from ..results.files import only_writer, replace_all, write
 
     load_plugins(plugin)
-    schemas = _schemas()
+    schemas = _schemas() | _sheet_schema()
     with only_writer(out) as staged:
         for name, content in schemas.items():
             write(staged / name, content)
         replace_all(staged, out)
-    for name in schemas:
+    for name in ("study.json", "machine.json"):
         typer.echo(f"#:schema {out / name}")
 
 
 def _schemas() -> dict[str, bytes]:
-    """Both schemas by name of their file."""
-    from ..base.hashing import canonical_json
+    """Of study and machine, by name of their file."""
     from ..study.schema.files import machine_schema, study_schema
 
-    schemas = {"study.json": study_schema(), "machine.json": machine_schema()}
-    return {name: canonical_json(schema).encode() + b"\n" for name, schema in schemas.items()}
+    return {"study.json": _text(study_schema()), "machine.json": _text(machine_schema())}
+
+
+def _sheet_schema() -> dict[str, bytes]:
+    from ..report import data_sheet_schema
+
+    return {"data_sheet.json": _text(data_sheet_schema())}
+
+
+def _text(schema: dict[str, Any]) -> bytes:
+    from ..base.hashing import canonical_json
+
+    return canonical_json(schema).encode() + b"\n"

@@ -19,6 +19,7 @@ from .block_levels import block_levels
 from .by_source import SourceSound, filled_thirds, source_sound
 from .filter_bank import band_filter, band_signal, class_1_limits_db
 from .labelled import draw_variables, level, level_variables
+from .measured_power import reverberant_absorption_area_m2
 from .signal_levels import (
     RecordedLevels,
     band_levels,
@@ -62,6 +63,7 @@ __all__ = [
     "mean_square_level",
     "measurable_bands",
     "recorded_levels",
+    "reverberant_absorption_area_m2",
     "sound_pressure_level",
     "source_sound",
     "time_weighted_mean_square",

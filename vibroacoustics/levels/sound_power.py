@@ -40,15 +40,20 @@ def background_correction_db(margin_db: Array | float) -> Array:
     return np.where(margin > NEGLIGIBLE_BACKGROUND_MARGIN_DB, 0.0, correction)
 
 
+def environment_correction(surface_m2: float, absorption_area_m2: Array | float) -> Array:
+    """K2 = 10 lg(1 + 4 S/A), dB, of a room with the absorption area A (equation A.2)."""
+    return np.asarray(level_of_power(1.0 + 4.0 * surface_m2 / np.asarray(absorption_area_m2)))
+
+
 def environment_correction_db(surface_m2: float, absorption_area_m2: float) -> float:
-    """K2 = 10 lg(1 + 4 S/A), dB, of a room with the absorption area A (equation A.2).
+    """K2 of the room of a test stand, dB.
 
     Raises
     ------
     ParameterError
         K2 exceeds 4 dB: the room does not qualify (4.3.2).
     """
-    correction = float(level_of_power(1.0 + 4.0 * surface_m2 / absorption_area_m2))
+    correction = float(environment_correction(surface_m2, absorption_area_m2))
     if correction > LARGEST_ENVIRONMENT_CORRECTION_DB:
         least = 4.0 * surface_m2 / (power_of_level(LARGEST_ENVIRONMENT_CORRECTION_DB) - 1.0)
         raise ParameterError(

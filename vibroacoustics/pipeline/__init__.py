@@ -8,22 +8,28 @@ from typing import TYPE_CHECKING, Any
 from ..base.lazy import imported
 
 if TYPE_CHECKING:
+    from .measured_power import sound_power
+    from .measurement_surface import MeasurementSurface
     from .radiating import radiate
     from .recording import analyse_orders, speed_frequency_map, track_orders
     from .study import run
 
 __all__ = [
+    "MeasurementSurface",
     "analyse_orders",
     "radiate",
     "run",
+    "sound_power",
     "speed_frequency_map",
     "track_orders",
 ]
 
 _HOME = {
+    "MeasurementSurface": "measurement_surface",
     "analyse_orders": "recording",
     "radiate": "radiating",
     "run": "study",
+    "sound_power": "measured_power",
     "speed_frequency_map": "recording",
     "track_orders": "recording",
 }

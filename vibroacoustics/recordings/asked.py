@@ -4,11 +4,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Final, TypeVar
 
 from ..base.errors import ParameterError, StorageError, VibroacousticsError
 from .reader import readers_by_suffix
 from .recorded import MAXIMUM_READING_BYTES, TooLargeError, check_rate, listed
+
+Given = TypeVar("Given", str, float)
+ALL_CHANNELS: Final = "*"
+"""In place of a channel's name; a channel that is named goes before it."""
 
 
 @dataclass(frozen=True)
@@ -46,17 +50,20 @@ class Asked:
 
     def chosen_units(self, header: Mapping[str, Any]) -> list[str]:
         """Unit of each channel, from the user or else from the file."""
-        return _units(header, self.units, self.chosen_calibration(header), self.calibration)
+        units = _of_channels("units", self.units, header["names"])
+        return _units(header, units, self.chosen_calibration(header))
 
     def chosen_calibration(self, header: Mapping[str, Any]) -> dict[str, float]:
         """Factor by channel, from the user or else from the file, in the file's unit."""
+        units = _of_channels("units", self.units, header["names"])
+        given = _of_channels("calibration", self.calibration, header["names"])
         stated = zip(header["names"], header["units"], header["calibration"], strict=True)
         of_file = {
             name: factor
             for name, unit, factor in stated
-            if factor is not None and self.units.get(name, unit) == unit
+            if factor is not None and units.get(name, unit) == unit
         }
-        return of_file | dict(self.calibration)
+        return of_file | given
 
 
 @contextmanager
@@ -103,18 +110,29 @@ def check_file(path: Path, suffixes: Sequence[str], may_be_large: bool = False) 
         )
 
 
+def _of_channels(option: str, given: Mapping[str, Given], names: Sequence[str]) -> dict[str, Given]:
+    """What is given by channel, that for all of them spread out.
+
+    Raises
+    ------
+    ParameterError
+        A channel is not among the names.
+    """
+    named = {name: value for name, value in given.items() if name != ALL_CHANNELS}
+    for name in named:
+        if name not in names:
+            raise ParameterError(f"{option}: no channel {name!r} among {listed(names)}")
+    of_all = dict.fromkeys(names, given[ALL_CHANNELS]) if ALL_CHANNELS in given else {}
+    return of_all | named
+
+
 def _units(
     header: Mapping[str, Any],
     units: Mapping[str, str],
     calibration: Mapping[str, float],
-    given_calibration: Mapping[str, float],
 ) -> list[str]:
     """Unit of each channel, from the user or else from the file."""
     names = header["names"]
-    for option, given in (("units", units), ("calibration", given_calibration)):
-        for name in given:
-            if name not in names:
-                raise ParameterError(f"{option}: no channel {name!r} among {listed(names)}")
     if header["full_scale"]:
         _check_calibrated(names, calibration)
     chosen = [units.get(name, stated) for name, stated in zip(names, header["units"], strict=True)]

@@ -30,8 +30,9 @@ def read_recording(
     Parameters
     ----------
     path : WAV, MAT, CSV, HDF5, netCDF, UFF or TDMS file, or one that a plug-in reads
-    units : unit by channel; it overrides the file's, and is needed where the file states none
-    calibration : factor by channel, the channel's unit per unit stored in the file
+    units : unit by channel, or for all as `{"*": "Pa"}`; it overrides the file's, and is needed
+        where the file states none
+    calibration : factor by channel, or `*`, the channel's unit per unit stored in the file
     channels : names of the channels to read; default: all
     sample_rate_hz : actual sample rate, where the file states none or a rounded one
     from_s, to_s : part to read, in seconds from the first sample; default: all

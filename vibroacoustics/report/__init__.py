@@ -17,6 +17,10 @@ from .compared.limits import broken_lines, figure_limits_csv
 from .compared.page import comparison_html
 from .comparison import comparison_csv, comparison_text
 from .curve_tables import curve_csv
+from .data_sheet.files import data_sheet_csv, data_sheet_html, data_sheet_json
+from .data_sheet.files import headline as data_sheet_headline
+from .data_sheet.model import data_sheet_schema
+from .data_sheet.sheet import data_sheet
 from .designs.page import designs_text, render_designs
 from .figures.blocked_forces import blocked_figures
 from .figures.compared_orders import compared_order_figures
@@ -24,6 +28,7 @@ from .figures.curves import curve_figures
 from .figures.prediction import predicted_figures
 from .figures.recorded_maps import speed_map_figures, tracked_order_figures
 from .figures.recorded_orders import recorded_order_figures
+from .figures.style import file_name
 from .html import html
 from .kept_columns import keep_columns
 from .kept_columns import kept as kept_columns
@@ -32,6 +37,7 @@ from .kept_sections import kept as kept_sections
 from .limit_tables import limits_csv, limits_text
 from .map_page import speed_map_html
 from .markdown import markdown
+from .measured_power import measured_power_csv, measured_power_html, measured_power_text
 from .order_tables import (
     comparison_of_orders_csv,
     comparison_of_orders_text,
@@ -67,13 +73,23 @@ __all__ = [
     "comparison_text",
     "curve_csv",
     "curve_figures",
+    "data_sheet",
+    "data_sheet_csv",
+    "data_sheet_headline",
+    "data_sheet_html",
+    "data_sheet_json",
+    "data_sheet_schema",
     "designs_text",
     "figure_limits_csv",
+    "file_name",
     "keep",
     "kwave_text",
     "levels_csv",
     "limits_csv",
     "limits_text",
+    "measured_power_csv",
+    "measured_power_html",
+    "measured_power_text",
     "orders_csv",
     "orders_html",
     "orders_text",

@@ -1,0 +1,245 @@
+"""The data sheet: known sound power and vibration, empty bands, K, files, refusals."""
+
+import csv
+import io
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from data_sheets import BANDS, NAMES, POWER_DB, modelled_power_db, results_of, study_of
+from pydantic import ValidationError
+from support import assert_refused, command_here, tiny_run
+
+import vibroacoustics as va
+from vibroacoustics.base.errors import ParameterError, SchemaError
+from vibroacoustics.base.vocabulary import stamp
+from vibroacoustics.report.data_sheet.files import data_sheet_csv, data_sheet_html, headline
+from vibroacoustics.report.data_sheet.model import DataSheet
+from vibroacoustics.report.data_sheet.vibration import peak_to_peak, point_velocity
+from vibroacoustics.results import storage
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
+    """Of a monopole with a baseline of known sound power."""
+    return results_of(study_of(tmp_path_factory.mktemp("monopole")))
+
+
+@pytest.fixture(scope="module")
+def tiny() -> xr.Dataset:
+    return tiny_run()
+
+
+@pytest.fixture(scope="module")
+def file(tiny: xr.Dataset, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return storage.write_results(tiny, tmp_path_factory.mktemp("tiny") / "results.nc")
+
+
+def _column(sheet: DataSheet, name: str) -> np.ndarray:
+    return np.array([getattr(band, name) for band in sheet.sound_power.bands], dtype=float)
+
+
+def test_known_sound_power_in_every_band(results: xr.Dataset) -> None:
+    sheet = va.data_sheet(results, "none", microphones=NAMES)
+    assert _column(sheet, "total_db") == pytest.approx(POWER_DB, abs=1e-9)  # of 0.3 dB
+    assert sheet.sound_power.rest == "baseline"
+    known = 2.0 * np.pi * 2.0**2
+    assert sheet.sound_power.surface_m2 == pytest.approx(known, rel=0.01)
+
+
+def test_modelled_part_is_the_closed_form_and_empty_outside(results: xr.Dataset) -> None:
+    sheet = va.data_sheet(results, "none", microphones=NAMES)
+    modelled, expected = _column(sheet, "modelled_db"), modelled_power_db(results, "none")
+    np.testing.assert_allclose(modelled, expected, atol=1e-3)
+    inside = np.array([band.upper_hz <= 500.0 for band in BANDS])
+    assert np.isfinite(modelled[inside]).all()
+    assert np.isnan(modelled[~inside]).all()
+    rest = 10.0 * np.log10(10.0 ** (POWER_DB / 10.0) - np.nan_to_num(10.0 ** (expected / 10.0)))
+    np.testing.assert_allclose(_column(sheet, "rest_db"), rest, atol=1e-3)
+
+
+def test_option_changes_the_measured_power_by_its_modelled_part(results: xr.Dataset) -> None:
+    before, after = (
+        np.nan_to_num(10.0 ** (modelled_power_db(results, option) / 10.0))
+        for option in ("none", "lanchester")
+    )
+    expected = 10.0 * np.log10(10.0 ** (POWER_DB / 10.0) - before + after)
+    sheet = va.data_sheet(results, "lanchester", microphones=NAMES)
+    np.testing.assert_allclose(_column(sheet, "total_db"), expected, atol=1e-3)
+
+
+def test_nothing_beside_the_model_leaves_bands_empty_never_zero(tiny: xr.Dataset) -> None:
+    silent = tiny.assign(remainder_band_level=tiny["remainder_band_level"] * 0.0 - 300.0)
+    sheet = va.data_sheet(silent, "none")
+    total, rest = _column(sheet, "total_db"), _column(sheet, "rest_db")
+    beyond = np.array([band.band_hz > 800.0 for band in sheet.sound_power.bands])
+    assert np.isnan(total[beyond]).all()
+    assert np.isnan(rest).all()
+    rows = list(csv.DictReader(io.StringIO(data_sheet_csv(sheet).decode())))
+    of_band = [row for row in rows if row["item"] == "2000 Hz"]
+    assert [row["value"] for row in of_band] == ["", "", ""]
+    band = json.loads(sheet.model_dump_json())["sound_power"]["bands"][13]
+    assert band == {"band_hz": 2000.0, "modelled_db": None, "rest_db": None, "total_db": None}
+
+
+def test_remainder_is_that_of_the_published_level(tiny: xr.Dataset) -> None:
+    sheet = va.data_sheet(tiny, "none")
+    power = sheet.sound_power
+    level = tiny["level_total"].sel(option="none").item()
+    square = 1.0825**2 + 0.24**2
+    assert power.level_dba == pytest.approx(level + 10.0 * np.log10(2.0 * np.pi * square))
+    assert power.rest == "remainder"
+    assert "ISO 3744 asks for ten" in power.determined
+
+
+def test_k_is_what_95_percent_of_the_draws_stay_below(tiny: xr.Dataset) -> None:
+    given = va.data_sheet(tiny, "none").sound_power
+    assert given.uncertainty_k_db is None
+    assert given.declared is None
+    count, deviation_db = 4000, 1.2
+    spread = deviation_db * np.random.default_rng(2).standard_normal(count)
+    coords = {"draw": np.arange(1, count + 1)}
+    level = tiny["level_total"].values[None] + spread[:, None, None, None]
+    by_receiver = {name: tiny[name].values for name in ("speed", "option", "receiver")}
+    drawn = tiny.assign(
+        level_total_by_draw=stamp("level_total_by_draw", level, coords | by_receiver),
+        draw_weight=stamp(
+            "draw_weight",
+            np.full((2, count), 1.0 / count),
+            {"prior": ["flat", "near"], **coords},
+        ),
+    )
+    power = va.data_sheet(drawn, "none").sound_power
+    assert power.uncertainty_k_db == pytest.approx(1.645 * deviation_db, abs=0.1)
+    assert power.declared is not None
+    level_db, k_db = power.declared
+    exact = power.level_dba + power.uncertainty_k_db
+    assert exact <= level_db + k_db < exact + 1.0
+    assert f"L_WA = {level_db} dB, K_WA = {k_db} dB" in headline(va.data_sheet(drawn, "none"))
+
+
+def test_displacement_of_the_feet_is_the_force_over_the_stiffness(tiny: xr.Dataset) -> None:
+    """A second way: what the mounts pass on over what they are."""
+    at = tiny.sel(option="none", speed=2900.0)
+    force = at["foot_force_order"].sum("source").transpose("foot", "axis", "order").values
+    stiffness = np.array([20e3, 20e3, 50e3])[:, None] * (1.0 + 0.1j)
+    orders = at["order"].values[1:].astype(float)
+    expected = peak_to_peak(force[:, :, 1:] / stiffness, orders)
+    sheet = va.data_sheet(tiny, "none")
+    motions = [one for one in sheet.vibration if one.point in tiny["foot"].values]
+    found = [one.displacement_peak_to_peak_m for one in motions]
+    np.testing.assert_allclose(found, expected.ravel(), rtol=1e-3, atol=1e-12)
+    assert max(found) > 1e-6
+
+
+def test_one_order_has_the_ratios_of_a_sine() -> None:
+    assert peak_to_peak(np.array([3e-6j]), np.array([1.0])) == pytest.approx(6e-6, rel=1e-3)
+    both = peak_to_peak(np.array([1.0, 1.0]), np.array([1.0, 2.0]))
+    assert both == pytest.approx(2.0 + 1.125, rel=5e-3)  # cos a + cos 2a: from 2 to -9/8
+
+
+def test_point_of_a_turning_body_moves_across_its_arm() -> None:
+    turning = np.zeros((6, 1), dtype=complex)
+    turning[5] = 2.0
+    assert point_velocity(turning, np.array([0.3, 0.0, 0.1]))[:, 0] == pytest.approx([0.0, 0.6, 0])
+
+
+def test_named_point_counts_from_axis_and_floor(tiny: xr.Dataset) -> None:
+    sheet = va.data_sheet(tiny, "none", points_m={"at rest": (0.0, 0.0, 0.19 + 0.025)})
+    velocity = tiny["velocity_order"].sel(option="none", speed=2900.0).sum("source")
+    for one in sheet.vibration[-3:]:
+        peaks = velocity.sel(dof=f"t{one.direction}").values[1:]
+        rms = np.sqrt(0.5 * np.sum(np.abs(peaks) ** 2))
+        assert one.point == "at rest"
+        assert one.velocity_rms_m_per_s == pytest.approx(rms, rel=1e-9)
+
+
+def test_operating_point_and_mounting(tiny: xr.Dataset) -> None:
+    sheet = va.data_sheet(tiny, "counterweight-half")
+    facts = {one.name: (one.value, one.unit) for one in (*sheet.operating, *sheet.mounting)}
+    assert facts["shaft speed"] == (2900.0, "rpm")
+    assert facts["suction pressure"] == (15.0, "bar")
+    assert facts["vertical stiffness of a mount"] == (50.0, "N/mm")
+    assert facts["mass on the mounts"] == (35.0, "kg")
+    assert facts["feet"] == (4.0, "")
+    assert facts["floor"] == ("hard to sound, rigid under the feet", "")
+
+
+def test_files_of_a_sheet(tiny: xr.Dataset, file: Path, tmp_path: Path) -> None:
+    done = command_here(
+        "datasheet", file, "--option", "counterweight-half",
+        "--point", "discharge=0,80,350", "--out", tmp_path / "sheets",
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    stem = tmp_path / "sheets" / "data_sheet_counterweight-half_2900_rpm"
+    again = DataSheet.model_validate_json(stem.with_suffix(".json").read_bytes())
+    points = {"discharge": (0.0, 1e-3 * 80.0, 1e-3 * 350.0)}
+    assert again == va.data_sheet(tiny, "counterweight-half", points_m=points)
+    page = stem.with_suffix(".html").read_text(encoding="utf-8")
+    assert "predicted, not measured" in page
+    assert "discharge" in page
+    assert "nan" not in stem.with_suffix(".csv").read_text(encoding="utf-8")
+    with pytest.raises(ValidationError):
+        DataSheet.model_validate_json(stem.with_suffix(".json").read_bytes()[:-3])
+
+
+def test_page_shows_every_band_and_point(tiny: xr.Dataset) -> None:
+    page = data_sheet_html(va.data_sheet(tiny, "none")).decode()
+    for band in BANDS:
+        assert f'<th scope="row" class="words">{band.nominal_hz:g}</th>' in page
+    for point in ("front_<wbr>left", "top of the shell"):
+        assert point in page
+    assert page.count("predicted, not measured") >= 2
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--option", "hood"], "option = hood: must be one of none, counterweight-half"),
+        (["--speed", "3000"], "speed_rpm = 3000 rpm: must be one of 2900 rpm"),
+        (["--microphones", "front_1m,back"], "microphones = back: must be one of front_1m"),
+        (["--microphones", "front_1m,front_1m"], "microphones: must be given, each once"),
+        (["--point", "top=1,2"], "--point top=1,2: must be three numbers up to 20000 mm"),
+        (["--point", "top=1,2,x"], "--point: 'x' is no number"),
+    ],
+)
+def test_bad_words_are_one_line(file: Path, tmp_path: Path, words: list[str], message: str) -> None:
+    done = command_here("datasheet", file, *words, "--out", tmp_path / "out")
+    assert_refused(done, message)
+    assert not (tmp_path / "out").exists()
+
+
+def test_walls_and_older_results_are_refused(tiny: xr.Dataset) -> None:
+    study = json.loads(tiny.attrs["parameters"])
+    study["radiation"]["surroundings"]["walls"] = {"-x": {"distance_m": 0.5}}
+    with pytest.raises(ParameterError, match="has walls or a cabinet"):
+        va.data_sheet(tiny.assign_attrs(parameters=json.dumps(study)), "none")
+    with pytest.raises(SchemaError, match="run the study again"):
+        va.data_sheet(tiny.drop_vars("noise_band_level"), "none")
+
+
+def test_without_a_floor_the_sphere_about_the_centre_of_mass(tiny: xr.Dataset) -> None:
+    study = json.loads(tiny.attrs["parameters"])
+    study["radiation"]["surroundings"]["floor"] = False
+    free = va.data_sheet(tiny.assign_attrs(parameters=json.dumps(study)), "none")
+    square = 1.0825**2 + (0.24 - 0.215) ** 2
+    assert free.sound_power.surface_m2 == pytest.approx(4.0 * np.pi * square)
+
+
+def test_tones_that_stand_out_are_stated_at_their_microphone(results: xr.Dataset) -> None:
+    """An order far above the noise; with the measured bands above it there is none."""
+    sheet = va.data_sheet(results, "none", microphones=["p1", "p2"])
+    assert sheet.tones == ()
+    quiet = results.drop_vars("baseline_band_level")
+    quiet["remainder_band_level"] = quiet["remainder_band_level"] * 0.0 + 20.0
+    stated = va.data_sheet(quiet, "none", microphones=["p1", "p2"]).tones
+    assert stated
+    (tone,) = [one for one in stated if one.name == "order 5"]
+    assert tone.frequency_hz == pytest.approx(100.0)
+    assert tone.microphone in ("p1", "p2")
+    level = results["order_level"].sel(option="none", receiver=tone.microphone, order=5)
+    assert tone.level_db >= level.sel(weighting="Z").item() - 1e-6
+    page = data_sheet_html(va.data_sheet(quiet, "none", microphones=["p1", "p2"])).decode()
+    assert "Prominent tones (ECMA-418-1" in page

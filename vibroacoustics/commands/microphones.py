@@ -1,0 +1,126 @@
+"""Recordings of several files that are one measurement, and the room that it was made in."""
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from ..base.column_file import read_columns
+from ..base.errors import ParameterError
+from ..levels.measured_power import reverberant_absorption_area_m2
+from ..pipeline import MeasurementSurface
+from .reading import Reading
+
+Absorption = float | dict[float, float] | None
+
+
+def read_files(
+    files: Sequence[Path],
+    all_files: Sequence[Path],
+    unit: list[str] | None,
+    calibration: list[str] | None,
+    sample_rate_hz: float | None,
+    plugins: list[Path] | None,
+) -> list[xr.Dataset]:
+    """Recordings, each with the assignments that are its own.
+
+    `CHANNEL=…` holds in every file, `FILE:CHANNEL=…` in that file alone, named without its ending.
+
+    Parameters
+    ----------
+    files : to be read
+    all_files : that assignments may name
+    unit, calibration : assignments of the command line
+    sample_rate_hz : of all files, instead of theirs
+    plugins : files with readers
+    """
+    stems = [file.stem for file in all_files]
+    return [
+        Reading(
+            file, _of_file(unit, file.stem, stems), _of_file(calibration, file.stem, stems), None,
+            sample_rate_hz, None, None, plugins,
+        ).at_once()
+        for file in files
+    ]  # fmt: skip
+
+
+def _of_file(given: list[str] | None, stem: str, stems: Sequence[str]) -> list[str] | None:
+    chosen = []
+    for text in given or ():
+        file, colon, rest = text.partition(":")
+        if not (colon and file in stems):
+            chosen.append(text)
+        elif file == stem:
+            chosen.append(rest)
+    return chosen or None
+
+
+def surface_of(
+    hemisphere: float | None, box: tuple[float, float, float, float] | None
+) -> MeasurementSurface:
+    """The surface that one of two options gives.
+
+    Raises
+    ------
+    ParameterError
+        None or both are given, or a size is out of range.
+    """
+    if (hemisphere is None) == (box is None):
+        raise ParameterError(
+            "surface: give one of --hemisphere RADIUS and --box LENGTH WIDTH HEIGHT DISTANCE, m"
+        )
+    if box is not None:
+        return MeasurementSurface.box(*box)
+    return MeasurementSurface.hemisphere(float(hemisphere or 0.0))
+
+
+def absorption_of(
+    area: str | None, reverberation: str | None, volume_m3: float | None
+) -> Absorption:
+    """Absorption area of the room, m², one number or by band; none for a free field.
+
+    Parameters
+    ----------
+    area : number, m², or CSV file with `band_hz` and `absorption_area_m2`
+    reverberation : number, s, or CSV file with `band_hz` and `reverberation_time_s`
+    volume_m3 : of the room, with the reverberation time
+
+    Raises
+    ------
+    ParameterError
+        Too much or too little is given, or a value is out of range.
+    """
+    if area is not None and reverberation is not None:
+        raise ParameterError("room: give one of --absorption-area and --reverberation-time")
+    if (reverberation is None) != (volume_m3 is None):
+        raise ParameterError("room: --reverberation-time and --volume belong together")
+    if area is not None:
+        return _number_or_file(area, "--absorption-area", "absorption_area_m2", float)
+    if reverberation is None or volume_m3 is None:
+        return None
+    if not 1.0 <= volume_m3 <= 1e6:
+        raise ParameterError(f"--volume = {volume_m3:g} m³: must be from 1 to 1e+06 m³")
+
+    def area_m2(seconds: float) -> float:
+        if not 0.01 <= seconds <= 100.0:
+            raise ParameterError(
+                f"--reverberation-time = {seconds:g} s: must be from 0.01 to 100 s"
+            )
+        return float(reverberant_absorption_area_m2(volume_m3, np.asarray(seconds)))
+
+    return _number_or_file(reverberation, "--reverberation-time", "reverberation_time_s", area_m2)
+
+
+def _number_or_file(
+    text: str, option: str, column: str, area_m2: Callable[[float], float]
+) -> float | dict[float, float]:
+    try:
+        return area_m2(float(text))
+    except ValueError:
+        pass
+    if Path(text).suffix.lower() != ".csv":
+        raise ParameterError(f"{option} {text!r}: must be a number or a CSV file")
+    numbers = read_columns(Path(text), ("band_hz", column)).numbers
+    by_band = zip(numbers["band_hz"].tolist(), numbers[column].tolist(), strict=True)
+    return {band: area_m2(value) for band, value in by_band}

@@ -1,0 +1,150 @@
+"""Sound power of a machine from levels at recorded microphones, with K1 and K2 (ISO 3744:2010)."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..base.arrays import Array
+from ..base.decibel import SILENCE_DB, energy_mean, energy_sum
+from ..study.sound_power import MINIMUM_BACKGROUND_MARGIN_DB
+from .bands import Band, bands_between
+from .sound_power import (
+    LARGEST_ENVIRONMENT_CORRECTION_DB,
+    background_correction_db,
+    environment_correction,
+    sound_power_level,
+)
+from .weighting import WEIGHTING
+
+BANDS: Final[tuple[Band, ...]] = bands_between(3, 100.0, 10_000.0)
+"""Frequency range of interest (3.15)."""
+SURVEY_MARGIN_DB: Final = 3.0
+"""Least margin of ISO 3746, grade 3."""
+SURVEY_ENVIRONMENT_DB: Final = 7.0
+"""Largest K2A of ISO 3746."""
+SABINE_S_PER_M: Final = 0.16
+"""Of the absorption area from volume and reverberation time (Annex A)."""
+
+
+def reverberant_absorption_area_m2(volume_m3: float, reverberation_time_s: Array) -> Array:
+    """A = 0.16 V/T, m² (Sabine; ISO 3744:2010, Annex A).
+
+    Parameters
+    ----------
+    volume_m3 : of the test room
+    reverberation_time_s : by band, of any shape
+    """
+    return np.asarray(SABINE_S_PER_M * volume_m3 / reverberation_time_s)
+
+
+@dataclass(frozen=True)
+class MeasuredPower:
+    """Levels in dB by third octave, shape (band,), and of their A-weighted sums.
+
+    Attributes
+    ----------
+    mean_db : energy mean over the positions
+    margin_db : above the background; not a number where none was recorded
+    background_db, environment_db : K1 and K2
+    power_db : sound power level re 1 pW; not a number where nothing was measured
+    """
+
+    mean_db: Array
+    margin_db: Array
+    background_db: Array
+    environment_db: Array
+    power_db: Array
+
+    @property
+    def power_dba(self) -> float:
+        """LWA from the bands (Annex E)."""
+        return float(a_weighted_sum(self.power_db))
+
+    @property
+    def margin_dba(self) -> float:
+        """Of the A-weighted sums; not a number where no background was recorded."""
+        if np.isnan(self.margin_db).all():
+            return float("nan")
+        return float(a_weighted_sum(self.mean_db) - a_weighted_sum(self.mean_db - self.margin_db))
+
+    @property
+    def background_dba(self) -> float:
+        """K1A."""
+        corrected = self.mean_db - self.background_db
+        return float(a_weighted_sum(self.mean_db) - a_weighted_sum(corrected))
+
+    @property
+    def environment_dba(self) -> float:
+        """K2A."""
+        before = self.mean_db - self.background_db
+        return float(a_weighted_sum(before) - a_weighted_sum(before - self.environment_db))
+
+    @property
+    def grade(self) -> int | None:
+        """2 (ISO 3744), 3 (ISO 3746) or neither, by K2A and the margin of the A-weighted sums.
+
+        A background that was not recorded counts as none.
+        """
+        margin = np.inf if np.isnan(self.margin_dba) else self.margin_dba
+        limits = (
+            (2, MINIMUM_BACKGROUND_MARGIN_DB, LARGEST_ENVIRONMENT_CORRECTION_DB),
+            (3, SURVEY_MARGIN_DB, SURVEY_ENVIRONMENT_DB),
+        )
+        for grade, least, largest in limits:
+            if margin >= least and self.environment_dba <= largest:
+                return grade
+        return None
+
+
+def measured_power(
+    levels_db: Array,
+    background_db: Array | None,
+    surface_m2: float,
+    absorption_area_m2: Array | None,
+) -> MeasuredPower:
+    """LW = mean Lp - K1 - K2 + 10 lg(S/S0) of every band (equations 12, 16 to 18 and A.2).
+
+    Parameters
+    ----------
+    levels_db : shape (position, band), re 20 µPa; not a number in bands that were not measured
+    background_db : the same without the machine; none where it was not recorded
+    surface_m2 : area of the measurement surface
+    absorption_area_m2 : of the room, shape (band,); none for a free field over the floor
+    """
+    mean = energy_mean(levels_db)
+    margin, background = np.full_like(mean, np.nan), np.zeros_like(mean)
+    if background_db is not None:
+        margin = mean - energy_mean(background_db)
+        background = background_correction_db(margin)
+    environment = np.zeros_like(mean)
+    if absorption_area_m2 is not None:
+        environment = environment_correction(surface_m2, absorption_area_m2)
+    power = sound_power_level(mean, surface_m2, background, environment)
+    return MeasuredPower(mean, margin, background, environment, power)
+
+
+def a_weighted_sum(levels_db: Array) -> Array:
+    """A-weighted level of bands, from their levels without weighting; shape (...).
+
+    Parameters
+    ----------
+    levels_db : in `BANDS`, shape (..., band); bands that are not a number count as silent
+    """
+    middle_hz = np.array([band.middle_hz for band in BANDS])
+    weighted = np.asarray(levels_db) + WEIGHTING["A"](middle_hz)
+    return energy_sum(np.where(np.isnan(weighted), SILENCE_DB, weighted), axis=-1)
+
+
+def spread_dba(levels_db: Array) -> float:
+    """Highest less lowest A-weighted level of the positions, dB.
+
+    Where it exceeds the number of positions there are too few of them (ISO 3744).
+    """
+    return float(np.ptp(a_weighted_sum(levels_db)))
+
+
+def is_upper_bound(margin_db: Array | float) -> NDArray[np.bool_]:
+    """Whether a level is an upper bound: its margin over the background is below 6 dB (8.2.3)."""
+    return np.asarray(margin_db) < MINIMUM_BACKGROUND_MARGIN_DB

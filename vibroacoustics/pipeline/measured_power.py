@@ -1,0 +1,141 @@
+"""Sound power of a machine from recordings of the microphones around it (ISO 3744)."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.errors import ParameterError
+from ..base.vocabulary import check, label_coordinates, stamp
+from ..levels.bands import measurable_bands
+from ..levels.measured_power import BANDS, MeasuredPower, measured_power, spread_dba
+from ..levels.signal_levels import band_levels
+from ..results import provenance
+from .measurement_surface import MeasurementSurface
+
+BAND_HZ = [band.nominal_hz for band in BANDS]
+
+
+def sound_power(
+    recordings: Sequence[xr.Dataset],
+    surface: MeasurementSurface,
+    background: Sequence[xr.Dataset] = (),
+    absorption_area_m2: float | Mapping[float, float] | None = None,
+) -> xr.Dataset:
+    """Sound power level in third octaves from 100 Hz to 10 kHz, and A-weighted (ISO 3744:2010).
+
+    Parameters
+    ----------
+    recordings : from `read_recording`; every channel of sound pressure is a microphone
+    surface : on which they stand
+    background : recordings at these microphones while the machine stands still
+    absorption_area_m2 : of the test room, one number or by nominal midband frequency; default: a
+        free field over the floor
+
+    Returns
+    -------
+    levels at each position, their mean, K1, K2 and the sound power level, by band and A-weighted;
+    bands that cannot be measured at the sample rate are empty. Attribute `grade`: 2 (ISO 3744),
+    3 (ISO 3746) or 0, neither
+
+    Raises
+    ------
+    ParameterError
+        No channel is sound pressure, two have one name, or the room's absorption area is wrong.
+
+    Examples
+    --------
+    >>> noise = np.random.default_rng(1).standard_normal((10, 25600))  # Pa
+    >>> names = [f"microphone {number}" for number in range(1, 11)]
+    >>> recording = va.label_recording(noise, 25600.0, names, ["Pa"] * 10)
+    >>> power = va.sound_power([recording], va.MeasurementSurface.hemisphere(1.0))
+    >>> round(power["measured_power_level_a"].item())
+    101
+    """
+    levels = _levels_of(recordings)
+    quiet = _levels_of(background) if background else None
+    area = None if absorption_area_m2 is None else _by_band(absorption_area_m2)
+    measured_db = np.array(list(levels.values()))
+    still = None if quiet is None else np.array(list(quiet.values()))
+    measured = measured_power(measured_db, still, surface.area_m2, area)
+    labelled = _labelled(list(levels), measured_db, measured)
+    labelled.attrs = {
+        **provenance.software_attributes("sound power of recordings"),
+        "title": f"Sound power of {provenance.recording_name(recordings[0].attrs)}",
+        "source_files": ", ".join(provenance.recording_name(one.attrs) for one in recordings),
+        "surface": surface.name,
+        "surface_m2": surface.area_m2,
+        "grade": measured.grade or 0,
+        "spread_dba": spread_dba(measured_db),
+        "positions_of_the_standard": list(surface.positions),
+    }
+    return check(label_coordinates(labelled))
+
+
+def _levels_of(recordings: Iterable[xr.Dataset]) -> dict[str, Array]:
+    """Levels (band,) by microphone; not a number in bands beyond the sample rate."""
+    levels: dict[str, Array] = {}
+    recordings = list(recordings)
+    for recording in recordings:
+        rate_hz = float(recording.attrs["sample_rate_hz"])
+        bands = measurable_bands(BANDS, rate_hz)
+        for name, unit in zip(
+            map(str, recording["channel"].values), recording["channel_unit"].values, strict=True
+        ):
+            if unit != "Pa":
+                continue
+            file = Path(provenance.recording_name(recording.attrs))
+            position = name if len(recordings) == 1 else f"{file.stem}: {name}"
+            if position in levels:
+                raise ParameterError(f"{file}: microphone {position!r}: is there twice")
+            signal = recording["signal"].sel(channel=name).values
+            measured_db = band_levels(
+                signal - signal.mean(), rate_hz, bands, REFERENCE_PRESSURE_PA, "Z"
+            )
+            levels[position] = np.pad(
+                measured_db, (0, len(BANDS) - len(bands)), constant_values=np.nan
+            )
+    if not levels:
+        files = ", ".join(provenance.recording_name(one.attrs) for one in recordings)
+        raise ParameterError(f"{files}: no channel is sound pressure")
+    return levels
+
+
+def _by_band(given: float | Mapping[float, float]) -> Array:
+    by_band = given if isinstance(given, Mapping) else dict.fromkeys(BAND_HZ, given)
+    for band in BAND_HZ:
+        if band not in by_band:
+            raise ParameterError(f"absorption_area_m2: has no value at {band:g} Hz")
+        if not 0.0 < by_band[band] <= 1e6:
+            raise ParameterError(
+                f"absorption_area_m2 = {by_band[band]:g} m² at {band:g} Hz: must be above 0 and at "
+                "most 1e+06 m²"
+            )
+    return np.array([by_band[band] for band in BAND_HZ])
+
+
+def _labelled(names: list[str], levels: Array, measured: MeasuredPower) -> xr.Dataset:
+    by_band = {"band": BAND_HZ}
+    of_bands = {
+        "mean_position_level": measured.mean_db,
+        "background_margin": measured.margin_db,
+        "background_correction": measured.background_db,
+        "environment_correction": measured.environment_db,
+        "measured_power_level": measured.power_db,
+    }
+    of_sums = {
+        "measured_power_level_a": measured.power_dba,
+        "background_margin_a": measured.margin_dba,
+        "background_correction_a": measured.background_dba,
+        "environment_correction_a": measured.environment_dba,
+    }
+    return xr.Dataset(
+        {
+            "position_level": stamp("position_level", levels, {"channel": names, **by_band}),
+            **{name: stamp(name, values, by_band) for name, values in of_bands.items()},
+            **{name: stamp(name, value) for name, value in of_sums.items()},
+        }
+    )

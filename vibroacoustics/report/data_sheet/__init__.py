@@ -1,0 +1,1 @@
+"""The data sheet of an option: what a maker states of a machine, predicted."""

@@ -1,0 +1,90 @@
+"""Operating point and mounting, as a test report of EN 12102-1 states them."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+
+from ...base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from ..study import operating_points, parameters
+from .model import Fact
+
+_PRESSURES: Final = {
+    "suction_pressure_pa": "suction pressure",
+    "discharge_pressure_pa": "discharge pressure",
+}
+_BAR: Final = 1e-5
+
+
+def operating(case: xr.Dataset) -> tuple[Fact, ...]:
+    """Speed, supply and pressures of an option at a speed."""
+    study = parameters(case)
+    facts = [
+        Fact(name="shaft speed", value=float(case["speed"]), unit="rpm"),
+        Fact(name="balancing option", value=str(case["option"].values)),
+    ]
+    if "supply_frequency" in case:
+        facts.append(_number("supply frequency", float(case["supply_frequency"]), "Hz"))
+    point, _ = operating_points(case)
+    if point:
+        facts.append(Fact(name="operating point", value=point))
+    facts += _pressures(study["machine"])
+    mass = case["reported_figure"].sel(figure="added_mass_kg").item()
+    if np.isfinite(mass):
+        facts.append(_number("mass added by the option", mass, "kg"))
+    return tuple(facts)
+
+
+def mounting(case: xr.Dataset) -> tuple[Fact, ...]:
+    """What the machine stands on and in."""
+    study = parameters(case)
+    machine, around = study["machine"], study["radiation"]["surroundings"]
+    gives_way = machine.get("floor") or machine.get("floor_mobility")
+    measured = (study.get("measured") or {}).get("floor")
+    floor = "gives way under the feet" if gives_way or measured else "rigid under the feet"
+    shell = machine["shell"]
+    return (
+        _number("mass on the mounts", machine["housing"]["mass_kg"], "kg"),
+        Fact(name="feet", value=float(case.sizes["foot"])),
+        *_mounts(machine),
+        Fact(name="floor", value=f"{'hard' if around['floor'] else 'none'} to sound, {floor}"),
+        _number("height of the shell above the floor", 1e3 * shell["floor_clearance_m"], "mm"),
+        _number("height of the shell", 1e3 * shell["height_m"], "mm"),
+        _number("diameter of the shell", 1e3 * shell["outer_diameter_m"], "mm"),
+        Fact(name="pipes", value="none: what they hold and radiate is not modelled"),
+        _number("density of the air", AIR_DENSITY_KG_PER_M3, "kg/m³"),
+        _number("speed of sound", SPEED_OF_SOUND_M_PER_S, "m/s"),
+    )
+
+
+def _mounts(machine: Mapping[str, Any]) -> Iterator[Fact]:
+    feet = {name: foot for name, foot in (machine.get("feet") or {}).items() if foot}
+    others = [name for name, foot in feet.items() if _differs(foot)]
+    if machine.get("mount_stiffness"):
+        yield Fact(name="stiffness of the mounts", value="over frequency, from a file")
+    else:
+        mounts = machine["mounts"]
+        for direction in ("vertical", "lateral"):
+            stiffness = 1e-3 * mounts[f"{direction}_stiffness_n_per_m"]
+            yield _number(f"{direction} stiffness of a mount", stiffness, "N/mm")
+        yield _number("loss factor of the mounts", 100.0 * mounts["loss_factor_ratio"], "%")
+    if others:
+        yield Fact(name="feet with mounts that differ", value=", ".join(others))
+
+
+def _differs(foot: Mapping[str, Any]) -> bool:
+    return any(value is not None for name, value in foot.items() if "stiffness" in name)
+
+
+def _pressures(machine: Mapping[str, Any]) -> Iterator[Fact]:
+    """Suction and discharge pressure where a table of the machine has them, the first of each."""
+    tables = [machine, *(one for one in machine.values() if isinstance(one, dict))]
+    for key, words in _PRESSURES.items():
+        values = [table[key] for table in tables if table.get(key)]
+        if values:
+            yield _number(words, _BAR * values[0], "bar")
+
+
+def _number(name: str, value: float, unit: str) -> Fact:
+    return Fact(name=name, value=float(f"{value:.4g}"), unit=unit)
