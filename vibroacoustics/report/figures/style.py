@@ -138,7 +138,7 @@ def in_both_widths(name: str, alt: str, caption: str, make: Callable[[float], Fi
     make : draws the figure at a width, inch
     """
     narrow, full = (small_png(make(width)) for width in (WIDTH_INCH, FULL_WIDTH_INCH))
-    return Picture(name, alt, caption, narrow, full)
+    return Picture(name, alt, caption, narrow, full_png=full)
 
 
 def small_png(figure: Figure) -> bytes:
