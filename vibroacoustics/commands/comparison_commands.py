@@ -89,6 +89,8 @@ def compare_command(
     _print_limits(compared, figures, folder)
     typer.echo(f"compared orders: {written}")
     typer.echo(f"report: {folder / outputs.COMPARISON_REPORT_NAME}")
+    if prints is not None:
+        typer.echo(f"pdf: {(folder / outputs.COMPARISON_REPORT_NAME).with_suffix('.pdf')}")
     if report.broken_lines(orders, figures):
         raise typer.Exit(BROKEN)
 

@@ -88,6 +88,8 @@ def sweep_command(
     if failed:
         messages.warn([f"{failed} designs failed; {TABLE_NAME} tells why"])
     typer.echo(f"designs: {written}")
+    if prints is not None and search is not None:
+        typer.echo(f"pdf: {folder / 'designs.pdf'}")
 
 
 @commands.command("optimise")
@@ -122,6 +124,8 @@ def optimise_command(
     written = outputs.write_analysis(search, folder, DESIGNS_NAME, files, lambda _: [])
     typer.echo(report.designs_text(search))
     typer.echo(f"designs: {written}")
+    if prints is not None:
+        typer.echo(f"pdf: {folder / 'designs.pdf'}")
 
 
 def _problem(
