@@ -6,7 +6,7 @@ import xarray as xr
 import vibroacoustics as va
 from vibroacoustics.levels.bands import Band, bands_between
 
-RATE_HZ, SECONDS = 25_600.0, 4.0
+RATE_HZ, SECONDS = 25_600.0, 2.0
 BANDS = bands_between(3, 100.0, 10_000.0)
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from ...sound.ingredients import ingredients
+from ...sound.of_results import excess_db
 from ...sound.tonality import Tone as JudgedTone
 from ...sound.tonality import prominent, tonal_spectrum, tones
 from .model import Tone
@@ -14,7 +15,7 @@ from .model import Tone
 def prominent_tones(
     results: xr.Dataset, option: str, speed_rpm: float, microphones: Sequence[str]
 ) -> tuple[Tone, ...]:
-    """Each prominent tone once, at the microphone with its largest ratio.
+    """Each prominent tone once, at the microphone at which it is furthest above its criterion.
 
     Parameters
     ----------
@@ -26,9 +27,9 @@ def prominent_tones(
     for name in microphones:
         spectrum = tonal_spectrum(ingredients(results, option, name, speed_rpm))
         for tone in prominent(tones(spectrum)):
-            ratio = max(tone.noise_ratio_db, tone.prominence_db)
-            if tone.name not in most or ratio > most[tone.name][0]:
-                most[tone.name] = ratio, _stated(tone, name)
+            excess = excess_db(tone)
+            if tone.name not in most or excess > most[tone.name][0]:
+                most[tone.name] = excess, _stated(tone, name)
     return tuple(sorted((tone for _, tone in most.values()), key=lambda tone: tone.frequency_hz))
 
 
