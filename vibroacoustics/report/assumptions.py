@@ -117,7 +117,7 @@ def remainder_sentence(results: xr.Dataset) -> str:
         rest = band(results, "level_remainder")
         left = f"{rest.ends(rounding.fixed)} dB(A) ({band_words(results)} of the draws)"
     else:
-        left = f"{rounding.fixed(results['level_remainder'].item(), 3)} dB(A)"
+        left = f"{rounding.fixed(results['level_remainder'].item())} dB(A)"
     return (
         f"{who} {noise['level_dba']:g} dB(A) at {noise['distance_m']:g} m and "
         f"{noise['speed_rpm']:g} rpm{_point_words(results)}. What the model leaves of "

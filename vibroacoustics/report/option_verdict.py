@@ -8,7 +8,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
-from .quantities import JUDGED, LINE, TOTAL
+from .quantities import JUDGED, LINE, TOLERANCE_DB, TOTAL
 from .shifts import Shift, shift
 from .source_changes import change_sentences
 from .study import balancers, catalogue_receiver, has_sources, other_receivers, words
@@ -136,13 +136,9 @@ def _elsewhere(here: Shift, elsewhere: Mapping[str, Shift]) -> str:
 
 def _total(results: xr.Dataset, option: str) -> list[str]:
     gain = shift(results, TOTAL, option).gain_db
-    if not np.round(gain, 3).any():
-        return ["The total level does not change by as much as 0.001 dB."]
-    return [f"The total level changes by {rounding.span(gain, _milli)} dB."]
-
-
-def _milli(value: float) -> str:
-    return rounding.signed(value, 3)
+    if abs(gain).max() < TOLERANCE_DB:
+        return [f"The total level changes by less than {TOLERANCE_DB:g} dB."]
+    return [f"The total level changes by {rounding.span(gain, rounding.signed)} dB."]
 
 
 def _mass(results: xr.Dataset, option: str) -> str:

@@ -8,6 +8,7 @@ from .blocks import Block, pictures
 from .figures.style import Picture, file_name
 from .kept_sections import sections_of
 from .study import parameters
+from .titles import titled
 
 
 class Part(NamedTuple):
@@ -42,6 +43,7 @@ class Page(NamedTuple):
 
 def page_of(results: xr.Dataset) -> Page:
     """The page of a finished run."""
+    results = titled(results)
     parts = tuple(
         Part(section.name, section.title, tuple(section.blocks(results)), section.folded)
         for section in sections_of(results)

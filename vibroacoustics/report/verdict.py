@@ -13,7 +13,7 @@ from .carrier import sure_sentence
 from .column_values import column
 from .comparison import comparison
 from .option_verdict import MIXED, NO_CHANGE, WORSE, OptionVerdict
-from .quantities import FOOT_FORCE, FORCE, HEARD_DB, LINE, MOMENT, TOTAL
+from .quantities import FOOT_FORCE, FORCE, HEARD_DB, LINE, MOMENT, TOLERANCE_DB, TOTAL
 from .ranking_words import ranking_sentence
 from .remainder import growth_sentence, measured_rpm, remainder_band
 from .shifts import measurable, shift
@@ -86,9 +86,9 @@ def options_table(verdicts: Sequence[OptionVerdict]) -> Table | None:
 
 def _total_words(results: xr.Dataset, change_db: float) -> str:
     total = f"the total of {_total_dba(results):g} dB(A)"
-    if change_db < 0.0005:
-        return f"and {total} by less than 0.001 dB: not at all."
-    size = f"by at most {rounding.fixed(change_db, 3)} dB"
+    if change_db < TOLERANCE_DB:
+        return f"and {total} by less than {TOLERANCE_DB:g} dB: not at all."
+    size = f"by at most {rounding.fixed(change_db)} dB"
     if change_db < measurable(results).level_db:
         return f"but {total} hardly at all: {size}, which nobody can hear or measure."
     if change_db < HEARD_DB:
@@ -172,7 +172,7 @@ def _remainder(results: xr.Dataset) -> str:
             f"from sources that balancing does not touch."
         )
     return (
-        f"In the model {carried}. The rest, {rounding.fixed(results['level_remainder'].item(), 2)} "
+        f"In the model {carried}. The rest, {rounding.fixed(results['level_remainder'].item())} "
         f"dB(A) at {overall_noise(results)['speed_rpm']:g} rpm, comes from sources that balancing "
         f"does not touch. {growth_sentence(results)}"
     )

@@ -42,10 +42,11 @@ def scored_criteria(results: xr.Dataset, settings: Scoring) -> list[Scored]:
     known = _given_names(results)
     computed = [name for name in CRITERIA if name in settings.criteria and name not in known]
     given = sorted(set(settings.criteria) - set(computed))
-    return [
+    every = [
         *(_computed(name, results) for name in computed),
         *(_given(name, settings.criteria[name], results) for name in given),
     ]
+    return [one._replace(label=settings.criteria[one.name].title or one.label) for one in every]
 
 
 def _computed(name: str, results: xr.Dataset) -> Scored:

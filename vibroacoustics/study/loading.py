@@ -27,6 +27,7 @@ from .ranges import is_used, ranges_of, tables_used
 from .reader import Reader
 from .structure_borne import StructureBorne
 from .study import Study
+from .title_tables import take_titles
 from .toml_files import Written, beside, read_with_base
 from .wording import validated
 
@@ -63,6 +64,7 @@ def study_of(written: Written) -> Study:
     """
     path, content = written.path, deepcopy(written.content)
     reader = Reader(path, written.origin)
+    titles = take_titles(content, reader)
     machine_file, overrides, without = _machine_table(content, reader)
     changes: dict[tuple[str, ...], Any] = {("machine", "override"): overrides}
     points = operating_points(machine_file)
@@ -92,6 +94,7 @@ def study_of(written: Written) -> Study:
     if plate is not None:
         machine, at_catalogue = plate.under(machine), at_catalogue and plate.under(at_catalogue)
     content.update(machine=machine, source_file=path.name, given=given, evidence=evidence)
+    content["titles"] = titles
     content["catalogue_machine"] = at_catalogue
     for name, (redesigned, change_records) in redesigns.items():
         content["options"][name]["machine"] = (
@@ -137,6 +140,7 @@ def load_machine(path: str | Path) -> Machine:
 
 _FILLED_IN: Final = (
     "records", "ranges", "held_ranges", "source_file", "given", "catalogue_machine", "coarsened",
+    "titles",
 )  # fmt: skip
 """Here, not by a file."""
 

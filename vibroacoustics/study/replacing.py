@@ -48,7 +48,7 @@ def replaced(written: Written, values: Mapping[str, Any]) -> Written:
 def _keys(dotted: str) -> tuple[str, ...]:
     """Keys in the study's file; values of the machine are in its table `machine.override`."""
     first, *rest = dotted.split(".")
-    inner = first == "machine" and rest[:1] not in (["file"], ["override"], ["without"])
+    inner = first == "machine" and rest[:1] not in (["file"], ["title"], ["override"], ["without"])
     return (*_MACHINE, *rest) if inner else (first, *rest)
 
 

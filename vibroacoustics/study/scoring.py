@@ -32,6 +32,8 @@ class CriterionScale(Parameters):
     weight: float = Field(ge=0.0, le=1e6)
     best: float
     worst: float
+    title: str = Field(default="", max_length=60)
+    """What reports show in place of the criterion's words; these where empty."""
     label: str = ""
     """Plain words of a given criterion; those of its name where empty."""
     unit: str = ""

@@ -27,6 +27,7 @@ from .scoring import Scoring, check_given, check_scales
 from .sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
 from .speeds import MOST_SPEEDS, speed_range
 from .structure_borne import StructureBorne
+from .titles import Titles
 from .toml_files import Written
 from .uncertainty import HeldRange, MeasuredModes, Range, Uncertainty
 
@@ -141,6 +142,8 @@ class Study(Parameters):
     scoring: Scoring
     given: dict[str, dict[str, float]] = Field(default={})
     """Values of criteria that are judged, not computed, by option and criterion."""
+    titles: Titles = Titles()
+    """What reports show in place of names."""
     evidence: Evidence = Evidence()
     """Published values beside which the report sets the results."""
     sound_power: SoundPowerSettings | None = None

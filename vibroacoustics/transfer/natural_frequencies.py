@@ -70,7 +70,7 @@ def framed_hz(frame: FrameOnShell) -> Array:
     squares = (2.0 * np.pi * frame.natural_hz) ** 2
     rigid = np.zeros((6, 6))
     gaps = np.hstack([frame.modal_forces.T, frame.contacts.rigid, -frame.inner.contacts])
-    held = np.linalg.inv(np.diag((1.0 / frame.contacts.stiffness).real) + frame.residual)
+    held = np.linalg.inv(np.diag(1.0 / frame.contacts.stiffness.real) + frame.residual)
     stiffness = block_diag(
         np.diag(frame.modal_mass_kg * squares), rigid, frame.inner.stiffness.real
     )

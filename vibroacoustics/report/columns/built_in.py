@@ -10,7 +10,6 @@ import xarray as xr
 from ...base import rounding
 from ...base.registry import register
 from ..bands import QUANTILES, has_band, quantiles
-from ..study import has_sources
 from . import Column, Values
 
 
@@ -53,11 +52,6 @@ def _change(value: float, results: xr.Dataset) -> str:
     return rounding.signed(value)
 
 
-def _total_change(value: float, results: xr.Dataset) -> str:
-    """To 0.001 dB; of all sources, which rest on assumed values, to 0.1 dB."""
-    return rounding.signed(value, 1 if has_sources(results) else 3)
-
-
 # fmt: off
 _COLUMNS: Final = (
     Column("force_1x_n", _amplitude("force_amplitude", 1), "Force 1×, N", "1x N", band="force_1x"),
@@ -71,7 +65,7 @@ _COLUMNS: Final = (
     Column("level_total_dba", _variable("level_total"), "Total level, dB(A)", None, _level, band="level_total"),  # noqa: E501
     Column("change_1x_db", _variable("change_1x"), "Δ 1×, dB", "Δ1x dB", _change, "level_1x_db"),
     Column("change_modelled_dba", _variable("change_modelled"), "Δ modelled, dB", None, _change, "level_modelled_dba", band="change_modelled"),  # noqa: E501
-    Column("change_total_dba", _variable("change_total"), "Δ total, dB", "Δtotal dB", _total_change, band="change_total"),  # noqa: E501
+    Column("change_total_dba", _variable("change_total"), "Δ total, dB", "Δtotal dB", _change, band="change_total"),  # noqa: E501
     Column("level_modelled_db", _modelled("Z")),
     Column("level_modelled_dbc", _modelled("C")),
     *_quantiles("change_modelled", "db"),

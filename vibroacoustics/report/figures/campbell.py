@@ -60,11 +60,10 @@ def campbell(
     >>> va.plot.campbell(results).savefig("campbell.png")
     """
     at = chosen(results, "receiver", receiver or catalogue_receiver(results))
+    option = chosen(results, "option", option)
     sorted_by_speed = results.sortby("speed")
     speed = sorted_by_speed["speed"].values
-    level = sorted_by_speed["level_modelled"].sel(
-        option=chosen(results, "option", option), receiver=at, weighting="A"
-    )
+    level = sorted_by_speed["level_modelled"].sel(option=option, receiver=at, weighting="A")
     modes, others = modes_of(results), [] if beside is None else modes_of(beside)
     above = [mode for mode in modes if mode.kind != KINDS[0]]
     below = [mode for mode in modes if mode.kind == KINDS[0]]

@@ -19,7 +19,8 @@ from ..over_speed.level_curves import (
     source_curves,
 )
 from ..study import catalogue_receiver
-from .needs import needs
+from ..titles import titled
+from .needs import chosen, needs
 from .style import WIDTH_INCH, draw, legend_below, line_looks, shade, shortened, wrap
 
 _FEW_POINTS: Final = 12
@@ -71,6 +72,7 @@ def levels_over_speed(
     panels, xlabel = _curves(results, receiver, options)
     if beside is not None:
         panels = {title: _lettered("A", curves) for title, curves in panels.items()}
+        beside = titled(beside)
         others, _ = _curves(beside, receiver if _has(beside, receiver) else None, beside_options)
         panels = {title: [*curves, *_like(others, title)] for title, curves in panels.items()}
     solid = [len(one) for one in _curves(results, receiver, options)[0].values()]
@@ -117,6 +119,7 @@ def source_levels_over_speed(
     >>> results = va.open_results("results.nc")
     >>> va.plot.source_levels_over_speed(results).savefig("sources_over_speed.png")
     """
+    option = chosen(results, "option", option)
     curves = source_curves(results, receiver, option)
     (modelled,) = option_curves(results, "level_modelled", receiver, [option])
     every = [modelled._replace(label="all modelled", band_db=None), *curves]
@@ -182,7 +185,7 @@ def _has(results: xr.Dataset, receiver: str | None) -> bool:
 def _shaded(results: xr.Dataset, receiver: str | None, options: Sequence[str]) -> list[Range]:
     """Speeds to avoid, of the first option or the level weighted by A."""
     if "level_total" in results:
-        option = options[0] if options else REFERENCE_OPTION
+        option = chosen(results, "option", options[0] if options else REFERENCE_OPTION)
         avoided = speeds_to_avoid(results, receiver, [option])
         return [one.range for one in avoided if one.quantity == LEVEL]
     if not is_run_up(results["block_speed"]):

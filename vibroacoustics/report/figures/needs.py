@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 from ...base.errors import ParameterError
 from ...base.vocabulary import VARIABLES
+from ..titles import option_titles, titled
 
 Maker = TypeVar("Maker", bound=Callable[..., Figure])
 
@@ -33,7 +34,7 @@ def needs(*variables: str, from_: str = "`run`", any_of: bool = False) -> Callab
                         f"plot.{make.__name__}: these results hold no {name} "
                         f"({VARIABLES[name].long_name}); it comes from {from_}"
                     )
-            return make(results, *args, **kwargs)
+            return make(titled(results), *args, **kwargs)
 
         return cast(Maker, checked)
 
@@ -41,7 +42,7 @@ def needs(*variables: str, from_: str = "`run`", any_of: bool = False) -> Callab
 
 
 def chosen(results: xr.Dataset, dimension: str, value: Any) -> Any:
-    """A label of a dimension; where none is given, the first.
+    """A label of a dimension; where none is given, the first; of an option with a title that.
 
     Raises
     ------
@@ -49,6 +50,8 @@ def chosen(results: xr.Dataset, dimension: str, value: Any) -> Any:
         The results have no such label.
     """
     labels = results[dimension].values.tolist()
+    if dimension == "option" and value not in labels:
+        value = option_titles(results).get(value, value)
     if value is None:
         return labels[0]
     if value not in labels:

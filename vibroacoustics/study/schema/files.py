@@ -7,11 +7,18 @@ from ...machine.option import OPTIONS
 from ..evidence import Evidence
 from ..machine_file import POINTS
 from ..study import Study
+from ..titles import LONGEST
 from .model import FileSchema, by_kind, in_file
 from .units import RANGE, SOURCE, Schema, sourced
 
 DRAFT: Final = "http://json-schema.org/draft-07/schema#"
 _FILE: Final[Schema] = {"type": "string", "minLength": 1, "description": "Name, from this file's"}
+_TITLE: Final[Schema] = {
+    "type": "string",
+    "minLength": 1,
+    "maxLength": LONGEST,
+    "description": "What reports show in place of the name",
+}
 _IN_PART: Final = "machine_in_part"
 _PART: Final[Schema] = {"$ref": f"#/$defs/{_IN_PART}"}
 _STEPS: Final[Schema] = {
@@ -22,6 +29,7 @@ _STEPS: Final[Schema] = {
 }
 _FILLED_IN: Final = (
     "records", "ranges", "held_ranges", "source_file", "given", "catalogue_machine", "coarsened",
+    "titles",
 )  # fmt: skip
 
 
@@ -39,6 +47,7 @@ def study_schema() -> Schema:
         "machine": _table(
             {
                 "file": _FILE,
+                "title": _TITLE,
                 "override": _PART,
                 "without": {"type": "array", "items": {"type": "string"}},
             }
@@ -103,7 +112,7 @@ def _with_judgements(options: Schema) -> None:
     for choice in options["allOf"]:
         kind = choice["if"]["properties"]["kind"]["const"]
         properties = choice["then"]["properties"]
-        properties["given"] = judged
+        properties |= {"given": judged, "title": _TITLE}
         if OPTIONS[kind].changes_machine:
             properties.pop("machine", None)
             properties["change"] = _PART

@@ -1,0 +1,82 @@
+"""Titles of options, machines and criteria stand in reports and figures; CSV keeps the names."""
+
+import csv
+import io
+
+import pytest
+from support import ROOT, TINY, assert_refused, command_here, made_up_radiation
+
+import vibroacoustics as va
+from vibroacoustics.report import comparison_csv
+from vibroacoustics.report.figures.needs import chosen
+from vibroacoustics.report.page import page_of
+from vibroacoustics.report.scores import criteria_table, scores_csv
+from vibroacoustics.report.sections import SECTIONS
+from vibroacoustics.report.titles import option_titles, titled
+
+TITLE = "Half of the counterweight"
+MACHINE = "Our scroll"
+CRITERION = "What a foot passes on"
+NAME = "counterweight-half"
+
+
+@pytest.fixture(scope="module")
+def results():
+    values = {
+        f"options.{NAME}.title": TITLE,
+        "machine.title": MACHINE,
+        "scoring.criteria.foot_force_1x_n.title": CRITERION,
+    }
+    study = va.load_study(TINY).replace(values)
+    assert study.options[NAME].model_dump() == va.load_study(TINY).options[NAME].model_dump()
+    return va.run(study, radiation=made_up_radiation)
+
+
+def test_the_report_shows_titles(results, monkeypatch):
+    some = ("verdict", "comparison")
+    monkeypatch.setattr(
+        "vibroacoustics.report.page.sections_of", lambda _: [SECTIONS[name] for name in some]
+    )
+    page = page_of(results)
+    assert page.machine == MACHINE
+    for part in page.parts:
+        shown = str(part.blocks)
+        assert TITLE in shown, part.name
+        assert NAME not in shown, part.name
+    assert results["criterion_label"].item() == CRITERION
+    assert CRITERION in str(criteria_table(results).rows)
+
+
+def test_csv_keeps_the_names(results):
+    for made in (comparison_csv(results), scores_csv(results)):
+        rows = list(csv.DictReader(io.StringIO(made.decode())))
+        assert {row["option"] for row in rows} == {"none", NAME}
+    assert results["option"].values.tolist() == ["none", NAME]
+
+
+def test_figures_show_titles_and_take_names(results):
+    figure = va.plot.levels_over_speed(results, options=["none", NAME])
+    labels = [line.get_label() for line in figure.axes[0].lines]
+    assert [label.replace("\n", " ") for label in labels] == ["none", TITLE]
+    assert va.plot.levels_over_speed(results, options=[TITLE]).axes[0].lines
+    shown = titled(results)
+    assert titled(shown).identical(shown)
+    assert chosen(shown, "option", NAME) == TITLE
+    assert option_titles(results) == {NAME: TITLE}
+
+
+@pytest.mark.parametrize(
+    ("table", "title", "said"),
+    [
+        (NAME, '""', "must be a line of text"),
+        (NAME, "3", "must be a line of text"),
+        (NAME, f'"{"x" * 61}"', "has 61 letters; allowed 1 to 60"),
+        (NAME, '"none"', "is name or title of another option"),
+        ("none", '"As built"', "every report names it none"),
+    ],
+)
+def test_titles_that_say_nothing_are_refused(tmp_path, table, title, said):
+    text = TINY.read_text().replace("../../data", str(ROOT / "data"))
+    file = tmp_path / "study.toml"
+    file.write_text(text.replace(f"[options.{table}]", f"[options.{table}]\ntitle = {title}"))
+    assert_refused(command_here("check", file), f"options.{table}.title = ", said)
