@@ -43,10 +43,10 @@ axes.legend(fontsize="small")
 # %%
 # Tones
 # -----
-# A tone of 60 dB at 1 kHz is put on the sound and looked for as in a recording: its level, and its
+# A tone of 80 dB at 1 kHz is put on the sound and looked for as in a recording: its level, and its
 # ratios to the noise of its critical band and to the bands beside it.
 time = np.arange(pressure.size) / rate
-recorded = pressure + np.sqrt(2.0) * 0.02 * np.sin(2.0 * np.pi * 1000.0 * time)
+recorded = pressure + np.sqrt(2.0) * 0.2 * np.sin(2.0 * np.pi * 1000.0 * time)
 bands = va.sound.narrow_bands(recorded, rate)
 for tone in va.sound.tones(va.sound.recorded_spectrum(bands))[:1]:
     print(f"{tone.frequency_hz:.0f} Hz: {tone.level_db:.1f} dB, prominent: {tone.prominent}")

@@ -12,6 +12,7 @@ NO_LEVELS = {
     "levels/bands.py": "ratios and numbers of octaves of base ten",
     "mechanics/added.py": "number of a third octave",
     "report/figures/style.py": "ticks of an axis",
+    "sound/critical_bands.py": "powers and logarithms of a frequency",
     "study/speeds.py": "rounding of a step",
 }
 """Files that may, and why."""

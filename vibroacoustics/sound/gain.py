@@ -8,6 +8,8 @@ import xarray as xr
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import amplitude_of_level, power_of_level
 
+_STEPS: Final = [2e-5, 5e-5, *(float(f"{n}e{k}") for k in range(-4, 6) for n in (1, 2, 5))]
+"""From the threshold of hearing on, Pa."""
 _CREST: Final = 5.5
 """Largest value of ten minutes of Gaussian noise over its effective value."""
 
@@ -50,7 +52,4 @@ def _square(level: xr.DataArray) -> xr.DataArray:
 
 def _rounded_up(value: float) -> float:
     """The next of 1, 2, 5, 10, 20, …; of silence the threshold of hearing."""
-    value = max(value, REFERENCE_PRESSURE_PA)
-    decade = 10.0 ** np.floor(np.log10(value))
-    steps = [round(step * decade, 12) for step in (1.0, 2.0, 5.0, 10.0)]
-    return float(next(step for step in steps if step >= value * (1.0 - 1e-9)))
+    return next((step for step in _STEPS if step >= value * (1.0 - 1e-9)), value)

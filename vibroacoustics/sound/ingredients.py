@@ -1,6 +1,7 @@
 """What the sound of an option at a microphone is made of: lines with phase and bands of noise."""
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 import xarray as xr
@@ -10,10 +11,15 @@ from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import amplitude_of_level, power_of_level
 from ..base.errors import ParameterError, SchemaError
 from ..base.units import shaft_frequency_hz
+from ..levels.bands import OCTAVE_RATIO, Band
 from ..mechanics.added import third_octave_number
 
-_ORDER = "order "
-DUST = 1e-9
+_ORDER: Final = "order "
+_AT_1_KHZ: Final = 30
+"""Number of its third octave."""
+HALF_BAND: Final = OCTAVE_RATIO ** (1.0 / 6.0)
+"""Upper edge of a third octave over its centre, 10^0.05."""
+DUST: Final = 1e-9
 """Of a band's mean square: less is what rounding leaves where lines are taken out."""
 
 
@@ -101,7 +107,8 @@ def ingredients(results: xr.Dataset, option: str, microphone: str, speed: float)
     if "baseline_band_level" in case:
         square = _measured_bands(case, lines, number, square)
     loud = square > 0.0
-    bands = SoundBands(10.0 ** (number[loud] / 10.0), np.sqrt(square[loud]))
+    centres = [Band(3, int(one) - _AT_1_KHZ).middle_hz for one in number[loud]]
+    bands = SoundBands(np.array(centres), np.sqrt(square[loud]))
     return Ingredients(lines, bands)
 
 

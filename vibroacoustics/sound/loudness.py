@@ -10,10 +10,11 @@ from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level
 from ..base.errors import ParameterError
-from .ingredients import Ingredients
+from ..levels.bands import bands_between
+from .ingredients import HALF_BAND, Ingredients
 from .recorded import NarrowBands
 
-CENTRES_HZ: Final[Array] = 10.0 ** (np.arange(14, 42) / 10.0)
+CENTRES_HZ: Final[Array] = np.array([one.middle_hz for one in bands_between(3, 25.0, 12500.0)])
 """Exact midband frequencies of the third octaves from 25 Hz to 12.5 kHz."""
 NEEDED: Final = "loudness and sharpness need mosqito: pip install 'vibroacoustics[sound]'"
 _ACROSS: Final = 20
@@ -123,14 +124,14 @@ def filter_gain(frequency_hz: Array) -> Array:
     frequency_hz : above zero
     """
     ratio = frequency_hz[:, None] / CENTRES_HZ
-    width = (10.0**0.05 - 10.0**-0.05) * np.sinc(1.0 / 6.0)
+    width = (HALF_BAND - 1.0 / HALF_BAND) * np.sinc(1.0 / 6.0)
     return np.asarray(1.0 / (1.0 + ((ratio - 1.0 / ratio) / width) ** 6))
 
 
 def _thirds(parts: Ingredients) -> Array:
     """Mean squares in the bands `CENTRES_HZ`, Pa²; noise is even over the logarithm in its band."""
     lines = 0.5 * np.abs(parts.lines.pressure_pa) ** 2 @ filter_gain(parts.lines.frequency_hz)
-    across = 10.0 ** ((np.arange(_ACROSS) + 0.5) / (10.0 * _ACROSS) - 0.05)
+    across = HALF_BAND ** (2.0 * (np.arange(_ACROSS) + 0.5) / _ACROSS - 1.0)
     hertz = parts.bands.centre_hz[:, None] * across
     gain = filter_gain(hertz.ravel()).reshape(*hertz.shape, CENTRES_HZ.size).mean(axis=1)
     return np.asarray(lines + parts.bands.pressure_pa**2 @ gain)

@@ -9,14 +9,13 @@ from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..base.units import shaft_frequency_hz
 from ..levels.by_source import weighting_power
-from .ingredients import Ingredients, SoundBands, SoundLines
+from .ingredients import HALF_BAND, Ingredients, SoundBands, SoundLines
 
 SAMPLE_RATE_HZ: Final = 48000
 SEED: Final = 1
 """Of the noise: the same for all options, so that what differs is the option."""
 SHORTEST_S: Final = 1.0
 LONGEST_S: Final = 600.0
-_HALF_BAND: Final = 10.0**0.05
 _NEAR: Final = 20
 """Revolutions more or fewer, so that they end near a sample."""
 _BLOCK: Final = 1024
@@ -104,8 +103,8 @@ def rendered_noise(
         free &= np.abs(hertz - tone) > _APART * sample_rate_hz / samples
     square = np.zeros(hertz.size)
     for centre, effective in zip(bands.centre_hz, bands.pressure_pa, strict=True):
-        if centre * _HALF_BAND < 0.45 * sample_rate_hz:
-            inner = (hertz >= centre / _HALF_BAND) & (hertz < centre * _HALF_BAND)
+        if centre * HALF_BAND < 0.45 * sample_rate_hz:
+            inner = (hertz >= centre / HALF_BAND) & (hertz < centre * HALF_BAND)
             inner = inner & free if np.any(inner & free) else inner
             density = 1.0 / (hertz[inner] * np.sqrt(weighting_power("A", hertz[inner])))
             square[inner] = effective**2 * density / density.sum()

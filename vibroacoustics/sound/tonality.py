@@ -22,7 +22,7 @@ from .critical_bands import (
     prominence_criterion_db,
     proximity_hz,
 )
-from .ingredients import Ingredients
+from .ingredients import HALF_BAND, Ingredients
 
 
 @dataclass(frozen=True)
@@ -98,12 +98,11 @@ def tonal_spectrum(parts: Ingredients) -> TonalSpectrum:
     parts : of `ingredients`
     """
     square = parts.bands.pressure_pa**2
-    lower, upper = (np.log10(parts.bands.centre_hz) + side for side in (-0.05, 0.05))
+    lower, upper = (parts.bands.centre_hz * edge for edge in (1.0 / HALF_BAND, HALF_BAND))
 
     def noise(first: float, last: float) -> float:
-        ends = np.log10(max(first, 1e-3)), np.log10(last)
-        inner = np.minimum(upper, ends[1]) - np.maximum(lower, ends[0])
-        return float(square @ np.clip(inner, 0.0, None)) / 0.1
+        inner = np.log(np.minimum(upper, last) / np.maximum(lower, first))
+        return float(square @ np.clip(inner, 0.0, None)) / (2.0 * np.log(HALF_BAND))
 
     lines = parts.lines
     return TonalSpectrum(
