@@ -50,7 +50,9 @@ low, high = (at[f"structure_borne_line_{end}"].sel(line="order 1") for end in ("
 options = at["option"].values
 rows = np.arange(options.size)
 figure, axes = plt.subplots(layout="constrained")
-axes.barh(rows, (high - low).values, left=(by_plate + low).values, height=0.5, color="C1", alpha=0.3)
+axes.barh(
+    rows, (high - low).values, left=(by_plate + low).values, height=0.5, color="C1", alpha=0.3
+)
 axes.plot(by_plate, rows, "|", color="C1", markersize=14, label="by the feet and the base")
 axes.plot(by_air, rows, "o", color="C0", label="by air")
 axes.set(yticks=rows, yticklabels=options, xlabel="1× at the neighbour's, dB(A)")

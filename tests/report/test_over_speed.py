@@ -230,7 +230,10 @@ def test_the_section_of_the_report(results):
     ]  # fmt: skip
     sizes = {len(one.png) + len(one.full_png) for one in drawn_pictures}
     assert max(sizes) < 150_000
-    widths = [struct.unpack(">I", one[16:20])[0] for one in drawn_pictures[-1][3:]]
+    widths = [
+        struct.unpack(">I", one[16:20])[0]
+        for one in (drawn_pictures[-1].png, drawn_pictures[-1].full_png)
+    ]
     assert widths == [736, 1472]
     page = html(Page("Title", "Machine", "now", (Part("speeds", "Speeds", tuple(blocks)),)))
     assert page.count(b'<figure class="full"><picture><source media="screen and') == 4

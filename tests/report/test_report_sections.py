@@ -48,6 +48,7 @@ BUILT_IN = [
     "paths",
     "structure-borne",
     "shell-test",
+    "speeds",
     "unknowns",
     "tones",
     "orders",
@@ -68,6 +69,7 @@ NOT_HERE = {
     "structure-borne",
     "shell-test",
     "tones",
+    "speeds",
 }
 """What the results of these tests do not have."""
 

@@ -75,8 +75,12 @@ NOT_MADE_HERE = {
 }
 
 
-OF_OTHER_JOBS = ("predicted_", "blocked_", "validation_", "inversion_", "shell_", "best_design")
-"""Of measurements alone, of a test of the shell, of a search of designs."""
+OF_OTHER_JOBS = (
+    "predicted_", "blocked_", "validation_", "inversion_", "shell_", "best_design",
+    "structure_borne_", "level_both_ways", "gas_frequency",
+    "measured_", "background_", "mean_position_", "environment_",
+)  # fmt: skip
+"""Of measurements alone, a test of the shell, a search of designs; with a plate or gas in a shell."""
 
 
 @pytest.fixture(scope="module")
