@@ -94,8 +94,8 @@ def many_speeds(results: xr.Dataset) -> bool:
 
 
 def over_speed(results: xr.Dataset) -> bool:
-    """Whether there are speeds enough to be drawn over."""
-    return len(speeds(results)) >= FEWEST_OVER_SPEED
+    """Whether there are lines at speeds enough to be drawn over."""
+    return "pressure_line" in results and len(speeds(results)) >= FEWEST_OVER_SPEED
 
 
 def few_speeds(results: xr.Dataset) -> xr.Dataset:

@@ -80,7 +80,7 @@ OF_OTHER_JOBS = (
     "structure_borne_", "level_both_ways", "gas_frequency",
     "measured_", "background_", "mean_position_", "environment_",
 )  # fmt: skip
-"""Of measurements alone, a test of the shell, a search of designs; with a plate or gas in a shell."""
+"""Of measurements alone, of a test of the shell, of a search of designs, of a plate, of gas."""
 
 
 @pytest.fixture(scope="module")

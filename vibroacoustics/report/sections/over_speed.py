@@ -21,8 +21,4 @@ def _blocks(results: xr.Dataset) -> list[Block]:
     ]
 
 
-def _applies(results: xr.Dataset) -> bool:
-    return "pressure_line" in results and over_speed(results)
-
-
-register(Section("speeds", "Over the speed", _blocks, _applies, 35.0))
+register(Section("speeds", "Over the speed", _blocks, over_speed, 35.0))
