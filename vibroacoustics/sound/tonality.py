@@ -102,7 +102,7 @@ def tonal_spectrum(parts: Ingredients) -> TonalSpectrum:
 
     def noise(first: float, last: float) -> float:
         inner = np.log(np.minimum(upper, last) / np.maximum(lower, first))
-        return float(square @ np.clip(inner, 0.0, None)) / (2.0 * np.log(HALF_BAND))
+        return float(square @ np.clip(inner, 0.0, None) / (2.0 * np.log(HALF_BAND)))
 
     lines = parts.lines
     return TonalSpectrum(
