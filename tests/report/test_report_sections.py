@@ -43,6 +43,7 @@ BUILT_IN = [
     "verdict",
     "reasons",
     "comparison",
+    "live",
     "baseline",
     "sources",
     "paths",
@@ -62,6 +63,7 @@ BUILT_IN = [
     "provenance",
 ]
 NOT_HERE = {
+    "live",
     "stopping",
     "baseline",
     "paths",
