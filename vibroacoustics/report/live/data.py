@@ -6,7 +6,7 @@ from typing import Any, Final
 import numpy as np
 import xarray as xr
 
-from ...mechanics.added import third_octave_number
+from ...levels.measured_points import BASELINE_BANDS
 from ..study import catalogue_receiver, few_speeds, options
 from .cases import case_of
 from .lines import Lines, lines_at
@@ -34,7 +34,8 @@ def live_data(results: xr.Dataset) -> str:
     results : of a run, with the noise of third octaves
     """
     shown = _shown(results)
-    bands = 10.0 ** (third_octave_number(shown["noise_band"].values) / 10.0)
+    middle_hz = {band.nominal_hz: band.middle_hz for band in BASELINE_BANDS}
+    bands = np.array([middle_hz[nominal] for nominal in shown["noise_band"].values.tolist()])
     moving = moving_of(shown)
     numbers = Numbers()
     page: dict[str, Any] = {
@@ -68,8 +69,9 @@ def full_scale_pa(lines: list[Lines]) -> float:
         for one in lines
     )
     wanted = HEADROOM * max(peak, 1e-6)
-    power = 10.0 ** np.floor(np.log10(wanted))
-    return float(next(digit * power for digit in (1, 2, 5, 10) if digit * power >= wanted))
+    exponent = f"{wanted:e}".split("e")[1]
+    sizes = (float(f"{digit}e{exponent}") for digit in (1, 2, 5, 10))
+    return next(size for size in sizes if size >= wanted)
 
 
 def _shown(results: xr.Dataset) -> xr.Dataset:

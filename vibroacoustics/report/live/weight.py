@@ -13,7 +13,7 @@ from ...mechanics.rotation import Rotation
 from ...orders.spectrum import order_spectrum_at_speed
 
 FORCES: Final = 2.0
-"""The heaviest weight makes so many times the largest force at 1x without an option."""
+"""The heaviest weight makes about so many times the largest force at 1x without an option."""
 ROUNDING: Final = 1e-9
 _RADIUS_M: Final = 0.025
 """Of the weight where the machine names no planes for weights."""
@@ -51,8 +51,7 @@ def weight_of(machine: Machine, force_1x_n: Array, speed_rpm: Array) -> Weight:
     slider = machine.capability(Slider)
     angular = 2.0 * np.pi * speed_rpm / 60.0
     moment = max(FORCES * float(np.max(force_1x_n / angular**2)), 1e-6)
-    digit = 10.0 ** np.floor(np.log10(moment))
-    moment = float(np.ceil(moment / digit) * digit)
+    moment = float(f"{moment:.0e}")
     axes = machine.crank_frame.origin_m, machine.crank_frame.shaft
     if slider is None:
         return Weight(moment, (-_REACH_M, _REACH_M), _RADIUS_M, *axes)
