@@ -11,11 +11,11 @@ from unicodedata import normalize
 
 import pytest
 import xarray as xr
+from browsers import program
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from pypdf import PdfReader
 from support import assert_refused, command_here, tiny_run
-from test_report_browser import _browser_paths
 
 from vibroacoustics.commands import printing
 from vibroacoustics.commands.outputs import with_pdf, write_report
@@ -112,7 +112,7 @@ def test_every_page_has_a_pdf_of_its_name() -> None:
 @pytest.mark.usefixtures("blank_figures")
 def test_every_table_is_in_the_pdf(results: xr.Dataset) -> None:
     page = page_of(results)
-    reader = _read(printing.Printer(_browser_paths()[0], "a4").printed(html(page)))
+    reader = _read(printing.Printer(program("chromium"), "a4").printed(html(page)))
     assert _size(reader) == SIZES["a4"]
     pages = [sheet.extract_text() for sheet in reader.pages]
     text = _squeezed("".join(re.sub(r"^\d+ / \d+$", "", sheet, flags=re.M) for sheet in pages))

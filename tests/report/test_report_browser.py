@@ -1,14 +1,9 @@
 """The report in headless Chromium, at desktop and phone width."""
 
-import os
-import shutil
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from selenium.webdriver import Chrome
-from selenium.webdriver.chrome.options import Options
-from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 from test_report import make_results
 
@@ -30,29 +25,6 @@ HEADINGS = (
     "Provenance",
 )
 WIDTHS = {"desktop": 1280, "phone": 390}
-
-
-def _browser_paths() -> tuple[str, str]:
-    """Chromium and its driver; their absence is an error in CI and a skip elsewhere."""
-    found = shutil.which("chromium"), shutil.which("chromedriver")
-    if found[0] is None or found[1] is None:
-        if os.environ.get("CI"):
-            pytest.fail("chromium and chromedriver are needed in CI")
-        pytest.skip("chromium or chromedriver is not installed")
-    return found[0], found[1]
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Chrome]:
-    chromium, driver = _browser_paths()
-    options = Options()
-    options.binary_location = chromium
-    for argument in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage"):
-        options.add_argument(argument)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    chrome = Chrome(options=options, service=Service(driver))
-    yield chrome
-    chrome.quit()
 
 
 @pytest.fixture(scope="module")

@@ -44,6 +44,7 @@ BUILT_IN = [
     "reasons",
     "comparison",
     "baseline",
+    "live",
     "sources",
     "paths",
     "structure-borne",
@@ -63,6 +64,7 @@ BUILT_IN = [
     "provenance",
 ]
 NOT_HERE = {
+    "live",
     "stopping",
     "baseline",
     "paths",

@@ -79,6 +79,20 @@ class Pictures:
 
 
 @dataclass(frozen=True)
+class Live:
+    """The part of the page that moves, of the package's report alone; nothing without a script.
+
+    Attributes
+    ----------
+    data : JSON for the script
+    block : kind of block
+    """
+
+    data: str = field(repr=False)
+    block: Literal["live"] = field(default="live", kw_only=True, repr=False)
+
+
+@dataclass(frozen=True)
 class Light:
     """What an option does to one quantity: a coloured sign, the change, its band.
 
@@ -144,7 +158,7 @@ class Details:
 
 
 Block: TypeAlias = Annotated[
-    Text | Heading | Bullets | Definitions | Table | Pictures | Lights | Beside | Details,
+    Text | Heading | Bullets | Definitions | Table | Pictures | Lights | Beside | Live | Details,
     Field(discriminator="block"),
 ]
 

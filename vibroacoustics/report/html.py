@@ -3,6 +3,7 @@
 import base64
 import hashlib
 import re
+from collections.abc import Sequence
 from importlib import resources
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
@@ -10,6 +11,7 @@ from markupsafe import Markup, escape
 
 from .blocks import Text
 from .figures.style import Picture
+from .live.assets import live_scripts, live_style
 from .page import Page
 
 
@@ -30,25 +32,40 @@ def html(page: Page, results_sha256: str = "") -> bytes:
         "full_address": _full_address,
         "breakable": _breakable,
         "linked": _linked,
+        "script_data": _script_data,
     }
     style = resources.files(__package__).joinpath("templates/style.css").read_text("utf-8")
+    scripts: tuple[str, ...] = ()
+    if any(block.block == "live" for part in page.parts for block in part.blocks):
+        style, scripts = style + live_style(), live_scripts()
     template = environment.get_template("report.html.j2")
     return template.render(
-        page=page, style=style, policy=_policy(style), results_sha256=results_sha256
+        page=page,
+        style=style,
+        scripts=scripts,
+        policy=_policy(style, scripts),
+        results_sha256=results_sha256,
     ).encode()
 
 
-def _policy(style: str) -> str:
-    """What a browser may do with the page: show its one style and its figures, run nothing."""
+def _policy(style: str, scripts: Sequence[str]) -> str:
+    """What a browser may do with the page: show its style and figures, run its scripts alone."""
+    hashes = " ".join(f"'{content_hash(script)}'" for script in scripts)
+    run = f"script-src {hashes}; " if scripts else ""
     return (
-        f"default-src 'none'; img-src data:; style-src '{style_hash(style)}'; "
+        f"default-src 'none'; img-src data:; style-src '{content_hash(style)}'; {run}"
         "base-uri 'none'; form-action 'none'"
     )
 
 
-def style_hash(style: str) -> str:
-    """By which the policy of a page knows its style."""
-    return f"sha256-{base64.b64encode(hashlib.sha256(style.encode()).digest()).decode()}"
+def content_hash(content: str) -> str:
+    """By which the policy of a page knows its style or a script."""
+    return f"sha256-{base64.b64encode(hashlib.sha256(content.encode()).digest()).decode()}"
+
+
+def _script_data(text: str) -> Markup:
+    """JSON that ends no script: none of its letters is `<`."""
+    return Markup(text.replace("<", "\\u003c"))  # noqa: S704 - cannot leave its element
 
 
 def _linked(text: Text) -> Markup:

@@ -10,6 +10,7 @@ from .blocks import (
     Details,
     Heading,
     Lights,
+    Live,
     Pictures,
     Text,
 )
@@ -71,6 +72,11 @@ def _pictures(block: Pictures) -> str:
         f"{escape_markdown(picture.caption)}"
         for picture in block.pictures
     )
+
+
+@_block.register
+def _live(block: Live) -> str:
+    return ""
 
 
 @_block.register

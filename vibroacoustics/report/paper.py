@@ -3,7 +3,7 @@
 import re
 from typing import Final
 
-from .html import style_hash
+from .html import content_hash
 
 PAPERS: Final = {"a4": "A4", "letter": "letter"}
 """Names of the sheets as the style writes them."""
@@ -18,5 +18,5 @@ def for_paper(page: bytes, paper: str) -> bytes:
     if found_style is not None:
         style = found_style[1]
         sized = style.replace("size: A4", f"size: {PAPERS[paper]}")
-        text = text.replace(style, sized, 1).replace(style_hash(style), style_hash(sized), 1)
+        text = text.replace(style, sized, 1).replace(content_hash(style), content_hash(sized), 1)
     return _DETAILS.sub("<details open", text).encode()

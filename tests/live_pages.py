@@ -1,0 +1,102 @@
+"""Runs whose page moves, and what its sliders must show."""
+
+import math
+from pathlib import Path
+from typing import Any, Final
+
+import xarray as xr
+from selenium.webdriver import Chrome
+from support import PIPELINES, made_up_transfer_vectors
+
+import vibroacoustics as va
+from vibroacoustics.machine.floor import Floor
+from vibroacoustics.report.blocks import Text
+from vibroacoustics.report.html import html
+from vibroacoustics.report.page import Page, Part
+from vibroacoustics.report.sections import SECTIONS
+
+WEIGHT: Final = {
+    "kind": "counterweight",
+    "mass_g": 12.0,
+    "radius_mm": 25.0,
+    "angle_deg": 200.0,
+    "height_mm": 40.0,
+}
+MOUNTS: Final = {
+    "lateral_stiffness_n_per_mm": 31.0,
+    "vertical_stiffness_n_per_mm": 38.0,
+    "loss_factor_ratio": 0.24,
+}
+TRIED: Final = {
+    name: {"value": value, "source": "tried on the report's page"} for name, value in MOUNTS.items()
+}
+OTHERS: Final = (
+    "pendulum-side", "spring-mass", "spring-mass-printed", "damping", "counterweight-half",
+)  # fmt: skip
+GAIN: Final = 30.0
+"""Of the made-up radiation: the moving parts are heard beside the remainder."""
+
+
+def thesis_study(values: dict[str, Any]) -> va.Study:
+    """The thesis's machine with few options and other values."""
+    study = va.load_study(PIPELINES / "copeland_thesis.toml")
+    asked = {f"options.{name}": None for name in OTHERS} | {"operation.maximum_order": 6} | values
+    return study.replace(asked)
+
+
+def thesis_run(values: dict[str, Any]) -> xr.Dataset:
+    """Of `thesis_study`, radiation made up."""
+    return run_loudly(thesis_study(values))
+
+
+def run_loudly(study: va.Study) -> xr.Dataset:
+    """A run with made-up radiation of such a gain that lines are heard."""
+    return va.run(study, radiation=lambda study, *_: (made_up_transfer_vectors(study, GAIN), False))
+
+
+def sliders_run() -> xr.Dataset:
+    """With what the sliders reach as options."""
+    return thesis_run(
+        {
+            "options.weight": WEIGHT,
+            "options.mounts": {"kind": "redesign", "change": {"mounts": TRIED}},
+        }
+    )
+
+
+def both_run() -> xr.Dataset:
+    """With weight and mounts at once: of the machine the mounts, as an option the weight."""
+    mounts = {f"machine.mounts.{name}": value for name, value in TRIED.items()}
+    return thesis_run(mounts | {"options.weight": WEIGHT})
+
+
+def floor_run() -> xr.Dataset:
+    """With a weight, on a floor that gives way."""
+    study = thesis_study({"options.weight": WEIGHT})
+    floor = Floor(mass_kg=20.0, stiffness_n_per_m=5e5, loss_factor_ratio=0.1)
+    machine = study.machine.model_copy(update={"floor": floor})
+    return run_loudly(study.model_copy(update={"machine": machine}))
+
+
+def page_of(results: xr.Dataset) -> bytes:
+    """A page of the section that moves and one that does not."""
+    still = Part("still", "Still", (Text("This stands still."),))
+    section = SECTIONS["live"]
+    live = Part(section.name, section.title, tuple(section.blocks(results)), section.folded)
+    return html(Page("Sliders", "machine", "2026-01-01", (still, live)))
+
+
+READY: Final = """const done = arguments[0];
+const wait = () => (window.vibroacoustics ? done() : setTimeout(wait, 5));
+wait();"""
+
+
+def open_page(browser: Chrome, page: Path) -> None:
+    """Open a page and wait for its sliders."""
+    browser.get(page.as_uri())
+    browser.execute_async_script(READY)
+
+
+OF_WEIGHT: Final = {"moment": 0.012 * 0.025, "angle": math.radians(200.0), "height": 0.04}
+OF_MOUNTS: Final = {"lateral": 31e3, "vertical": 38e3, "loss": 0.24}
+"""What sliders say, in SI, where they stand as `WEIGHT` and `MOUNTS`."""

@@ -1,0 +1,82 @@
+"""What the page holds of a run so that its script can answer sliders."""
+
+import json
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+
+from ...levels.measured_points import BASELINE_BANDS
+from ..study import catalogue_receiver, few_speeds, options
+from .cases import case_of
+from .lines import Lines, lines_at
+from .mounts import put_matrices
+from .moving import moving_of
+from .numbers import Numbers
+
+MOST_MICROPHONES: Final = 10
+HEADROOM: Final = 2.0
+"""Full scale over the largest pressure of the options as given: sliders may be louder."""
+_CREST: Final = 4.0
+"""Peak over effective value of the noise that full scale leaves room for."""
+
+
+def live_data(results: xr.Dataset) -> str:
+    """JSON for the script of the page.
+
+    Lines are those of all sources together at the speeds and microphones that are shown. Where the
+    moving parts alone sound, on mounts of constant stiffness, the page holds loads, matrices of the
+    mounts and pressure per velocity, and mounts can be varied; else it holds the pressure of each
+    option and what a weight adds to it. With a baseline or measured sound by force nothing varies.
+
+    Parameters
+    ----------
+    results : of a run, with the noise of third octaves
+    """
+    shown = _shown(results)
+    middle_hz = {band.nominal_hz: band.middle_hz for band in BASELINE_BANDS}
+    bands = np.array([middle_hz[nominal] for nominal in shown["noise_band"].values.tolist()])
+    moving = moving_of(shown)
+    numbers = Numbers()
+    page: dict[str, Any] = {
+        "speeds": shown["speed"].values.tolist(),
+        "microphones": [str(name) for name in shown["receiver"].values],
+        "options": options(shown),
+        "bands": bands.tolist(),
+    }
+    if moving is not None and moving.weight is not None:
+        page["weight"] = moving.weight._asdict()
+    if moving is not None and moving.mounts is not None:
+        page["mounts"] = [put_matrices(one) for one in moving.mounts]
+        page["machine"] = [moving.machines.number(name) for name in page["options"]]
+    always = frozenset() if moving is None else moving.orders()
+    lines = [lines_at(shown, speed, bands, always) for speed in page["speeds"]]
+    page["cases"] = [case_of(numbers, one, moving, s) for s, one in enumerate(lines)]
+    page["full_scale_pa"] = full_scale_pa(lines)
+    page["numbers"] = numbers.text
+    return json.dumps(page, separators=(",", ":"), allow_nan=False)
+
+
+def full_scale_pa(lines: list[Lines]) -> float:
+    """Pressure of a digital sample of 1, the same for all: 1, 2 or 5 times a power of ten.
+
+    Parameters
+    ----------
+    lines : of all speeds
+    """
+    peak = max(
+        float(np.max(np.abs(one.pressure).sum(axis=-1) + _CREST * np.sqrt(one.noise.sum(axis=-1))))
+        for one in lines
+    )
+    wanted = HEADROOM * max(peak, 1e-6)
+    exponent = f"{wanted:e}".split("e")[1]
+    sizes = (float(f"{digit}e{exponent}") for digit in (1, 2, 5, 10))
+    return next(size for size in sizes if size >= wanted)
+
+
+def _shown(results: xr.Dataset) -> xr.Dataset:
+    """At few speeds and microphones, that of the published level first."""
+    few = few_speeds(results)
+    names = [str(name) for name in few["receiver"].values]
+    names.sort(key=lambda name: name != catalogue_receiver(results))
+    return few.sel(receiver=names[:MOST_MICROPHONES])

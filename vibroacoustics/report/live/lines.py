@@ -1,0 +1,118 @@
+"""Lines and noise of every case, and the energy that stays as it is when a slider moves."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ...base.arrays import Array, ComplexArray
+from ...base.constants import REFERENCE_PRESSURE_PA
+from ...base.decibel import power_of_level
+from ...base.units import shaft_frequency_hz
+from ...levels.weighting import WEIGHTING
+from ...sound import Ingredients, ingredients
+
+QUIET: Final = 1e-6
+"""A line with less than this part of the energy at every microphone with every option, weighted by
+A and not, is not drawn; it stays in the energy of the rest."""
+
+
+@dataclass(frozen=True)
+class Lines:
+    """Lines of all options at one speed, rising in frequency.
+
+    Attributes
+    ----------
+    frequency_hz : shape (line,)
+    order : not a number where it is none, shape (line,)
+    pressure : complex peaks, shape (option, receiver, line), Pa
+    rest : A-weighted mean square beside these lines, as the total has it, (option, receiver), Pa²
+    modelled_rest : the same of the modelled level
+    noise : mean square of the noise in third octaves, shape (option, receiver, band), Pa²
+    """
+
+    frequency_hz: Array
+    order: Array
+    pressure: ComplexArray
+    rest: Array
+    modelled_rest: Array
+    noise: Array
+
+
+def lines_at(results: xr.Dataset, speed: float, bands: Array, always: frozenset[float]) -> Lines:
+    """Lines and noise at a speed.
+
+    Parameters
+    ----------
+    results : of a run
+    speed : one of theirs, rpm
+    bands : exact middles of the third octaves, Hz, shape (band,)
+    always : orders that are kept, however quiet
+    """
+    sounds = [
+        [ingredients(results, str(option), str(name), speed) for name in results["receiver"].values]
+        for option in results["option"].values
+    ]
+    hertz = {
+        name: frequency
+        for row in sounds
+        for sound in row
+        for name, frequency in zip(sound.lines.name, sound.lines.frequency_hz, strict=True)
+    }
+    for order in always:
+        hertz.setdefault(f"order {order:g}", order * shaft_frequency_hz(speed))
+    names = sorted(hertz, key=lambda name: hertz[name])
+    pressure = np.array([[_pressure(sound, names) for sound in row] for row in sounds])
+    frequency = np.array([hertz[name] for name in names])
+    orders = np.array([_order(name) for name in names])
+    kept = _loud(pressure, frequency) | np.isin(orders, list(always))
+    pressure, frequency = pressure[..., kept], frequency[kept]
+    of_lines = 0.5 * np.abs(pressure) ** 2 @ _a_power(frequency)
+    at = results.sel(speed=speed)
+    total = at["level_total"].transpose("option", "receiver").values
+    modelled = at["level_modelled"].sel(weighting="A").transpose("option", "receiver").values
+    noise = np.array([[_noise(sound, bands) for sound in row] for row in sounds])
+    return Lines(
+        frequency,
+        orders[kept],
+        pressure,
+        _energy(total) - of_lines,
+        _energy(modelled) - of_lines,
+        noise,
+    )
+
+
+def _pressure(sound: Ingredients, names: list[str]) -> ComplexArray:
+    known = dict(zip(sound.lines.name, sound.lines.pressure_pa, strict=True))
+    return np.array([known.get(name, 0.0) for name in names], dtype=complex)
+
+
+def _order(name: str) -> float:
+    return float(name.removeprefix("order ")) if name.startswith("order ") else np.nan
+
+
+def _noise(sound: Ingredients, bands: Array) -> Array:
+    square = np.zeros(bands.size)
+    for centre, pressure in zip(sound.bands.centre_hz, sound.bands.pressure_pa, strict=True):
+        square[np.argmin(np.abs(np.log(bands / centre)))] += pressure**2
+    return square
+
+
+def _loud(pressure: ComplexArray, frequency_hz: Array) -> NDArray[np.bool_]:
+    """Whether a line matters anywhere, shape (line,)."""
+    square = np.abs(pressure) ** 2
+    loud = np.zeros(frequency_hz.size, dtype=bool)
+    for weighted in (square, square * _a_power(frequency_hz)):
+        total = weighted.sum(axis=-1, keepdims=True)
+        loud |= np.any(weighted > QUIET * total, axis=(0, 1))
+    return loud
+
+
+def _a_power(frequency_hz: Array) -> Array:
+    return power_of_level(WEIGHTING["A"](frequency_hz))
+
+
+def _energy(level_db: Array) -> Array:
+    return REFERENCE_PRESSURE_PA**2 * power_of_level(level_db)

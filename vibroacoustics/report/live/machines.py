@@ -1,0 +1,65 @@
+"""Machines of a finished run, as its options leave them."""
+
+import json
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from pydantic import TypeAdapter, ValidationError
+
+from ...base.arrays import Array
+from ...base.errors import ParameterError
+from ...machine.machine import AnyMachine, Machine
+from ...machine.option import AnyOption, Option
+from ...transfer import MachineOnMounts, on_mounts
+from ..study import options, parameters
+
+
+@dataclass(frozen=True)
+class Machines:
+    """What the options of a run make of its machine.
+
+    Attributes
+    ----------
+    option : by name
+    machine : by the name of the option
+    """
+
+    option: dict[str, Option]
+    machine: dict[str, Machine]
+
+    @cached_property
+    def different(self) -> list[MachineOnMounts]:
+        """Machines that stand differently."""
+        return list(dict.fromkeys(map(on_mounts, self.machine.values())))
+
+    def number(self, option: str) -> int:
+        """Of the option's machine among the different ones."""
+        return self.different.index(on_mounts(self.machine[option]))
+
+    def amplitude_factor(self, option: str, frequency_hz: Array) -> Array:
+        """What the option's insertion loss leaves of a pressure at each frequency."""
+        loss = self.option[option].insertion_loss()
+        return np.ones_like(frequency_hz) if loss is None else loss.amplitude_factor(frequency_hz)
+
+
+def machines_of(results: xr.Dataset) -> Machines | None:
+    """From the parameters that a run kept; none where they are of another version or a stranger's.
+
+    Parameters
+    ----------
+    results : of a run
+    """
+    kept = parameters(results)
+    try:
+        machine = _read(AnyMachine, kept["machine"])
+        known = {name: _read(AnyOption, kept["options"][name]) for name in options(results)}
+        return Machines(known, {name: one.applied_to(machine) for name, one in known.items()})
+    except (ValidationError, ParameterError, KeyError):
+        return None
+
+
+def _read(kind: Any, table: Any) -> Any:
+    return TypeAdapter(kind).validate_json(json.dumps(table))

@@ -1,0 +1,76 @@
+"""A machine on its mounts as matrices that are linear in stiffness and loss of the mounts."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...base.arrays import Array
+from ...machine.machine import Machine
+from ...transfer import on_mounts
+
+
+class MountMatrices(NamedTuple):
+    """Dynamic stiffness at ω: k_l L + k_v V + R + j(η (k_l L + k_v V) + S + ωC) - ω²M.
+
+    Attributes
+    ----------
+    mass, lateral, vertical, rest, rest_loss, damping : M, L, V, R, S and C, of all bodies, that on
+        the feet first and that with the mechanism last, shape (6 bodies, 6 bodies)
+    values : k_l and k_v of one mount, N/m, and its loss factor η
+    """
+
+    mass: Array
+    lateral: Array
+    vertical: Array
+    rest: Array
+    rest_loss: Array
+    damping: Array
+    values: tuple[float, float, float]
+
+
+def mount_matrices(machine: Machine) -> MountMatrices | None:
+    """Matrices of a machine; none where its mounts are no constants or the floor gives way.
+
+    Parameters
+    ----------
+    machine : with mounts or feet
+    """
+    stand = on_mounts(machine)
+    if stand.stand.is_over_frequency or stand.floor is not None:
+        return None
+    mounts = machine.mounts
+    values = (
+        mounts.lateral_stiffness_n_per_m,
+        mounts.vertical_stiffness_n_per_m,
+        mounts.loss_factor_ratio,
+    )
+    stiffness = stand.isolation.stiffness_matrix
+    lateral = (_stiffness(machine, "lateral") - stiffness) / values[0]
+    vertical = (_stiffness(machine, "vertical") - stiffness) / values[1]
+    of_mounts = values[0] * lateral + values[1] * vertical
+    return MountMatrices(
+        stand.isolation.mass_matrix,
+        lateral,
+        vertical,
+        stiffness - of_mounts,
+        stand.isolation.structural_damping_matrix - values[2] * of_mounts,
+        stand.isolation.damping_matrix,
+        values,
+    )
+
+
+def put_matrices(matrices: MountMatrices) -> dict[str, Any]:
+    """The matrices as the page holds them, in full precision as they are few."""
+    return {
+        "size": len(matrices.mass),
+        "values": matrices.values,
+        **{name: getattr(matrices, name).ravel().tolist() for name in matrices._fields[:-1]},
+    }
+
+
+def _stiffness(machine: Machine, along: str) -> Array:
+    """Stiffness matrix with mounts twice as stiff along one direction, (6 bodies, 6 bodies)."""
+    field = f"{along}_stiffness_n_per_m"
+    mounts = machine.mounts.model_copy(update={field: 2.0 * getattr(machine.mounts, field)})
+    twice = on_mounts(machine.model_copy(update={"mounts": mounts}))
+    return np.asarray(twice.isolation.stiffness_matrix)

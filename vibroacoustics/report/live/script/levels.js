@@ -1,0 +1,203 @@
+// Lines and levels of a case from the numbers of the page, as the pipeline computes them.
+const REFERENCE = 4e-10; // 20 µPa squared, Pa²
+
+// Floats whose first bytes stand first, then the second ones and so on, deflated, in base64.
+async function decoded(text) {
+  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const planes = new Uint8Array(await new Response(stream).arrayBuffer());
+  const count = planes.length / 4, sorted = new Uint8Array(planes.length);
+  for (let i = 0; i < count; i++) {
+    for (let byte = 0; byte < 4; byte++) sorted[4 * i + byte] = planes[byte * count + i];
+  }
+  return new Float32Array(sorted.buffer);
+}
+
+// Weighting A of mean squares (IEC 61672-1:2013, E.6), 1 at 1 kHz.
+function aPower(hertz) {
+  const gain = (f) => {
+    const s = f * f;
+    return (s * s) / ((s + 20.598997 ** 2) * (s + 12194.217 ** 2)
+      * Math.sqrt((s + 107.65265 ** 2) * (s + 737.86223 ** 2)));
+  };
+  return (gain(hertz) / gain(1000)) ** 2;
+}
+
+const level = (square) => 10 * Math.log10(Math.max(square, 1e-30) / REFERENCE);
+
+// Solves (a + j b) x = c + j d in place by elimination with row exchange; the answer is in c and d.
+function solve(n, a, b, c, d) {
+  for (let k = 0; k < n; k++) {
+    let row = k, best = -1;
+    for (let i = k; i < n; i++) {
+      const size = a[i * n + k] ** 2 + b[i * n + k] ** 2;
+      if (size > best) { best = size; row = i; }
+    }
+    if (row !== k) {
+      for (let j = k; j < n; j++) {
+        let kept = a[k * n + j]; a[k * n + j] = a[row * n + j]; a[row * n + j] = kept;
+        kept = b[k * n + j]; b[k * n + j] = b[row * n + j]; b[row * n + j] = kept;
+      }
+      let kept = c[k]; c[k] = c[row]; c[row] = kept;
+      kept = d[k]; d[k] = d[row]; d[row] = kept;
+    }
+    const re = a[k * n + k] / best, im = -b[k * n + k] / best; // 1/pivot
+    for (let i = k + 1; i < n; i++) {
+      const p = a[i * n + k], q = b[i * n + k];
+      if (p === 0 && q === 0) continue;
+      const x = p * re - q * im, y = p * im + q * re;
+      for (let j = k + 1; j < n; j++) {
+        const u = a[k * n + j], v = b[k * n + j];
+        a[i * n + j] -= x * u - y * v;
+        b[i * n + j] -= x * v + y * u;
+      }
+      const u = c[k], v = d[k];
+      c[i] -= x * u - y * v;
+      d[i] -= x * v + y * u;
+    }
+  }
+  for (let k = n - 1; k >= 0; k--) {
+    for (let j = k + 1; j < n; j++) {
+      const p = a[k * n + j], q = b[k * n + j];
+      const u = c[j], v = d[j];
+      c[k] -= p * u - q * v;
+      d[k] -= p * v + q * u;
+    }
+    const p = a[k * n + k], q = b[k * n + k], size = p * p + q * q, u = c[k], v = d[k];
+    c[k] = (u * p + v * q) / size;
+    d[k] = (v * p - u * q) / size;
+  }
+}
+
+class Model {
+  constructor(page, numbers) {
+    Object.assign(this, { page, numbers });
+    this.weighting = page.cases.map((one) => one.frequency.map(aPower));
+    const n = page.mounts ? Math.max(...page.mounts.map((one) => one.size)) : 0;
+    const room = (size) => new Float64Array(size);
+    this.room = { a: room(n * n), b: room(n * n), c: room(n), d: room(n), six: room(12), force: room(6) };
+  }
+
+  // Values of an option as the run has them.
+  given(option) {
+    const { mounts, machine } = this.page;
+    const [lateral, vertical, loss] = mounts ? mounts[machine[option]].values : [0, 0, 0];
+    return { option, moment: 0, angle: 0, height: 0, lateral, vertical, loss };
+  }
+
+  // Load of the option and of a weight at a line into six complex numbers; whether there is one.
+  load(one, values, line, sum) {
+    const { numbers } = this, { option } = values;
+    sum.fill(0);
+    if (one.load) {
+      const first = one.load[option] + 12 * line;
+      for (let i = 0; i < 12; i++) sum[i] = numbers[first + i];
+    }
+    if (one.weight && values.moment > 0) this.weight(one.weight[option] + 18 * line, values, sum);
+    return sum.some((value) => value !== 0);
+  }
+
+  weight(unit, values, sum) {
+    const { numbers } = this, { force } = this.room, { origin_m: origin, shaft } = this.page.weight;
+    const turn = [values.moment * Math.cos(values.angle), values.moment * Math.sin(values.angle)];
+    for (let i = 0; i < 6; i++) {
+      force[i] = turn[0] * numbers[unit + i] + turn[1] * numbers[unit + 6 + i];
+      sum[i] += force[i];
+    }
+    const arm = origin.map((from, i) => from + values.height * shaft[i]);
+    for (let i = 0; i < 3; i++) {
+      const j = (i + 1) % 3, k = (i + 2) % 3;
+      for (let part = 0; part < 2; part++) {
+        sum[6 + 2 * i + part] += arm[j] * force[2 * k + part] - arm[k] * force[2 * j + part]
+          + values.moment * numbers[unit + 12 + 2 * i + part];
+      }
+    }
+  }
+
+  // Velocity of the body on the feet, in place of the load on that with the mechanism.
+  velocity(values, six, hertz) {
+    const mounts = this.page.mounts[this.page.machine[values.option]];
+    const n = mounts.size, omega = 2 * Math.PI * hertz, { a, b, c, d } = this.room;
+    const { lateral, vertical, loss } = values;
+    for (let i = 0; i < n * n; i++) {
+      const springs = lateral * mounts.lateral[i] + vertical * mounts.vertical[i];
+      a[i] = springs + mounts.rest[i] - omega * omega * mounts.mass[i];
+      b[i] = loss * springs + mounts.rest_loss[i] + omega * mounts.damping[i];
+    }
+    c.fill(0);
+    d.fill(0);
+    for (let i = 0; i < 6; i++) { c[n - 6 + i] = six[2 * i]; d[n - 6 + i] = six[2 * i + 1]; }
+    solve(n, a, b, c, d);
+    for (let i = 0; i < 6; i++) { six[2 * i] = -omega * d[i]; six[2 * i + 1] = omega * c[i]; }
+  }
+
+  // Complex peaks in Pa at every microphone and line of a speed: real and imaginary in turn.
+  pressure(s, values) {
+    const one = this.page.cases[s], lines = one.frequency.length, { numbers } = this, { six } = this.room;
+    const microphones = this.page.microphones.length;
+    const sound = new Float64Array(2 * microphones * lines), given = one.pressure[values.option];
+    if (given >= 0) sound.set(numbers.subarray(given, given + sound.length));
+    if (!one.vector) return sound;
+    const factor = one.factor[values.option];
+    for (let line = 0; line < lines; line++) {
+      if (!this.load(one, values, line, six)) continue;
+      if (this.page.mounts) this.velocity(values, six, one.frequency[line]);
+      const left = factor < 0 ? 1 : numbers[factor + line];
+      let at = one.vector[values.option] + 12 * microphones * line;
+      for (let m = 0; m < microphones; m++) {
+        let re = 0, im = 0;
+        for (let i = 0; i < 12; i += 2, at += 2) {
+          const p = numbers[at], q = numbers[at + 1];
+          re += p * six[i] - q * six[i + 1];
+          im += p * six[i + 1] + q * six[i];
+        }
+        sound[2 * (m * lines + line)] += left * re;
+        sound[2 * (m * lines + line) + 1] += left * im;
+      }
+    }
+    return sound;
+  }
+
+  // Levels in dB(A) at every microphone of a speed: total, modelled, of each line; and the pressure.
+  levels(s, values) {
+    const one = this.page.cases[s], lines = one.frequency.length;
+    const pressure = this.pressure(s, values);
+    const of = this.page.microphones.map((_, m) => {
+      const line = new Float64Array(lines);
+      let sum = 0;
+      for (let i = 0; i < lines; i++) {
+        const at = 2 * (m * lines + i);
+        const square = 0.5 * (pressure[at] ** 2 + pressure[at + 1] ** 2) * this.weighting[s][i];
+        line[i] = level(square);
+        sum += square;
+      }
+      const { option } = values;
+      return {
+        total: level(one.rest[option][m] + sum),
+        modelled: level(one.modelled[option][m] + sum),
+        line,
+      };
+    });
+    return { pressure, of };
+  }
+
+  // All speeds.
+  every(values) {
+    return this.page.speeds.map((_, s) => this.levels(s, values));
+  }
+
+  // What a microphone hears: orders by number, other tones, noise.
+  sound(s, m, values, pressure = this.pressure(s, values)) {
+    const one = this.page.cases[s], lines = one.frequency.length, bands = this.page.bands;
+    const orders = [], tones = [];
+    for (let i = 0; i < lines; i++) {
+      const at = 2 * (m * lines + i), peak = [pressure[at], pressure[at + 1]];
+      if (Number.isInteger(one.order[i])) orders[one.order[i]] = peak;
+      else tones.push([one.frequency[i], ...peak]);
+    }
+    const first = one.noise[values.option] + m * bands.length;
+    const noise = Array.from(this.numbers.subarray(first, first + bands.length));
+    const rest = Math.max(one.rest[values.option][m], 0);
+    return { shaft: this.page.speeds[s] / 60, orders, tones, noise, rest };
+  }
+}

@@ -1,0 +1,95 @@
+// Sound, blind test and text of the panel.
+Object.assign(Panel.prototype, {
+  sounds(create = false) {
+    if (!this.player.context && !create) return;
+    const { s, m, compared, values, before, live } = this.state;
+    this.player.voice("A", this.model.sound(s, m, compared, before[s].pressure));
+    this.player.voice("B", this.model.sound(s, m, values, live[s].pressure));
+  },
+
+  hear(name) {
+    if (!this.player.voices.A) this.sounds(true);
+    this.player.ready();
+    this.player.hear(name);
+    clearTimeout(this.ending);
+    if (name && !this.at("loop").checked) this.ending = setTimeout(() => this.hear(null), 4000);
+    const shown = this.abx && !this.abx.finished ? null : name;
+    ["A", "B", "tone"].forEach((one) => {
+      this.at(`hear-${one}`).setAttribute("aria-pressed", String(one === shown));
+    });
+  },
+
+  buttons() {
+    const fullDb = level(0.5 * this.page.full_scale_pa ** 2), toneDb = Math.round(fullDb - 20);
+    this.at("gain").textContent = `One gain for all: a sample of 1 is ${this.page.full_scale_pa} Pa, `
+      + `a sine of full scale ${fullDb.toFixed(1)} dB. The tone is 1 kHz at ${toneDb} dB: set the `
+      + "volume so that a sound level meter at the ear reads that.";
+    const peak = Math.sqrt(2 * 4e-10) * 10 ** (toneDb / 20);
+    const press = (name, act) => this.at(name).addEventListener("click", act);
+    press("hear-A", () => this.hear("A"));
+    press("hear-B", () => this.hear("B"));
+    press("hear-tone", () => { this.player.tone(peak); this.hear("tone"); });
+    press("stop", () => this.hear(null));
+    press("reset", () => this.reset());
+    press("copy", () => this.copy());
+    press("abx-start", () => { this.abx = new Abx(); this.hear(null); this.score(); });
+    press("abx-X", () => this.hear(this.abx.x));
+    press("abx-is-A", () => { this.abx.answer("A"); this.hear(null); this.score(); });
+    press("abx-is-B", () => { this.abx.answer("B"); this.hear(null); this.score(); });
+  },
+
+  score() {
+    const { abx } = this;
+    ["abx-X", "abx-is-A", "abx-is-B"].forEach((name) => { this.at(name).disabled = abx.finished; });
+    const by = abx.done ? `; by guessing as many or more in ${(100 * abx.chance).toFixed(1)} %` : "";
+    this.at("abx-score").textContent = `${abx.right} of ${abx.done} right, ${abx.trials} in all${by}`;
+  },
+
+  copy() {
+    this.at("toml").select();
+    const text = this.at("toml").value;
+    if (navigator.clipboard) navigator.clipboard.writeText(text).catch(() => {});
+    else document.execCommand("copy");
+  },
+
+  // The values as options of a study.
+  toml(values) {
+    const name = this.page.options[values.option], given = this.model.given(values.option);
+    const parts = [];
+    const short = (value) => String(Number(value.toPrecision(9)));
+    const tried = (value) => `{ value = ${short(value)}, source = "tried on the report's page" }`;
+    const moved = ["lateral", "vertical", "loss"].some((key) => values[key] !== given[key]);
+    if (values.moment > 0) {
+      const { radius_m: radius } = this.page.weight;
+      parts.push([
+        "[options.weight-tried]", 'kind = "counterweight"',
+        `mass_g = ${short((1e3 * values.moment) / radius)}`, `radius_mm = ${short(1e3 * radius)}`,
+        `angle_deg = ${short((values.angle * 180) / Math.PI)}`,
+        `height_mm = ${short(1e3 * values.height)}`,
+      ]);
+    }
+    if (moved) {
+      parts.push([
+        "[options.mounts-tried]", 'kind = "redesign"', "",
+        "[options.mounts-tried.change.mounts]",
+        `lateral_stiffness_n_per_mm = ${tried(values.lateral / 1e3)}`,
+        `vertical_stiffness_n_per_mm = ${tried(values.vertical / 1e3)}`,
+        `loss_factor_ratio = ${tried(values.loss)}`,
+      ]);
+    }
+    if (!parts.length) return `# As option ${name} of the study: no slider has moved.`;
+    const beside = values.option ? [[`# Beside option ${name}, which a study cannot join with it.`]] : [];
+    if (parts.length > 1) beside.push(["# Weight and mounts are two options; the sliders show both at once."]);
+    return [...beside, ...parts].map((lines) => lines.join("\n")).join("\n\n");
+  },
+});
+
+async function begin(data) {
+  const page = JSON.parse(data.textContent), model = new Model(page, await decoded(page.numbers));
+  document.documentElement.classList.add("live");
+  const panel = new Panel(document.querySelector(".live-panel"), page, model);
+  window.vibroacoustics = { panel, rendered, Voice, Abx };
+}
+
+const liveData = document.getElementById("live-data");
+if (liveData) begin(liveData);

@@ -1,0 +1,160 @@
+// The panel: sliders and choices, what they move, sound, and the values as an option.
+class Panel {
+  constructor(root, page, model) {
+    Object.assign(this, { root, page, model, player: new Player(page) });
+    this.at = (name) => root.querySelector(`[data-live="${name}"]`);
+    this.choices();
+    this.sliders();
+    const limits = this.at("spectrum");
+    limits.limits = this.limits();
+    this.spectrum = spectrumChart(limits);
+    this.speeds = page.speeds.length > 1 ? speedChart(this.at("speeds")) : null;
+    this.at("speeds").hidden = !this.speeds;
+    this.buttons();
+    this.reset();
+  }
+
+  choices() {
+    const { options } = this.page;
+    const lists = {
+      option: [options, 0], compared: [options, 0],
+      speed: [this.page.speeds.map((rpm) => `${rpm} rpm`), 0],
+      microphone: [this.page.microphones, 0],
+    };
+    Object.entries(lists).forEach(([name, [words, chosen]]) => {
+      const list = this.at(name);
+      words.forEach((word, value) => list.add(new Option(word, value, false, value === chosen)));
+      list.addEventListener("change", () => (name === "option" ? this.reset() : this.changed(true)));
+    });
+  }
+
+  // Each slider: least, greatest, step, words for its value; logarithmic ones go by their exponent.
+  sliders() {
+    const { weight, mounts } = this.page;
+    const grams = weight ? 1e6 * weight.moment_kg_m : 0;
+    const exact = (unit, digits) => (value) => `${value.toFixed(digits)} ${unit}`;
+    this.ranges = {
+      moment: [0, grams, grams / 200, exact("g mm", grams < 20 ? 2 : 0), 1e-6],
+      angle: [0, 359, 1, exact("°", 0), Math.PI / 180],
+      height: [0, 1, 1, exact("mm", 0), 1e-3],
+      lateral: [-60, 60, 1, exact("N/mm", 2), 1e3],
+      vertical: [-60, 60, 1, exact("N/mm", 2), 1e3],
+      loss: [0, 0.5, 0.01, exact("", 2), 1],
+    };
+    if (weight) {
+      this.ranges.height.splice(0, 2, ...weight.height_m.map((height) => Math.round(1e3 * height)));
+    }
+    Object.entries(this.ranges).forEach(([name, [least, greatest, step]]) => {
+      const slider = this.at(name);
+      const shown = ["moment", "angle", "height"].includes(name) ? weight : mounts;
+      slider.closest("label").hidden = !shown;
+      Object.assign(slider, { min: least, max: greatest, step });
+      slider.addEventListener("input", () => {
+        slider.dataset.moved = "yes";
+        this.changed(false);
+      });
+    });
+    this.at("fixed").hidden = Boolean(mounts);
+    this.at("unmoved").hidden = Boolean(weight || mounts);
+  }
+
+  // What the sliders say, in SI; stiffness to three digits, as the option's text has it.
+  values() {
+    const option = Number(this.at("option").value), values = this.model.given(option);
+    Object.entries(this.ranges).forEach(([name, [, , , words, unit]]) => {
+      const slider = this.at(name), number = Number(slider.value);
+      if (slider.closest("label").hidden) return;
+      if (name === "lateral" || name === "vertical") {
+        if (number) values[name] = Number((values[name] * 10 ** (number / 60)).toPrecision(3));
+      } else if (name !== "loss" || slider.dataset.moved) values[name] = number * unit;
+      const text = words(values[name] / unit);
+      this.at(`${name}-value`).textContent = text;
+      slider.setAttribute("aria-valuetext", text);
+    });
+    return values;
+  }
+
+  reset() {
+    const given = this.model.given(Number(this.at("option").value));
+    const { height_m: heights } = this.page.weight || { height_m: [0, 0] };
+    const middle = Math.round(500 * (heights[0] + heights[1]));
+    const start = { moment: 0, angle: 180, height: middle, lateral: 0, vertical: 0, loss: given.loss };
+    Object.entries(start).forEach(([name, value]) => {
+      this.at(name).value = value;
+      delete this.at(name).dataset.moved;
+    });
+    this.changed(true);
+  }
+
+  changed(everything) {
+    const s = Number(this.at("speed").value), m = Number(this.at("microphone").value);
+    const compared = this.model.given(Number(this.at("compared").value)), values = this.values();
+    const before = everything ? this.model.every(compared) : this.state.before;
+    const live = this.model.every(values);
+    this.state = { s, m, compared, values, before, live };
+    this.show(s, m, before, live);
+    this.at("toml").value = this.toml(values);
+    if (everything) this.sounds();
+    else this.player.retune("B", this.model.sound(s, m, values, live[s].pressure));
+  }
+
+  show(s, m, before, live) {
+    const [a, b] = [before[s].of[m], live[s].of[m]];
+    this.spectrum.setData(spectrum(this.model, s, m, a, { ...b, option: this.state.values.option }));
+    if (this.speeds) {
+      const rows = this.page.speeds.map((rpm, i) => {
+        const [one, other] = [before[i].of[m], live[i].of[m]];
+        return [rpm, one.total, other.total, one.modelled, other.modelled];
+      });
+      rows.sort((one, other) => one[0] - other[0]);
+      this.speeds.setData([0, 1, 2, 3, 4].map((column) => rows.map((row) => row[column])));
+    }
+    const one = this.page.cases[s];
+    const loudest = one.frequency.map((_, i) => i)
+      .sort((i, j) => Math.max(a.line[j], b.line[j]) - Math.max(a.line[i], b.line[i])).slice(0, 6)
+      .sort((i, j) => i - j);
+    const rows = [["Total", a.total, b.total], ["Modelled", a.modelled, b.modelled]];
+    loudest.forEach((i) => {
+      const name = one.order[i] ? `${one.order[i]}× (${one.frequency[i].toFixed(1)} Hz)`
+        : `${one.frequency[i].toFixed(1)} Hz`;
+      rows.push([name, a.line[i], b.line[i]]);
+    });
+    this.fill("levels", rows);
+    this.fill("microphones", this.page.microphones.map(
+      (name, i) => [name, before[s].of[i].total, live[s].of[i].total]));
+    this.at("says").textContent = `Total ${b.total.toFixed(1)} dB(A), ${change(b.total - a.total)} dB; `
+      + `modelled ${b.modelled.toFixed(1)} dB(A), ${change(b.modelled - a.modelled)} dB against `
+      + `${this.page.options[this.state.compared.option]}, at ${this.page.microphones[m]}, `
+      + `${this.page.speeds[s]} rpm`;
+  }
+
+  fill(name, rows) {
+    const body = this.at(name);
+    while (body.rows.length > rows.length) body.deleteRow(-1);
+    rows.forEach(([words, a, b], number) => {
+      let row = body.rows[number];
+      if (!row) {
+        row = body.insertRow();
+        const head = row.appendChild(document.createElement("th"));
+        head.scope = "row";
+        head.className = "words";
+        for (let i = 0; i < 3; i++) row.insertCell();
+      }
+      [words, levelText(a), levelText(b), Math.min(a, b) < SILENT ? "–" : change(b - a)].forEach((text, cell) => {
+        if (row.cells[cell].textContent !== text) row.cells[cell].textContent = text;
+      });
+    });
+  }
+
+  // Limits of the spectrum that hold at all sliders: 60 dB under the loudest, 6 above.
+  limits() {
+    const all = this.page.options.flatMap((_, option) => this.model.every(this.model.given(option)));
+    const top = Math.max(...all.flatMap((one) => one.of.map((each) => each.total)));
+    return [10 * Math.floor(top / 10) - 60, 10 * Math.ceil((top + 6) / 10)];
+  }
+}
+
+const SILENT = -20; // dB(A)
+const levelText = (value) => (value < SILENT ? "–" : value.toFixed(1).replace("-", "−"));
+const change = (value) => (Math.abs(value) < 0.05 ? "0.0"
+  : `${value > 0 ? "+" : "−"}${Math.abs(value).toFixed(1)}`);
