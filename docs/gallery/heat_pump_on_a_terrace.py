@@ -2,8 +2,8 @@
 On a terrace
 ============
 
-Lawn instead of a hard floor, a fence towards the neighbour, and under the feet a base of sheet steel
-that radiates (:doc:`/outdoors`, :doc:`/structure_borne`); coarsely, to 250 Hz.
+Lawn instead of a hard floor, a fence towards the neighbour, and under the feet a base of sheet
+steel that radiates (:doc:`/outdoors`, :doc:`/structure_borne`); coarsely, to 250 Hz.
 
 .. literalinclude:: /gallery/studies/terrace.toml
    :language: toml
