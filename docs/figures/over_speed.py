@@ -14,7 +14,7 @@ VERBS = ("source_levels_over_speed", "campbell", "speed_frequency_map")
 
 
 def main() -> None:
-    """Two sources, no draws: half a minute."""
+    """Two sources, few draws: a minute or two."""
     sys.path.insert(0, str(GALLERY))
     from rough_radiation import rough_radiation
 
@@ -23,7 +23,7 @@ def main() -> None:
         "operation.speed_rpm": SPEEDS,
         "operation.supply_frequency_hz": None,
         "operation.point": "ari",
-        "uncertainty": None,
+        "machine.gas.opening_law": "inertia",
         "options.damping": None,
         "sources.keys": None,
     }

@@ -32,6 +32,8 @@ from .study import (
 from .tables import Table
 from .unknowns import measure_next_sentence
 
+_NOTHING_DB: Final = 0.0005
+"""A smaller change is none."""
 _HALF: Final = 0.5
 """Of the energy of the total level, from which on it is not called measured."""
 
@@ -86,9 +88,13 @@ def options_table(verdicts: Sequence[OptionVerdict]) -> Table | None:
 
 def _total_words(results: xr.Dataset, change_db: float) -> str:
     total = f"the total of {_total_dba(results):g} dB(A)"
-    if change_db < TOLERANCE_DB:
-        return f"and {total} by less than {TOLERANCE_DB:g} dB: not at all."
-    size = f"by at most {rounding.fixed(change_db)} dB"
+    if change_db < _NOTHING_DB:
+        return f"and {total} not at all."
+    size = (
+        f"by less than {TOLERANCE_DB:g} dB"
+        if change_db < TOLERANCE_DB
+        else f"by at most {rounding.fixed(change_db)} dB"
+    )
     if change_db < measurable(results).level_db:
         return f"but {total} hardly at all: {size}, which nobody can hear or measure."
     if change_db < HEARD_DB:
