@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from scipy.integrate import quad
-from scipy.special import j0
+from scipy.special import hankel1, j0
 from support import TINY
 
 from vibroacoustics.base.errors import ParameterError
@@ -171,6 +171,50 @@ def test_barrier_by_maekawas_chart():
     assert attenuation_db(np.array(0.0)) == pytest.approx(5.0, abs=1e-6)
     assert attenuation_db(np.array([-0.19, -3.0, 1e4])) == pytest.approx([0.0, 0.0, 24.0], abs=0.3)
     assert np.all(np.diff(attenuation_db(np.linspace(-0.3, 9.0, 500))) >= 0.0)
+
+
+def half_plane(source, receiver, k):
+    """Green's function of a hard half plane x = 2 m, z < 1.8 m, by MacDonald's integrals.
+
+    Bowman, Senior, Uslenghi, Electromagnetic and Acoustic Scattering by Simple Shapes (1969), 8.2.
+    """
+
+    def part(distance, end):
+        """From -end on, turned by 45 ° into the complex plane; all of it is e^{jkR}/(kR)."""
+
+        def integrand(t):
+            s = -end + t * turn
+            return (
+                1j * hankel1(1, k * distance + s * s) / np.sqrt(s * s + 2.0 * k * distance) * turn
+            )
+
+        return integral(integrand, 60.0)
+
+    turn = np.exp(0.25j * np.pi)
+    (r0, first), (r, second) = (
+        (np.hypot(x - 2.0, z - 1.8), np.arctan2(2.0 - x, 1.8 - z) % (2.0 * np.pi))
+        for x, _, z in (source, receiver)
+    )
+    along = receiver[1] - source[1]
+    around = np.hypot(r + r0, along)
+    total = 0.0
+    for angle in (second - first, second + first):
+        distance = np.sqrt(r**2 + r0**2 - 2.0 * r * r0 * np.cos(angle) + along**2)
+        end = 2.0 * np.sqrt(k * r * r0 / (around + distance)) * np.cos(angle / 2.0)
+        total += part(distance, end)
+    return np.conj(total) * k / (4.0 * np.pi)
+
+
+def test_barrier_by_the_exact_half_plane():
+    """Deep behind it, near the line of sight, and past it where it is clear: within 2 dB."""
+    screen = Barrier(axis=0, sign=1, position_m=2.0, top_m=1.8)
+    ways = [((0.0, 0.0, 0.3), (4.0, 0.0, 1.5)), ((0.0, 0.0, 1.0), (8.0, 2.0, 1.5)),
+            ((0.0, 0.0, 1.8), (4.0, 0.0, 1.8)), ((0.0, 0.0, 2.3), (4.0, 0.0, 2.0))]  # fmt: skip
+    for hertz in (100.0, 500.0, 2000.0):
+        k = 2.0 * np.pi * hertz / 343.0
+        for source, receiver in ways:
+            given = screen.wave(np.array([source]), np.array(receiver), k)[0]
+            assert abs(decibels(given, half_plane(source, receiver, k))) < 2.0
 
 
 def test_barrier_over_hard_ground_by_hand():
