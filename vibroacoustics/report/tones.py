@@ -39,7 +39,7 @@ def _table(results: xr.Dataset, microphone: str, speed: float) -> Table:
     )
     with_loudness = ("sone", "acum") if available() else ()
     head = ("Option", "Prominent tones", *TONE_HEAD, *with_loudness)
-    caption = f"Prominent tones, and the tone nearest to it, at {microphone}, {speed:g} rpm"
+    caption = f"Prominent tones, and the one that stands out most, at {microphone}, {speed:g} rpm"
     return Table(caption, head, rows, frozenset({0, 1, 2}))
 
 
