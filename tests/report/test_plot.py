@@ -1,5 +1,6 @@
 """`vibroacoustics.plot`: the report's pictures as figures, and what they refuse."""
 
+import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.figure import Figure
@@ -54,6 +55,17 @@ def test_another_speed_is_drawn(results):
 def test_a_missing_variable_is_named(name):
     with pytest.raises(ParameterError, match=rf"^plot\.{name}: these results hold no \w+ \("):
         getattr(va.plot, name)(xr.Dataset())
+
+
+def test_third_octaves_of_sources_at_any_speed(results):
+    lowest = float(results["speed"].min())
+    figure = va.plot.source_third_octaves(results, option="rattles", speed_rpm=lowest)
+    at = {"option": "rattles", "receiver": "front_1m", "speed": lowest}
+    levels = results["source_band_level"].sel(at)
+    for line in figure.axes[0].lines:
+        drawn = line.get_ydata()
+        shown = np.isfinite(drawn)
+        assert any(np.array_equal(drawn[shown], one[shown]) for one in levels.values)
 
 
 def test_unknown_labels_are_refused(results):

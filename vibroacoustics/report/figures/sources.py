@@ -14,7 +14,7 @@ from ...base.vocabulary import REFERENCE_OPTION
 from ..quantities import HEARD_DB
 from ..source_words import quoted_speed, source_name
 from ..study import balancers, catalogue_receiver, few_speeds, has_sources, speeds
-from .needs import needs
+from .needs import chosen, needs
 from .style import MARKERS, Picture, draw, frequency_ticks, legend_below, line_looks, png, wrap
 
 QUIETEST_DB: Final = -10.0
@@ -35,26 +35,32 @@ def source_figures(results: xr.Dataset) -> list[Picture]:
 
 
 @needs("source_band_level")
-def source_third_octaves(results: xr.Dataset) -> Figure:
-    """Third-octave levels of each source alone without a balancer, dB, unweighted.
-
-    At the microphone and the speed of the catalogue's noise.
+def source_third_octaves(
+    results: xr.Dataset,
+    receiver: str | None = None,
+    option: str = REFERENCE_OPTION,
+    speed_rpm: float | None = None,
+) -> Figure:
+    """Third-octave levels of each source alone, dB, unweighted.
 
     Parameters
     ----------
     results : of `run`; needs `source_band_level` (speed, option, sound_source, receiver, band), dB
+    receiver : one of the microphones; default: that of the catalogue's noise
+    option : one of the results
+    speed_rpm : one of the results; default: that of the catalogue's noise
 
     Raises
     ------
     ParameterError
-        The results hold none.
+        The results hold none, or there is no such receiver, option or speed.
 
     Examples
     --------
     >>> results = va.open_results("results.nc")
     >>> va.plot.source_third_octaves(results).savefig("source_third_octaves.png")
     """
-    spectra = _spectra(results)
+    spectra = _spectra(results, receiver, option, speed_rpm)
     shown = _loud(spectra)
 
     def paint(panels: Sequence[Axes]) -> None:
@@ -69,12 +75,17 @@ def source_third_octaves(results: xr.Dataset) -> Figure:
     return draw(1, 3.0, paint, len(shown))
 
 
-def _spectra(results: xr.Dataset) -> xr.DataArray:
-    """Levels without a balancer at the quoted speed, (sound_source, band), dB."""
+def _spectra(
+    results: xr.Dataset,
+    receiver: str | None = None,
+    option: str = REFERENCE_OPTION,
+    speed_rpm: float | None = None,
+) -> xr.DataArray:
+    """Levels at a microphone and speed, by default the quoted ones, (sound_source, band), dB."""
     return results["source_band_level"].sel(
-        option=REFERENCE_OPTION,
-        receiver=catalogue_receiver(results),
-        speed=quoted_speed(results),
+        option=chosen(results, "option", option),
+        receiver=chosen(results, "receiver", receiver or catalogue_receiver(results)),
+        speed=chosen(results, "speed", speed_rpm or quoted_speed(results)),
     )
 
 
