@@ -1,8 +1,9 @@
 """Loudness of stationary sound (ISO 532-1, Zwicker) and sharpness (DIN 45692), by mosqito."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from importlib.util import find_spec
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 
@@ -23,7 +24,8 @@ _QUIET_SONE: Final = 0.1
 """Below it sharpness is not judged."""
 
 
-class Loudness(NamedTuple):
+@dataclass(frozen=True)
+class Loudness:
     """What an ear makes of a sound.
 
     Attributes

@@ -1,6 +1,7 @@
 """Narrow-band spectra of recorded sound, and the tones that stand out of them."""
 
-from typing import Final, NamedTuple
+from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from scipy import signal as filters
@@ -21,7 +22,8 @@ WIDEST: Final = 0.15
 """Width of a discrete tone over that of its critical band."""
 
 
-class NarrowBands(NamedTuple):
+@dataclass(frozen=True)
+class NarrowBands:
     """Mean squares of evenly spaced lines.
 
     Attributes
@@ -75,7 +77,7 @@ def recorded_spectrum(bands: NarrowBands) -> TonalSpectrum:
     ----------
     bands : of `narrow_bands`
     """
-    hertz, square = bands
+    hertz, square = bands.frequency_hz, bands.mean_square
     peaks, first, last = _tone_lines(bands)
     is_noise = np.ones(hertz.size, dtype=bool)
     for start, end in zip(first, last, strict=True):
@@ -96,7 +98,7 @@ def recorded_spectrum(bands: NarrowBands) -> TonalSpectrum:
 
 def _tone_lines(bands: NarrowBands) -> tuple[IndexArray, IndexArray, IndexArray]:
     """Peaks of the tones with their first line and that after their last."""
-    hertz, square = bands
+    hertz, square = bands.frequency_hz, bands.mean_square
     high = square > STANDS_OUT * _median(bands)
     peaks, _ = filters.find_peaks(np.where(high, square, 0.0), distance=4)
     kept = []
@@ -117,7 +119,7 @@ def _tone_lines(bands: NarrowBands) -> tuple[IndexArray, IndexArray, IndexArray]
 
 def _median(bands: NarrowBands) -> Array:
     """Median of the critical band about each line; none where tones are not judged."""
-    hertz, square = bands
+    hertz, square = bands.frequency_hz, bands.mean_square
     highest = min(HIGHEST_TONE_HZ, float(hertz[-1]))
     centres = np.geomspace(LOWEST_TONE_HZ, max(highest, 1.1 * LOWEST_TONE_HZ), 100)
     medians = []
