@@ -1,5 +1,6 @@
 """Rooms: waves between parallel walls and furniture, by cosine series in boxes of air."""
 
+from .join_box import JoinBox
 from .lattice import Lattice
 from .materials import HARD, Material, read_library
 from .response import room_transfer
@@ -10,6 +11,7 @@ from .settings import RoomSettings
 __all__ = [
     "HARD",
     "Block",
+    "JoinBox",
     "Lattice",
     "Material",
     "Patch",

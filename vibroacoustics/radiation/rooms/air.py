@@ -10,7 +10,6 @@ from ...base.errors import SolverError
 from ..arrays import Array
 from .box_step import pass_seams, step_series, sum_on_sides, to_nodes, to_sides
 from .cutting import AirBox, End, Face
-from .impedance import fitted_branches
 from .layout import Layout, layout
 from .series import (
     angular_frequencies,
@@ -170,8 +169,7 @@ def _patches(
         if face.material is not None:
             end = plan.ends[row]
             mass = _mass(boxes, face.ends[0], time_step_s)
-            branches = fitted_branches(face.material)
-            patches.append(WallPatch(int(end[3]), int(end[4] * end[5]), branches, mass))
+            patches.append(WallPatch(int(end[3]), int(end[4] * end[5]), face.material, mass))
         row += len(face.ends)
     return patches
 

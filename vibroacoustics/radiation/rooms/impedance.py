@@ -79,7 +79,7 @@ def fitted_branches(material: Material) -> Branches:
     def error(logarithm: Array) -> Array:
         branches = octave_branches(np.exp(logarithm))
         difference = random_absorption(branches.admittance(octaves)) - wanted
-        error: Array = difference / (0.05 + wanted)
+        error: Array = difference / np.sqrt(0.05 + wanted)
         return error
 
     start = np.log(np.maximum(wanted, 1e-3) / 8.0)

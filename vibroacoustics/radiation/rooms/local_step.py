@@ -16,7 +16,6 @@ from ..arrays import Array, ComplexArray
 from ..pulse import RunningTransform, transform
 from .box_step import fast_kernel
 from .decay import reverberation_time_s
-from .impedance import fitted_branches
 from .local_grid import LocalGrid, local_grid
 from .room import Room
 from .settings import RoomSettings
@@ -106,7 +105,7 @@ class LocalField:
         self._cells = np.concatenate([np.zeros(0, dtype=int), *(w.cells for w in grid.walls)])
         counts = [wall.cells.size for wall in grid.walls]
         patches = [
-            WallPatch(first, count, fitted_branches(wall.material), grid.spacing[wall.axis] / 2.0)
+            WallPatch(int(first), count, wall.material, float(grid.spacing[wall.axis]) / 2.0)
             for wall, count, first in zip(
                 grid.walls, counts, np.cumsum([0, *counts[:-1]]), strict=True
             )

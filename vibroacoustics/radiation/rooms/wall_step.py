@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, Final
 
 import numpy as np
@@ -9,7 +10,8 @@ import numpy as np
 from ...base.constants import SPEED_OF_SOUND_M_PER_S
 from ..arrays import Array, IndexArray
 from .box_step import kernel
-from .impedance import Branches
+from .impedance import Branches, fitted_branches
+from .materials import WAVE_OCTAVES, Material
 from .settings import STEPS_PER_PERIOD
 
 _LOWEST_HZ: Final = 20.0
@@ -26,7 +28,7 @@ class WallPatch:
 
     first_node: int
     nodes: int
-    branches: Branches
+    material: Material
     mass_m: float
     """Length of air between the pressure that is known and the wall, m."""
 
@@ -44,14 +46,12 @@ class Walls:
         self.patches: IndexArray = np.array(
             [[one.first_node, one.nodes] for one in patches], dtype=np.intp
         ).reshape(-1, 2)
-        count = max((one.branches.mass.size for one in patches), default=1)
+        count = WAVE_OCTAVES
         self.coefficients = np.zeros((len(patches), 3, count))
         self.mass = np.zeros(len(patches))
         for number, one in enumerate(patches):
             self.mass[number] = one.mass_m / (SPEED_OF_SOUND_M_PER_S * time_step_s)
-            self.coefficients[number, :, : one.branches.mass.size] = _coefficients(
-                one.branches, time_step_s
-            )
+            self.coefficients[number] = _coefficients(one.material, time_step_s)
         total = int(self.patches[:, 1].sum())
         self.flux = np.zeros((count, total))
         self.sums = np.zeros((count, total))
@@ -63,9 +63,10 @@ class Walls:
         return self.patches, self.coefficients, self.mass, self.flux, self.sums, self.work
 
 
-def _coefficients(branches: Branches, time_step_s: float) -> Array:
+@lru_cache
+def _coefficients(material: Material, time_step_s: float) -> Array:
     """Of p, U- and S- in the next flux of each branch, (3, branch)."""
-    stepped = stepped_branches(branches, time_step_s)
+    stepped = stepped_branches(fitted_branches(material), time_step_s)
     mass, spring = stepped.mass / time_step_s, stepped.spring * time_step_s
     resistance = stepped.resistance / 2.0
     total = mass + resistance + spring / 4.0
