@@ -7,7 +7,7 @@ import numpy as np
 
 from ...base.constants import SPEED_OF_SOUND_M_PER_S
 from ...base.errors import SolverError
-from ..arrays import Array
+from ..arrays import Array, IndexArray
 from .box_step import pass_seams, step_series, sum_on_sides, to_nodes, to_sides
 from .cutting import AirBox, End, Face
 from .layout import Layout, layout
@@ -109,7 +109,8 @@ class Air:
         self._to_sides()
         result = np.zeros_like(terms)
         self._step_series(terms, result, 2.0 - self._turn)
-        return -result + 2.0 * (2.0 - self._turn) * terms
+        taken: Array = 2.0 * (2.0 - self._turn) * terms - result
+        return taken
 
     def balance(self) -> Array:
         """Factors of terms that make `operator` symmetric."""
@@ -148,7 +149,7 @@ def _mass(boxes: Sequence[AirBox], end: End, time_step_s: float) -> float:
 
 def _seams(
     boxes: Sequence[AirBox], faces: Sequence[Face], plan: Layout, time_step_s: float
-) -> tuple[Array, Array]:
+) -> tuple[IndexArray, Array]:
     """First nodes of both ends of every seam and their number, and c dt/(d1 + d2)."""
     rows, give, row = [], [], 0
     for face in faces:

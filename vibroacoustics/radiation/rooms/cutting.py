@@ -26,12 +26,14 @@ class AirBox:
     @property
     def size(self) -> Array:
         """Lengths of the edges, m."""
-        return self.upper - self.lower
+        size: Array = self.upper - self.lower
+        return size
 
     @property
     def spacing(self) -> Array:
         """Of the nodes, m."""
-        return self.size / np.array(self.nodes)
+        spacing: Array = self.size / np.array(self.nodes)
+        return spacing
 
 
 @dataclass(frozen=True)

@@ -55,9 +55,9 @@ def random_absorption(admittance: ComplexArray | Array) -> Array:
     Kuttruff (2016), equation 2.52 (Paris); Gauss-Legendre quadrature over cos(theta).
     """
     node, weight = np.polynomial.legendre.leggauss(64)
-    cosine, weight = (node + 1.0) / 2.0, weight / 2.0
-    share = absorption_at_angle(np.asarray(admittance)[..., None], cosine)
-    mean: Array = (2.0 * cosine * weight * share).sum(axis=-1)
+    cosine = (node + 1.0) / 2.0
+    share = absorption_at_angle(admittance[..., None], cosine)
+    mean: Array = (cosine * weight * share).sum(axis=-1)
     return mean
 
 

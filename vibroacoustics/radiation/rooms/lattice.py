@@ -84,5 +84,5 @@ class Reader:
         result = np.empty(self.shape)
         for at, piece in self._pieces:
             for quantity in range(self.shape[0]):
-                result[np.ix_([quantity], *at)] = piece.read(air, quantity - 1)
+                result[np.ix_(np.array([quantity]), *at)] = piece.read(air, quantity - 1)
         return result.ravel()

@@ -46,7 +46,8 @@ def layout(boxes: Sequence[AirBox], faces: Sequence[Face]) -> Layout:
     """The layout of boxes and faces; ends in the order of the faces."""
     shapes = np.array([box.nodes for box in boxes])
     terms = [0, *accumulate(int(np.prod(box.nodes)) for box in boxes)]
-    norms, norm_starts = [], []
+    norms: list[Array] = []
+    norm_starts: list[int] = []
     for box in boxes:
         for length, count in zip(box.size, box.nodes, strict=True):
             norm_starts.append(sum(one.size for one in norms))

@@ -39,14 +39,15 @@ class LocalGrid:
 
         Cells in solids are left out, and the others take their share.
         """
-        cells, shares = [np.zeros(1, dtype=np.intp)], [np.ones(1)]
+        cells: list[IndexArray] = []
+        shares: list[Array] = []
         for axis, line in enumerate(self.edges):
             at = np.clip((point[axis] - line[0]) / self.spacing[axis] - 0.5, 0.0, line.size - 2.0)
             low = min(int(at), max(line.size - 3, 0))
             cells.append(np.array([low + 1, low + 2]))
             shares.append(np.array([1.0 - (at - low), at - low]))
-        index = np.ravel_multi_index(np.ix_(*cells[1:]), self.air.shape).ravel()
-        share = np.einsum("i,j,k->ijk", *shares[1:]).ravel() * self.air.ravel()[index]
+        index = np.ravel_multi_index(np.ix_(*cells), self.air.shape).ravel()
+        share = np.einsum("i,j,k->ijk", *shares).ravel() * self.air.ravel()[index]
         return index, share / share.sum()
 
 
@@ -83,7 +84,7 @@ def _walls(
         if not material.hard:
             by_material.setdefault(material, []).append(cell)
     return [
-        WallFaces(axis, material, np.ravel_multi_index(np.array(cells).T, air.shape))
+        WallFaces(axis, material, np.ravel_multi_index(tuple(np.array(cells).T), air.shape))
         for material, cells in by_material.items()
     ]
 

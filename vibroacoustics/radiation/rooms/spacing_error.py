@@ -7,7 +7,7 @@ import numpy as np
 
 from ...base.decibel import level_of_power
 from ...base.progress import Progress, no_progress
-from ..arrays import Array
+from ..arrays import Array, ComplexArray
 from .lattice import Lattice
 from .response import room_transfer
 from .room import Room
@@ -34,7 +34,7 @@ def spacing_error_db(
     return {name: _difference_db(coarse[name].values, fine[name].values) for name in microphones}
 
 
-def _difference_db(coarse: Sequence[Array], fine: Sequence[Array]) -> Array:
+def _difference_db(coarse: Sequence[ComplexArray], fine: Sequence[ComplexArray]) -> Array:
     parts = [
         level_of_power(np.abs(a[:, 0]) ** 2 / np.abs(b[:, 0]) ** 2).reshape(a.shape[0], -1)
         for a, b in zip(coarse, fine, strict=True)
