@@ -1,0 +1,159 @@
+"""Rooms: what they are made of, and what they refuse."""
+
+import numpy as np
+import pytest
+from support import ROOT
+
+from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.radiation.exact import free_green
+from vibroacoustics.radiation.rooms import (
+    HARD,
+    Block,
+    JoinBox,
+    Lattice,
+    Material,
+    Patch,
+    Room,
+    RoomSettings,
+    read_library,
+    room_transfer,
+)
+from vibroacoustics.radiation.rooms.cutting import cut, faces
+from vibroacoustics.radiation.rooms.decay import absorption_area_m2, reverberation_time_s, volume_m3
+from vibroacoustics.radiation.rooms.impedance import fitted_branches, random_absorption
+from vibroacoustics.radiation.rooms.materials import MOST_ABSORPTION, OCTAVES_HZ, material
+from vibroacoustics.radiation.rooms.rectangles import rectangles
+from vibroacoustics.radiation.rooms.room import SIDES
+
+LIBRARY = read_library(ROOT / "data" / "rooms" / "materials.toml")
+TILES, BOARDS = LIBRARY["tiles"], LIBRARY["boards"]
+
+
+@pytest.mark.parametrize("name", LIBRARY)
+def test_materials_of_the_library_absorb_what_is_published(name):
+    one = LIBRARY[name]
+    assert one.source
+    wanted = np.minimum(one.absorption[:5], MOST_ABSORPTION)
+    branches = fitted_branches(one)
+    assert np.all(np.concatenate([branches.mass, branches.resistance, branches.spring]) > 0.0)
+    fitted = random_absorption(branches.admittance(np.array(OCTAVES_HZ[:5])))
+    # What rises steeply is too steep for overlapping octaves.
+    assert np.abs(fitted - wanted).max() <= (0.1 if name == "curtain" else 0.06)
+
+
+def test_random_incidence_on_a_real_impedance_has_its_closed_form():
+    z = np.array([1.57, 5.0, 30.0])
+    closed = 8.0 / z * (1.0 + 1.0 / (1.0 + z) - 2.0 / z * np.log(1.0 + z))
+    assert np.allclose(random_absorption(1.0 / z), closed, rtol=1e-9)
+    assert random_absorption(1.0 / z).max() == pytest.approx(0.951, abs=1e-3)
+
+
+def test_absorption_that_no_wall_takes_is_clipped_and_named():
+    assert LIBRARY["opening"].clipped_octaves_hz == OCTAVES_HZ
+    assert TILES.clipped_octaves_hz == ()
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Material("m", (0.1,) * 6), "absorption: has 6 values"),
+        (lambda: Material("m", (0.1,) * 6 + (1.2,)), "absorption = 1.2 at 4000 Hz: must be 0 to 1"),
+        (lambda: material("m", {"absorption_ratio": [0.1]}), "must be six numbers"),
+        (lambda: Room((4.0, -3.0, 2.5)), "room.size_m"),
+        (
+            lambda: Room((4.0, 3.0, 2.5), blocks=(Block("fridge", (0, 0, 0), (5.0, 1.0, 1.0)),)),
+            "room.blocks.fridge: from 0 to 5 m: must rise and lie in the room, 0 to 4 m",
+        ),
+        (
+            lambda: Room((4.0,) * 3, patches=(Patch("door", "-x", (1.0, 0.0), (1.0, 2.0), HARD),)),
+            "room.patches.door: from 1 to 1 m",
+        ),
+        (
+            lambda: cut(Room((1.0, 1.0, 1.0), blocks=(Block("b", (0, 0, 0), (0.99, 1, 1)),)), 0.1),
+            "air of 10 mm at x = 0.99 m; needed at least 50 mm",
+        ),
+        (
+            lambda: cut(Room((1.0, 1.0, 1.0), blocks=(Block("b", (0, 0, 0), (1, 1, 1)),)), 0.1),
+            "leave no air",
+        ),
+    ],
+)  # fmt: skip
+def test_rooms_that_cannot_be_are_refused(make, message):
+    with pytest.raises(ParameterError, match=message):
+        make()
+
+
+@pytest.mark.parametrize(
+    ("microphone", "point", "frequency", "message"),
+    [
+        ([5.0, 1.0, 1.0], [1.0, 1.0, 1.0], 100.0, "receivers.m: the point .* outside the room"),
+        ([0.8, 0.8, 0.8], [2.0, 0.2, 0.2], 100.0, "room: the point .* outside the room"),
+        ([0.8, 0.8, 0.8], [0.5, 0.5, 0.5], 300.0, "300 Hz is asked for"),
+    ],
+)
+def test_points_outside_the_air_are_refused(microphone, point, frequency, message):
+    with pytest.raises(ParameterError, match=message):
+        room_transfer(
+            Room((1.0, 1.0, 1.0)), [Lattice.of_point(np.array(point))],
+            {"m": np.array(microphone)}, np.array([frequency]), RoomSettings(200.0),
+        )  # fmt: skip
+
+
+def test_rectangles_cover_a_set_once_with_the_largest_first():
+    chosen = np.array([[True, True, False], [True, True, True]])
+    lines = [np.array([0.0, 1.0, 3.0]), np.array([0.0, 1.0, 2.0, 9.0])]
+    assert list(rectangles(chosen, lines)) == [((1, 2), (0, 3)), ((0, 1), (0, 2))]
+
+
+def test_boxes_and_faces_hold_all_air_and_all_walls():
+    door = LIBRARY["door"]
+    room = Room(
+        (4.0, 3.0, 2.5),
+        dict.fromkeys(SIDES, TILES) | {"ceiling": BOARDS},
+        (Block("fridge", (0.0, 0.0, 0.0), (0.6, 0.6, 1.8), BOARDS),),
+        (Patch("door", "+x", (1.0, 0.0), (2.0, 2.1), door),),
+    )
+    boxes = cut(room, 0.1)
+    assert sum(np.prod(box.size) for box in boxes) == pytest.approx(30.0 - 0.648)
+    areas: dict[str, float] = {}
+    for face in faces(room, boxes):
+        name = face.material.name if face.material else "seam"
+        areas[name] = areas.get(name, 0.0) + float(np.prod(face.upper - face.lower))
+    assert areas["door"] == pytest.approx(2.1)
+    assert areas["boards"] == pytest.approx(12.0 + 0.36 + 2 * 0.6 * 1.8)
+    assert areas["tiles"] == pytest.approx(47.0 - 2.1 - 0.36 - 2 * 0.6 * 1.8)
+    assert volume_m3(room) == pytest.approx(30.0 - 0.648)
+    area = absorption_area_m2(room)
+    shares = [areas[one.name] * np.array(one.absorption) for one in (TILES, BOARDS, door)]
+    assert np.allclose(area, sum(shares))
+    assert reverberation_time_s(room) == pytest.approx(
+        0.161 * volume_m3(room) / area[:5].min(), rel=1e-2
+    )
+
+
+def test_a_monopole_recorded_on_a_box_sounds_as_in_the_room():
+    plaster = LIBRARY["acoustic_ceiling"]
+    room = Room(
+        (2.4, 2.0, 1.6),
+        dict.fromkeys(SIDES, plaster),
+        (Block("shelf", (0.0, 0.0, 0.0), (0.5, 2.0, 0.8), BOARDS),),
+    )
+    source = np.array([1.55, 0.62, 0.51])
+    box = JoinBox(np.array([1.35, 0.4, 0.3]), np.array([1.75, 0.8, 0.7]), 400.0)
+    frequency = np.arange(60.0, 400.1, 20.0)
+    microphone = {"m": np.array([0.7, 1.6, 1.2])}
+    lattices = [*box.lattices, Lattice.of_point(source)]
+    settings = RoomSettings(400.0, nodes_per_wave=5.0, longest_s=0.6)
+    response = room_transfer(room, lattices, microphone, frequency, settings, gradient=True)["m"]
+    width = 1e-3
+    pressure, slope = [], []
+    for points, axis in zip(box.points, box.axes, strict=True):
+        ahead, behind = (points + s * width * np.eye(3)[axis] for s in (0.5, -0.5))
+        pressure.append(free_green(points, source, frequency))
+        slope.append(
+            (free_green(ahead, source, frequency) - free_green(behind, source, frequency)) / width
+        )
+    joined = box.join(pressure, slope, response.values[:6])
+    direct = response.values[6][:, 0].ravel()
+    assert np.abs(20.0 * np.log10(np.abs(joined / direct))).max() <= 0.2
+    assert np.abs(np.angle(joined / direct)).max() <= 0.03

@@ -1,0 +1,82 @@
+"""The box around a machine in a room, and the join of its free field with the room's."""
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from ...base.constants import SPEED_OF_SOUND_M_PER_S
+from ..arrays import Array, ComplexArray
+from .lattice import Lattice
+
+_MORE_NODES: Final = 6
+"""Of the quadrature, beyond those that waves along the side need."""
+
+
+class JoinBox:
+    """Points on the six sides of a box: nodes of Gauss-Legendre quadrature.
+
+    The sides may pass through seams and stand near walls and blocks, but lie in the air.
+    """
+
+    def __init__(self, lower: Array, upper: Array, maximum_frequency_hz: float) -> None:
+        self.lattices: list[Lattice] = []
+        """Of each side, for `room_transfer`."""
+        self.axes: list[int] = []
+        """Across each side."""
+        self._weights: list[Array] = []
+        lines, weights = zip(
+            *(
+                _nodes(float(low), float(high), maximum_frequency_hz)
+                for low, high in zip(lower, upper, strict=True)
+            ),
+            strict=True,
+        )
+        for axis in range(3):
+            for sign, level in ((-1.0, lower[axis]), (1.0, upper[axis])):
+                at, by = list(lines), list(weights)
+                at[axis], by[axis] = np.array([level]), np.array([sign])
+                self.lattices.append(Lattice(at[0], at[1], at[2]))
+                self._weights.append(np.einsum("i,j,k->ijk", *by).ravel())
+                self.axes.append(axis)
+
+    @property
+    def points(self) -> list[Array]:
+        """Of each side, (point, 3), m."""
+        return [
+            np.stack(np.meshgrid(*one.lines, indexing="ij"), axis=-1).reshape(-1, 3)
+            for one in self.lattices
+        ]
+
+    def join(
+        self,
+        pressure: Sequence[ComplexArray],
+        slope: Sequence[ComplexArray],
+        green: Sequence[ComplexArray],
+    ) -> ComplexArray:
+        """Sound pressure at the microphone of a Green's function, (frequency,).
+
+        p = integral of [p dG/dn - G dp/dn] dS with n out of the box (A. D. Pierce, Acoustics
+        (2019), section 4.6). With the free field of a machine it is what the machine gives in the
+        room, without the echo that its body scatters.
+
+        Parameters
+        ----------
+        pressure : free field on each side, (frequency, point), Pa
+        slope : its derivative along the side's axis, Pa/m
+        green : with gradient, as in `RoomResponse.values`, of the six sides
+        """
+        total = np.zeros(pressure[0].shape[0], dtype=complex)
+        for side, (axis, weights) in enumerate(zip(self.axes, self._weights, strict=True)):
+            value = green[side][:, 0].reshape(total.size, -1)
+            gradient = green[side][:, 1 + axis].reshape(total.size, -1)
+            total += (pressure[side] * gradient - value * slope[side]) @ weights
+        return total
+
+
+def _nodes(low: float, high: float, maximum_frequency_hz: float) -> tuple[Array, Array]:
+    """Nodes and weights between two ends: as many as two waves of opposite ways need."""
+    phase = 2.0 * np.pi * maximum_frequency_hz / SPEED_OF_SOUND_M_PER_S * (high - low)
+    node, weight = np.polynomial.legendre.leggauss(_MORE_NODES + int(np.ceil(phase)))
+    half = (high - low) / 2.0
+    return low + half * (node + 1.0), half * weight

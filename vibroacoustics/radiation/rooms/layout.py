@@ -1,0 +1,128 @@
+"""All boxes and faces of a room as flat arrays, as the compiled step takes them."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import accumulate
+
+import numpy as np
+
+from ..arrays import Array, IndexArray
+from .cutting import AirBox, End, Face
+from .series import angular_frequencies, cosines, inverse_norms
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Where in flat arrays everything of the boxes, their sides and the ends of faces stands.
+
+    A side of a box has a plane of terms: sums of the series over its axis, and a flux. An end of a
+    face has nodes, where pressures are compared and fluxes act. From terms to nodes leads a matrix
+    for each axis of the face, and back another: the transposed one with the nodes' widths and the
+    terms' norms. Where a face covers its sides completely with as many nodes as they have terms,
+    those transforms undo each other and are left out.
+    """
+
+    shapes: IndexArray
+    """Terms of each box, (box, 3)."""
+    terms: IndexArray
+    """First term of each box, and the number of all, (box + 1,)."""
+    norms: Array
+    """Inverse norms along each axis, one box after the other."""
+    norm_starts: IndexArray
+    """(box, 3)."""
+    sides: IndexArray
+    """First term of each side's plane, (box, 3, 2)."""
+    side_terms: int
+    ends: IndexArray
+    """Side's first term, terms along both axes, first node, nodes along both axes, first entry of
+    the four matrices, and 1 where they are left out, (end, 11)."""
+    matrices: Array
+    nodes: int
+    omega: Array
+    """c |k| of the terms, rad/s."""
+
+
+def layout(boxes: Sequence[AirBox], faces: Sequence[Face]) -> Layout:
+    """The layout of boxes and faces; ends in the order of the faces."""
+    shapes = np.array([box.nodes for box in boxes])
+    terms = [0, *accumulate(int(np.prod(box.nodes)) for box in boxes)]
+    norms: list[Array] = []
+    norm_starts: list[int] = []
+    for box in boxes:
+        for length, count in zip(box.size, box.nodes, strict=True):
+            norm_starts.append(sum(one.size for one in norms))
+            norms.append(inverse_norms(float(length), count))
+    planes = [
+        int(np.prod(box.nodes)) // box.nodes[axis]
+        for box in boxes
+        for axis in range(3)
+        for _ in range(2)
+    ]
+    sides = np.array([0, *accumulate(planes)])
+    starts = sides[:-1].reshape(-1, 3, 2)
+    ends, matrices = _ends(boxes, faces, starts)
+    return Layout(
+        shapes=shapes,
+        terms=np.array(terms),
+        norms=np.concatenate(norms),
+        norm_starts=np.array(norm_starts).reshape(-1, 3),
+        sides=starts,
+        side_terms=int(sides[-1]),
+        ends=ends,
+        matrices=matrices,
+        nodes=int(ends[-1, 3] + ends[-1, 4] * ends[-1, 5]) if len(ends) else 0,
+        omega=np.concatenate([angular_frequencies(box).ravel() for box in boxes]),
+    )
+
+
+def _ends(
+    boxes: Sequence[AirBox], faces: Sequence[Face], sides: IndexArray
+) -> tuple[IndexArray, Array]:
+    rows: list[list[int]] = []
+    matrices: list[Array] = [np.zeros(0)]
+    node = entry = 0
+    for face in faces:
+        counts = face_nodes(boxes, face)
+        left_out = all(_covers(boxes[end.box], end, face, counts) for end in face.ends)
+        for end in face.ends:
+            box = boxes[end.box]
+            across = [axis for axis in range(3) if axis != end.axis]
+            terms = [box.nodes[axis] for axis in across]
+            row = [int(sides[end.box, end.axis, end.end]), *terms, node, *counts]
+            for matrix in _matrices(box, across, face, counts):
+                row.append(entry)
+                matrices.append(matrix.ravel())
+                entry += matrix.size
+            rows.append([*row, int(left_out)])
+            node += counts[0] * counts[1]
+    ends: IndexArray = np.array(rows, dtype=np.intp).reshape(-1, 11)
+    return ends, np.concatenate(matrices)
+
+
+def face_nodes(boxes: Sequence[AirBox], face: Face) -> list[int]:
+    """Nodes of a face along its axes: as dense as in the finest of its boxes."""
+    spacing = np.min([np.delete(boxes[end.box].spacing, end.axis) for end in face.ends], axis=0)
+    return [int(count) for count in np.ceil((face.upper - face.lower) / spacing - 1e-6)]
+
+
+def _covers(box: AirBox, end: End, face: Face, counts: Sequence[int]) -> bool:
+    across = [axis for axis in range(3) if axis != end.axis]
+    size = np.delete(box.size, end.axis)
+    same = np.allclose(face.upper - face.lower, size, rtol=0.0, atol=1e-9)
+    return same and [box.nodes[axis] for axis in across] == list(counts)
+
+
+def _matrices(
+    box: AirBox, across: Sequence[int], face: Face, counts: Sequence[int]
+) -> tuple[Array, Array, Array, Array]:
+    """To the nodes from the left and the right, and back from the left and the right."""
+    to_nodes, back = [], []
+    for row, axis in enumerate(across):
+        width = (face.upper[row] - face.lower[row]) / counts[row]
+        points = face.lower[row] - box.lower[axis] + width * (np.arange(counts[row]) + 0.5)
+        values = cosines(points, float(box.size[axis]), box.nodes[axis])
+        to_nodes.append(values)
+        back.append(
+            inverse_norms(float(box.size[axis]), box.nodes[axis])[:, None] * values.T * width
+        )
+    return to_nodes[0], to_nodes[1].T, back[0], back[1].T

@@ -1,0 +1,98 @@
+"""A room: a box of air with blocks left out of it, and what covers its walls."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Final, Literal
+
+import numpy as np
+
+from ...base.errors import ParameterError
+from ..arrays import Array
+from .materials import HARD, Material
+
+RoomSide = Literal["-x", "+x", "-y", "+y", "floor", "ceiling"]
+SIDES: Final[dict[RoomSide, tuple[int, int]]] = {
+    "-x": (0, 0),
+    "+x": (0, 1),
+    "-y": (1, 0),
+    "+y": (1, 1),
+    "floor": (2, 0),
+    "ceiling": (2, 1),
+}
+"""Axis of each side, and 0 for its lower or 1 for its upper end."""
+Point = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Block:
+    """A solid cuboid in the room: furniture, a pillar, the body of the machine."""
+
+    name: str
+    lower: Point
+    upper: Point
+    material: Material = HARD
+
+
+@dataclass(frozen=True)
+class Patch:
+    """A rectangle of another material on a side: a window, a door, an opening."""
+
+    name: str
+    side: RoomSide
+    lower: tuple[float, float]
+    """Corner along the two other axes, in their order, m."""
+    upper: tuple[float, float]
+    material: Material
+
+
+@dataclass(frozen=True)
+class Room:
+    """A room from the origin to `size_m`, x and y level, z up. Sides without material are hard."""
+
+    size_m: Point
+    walls: Mapping[RoomSide, Material] = field(default_factory=dict)
+    blocks: tuple[Block, ...] = ()
+    patches: tuple[Patch, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not all(0.0 < size < np.inf for size in self.size_m):
+            raise ParameterError(f"room.size_m = {list(self.size_m)}: must be lengths above 0 m")
+        for block in self.blocks:
+            _check(f"room.blocks.{block.name}", block.lower, block.upper, self.size_m)
+        for patch in self.patches:
+            axis, _ = SIDES[patch.side]
+            across = [size for other, size in enumerate(self.size_m) if other != axis]
+            _check(f"room.patches.{patch.name}", patch.lower, patch.upper, across)
+
+    def material(self, axis: int, end: int, point: Array) -> Material | None:
+        """Material at a point on the side of an air box whose air ends there; None in the air.
+
+        `point` (3,) lies on the side; what is asked for stands just behind it.
+        """
+        behind = np.array(point, dtype=float)
+        behind[axis] += 1e-6 if end else -1e-6
+        for block in reversed(self.blocks):
+            if np.all((behind > block.lower) & (behind < block.upper)):
+                return block.material
+        if 0.0 < behind[axis] < self.size_m[axis]:
+            return None
+        side = next(name for name, where in SIDES.items() if where == (axis, end))
+        across = np.delete(behind, axis)
+        for patch in reversed(self.patches):
+            if patch.side == side and np.all((across > patch.lower) & (across < patch.upper)):
+                return patch.material
+        return self.walls.get(side, HARD)
+
+
+def _check(
+    name: str,
+    lower: tuple[float, ...],
+    upper: tuple[float, ...],
+    size: tuple[float, ...] | list[float],
+) -> None:
+    for low, high, most in zip(lower, upper, size, strict=True):
+        if not -1e-9 <= low < high <= most + 1e-9:
+            raise ParameterError(
+                f"{name}: from {low:g} to {high:g} m: "
+                f"must rise and lie in the room, 0 to {most:g} m"
+            )

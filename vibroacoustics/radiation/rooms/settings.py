@@ -1,0 +1,61 @@
+"""How finely and how long a room is computed, and the pulse that drives it."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ...base.constants import SPEED_OF_SOUND_M_PER_S
+from ..arrays import Array
+
+NODES_PER_WAVE: Final = 3.5
+SAMPLES_PER_PERIOD: Final = 3.0
+"""Of what is recorded, at the highest frequency: the pulse has next to nothing at twice that."""
+STEPS_PER_PERIOD: Final = 8.0
+"""At the highest frequency, at least."""
+
+
+@dataclass(frozen=True)
+class RoomSettings:
+    """How finely and how long a room is computed."""
+
+    maximum_frequency_hz: float = 1000.0
+    nodes_per_wave: float = NODES_PER_WAVE
+    """At the highest frequency; 5 halve the error of 3.5."""
+    decay_db: float = 60.0
+    """A run ends when the pressure at its points has fallen by so much."""
+    longest_s: float | None = None
+    """It ends then at the latest; None: after the reverberation time."""
+
+    @property
+    def spacing_m(self) -> float:
+        """Largest spacing of nodes."""
+        return SPEED_OF_SOUND_M_PER_S / (self.nodes_per_wave * self.maximum_frequency_hz)
+
+    @property
+    def longest_step_s(self) -> float:
+        """With which steps of walls keep their impedance: see `stepped_branches`."""
+        return 1.0 / (STEPS_PER_PERIOD * self.maximum_frequency_hz)
+
+    def sampling_steps(self, time_step_s: float) -> int:
+        """Time steps between samples of what is recorded."""
+        rate = SAMPLES_PER_PERIOD * self.maximum_frequency_hz
+        return max(1, int(1.0 / (rate * time_step_s) + 1e-9))
+
+    def force(self, time_step_s: float) -> tuple[Array, Array]:
+        """Times and values of the pulse, (time,)."""
+        count = int(np.ceil(4.5 / (0.45 * self.maximum_frequency_hz) / time_step_s))
+        time = time_step_s * np.arange(count)
+        return time, ricker(time, self.maximum_frequency_hz)
+
+
+def ricker(time_s: Array, maximum_frequency_hz: float) -> Array:
+    """Pulse of zero mean with its peak at 0.45 of the highest frequency, (time,).
+
+    N. Ricker, "The form and laws of propagation of seismic wavelets", Geophysics 18 (1953).
+    A pulse with a mean would leave a static pressure in a hard room.
+    """
+    peak_hz = 0.45 * maximum_frequency_hz
+    argument = (np.pi * peak_hz * (time_s - 2.25 / peak_hz)) ** 2
+    value: Array = (1.0 - 2.0 * argument) * np.exp(-argument)
+    return value
