@@ -47,7 +47,7 @@ it (ISO 3744), on a `MeasurementSurface`.
 **Figures and arrays.**
 `plot` has every figure as a function that returns a matplotlib Figure.
 `orders` and `levels` have the steps of an analysis as functions of arrays, `sound` those of
-listening, tones, loudness and sharpness.
+listening, tones, loudness and sharpness, `rooms` the sound of a source in a furnished room.
 
 **Sound.**
 `listen(results, folder)` writes the sound of options at microphones as WAV or FLAC.
@@ -121,6 +121,7 @@ if TYPE_CHECKING:
         speed_frequency_map,
         track_orders,
     )
+    from .radiation import rooms
     from .radiation.given import given_radiation
     from .recordings import (
         MeasuredFunction,
@@ -230,6 +231,7 @@ __all__ = [
     "read_modes",
     "read_recording",
     "register",
+    "rooms",
     "run",
     "score",
     "sound",
@@ -333,6 +335,7 @@ _MODULES = {
     "levels": "levels",
     "orders": "orders",
     "plot": "plot",
+    "rooms": "radiation.rooms",
     "sound": "sound",
 }
 

@@ -61,6 +61,8 @@ FEATURES = {
     "options to listen to": "command listen",
     "options to listen to, in Python": "va.listen",
     "what a sound is made of": "va.sound.ingredients",
+    "sound in a room": "va.rooms.room_transfer",
+    "materials of rooms": "va.rooms.read_library",
     "tones of a recording": "command tones",
     "tones, in Python": "va.sound.tones",
     "loudness and sharpness": "va.sound.loudness_of",

@@ -66,9 +66,9 @@ def material(name: str, table: Mapping[str, Any]) -> Material:
     return Material(name, (float(values[0]), *map(float, values)), str(table.get("source", "")))
 
 
-def read_library(path: Path) -> dict[str, Material]:
+def read_library(path: str | Path) -> dict[str, Material]:
     """Materials of a TOML file, a table each."""
     import tomllib
 
-    tables = tomllib.loads(path.read_text(encoding="utf-8"))
+    tables = tomllib.loads(Path(path).read_text(encoding="utf-8"))
     return {name: material(name, table) for name, table in tables.items()}
