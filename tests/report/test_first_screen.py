@@ -17,7 +17,7 @@ from vibroacoustics.report.drawing.loads import loads, turn
 from vibroacoustics.report.drawing.outline import feet_m, outline
 from vibroacoustics.report.drawing.view import bar, fitted
 from vibroacoustics.report.lights import light, lights
-from vibroacoustics.report.quantities import FORCE, LINE
+from vibroacoustics.report.quantities import FOOT_FORCE, FORCE, LINE
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.shifts import Shift
 from vibroacoustics.results.complete import check_run
@@ -147,6 +147,15 @@ def test_first_section_shows_drawing_beside_chart_and_is_not_folded(results: xr.
     (pair,) = (block for block in blocks if isinstance(block, Beside))
     assert isinstance(pair.wide, Lights)
     assert "front_1m, 0.24 m high" in str(pair.narrow)
+
+
+def test_the_caption_gives_the_foot_force_of_the_tables(results: xr.Dataset) -> None:
+    at = results["force_amplitude"].sel(option="none", order=1)
+    feet = results["foot_force_amplitude"].sel(option="none", order=1)
+    largest = float(feet.isel(speed=int(at.argmax("speed"))).max())
+    picture = machine_picture(results)
+    assert picture is not None
+    assert f"at most {FOOT_FORCE.write(largest)} into a foot" in picture.caption
 
 
 def test_drawing_is_light_and_loads_nothing(results: xr.Dataset) -> None:

@@ -29,6 +29,8 @@ def study_lines(study: Study) -> Iterator[str]:
 def draws_text(study: Study) -> str:
     """How many values are drawn how often."""
     if not study.ranges:
+        if not study.sources:
+            return "none: ranges are drawn where a study has sources of sound, [sources.NAME]"
         return "none: no value that is read has a range that is drawn"
     drawn, wanted = len(study.ranges), study.uncertainty.random_samples
     held = len(study.held_ranges)

@@ -93,8 +93,12 @@ def _studies(files: Sequence[Path], out: Path | None, coarse: bool) -> "list[tup
         if folder in [other for _, other in studies]:
             raise ParameterError(f"{file}: two studies would write to {folder}; run one by one")
         study = load_study(file)
-        studies.append((coarser(study) if coarse else study, folder))
         outputs.check_folder(folder)
+        if coarse:
+            study = coarser(study)
+            if not study.coarsened:
+                messages.warn([f"{file}: has nothing to coarsen; it runs in full"])
+        studies.append((study, folder))
     return studies
 
 

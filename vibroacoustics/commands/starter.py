@@ -25,8 +25,9 @@ _SHIPPED: Final = re.compile(r'"(?:\.\./)+(?:data/)?(machines|tables)/([^"]+)"')
 _HEAD: Final = """\
 #:schema {schemas}/{schema}.json
 # From {name} of vibroacoustics: put the values of your machine in place of these.
-# Units are in the keys; a value may be a number or {{ value, source, range }}, and what has a range
-# is drawn from it.
+# Units are in the keys. A machine's value, also one that an option changes, is {{ value, source }},
+# with a range where it is assumed; elsewhere a number does. Ranges are drawn where a study has
+# [sources.NAME].
 """
 
 

@@ -191,7 +191,8 @@ def _pairs(
     if not chosen:
         raise ParameterError(
             f"no channel has the same name in both: {listed(units)} against "
-            f"{listed(other_units)}; pair them"
+            f"{listed(other_units)}; pair them, as in --pair "
+            f'"{next(iter(units))}={next(iter(other_units))}"'
         )
     for name, other in chosen.items():
         for wanted, there in ((name, units), (other, other_units)):

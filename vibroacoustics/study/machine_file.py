@@ -74,7 +74,9 @@ def _resolve_file_names(
             if ".".join(keys) not in recorded and f"{where}: source is missing" not in (
                 reader.problems
             ):
-                reader.problems.append(f"{where} = {value}: needs a source: {{ value, source }}")
+                reader.problems.append(
+                    f'{where} = {value}: needs a source: {{ value = "{value}", source = "…" }}'
+                )
             table[key] = str(beside(reader.file(keys), value))
 
 

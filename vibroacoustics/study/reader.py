@@ -74,7 +74,9 @@ class Reader:
         where = self.file_and_key(keys)
         if not is_quantity(value):
             if self.sources_required and is_number(value):
-                raise ParameterError(f"{where} = {value}: needs a source: {{ value, source }}")
+                raise ParameterError(
+                    f'{where} = {value}: needs a source: {{ value = {value}, source = "…" }}'
+                )
             return tuple(value) if isinstance(value, list) else value
         unknown = set(value) - QUANTITY_KEYS
         if unknown:

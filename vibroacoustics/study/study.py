@@ -250,7 +250,7 @@ class Study(Parameters):
         if highest > allowed * (1.0 + ROUNDING):
             raise ValueError(
                 f"radiation.maximum_frequency_hz = {allowed:g} Hz: order {order} reaches "
-                f"{highest:g} Hz"
+                f"{highest:g} Hz; raise it, or lower operation.maximum_order"
             )
 
     def _check_sources(self) -> None:

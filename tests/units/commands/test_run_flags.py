@@ -105,6 +105,14 @@ def test_log_holds_errors(tmp_path: Path) -> None:
     assert_refused(refused, "log.txt", "cannot be written")
 
 
+def test_nothing_to_coarsen_is_told(tmp_path: Path) -> None:
+    closed = ("room_spacing_mm = 60.0", 'room_spacing_mm = 60.0\nroom_solver = "closed-form"')
+    file = a_study(tmp_path, "one.toml", closed)
+    outcome = command_here("run", file, "--coarse", "--out", tmp_path / "out")
+    assert outcome.returncode == 0, outcome.stderr
+    assert "one.toml: has nothing to coarsen; it runs in full" in outcome.stderr
+
+
 def test_coarse(tmp_path: Path) -> None:
     file = a_study(
         tmp_path, "one.toml", ("[2900.0]", "{ start = 2500.0, stop = 3400.0, step = 50.0 }")

@@ -235,6 +235,7 @@ def test_nothing_in_common(study):
     a = recorded({"a": ("Pa", 1.0)})
     b = recorded({"b": ("N", 1.0)})
     assert refused(a, b).startswith("no channel has the same name in both: a [Pa] against b [N]")
+    assert refused(a, b).endswith('pair them, as in --pair "a=b"')
     assert "units differ, Pa and N" in refused(a, b, {"a": "b"})
     assert "units differ, Pa and N" in refused(a, recorded({"a": ("N", 1.0)}))
     assert "no channel 'x'; there are a [Pa]" in refused(a, b, {"x": "b"})

@@ -107,7 +107,7 @@ def test_mistakes_of_all_sorts_come_at_once(tmp_path):
     text = with_line(text, "[brake]", "[braek]")
     told = "\n".join(lines(load_machine, written(text, tmp_path)))
     for words in (
-        "oldham.mass_kg = -1.0: needs a source",
+        'oldham.mass_kg = -1.0: needs a source: { value = -1.0, source = "…" }',
         "oldham.mass_kg = -1.0 kg: out of range; allowed above 0 to 100 kg",
         "mounts.latteral_stiffness_n_per_mm: unknown key, did you mean lateral_stiffness_n_per_mm",
         "overall_noise.level: unknown key, did you mean level_dba",

@@ -7,6 +7,7 @@ import xarray as xr
 
 from ...base import rounding
 from ...base.arrays import Array
+from ...mechanics.ellipse import semi_major_axis
 from ..figures.style import Picture
 from ..quantities import FOOT_FORCE, FORCE, MOMENT
 from ..study import parameters
@@ -140,7 +141,7 @@ def _caption(results: xr.Dataset, acting: Loads, body: dict[str, Any]) -> str:
         f"{number} {name}, {rounding.fixed(stand[str(name)]['height_m'], 2)} m high"
         for number, name in enumerate(results["receiver"].values, 1)
     ]
-    foot = float(np.linalg.norm(acting.foot_force_n, axis=1).max())
+    foot = float(semi_major_axis(acting.foot_force_n, -1).max())
     mesh = " The mesh that radiates is drawn as the shell." if body.get("kind") == "mesh" else ""
     return (
         f"At 1× and {acting.speed_rpm:g} rpm without a balancer: force "

@@ -126,7 +126,7 @@ def _dots(values: xr.DataArray, label: str, lowest: float, logarithmic: bool) ->
             _dot_panel(axes, per_option, [int(order) for order in audible["order"].values])
             axes.set_title(f"{shaft:g} rpm", loc="left")
             axes.set_yticks(range(len(names)), [wrap(name) for name in names])
-            axes.invert_yaxis()
+            axes.set_ylim(len(names) - 0.5, -0.5)
             if logarithmic:
                 axes.set_xscale("log")
                 logarithmic_ticks(axes)

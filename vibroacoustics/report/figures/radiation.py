@@ -80,7 +80,7 @@ def levels(results: xr.Dataset, receiver: str | None = None) -> Figure:
                 dots.set(markersize=size, markeredgewidth=1.6)
             axes.set_title(f"{speed:g} rpm", loc="left")
             axes.set_yticks(range(len(names)), [wrap(name) for name in names])
-            axes.invert_yaxis()
+            axes.set_ylim(len(names) - 0.5, -0.5)
         panels[-1].set_xlabel("A-weighted level, dB(A) re 20 µPa")
         legend_below(panels[0], 3)
 
