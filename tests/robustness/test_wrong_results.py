@@ -20,6 +20,7 @@ from vibroacoustics.base.errors import SchemaError
 from vibroacoustics.base.hashing import sha256
 from vibroacoustics.base.vocabulary import REFERENCE_OPTION
 from vibroacoustics.commands import outputs
+from vibroacoustics.report.drawing import loads
 from vibroacoustics.results import hashed
 from vibroacoustics.results.complete import check_run
 from vibroacoustics.results.run_attributes import Parameters, Words
@@ -39,7 +40,15 @@ RUNS: Final = {
 ATTRIBUTES: Final = {"parameters": Parameters, "words": Words}
 GONE: Final = object()
 EMPTY: Final = EMPTY_WHERE_NONE | ONLY_DRAWS_THAT_COUNT
+POSITIVE: Final = {
+    "mass_kg", "level_dba", "outer_diameter_m", "height_m", "length_m", "width_m", "diameter_m",
+    "distance_m",
+}  # fmt: skip
+"""Numbers without which nothing can be drawn."""
 both = pytest.mark.parametrize("name", RUNS)
+both_at_length = pytest.mark.parametrize(
+    "name", ["rigid", pytest.param("sources", marks=pytest.mark.long)]
+)
 
 
 @cache
@@ -145,7 +154,8 @@ def test_what_is_checked_is_all_that_a_report_reads(name: str) -> None:
     """Without the variables and keys that no check knows it is the same."""
     results = run(name)
     optional = {"supply_frequency", "projection_error", "force", "transfer_vector_closed_form",
-                "transfer_vector_error", "stopping_order_map", "rank_acceptability"}  # fmt: skip
+                "transfer_vector_error", "stopping_order_map", "rank_acceptability",
+                *loads.NEEDED}  # fmt: skip
     needed = {*needed_variables(results), *optional} & results.keys()
     reduced = results[sorted(needed)]
     beside = {*reduced.dims, *(name for one in needed for name in COORDINATES_OF.get(one, ()))}
@@ -217,7 +227,7 @@ def test_all_that_may_be_so_holds_one_value(name: str, value: float, tmp_path: P
     refused_or_made(results, tmp_path)
 
 
-@pytest.mark.parametrize("value", [0.0, -1.0, 1e29, 1e300])
+@pytest.mark.parametrize("value", [0.0, 1e29])
 @pytest.mark.parametrize("key", ["force_amplitude", "transfer_vector", "natural_frequency"])
 def test_a_variable_holds_one_value(key: str, value: float, tmp_path: Path) -> None:
     refused_or_made(filled(run(), key, np.full((), value, run()[key].dtype)), tmp_path)
@@ -236,7 +246,7 @@ def test_a_dimension_is_empty_or_holds_a_label_twice(name: str) -> None:
         assert_no_run(results.isel({dim: [0, *range(results.sizes[dim])]}))
 
 
-@both
+@both_at_length
 def test_options_are_gone(name: str, tmp_path: Path) -> None:
     results = run(name)
     assert refused_or_made(results.isel(option=[]), tmp_path) == [2, 2]
@@ -284,7 +294,7 @@ def test_parameters_are_no_parameters(text: str, tmp_path: Path) -> None:
     assert refused_or_made(changed, tmp_path) == [2, 2]
 
 
-@both
+@both_at_length
 @pytest.mark.parametrize("attribute", ATTRIBUTES)
 @pytest.mark.parametrize("step", [17, pytest.param(1, marks=pytest.mark.long)])
 def test_a_key_is_missing_or_of_another_type(
@@ -308,7 +318,7 @@ def test_a_key_is_missing_or_of_another_type(
         assert refused_or_made(changed, tmp_path) == [0, 0], what
 
 
-@both
+@both_at_length
 @pytest.mark.parametrize("value", [0, -1, 1e29, 1e300, 10**400])
 def test_every_number_of_the_parameters_is(name: str, value: float, tmp_path: Path) -> None:
     """But the catalogue's speed, at which results with sources must be."""
@@ -320,7 +330,7 @@ def test_every_number_of_the_parameters_is(name: str, value: float, tmp_path: Pa
             stored = replaced(stored, path, value)
     refused_or_made(with_json(results, "parameters", stored), tmp_path)
     for path, old in leaves(known_keys(results, "parameters")):
-        if path[-1] in ("mass_kg", "level_dba") or str(path[-1]).startswith("inertia_"):
+        if path[-1] in POSITIVE or str(path[-1]).startswith("inertia_"):
             stored = replaced(stored, path, old)
     assert refused_or_made(with_json(results, "parameters", stored), tmp_path) == (
         [0, 0] if abs(value) < 1e30 else [2, 2]

@@ -1,10 +1,12 @@
 """What the report says of tones, loudness and sharpness."""
 
 import math
+from contextlib import suppress
 
 import xarray as xr
 
 from ..base import rounding
+from ..base.errors import ParameterError
 from ..sound.critical_bands import noise_criterion_db, prominence_criterion_db
 from ..sound.ingredients import Ingredients, ingredients
 from ..sound.loudness import Loudness, available, loudness_of
@@ -19,7 +21,7 @@ TONE_HEAD = ("Tone", "Hz", "dB", "over noise, dB", "over bands, dB")
 
 def has_sound(results: xr.Dataset) -> bool:
     """Whether results hold what sounds are made of."""
-    return "noise_band_level" in results
+    return {"pressure_line", "noise_band_level"} <= set(results)
 
 
 def tone_tables(results: xr.Dataset) -> list[Table]:
@@ -32,12 +34,13 @@ def _table(results: xr.Dataset, microphone: str, speed: float) -> Table:
     parts = [ingredients(results, option, microphone, speed) for option in options(results)]
     loud: list[Loudness | None] = [None] * len(parts)
     if available():
-        loud = list(loudness_of(parts))
+        with suppress(ParameterError):  # louder than the standard goes: without it
+            loud = list(loudness_of(parts))
     rows = tuple(
         (option, *_tone_cells(part), *_loudness_cells(one))
         for option, part, one in zip(options(results), parts, loud, strict=True)
     )
-    with_loudness = ("sone", "acum") if available() else ()
+    with_loudness = () if None in loud else ("sone", "acum")
     head = ("Option", "Prominent tones", *TONE_HEAD, *with_loudness)
     caption = f"Prominent tones, and the one that stands out most, at {microphone}, {speed:g} rpm"
     return Table(caption, head, rows, frozenset({0, 1, 2}))

@@ -230,6 +230,7 @@ def test_supply_is_unknown_at_a_catalogue_speed_apart(folder):
 # --- size ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 def test_time_series_of_many_speeds_only_on_request(folder, tmp_path, many):
     series = {"force", "moment", "shaft_speed"}
     assert series <= set(many)

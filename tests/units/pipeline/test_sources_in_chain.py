@@ -453,7 +453,7 @@ def test_sources_do_not_change_the_moving_parts(results, without):
     heard = {"pressure_line", "order_level", "level_modelled", "level_total", "level_remainder"}
     heard |= {"source_level", "source_share", "source_band_level", "reported_figure"}
     heard |= {"change_1x", "change_modelled", "change_total", "criterion_value", "score", "rank"}
-    heard |= {"first_place_share"}
+    heard |= {"first_place_share", "noise_band_level", "remainder_band_level"}
     heard |= {name for name, array in without.data_vars.items() if "path_speed" in array.dims}
     same = set(without.data_vars) - heard
     assert {"force", "force_order", "velocity_order", "foot_force_order", "mode_shape"} <= same

@@ -87,7 +87,7 @@ def test_time_step_does_not_matter(box, monkeypatch):
     np.testing.assert_allclose(*fields, atol=2e-3 * np.abs(fields[0]).max())
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_neither_decimation_nor_single_precision_matters(box, monkeypatch):
     """Against every time step recorded: 0.001 dB; against double precision: 0.005 dB."""
     case = (box, (0.2, -0.6, 0.2))
@@ -99,6 +99,7 @@ def test_neither_decimation_nor_single_precision_matters(box, monkeypatch):
     assert np.abs(room_green.green_difference_db(simulated(*case)[0], expected)).max() < 5e-3
 
 
+@pytest.mark.long
 def test_several_microphones_at_a_time_change_nothing(box):
     microphones = [(0.65 + 0.1 * number, 0.1, 0.0) for number in range(2)]
 
@@ -243,14 +244,12 @@ def test_memory_is_checked_before_the_run(box, monkeypatch):
         simulated(box, (0.5, 0.0, 0.0))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.skipif(
     sys.platform != "linux" or device.array_namespace() is not np,
     reason="reads the peak memory of the processor as Linux tells it",
 )
-@pytest.mark.parametrize(
-    ("spacing_m", "frequencies"), [(0.03, 20), pytest.param(0.025, 100, marks=pytest.mark.long)]
-)
+@pytest.mark.parametrize(("spacing_m", "frequencies"), [(0.03, 20), (0.025, 100)])
 def test_predicted_memory_is_what_a_run_takes(spacing_m, frequencies):
     """Within 20 %, against the peak of a child process beyond what a small run left behind."""
     measured, predicted = in_child(f"""

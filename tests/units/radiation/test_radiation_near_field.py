@@ -234,11 +234,11 @@ def test_green_functions_of_the_room_count():
     assert kept < more < 1.2 * kept
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform != "linux", reason="reads the peak memory as Linux tells it")
 @pytest.mark.parametrize(
     ("spacing_m", "frequencies", "patterns"),
-    [pytest.param(0.006, 80, 6, marks=pytest.mark.long), (0.005, 20, 2)],
+    [(0.006, 80, 6), (0.005, 20, 2)],
 )
 def test_predicted_memory_is_what_it_takes(spacing_m, frequencies, patterns):
     """The default settings first, against the peak beyond a small run's; on one processor.

@@ -312,7 +312,7 @@ def test_stopping_comes_out_of_the_chain(results):
 def test_report_has_a_section(results):
     files = render(results)
     page = files["report.html"].decode()
-    assert '<section id="stopping">' in page
+    assert '<div id="stopping">' in page
     assert "figures/stopping.png" in files
     assert "figures/stopping_order_map.png" in files
     foot = results["stopping_foot_force"].sel(stopping_phase="stopping").item()

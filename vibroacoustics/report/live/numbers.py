@@ -34,7 +34,8 @@ class Numbers:
         array = np.ascontiguousarray(values)
         if np.iscomplexobj(array):
             array = array.astype(np.complex128).view(np.float64)
-        part = _rounded(array.astype("<f4"), bits).tobytes()
+        with np.errstate(over="ignore"):  # of levels that nothing reaches
+            part = _rounded(array.astype("<f4"), bits).tobytes()
         if part not in self._offsets:
             self._offsets[part] = self._length
             self._parts.append(part)
