@@ -199,11 +199,13 @@ def test_many_speeds_make_six_tables_and_ranges() -> None:
     assert "speeds; all are in" not in of_few
 
 
+@pytest.mark.long
 def test_the_page_does_not_grow_with_the_speeds() -> None:
     pages = [render(many(count))["report.html"] for count in (8, 60)]
     assert len(pages[1]) < 1.2 * len(pages[0])
 
 
+@pytest.mark.long
 def test_many_speeds_with_sources_are_six_tables(results: xr.Dataset) -> None:
     times = np.repeat([0, 1], 6)
     wide = results.isel(speed=times).assign_coords(speed=[2900.0, *np.linspace(2950.0, 3500.0, 11)])

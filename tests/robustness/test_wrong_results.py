@@ -296,7 +296,7 @@ def test_parameters_are_no_parameters(text: str, tmp_path: Path) -> None:
 
 @both_at_length
 @pytest.mark.parametrize("attribute", ATTRIBUTES)
-@pytest.mark.parametrize("step", [17, pytest.param(1, marks=pytest.mark.long)])
+@pytest.mark.parametrize("step", [31, pytest.param(1, marks=pytest.mark.long)])
 def test_a_key_is_missing_or_of_another_type(
     name: str, attribute: str, step: int, tmp_path: Path
 ) -> None:
@@ -340,7 +340,7 @@ def test_every_number_of_the_parameters_is(name: str, value: float, tmp_path: Pa
 def test_scoring_is_no_scoring(tmp_path: Path) -> None:
     stored = json.loads(run().attrs["parameters"])
     for path in (("scoring", "criteria"), ("scoring", "seed")):
-        for new in (GONE, "x", [], {}, {"loudness": {}}):
+        for new in (GONE, "x", {}):
             changed = with_json(run(), "parameters", replaced(stored, path, new))
             assert refused_or_made(changed, tmp_path)[0] in (0, 2)
 

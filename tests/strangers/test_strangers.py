@@ -172,6 +172,7 @@ def installed(tmp_path_factory) -> Path:
     return folder
 
 
+@pytest.mark.long
 def test_installed_packages_need_no_word_on_the_command_line(study, cache, installed, tmp_path):
     outcome = command(cache, "run", study, "--out", tmp_path, path=installed)
     assert outcome.returncode == 0, outcome.stderr

@@ -49,7 +49,7 @@ def test_run_writes_everything(finished: Path) -> None:
     assert len(rows) - 1 == 8 * 2 * 4  # options, speeds, receivers
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_radiation_alone(tmp_path: Path) -> None:
     study = ROOT / "tests" / "studies" / "field.toml"
     outcome = command("radiation", study, "--out", tmp_path / "out", cache=tmp_path / "cache")

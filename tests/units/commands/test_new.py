@@ -63,7 +63,7 @@ def new_check_run(kind: str, installed: Path, empty: Path) -> None:
     assert (empty / "reports" / "study" / "report.html").is_file()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_from_an_installed_package_in_an_empty_folder(installed: Path, tmp_path: Path) -> None:
     new_check_run("table", installed, tmp_path / "empty")
 

@@ -175,7 +175,7 @@ def test_source_and_microphone_change_places(walls):
     np.testing.assert_allclose(*pressures, rtol=0, atol=1e-6 * np.abs(pressures[0]).max())
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_soft_wall_is_a_half_space_of_heavier_fluid(monkeypatch):
     """Reflection factor 0.7: density ratio 1.7/0.3 at the same speed of sound, in k-Wave itself.
 
