@@ -97,9 +97,7 @@ def test_a_line_that_does_not_belong_to_the_shaft():
     assert speed_error(result.motion, run_up) < 5e-3
 
 
-@pytest.mark.parametrize(
-    "seed", [pytest.param(seed, marks=pytest.mark.long) for seed in range(5)]
-)
+@pytest.mark.parametrize("seed", [pytest.param(seed, marks=pytest.mark.long) for seed in range(5)])
 def test_confidence_tells_noise_from_a_shaft(seed):
     """Noise prefers no speed: its path is worse than the best rival more often than not."""
     noise = np.random.default_rng(seed).standard_normal(128000)
