@@ -9,9 +9,8 @@ from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
 from ..machine.floor import FloorMobility
 from ..recordings import MeasuredFunction, Node
-from ..recordings.functions import read_functions
 from ..study.measured_floor import FloorPoint, MeasuredFloor
-from .grouped import Key, by_key, unsigned
+from .grouped import Key, by_key, read_all, unsigned
 
 
 def read_floor(settings: MeasuredFloor, feet: Sequence[str]) -> FloorMobility:
@@ -29,13 +28,7 @@ def read_floor(settings: MeasuredFloor, feet: Sequence[str]) -> FloorMobility:
     StorageError
         A file cannot be read.
     """
-    groups = by_key(
-        [
-            function
-            for name in settings.frequency_responses
-            for function in read_functions(Path(name), units=settings.units)
-        ]
-    )
+    groups = by_key(read_all(settings.frequency_responses, settings.units))
     names, rows = [], []
     for foot in dict.fromkeys(point.foot for point in settings.points.values()):
         table = _of_foot([p for p in settings.points.values() if p.foot == foot], groups)

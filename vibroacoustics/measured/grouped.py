@@ -1,6 +1,6 @@
 """Measured functions by kind and nodes, along positive directions."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,7 +9,6 @@ import numpy as np
 from ..base.errors import ParameterError
 from ..recordings import MeasuredFunction, Node
 from ..recordings.functions import read_functions
-from .settings import Measured
 
 Key = tuple[str, Node, Node | None]
 
@@ -19,13 +18,11 @@ def unsigned(node: Node) -> Node:
     return node.opposite if node.direction.startswith("-") else node
 
 
-def read_all(names: Sequence[str], folder: Path, settings: Measured) -> list[MeasuredFunction]:
-    """Functions of some files of a folder."""
-    return [
-        function
-        for name in names
-        for function in read_functions(folder / name, units=settings.units)
-    ]
+def read_all(
+    names: Sequence[str], units: Mapping[str, str], folder: Path = Path()
+) -> list[MeasuredFunction]:
+    """Functions of some files, of a folder where their names do not tell it."""
+    return [function for name in names for function in read_functions(folder / name, units=units)]
 
 
 def by_key(functions: Sequence[MeasuredFunction]) -> dict[Key, list[MeasuredFunction]]:

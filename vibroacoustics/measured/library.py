@@ -26,8 +26,8 @@ class Library:
 
     def __init__(self, settings: Measured, folder: Path) -> None:
         self._settings = settings
-        self._responses = by_key(read_all(settings.frequency_responses, folder, settings))
-        self._operating = by_key(read_all(settings.operating, folder, settings))
+        self._responses = by_key(read_all(settings.frequency_responses, settings.units, folder))
+        self._operating = by_key(read_all(settings.operating, settings.units, folder))
         self.frequency_hz = self._lines()
         self._estimates: list[Estimate] = []
         self._numbers: dict[tuple[str, str], int] = {}

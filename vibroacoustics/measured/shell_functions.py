@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -10,9 +9,8 @@ import numpy as np
 from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.errors import ParameterError
 from ..recordings import MeasuredFunction, Node
-from ..recordings.functions import read_functions
 from ..study.measured_shell import Hit, MeasuredShell
-from .grouped import by_key, unsigned
+from .grouped import by_key, read_all, unsigned
 from .library import SAME_FREQUENCY
 
 LEAST_LINES: Final = 3
@@ -56,8 +54,7 @@ def read_shell_mobilities(settings: MeasuredShell, highest_hz: float) -> ShellMo
     """
     functions = [
         function
-        for name in settings.frequency_responses
-        for function in read_functions(Path(name), units=settings.units)
+        for function in read_all(settings.frequency_responses, settings.units)
         if function.kind == "frequency response"
     ]
     wall, every = _nodes(settings.wall), _nodes({**settings.wall, **settings.parts})

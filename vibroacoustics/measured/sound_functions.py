@@ -1,18 +1,16 @@
 """Sound pressure per force of a machine's hits or foot forces, from measured functions."""
 
 from collections.abc import Sequence
-from pathlib import Path
 
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
 from ..recordings import MeasuredFunction, Node
-from ..recordings.functions import read_functions
 from ..study.measured_sound_path import ForcePoint, MeasuredSoundPath
 from ..transfer.force_sound import ForceSound
 from ..transfer.machine import MachineOnMounts
-from .grouped import Key, by_key, unsigned
+from .grouped import Key, by_key, read_all, unsigned
 from .inversion import rigid_wrench
 
 LEAST_SPAN = 1e-3
@@ -39,13 +37,7 @@ def read_force_sound(
     StorageError
         A file cannot be read.
     """
-    groups = by_key(
-        [
-            function
-            for name in settings.frequency_responses
-            for function in read_functions(Path(name), units=settings.units)
-        ]
-    )
+    groups = by_key(read_all(settings.frequency_responses, settings.units))
     points = list(settings.points.values())
     functions = [
         [_measured(settings.microphones[name].node, point, groups) for point in points]

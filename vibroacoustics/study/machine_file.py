@@ -10,7 +10,7 @@ from ..machine.machine import MACHINES, Machine
 from ..machine.option import OPTIONS
 from .kinds import of_kind
 from .reader import Reader
-from .study import ParameterRecord
+from .record import ParameterRecord
 from .toml_files import beside, leaves, read_toml
 from .wording import validated
 

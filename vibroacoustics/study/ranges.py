@@ -12,7 +12,7 @@ from ..machine.machine import Machine
 from ..machine.shell_structure import ShellStructure
 from ..machine.source import Source
 from .reader import Reader
-from .study import ParameterRecord
+from .record import ParameterRecord
 from .uncertainty import HeldRange, Range
 from .wording import validated
 

@@ -7,7 +7,7 @@ from typing import Any, Final
 
 from ..base.errors import ParameterError
 from ..base.units import si_key, split_key
-from .study import ParameterRecord
+from .record import ParameterRecord
 from .toml_files import is_quantity, shown_key
 
 QUANTITY_KEYS: Final = {"value", "source", "range"}

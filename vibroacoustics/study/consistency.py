@@ -1,0 +1,173 @@
+"""What holds between the tables of a study."""
+
+from typing import TYPE_CHECKING, Final
+
+from ..base.units import shaft_frequency_hz
+from ..base.vocabulary import REFERENCE_OPTION
+from ..machine.frame import Frame
+from ..machine.option import Option
+from ..machine.shell_structure import ShellStructure, ShellVariation
+from ..machine.stopping import Stopping
+from ..machine.turning_back import TurningBack
+from ..mechanics.loads import DISCHARGE_DOME, SUCTION_ANNULUS
+from .scoring import check_given, check_scales
+
+if TYPE_CHECKING:
+    from .study import Study
+
+LEAST_ORDERS: Final = 2
+"""Which every result holds."""
+ROUNDING: Final = 1e-9
+
+
+def check_consistent(study: "Study") -> None:
+    """Refuse tables that are right alone and contradict each other.
+
+    Parameters
+    ----------
+    study : whose tables are valid each
+
+    Raises
+    ------
+    ValueError
+        With the key, the value and what is allowed.
+    """
+    reference = study.options.get(REFERENCE_OPTION)
+    if reference is None or reference.kind != REFERENCE_OPTION:
+        raise ValueError('options: an option named none with kind = "none" is required')
+    for name, option in study.options.items():
+        _check_fits(study, name, option)
+    check_given(study.given, study.options)
+    check_scales(study.scoring, study.given, study.options)
+    _check_catalogue(study)
+    if study.measured is not None:
+        for problem in study.measured.problems(list(study.receivers), study.operation.speed_rpm):
+            raise ValueError(problem)
+    _check_orders(study)
+    _check_sources(study)
+    _check_sound_power(study)
+
+
+def _check_catalogue(study: "Study") -> None:
+    """Refuse a microphone of the overall noise that is none, or stands elsewhere."""
+    if study.catalogue_receiver not in study.receivers:
+        raise ValueError(
+            f"catalogue_receiver = {study.catalogue_receiver}: not among the receivers "
+            f"({', '.join(study.receivers)})"
+        )
+    microphone = study.receivers[study.catalogue_receiver]
+    distance = study.machine.shell.distance_m(microphone.x_m, microphone.y_m, microphone.height_m)
+    published = study.machine.overall_noise
+    if not 0.95 <= distance / published.distance_m <= 1.05:
+        raise ValueError(
+            f"catalogue_receiver = {study.catalogue_receiver}: stands {distance:.3g} m from the "
+            f"shell; the overall noise holds at {published.distance_m:g} m"
+        )
+
+
+def _check_sound_power(study: "Study") -> None:
+    """Refuse a sound power by ISO 3744 where there is more than a hard floor."""
+    surroundings = study.radiation.surroundings
+    if study.sound_power and (
+        surroundings.walls or surroundings.cabinet or surroundings.is_outdoors
+    ):
+        raise ValueError(
+            "sound_power: ISO 3744 measures over a hard floor alone; radiation.surroundings "
+            f"has {'ground or a barrier' if surroundings.is_outdoors else 'walls or a cabinet'}"
+        )
+
+
+def _check_orders(study: "Study") -> None:
+    """Refuse more orders than the radiation or the crank angles can tell apart."""
+    speeds = {*study.operation.speed_rpm, study.machine.overall_noise.speed_rpm}
+    fastest, slowest = max(speeds), min(speeds)
+    orders, samples = study.highest_order(slowest), study.operation.crank_angle_samples
+    if 2 * orders >= samples:
+        given = study.operation.maximum_order is not None
+        twice = f"maximum_order = {orders}" if given else f"{orders} orders at {slowest:g} rpm"
+        raise ValueError(
+            f"operation.crank_angle_samples = {samples}: must be above {2 * orders}, twice {twice}"
+        )
+    order = max(study.highest_order(fastest), LEAST_ORDERS)
+    highest, allowed = order * shaft_frequency_hz(fastest), study.radiation.maximum_frequency_hz
+    if highest > allowed * (1.0 + ROUNDING):
+        raise ValueError(
+            f"radiation.maximum_frequency_hz = {allowed:g} Hz: order {order} reaches "
+            f"{highest:g} Hz; raise it, or lower operation.maximum_order"
+        )
+
+
+def _check_sources(study: "Study") -> None:
+    """Refuse sources that the machine, or what an option makes of it, cannot have."""
+    if "moving_parts" in study.sources:
+        raise ValueError("sources.moving_parts: are always there; choose another name")
+    changed = {
+        f"options.{name}.change: ": option.applied_to(study.machine)
+        for name, option in study.options.items()
+        if option.applied_to(study.machine) is not study.machine
+    }
+    for name, source in study.sources.items():
+        for where, machine in {"": study.machine, **changed}.items():
+            if reason := source.why_not(machine):
+                raise ValueError(f"{where}sources.{name}.kind = {source.kind}: {reason}")
+    published, operation = study.machine.overall_noise.speed_rpm, study.operation
+    if operation.supply_frequency_hz and published not in operation.speed_rpm:
+        raise ValueError(
+            "operation.speed_rpm: must include the speed of the overall noise, "
+            f"{published:g} rpm, whose supply_frequency_hz is not known otherwise"
+        )
+    twice = 2.0 * max(study.operation.supply_frequency_hz or (0.0,))
+    if study.sources and twice > study.radiation.maximum_frequency_hz:
+        raise ValueError(
+            f"radiation.maximum_frequency_hz = {study.radiation.maximum_frequency_hz:g} Hz: "
+            f"twice the supply frequency is {twice:g} Hz"
+        )
+    bends = study.machine.has_table(ShellStructure) and study.machine.has_table(ShellVariation)
+    if study.drives_shell and not bends:
+        raise ValueError(
+            "sources: drive an elastic shell; the machine has no tables structure and variation"
+        )
+    if study.drives_shell and study.shell_modes is not None and study.machine.has_table(Frame):
+        raise ValueError(
+            "shell_modes: measured modes do not hold the wall's flexibility at the welds of a "
+            'frame; leave it out: machine.without = ["frame"]'
+        )
+    if study.shell_modes is not None and _gas_flows_into(study):
+        raise ValueError(
+            "shell_modes: measured modes do not tell what gas in the shell does to its wall; "
+            f"leave the gas out: machine.without = {_gas_flows_into(study)}"
+        )
+    if study.operation.stopping and not study.machine.has_table(Stopping):
+        raise ValueError("operation.stopping: the machine has no table stopping")
+    _check_turning_back(study)
+
+
+def _check_turning_back(study: "Study") -> None:
+    if not study.operation.turning_back:
+        return
+    if not study.operation.stopping:
+        raise ValueError("operation.turning_back: needs operation.stopping = true")
+    if not study.machine.has_table(TurningBack):
+        raise ValueError("operation.turning_back: the machine has no table turning_back")
+
+
+def _gas_flows_into(study: "Study") -> list[str]:
+    read = {name for one in study.sources.values() for name in one.tables_read(study.machine)}
+    return sorted(read & {DISCHARGE_DOME, SUCTION_ANNULUS})
+
+
+def _check_fits(study: "Study", name: str, option: Option) -> None:
+    """Refuse an option that the machine has no part for, or that changes what all share."""
+    needed = option.needs
+    if needed is not None and study.machine.capability(needed) is None:
+        raise ValueError(
+            f"options.{name}.kind = {option.kind}: needs {needed.words}; the machine is "
+            f"{study.machine.kind}"
+        )
+    changed = option.applied_to(study.machine)
+    for table in ("shell", "overall_noise"):
+        if getattr(changed, table) != getattr(study.machine, table):
+            raise ValueError(
+                f"options.{name}.change.{table}: all options radiate from one shell and share "
+                "one overall noise; make a study of its own"
+            )

@@ -1,0 +1,65 @@
+"""Operating points of a study."""
+
+from typing import Annotated, Any, Final
+
+from pydantic import Field, WithJsonSchema, field_validator, model_validator
+
+from ..base.parameters import Parameters
+from .speeds import MOST_SPEEDS, speed_range
+
+MOST_SPEEDS_WITH_TIME_SERIES: Final = 100
+
+# Limits for the schema of files; `Operation` refuses them in words of its own.
+_SHOWN_SPEED = WithJsonSchema({"type": "number", "minimum": 60.0, "maximum": 60000.0})
+_SHOWN_SUPPLY = WithJsonSchema({"type": "number", "minimum": 1.0, "maximum": 1000.0})
+
+
+class Operation(Parameters):
+    speed_rpm: tuple[Annotated[float, _SHOWN_SPEED], ...] = Field(
+        min_length=1, max_length=MOST_SPEEDS
+    )
+    """In a file also a table of start, stop and step."""
+    crank_angle_samples: int = Field(default=256, ge=64, le=65536)
+    maximum_order: int | None = Field(default=None, ge=2, le=1000)
+    """None for as many at each speed as the highest frequency of the radiation holds."""
+    keep_time_series: bool | None = None
+    """Forces and moments over crank angle in the results; none for up to 100 speeds only."""
+    supply_frequency_hz: tuple[Annotated[float, _SHOWN_SUPPLY], ...] | None = None
+    """Of the motor's supply, one for each speed; where a source needs it."""
+    point: str | None = None
+    """Operating point of the machine's file, whose values hold; none for the machine's as given."""
+    stopping: bool = False
+    """Whether a stop from each speed is computed, where the machine has a table of that name."""
+    turning_back: bool = False
+    """Whether stops go on where trapped gas turns the shaft back, through the elastic shell too."""
+
+    @field_validator("speed_rpm", mode="before")
+    @classmethod
+    def _range(cls, given: Any) -> Any:
+        if isinstance(given, dict):
+            return speed_range(given)
+        return tuple(given) if isinstance(given, list) else given
+
+    @model_validator(mode="after")
+    def _speeds(self) -> "Operation":
+        for speed in self.speed_rpm:
+            if not 60.0 <= speed <= 60000.0:
+                raise ValueError(f"speed_rpm = {speed:g} rpm: allowed 60 to 60000 rpm")
+        if len(set(self.speed_rpm)) < len(self.speed_rpm):
+            raise ValueError("speed_rpm lists a speed twice")
+        supply = self.supply_frequency_hz
+        if supply is not None and len(supply) != len(self.speed_rpm):
+            raise ValueError(
+                f"supply_frequency_hz: {len(supply)} values for {len(self.speed_rpm)} speeds; one "
+                "is needed for each"
+            )
+        for frequency in supply or ():
+            if not 1.0 <= frequency <= 1e3:
+                raise ValueError(f"supply_frequency_hz = {frequency:g} Hz: allowed 1 to 1000 Hz")
+        return self
+
+    @property
+    def keeps_time_series(self) -> bool:
+        """Whether the results hold forces and moments over crank angle."""
+        few = len(self.speed_rpm) <= MOST_SPEEDS_WITH_TIME_SERIES
+        return few if self.keep_time_series is None else self.keep_time_series
