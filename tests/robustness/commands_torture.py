@@ -32,7 +32,12 @@ def start(out: Path, cache_folder: Path) -> subprocess.Popen[str]:
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
         text=True,
-        env={**os.environ, "XDG_CACHE_HOME": str(cache_folder), "MPLCONFIGDIR": str(WARM_CACHE)},
+        env={
+            **os.environ,
+            "XDG_CACHE_HOME": str(cache_folder),
+            "MPLCONFIGDIR": str(WARM_CACHE),
+            "PYTHONFAULTHANDLER": "1",  # a crash shows where
+        },
         start_new_session=True,
     )
     while process.poll() is None and not listens(process.pid):
