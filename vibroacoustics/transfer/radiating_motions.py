@@ -1,18 +1,12 @@
 """Sound of an elastic shell by what radiates it: its modes, its six motions as a rigid body."""
 
-from typing import Final
-
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
 from ..base.decibel import amplitude_of_level
 from ..mechanics.loads import Lines
-from .frame import FrameOnShell
 from .shell_modes import velocity_per_force
 from .sound_path import BendingShell
-
-_AT_A_TIME: Final = 32
-"""Motions, of which all together would take much memory."""
 
 
 def motion_names(shell: BendingShell) -> list[str]:
@@ -36,33 +30,18 @@ def by_motion(shell: BendingShell, lines: Lines) -> ComplexArray:
     """
     frequency = lines.frequency_hz
     on_parts = np.sum([*lines.on_parts.values()], axis=0)
-    gas = _gas_forces(shell, lines)
-    on_modes = _yoke_forces(shell, lines)
-    velocity = np.zeros((len(shell.path.modes) + 6, frequency.size), dtype=complex)
+    gas, on_modes = _gas_forces(shell, lines), _yoke_forces(shell, lines)
+    velocity: ComplexArray
     if shell.frame is None:
         forces = shell.path.forces_of_parts()[..., 0]
         on_modes = on_modes + gas + np.einsum("mpc,pcf->mf", forces, on_parts)
+        velocity = np.zeros((len(shell.path.modes) + 6, frequency.size), dtype=complex)
     else:
-        velocity += _with_frame(shell.frame, on_parts, gas, frequency)
+        velocity = shell.frame.velocities(on_parts, gas, frequency)
     velocity[:-6] += _moving(shell, frequency) * on_modes
     gain = amplitude_of_level(shell.variation.mobility_change_db)
     per_velocity = [gain * shell.pressure_per_velocity(frequency), shell.rigid(frequency)]
     return np.moveaxis(np.concatenate(per_velocity, axis=1) * velocity, 0, 1)
-
-
-def _with_frame(
-    frame: FrameOnShell, on_parts: ComplexArray, gas: ComplexArray, frequency_hz: Array
-) -> ComplexArray:
-    """Velocities of the modes and of the shell as a rigid body, shape (motion, frequency)."""
-    count, lines = frame.natural_hz.size + 6, frequency_hz.size
-    velocity = np.empty((count, lines), dtype=complex)
-    for first in range(0, count, _AT_A_TIME):
-        rows = slice(first, first + _AT_A_TIME)
-        each = np.eye(count)[rows, :, None] * np.ones(lines, dtype=complex)
-        moved = frame.sound(each, frequency_hz)  # of receivers that each hear one motion
-        velocity[rows] = np.einsum("mpcf,pcf->mf", moved.of_loads, on_parts)
-        velocity[rows] += np.einsum("mnf,nf->mf", moved.of_modes(np.arange(lines)), gas)
-    return velocity
 
 
 def _moving(shell: BendingShell, frequency_hz: Array) -> ComplexArray:

@@ -97,6 +97,24 @@ def test_nothing_moves_at_frequency_zero(on_shell):
         assert np.all(np.isfinite(array))
 
 
+def test_motion_under_loads_is_what_receivers_of_each_motion_hear(on_shell):
+    """Loads put on directly, against reciprocity: from the receivers to the loads."""
+    random, count = np.random.default_rng(1), on_shell.natural_hz.size
+    shapes = (len(PARTS), 6, FREQUENCY.size), (count, FREQUENCY.size)
+    on_parts, on_modes = (random.normal(size=(2, *shape)) for shape in shapes)
+    on_parts, on_modes = on_parts[0] + 1j * on_parts[1], on_modes[0] + 1j * on_modes[1]
+    each = np.repeat(np.eye(count + 6)[..., None], FREQUENCY.size, axis=-1)
+    heard = on_shell.sound(each, FREQUENCY)
+    expected = np.einsum("npcf,pcf->nf", heard.of_loads, on_parts)
+    expected += np.einsum("nmf,mf->nf", heard.of_modes(np.arange(FREQUENCY.size)), on_modes)
+    moved = on_shell.velocities(on_parts, on_modes, FREQUENCY)
+    largest = abs(expected).max(axis=0)
+    assert abs(moved - expected).max(axis=0) == pytest.approx(
+        0.0 * largest, abs=1e-9 * largest.max()
+    )
+    assert not moved[:, 0].any()
+
+
 def test_natural_frequencies_make_the_contacts_infinitely_compliant(on_shell):
     """Without loss: there the compliance of the gaps has no inverse, or a mode moves no contact."""
     still = replace(on_shell, loss_factor_ratio=0.0)

@@ -80,11 +80,10 @@ class FrameOnShell:
         parts = answers(self.motions.squares, omega)
         # By reciprocity: motions of the contacts as the receivers drive the shell.
         moved = times(self.modal_forces.T, modes * shell)
-        moved -= times(np.linalg.solve(self.shell_mass, self.contacts.rigid.T).T, rigid) / omega**2
+        moved -= times(self._of_contacts.T, rigid) / omega**2
         forces = np.moveaxis(self._joined(shell, parts, omega, np.moveaxis(moved, 0, 1)), 0, 1)
         through = (self._at_contacts.T @ forces) * parts
-        together = np.linalg.solve(self.machine_mass, self.inner.rigid.T @ self.inner.loads)
-        of_loads = times(together.T, rigid) / omega**2
+        of_loads = times(self._together.T, rigid) / omega**2
         of_loads += self._drives_of_parts.T @ through
 
         def of_modes(some: IndexArray) -> ComplexArray:
@@ -93,6 +92,31 @@ class FrameOnShell:
 
         shape = len(forces), len(PARTS), PART_COMPONENTS, frequency_hz.size
         return SoundPerForce(of_loads.reshape(shape), of_modes)
+
+    def velocities(
+        self, on_parts: ComplexArray, on_modes: ComplexArray, frequency_hz: Array
+    ) -> ComplexArray:
+        """Velocities of the shell's modes and then of its six rigid motions, (motion, frequency).
+
+        None at frequency zero; without that of the machine as one rigid body.
+
+        Parameters
+        ----------
+        on_parts : loads on the parts together, shape (part, component, frequency)
+        on_modes : generalised forces on the shell's modes, shape (mode, frequency)
+        frequency_hz : shape (frequency,)
+        """
+        omega = 2.0 * np.pi * np.where(frequency_hz > 0.0, frequency_hz, 1.0)
+        shell = answers(self._squares, omega) / self.modal_mass_kg[:, None]
+        parts = answers(self.motions.squares, omega)
+        loads = on_parts.reshape(-1, omega.size)
+        moved = self._at_contacts @ (parts * (self._drives_of_parts @ loads))
+        moved -= times(self.modal_forces.T, shell * on_modes)
+        forces = self._joined(shell, parts, omega, moved[:, None])[:, 0]
+        modes = shell * (on_modes + times(self.modal_forces, forces))
+        rigid = times(self._together, loads) - times(self._of_contacts, forces)
+        motion = np.concatenate([modes, rigid / omega**2])
+        return np.asarray(2j * np.pi * frequency_hz * motion)
 
     def contact_forces(self, frequency_hz: Array) -> ComplexArray:
         """Forces on the shell per load on a part, (frequency, contact, part times component).
@@ -156,7 +180,7 @@ class FrameOnShell:
         parts = self._at_contacts[rows] * driven[columns]
         springs = np.diag(1.0 / self.contacts.stiffness)
         springs = (springs + self.residual / (1.0 + 1j * self.loss_factor_ratio))[rows, columns]
-        rigid = self.contacts.rigid @ np.linalg.solve(self.shell_mass, self.contacts.rigid.T)
+        rigid = self.contacts.rigid @ self._of_contacts
         rest = np.stack([springs.real, rigid[rows, columns]], axis=1)
         lost = np.stack([springs.imag, np.zeros(rows.size)], axis=1)
         return (
@@ -183,6 +207,17 @@ class FrameOnShell:
         """Of the modes with loss, rad²/s²."""
         squares = (2.0 * np.pi * self.natural_hz) ** 2
         return np.asarray(squares * (1.0 + 1j * self.loss_factor_ratio))
+
+    @property
+    def _together(self) -> Array:
+        """Acceleration of all as one rigid body per load on a part, shape (6, load)."""
+        loads = self.inner.rigid.T @ self.inner.loads
+        return np.asarray(np.linalg.solve(self.machine_mass, loads))
+
+    @property
+    def _of_contacts(self) -> Array:
+        """Acceleration of the shell as a rigid body per force on a contact, shape (6, contact)."""
+        return np.asarray(np.linalg.solve(self.shell_mass, self.contacts.rigid.T))
 
     @property
     def _at_contacts(self) -> ComplexArray:
