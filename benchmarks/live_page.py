@@ -10,16 +10,15 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
 from browsers import chromium
-from live_pages import GAIN, open_page, page_of
-from support import PIPELINES, made_up_transfer_vectors
+from live_pages import largest_study, open_page, page_of, vectors_of_a_box
 
 import vibroacoustics as va
-from vibroacoustics.report.live.assets import live_scripts, live_style
+from vibroacoustics.report.live.assets import live_script, live_style, unpacking_script
 from vibroacoustics.report.live.data import live_data
+from vibroacoustics.report.live.numbers import packed
 
 LONGEST_MS = 16.0
 LONGEST_RETUNE_MS = 50.0
-SPEEDS, MICROPHONES, ORDERS = 5, 10, 40
 EVENTS = """const [name, done] = arguments, panel = vibroacoustics.panel, slider = panel.at(name);
 const times = [];
 const move = async () => {
@@ -36,31 +35,13 @@ panel.hear("B");
 setTimeout(move, 300);"""
 
 
-def study() -> va.Study:
-    """The reciprocating machine, whose crank speed varies: every order is loaded."""
-    around = {
-        f"receivers.m{number}": {"x_mm": 1500.0, "y_mm": 100.0 * number, "height_mm": 500.0}
-        for number in range(MICROPHONES - 3)
-    }
-    changed = {
-        "operation.speed_rpm": [600.0 + 50.0 * number for number in range(SPEEDS)],
-        "operation.maximum_order": ORDERS,
-        "radiation.maximum_frequency_hz": 1000.0,
-        **around,
-    }
-    return va.load_study(PIPELINES / "mayekawa_wbhe.toml").replace(changed)
-
-
 def main() -> None:
     """Print times of slider events and the size of the page's part."""
-    results = va.run(
-        study(), radiation=lambda study, *_: (made_up_transfer_vectors(study, GAIN), False)
-    )
+    results = va.run(largest_study(), radiation=lambda study, *_: (vectors_of_a_box(study), False))
     sizes = {name: results.sizes[name] for name in ("speed", "receiver", "order", "option")}
     parts = {
         "numbers": len(live_data(results)),
-        "uPlot": len(live_scripts()[0]),
-        "script": len(live_scripts()[1]),
+        "scripts": len(unpacking_script()) + len(packed(live_script().encode())),
         "style": len(live_style()),
     }
     print(sizes, parts, f"all {sum(parts.values()) / 1e3:.0f} kB")

@@ -4,9 +4,10 @@ import math
 from pathlib import Path
 from typing import Any, Final
 
+import numpy as np
 import xarray as xr
 from selenium.webdriver import Chrome
-from support import PIPELINES, made_up_transfer_vectors
+from support import PIPELINES, labelled_vectors, made_up_transfer_vectors
 
 import vibroacoustics as va
 from vibroacoustics.machine.floor import Floor
@@ -76,6 +77,50 @@ def floor_run() -> xr.Dataset:
     floor = Floor(mass_kg=20.0, stiffness_n_per_m=5e5, loss_factor_ratio=0.1)
     machine = study.machine.model_copy(update={"floor": floor})
     return run_loudly(study.model_copy(update={"machine": machine}))
+
+
+def vectors_of_a_box(study: va.Study) -> xr.Dataset:
+    """Pressure of a box of 216 monopoles in front of a hard floor and a wall, without diffraction.
+
+    ρ jω exp(-jkr)/(4πr) of each and of its images, by the velocity along its normal: delays, growth
+    and interference are those of a machine; the box is off the origin, so that nothing is equal.
+    """
+    size, offset = np.array([0.5, 0.4, 0.8]), np.array([0.03, -0.02, 0.05])
+    across = (np.arange(6) + 0.5) / 6.0 - 0.5
+    sides = [(axis, sign) for axis in range(3) for sign in (-0.5, 0.5)]
+    unit = np.array(
+        [np.insert([a, b], axis, sign) for axis, sign in sides for a in across for b in across]
+    )
+    normal = np.where(np.abs(unit) == 0.5, np.sign(unit), 0.0)
+    point, area = unit * size + offset, size.prod() / (np.abs(normal) @ size) / 36.0
+    flow = area[:, None] * np.hstack([normal, np.cross(point, normal)])
+    floor, wall = point * [1, 1, -1] - [0, 0, 1.1], point * [-1, 1, 1] - [2.0, 0, 0]
+    frequency = np.arange(25.0, study.radiation.maximum_frequency_hz + 1.0, 25.0)
+    to = np.array([[r.x_m, r.y_m, r.height_m - 0.5] for r in study.receivers.values()])
+    values = np.zeros((len(to), 6, frequency.size), dtype=complex)
+    for source in (point, floor, wall):
+        distance = np.linalg.norm(to[:, None] - source, axis=-1)[..., None]
+        wave = np.exp(-2j * np.pi * frequency / 343.0 * distance) / (4.0 * np.pi * distance)
+        values += np.einsum("rpf,pd->rdf", wave, flow) * 1.2 * 2j * np.pi * frequency
+    return labelled_vectors(study, values, np.linalg.norm(to, axis=-1))
+
+
+def largest_study() -> va.Study:
+    """Five speeds, ten microphones, 40 orders, six options: the reciprocating machine.
+
+    Its shaft's speed varies: every order is loaded.
+    """
+    around = {
+        f"receivers.m{number}": {"x_mm": 1500.0, "y_mm": 100.0 * number, "height_mm": 500.0}
+        for number in range(7)
+    }
+    changed = {
+        "operation.speed_rpm": [600.0, 650.0, 700.0, 750.0, 800.0],
+        "operation.maximum_order": 40,
+        "radiation.maximum_frequency_hz": 1000.0,
+        **around,
+    }
+    return va.load_study(PIPELINES / "mayekawa_wbhe.toml").replace(changed)
 
 
 def page_of(results: xr.Dataset) -> bytes:

@@ -15,7 +15,7 @@ import numpy as np
 import xarray as xr
 
 from vibroacoustics import pipeline
-from vibroacoustics.base.arrays import Array
+from vibroacoustics.base.arrays import Array, ComplexArray
 from vibroacoustics.base.progress import Progress, no_progress
 from vibroacoustics.base.vocabulary import RIGID_BODY_DOFS, stamp
 from vibroacoustics.commands import cli
@@ -65,13 +65,17 @@ def made_up_transfer_vectors(study: Study, gain: float = 1.0) -> xr.Dataset:
     generator = np.random.default_rng(3)
     shape = (len(study.receivers), 6, 1)
     size = generator.standard_normal(shape) + 1j * generator.standard_normal(shape)
+    return labelled_vectors(study, gain * 0.01 * size * frequency, np.ones(len(study.receivers)))
+
+
+def labelled_vectors(study: Study, values: ComplexArray, distance: Array) -> xr.Dataset:
+    """Transfer vectors every 25 Hz, (receiver, dof, frequency), by the distance of receivers."""
     coords = {
         "receiver": list(study.receivers),
         "dof": list(RIGID_BODY_DOFS),
-        "frequency": frequency,
-        "distance": ("receiver", np.ones(len(study.receivers))),
+        "frequency": 25.0 * np.arange(1.0, values.shape[-1] + 1.0),
+        "distance": ("receiver", distance),
     }
-    values = gain * 0.01 * size * frequency
     names = ("transfer_vector", "transfer_vector_closed_form")
     error = stamp("transfer_vector_error", 0.01 * np.abs(values), coords)
     return xr.Dataset(

@@ -303,7 +303,7 @@ def test_a_weight_adds_to_what_cannot_be_taken_apart(browser, tmp_path):
     results = floor_run()
     (tmp_path / "page.html").write_bytes(page_of(results))
     open_page(browser, tmp_path / "page.html")
-    assert browser.execute_script("return vibroacoustics.panel.page.mounts") is None
+    assert browser.execute_script("return vibroacoustics.panel.page.mounts_move") is False
     got = np.array(browser.execute_script(EVERY, 0, OF_WEIGHT))
     np.testing.assert_allclose(got, levels_of(results, "weight"), atol=1e-3)
     unfold(browser)

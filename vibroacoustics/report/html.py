@@ -3,7 +3,6 @@
 import base64
 import hashlib
 import re
-from collections.abc import Sequence
 from importlib import resources
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
@@ -11,7 +10,8 @@ from markupsafe import Markup, escape
 
 from .blocks import Text
 from .figures.style import Picture
-from .live.assets import live_scripts, live_style
+from .live.assets import live_script, live_style, unpacking_script
+from .live.numbers import packed
 from .page import Page
 
 
@@ -35,23 +35,24 @@ def html(page: Page, results_sha256: str = "") -> bytes:
         "script_data": _script_data,
     }
     style = resources.files(__package__).joinpath("templates/style.css").read_text("utf-8")
-    scripts: tuple[str, ...] = ()
+    unpacking, script = "", ""
     if any(block.block == "live" for part in page.parts for block in part.blocks):
-        style, scripts = style + live_style(), live_scripts()
+        style, unpacking, script = style + live_style(), unpacking_script(), live_script()
     template = environment.get_template("report.html.j2")
     return template.render(
         page=page,
         style=style,
-        scripts=scripts,
-        policy=_policy(style, scripts),
+        unpacking=unpacking,
+        packed=packed(script.encode()),
+        policy=_policy(style, unpacking, script),
         results_sha256=results_sha256,
     ).encode()
 
 
-def _policy(style: str, scripts: Sequence[str]) -> str:
+def _policy(style: str, *scripts: str) -> str:
     """What a browser may do with the page: show its style and figures, run its scripts alone."""
-    hashes = " ".join(f"'{content_hash(script)}'" for script in scripts)
-    run = f"script-src {hashes}; " if scripts else ""
+    hashes = " ".join(f"'{content_hash(script)}'" for script in scripts if script)
+    run = f"script-src {hashes}; " if hashes else ""
     return (
         f"default-src 'none'; img-src data:; style-src '{content_hash(style)}'; {run}"
         "base-uri 'none'; form-action 'none'"

@@ -9,7 +9,9 @@ import xarray as xr
 from ..base.vocabulary import COORDINATES
 
 SPEEDS_IN_BLOCK: Final = 50
-TIME_SERIES: Final = ("force", "moment", "shaft_speed", "crank_time", "crank_angle")
+TIME_SERIES: Final = (
+    "force", "moment", "shaft_speed", "shaft_acceleration", "crank_time", "crank_angle",
+)  # fmt: skip
 """Left out of the results of many speeds."""
 
 

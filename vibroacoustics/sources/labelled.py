@@ -42,11 +42,13 @@ def force_variables(
     over_angle = {name: coords[name] for name in _OVER_ANGLE}
     rotations = [[cases[s, o].revolution.rotation for o in options] for s in speeds]
     shaft_speed = [[rotation.speed_rad_per_s for rotation in row] for row in rotations]
+    acceleration = [[rotation.acceleration_rad_per_s2 for rotation in row] for row in rotations]
     time = [[rotation.time_s for rotation in row] for row in rotations]
     arrays = {
         "force": stamp("force", wrenches[:, :, 0], coords),
         "moment": stamp("moment", wrenches[:, :, 1], coords),
         "shaft_speed": stamp("shaft_speed", shaft_speed, over_angle),
+        "shaft_acceleration": stamp("shaft_acceleration", acceleration, over_angle),
         "reported_figure": _figures(study, cases, loads),
     }
     return check(xr.Dataset(arrays, coords={"crank_time": (_OVER_ANGLE, time)}))

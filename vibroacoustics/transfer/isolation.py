@@ -96,6 +96,21 @@ class Isolation:
             matrix += motion.T @ (bushing.added_stiffness(frequency_hz).real[:, None] * motion)
         return matrix
 
+    def complex_stiffness(self, frequency_hz: Array | float) -> ComplexArray:
+        """Stiffness with structural losses, shape (..., 6 bodies, 6 bodies), N/m, N and N m.
+
+        Parameters
+        ----------
+        frequency_hz : at least zero, shape (...)
+        """
+        frequency = np.asarray(frequency_hz, dtype=float)
+        moving = (frequency > 0.0)[..., None, None]
+        stiffness = self.stiffness_matrix + 1j * moving * self.structural_damping_matrix
+        for _, motion, bushing in self._over_frequency:
+            added = bushing.added_stiffness(frequency)
+            stiffness += np.einsum("ki,...k,kj->...ij", motion, added, motion)
+        return stiffness
+
     def natural_modes(self) -> tuple[Array, Array]:
         """Undamped natural frequencies (mode,) in Hz, mass-normalised shapes (mode, body, 6).
 
@@ -124,12 +139,8 @@ class Isolation:
         if np.any(frequency == 0.0) and self.natural_modes()[0][0] == 0.0:
             raise SolverError("frequency 0 Hz: a body can move freely, there is no static response")
         omega = 2.0 * np.pi * frequency[..., None, None]
-        dynamic = self.stiffness_matrix - omega**2 * self.mass_matrix + 1j * (
-            (omega > 0.0) * self.structural_damping_matrix + omega * self.damping_matrix
-        )  # fmt: skip
-        for _, motion, bushing in self._over_frequency:
-            added = bushing.added_stiffness(frequency)
-            dynamic += np.einsum("ki,...k,kj->...ij", motion, added, motion)
+        dynamic = self.complex_stiffness(frequency) + 1j * omega * self.damping_matrix
+        dynamic -= omega**2 * self.mass_matrix
         try:
             return np.asarray(np.linalg.inv(dynamic))
         except np.linalg.LinAlgError:

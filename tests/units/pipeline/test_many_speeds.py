@@ -232,7 +232,7 @@ def test_supply_is_unknown_at_a_catalogue_speed_apart(folder):
 
 @pytest.mark.long
 def test_time_series_of_many_speeds_only_on_request(folder, tmp_path, many):
-    series = {"force", "moment", "shaft_speed"}
+    series = {"force", "moment", "shaft_speed", "shaft_acceleration"}
     assert series <= set(many)
     range_of_101 = "speed_rpm = { start = 2800.0, stop = 3000.0, step = 2.0 }\nmaximum_order = 4"
     without = run_at(folder, range_of_101)

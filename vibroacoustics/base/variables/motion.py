@@ -13,6 +13,12 @@ for _thing in (
     Coordinate("body", ("body",), "", "rigid body of the machine"),
     Coordinate("mount_frequency", ("mount_frequency",), "Hz", "frequency of the mounts' response"),
     Variable("shaft_speed", ("speed", "option", "crank_angle"), "rad s-1", "speed of the shaft"),
+    Variable(
+        "shaft_acceleration",
+        ("speed", "option", "crank_angle"),
+        "rad s-2",
+        "angular acceleration of the shaft",
+    ),
     Variable("supply_frequency", ("speed",), "Hz", "frequency of the motor's supply"),
     Variable(
         "velocity_order",

@@ -12,11 +12,16 @@ SCRIPTS: Final = (
 
 
 @cache
-def live_scripts() -> tuple[str, ...]:
-    """uPlot with its licence, and the package's script as one function."""
-    licence = _read("uPlot.LICENSE")
+def unpacking_script() -> str:
+    """What unpacks and runs the other script of the page, with the licence of what is in there."""
+    return f"/*\nuPlot, which this unpacks:\n{_read('uPlot.LICENSE')}*/\n{_read('unpack.js')}"
+
+
+@cache
+def live_script() -> str:
+    """uPlot, and the package's script as one function."""
     parts = "\n".join(map(_read, SCRIPTS))
-    return f"/*\n{licence}*/\n{_read(CHARTS)}", f'(() => {{\n"use strict";\n{parts}}})();\n'
+    return f'{_read(CHARTS)}\n(() => {{\n"use strict";\n{parts}}})();\n'
 
 
 @cache

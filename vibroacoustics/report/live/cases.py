@@ -4,22 +4,22 @@ from typing import Any
 
 import numpy as np
 
-from ...base.arrays import Array, ComplexArray
+from ...base.arrays import ComplexArray
 from .lines import Lines
+from .mounts import is_over_frequency, stiffness_over_frequency
 from .moving import Moving
-from .numbers import FEW_BITS, FULL_BITS, NOTHING, Numbers
-
-DIGITS = 8
-"""Of energies, which are summed."""
+from .numbers import FEW_BITS, LOAD_BITS, NOISE_BITS, Numbers
+from .transmission import beside
 
 
 def case_of(numbers: Numbers, lines: Lines, moving: Moving | None, speed: int) -> dict[str, Any]:
     """One speed with all options.
 
-    Arrays are the numbers of their first elements in `numbers`, by option: `pressure` (microphone,
-    line), `load` (line, 6), `vector` (line, microphone, 6), per velocity where mounts vary and per
-    load elsewhere, `weight` (line; forces at 0° and 90°, moment; axis), `factor` (line), `noise`
-    (microphone, band). A line that is no order has zeros.
+    Arrays are the numbers of their first elements in `numbers`, by option where nothing else is
+    said: `rest` and `modelled` (microphone), `noise` (microphone, band), `pressure` beside that of
+    the loads (microphone, line), `load` (line, 6), `weight` (line; force, moment; axis), `factor`
+    (line); `vector` of all options (line, microphone, 6) and, by machine, `stiffness` over
+    frequency (line, 21). A line that is no order has zeros.
 
     Parameters
     ----------
@@ -28,29 +28,36 @@ def case_of(numbers: Numbers, lines: Lines, moving: Moving | None, speed: int) -
     moving : none where nothing moves
     speed : its number
     """
-    mounted = moving is not None and moving.mounts is not None
     case: dict[str, Any] = {
         "frequency": [round(float(hertz), 9) for hertz in lines.frequency_hz],
         "order": [None if np.isnan(order) else float(order) for order in lines.order],
-        "rest": _rounded(lines.rest),
-        "modelled": _rounded(lines.modelled_rest),
-        "noise": [numbers.put(of_option, FEW_BITS) for of_option in lines.noise],
-        "pressure": [NOTHING if mounted else numbers.put(one) for one in lines.pressure],
+        "rest": [numbers.put(of_option) for of_option in lines.rest],
+        "modelled": [numbers.put(of_option) for of_option in lines.modelled_rest],
+        "noise": [numbers.put(of_option, NOISE_BITS) for of_option in lines.noise],
     }
     if moving is None:
-        return case
-    vectors = moving.transmission.vector[None] if mounted else moving.pressure_per_load
-    for o, option in enumerate(moving.machines.option):
-        machine = 0 if mounted else moving.machines.number(option)
-        parts = {"vector": (vectors[machine, speed], FEW_BITS)}
-        if mounted:
-            parts["load"] = (moving.transmission.load[speed, o], FULL_BITS)
-        if moving.unit_loads is not None:
-            parts["weight"] = (moving.unit_loads[speed, o], FULL_BITS)
-        for name, (values, bits) in parts.items():
-            case.setdefault(name, []).append(numbers.put(_by_line(lines, values), bits))
-        factor = moving.machines.amplitude_factor(option, lines.frequency_hz)
-        case.setdefault("factor", []).append(numbers.put_unless(factor, 1.0))
+        return case | {"pressure": [numbers.put(one, FEW_BITS) for one in lines.pressure]}
+    return case | _moving_case(numbers, lines, moving, speed)
+
+
+def _moving_case(numbers: Numbers, lines: Lines, moving: Moving, speed: int) -> dict[str, Any]:
+    of_run, machines = moving.transmission, moving.machines
+    load = [_by_line(lines, one) for one in of_run.load[speed]]
+    factor = [machines.amplitude_factor(name, lines.frequency_hz) for name in machines.option]
+    of_loads = np.array([_by_line(lines, one).T for one in of_run.pressure[speed]])
+    others = beside(lines.pressure, of_loads)
+    case: dict[str, Any] = {
+        "vector": numbers.put(_by_line(lines, of_run.vector[speed]), FEW_BITS),
+        "load": [numbers.put(one, LOAD_BITS) for one in load],
+        "factor": [numbers.put_unless(one, 1.0) for one in factor],
+        "pressure": [numbers.put_unless(one, 0.0, FEW_BITS) for one in others],
+    }
+    if moving.unit_loads is not None:
+        weight = [_by_line(lines, one) for one in moving.unit_loads[speed]]
+        case["weight"] = [numbers.put(one, LOAD_BITS) for one in weight]
+    if any(map(is_over_frequency, machines.different)):
+        at_lines = (stiffness_over_frequency(one, lines.frequency_hz) for one in machines.different)
+        case["stiffness"] = [numbers.put(one, LOAD_BITS) for one in at_lines]
     return case
 
 
@@ -61,7 +68,3 @@ def _by_line(lines: Lines, values: ComplexArray) -> ComplexArray:
     chosen = np.where(known, lines.order, 0).astype(int)
     shape = (-1, *[1] * (values.ndim - 1))
     return np.asarray(by_order[chosen] * known.reshape(shape))
-
-
-def _rounded(values: Array) -> list[list[float]]:
-    return [[float(f"{value:.{DIGITS}g}") for value in row] for row in values]

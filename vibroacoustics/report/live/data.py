@@ -24,10 +24,10 @@ _CREST: Final = 4.0
 def live_data(results: xr.Dataset) -> str:
     """JSON for the script of the page.
 
-    Lines are those of all sources together at the speeds and microphones that are shown. Where the
-    moving parts alone sound, on mounts of constant stiffness, the page holds loads, matrices of the
-    mounts and pressure per velocity, and mounts can be varied; else it holds the pressure of each
-    option and what a weight adds to it. With a baseline or measured sound by force nothing varies.
+    Lines are those of all sources together at the speeds and microphones that are shown. The page
+    holds loads of the moving parts, matrices of the mounts, pressure per velocity and the pressure
+    of other sources. With a baseline or measured sound by force nothing varies, and it holds the
+    pressure of each option.
 
     Parameters
     ----------
@@ -46,8 +46,9 @@ def live_data(results: xr.Dataset) -> str:
     }
     if moving is not None and moving.weight is not None:
         page["weight"] = moving.weight._asdict()
-    if moving is not None and moving.mounts is not None:
+    if moving is not None:
         page["mounts"] = [put_matrices(one) for one in moving.mounts]
+        page["mounts_move"] = moving.mounts_move
         page["machine"] = [moving.machines.number(name) for name in page["options"]]
     always = frozenset() if moving is None else moving.orders()
     lines = [lines_at(shown, speed, bands, always) for speed in page["speeds"]]

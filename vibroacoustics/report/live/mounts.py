@@ -4,9 +4,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...base.arrays import Array
+from ...base.arrays import Array, ComplexArray
 from ...machine.machine import Machine
-from ...transfer import on_mounts
+from ...transfer import MachineOnMounts, on_mounts
 
 
 class MountMatrices(NamedTuple):
@@ -28,16 +28,35 @@ class MountMatrices(NamedTuple):
     values: tuple[float, float, float]
 
 
-def mount_matrices(machine: Machine) -> MountMatrices | None:
-    """Matrices of a machine; none where its mounts are no constants or the floor gives way.
+def is_over_frequency(machine: MachineOnMounts) -> bool:
+    """Whether the mounts are no constants or the floor gives way."""
+    return machine.stand.is_over_frequency or machine.floor is not None
+
+
+def stiffness_over_frequency(machine: MachineOnMounts, frequency_hz: Array) -> ComplexArray:
+    """Stiffness of the body on the feet, with losses, as rows of its lower triangle.
+
+    Parameters
+    ----------
+    machine : on its mounts
+    frequency_hz : shape (line,)
+
+    Returns
+    -------
+    shape (line, 21)
+    """
+    rows, columns = np.tril_indices(6)
+    return machine.isolation.complex_stiffness(frequency_hz)[..., rows, columns]
+
+
+def mount_matrices(machine: Machine) -> MountMatrices:
+    """Matrices of a machine; where they change with frequency, those of constant stiffness.
 
     Parameters
     ----------
     machine : with mounts or feet
     """
     stand = on_mounts(machine)
-    if stand.stand.is_over_frequency or stand.floor is not None:
-        return None
     mounts = machine.mounts
     values = (
         mounts.lateral_stiffness_n_per_m,

@@ -10,8 +10,8 @@ from ...base.arrays import ComplexArray
 from ...base.vocabulary import REFERENCE_OPTION
 from ..study import options, parameters
 from .machines import Machines, machines_of
-from .mounts import MountMatrices, mount_matrices
-from .transmission import Transmission, transmission_of, velocity_per_load
+from .mounts import MountMatrices, is_over_frequency, mount_matrices
+from .transmission import Transmission, transmission_of
 from .weight import Weight, unit_loads, weight_of
 
 
@@ -32,8 +32,8 @@ class Moving:
 
     @cached_property
     def weight(self) -> Weight | None:
-        """Range of a weight; none where the results keep no speed over crank angle."""
-        if "shaft_speed" not in self.results:
+        """Range of a weight; none where the results keep no rotation over crank angle."""
+        if "shaft_acceleration" not in self.results:
             return None
         force = self.results["force_amplitude"].sel(option=REFERENCE_OPTION, order=1).values
         machine = self.machines.machine[REFERENCE_OPTION]
@@ -41,7 +41,7 @@ class Moving:
 
     @cached_property
     def unit_loads(self) -> ComplexArray | None:
-        """Loads of a unit weight, shape (speed, option, 3, axis, order)."""
+        """Loads of a unit weight, shape (speed, option, 2, axis, order)."""
         if self.weight is None:
             return None
         return np.array(
@@ -52,21 +52,25 @@ class Moving:
         )
 
     @cached_property
-    def mounts(self) -> list[MountMatrices] | None:
-        """Matrices of the different machines; none where mounts cannot be varied.
+    def mounts(self) -> list[MountMatrices]:
+        """Matrices of the different machines."""
+        names = options(self.results)
+        number = [self.machines.number(name) for name in names]
+        first = [names[number.index(one)] for one in range(len(self.machines.different))]
+        return [mount_matrices(self.machines.machine[name]) for name in first]
+
+    @cached_property
+    def mounts_move(self) -> bool:
+        """Whether stiffness and loss of the mounts can be varied.
 
         They cannot where more than the moving parts sounds: what other sources do to the machine on
         its mounts is not in the results.
         """
+        if any(map(is_over_frequency, self.machines.different)):
+            return False
         dims = ("speed", "option", "receiver", "line")
         pressure = self.results["pressure_line"].sum("sound_source").transpose(*dims).values
-        if not self.transmission.is_all_of(pressure):
-            return None
-        names = options(self.results)
-        number = [self.machines.number(name) for name in names]
-        first = [names[number.index(one)] for one in range(len(self.machines.different))]
-        matrices = [mount_matrices(self.machines.machine[name]) for name in first]
-        return [one for one in matrices if one is not None] if None not in matrices else None
+        return self.transmission.is_all_of(pressure)
 
     def orders(self) -> frozenset[float]:
         """Those that a weight has."""
@@ -77,21 +81,10 @@ class Moving:
         orders = self.results["order"].values
         return frozenset(map(float, orders[loaded & sounds & (orders > 0)]))
 
-    @cached_property
-    def pressure_per_load(self) -> ComplexArray:
-        """Of each different machine, shape (machine, speed, receiver, 6, order), Pa/N, Pa/(N m)."""
-        hertz = self.transmission.frequency_hz
-        return np.array(
-            [
-                np.einsum(
-                    "srdn,sdln->srln", self.transmission.vector, velocity_per_load(stand, hertz)
-                )
-                for stand in self.machines.different
-            ]
-        )
-
     def _unit_loads(self, speed: float, option: str, weight: Weight) -> ComplexArray:
-        at = self.results[["shaft_speed", "order"]].sel(speed=speed, option=option)
+        at = self.results[["shaft_speed", "shaft_acceleration", "order"]].sel(
+            speed=speed, option=option
+        )
         return unit_loads(self.machines.machine[option], at, weight)
 
 

@@ -25,7 +25,8 @@ class Transmission:
     frequency_hz : of the orders, shape (speed, order)
     load : force and moment of all moving parts on their body, shape (speed, option, 6, order)
     velocity : of the body on the feet, of the same shape
-    vector : pressure per velocity, shape (speed, receiver, 6, order), Pa s/m
+    vector : pressure per velocity, zero at orders that the run did not take along, shape (speed,
+        receiver, 6, order), Pa s/m
     pressure : of the loads behind the option's insertion loss, (speed, option, receiver, order), Pa
     """
 
@@ -74,6 +75,8 @@ def transmission_of(results: xr.Dataset, machines: Machines) -> Transmission:
     held = frequency.clip(max=float(table["frequency"].max()))
     vector = interpolate_transfer_vector(table, held)
     vector_at = vector.transpose("speed", "receiver", "dof", "order").values
+    load = np.concatenate([force, moment], axis=2)
+    vector_at = vector_at * _taken(load)[:, None, None]
     velocity = results["velocity_order"].sum("source").transpose(*_DIMS).values
     factor = np.array(
         [
@@ -82,8 +85,18 @@ def transmission_of(results: xr.Dataset, machines: Machines) -> Transmission:
         ]
     )
     pressure = np.einsum("srdn,sodn,son->sorn", vector_at, velocity, factor)
-    load = np.concatenate([force, moment], axis=2)
     return Transmission(frequency.values, load, velocity, vector_at, pressure)
+
+
+def beside(all_together: ComplexArray, part: ComplexArray) -> ComplexArray:
+    """What there is beside a part of it, zero where it is rounding.
+
+    Parameters
+    ----------
+    all_together, part : of any one shape
+    """
+    others = all_together - part
+    return np.where(np.abs(others) > SAME * np.abs(all_together), others, 0.0)
 
 
 def velocity_per_load(machine: MachineOnMounts, frequency_hz: Array) -> ComplexArray:
@@ -103,6 +116,12 @@ def velocity_per_load(machine: MachineOnMounts, frequency_hz: Array) -> ComplexA
     unit = np.broadcast_to(np.eye(6, dtype=complex)[:, None, None], (6, *frequency.shape, 6))
     velocity = machine.response(unit, frequency).velocity  # (load, speed, order, velocity)
     return np.asarray(np.moveaxis(velocity * moves[..., None], (0, 3), (2, 1)))
+
+
+def _taken(load: ComplexArray) -> Array:
+    """1 up to the highest order that is loaded at a speed, 0 above, shape (speed, order)."""
+    loaded = np.any(load != 0.0, axis=(1, 2))
+    return np.maximum.accumulate(loaded[:, ::-1], axis=1)[:, ::-1].astype(float)
 
 
 def _same(one: ComplexArray, other: ComplexArray) -> bool:

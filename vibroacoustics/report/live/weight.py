@@ -8,7 +8,7 @@ import xarray as xr
 from ...base.arrays import Array, ComplexArray
 from ...machine.machine import Machine
 from ...mechanics.capabilities import Slider
-from ...mechanics.moving_parts import circling, derivative, wrench
+from ...mechanics.moving_parts import circling, wrench
 from ...mechanics.rotation import Rotation
 from ...orders.spectrum import order_spectrum_at_speed
 
@@ -61,32 +61,27 @@ def weight_of(machine: Machine, force_1x_n: Array, speed_rpm: Array) -> Weight:
 
 
 def unit_loads(machine: Machine, results: xr.Dataset, weight: Weight) -> ComplexArray:
-    """Loads of 1 kg m on the shaft: force ahead of the pin by 0° and by 90°, and a moment.
+    """Loads of 1 kg m on the shaft, above the pin: a force and a moment.
 
-    The force of any angle is that of 0° times its cosine and that of 90° times its sine; its moment
-    follows from the point of the shaft at the weight's height. About the shaft a weight that speeds
-    up and slows down makes m r² times the shaft's acceleration besides, wherever it is.
+    The force of any angle is that at the pin, turned about the shaft; its moment follows from the
+    point of the shaft at the weight's height. About the shaft a weight that speeds up and slows
+    down makes m r² times the shaft's acceleration besides, wherever it is.
 
     Parameters
     ----------
     machine : on whose shaft it turns
-    results : at one speed with one option, whose shaft turns it: `shaft_speed`, `order`
+    results : at one speed with one option, whose shaft turns it: `shaft_speed`,
+        `shaft_acceleration`, `order`
     weight : its radius
 
     Returns
     -------
-    shape (3: force at 0°, force at 90°, moment; axis, order), N and N m, complex peaks
+    shape (2: force and moment, axis, order), N and N m, complex peaks
     """
     speed = results["shaft_speed"].values
-    steady = np.ptp(speed) <= 1e-12 * speed[0]
-    acceleration = np.zeros_like(speed) if steady else speed * derivative(speed, 1)
-    rotation = Rotation(speed, acceleration)
+    rotation = Rotation(speed, results["shaft_acceleration"].values)
     radius, frame = weight.radius_m, machine.crank_frame._replace(origin_m=(0.0, 0.0, 0.0))
-    made = []
-    for angle in (0.0, np.pi / 2.0):
-        crank_angle = rotation.crank_angle + angle
-        part = circling("weight", 1.0 / radius, radius, 0.0, crank_angle, frame)
-        made.append(wrench((part,), rotation))
-    loads = np.array([made[0].force_n, made[1].force_n, made[0].moment_n_m])
+    part = circling("weight", 1.0 / radius, radius, 0.0, rotation.crank_angle, frame)
+    loads = np.array(wrench((part,), rotation))
     lines = order_spectrum_at_speed(loads, speed, int(results["order"].max()))
     return np.where(np.abs(lines) > ROUNDING * np.max(np.abs(lines)), lines, 0.0)

@@ -65,7 +65,7 @@ function speedChart(target) {
 function spectrum(model, s, m, compared, live) {
   const one = model.page.cases[s], { bands } = model.page;
   const first = one.noise[live.option] + m * bands.length;
-  const square = Math.max(one.rest[live.option][m], 0);
+  const square = Math.max(model.numbers[one.rest[live.option] + m], 0);
   const part = bands.map((hertz, band) => model.numbers[first + band] * aPower(hertz));
   const gain = square / Math.max(part.reduce((sum, value) => sum + value, 0), 1e-30);
   const rows = one.frequency.map((hertz, i) => [hertz, compared.line[i], live.line[i], null]);

@@ -1,11 +1,9 @@
 // Lines and levels of a case from the numbers of the page, as the pipeline computes them.
 const REFERENCE = 4e-10; // 20 µPa squared, Pa²
 
-// Floats whose first bytes stand first, then the second ones and so on, deflated, in base64.
+// Floats whose first bytes stand first, then the second ones and so on.
 async function decoded(text) {
-  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  const planes = new Uint8Array(await new Response(stream).arrayBuffer());
+  const planes = await unpacked(text);
   const count = planes.length / 4, sorted = new Uint8Array(planes.length);
   for (let i = 0; i < count; i++) {
     for (let byte = 0; byte < 4; byte++) sorted[4 * i + byte] = planes[byte * count + i];
@@ -73,7 +71,7 @@ class Model {
   constructor(page, numbers) {
     Object.assign(this, { page, numbers });
     this.weighting = page.cases.map((one) => one.frequency.map(aPower));
-    const n = page.mounts ? Math.max(...page.mounts.map((one) => one.size)) : 0;
+    const n = Math.max(0, ...(page.mounts || []).map((one) => one.size));
     const room = (size) => new Float64Array(size);
     this.room = { a: room(n * n), b: room(n * n), c: room(n), d: room(n), six: room(12), force: room(6) };
   }
@@ -88,35 +86,38 @@ class Model {
   // Load of the option and of a weight at a line into six complex numbers; whether there is one.
   load(one, values, line, sum) {
     const { numbers } = this, { option } = values;
-    sum.fill(0);
-    if (one.load) {
-      const first = one.load[option] + 12 * line;
-      for (let i = 0; i < 12; i++) sum[i] = numbers[first + i];
-    }
-    if (one.weight && values.moment > 0) this.weight(one.weight[option] + 18 * line, values, sum);
+    const first = one.load[option] + 12 * line;
+    for (let i = 0; i < 12; i++) sum[i] = numbers[first + i];
+    if (one.weight && values.moment > 0) this.weight(one.weight[option] + 12 * line, values, sum);
     return sum.some((value) => value !== 0);
   }
 
+  // The unit weight's force turned about the shaft, and its moment about the centre of mass.
   weight(unit, values, sum) {
     const { numbers } = this, { force } = this.room, { origin_m: origin, shaft } = this.page.weight;
-    const turn = [values.moment * Math.cos(values.angle), values.moment * Math.sin(values.angle)];
-    for (let i = 0; i < 6; i++) {
-      force[i] = turn[0] * numbers[unit + i] + turn[1] * numbers[unit + 6 + i];
-      sum[i] += force[i];
-    }
-    const arm = origin.map((from, i) => from + values.height * shaft[i]);
+    const { moment, height } = values;
+    const along = moment * Math.cos(values.angle), across = moment * Math.sin(values.angle);
     for (let i = 0; i < 3; i++) {
       const j = (i + 1) % 3, k = (i + 2) % 3;
+      for (let part = unit; part < unit + 2; part++) {
+        force[2 * i + part - unit] = along * numbers[part + 2 * i]
+          + across * (shaft[j] * numbers[part + 2 * k] - shaft[k] * numbers[part + 2 * j]);
+      }
+    }
+    for (let i = 0; i < 3; i++) {
+      const j = (i + 1) % 3, k = (i + 2) % 3;
+      const y = origin[j] + height * shaft[j], z = origin[k] + height * shaft[k];
       for (let part = 0; part < 2; part++) {
-        sum[6 + 2 * i + part] += arm[j] * force[2 * k + part] - arm[k] * force[2 * j + part]
-          + values.moment * numbers[unit + 12 + 2 * i + part];
+        sum[2 * i + part] += force[2 * i + part];
+        sum[6 + 2 * i + part] += y * force[2 * k + part] - z * force[2 * j + part]
+          + moment * numbers[unit + 6 + 2 * i + part];
       }
     }
   }
 
   // Velocity of the body on the feet, in place of the load on that with the mechanism.
-  velocity(values, six, hertz) {
-    const mounts = this.page.mounts[this.page.machine[values.option]];
+  velocity(values, six, hertz, line, stiffness) {
+    const machine = this.page.machine[values.option], mounts = this.page.mounts[machine];
     const n = mounts.size, omega = 2 * Math.PI * hertz, { a, b, c, d } = this.room;
     const { lateral, vertical, loss } = values;
     for (let i = 0; i < n * n; i++) {
@@ -124,11 +125,23 @@ class Model {
       a[i] = springs + mounts.rest[i] - omega * omega * mounts.mass[i];
       b[i] = loss * springs + mounts.rest_loss[i] + omega * mounts.damping[i];
     }
+    if (stiffness) this.stiffen(stiffness[machine] + 42 * line, mounts, omega);
     c.fill(0);
     d.fill(0);
     for (let i = 0; i < 6; i++) { c[n - 6 + i] = six[2 * i]; d[n - 6 + i] = six[2 * i + 1]; }
     solve(n, a, b, c, d);
     for (let i = 0; i < 6; i++) { six[2 * i] = -omega * d[i]; six[2 * i + 1] = omega * c[i]; }
+  }
+
+  // The body on the feet, where their stiffness changes with frequency: a lower triangle by rows.
+  stiffen(at, mounts, omega) {
+    const { numbers } = this, { a, b } = this.room, n = mounts.size;
+    for (let i = 0; i < 6; i++) {
+      for (let j = 0; j <= i; j++, at += 2) {
+        a[i * n + j] = a[j * n + i] = numbers[at] - omega * omega * mounts.mass[i * n + j];
+        b[i * n + j] = b[j * n + i] = numbers[at + 1] + omega * mounts.damping[i * n + j];
+      }
+    }
   }
 
   // Complex peaks in Pa at every microphone and line of a speed: real and imaginary in turn.
@@ -137,13 +150,13 @@ class Model {
     const microphones = this.page.microphones.length;
     const sound = new Float64Array(2 * microphones * lines), given = one.pressure[values.option];
     if (given >= 0) sound.set(numbers.subarray(given, given + sound.length));
-    if (!one.vector) return sound;
+    if (!one.load) return sound;
     const factor = one.factor[values.option];
     for (let line = 0; line < lines; line++) {
       if (!this.load(one, values, line, six)) continue;
-      if (this.page.mounts) this.velocity(values, six, one.frequency[line]);
+      this.velocity(values, six, one.frequency[line], line, one.stiffness);
       const left = factor < 0 ? 1 : numbers[factor + line];
-      let at = one.vector[values.option] + 12 * microphones * line;
+      let at = one.vector + 12 * microphones * line;
       for (let m = 0; m < microphones; m++) {
         let re = 0, im = 0;
         for (let i = 0; i < 12; i += 2, at += 2) {
@@ -173,8 +186,8 @@ class Model {
       }
       const { option } = values;
       return {
-        total: level(one.rest[option][m] + sum),
-        modelled: level(one.modelled[option][m] + sum),
+        total: level(this.numbers[one.rest[option] + m] + sum),
+        modelled: level(this.numbers[one.modelled[option] + m] + sum),
         line,
       };
     });
@@ -197,7 +210,7 @@ class Model {
     }
     const first = one.noise[values.option] + m * bands.length;
     const noise = Array.from(this.numbers.subarray(first, first + bands.length));
-    const rest = Math.max(one.rest[values.option][m], 0);
+    const rest = Math.max(this.numbers[one.rest[values.option] + m], 0);
     return { shaft: this.page.speeds[s] / 60, orders, tones, noise, rest };
   }
 }

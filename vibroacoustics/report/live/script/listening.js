@@ -91,5 +91,4 @@ async function begin(data) {
   window.vibroacoustics = { panel, rendered, Voice, Abx };
 }
 
-const liveData = document.getElementById("live-data");
-if (liveData) begin(liveData);
+begin(document.getElementById("live-data"));

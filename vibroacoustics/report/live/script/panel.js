@@ -30,7 +30,7 @@ class Panel {
 
   // Each slider: least, greatest, step, words for its value; logarithmic ones go by their exponent.
   sliders() {
-    const { weight, mounts } = this.page;
+    const { weight, mounts_move: moves } = this.page;
     const grams = weight ? 1e6 * weight.moment_kg_m : 0;
     const exact = (unit, digits) => (value) => `${value.toFixed(digits)} ${unit}`;
     this.ranges = {
@@ -46,7 +46,7 @@ class Panel {
     }
     Object.entries(this.ranges).forEach(([name, [least, greatest, step]]) => {
       const slider = this.at(name);
-      const shown = ["moment", "angle", "height"].includes(name) ? weight : mounts;
+      const shown = ["moment", "angle", "height"].includes(name) ? weight : moves;
       slider.closest("label").hidden = !shown;
       Object.assign(slider, { min: least, max: greatest, step });
       slider.addEventListener("input", () => {
@@ -54,8 +54,8 @@ class Panel {
         this.changed(false);
       });
     });
-    this.at("fixed").hidden = Boolean(mounts);
-    this.at("unmoved").hidden = Boolean(weight || mounts);
+    this.at("fixed").hidden = Boolean(moves);
+    this.at("unmoved").hidden = Boolean(weight || moves);
   }
 
   // What the sliders say, in SI; stiffness to three digits, as the option's text has it.
