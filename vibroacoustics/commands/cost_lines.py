@@ -23,6 +23,11 @@ def study_lines(study: Study) -> Iterator[str]:
         f"cases: {speeds} speeds x {options} options at {len(study.receivers)} microphones, "
         f"sources: {', '.join(['moving_parts', *study.sources])}"
     )
+    if study.machine.overall_noise is None:
+        yield (
+            "level: none is published (overall_noise): levels hold what the model holds, at "
+            f"{study.catalogue_receiver} and {study.catalogue_speed_rpm:g} rpm first"
+        )
     yield f"draws: {draws_text(study)}"
 
 
