@@ -12,6 +12,7 @@ from .baseline import not_measured
 from .carrier import sure_sentence
 from .column_values import column
 from .comparison import comparison
+from .drawn_words import not_drawn_sentence
 from .option_verdict import MIXED, NO_CHANGE, WORSE, OptionVerdict
 from .quantities import FOOT_FORCE, FORCE, HEARD_DB, LINE, MOMENT, TOLERANCE_DB, TOTAL
 from .ranking_words import ranking_sentence
@@ -67,7 +68,7 @@ def reasons(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> list[str]
         texts += [shares_sentence(results), left_out_sentence(results)]
         texts[:0] = _of_sources(results)
     else:
-        texts.append(_remainder(results))
+        texts += filter(None, [_remainder(results), not_drawn_sentence(results)])
     if not verdicts:
         return texts
     return [*texts, _forces(results), *_warnings(verdicts), ranking_sentence(results, verdicts)]

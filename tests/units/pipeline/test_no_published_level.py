@@ -8,7 +8,7 @@ from support import TINY, made_up_radiation
 from vibroacoustics import pipeline, report
 from vibroacoustics.base.decibel import SILENCE_DB
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.commands.cost_lines import study_lines
+from vibroacoustics.commands.cost_lines import draws_text, study_lines
 from vibroacoustics.report.data_sheet.files import headline
 from vibroacoustics.report.data_sheet.sheet import data_sheet
 from vibroacoustics.report.evidence import rungs
@@ -90,6 +90,17 @@ def test_the_data_sheet_says_so(rigid):
     sheet = data_sheet(rigid, "none", 2900.0)
     assert sheet.sound_power.rest == "none"
     assert headline(sheet).endswith("of what is modelled alone.")
+
+
+def test_ranges_that_are_not_drawn_are_told(rigid):
+    study = load_study(TINY)
+    ranges = sum(record.lowest is not None for record in study.records)
+    assert ranges > 1
+    assert f"none, though {ranges} values have a range" in draws_text(study)
+    count = sum(record.lowest is not None for record in load_study(TINY).replace(NO_LEVEL).records)
+    assert f"{count} values have a range; they are not drawn" in text_of(rigid)
+    words = data_sheet(rigid, "none", 2900.0).sound_power.uncertainty_words
+    assert words.startswith(f"nothing was drawn: K is not known. {count} values have a range")
 
 
 def test_what_contradicts_it_is_refused():

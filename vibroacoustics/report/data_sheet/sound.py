@@ -13,6 +13,7 @@ from ...base.quantiles import weighted_quantiles
 from ...base.rounding import LEVEL_FLOOR_DB
 from ...levels.by_source import membership
 from ...levels.measured_power import BANDS
+from ..drawn_words import not_drawn_sentence
 from ..study import has_draws, overall_noise, parameters
 from .model import BandPower, SoundPower
 
@@ -152,7 +153,8 @@ def _kind_of_rest(case: xr.Dataset) -> tuple[Rest, str]:
 
 def _uncertainty(case: xr.Dataset, surface_m2: Array, level: float) -> tuple[float | None, str]:
     if not has_draws(case):
-        return None, "nothing was drawn: K is not known"
+        why = not_drawn_sentence(case)
+        return None, "nothing was drawn: K is not known" + (f". {why[:-1]}" if why else "")
     by_draw = case["level_total_by_draw"].transpose("draw", "receiver").values
     weight = case["draw_weight"].values[0]
     drawn = power_db(by_draw, surface_m2)
