@@ -23,6 +23,11 @@ def study_lines(study: Study) -> Iterator[str]:
         f"cases: {speeds} speeds x {options} options at {len(study.receivers)} microphones, "
         f"sources: {', '.join(['moving_parts', *study.sources])}"
     )
+    if study.machine.overall_noise is None:
+        yield (
+            "level: none is published (overall_noise): levels hold what the model holds, at "
+            f"{study.catalogue_receiver} and {study.catalogue_speed_rpm:g} rpm first"
+        )
     yield f"draws: {draws_text(study)}"
 
 
@@ -30,7 +35,9 @@ def draws_text(study: Study) -> str:
     """How many values are drawn how often."""
     if not study.ranges:
         if not study.sources:
-            return "none: ranges are drawn where a study has sources of sound, [sources.NAME]"
+            ranges = sum(record.lowest is not None for record in study.records)
+            though = f", though {ranges} values have a range" if ranges else ""
+            return f"none{though}: values are drawn where a study has sources, [sources.NAME]"
         return "none: no value that is read has a range that is drawn"
     drawn, wanted = len(study.ranges), study.uncertainty.random_samples
     held = len(study.held_ranges)

@@ -41,7 +41,11 @@ def _of_channel(channel: xr.DataArray, sample_rate_hz: float) -> str:
     judged = [tone for tone in tones(recorded_spectrum(bands)) if tone.noise_ratio_db > 0.0]
     rows = tuple((*tone_row(tone), _which(tone)) for tone in judged[:MOST_TONES])
     caption = f"{name}: {len(judged)} tones above the noise of their critical band"
-    text = to_text(Table(caption, (*TONE_HEAD, "prominent"), rows, frozenset({0, 5})))
+    text = (
+        to_text(Table(caption, (*TONE_HEAD, "prominent"), rows, frozenset({0, 5})))
+        if rows
+        else f"{name}: no tone stands above the noise of its critical band\n"
+    )
     if not available():
         return text
     loud = recorded_loudness(bands)

@@ -22,6 +22,13 @@ STUDY_NAME: Final = "study.toml"
 MACHINE_NAME: Final = "machine.toml"
 SCHEMAS_NAME: Final = "schemas"
 _SHIPPED: Final = re.compile(r'"(?:\.\./)+(?:data/)?(machines|tables)/([^"]+)"')
+_ASSUMED_LEVEL: Final = re.compile(r'(?m)^level_dba = .*source = "assumed')
+_OF_THE_LEVEL: Final = re.compile(r"(?m)^\[(?:overall_noise|remainder)\]\n(?:\w.*\n)+")
+_CATALOGUE: Final = re.compile(r"(?m)^(catalogue_receiver = .*)$")
+_NO_LEVEL: Final = """\
+# The level of your whole machine, where a catalogue or a measurement gives one; what the model
+# leaves of it is then added. Without these two tables levels hold only what the model holds.
+"""
 _HEAD: Final = """\
 #:schema {schemas}/{schema}.json
 # From {name} of vibroacoustics: put the values of your machine in place of these.
@@ -56,6 +63,7 @@ def starting_files(kind: str) -> dict[str, bytes]:
         if _new_name(folder, file) not in files:
             pending += _SHIPPED.findall(text)
             files[_new_name(folder, file)] = text
+    files = _without_assumed_level(files)
     machine = next(file for folder, file in _SHIPPED.findall(study) if folder == "machines")
     named = {
         STUDY_NAME: ("study", f"pipelines/{name}"),
@@ -79,6 +87,20 @@ def _without_published(text: str) -> str:
     """A study without the published values of the machine that it was made for."""
     text = re.sub(r"(?m)^# Published values.*\n\[evidence\]\n(?:.+\n)*\n?", "", text)
     return re.sub(r'(?m)^\[scoring\]\npublished_table = ".*"\n\n?', "", text)
+
+
+def _without_assumed_level(files: dict[str, str]) -> dict[str, str]:
+    """Files whose machine gives no level that was assumed; what gave it stays as a comment."""
+    if not _ASSUMED_LEVEL.search(files[MACHINE_NAME]):
+        return files
+    machine = _OF_THE_LEVEL.sub(lambda table: _commented(table[0]), files[MACHINE_NAME])
+    machine = machine.replace("# [overall_noise]", f"{_NO_LEVEL}# [overall_noise]")
+    study = _CATALOGUE.sub(r"# \1  # with overall_noise in machine.toml", files[STUDY_NAME])
+    return {**files, MACHINE_NAME: machine, STUDY_NAME: study}
+
+
+def _commented(text: str) -> str:
+    return "".join(f"# {line}" for line in text.splitlines(keepends=True))
 
 
 def _rewritten(text: str, schema: str = "", name: str = "") -> str:

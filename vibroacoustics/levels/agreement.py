@@ -46,6 +46,10 @@ PRIOR_NAMES: Final = ("flat", "near")
 """The first one is that of the bands; the others tell how much they hang on it."""
 
 
+ALL_ALIKE: Final = Prior("even", "of none, as no level is published", np.ones_like)
+"""Where nothing is published that weighs draws."""
+
+
 def priors_of(remainder: Remainder) -> tuple[Prior, ...]:
     """The priors of a machine's remainder, in the order of their names."""
     lowest, highest = remainder.flat_lowest_db, remainder.flat_highest_db

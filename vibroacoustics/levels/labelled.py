@@ -11,7 +11,6 @@ from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level, sound_pressure_level
 from ..base.vocabulary import REFERENCE_OPTION, WEIGHTINGS, check, stamp
 from ..machine.source import CaseKey
-from .agreement import PRIOR_NAMES
 from .axes import LevelAxes
 from .by_source import A_FIRST, SourceSound
 from .weighting import WEIGHTING
@@ -100,6 +99,7 @@ def draw_variables(
     remaining: Array,
     remainder: Array,
     weight: Array,
+    prior_names: Sequence[str],
 ) -> xr.Dataset:
     """A-weighted levels of every draw.
 
@@ -113,9 +113,10 @@ def draw_variables(
         receiver)
     remainder : the same at the published point without an option, shape (prior, draw), Pa²
     weight : of the draws, shape (prior, draw)
+    prior_names : of the remainder
     """
     draws: dict[str, Any] = {"draw": np.arange(1, len(sounds) + 1)}
-    by_prior = {"prior": list(PRIOR_NAMES), **draws}
+    by_prior = {"prior": list(prior_names), **draws}
     by_receiver = {**draws, **axes.by_receiver}
     alone = np.array([axes.gathered(sound, "alone") for sound in sounds])
     modelled = np.array([axes.gathered(sound, "part")[:, :, 0].sum(axis=2) for sound in sounds])

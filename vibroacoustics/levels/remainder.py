@@ -13,12 +13,13 @@ from ..machine.source import CaseKey
 from ..study.draws import with_draw
 from ..study.sampling import Draw
 from ..study.study import Study
-from .agreement import priors_of, remainder_level
+from .agreement import remainder_level
 from .axes import LevelAxes
 from .baseline import points_of, with_baseline
 from .by_source import SourceSound
 from .insertion_loss import remaining_factor
 from .measured_points import REMAINDER_BANDS
+from .published import published_of
 from .weighting import WEIGHTING
 
 
@@ -26,6 +27,8 @@ def remainder(
     study: Study, axes: LevelAxes, sound: Mapping[CaseKey, SourceSound], may_be_none: bool
 ) -> float:
     """Mean square that the model leaves of the published level at its microphone and speed, Pa².
+
+    None without a published level.
 
     Parameters
     ----------
@@ -40,6 +43,8 @@ def remainder(
         The model alone is louder.
     """
     published = study.machine.overall_noise
+    if published is None:
+        return 0.0
     receiver = list(axes.receivers).index(study.catalogue_receiver)
     alone = sound[study.catalogue_case].total[0, receiver]
     rest = REFERENCE_PRESSURE_PA**2 * power_of_level(published.level_dba) - alone
@@ -78,7 +83,7 @@ def remaining(
     middle_hz = np.array([band.middle_hz for band in REMAINDER_BANDS])
     modelled = _a_weighted_bands(sound[study.catalogue_case].band[:, receiver].sum(axis=0), axes)
     spectrum = spectrum_left(machine.remainder.spectrum(middle_hz), modelled, rest)
-    published_rpm = study.machine.overall_noise.speed_rpm
+    published_rpm = study.catalogue_speed_rpm
     growth = machine.remainder.speed_factor(np.array(axes.speeds), published_rpm)
     factor = remaining_factor(study.options, middle_hz)
     return np.asarray(growth[:, None, None] * factor * spectrum)
@@ -132,6 +137,8 @@ def over_published(
 ) -> Array:
     """What draws model over the published level, shape (draw,), dB; not a number without solution.
 
+    Over 0 dB(A) where none is published.
+
     Parameters
     ----------
     study : with the published level
@@ -141,11 +148,13 @@ def over_published(
     receiver = list(axes.receivers).index(study.catalogue_receiver)
     square = np.array([sound[study.catalogue_case].total[0, receiver] for sound in sounds])
     over = mean_square_level(np.nan_to_num(square), REFERENCE_PRESSURE_PA)
-    return np.where(np.isnan(square), np.nan, over - study.machine.overall_noise.level_dba)
+    return np.where(np.isnan(square), np.nan, over - published_of(study).level_dba)
 
 
 def remainder_by_draw(study: Study, modelled_db: Array) -> Array:
     """One remainder of each draw by prior, drawn from what the published level leaves open, Pa².
+
+    None without a published level.
 
     Parameters
     ----------
@@ -156,10 +165,13 @@ def remainder_by_draw(study: Study, modelled_db: Array) -> Array:
     -------
     shape (prior, draw)
     """
-    published = study.machine.overall_noise
-    count = modelled_db.size
+    published, count = published_of(study), modelled_db.size
+    if study.machine.overall_noise is None:
+        return np.zeros((len(published.priors), count))
     evenly = (np.arange(count) + 0.5) / count
     share = np.random.default_rng(study.uncertainty.seed).permutation(evenly)
-    priors, deviation_db = priors_of(study.machine.remainder), published.deviation_db
-    below = [remainder_level(modelled_db, deviation_db, prior, share) for prior in priors]
+    below = [
+        remainder_level(modelled_db, published.deviation_db, prior, share)
+        for prior in published.priors
+    ]
     return REFERENCE_PRESSURE_PA**2 * power_of_level(published.level_dba + np.array(below))

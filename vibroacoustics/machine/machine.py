@@ -25,7 +25,7 @@ from .limits import OF_EVERY_MACHINE, Limit
 from .mount_stiffness import MountStiffness
 from .mounts import Mounts
 from .overall_noise import OverallNoise
-from .remainder import Remainder
+from .remainder import OF_THE_REMAINDER, Remainder
 from .shell import Shell
 from .suspension import Suspension
 
@@ -67,7 +67,8 @@ class Machine(KindOfParameters):
     """What moves on the mounts as one rigid body; moving parts included, a suspended block not."""
     mounts: Mounts
     shell: Shell
-    overall_noise: OverallNoise
+    overall_noise: OverallNoise | None = None
+    """What a catalogue gives; without it levels hold only what the model holds."""
     remainder: Remainder = Remainder()
     feet: Feet | None = None
     """Anywhere; four in a square, as `mounts` says, where there are none."""
@@ -96,7 +97,15 @@ class Machine(KindOfParameters):
     """Values that follow from others, where they are not drawn themselves."""
 
     reads: ClassVar[frozenset[str]] = frozenset(
-        {"suspension", "remainder", "feet", "mount_stiffness", "floor", "floor_mobility"}
+        {
+            "overall_noise",
+            "suspension",
+            "remainder",
+            "feet",
+            "mount_stiffness",
+            "floor",
+            "floor_mobility",
+        }
     )
     """Tables that may be left out and that the machine itself reads where it has them."""
 
@@ -158,7 +167,8 @@ class Machine(KindOfParameters):
     @property
     def unread(self) -> frozenset[str]:
         """Values without effect beside the machine's other tables, dotted, in SI."""
-        return values_not_read(self.feet, self.mount_stiffness)
+        of_mounts = values_not_read(self.feet, self.mount_stiffness)
+        return of_mounts if self.overall_noise is not None else of_mounts | OF_THE_REMAINDER
 
     @property
     def crank_frame(self) -> CrankFrame:

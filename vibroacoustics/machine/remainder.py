@@ -11,6 +11,10 @@ from ..base.parameters import Held, Parameters
 
 PRIOR: Final = Held("say what is held of the remainder before anything is drawn")
 LEAST_FLAT_DB: Final = 1.0
+OF_THE_REMAINDER: Final = frozenset(
+    f"remainder.{name}" for name in ("speed_growth_db", "peak_frequency_hz", "slope_db")
+)
+"""Without effect where a machine has no published level that leaves a remainder."""
 
 
 class Remainder(Parameters):

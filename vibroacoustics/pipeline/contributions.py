@@ -69,7 +69,7 @@ def chosen_speeds(study: Study) -> list[float]:
     speeds = list(study.operation.speed_rpm)
     if len(speeds) <= MOST_SPEEDS:
         return speeds
-    published = study.machine.overall_noise.speed_rpm
+    published = study.catalogue_speed_rpm
     middle = published if published in speeds else float(np.mean(speeds))
     wanted = {min(speeds), min(speeds, key=lambda speed: abs(speed - middle)), max(speeds)}
     return [speed for speed in speeds if speed in wanted]

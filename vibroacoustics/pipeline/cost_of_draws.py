@@ -6,9 +6,10 @@ from dataclasses import replace
 from math import ceil
 from typing import Final
 
-from ..levels.agreement import agreement, effective_draws, priors_of
+from ..levels.agreement import agreement, effective_draws
 from ..levels.axes import LevelAxes
 from ..levels.by_source import sound_by_source
+from ..levels.published import published_of
 from ..levels.remainder import over_published
 from ..radiation.cost import Cost, about
 from ..sources.cases import sources_of
@@ -82,10 +83,10 @@ def _draws_expected(
     most = min(MOST_ROUNDS * wanted, MOST_DRAWS)
     if not known:
         return min(_LEAST_BATCHES * wanted, most), min(_MOST_BATCHES * wanted, most)
-    machine = study.machine
+    published = published_of(study)
     level = over_published(study, axes, [one.sound for one in drawn])
-    prior = priors_of(machine.remainder)[0]
-    effective = effective_draws(agreement(level, machine.overall_noise.deviation_db, prior))
+    weight = agreement(level, published.deviation_db, published.priors[0])
+    effective = effective_draws(weight)
     needed = len(drawn) / max(effective, 0.5)
     low, high = (wanted * ceil(factor * needed) for factor in (0.5, 2.0))
     return min(low, most), min(high, most)

@@ -11,7 +11,6 @@ import xarray as xr
 from ..base.arrays import Array
 from ..base.progress import Progress, no_progress
 from ..base.vocabulary import REFERENCE_OPTION
-from ..levels.agreement import priors_of
 from ..levels.axes import LevelAxes
 from ..levels.baseline import baseline_variables, over_baseline, points_of, with_baseline
 from ..levels.by_source import Measured, SourceSound, sound_by_source
@@ -19,6 +18,7 @@ from ..levels.continuous import noise_levels
 from ..levels.labelled import draw_variables, level_variables
 from ..levels.lines import line_pressure
 from ..levels.measured_points import BASELINE_BANDS, MeasuredPoint, PointKey, evidence
+from ..levels.published import published_of
 from ..levels.remainder import (
     over_published,
     remainder,
@@ -112,7 +112,7 @@ def levels_of(
     if not study.ranges:
         return levels
     bank, of_shell = _bank(transmission, axes, points, cases, sound, progress, test)
-    levels = levels.merge(bank.labelled(study.ranges, study.machine.overall_noise.level_dba))
+    levels = levels.merge(bank.labelled(study.ranges, published_of(study).level_dba))
     levels = levels.merge(of_shell)
     weight = of_shell["shell_weight"].values if "shell_weight" in of_shell else None
     levels = levels.merge(level_shares(study.ranges, bank, weight))
@@ -164,21 +164,21 @@ def _bank(
         over = [[over_baseline(axes, points, one, key) for one in sounds] for key in measured]
         return np.array([over_published(study, axes, sounds), *over])
 
-    deviation_db = study.machine.overall_noise.deviation_db
+    published = published_of(study)
+    deviation_db = published.deviation_db
     if measured and study.measured is not None and study.measured.baseline is not None:
         deviation_db = study.measured.baseline.tolerance_db
-    priors = priors_of(study.machine.remainder)
     batches, besides = batches_of_draws(study), None
     if test is not None:
         first = next(batches)
         prior_db = np.atleast_2d(modelled_db(first, 0, 2 * len(first)))[0]
         batches = test.agreeing(chain([first], batches), wanted, progress)
         besides = test.likelihood
-    bank = bank_of(batches, modelled_db, deviation_db, priors, wanted, besides)
+    bank = bank_of(batches, modelled_db, deviation_db, published.priors, wanted, besides)
     progress(_WEIGHED, len(bank.draws), len(bank.draws))
     if test is None:
         return bank, xr.Dataset()
-    prior_dba = prior_db + study.machine.overall_noise.level_dba
+    prior_dba = prior_db + published.level_dba
     return bank, test.labelled(prior_dba, len(bank.draws))
 
 
@@ -203,7 +203,7 @@ def _of_draws(
     sounds = [one.sound for one in drawn]
     rests = remainder_by_draw(study, bank.modelled_db[index])
     lefts = remaining_by_draw(study, axes, sounds, draws, rests[0])
-    levels = draw_variables(axes, sounds, lefts, rests, weight)
+    levels = draw_variables(axes, sounds, lefts, rests, weight, bank.prior_names)
     moved = first_order_by_draw([one.first_order for one in drawn], motion.results)
     levels = levels.merge(moved)
     levels = levels.merge(drawn_values(study.ranges, draws))

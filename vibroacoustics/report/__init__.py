@@ -14,6 +14,7 @@ from .blocked_forces import (
     validation_csv,
 )
 from .compared.limits import broken_lines, figure_limits_csv
+from .compared.order_rows import comparison_of_orders_csv, comparison_of_orders_text
 from .compared.page import comparison_html
 from .comparison import comparison_csv, comparison_text
 from .curve_tables import curve_csv
@@ -39,8 +40,6 @@ from .map_page import speed_map_html
 from .markdown import markdown
 from .measured_power import measured_power_csv, measured_power_html, measured_power_text
 from .order_tables import (
-    comparison_of_orders_csv,
-    comparison_of_orders_text,
     levels_csv,
     orders_csv,
     orders_text,

@@ -14,6 +14,7 @@ from .study import (
     operating_points,
     overall_noise,
     parameters,
+    whole_dba,
     words,
 )
 from .tables import Table
@@ -36,7 +37,7 @@ ELASTIC_SHELL: Final = (
     "machine's frame where its file has one. Feet, tubes and terminal box are left out.",
     "Contact of the wraps' flanks and tips, noise of the bearings, magnetic forces of the motor "
     "other than its torque, jets of the gas, and sound in the gas of the shell where the machine's "
-    "file has no table of it are not modelled; they are part of the remainder.",
+    "file has no table of it are not modelled; they are {rest}.",
 )
 """Instead of RIGID_SHELL where sources drive the shell."""
 
@@ -60,12 +61,14 @@ NOT_MODELLED: Final = (
 def not_modelled(results: xr.Dataset) -> tuple[str, ...]:
     """What the results leave out, one sentence or two each."""
     of_shell = ELASTIC_SHELL if words(results)["shell_bends"] else RIGID_SHELL
+    rest = "in no level" if overall_noise(results) is None else "part of the remainder"
     machine = parameters(results)["machine"]
     gives_way = machine.get("floor") or machine.get("floor_mobility")
     everywhere = tuple(
-        text.format(floor=YIELDING_FLOOR if gives_way else RIGID_FLOOR) for text in NOT_MODELLED
+        text.format(floor=YIELDING_FLOOR if gives_way else RIGID_FLOOR, rest=rest)
+        for text in (*of_shell, *NOT_MODELLED)
     )
-    return (*of_shell, *everywhere, *_mounts_held(machine), *words(results)["leaves_out"])
+    return (*everywhere, *_mounts_held(machine), *words(results)["leaves_out"])
 
 
 def _mounts_held(machine: dict[str, Any]) -> tuple[str, ...]:
@@ -108,6 +111,8 @@ def errata_table(results: xr.Dataset) -> Table | None:
 def remainder_sentence(results: xr.Dataset) -> str:
     """How the part of the level that the model does not explain is fixed."""
     noise = overall_noise(results)
+    if noise is None:
+        return growth_sentence(results)
     assumed = any(
         record["field"].endswith("overall_noise.level_dba") and _is_assumed(record)
         for record in parameters(results)["records"]
@@ -140,7 +145,7 @@ def _point_words(results: xr.Dataset) -> str:
 
 def structure_borne_sentence(results: xr.Dataset) -> str:
     """What removing a line would buy, were it far louder through the feet than through the air."""
-    total = overall_noise(results)["level_dba"]
+    total = whole_dba(results)
     gain = level_of_power(1.0 - power_of_level(-LOUD_LINE_BELOW_TOTAL_DB))
     return (
         f"To see what such sound could change: a 1× line of {total - LOUD_LINE_BELOW_TOTAL_DB:g} "

@@ -11,7 +11,7 @@ from ..base.decibel import level_of_power, power_of_level
 from ..base.quantiles import weighted_quantiles
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.agreement import effective_draws
-from .study import catalogue_receiver, has_draws, overall_noise
+from .study import catalogue_receiver, has_draws, quoted_speed, whole_dba
 
 
 class Band(NamedTuple):
@@ -114,7 +114,7 @@ def percent(share: float) -> str:
 def share_band(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> Band:
     """Energy of a level as a share of that of the whole machine where its level is published.
 
-    Without draws of that of the published level.
+    Without draws of that of the published level; without one of that of all that is modelled.
 
     Parameters
     ----------
@@ -123,9 +123,7 @@ def share_band(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> Band
     prior : number of the prior of the remainder
     """
     if not has_draws(results):
-        return Band(*map(float, over_draws(results, level).values)).share_of(
-            overall_noise(results)["level_dba"]
-        )
+        return Band(*map(float, over_draws(results, level).values)).share_of(whole_dba(results))
     share = power_of_level(level - total_by_draw(results, prior))
     return Band(*map(float, over_draws(results, share, prior).values))
 
@@ -133,7 +131,7 @@ def share_band(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> Band
 def total_by_draw(results: xr.Dataset, prior: int) -> xr.DataArray:
     """Level of the whole machine without an option at the published speed, (draw,), dB(A)."""
     at = {
-        "speed": overall_noise(results)["speed_rpm"],
+        "speed": quoted_speed(results),
         "option": REFERENCE_OPTION,
         "receiver": catalogue_receiver(results),
     }

@@ -15,6 +15,7 @@ from .bands import Band, band_words, has_band, quantiles
 from .columns import Column
 from .kept_columns import columns_of
 from .option_verdict import table_words
+from .remainder import total_sentence
 from .shifts import at_receiver
 from .study import (
     catalogue_receiver,
@@ -23,6 +24,7 @@ from .study import (
     first_order_hz,
     has_draws,
     options,
+    overall_noise,
     speeds,
 )
 from .tables import Table, to_csv, to_text
@@ -59,7 +61,7 @@ def comparison_text(results: xr.Dataset) -> str:
     """Compact plain-text tables for the terminal, at the catalogue's microphone."""
     receiver = catalogue_receiver(results)
     tables = _tables(results, receiver, lambda column: column.terminal, ends_only=True)
-    notes = [_ends_sentence(results), few_speeds_words(results)]
+    notes = [_ends_sentence(results), few_speeds_words(results), _no_total(results)]
     return "\n".join([*map(to_text, tables), *(f"{note}\n" for note in notes if note)])
 
 
@@ -74,6 +76,10 @@ def _ends_sentence(results: xr.Dataset) -> str:
     if not has_draws(results):
         return ""
     return f"What is drawn is shown as its {band_words(results)}; 1x levels are as assumed."
+
+
+def _no_total(results: xr.Dataset) -> str:
+    return total_sentence(results) if overall_noise(results) is None else ""
 
 
 def _joined(results: xr.Dataset, columns: Sequence[Column]) -> xr.Dataset:

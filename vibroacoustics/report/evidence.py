@@ -70,6 +70,8 @@ def rungs(results: xr.Dataset) -> list[Rung]:
 def _catalogue_level(results: xr.Dataset) -> Iterator[Rung]:
     """Level of all that is modelled beside that of the machine; what is left out is in E."""
     noise, receiver = overall_noise(results), catalogue_receiver(results)
+    if noise is None:
+        return
     drawn = results["bank_level"].values if "bank_level" in results else np.zeros(0)
     drawn = drawn[np.isfinite(drawn)]
     speed = noise["speed_rpm"]

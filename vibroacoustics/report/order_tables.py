@@ -9,7 +9,6 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.rounding import NOTHING
-from ..base.vocabulary import NO_ANGLE_ZERO
 from .tables import Table, to_csv, to_text
 
 _MOST_SPEEDS: Final = 6
@@ -35,22 +34,6 @@ class _Order(NamedTuple):
     amplitude_peak: float
     phase_deg: float
     rms_in_band: float
-    coherence: float
-
-
-class _ComparedOrder(NamedTuple):
-    """A row of compared_orders.csv; the fields are its head."""
-
-    channel: str
-    other_channel: str
-    unit: str
-    speed_rpm: float
-    other_speed_rpm: float
-    order: float
-    amplitude_peak: float
-    other_amplitude_peak: float
-    difference_db: float
-    phase_difference_deg: float
     coherence: float
 
 
@@ -117,51 +100,6 @@ def _left_out_s(results: xr.Dataset, weighting: str) -> float:
     return 0.0 if weighting == "Z" else float(results.attrs.get("levels_left_out_s", 0.0))
 
 
-def comparison_of_orders_text(compared: xr.Dataset) -> str:
-    """Table of the orders that both results have, and of their differences."""
-    every = list(_compared_rows(compared))
-    shown = shown_speeds(compared)
-    rows = tuple(
-        (
-            row.channel,
-            row.other_channel,
-            row.unit,
-            f"{row.speed_rpm:.0f}",
-            f"{row.other_speed_rpm:.0f}",
-            f"{row.order:g}",
-            amplitude(row.amplitude_peak),
-            amplitude(row.other_amplitude_peak),
-            rounding.signed(row.difference_db, 2),
-            rounding.signed(row.phase_difference_deg, 1),
-            rounding.fixed(row.coherence, 3),
-        )
-        for row in every
-        if np.isfinite(row.difference_db) and row.speed_rpm in shown
-    )
-    head = (
-        "Channel", "of B", "unit", "rpm", "of B", "Order", "Peak A", "peak B", "B - A, dB",
-        "phase, °", "coherence",
-    )  # fmt: skip
-    facts = [*(_compared_fact(compared, name) for name in ("first", "second")), ""]
-    caption = "B against A: level and phase of each order; coherence is the lower of both"
-    if len(rows) < len(every):
-        caption += f"; {len(rows)} of {len(every)} rows, all in the CSV"
-    table = Table(caption, head, rows, frozenset({0, 1, 2}))
-    return "\n".join([*facts, to_text(table, WIDEST_CHANNEL)])
-
-
-def comparison_of_orders_csv(compared: xr.Dataset) -> bytes:
-    """Every pair of orders."""
-    return to_csv(_ComparedOrder._fields, _compared_rows(compared))
-
-
-def _compared_fact(compared: xr.Dataset, name: str) -> str:
-    """What one of the results is, and where its phases count from."""
-    angle_zero = compared.attrs[f"{name}_angle_zero"]
-    fact = f"{compared.attrs[name]}; crank angle zero: {angle_zero}"
-    return f"{fact}, peaks from the RMS in the bands" if angle_zero == NO_ANGLE_ZERO else fact
-
-
 def amplitude(value: float) -> str:
     """Four digits of any unit: accelerations in m/s² and displacements in m alike."""
     return f"{value:.4g}"
@@ -199,7 +137,7 @@ def _order_rows(results: xr.Dataset) -> Iterator[_Order]:
         )
 
 
-def _labels_of_orders(results: xr.Dataset) -> Iterator[dict[str, Any]]:
+def labels_of_orders(results: xr.Dataset) -> Iterator[dict[str, Any]]:
     """Every channel at every speed and order."""
     dims = ("channel", "speed", "order")
     for values in product(*(results[dim].values for dim in dims)):
@@ -263,21 +201,3 @@ def _levels_table(results: xr.Dataset) -> Table:
         f"{method}"
     )
     return Table(caption, head, rows, frozenset({0, 1}))
-
-
-def _compared_rows(compared: xr.Dataset) -> Iterator[_ComparedOrder]:
-    for at in _labels_of_orders(compared):
-        of_order = compared.sel(at)
-        yield _ComparedOrder(
-            channel=str(at["channel"]),
-            other_channel=str(of_order["compared_channel"].item()),
-            unit=str(of_order["channel_unit"].item()),
-            speed_rpm=float(at["speed"]),
-            other_speed_rpm=float(of_order["compared_speed"]),
-            order=float(at["order"]),
-            amplitude_peak=abs(complex(of_order["channel_order"].item())),
-            other_amplitude_peak=abs(complex(of_order["compared_order"].item())),
-            difference_db=float(of_order["order_difference"]),
-            phase_difference_deg=float(np.degrees(of_order["order_phase_difference"])),
-            coherence=float(of_order["channel_order_coherence"]),
-        )

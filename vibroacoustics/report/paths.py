@@ -11,7 +11,8 @@ from ..base.decibel import amplitude_of_level
 from ..base.vocabulary import REFERENCE_OPTION
 from .bands import percent
 from .labels import DOF_WORDS
-from .source_words import quoted_speed, source_name
+from .source_words import source_name
+from .study import quoted_speed
 
 LEADING: Final = 10
 """Paths that are shown."""

@@ -1,6 +1,7 @@
 """What the report says of the remainder: how it goes with speed."""
 
 from collections.abc import Callable
+from typing import Final
 
 import xarray as xr
 
@@ -8,9 +9,14 @@ from ..base import rounding
 from ..base.decibel import level_of_power, power_of_level
 from ..base.vocabulary import REFERENCE_OPTION
 from .bands import Band, over_draws
-from .study import catalogue_receiver, has_draws, overall_noise, parameters, speeds
+from .study import catalogue_receiver, has_draws, overall_noise, parameters, quoted_speed, speeds
 
 _GROWTH = "remainder.speed_growth_db"
+NO_LEVEL: Final = (
+    "The machine's file gives no published level: there is no remainder, and levels and their "
+    "changes are those of what the model holds. The machine itself is louder, and less of it "
+    "changes."
+)
 
 
 def remainder_band(results: xr.Dataset, speed: float) -> Band:
@@ -41,8 +47,18 @@ def measured_rpm(results: xr.Dataset) -> float | None:
     return float(measured[0]) if measured.size else None
 
 
+def total_sentence(results: xr.Dataset) -> str:
+    """What the total holds beside what is modelled."""
+    if overall_noise(results) is None:
+        return "No level of the machine is published: the total is that of what is modelled."
+    return "The total holds the part that is not modelled (see assumptions)."
+
+
 def growth_sentence(results: xr.Dataset) -> str:
-    """How the remainder is assumed to go with speed; where a baseline stands for it."""
+    """How the remainder is assumed to go with speed, or that there is none.
+
+    Also where a baseline stands for it.
+    """
     if "baseline_band_level" in results:
         levels = results["baseline_band_level"].sel(option=REFERENCE_OPTION)
         measured = levels.notnull().any(["speed", "baseline_band"])
@@ -54,6 +70,8 @@ def growth_sentence(results: xr.Dataset) -> str:
 
 
 def _growth_sentence(results: xr.Dataset) -> str:
+    if overall_noise(results) is None:
+        return NO_LEVEL
     growth = parameters(results)["machine"].get("remainder", {}).get("speed_growth_db")
     if growth is None:  # files of older versions
         return "That it stays constant over speed is an assumption, not a result."
@@ -66,7 +84,7 @@ def _growth_sentence(results: xr.Dataset) -> str:
 
 def _at_speeds(results: xr.Dataset, growth: float, ends: tuple[float, float]) -> str:
     """`, which is +2.4 dB (2.0 to 2.8) at 3500 rpm`, of the speed that is furthest off."""
-    published = overall_noise(results)["speed_rpm"]
+    published = quoted_speed(results)
     turning = [speed for speed in speeds(results) if speed > 0.0]
     furthest = max(turning, key=lambda s: abs(level_of_power(s / published)), default=published)
     decades = level_of_power(furthest / published) / 10.0

@@ -11,7 +11,7 @@ from ..base.arrays import Array
 from .bands import Band, band_words, bands_by_speed
 from .quantities import TOLERANCE_DB, TOTAL
 from .shifts import shift
-from .study import balancers, catalogue_receiver, has_draws, many_speeds, speeds
+from .study import balancers, catalogue_receiver, has_draws, many_speeds, speeds, whole
 
 
 class SourceChange(NamedTuple):
@@ -35,9 +35,12 @@ def changes_sentence(results: xr.Dataset) -> str:
     louder = [option for option, one in shifts.items() if one.worsens]
     quieter = [option for option, one in shifts.items() if one.improves and not one.worsens]
     rest = [option for option in shifts if option not in louder + quieter]
+    of = whole(results)
     parts = [
-        f"The whole machine becomes louder with {_named(results, louder)}." if louder else "",
-        f"It becomes quieter with {_named(results, quieter)}." if quieter else "",
+        f"{of[0].upper()}{of[1:]} becomes louder with {_named(results, louder)}." if louder else "",
+        f"{of[0].upper()}{of[1:]} becomes quieter with {_named(results, quieter)}."
+        if quieter
+        else "",
     ]
     if rest:
         which = "no other option" if louder or quieter else "no option"
@@ -46,7 +49,7 @@ def changes_sentence(results: xr.Dataset) -> str:
         ]
         drawn = "In most draws " if has_draws(results) else "As assumed "
         parts.append(
-            f"{drawn}{which} changes the level of the whole machine by what could be "
+            f"{drawn}{which} changes the level of {of} by what could be "
             f"measured: {', '.join(rest)} by "
             f"{change_words(Band(min(ends), 0.0, max(ends)))}."
         )

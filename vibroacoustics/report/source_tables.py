@@ -1,6 +1,7 @@
 """Tables of the sources of sound, and of what the options do to them."""
 
 from itertools import product
+from typing import Final
 
 import numpy as np
 import xarray as xr
@@ -13,9 +14,21 @@ from .bands import QUANTILES, Band, band, band_words, percent, quantiles, share_
 from .column_values import column
 from .remainder import remainder_band
 from .source_changes import key_figure
-from .source_words import at_published, quoted_speed, ranked, source_name, source_share
-from .study import balancers, catalogue_receiver, has_draws, options, speeds, words
+from .source_words import at_published, ranked, source_name, source_share
+from .study import (
+    balancers,
+    catalogue_receiver,
+    has_draws,
+    options,
+    overall_noise,
+    quoted_speed,
+    speeds,
+    whole,
+    words,
+)
 from .tables import Table, to_csv
+
+_NOT_QUOTED: Final = "; no overall level is published at this speed"
 
 
 def source_tables(results: xr.Dataset) -> list[Table]:
@@ -101,7 +114,7 @@ def _source_table(results: xr.Dataset, speed: float) -> Table:
         "Share of the modelled energy, as assumed",
     ]
     if quoted:
-        head.append(f"Share of the energy of the machine, middle ({band_words(results)})")
+        head.append(f"Share of the energy of {whole(results)}, middle ({band_words(results)})")
     rows = [
         _row(
             source_name(results, source).capitalize(),
@@ -114,7 +127,7 @@ def _source_table(results: xr.Dataset, speed: float) -> Table:
     ]
     caption = (
         f"{speed:g} rpm, option {REFERENCE_OPTION}, microphone {catalogue_receiver(results)}"
-        + ("" if quoted else "; no overall level is published at this speed")
+        + ("" if quoted or overall_noise(results) is None else _NOT_QUOTED)
     )
     return Table(caption, tuple(head), (*rows, *_sum_rows(results, speed, quoted)))
 
@@ -138,7 +151,7 @@ def _sum_rows(results: xr.Dataset, speed: float, quoted: bool) -> list[tuple[str
             if quoted
             else None,
         )
-        for name, words, level, share in of_sums
+        for name, words, level, share in of_sums[: 1 if overall_noise(results) is None else None]
     ]
 
 

@@ -18,7 +18,10 @@ from .study import (
     many_speeds,
     overall_noise,
     parameters,
+    quoted_speed,
     speeds,
+    whole,
+    whole_dba,
     words,
 )
 
@@ -29,11 +32,6 @@ def source_name(results: xr.Dataset, source: str) -> str:
     """Plain words for a source of sound."""
     label = words(results)["sources"].get(source, source.replace("_", " "))
     return str(label)
-
-
-def quoted_speed(results: xr.Dataset) -> float:
-    """The speed at which the overall level is published."""
-    return overall_noise(results)["speed_rpm"]
 
 
 def ranked(results: xr.Dataset, speed: float) -> list[tuple[str, Band]]:
@@ -47,16 +45,17 @@ def ranked(results: xr.Dataset, speed: float) -> list[tuple[str, Band]]:
 
 def carrier_sentence(results: xr.Dataset) -> str:
     """Which source carries the modelled level, and how loud it is."""
-    speed, overall = quoted_speed(results), overall_noise(results)["level_dba"]
+    speed, overall = quoted_speed(results), whole_dba(results)
     source, level = ranked(results, speed)[0]
-    assumed = _assumed_level(results, source)
+    assumed, published = _assumed_level(results, source), overall_noise(results)
     if not has_draws(results):
         return (
             f"At {catalogue_receiver(results)} and {speed:g} rpm, without a balancer, the loudest "
             f"modelled source at the assumed values is: {source_name(results, source)}, "
             f"{rounding.level(assumed)} dB(A), which is {percent(energy_share(assumed, overall))} "
-            f"of the energy of {overall:g} dB(A)."
+            f"of the energy of {f'{overall:g} dB(A)' if published else whole(results)}."
         )
+    rest = ", as the prior of what is not modelled is" if published else ""
     shares = (source_share(results, source, prior) for prior in range(results.sizes["prior"]))
     return (
         f"At {catalogue_receiver(results)} and {speed:g} rpm, without a balancer, the loudest "
@@ -64,8 +63,8 @@ def carrier_sentence(results: xr.Dataset) -> str:
         f"{rounding.level(level.middle)} dB(A) in the middle of the draws "
         f"({band_words(results)} {level.ends(rounding.level)}) or "
         f"{rounding.level(assumed)} dB(A) at the assumed values; "
-        f"{' or '.join(share.middle_and_ends(percent) for share in shares)} of the energy of the "
-        "whole machine is its, as the prior of what is not modelled is."
+        f"{' or '.join(share.middle_and_ends(percent) for share in shares)} of the energy of "
+        f"{whole(results)} is its{rest}."
     )
 
 
@@ -75,6 +74,11 @@ def shares_sentence(results: xr.Dataset) -> str:
         return _unresolved(results)
     first, *others = (_shares(results, prior) for prior in range(results.sizes["prior"]))
     published = overall_noise(results)
+    if published is None:
+        return (
+            "No level of the machine is published. Of the energy of all that is modelled, in the "
+            f"middle of the draws with the {band_words(results)} in brackets: {first}."
+        )
     texts = [
         f"Of the energy of the whole machine there, published as {published['level_dba']:g} dB(A) "
         f"and taken as sure to ± {published.get('deviation_db', 2.0):g} dB, in the middle of the "
@@ -102,6 +106,8 @@ def _shares(results: xr.Dataset, prior: int) -> str:
         for source, _ in ranked(results, quoted_speed(results))
     }
     shares = [f"{name} {share.middle_and_ends(percent)}" for name, share in by_source.items()]
+    if overall_noise(results) is None:
+        return "; ".join(shares)
     modelled = share_band(results, at_published(results, "level_modelled"), prior)
     remainder = results["level_remainder_by_draw"].isel(prior=prior)
     rest, there = share_band(results, remainder, prior), elsewhere(results)
@@ -141,6 +147,13 @@ def left_out_sentence(results: xr.Dataset) -> str:
         return _unresolved(results)
     tried, effective, computed, unsolved = draws(results)
     failed = f" {unsolved} of them have no solution." if unsolved else ""
+    if overall_noise(results) is None and "baseline_band_level" not in results:
+        how = "by the hammer test alone" if "shell_weight" in results else "alike"
+        return (
+            f"{tried} draws were computed. As no level of the machine is published, they count "
+            f"{how}: they are worth {effective:.0f} equal ones. The bands rest on {computed} of "
+            f"them.{failed}"
+        )
     where = f"where the level is published{elsewhere(results)}"
     if "baseline_band_level" in results:
         where = "where the sound was measured"
@@ -156,7 +169,12 @@ def _unresolved(results: xr.Dataset) -> str:
     if "bank_weight" not in results:
         return "No value of the sources has a range: nothing was drawn, and there are no bands."
     tried, effective, *_ = draws(results)
-    overall = overall_noise(results)["level_dba"]
+    if overall_noise(results) is None:
+        return (
+            f"Shares and bands are not resolved: {tried} draws are worth no more than "
+            f"{effective:.1f} that have a solution. What follows holds at the assumed values only."
+        )
+    overall = whole_dba(results)
     louder = float((results["bank_level"] > overall).mean())
     agree = "the measured baseline" if "baseline_band_level" in results else "it"
     return (
@@ -206,7 +224,7 @@ def _ranking(results: xr.Dataset) -> str:
 
 def _as_assumed(results: xr.Dataset) -> str:
     """Warn where the assumed values lie outside of the band of the loudest source."""
-    speed, overall = quoted_speed(results), overall_noise(results)["level_dba"]
+    speed, overall = quoted_speed(results), whole_dba(results)
     source, level = ranked(results, speed)[0]
     value = _assumed_level(results, source)
     if level.lowest <= value <= level.highest:
@@ -222,9 +240,10 @@ def _as_assumed(results: xr.Dataset) -> str:
 
 def _up_to(results: xr.Dataset) -> str:
     highest = parameters(results)["radiation"]["maximum_frequency_hz"]
+    above = "in no level" if overall_noise(results) is None else "part of the remainder"
     return (
-        f"Sources are modelled up to {highest:g} Hz; what they make above is part of the "
-        "remainder, so that an option whose keys strike can be louder than told here."
+        f"Sources are modelled up to {highest:g} Hz; what they make above is {above}, "
+        "so that an option whose keys strike can be louder than told here."
     )
 
 

@@ -7,7 +7,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
-from .study import balancers, options, overall_noise, speeds
+from .study import balancers, options, quoted_speed, speeds
 from .tables import Table
 
 _FIRST: Final = "order 1"
@@ -120,8 +120,8 @@ def _at(results: xr.Dataset, receiver: str, option: str) -> xr.Dataset:
 
 def _speed(results: xr.Dataset) -> float:
     """That of the published level, or the nearest to it."""
-    published = overall_noise(results)["speed_rpm"]
-    return min(speeds(results), key=lambda speed: abs(speed - published))
+    quoted = quoted_speed(results)
+    return min(speeds(results), key=lambda speed: abs(speed - quoted))
 
 
 def _best(results: xr.Dataset, receiver: str, by_plate: float) -> str:

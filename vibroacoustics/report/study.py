@@ -27,7 +27,7 @@ def words(results: xr.Dataset) -> dict[str, Any]:
 
 
 def catalogue_receiver(results: xr.Dataset) -> str:
-    """Name of the microphone at which the machine's noise is published."""
+    """Name of the microphone at which the machine's noise is published, or of the first one."""
     return str(parameters(results)["catalogue_receiver"])
 
 
@@ -68,9 +68,30 @@ def elsewhere(results: xr.Dataset) -> str:
     return "" if point == runs_at else f" at the operating point {point}"
 
 
-def overall_noise(results: xr.Dataset) -> dict[str, float]:
-    """Published level of the whole machine with its speed and distance."""
-    return dict(parameters(results)["machine"]["overall_noise"])
+def overall_noise(results: xr.Dataset) -> dict[str, float] | None:
+    """Published level of the whole machine with its speed and distance; none without one."""
+    noise: dict[str, float] | None = parameters(results)["machine"].get("overall_noise")
+    return noise
+
+
+def quoted_speed(results: xr.Dataset) -> float:
+    """The speed at which the overall level is published; the first one where none is."""
+    noise = overall_noise(results)
+    return speeds(results)[0] if noise is None else noise["speed_rpm"]
+
+
+def whole_dba(results: xr.Dataset) -> float:
+    """The published level; where none is, that of all that is modelled, without a balancer."""
+    noise = overall_noise(results)
+    if noise is not None:
+        return noise["level_dba"]
+    at = {"option": REFERENCE_OPTION, "receiver": catalogue_receiver(results)}
+    return float(results["level_total"].sel(at).sel(speed=quoted_speed(results)).round(1))
+
+
+def whole(results: xr.Dataset) -> str:
+    """What the total level is the level of."""
+    return "all that is modelled" if overall_noise(results) is None else "the whole machine"
 
 
 def has_sources(results: xr.Dataset) -> bool:
@@ -107,9 +128,7 @@ def few_speeds(results: xr.Dataset) -> xr.Dataset:
         return results
     order = np.argsort(speeds(results))
     chosen = np.linspace(0, order.size - 1, MOST_SPEEDS).round().astype(int)
-    published = np.flatnonzero(
-        results["speed"].values[order] == overall_noise(results)["speed_rpm"]
-    )
+    published = np.flatnonzero(results["speed"].values[order] == quoted_speed(results))
     if published.size and published[0] not in chosen:
         between = np.abs(chosen - published[0])
         between[[0, -1]] = order.size  # lowest and highest stay

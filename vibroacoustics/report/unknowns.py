@@ -10,7 +10,7 @@ from ..base.quantiles import weighted_quantiles
 from ..base.vocabulary import REFERENCE_OPTION
 from .bands import QUANTILES, Band, band_words, draws, percent
 from .drawn_words import file_unit, named
-from .study import catalogue_receiver, has_draws, overall_noise, speeds
+from .study import catalogue_receiver, has_draws, quoted_speed, speeds
 from .tables import Table
 
 RESOLVED: Final = 0.9
@@ -78,7 +78,7 @@ def measure_next_sentence(results: xr.Dataset) -> str:
     variance = np.nan_to_num(results["change_variance"].values)
     gain = share * variance[:, None]
     best = int(gain.sum(axis=0).argmax())
-    speed = min(speeds(results), key=lambda one: abs(one - overall_noise(results)["speed_rpm"]))
+    speed = min(speeds(results), key=lambda one: abs(one - quoted_speed(results)))
     if gain[:, best].sum() <= 0.0:
         return (
             f"Which unknown to measure next, {draws(results).computed} draws do not tell: none "

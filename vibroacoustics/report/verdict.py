@@ -12,6 +12,7 @@ from .baseline import not_measured
 from .carrier import sure_sentence
 from .column_values import column
 from .comparison import comparison
+from .drawn_words import not_drawn_sentence
 from .option_verdict import MIXED, NO_CHANGE, WORSE, OptionVerdict
 from .quantities import FOOT_FORCE, FORCE, HEARD_DB, LINE, MOMENT, TOLERANCE_DB, TOTAL
 from .ranking_words import ranking_sentence
@@ -27,7 +28,9 @@ from .study import (
     has_sources,
     many_speeds,
     overall_noise,
+    quoted_speed,
     speeds,
+    whole_dba,
 )
 from .tables import Table
 from .unknowns import measure_next_sentence
@@ -48,10 +51,13 @@ def headline(results: xr.Dataset) -> str:
     line = np.concatenate([shift(results, LINE, name).gain_db for name in names])
     total = np.concatenate([shift(results, TOTAL, name).gain_db for name in names])
     change = rounding.span(line, rounding.signed)
-    return (
-        f"At {receiver} the balancing options change the 1× line by {change} dB, "
-        f"{_total_words(results, float(abs(total).max()))}"
-    )
+    of_line = f"At {receiver} the balancing options change the 1× line by {change} dB"
+    if overall_noise(results) is None and measured_rpm(results) is None:
+        return (
+            f"{of_line}. What that does to the level of the whole machine is not known: none is "
+            "published."
+        )
+    return f"{of_line}, {_total_words(results, float(abs(total).max()))}"
 
 
 def reasons(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> list[str]:
@@ -62,7 +68,7 @@ def reasons(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> list[str]
         texts += [shares_sentence(results), left_out_sentence(results)]
         texts[:0] = _of_sources(results)
     else:
-        texts.append(_remainder(results))
+        texts += filter(None, [_remainder(results), not_drawn_sentence(results)])
     if not verdicts:
         return texts
     return [*texts, _forces(results), *_warnings(verdicts), ranking_sentence(results, verdicts)]
@@ -154,7 +160,9 @@ def _twice(force_n: float) -> str:
 
 
 def _remainder(results: xr.Dataset) -> str:
-    """Why the total hardly follows the line."""
+    """Why the total hardly follows the line; that there is none where nothing is published."""
+    if overall_noise(results) is None and measured_rpm(results) is None:
+        return growth_sentence(results)
     receiver = catalogue_receiver(results)
     modelled = float(column(results, "level_modelled_dba").sel(receiver=receiver).max())
     gap = _total_dba(results) - modelled
@@ -179,7 +187,7 @@ def _remainder(results: xr.Dataset) -> str:
         )
     return (
         f"In the model {carried}. The rest, {rounding.fixed(results['level_remainder'].item())} "
-        f"dB(A) at {overall_noise(results)['speed_rpm']:g} rpm, comes from sources that balancing "
+        f"dB(A) at {quoted_speed(results):g} rpm, comes from sources that balancing "
         f"does not touch. {growth_sentence(results)}"
     )
 
@@ -220,9 +228,9 @@ def _warnings(verdicts: Sequence[OptionVerdict]) -> list[str]:
 
 
 def _total_dba(results: xr.Dataset) -> float:
-    """As it was measured, else as it is published."""
+    """As it was measured, else as it is published, else as it is modelled."""
     speed = measured_rpm(results)
     if speed is None:
-        return overall_noise(results)["level_dba"]
+        return whole_dba(results)
     at = {"speed": speed, "option": REFERENCE_OPTION, "receiver": catalogue_receiver(results)}
     return float(results["level_total"].sel(at).round(1))

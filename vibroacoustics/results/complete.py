@@ -93,6 +93,7 @@ def _check_parts(results: xr.Dataset, parameters: Parameters) -> None:
         "machine.stopping": machine.stopping or "stopping_force" not in results,
         "scoring.published": parameters.scoring.published or "published_score" not in results,
         "machine.overall_noise.speed_rpm": alone
+        or machine.overall_noise is None
         or machine.overall_noise.speed_rpm in results["speed"].values,
         "radiation.maximum_frequency_hz": alone
         or parameters.radiation.maximum_frequency_hz is not None,

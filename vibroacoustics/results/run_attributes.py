@@ -89,7 +89,7 @@ class RedesignedMachine(Part):
 
 class Machine(RedesignedMachine):
     name: str
-    overall_noise: Noise
+    overall_noise: Noise | None = None
     remainder: Remainder = Remainder()
     errata: list[Erratum]
     housing: RigidBody

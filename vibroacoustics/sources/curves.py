@@ -78,7 +78,13 @@ def curves(
 
 
 def _speed(study: Study | None, machine: Machine) -> float:
-    return machine.overall_noise.speed_rpm if study is None else study.operation.speed_rpm[0]
+    if study is not None:
+        return study.operation.speed_rpm[0]
+    if machine.overall_noise is None:
+        raise ParameterError(
+            f"speed_rpm = missing: machine {machine.name} gives no overall_noise with a speed"
+        )
+    return machine.overall_noise.speed_rpm
 
 
 def _option(study: Study | None, name: str) -> Option | None:

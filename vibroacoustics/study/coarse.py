@@ -52,7 +52,7 @@ def _speeds(study: Study) -> _Change:
         return None
     last = len(speeds) - 1
     kept = {round(step * last / (MOST_SPEEDS - 1)) for step in range(MOST_SPEEDS)}
-    published = study.machine.overall_noise.speed_rpm
+    published = study.catalogue_speed_rpm
     kept |= {number for number, speed in enumerate(speeds) if speed == published}
     chosen = sorted(kept)
     values: dict[str, Any] = {"operation.speed_rpm": [speeds[number] for number in chosen]}

@@ -55,9 +55,16 @@ def _check_catalogue(study: "Study") -> None:
             f"catalogue_receiver = {study.catalogue_receiver}: not among the receivers "
             f"({', '.join(study.receivers)})"
         )
+    published = study.machine.overall_noise
+    if published is None:
+        if study.catalogue_machine is not None:
+            raise ValueError(
+                f"catalogue_point = {study.catalogue_point}: the machine's file gives no "
+                "overall_noise, so that there is no such point"
+            )
+        return
     microphone = study.receivers[study.catalogue_receiver]
     distance = study.machine.shell.distance_m(microphone.x_m, microphone.y_m, microphone.height_m)
-    published = study.machine.overall_noise
     if not 0.95 <= distance / published.distance_m <= 1.05:
         raise ValueError(
             f"catalogue_receiver = {study.catalogue_receiver}: stands {distance:.3g} m from the "
@@ -79,7 +86,7 @@ def _check_sound_power(study: "Study") -> None:
 
 def _check_orders(study: "Study") -> None:
     """Refuse more orders than the radiation or the crank angles can tell apart."""
-    speeds = {*study.operation.speed_rpm, study.machine.overall_noise.speed_rpm}
+    speeds = {*study.operation.speed_rpm, study.catalogue_speed_rpm}
     fastest, slowest = max(speeds), min(speeds)
     orders, samples = study.highest_order(slowest), study.operation.crank_angle_samples
     if 2 * orders >= samples:
@@ -110,7 +117,7 @@ def _check_sources(study: "Study") -> None:
         for where, machine in {"": study.machine, **changed}.items():
             if reason := source.why_not(machine):
                 raise ValueError(f"{where}sources.{name}.kind = {source.kind}: {reason}")
-    published, operation = study.machine.overall_noise.speed_rpm, study.operation
+    published, operation = study.catalogue_speed_rpm, study.operation
     if operation.supply_frequency_hz and published not in operation.speed_rpm:
         raise ValueError(
             "operation.speed_rpm: must include the speed of the overall noise, "

@@ -95,6 +95,8 @@ def study_of(written: Written) -> Study:
         machine, at_catalogue = plate.under(machine), at_catalogue and plate.under(at_catalogue)
     content.update(machine=machine, source_file=path.name, given=given, evidence=evidence)
     content["titles"] = titles
+    if machine.overall_noise is None and isinstance(content.get("receivers"), dict):
+        content.setdefault("catalogue_receiver", next(iter(content["receivers"]), ""))
     content["catalogue_machine"] = at_catalogue
     for name, (redesigned, change_records) in redesigns.items():
         content["options"][name]["machine"] = (

@@ -53,7 +53,8 @@ class Study(Parameters):
     operation: Operation
     options: dict[str, AnyOption]
     receivers: dict[str, Receiver] = Field(min_length=1)
-    catalogue_receiver: str
+    catalogue_receiver: str = ""
+    """Of the machine's overall noise; the first where the machine's file gives none."""
     catalogue_point: str | None = None
     """Operating point of the machine's file at which its overall noise holds; none for the values
     of the study."""
@@ -107,7 +108,13 @@ class Study(Parameters):
         """Speed and name of the case whose level the overall noise is."""
         elsewhere = self.catalogue_machine is not None
         name = AT_CATALOGUE_POINT if elsewhere else REFERENCE_OPTION
-        return self.machine.overall_noise.speed_rpm, name
+        return self.catalogue_speed_rpm, name
+
+    @property
+    def catalogue_speed_rpm(self) -> float:
+        """Speed of the machine's overall noise; the first one where its file gives none."""
+        published = self.machine.overall_noise
+        return self.operation.speed_rpm[0] if published is None else published.speed_rpm
 
     def option_of(self, case: CaseKey) -> Option:
         """Option of a case: the reference at the point of the overall noise too."""

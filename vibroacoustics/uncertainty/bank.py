@@ -32,12 +32,14 @@ class Bank:
         draw has no solution
     weight : by prior of the remainder, shape (prior, draw), from 0 to 1
     wanted : how many shall be effective
+    prior_names : of the remainder
     """
 
     draws: list[Draw]
     modelled_db: Array
     weight: Array
     wanted: int
+    prior_names: Sequence[str] = PRIOR_NAMES
 
     @property
     def effective(self) -> float:
@@ -68,7 +70,7 @@ class Bank:
         draws = {"bank_draw": np.arange(1, len(self.draws) + 1)}
         names = {"drawn_parameter": [limits.name for limits in ranges]}
         values = [[draw[limits.table, limits.field] for limits in ranges] for draw in self.draws]
-        priors = {"prior": list(PRIOR_NAMES)}
+        priors = {"prior": list(self.prior_names)}
         arrays = {
             "bank_weight": stamp("bank_weight", self.weight, {**priors, **draws}),
             "bank_level": stamp("bank_level", self.modelled_db + published_dba, draws),
@@ -100,7 +102,8 @@ def bank_of(
     likelihood : of so many draws after so many, by what was measured besides, shape (draw,): a
         factor of their weights
     """
-    bank = Bank([], np.zeros(0), np.zeros((len(priors), 0)), wanted)
+    names = [prior.name for prior in priors]
+    bank = Bank([], np.zeros(0), np.zeros((len(priors), 0)), wanted, names)
     for hypercube in islice(batches, MOST_ROUNDS):
         before = len(bank.draws)
         batch = hypercube[: MOST_DRAWS - before]
@@ -113,7 +116,7 @@ def bank_of(
             weights *= likelihood(before, len(batch))
         weight = np.concatenate([bank.weight, weights], axis=1)
         level = np.concatenate([bank.modelled_db, over[0]])
-        bank = Bank(bank.draws + batch, level, weight, wanted)
+        bank = Bank(bank.draws + batch, level, weight, wanted, names)
         if bank.effective >= wanted or len(bank.draws) >= MOST_DRAWS:
             break
     return bank

@@ -8,7 +8,7 @@ import xarray as xr
 
 from ..base.arrays import Array
 from ..base.vocabulary import REFERENCE_OPTION, check, stamp
-from ..levels.agreement import PRIOR_NAMES
+from ..levels.agreement import ALL_ALIKE
 from ..study.sampling import position_in_range
 from ..study.study import Study
 from ..study.uncertainty import Range
@@ -33,10 +33,12 @@ def level_shares(ranges: Sequence[Range], bank: Bank, before: Array | None = Non
     equal = np.ones(len(bank.draws)) if before is None else before
     values = [[draw[limits.table, limits.field] for limits in ranges] for draw in bank.draws]
     unit = _positions(ranges, np.array(values))
-    weights = [equal, *(bank.weight if bank.suffices else 0.0 * bank.weight)]
+    weighed = list(bank.prior_names) != [ALL_ALIKE.name]  # else after is as before
+    after = bank.weight if bank.suffices else 0.0 * bank.weight
+    weights = [equal, *(after if weighed else ())]
     shares = [shares_of(unit, bank.modelled_db, weight) for weight in weights]
     names = {"drawn_parameter": [limits.name for limits in ranges]}
-    coords = {"knowledge": [BEFORE, *PRIOR_NAMES]}
+    coords = {"knowledge": [BEFORE, *(bank.prior_names if weighed else ())]}
     return _labelled("level_share", shares, coords, names)
 
 
@@ -52,7 +54,7 @@ def change_shares(study: Study, levels: xr.Dataset) -> xr.Dataset:
     study : ranges and published level
     levels : of `draw_variables` and `drawn_values`
     """
-    published = study.machine.overall_noise.speed_rpm
+    published = study.catalogue_speed_rpm
     nearest = int(np.abs(levels["speed"].values - published).argmin())
     there = levels.sel(receiver=study.catalogue_receiver).isel(speed=nearest)
     total = there["level_total_by_draw"].transpose("option", "draw")

@@ -31,8 +31,13 @@ HOODED = {
     ),
 }
 STUDY = SimpleNamespace(
-    machine=SimpleNamespace(overall_noise=SimpleNamespace(level_dba=94.0, speed_rpm=3000.0)),
+    machine=SimpleNamespace(
+        overall_noise=SimpleNamespace(level_dba=94.0, speed_rpm=3000.0, deviation_db=2.0),
+        remainder=Remainder(),
+    ),
+    measured=None,
     catalogue_receiver="front",
+    catalogue_speed_rpm=3000.0,
     catalogue_case=(3000.0, "none"),
 )
 

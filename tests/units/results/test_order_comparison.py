@@ -271,6 +271,29 @@ def test_table_and_csv(study):
     assert rows[1]["difference_db"] == "nan"
 
 
+def test_the_text_has_the_orders_that_matter():
+    """Within 20 dB of the strongest, or within 40 dB and changed; twelve at most."""
+    first = np.array([1.0, 0.2, 0.05, 0.05, 0.005, *[0.5] * 14])
+    second = first * np.array([1.0, 1.0, 1.0, 1.2, 1.2, *[1.0] * 14])
+
+    def compared(count):
+        orders = range(1, count + 1)
+        return compare(
+            *(recorded({"a": ("Pa", e[:count])}, orders=orders) for e in (first, second))
+        )
+
+    few, many = compared(5), compared(19)
+    text = comparison_of_orders_text(few)
+    assert _printed_orders(text) == ["1", "2", "4"]
+    assert "3 of 5 rows, those within 20 dB of the strongest or" in text
+    assert len(_printed_orders(comparison_of_orders_text(many))) == 12
+    assert comparison_of_orders_csv(many).count(b"\n") == 20
+
+
+def _printed_orders(text):
+    return [line.split()[5] for line in text.splitlines() if line.startswith("a ")]
+
+
 def test_figures_of_what_both_have(study):
     """Neither force y nor force z is there; names that read the same get files of their own."""
     names = [picture.name for picture in compared_order_figures(compare(study, study))]

@@ -49,14 +49,16 @@ def data_sheet_html(sheet: DataSheet) -> bytes:
 def headline(sheet: DataSheet) -> str:
     """L_WA and K in a sentence."""
     power = sheet.sound_power
+    alone = ", of what is modelled alone" if power.rest == "none" else ""
     if power.declared is not None:
         level, uncertainty = power.declared
         return (
             f"L_WA = {level} dB, K_WA = {uncertainty} dB re 1 pW (dual number, as in ISO 4871): "
-            f"{sheet.statement}."
+            f"{sheet.statement}{alone}."
         )
     level_dba = float("nan") if power.level_dba is None else power.level_dba
-    return f"L_WA = {rounding.fixed(level_dba)} dB re 1 pW, K_WA not known: {sheet.statement}."
+    level_words = f"L_WA = {rounding.fixed(level_dba)} dB re 1 pW, K_WA not known"
+    return f"{level_words}: {sheet.statement}{alone}."
 
 
 def _words(power: SoundPower) -> tuple[Text, ...]:

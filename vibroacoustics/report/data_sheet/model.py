@@ -51,7 +51,7 @@ class SoundPower(_Part):
     """Where K comes from."""
     model_range_hz: tuple[float, float]
     """Lowest and highest frequency of the bands that the model fills."""
-    rest: Literal["baseline", "remainder"]
+    rest: Literal["baseline", "remainder", "none"]
     rest_words: str
     """What stands beside the model."""
     bands: tuple[BandPower, ...]

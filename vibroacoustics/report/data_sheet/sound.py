@@ -13,11 +13,13 @@ from ...base.quantiles import weighted_quantiles
 from ...base.rounding import LEVEL_FLOOR_DB
 from ...levels.by_source import membership
 from ...levels.measured_power import BANDS
-from ..study import has_draws, parameters
+from ..drawn_words import not_drawn_sentence
+from ..study import has_draws, overall_noise, parameters
 from .model import BandPower, SoundPower
 
 SHARE_OF_DRAWS: Final = 0.95
 """Of machines below L_WA + K (ISO 4871)."""
+Rest = Literal["baseline", "remainder", "none"]
 _DUST: Final = 1e-9
 """Of a band's energy: less is rounding, where the rest is what a total has beside the model."""
 _SILENT_DB: Final = SILENCE_DB + 100.0
@@ -30,6 +32,7 @@ _REST: Final = {
     "remainder": (
         "the published level less the model, with an assumed spectrum, alike at all microphones"
     ),
+    "none": "nothing: no level of the machine is published; L_WA is that of the model alone",
 }
 
 
@@ -139,24 +142,28 @@ def _level(energy: Array) -> list[float | None]:
     return [one if one > LEVEL_FLOOR_DB else None for one in levels]
 
 
-def _kind_of_rest(case: xr.Dataset) -> tuple[Literal["baseline", "remainder"], str]:
+def _kind_of_rest(case: xr.Dataset) -> tuple[Rest, str]:
+    beside: Rest = "none" if overall_noise(case) is None else "remainder"
     if "baseline_band_level" not in case:
-        return "remainder", ""
+        return beside, ""
     known = case["baseline_band_level"].notnull().any("baseline_band")
     names = [str(name) for name in case["receiver"].values[known.values]]
-    return ("baseline", ", ".join(names)) if names else ("remainder", "")
+    return ("baseline", ", ".join(names)) if names else (beside, "")
 
 
 def _uncertainty(case: xr.Dataset, surface_m2: Array, level: float) -> tuple[float | None, str]:
     if not has_draws(case):
-        return None, "nothing was drawn: K is not known"
+        why = not_drawn_sentence(case)
+        return None, "nothing was drawn: K is not known" + (f". {why[:-1]}" if why else "")
     by_draw = case["level_total_by_draw"].transpose("draw", "receiver").values
     weight = case["draw_weight"].values[0]
     drawn = power_db(by_draw, surface_m2)
     highest = float(weighted_quantiles(drawn, weight, (SHARE_OF_DRAWS,))[0])
+    none = overall_noise(case) is None and "baseline_band_level" not in case
+    how = "which count alike" if none else "weighed by the published level or the baseline"
     words = (
         f"K = the {SHARE_OF_DRAWS:.0%} quantile of L_WA over {np.count_nonzero(weight)} draws of "
-        "the unknown values, weighed by the published level or the baseline, less L_WA; the "
+        f"the unknown values, {how}, less L_WA; the "
         "scatter of measuring (ISO 3744: 1.5 dB) is not in it"
     )
     return max(highest - level, 0.0), words

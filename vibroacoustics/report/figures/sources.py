@@ -12,8 +12,15 @@ from ...base.arrays import Array
 from ...base.decibel import level_of_power, power_of_level
 from ...base.vocabulary import REFERENCE_OPTION
 from ..quantities import HEARD_DB
-from ..source_words import quoted_speed, source_name
-from ..study import balancers, catalogue_receiver, few_speeds, has_sources, speeds
+from ..source_words import source_name
+from ..study import (
+    balancers,
+    catalogue_receiver,
+    few_speeds,
+    has_sources,
+    quoted_speed,
+    speeds,
+)
 from .needs import chosen, needs
 from .style import MARKERS, Picture, draw, frequency_ticks, legend_below, line_looks, png, wrap
 

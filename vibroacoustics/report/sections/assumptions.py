@@ -5,15 +5,17 @@ import xarray as xr
 from ...base.registry import register
 from .. import assumptions
 from ..blocks import Block, Bullets, Heading, Text
+from ..study import overall_noise
 from . import Section
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
+    published = overall_noise(results)
     assumed, recorded = assumptions.assumed_count(results)
     return [
         Heading("What is not modelled"),
         Bullets(tuple(assumptions.not_modelled(results))),
-        Text(assumptions.structure_borne_sentence(results)),
+        *([Text(assumptions.structure_borne_sentence(results))] if published else []),
         Heading("The remainder"),
         Text(assumptions.remainder_sentence(results)),
         Heading("Inputs"),

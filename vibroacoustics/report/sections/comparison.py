@@ -7,18 +7,19 @@ from ...base.rounding import FORCE_FLOOR, LEVEL_FLOOR_DB, fixed
 from ..blocks import Block, Details, Heading, Text
 from ..comparison import bands_sentence, comparison_tables
 from ..kept_columns import columns_of
+from ..remainder import total_sentence
 from ..speeds import chosen_speeds
-from ..study import catalogue_receiver, has_sources, other_receivers
+from ..study import catalogue_receiver, has_sources, other_receivers, overall_noise
 from . import Section
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
-    receiver = catalogue_receiver(results)
+    receiver, published = catalogue_receiver(results), overall_noise(results)
     return [
         _legend(results),
         *chosen_speeds(results, "comparison.csv"),
         *(Text(line, "note") for line in columns_of(results).left_out),
-        Heading(f"Microphone of the overall level: {receiver}"),
+        Heading(f"{'Microphone of the overall level' if published else 'Microphone'}: {receiver}"),
         *comparison_tables(results, receiver),
         *(
             Details(f"Microphone {name}", tuple(comparison_tables(results, name)))
@@ -44,9 +45,9 @@ def _legend(results: xr.Dataset) -> Text:
         "the centre of mass) are peak values: the semi-major axis of the ellipse that the "
         "resultant draws. The foot force is the largest over the feet. Values below "
         f"{floor} µN or µN m are rounding errors and shown as 0. Levels are in dB re 20 µPa, rms; "
-        f"below {fixed(LEVEL_FLOOR_DB, 0)} dB they are silent. The total holds the part that is "
-        f"not modelled (see assumptions).{sources} Δ is the change against none; “–” stands where "
-        "the line without a balancer is silent, “silent” where the option silences it.",
+        f"below {fixed(LEVEL_FLOOR_DB, 0)} dB they are silent. {total_sentence(results)}{sources} "
+        "Δ is the change against none; “–” stands where the line without a balancer is silent, "
+        "“silent” where the option silences it.",
         "note",
         tuple(links),
     )

@@ -1,17 +1,23 @@
 """What carries the level: the sources of sound, and what the options do to them."""
 
+from typing import Final
+
 import xarray as xr
 
 from ...base.registry import register
 from .. import source_tables, source_words
 from ..blocks import Block, Bullets, Heading, Pictures, Text
 from ..figures import source_figures
+from ..remainder import total_sentence
 from ..speeds import chosen_speeds
-from ..study import few_speeds, has_sources
+from ..study import few_speeds, has_sources, overall_noise
 from . import Section
+
+_REMAINDER: Final = " The remainder is what each draw leaves of the published level."
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
+    has_total = overall_noise(results) is not None
     return [
         Text(source_words.carrier_sentence(results), "strong"),
         Text(source_words.shares_sentence(results)),
@@ -21,8 +27,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         Text(
             "Each level is that of the source alone. Shares of the modelled energy add up to "
             "100 %: lines of two sources at one frequency add as phasors, so a share can be "
-            "negative. The band of a sum is not the sum of bands. The remainder is what each draw "
-            "leaves of the published level.",
+            f"negative. The band of a sum is not the sum of bands.{_REMAINDER * has_total}",
             "note",
         ),
         *chosen_speeds(results, "sources.csv"),
@@ -41,9 +46,9 @@ def _changes(results: xr.Dataset) -> list[Block]:
         Heading("What the options do to all sources"),
         Text(
             "The change of all modelled sources holds the high-frequency side effects of an "
-            "option: keys without preload that strike, and what pushes the ring. The total adds "
-            "the remainder. A band that reaches from below to above zero "
-            "says that not even the sign is known.",
+            "option: keys without preload that strike, and what pushes the ring. "
+            f"{total_sentence(results)} A band that reaches from below to above zero says that "
+            "not even the sign is known.",
             "note",
         ),
         *tables,

@@ -9,6 +9,12 @@ from . import Section
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
+    draws = (
+        "No level is published: all draws count alike."
+        if list(results["level_share"]["knowledge"].values) == [unknowns.BEFORE]
+        else "Values before and after are those of all draws at the point of the published "
+        "level, after by their weights."
+    )
     sentence = unknowns.measure_next_sentence(results)
     return [
         *([Text(sentence, "strong")] if sentence else []),
@@ -16,8 +22,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         unknowns.unknowns_table(results),
         Text(
             "A share is what the variance is expected to lose once the unknown is known (first "
-            "order). Values before and after are those of all draws at the point of the published "
-            "level, after by their weights.",
+            f"order). {draws}",
             "note",
         ),
     ]

@@ -1,0 +1,111 @@
+"""A machine without a published level: no remainder, draws that count alike, plain words."""
+
+import numpy as np
+import pytest
+from sources_study import SOURCES_STUDY, run_made_up
+from support import TINY, made_up_radiation
+
+from vibroacoustics import pipeline, report
+from vibroacoustics.base.decibel import SILENCE_DB
+from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.commands.cost_lines import draws_text, study_lines
+from vibroacoustics.report.data_sheet.files import headline
+from vibroacoustics.report.data_sheet.sheet import data_sheet
+from vibroacoustics.report.evidence import rungs
+from vibroacoustics.study.loading import load_study
+
+NO_LEVEL = {"machine.without": ["frame", "overall_noise"], "catalogue_receiver": None}
+GAS_ALONE = {
+    **{f"sources.{name}": None for name in ("keys", "torque_ripple", "motor")},
+    **{f"options.{name}": None for name in ("twin-oldham", "damping")},
+    "operation.stopping": False,
+    "operation.supply_frequency_hz": None,
+    "operation.speed_rpm": [3500.0, 2900.0],
+    "radiation.maximum_frequency_hz": 1500.0,
+    "uncertainty.random_samples": 20,
+}
+
+
+@pytest.fixture(scope="module")
+def study():
+    return load_study(SOURCES_STUDY).replace(GAS_ALONE | NO_LEVEL)
+
+
+@pytest.fixture(scope="module")
+def drawn(study):
+    return run_made_up(study)
+
+
+@pytest.fixture(scope="module")
+def rigid():
+    return pipeline.run(load_study(TINY).replace(NO_LEVEL), radiation=made_up_radiation)
+
+
+def text_of(results):
+    return report.render(results)["comparison.md"].decode()
+
+
+def test_first_microphone_and_speed_stand_for_the_catalogues(study):
+    assert study.catalogue_receiver == "front_1m"
+    assert study.catalogue_case == (3500.0, "none")
+    said = "\n".join(study_lines(study))
+    assert "none is published (overall_noise)" in said
+    assert "front_1m and 3500 rpm" in said
+
+
+def test_the_total_is_what_is_modelled(rigid, drawn):
+    for results in (rigid, drawn):
+        modelled = results["level_modelled"].sel(weighting="A")
+        assert results["level_total"].values == pytest.approx(modelled.values)
+        assert results["level_remainder"].item() == SILENCE_DB
+    by_draw = drawn["level_total_by_draw"].values
+    assert by_draw == pytest.approx(drawn["level_modelled_by_draw"].values)
+    assert np.ptp(by_draw[:, 0, 0, 0]) > 1.0
+
+
+def test_draws_count_alike(drawn, study):
+    assert drawn["prior"].values.tolist() == ["even"]
+    assert (drawn["bank_weight"].values == 1.0).all()
+    assert drawn.sizes["bank_draw"] == study.uncertainty.random_samples
+    assert drawn["draw_weight"].values == pytest.approx(1.0 / drawn.sizes["draw"])
+    assert drawn["level_share"]["knowledge"].values.tolist() == ["before"]
+    names = [limits.name for limits in study.ranges]
+    assert not any(name.startswith("remainder") for name in names)  # nothing hangs on it
+
+
+def test_the_report_says_so(rigid, drawn):
+    plain, of_draws = text_of(rigid), text_of(drawn)
+    for text in (plain, of_draws):
+        assert "gives no published level: there is no remainder" in text
+        assert "What is not modelled" in text
+        assert "whole machine is assumed" not in text
+    assert "the whole machine is not known: none is published." in plain
+    assert "Of the energy of all that is modelled" in of_draws
+    assert "they count alike: they are worth 20 equal ones" in of_draws
+    assert "0 dB(A) and taken as sure" not in of_draws
+    assert [rung.quantity for rung in rungs(rigid)] == []
+
+
+def test_the_data_sheet_says_so(rigid):
+    sheet = data_sheet(rigid, "none", 2900.0)
+    assert sheet.sound_power.rest == "none"
+    assert headline(sheet).endswith("of what is modelled alone.")
+
+
+def test_ranges_that_are_not_drawn_are_told(rigid):
+    study = load_study(TINY)
+    ranges = sum(record.lowest is not None for record in study.records)
+    assert ranges > 1
+    assert f"none, though {ranges} values have a range" in draws_text(study)
+    count = sum(record.lowest is not None for record in load_study(TINY).replace(NO_LEVEL).records)
+    assert f"{count} values have a range; they are not drawn" in text_of(rigid)
+    words = data_sheet(rigid, "none", 2900.0).sound_power.uncertainty_words
+    assert words.startswith(f"nothing was drawn: K is not known. {count} values have a range")
+
+
+def test_what_contradicts_it_is_refused():
+    study = load_study(SOURCES_STUDY)
+    with pytest.raises(ParameterError, match="catalogue_receiver = : not among the receivers"):
+        study.replace({"catalogue_receiver": None})
+    with pytest.raises(ParameterError, match="catalogue_point = ari: the machine's file gives no"):
+        study.replace(NO_LEVEL | {"catalogue_point": "ari"})
