@@ -56,13 +56,18 @@ def holding(boxes: Sequence[AirBox], point: Array, name: str = "room") -> int:
 
 
 class Reader:
-    """Reads pressure, and its gradient if asked for, at a lattice."""
+    """Reads pressure (-1) and derivatives by axis at a lattice."""
 
     def __init__(
-        self, boxes: Sequence[AirBox], lattice: Lattice, time_step_s: float, gradient: bool = False
+        self,
+        boxes: Sequence[AirBox],
+        lattice: Lattice,
+        time_step_s: float,
+        quantities: Sequence[int],
     ) -> None:
-        self.shape = (4 if gradient else 1, *lattice.shape)
-        """Pressure and, if asked for, its three derivatives; points along each axis."""
+        self._quantities = tuple(quantities)
+        self.shape = (len(quantities), *lattice.shape)
+        """Quantities; points along each axis."""
         left = np.ones(lattice.shape, dtype=bool)
         self._pieces = []
         for number, box in enumerate(boxes):
@@ -80,9 +85,9 @@ class Reader:
             holding([], np.array([line[i] for line, i in zip(lattice.lines, first, strict=True)]))
 
     def read(self, air: Air) -> Array:
-        """Pressure and derivatives, flat from (quantity, x, y, z)."""
+        """Its quantities, flat from (quantity, x, y, z)."""
         result = np.empty(self.shape)
         for at, piece in self._pieces:
-            for quantity in range(self.shape[0]):
-                result[np.ix_(np.array([quantity]), *at)] = piece.read(air, quantity - 1)
+            for number, quantity in enumerate(self._quantities):
+                result[np.ix_(np.array([number]), *at)] = piece.read(air, quantity)
         return result.ravel()
