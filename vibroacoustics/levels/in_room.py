@@ -2,10 +2,11 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
-from ..base.arrays import Array
+from ..base.arrays import Array, ComplexArray
 from ..base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from ..mechanics.received_sound import ReceivedSound
 from .bands import Band
@@ -13,9 +14,13 @@ from .by_source import membership, weighting_power
 from .measured_points import BASELINE_BANDS
 from .sound_power import hemisphere_area_m2
 
-IMPEDANCE: float = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S
-LINES_OF_BAND = 24
+IMPEDANCE: Final = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S
+LINES_OF_BAND: Final = 24
 """Frequencies that stand for a third octave."""
+LOWEST_HZ: Final = 1.0
+"""In place of 0 Hz, where nothing is heard."""
+ROUNDED: Final = 1.001
+"""Of the middle of a band that is called by a round number."""
 
 
 @dataclass(frozen=True)
@@ -90,14 +95,14 @@ def room_sound(received: ReceivedSound, ways: RoomWays) -> RoomSound:
     audible = hertz > 0.0
     by_source = 0.5 * np.abs(received.pressure) ** 2 * audible
     together = 0.5 * np.abs(received.pressure.sum(axis=0)) ** 2 * audible
-    safe = np.where(audible, hertz, 1.0)
+    safe = np.maximum(hertz, LOWEST_HZ)
     weight, in_band = weighting_power("A", safe), membership(hertz, BASELINE_BANDS)
     alone = ways.at_listeners(by_source, safe) @ weight
     at_listeners = ways.at_listeners(together, safe)
     total, band = at_listeners @ weight, at_listeners @ in_band
     power_band = ways.power(together) @ in_band
     for part in received.noise:
-        noise = ways.at_listeners(part.power, part.frequency_hz)
+        noise = ways.at_listeners(part.power, np.maximum(part.frequency_hz, LOWEST_HZ))
         loud = noise @ weighting_power("A", part.frequency_hz)
         alone[part.source] += loud
         total = total + loud
@@ -119,7 +124,7 @@ def power_of_hemisphere(mean_square: Array, distance_m: float) -> Array:
 
 
 def wave_gains(
-    pressure_per_velocity: Callable[[Array], Array], ways: RoomWays, highest_hz: float
+    pressure_per_velocity: Callable[[Array], ComplexArray], ways: RoomWays, highest_hz: float
 ) -> Array:
     """Mean square by waves per power in `BASELINE_BANDS`, shape (listener, band), Pa²/W.
 
@@ -133,9 +138,11 @@ def wave_gains(
     """
     gains = np.zeros((ways.listeners, len(BASELINE_BANDS)))
     for number, band in enumerate(BASELINE_BANDS):
-        if band.upper_hz > highest_hz * (1.0 + 1e-3):
+        hertz = frequencies_of(band)
+        hertz = hertz[hertz <= highest_hz]
+        if band.middle_hz > highest_hz * ROUNDED:
             break
-        square = np.abs(pressure_per_velocity(frequencies_of(band))[:, :3]) ** 2
+        square = np.abs(pressure_per_velocity(hertz)[:, :3]) ** 2
         by_motion = np.moveaxis(square, 1, 0)
         power = ways.power(by_motion).mean(axis=-1)
         waves = by_motion[:, : ways.listeners].mean(axis=-1)

@@ -62,6 +62,12 @@ class RoomLimits(Parameters):
     day_dba: float | None = Field(default=None, ge=0.0, le=120.0)
     night_dba: float | None = Field(default=None, ge=0.0, le=120.0)
 
+    @property
+    def levels(self) -> dict[str, float]:
+        """Those that are given, by time of day."""
+        given = {"day": self.day_dba, "night": self.night_dba}
+        return {time: level for time, level in given.items() if level is not None}
+
 
 class StudyRoom(Parameters):
     """A room from its origin in a lower corner, x and y level, z up; hard where nothing covers it.

@@ -9,7 +9,6 @@ _CASES: Final = ("speed", "option", "listener")
 _SEAM: Final = ("listener", "seam_band")
 
 for _coordinate in (
-    Coordinate("listener", ("listener",), "", "listener in the room"),
     Coordinate("seam_band", ("seam_band",), "Hz", "third octave around the change of method"),
     Coordinate("room_octave", ("room_octave",), "Hz", "octave of the room's absorption"),
     Coordinate("room_limit_time", ("room_limit_time",), "", "time of day of a limit"),
@@ -91,6 +90,12 @@ for _thing in (
     ),
     Variable("room_absorption_area", ("room_octave",), "m2", "equivalent absorption area"),
     Variable("room_limit", ("room_limit_time",), "dB", "A-weighted level that listeners accept"),
+    Variable(
+        "room_map_gain",
+        ("room_map_y", "room_map_x", "seam_band"),
+        "dB",
+        "level of a monopole over its power level on a hard floor in the open",
+    ),
     Variable(
         "room_map_level",
         ("room_map_y", "room_map_x"),

@@ -7,22 +7,35 @@ from typing import Any, Final
 import numpy as np
 import xarray as xr
 
+from ...base.arrays import Array, ComplexArray
+from ...base.decibel import power_of_level
 from ...base.vocabulary import RIGID_BODY_DOFS
 from ...machine.shell import Shell
 from ...study.room import StudyRoom
 from ...study.room_materials import Covering
 from ...study.study import Study
-from ..arrays import Array, ComplexArray
 from ..interpolation import interpolant
 from ..patterns import SurfaceMotion
 from ..transfer_vectors import cache_key_material
-from .diffuse import SEAM_HZ, DiffuseRoom, blend, line_of_sight, mean_square_per_power
+from .decay import absorption_area_m2
+from .diffuse import (
+    SEAM_HZ,
+    DiffuseRoom,
+    blend,
+    gain_at_place_db,
+    line_of_sight,
+    mean_square_per_power,
+)
 from .machine_in_room import room_pressure_per_velocity
-from .materials import Material
+from .materials import OCTAVES_HZ, Material
 from .room import Block, Patch, Room
 
 _KEPT: Final = 8
 """Sets of frequencies whose values are kept: rigid motions and modes ask for the same."""
+ROUNDED: Final = 1.05
+"""Of bands that are called by round numbers."""
+SHOWN_FROM_HZ: Final = 250.0
+"""Lowest third octave in which both methods are shown."""
 
 PressureAt = Callable[[Array], ComplexArray]
 """Of frequencies, (frequency,), to (place, pattern, frequency), Pa per unit velocity."""
@@ -58,7 +71,7 @@ def foot_m(settings: StudyRoom) -> Array:
 def machine_middle_m(settings: StudyRoom, shell: Shell) -> Array:
     """Middle of the shell, shape (3,)."""
     up = shell.floor_clearance_m + 0.5 * shell.height_m
-    return foot_m(settings) + np.array([0.0, 0.0, up])
+    return np.asarray(foot_m(settings) + np.array([0.0, 0.0, up]))
 
 
 def listeners_m(settings: StudyRoom) -> dict[str, Array]:
@@ -156,8 +169,40 @@ def diffuse_per_power(
     ]
 
     def per_power(frequency_hz: Array) -> Array:
-        return gain * np.array(
-            [mean_square_per_power(frequency_hz, away, diffuse, seen) for away, seen in ways]
+        return np.asarray(
+            gain
+            * np.array(
+                [mean_square_per_power(frequency_hz, away, diffuse, seen) for away, seen in ways]
+            )
         )
 
     return per_power
+
+
+def seam_bands_hz(highest_hz: float) -> tuple[float, float]:
+    """Lowest and highest middle of the third octaves that are shown around the seam, Hz.
+
+    Parameters
+    ----------
+    highest_hz : of the waves
+    """
+    return SHOWN_FROM_HZ * seam_shift(highest_hz), highest_hz
+
+
+def place_gain(waves: Array, diffuse: Array, middle_hz: Array, highest_hz: float) -> float:
+    """Power at the machine's place over that in the open, from the thirds of the seam.
+
+    Parameters
+    ----------
+    waves, diffuse : mean squares per power, shape (listener, band)
+    middle_hz : of the bands, shape (band,)
+    highest_hz : of the waves
+    """
+    low, high = (end * seam_shift(highest_hz) for end in SEAM_HZ)
+    within = (middle_hz > low / ROUNDED) & (middle_hz < high * ROUNDED)
+    return float(power_of_level(gain_at_place_db(waves[:, within], diffuse[:, within])))
+
+
+def absorption_by_octave(settings: StudyRoom) -> tuple[list[float], Array]:
+    """Octaves, Hz, and the equivalent absorption area of walls and furniture in them, m²."""
+    return list(OCTAVES_HZ), np.asarray(absorption_area_m2(room_of(settings)), dtype=np.float64)

@@ -6,6 +6,7 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
+from ...base.arrays import Array, IndexArray
 from ...base.constants import (
     AIR_DENSITY_KG_PER_M3,
     REFERENCE_PRESSURE_PA,
@@ -14,7 +15,6 @@ from ...base.constants import (
 from ...base.decibel import mean_square_level
 from ...base.progress import Progress, no_progress
 from ...base.vocabulary import check, stamp
-from ..arrays import Array
 from .lattice import Lattice
 from .response import room_transfer
 from .room import Room
@@ -83,7 +83,7 @@ def _line(size_m: float) -> Array:
     return (np.arange(count) + 0.5) * size_m / count
 
 
-def _free_rows(room: Room, x: Array, y: Array, height_m: float) -> list[tuple[int, Array]]:
+def _free_rows(room: Room, x: Array, y: Array, height_m: float) -> list[tuple[int, IndexArray]]:
     """Number of each row along y and the numbers of neighbouring points along x in the air."""
     rows = []
     for j, across in enumerate(y):
@@ -97,8 +97,7 @@ def _free_rows(room: Room, x: Array, y: Array, height_m: float) -> list[tuple[in
 def _in_air(room: Room, point: tuple[float, float, float]) -> bool:
     return not any(
         all(
-            low <= at <= high
-            for low, at, high in zip(block.lower, point, block.upper, strict=True)
+            low <= at <= high for low, at, high in zip(block.lower, point, block.upper, strict=True)
         )
         for block in room.blocks
     )
