@@ -80,7 +80,7 @@ OF_OTHER_JOBS = (
     "structure_borne_", "level_both_ways", "gas_frequency", "room_", "hemisphere_",
     "measured_", "background_", "mean_position_", "environment_",
 )  # fmt: skip
-"""Of measurements alone, of a test of the shell, of a search of designs, of a plate, of gas, of rooms."""
+"""Of measurements, a test of the shell, a search of designs, a plate, gas, rooms alone."""
 
 
 @pytest.fixture(scope="module")
