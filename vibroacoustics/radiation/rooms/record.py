@@ -9,7 +9,6 @@ from scipy import fft
 
 from ..arrays import Array, ComplexArray
 from ..pulse import transform
-from .lattice import Reader
 
 
 @dataclass(frozen=True)
@@ -33,7 +32,8 @@ class Record:
     """Samples of all points, (sample, column), a step of `every` time steps apart."""
 
     samples: Array
-    readers: Sequence[Reader]
+    shapes: Sequence[tuple[int, ...]]
+    """Of each lattice, (quantity, x, y, z)."""
     pulse: Pulse
     every: int
     remaining_db: float
@@ -46,8 +46,8 @@ class Record:
         spectrum = np.cos(angle) @ self.samples - 1j * (np.sin(angle) @ self.samples)
         spectrum *= (self.every / self.pulse.spectrum(frequency_hz))[:, None]
         return tuple(
-            spectrum[:, columns].reshape(-1, *reader.shape)
-            for reader, columns in zip(self.readers, self._columns(), strict=True)
+            spectrum[:, columns].reshape(-1, *shape)
+            for shape, columns in zip(self.shapes, self._columns(), strict=True)
         )
 
     def on_grid(self, lattice: int, length: int, lines: int) -> ComplexArray:
@@ -55,14 +55,14 @@ class Record:
 
         The lines are multiples, from the first on, of one over the duration of `length` samples.
         """
-        reader, columns = self.readers[lattice], self._columns()[lattice]
+        shape, columns = self.shapes[lattice], self._columns()[lattice]
         spectrum = fft.rfft(self.samples[:, columns], length, axis=0)[1 : lines + 1]
         step_hz = 1.0 / (length * self.every * self.pulse.step_s)
         frequency_hz = step_hz * np.arange(1.0, lines + 1.0)
         spectrum *= (self.every / self.pulse.spectrum(frequency_hz))[:, None]
-        by_quantity: ComplexArray = spectrum.reshape(lines, reader.shape[0], -1)
+        by_quantity: ComplexArray = spectrum.reshape(lines, shape[0], -1)
         return by_quantity
 
     def _columns(self) -> list[slice]:
-        ends = np.cumsum([0, *(int(np.prod(reader.shape)) for reader in self.readers)])
+        ends = np.cumsum([0, *(int(np.prod(shape)) for shape in self.shapes)])
         return [slice(int(a), int(b)) for a, b in pairwise(ends)]

@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import chain
 from threading import Lock
 from typing import Final
 
@@ -15,7 +16,8 @@ from ...base.threads import in_threads
 from ..arrays import Array, ComplexArray
 from .air import Air, stable_air
 from .cutting import AirBox, Face
-from .lattice import Lattice, Reader, holding
+from .lattice import Lattice, holding, pieces_of
+from .reading import Readings
 from .record import Pulse, Record
 from .settings import RoomSettings
 
@@ -60,11 +62,19 @@ class Runs:
         longest_s: float,
     ) -> None:
         self._boxes, self._faces, self._settings = boxes, faces, settings
-        self.step_s = stable_air(boxes, faces, settings.longest_step_s).time_step_s
-        self._readers = [
-            Reader(boxes, lattice, self.step_s, asked)
+        air = stable_air(boxes, faces, settings.longest_step_s)
+        self.step_s = air.time_step_s
+        self._shapes = [
+            (len(asked), *lattice.shape)
             for lattice, asked in zip(lattices, quantities, strict=True)
         ]
+        first = np.cumsum([0, *(int(np.prod(shape)) for shape in self._shapes)])
+        self._columns = int(first[-1])
+        pieces = (
+            pieces_of(boxes, lattice, self.step_s, asked, int(start))
+            for lattice, asked, start in zip(lattices, quantities, first[:-1], strict=True)
+        )
+        self._readings = Readings(air.plan, list(chain.from_iterable(pieces)))
         self._pulse = Pulse(*settings.force(self.step_s), self.step_s)
         self._every = settings.sampling_steps(self.step_s)
         self.steps = int(np.ceil((self._pulse.time_s[-1] + longest_s) / self.step_s))
@@ -90,15 +100,14 @@ class Runs:
         """
         air, force = Air(self._boxes, self._faces, self.step_s), self._pulse.force
         air.set_source(holding(self._boxes, microphone), microphone)
-        columns = sum(int(np.prod(reader.shape)) for reader in self._readers)
-        samples, taken = np.empty((self.samples, columns)), 0
+        samples, taken = np.empty((self.samples, self._columns)), 0
         decay = _Decay(max(1, round(_WATCH_S / self.sample_s)), self._settings.decay_db)
         for step in range(self.steps):
             now = float(force[step]) if step < force.size else 0.0
             air.exchange(now)
             if step % self._every == 0:
                 row = samples[taken]
-                np.concatenate([reader.read(air) for reader in self._readers], out=row)
+                self._readings.read(air, row)
                 taken += 1
                 if decay.ended(row) and step > force.size:
                     break
@@ -108,7 +117,7 @@ class Runs:
         progress(f"room {name}", self.steps, self.steps)
         if not np.isfinite(decay.remaining_db):
             raise SolverError(f"receivers.{name}: the room's pressure is no number")
-        return Record(samples[:taken], self._readers, self._pulse, self._every, decay.remaining_db)
+        return Record(samples[:taken], self._shapes, self._pulse, self._every, decay.remaining_db)
 
 
 def run_all(
