@@ -20,7 +20,7 @@ from .room_rest import beside_model
 from .structure_borne import weight_of
 
 REFERENCE_POWER_W: Final = 1e-12
-BAND_SHARES: Final = (0.05, 0.95)
+BAND_SHARES: Final = {"low": 0.05, "middle": 0.5, "high": 0.95}
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ def power_level(power_band: Array) -> Array:
 
 
 def drawn_band(air: AirInRoom, results: xr.Dataset, receiver: str) -> xr.Dataset:
-    """Levels by air that 5 % and 95 % of the draws stay below; empty without draws.
+    """Levels by air that 5, 50 and 95 % of the draws stay below; empty without draws.
 
     A draw changes what comes of the model, and what does not, at each listener as at the microphone
     of the published level.
@@ -137,16 +137,11 @@ def drawn_band(air: AirInRoom, results: xr.Dataset, receiver: str) -> xr.Dataset
     square = air.modelled * of_model[..., None] + air.rest * of_rest[..., None]
     weight = results["draw_weight"].isel(prior=0).values
     levels = level(np.nan_to_num(square))
-    low, high = weighted_quantiles(levels, weight, BAND_SHARES)
+    ends = weighted_quantiles(levels, weight, list(BAND_SHARES.values()))
     coords = _coordinates(results["room_level"])
-    return check(
-        xr.Dataset(
-            {
-                "room_level_low": stamp("room_level_low", low, coords),
-                "room_level_high": stamp("room_level_high", high, coords),
-            }
-        )
-    )
+    names = [f"room_level_{end}" for end in BAND_SHARES]
+    arrays = {name: stamp(name, of, coords) for name, of in zip(names, ends, strict=True)}
+    return check(xr.Dataset(arrays))
 
 
 def plate_variables(results: xr.Dataset, per_power: Array) -> xr.Dataset:
@@ -154,7 +149,7 @@ def plate_variables(results: xr.Dataset, per_power: Array) -> xr.Dataset:
 
     Parameters
     ----------
-    results : with the plate's powers, spans and `room_level`
+    results : with the plate's powers and spans, `room_level` and, of draws, `room_level_middle`
     per_power : mean square per power, shape (speed, listener, line), Pa²/W
     """
     power = results["structure_borne_power"].transpose("speed", "option", "line").values
@@ -168,7 +163,8 @@ def plate_variables(results: xr.Dataset, per_power: Array) -> xr.Dataset:
         of_end = results[f"structure_borne_level_{end}"].isel(receiver=0) - span
         values = by_plate + of_end.transpose("speed", "option").values[..., None]
         arrays[f"room_plate_level_{end}"] = stamp(f"room_plate_level_{end}", values, coords)
-    both = energy_sum(np.stack([results["room_level"].values, by_plate]), axis=0)
+    by_air = results["room_level_middle" if "room_level_middle" in results else "room_level"]
+    both = energy_sum(np.stack([by_air.values, by_plate]), axis=0)
     arrays["room_level_both_ways"] = stamp("room_level_both_ways", both, coords)
     return check(xr.Dataset(arrays))
 

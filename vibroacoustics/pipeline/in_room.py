@@ -60,7 +60,7 @@ def sound_in_room(
     sound = air_variables(air, speeds, options, listeners, sources)
     results = motion.results.merge(sound)
     sound = sound.merge(drawn_band(air, results, study.catalogue_receiver))
-    sound = sound.merge(_by_plate(settings, results)).merge(_of_the_room(settings))
+    sound = sound.merge(_by_plate(settings, results.merge(sound))).merge(_of_the_room(settings))
     between_hz = rooms.seam_bands_hz(highest_hz)
     sound = sound.merge(seam_variables(listeners, waves, diffuse, gain, between_hz))
     return sound.merge(_map(study, settings, air, progress))

@@ -38,7 +38,7 @@ def room_sentence(results: xr.Dataset) -> str:
     name = loudest_listener(results)
     at = _at(results, REFERENCE_OPTION).sel(listener=name)
     return (
-        f"In the room the machine without a balancer is {_ranged(at, _both_name(at))} dB(A) at "
+        f"In the room the machine without a balancer is {rounding.level(_both(at))} dB(A) at "
         f"{name}, the loudest place of those asked for, at {_speed(results):g} rpm"
         f"{_limit_words(results, _both(at))}: {_carrier_words(at)}{_best(results, name)}"
     )
@@ -104,16 +104,18 @@ def power_sentence(results: xr.Dataset) -> str:
     """Sound power in the open, the same machine at its published point, and the room's gain."""
     at = _at(results, REFERENCE_OPTION)
     name = loudest_listener(results)
-    by_air = float(at["room_level"].sel(listener=name))
+    by_air = at.sel(listener=name)
     power = float(
         results["room_sound_power_level"].sel(speed=_speed(results), option=REFERENCE_OPTION)
     )
     published = overall_noise(results)
+    drawn = "; the draws keep to what is published" if "room_level_middle" in by_air else ""
     return (
         f"On a hard floor in the open the machine has a sound power level of "
-        f"{rounding.level(power)} dB(A) re 1 pW; its noise is published as "
-        f"{published['level_dba']:g} dB(A) at {published['distance_m']:g} m and "
-        f"{published['speed_rpm']:g} rpm. By air it is {rounding.level(by_air)} dB(A) at {name}."
+        f"{rounding.level(power)} dB(A) re 1 pW with the values as given; its noise is published "
+        f"as {published['level_dba']:g} dB(A) at {published['distance_m']:g} m and "
+        f"{published['speed_rpm']:g} rpm{drawn}. With the values as given it is "
+        f"{rounding.level(float(by_air['room_level']))} dB(A) by air at {name}."
     )
 
 
@@ -131,26 +133,27 @@ def _speed(results: xr.Dataset) -> float:
     return min(speeds(results), key=lambda speed: abs(speed - published))
 
 
-def _both_name(at: xr.Dataset) -> str:
-    return "room_level_both_ways" if "room_level_both_ways" in at else "room_level"
-
-
 def _both(at: xr.Dataset) -> float:
-    return float(at[_both_name(at)])
+    return float(at["room_level_both_ways"]) if "room_level_both_ways" in at else _by_air(at)
+
+
+def _by_air(at: xr.Dataset) -> float:
+    """The middle of the draws where there are some."""
+    return float(at["room_level_middle" if "room_level_middle" in at else "room_level"])
 
 
 def _carrier(at: xr.Dataset) -> str:
     low, high = (float(at[f"room_plate_level_{end}"]) for end in ("low", "high"))
-    which = carrier(float(at["room_level"]), low, high)
+    which = carrier(_by_air(at), low, high)
     return "the feet" if which == "the plate" else which
 
 
 def _carrier_words(at: xr.Dataset) -> str:
     if "room_plate_level" not in at:
-        return "it comes by air"
+        return f"it comes by air, {_ranged(at, 'room_level')} dB(A)"
     which = _carrier(at)
     ways = (
-        f"by air {rounding.level(float(at['room_level']))}, by the feet and the plate "
+        f"by air {_ranged(at, 'room_level')}, by the feet and the plate "
         f"{_ranged(at, 'room_plate_level')}"
     )
     verdict = "which carries it is not sure" if which == "not sure" else f"{which} carries it"
@@ -191,7 +194,7 @@ def _met(over_db: float) -> str:
 
 
 def _ranged(at: xr.Dataset, name: str) -> str:
-    level = float(at[name])
+    level = _by_air(at) if name == "room_level" else float(at[name])
     if f"{name}_low" not in at or level < rounding.LEVEL_FLOOR_DB:
         return rounding.level(level)
     low, high = (rounding.level(float(at[f"{name}_{end}"])) for end in ("low", "high"))

@@ -129,6 +129,7 @@ def test_draws_change_model_and_rest_as_at_the_microphone():
     air = AirInRoom(np.array([[[1.0]]]), np.array([[[2.0]]]), np.zeros(0), np.zeros(0), np.zeros(0))
     band = drawn_band(air, results, "front")
     ends = 10.0 * np.log10(np.array([3.0, 10.0**0.3 + 2.0 * 10.0**0.6]) / 4e-10)
+    assert band["room_level_middle"].item() == pytest.approx(ends.mean(), abs=1e-9)
     low, high = ends[0] + 0.05 * np.diff(ends), ends[0] + 0.95 * np.diff(ends)
     assert band["room_level_low"].item() == pytest.approx(low.item(), abs=1e-9)
     assert band["room_level_high"].item() == pytest.approx(high.item(), abs=1e-9)

@@ -20,6 +20,9 @@ for _coordinate in (
 for _thing in (
     Variable("room_level", _CASES, "dB", "A-weighted level of the machine by air in the room"),
     Variable("room_level_low", _CASES, "dB", "A-weighted level that 5 % of the draws stay below"),
+    Variable(
+        "room_level_middle", _CASES, "dB", "A-weighted level that half of the draws stay below"
+    ),
     Variable("room_level_high", _CASES, "dB", "A-weighted level that 95 % of the draws stay below"),
     Variable(
         "room_source_level",
@@ -62,7 +65,8 @@ for _thing in (
         "room_level_both_ways",
         _CASES,
         "dB",
-        "A-weighted level in the room by air and by the feet and the plate together",
+        "A-weighted level in the room by air, the middle of the draws where there are some, and by "
+        "the feet and the plate",
     ),
     Variable(
         "room_gain_waves",
