@@ -7,9 +7,9 @@ The report draws its pictures with the same functions. A notebook shows what the
 >>> va.plot.levels(results).savefig("levels.png")
 
 Of `run`: `force_over_revolution`, `force_orders`, `foot_force_orders`, `level_orders`,
-`mount_transmissibility`, `transfer`, `green_difference`, `levels`, `line_map`, `scores`,
-`rank_acceptability`, `source_third_octaves`, `option_third_octaves`, `baseline_third_octaves`,
-`path_shares`, `stopping`, `stopping_order_map`.
+`mount_transmissibility`, `transfer`, `green_difference`, `levels`, `line_map`, `room_map`,
+`room_seam`, `scores`, `rank_acceptability`, `source_third_octaves`, `option_third_octaves`,
+`baseline_third_octaves`, `path_shares`, `stopping`, `stopping_order_map`.
 
 Over several speeds of `run`: `levels_over_speed`, `source_levels_over_speed`,
 `orders_over_speed`, `speed_frequency_map`, `campbell`.
@@ -35,6 +35,7 @@ from .report.figures.compared_orders import compared_orders
 from .report.figures.curves import curves
 from .report.figures.directivity import directivity
 from .report.figures.forces import force_over_revolution
+from .report.figures.in_room import room_map, room_seam
 from .report.figures.levels_over_speed import levels_over_speed, source_levels_over_speed
 from .report.figures.maps import line_map, unit_level_map
 from .report.figures.mounts import mount_transmissibility
@@ -77,6 +78,8 @@ __all__ = [
     "path_shares",
     "predicted_levels",
     "rank_acceptability",
+    "room_map",
+    "room_seam",
     "scores",
     "source_levels_over_speed",
     "source_third_octaves",

@@ -109,6 +109,8 @@ FEATURES = {
     "forces drawn": "va.plot.force_over_revolution",
     "directivity drawn": "va.plot.directivity",
     "level map drawn": "va.plot.line_map",
+    "level over a room drawn": "va.plot.room_map",
+    "both methods of a room drawn": "va.plot.room_seam",
     "stopping drawn": "va.plot.stopping",
     "sources drawn": "va.plot.source_third_octaves",
     "paths of sound drawn": "va.plot.path_shares",

@@ -12,6 +12,8 @@ from ..base.errors import ParameterError
 from ..base.progress import Progress, no_progress
 from ..radiation.cost import Cost, about, cost_of, processor_time_s
 from ..radiation.given import Radiation, given_radiation
+from ..radiation.rooms.cost import room_cost
+from ..radiation.rooms.of_study import room_key
 from ..radiation.transfer_vectors import frequencies_hz, method_of, task_of
 from ..results.size import check_size, result_bytes
 from ..results.storage import is_cached
@@ -89,6 +91,7 @@ def _run_cost(study: Study, progress: Progress) -> RunCost:
     progress("cost of the draws", 0, 1)
     motion = motion.with_results(motion.results.merge(radiated))
     costs += levels_cost(study, first, motion, path, known)
+    costs += _room(study, path)
     costs.append(Cost("report", *_REPORT_S, "not measured: as that of the package's studies"))
     return RunCost(tuple(costs), result_bytes(study, motion.results), known)
 
@@ -118,6 +121,16 @@ def _radiation(study: Study, path: ShellPath | None) -> list[Cost]:
     inputs = inputs_of(study, _modes(path))
     task = task_of(*inputs)
     return cost_of(method_of(inputs[0], task), task)
+
+
+def _room(study: Study, path: ShellPath | None) -> list[Cost]:
+    settings = study.room
+    if settings is None:
+        return []
+    material = room_key(study, settings, _modes(path))
+    if is_cached("room-vectors", material):
+        return []
+    return [room_cost(settings)]
 
 
 def _made_up(study: Study, path: ShellPath | None) -> Radiation:

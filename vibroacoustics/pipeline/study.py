@@ -20,6 +20,7 @@ from ..transfer.natural_frequencies import natural_variables
 from .calibration import shell_test
 from .floor import on_measured_floor
 from .force_sound import force_radiation, measured_force_sound
+from .in_room import sound_in_room
 from .motion import motion_of
 from .radiating import line_difference, sound_field, transfer_vectors
 from .shell import shell_path
@@ -85,6 +86,8 @@ def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
     moved = motion.with_results(results)
     results = results.merge(levels_of(study, moved, path, progress, test, by_force))
     results = results.merge(structure_borne_sound(study, moved, results))
+    in_room = sound_in_room(study, motion.with_results(results), path, progress)
+    results = results.merge(in_room)
     if study.operation.stopping:
         body = on_mounts(study.machine)
         results = results.merge(stopping_variables(study, study.machine, body, results, path))

@@ -22,6 +22,28 @@ def wrench_pressure(results: xr.Dataset, name: str) -> xr.DataArray:
     return _at_orders(results["velocity_order"], results[name], results["order_frequency"])
 
 
+def wrench_pressure_by(
+    results: xr.Dataset, pressure_per_velocity: Interpolant, highest_hz: float
+) -> xr.DataArray:
+    """`wrench_pressure` by a function of frequencies, Pa.
+
+    Parameters
+    ----------
+    results : with `velocity_order` and `order_frequency`
+    pressure_per_velocity : to (receiver, dof, frequency)
+    highest_hz : of that function; orders beyond are silent
+    """
+    frequency = results["order_frequency"].clip(max=highest_hz)
+    values = pressure_per_velocity(frequency.values.ravel())
+    vectors = xr.DataArray(
+        values.reshape(*values.shape[:2], *frequency.shape),
+        dims=("receiver", "dof", *frequency.dims),
+        coords={**frequency.coords, "dof": results["velocity_order"]["dof"]},
+    )
+    pressure: xr.DataArray = xr.dot(results["velocity_order"], vectors, dim="dof")
+    return pressure
+
+
 def pressure_on_surface(velocity: xr.DataArray, results: xr.Dataset) -> xr.DataArray:
     """Pressure at the positions of the measurement surface, here called receivers, Pa.
 

@@ -43,6 +43,11 @@ TOGETHER: Final = (
     ("structure_borne_input_power", "structure_borne_power", "structure_borne_line_level",
      "structure_borne_line_low", "structure_borne_line_high", "structure_borne_level",
      "structure_borne_level_low", "structure_borne_level_high", "level_both_ways"),
+    ("room_level", "room_source_level", "room_band_level", "room_sound_power_level",
+     "room_gain_waves", "room_gain_diffuse", "room_gain_difference", "room_place_gain",
+     "room_absorption_area", "room_map_level"),
+    ("room_level_low", "room_level_middle", "room_level_high"),
+    ("room_plate_level", "room_plate_level_low", "room_plate_level_high", "room_level_both_ways"),
     ("published_score", "published_sum", "recomputed_sum"),
 )  # fmt: skip
 """Variables that stand in a run all or none."""
@@ -54,6 +59,8 @@ NEEDS: Final = {
     "block_velocity_order": ("velocity_order",),
     "stopping_order_map": ("stopping_force",),
     "path_share": ("foot_force_order",),
+    "room_level_low": ("room_level", "draw_weight"),
+    "room_plate_level": ("room_level", "structure_borne_power"),
 }
 """Further variables, and what stands beside each."""
 COORDINATES_OF: Final = {
@@ -74,10 +81,10 @@ EMPTY_WHERE_NONE: Final = frozenset(
      "level_share_quality", "change_share", "change_share_quality", "change_variance",
      "baseline_share", "baseline_band_level", "baseline_order_level", "baseline_order_share",
      "baseline_order_phase", "shell_gain", "shell_frequency_ratio", "shell_loss_ratio",
-     "shell_level_before")
+     "shell_level_before", "room_map_level")
 )  # fmt: skip
-"""Not a number where there is nothing: an option without such a figure, a point in the machine, a
-microphone that k-Wave did not compute, draws that are too few."""
+"""Not a number where there is nothing: an option without such a figure, a point in the machine or
+in furniture, a microphone that k-Wave did not compute, draws that are too few."""
 ONLY_DRAWS_THAT_COUNT: Final = frozenset((*TOGETHER[0][1:-1], *TOGETHER[1]))
 """Not a number in a draw without solution, whose weight is 0."""
 ADDED_MASS: Final = "added_mass_kg"

@@ -46,6 +46,7 @@ def check_consistent(study: "Study") -> None:
     _check_orders(study)
     _check_sources(study)
     _check_sound_power(study)
+    _check_room(study)
 
 
 def _check_catalogue(study: "Study") -> None:
@@ -82,6 +83,29 @@ def _check_sound_power(study: "Study") -> None:
             "sound_power: ISO 3744 measures over a hard floor alone; radiation.surroundings "
             f"has {'ground or a barrier' if surroundings.is_outdoors else 'walls or a cabinet'}"
         )
+
+
+def _check_room(study: "Study") -> None:
+    """Refuse a room that does not hold the machine, or beside which other walls stand."""
+    if study.room is None:
+        return
+    surroundings = study.radiation.surroundings
+    if surroundings.walls or surroundings.cabinet or surroundings.is_outdoors:
+        raise ValueError(
+            "room: the machine is put into it from a hard floor alone; radiation.surroundings has "
+            f"{'ground or a barrier' if surroundings.is_outdoors else 'walls or a cabinet'}"
+        )
+    if not surroundings.floor:
+        raise ValueError("room: needs radiation.surroundings.floor = true")
+    if study.measured is not None and study.measured.sound is not None:
+        raise ValueError(
+            "room: is computed from the shell's motion; measured.sound holds at its microphones "
+            "alone"
+        )
+    try:
+        study.room.check_holds(study.machine.shell)
+    except ValueError as error:
+        raise ValueError(f"room.{error}") from None
 
 
 def _check_orders(study: "Study") -> None:

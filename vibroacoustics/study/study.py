@@ -21,6 +21,7 @@ from .operation import Operation
 from .radiation import RadiationSettings
 from .receivers import Receiver
 from .record import ParameterRecord
+from .room import StudyRoom
 from .scoring import Scoring
 from .sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
 from .structure_borne import StructureBorne
@@ -73,6 +74,8 @@ class Study(Parameters):
     directivity: DirectivitySettings | None = None
     structure_borne: StructureBorne | None = None
     """Plate under the feet whose sound is computed beside that by air."""
+    room: StudyRoom | None = None
+    """Room into which the machine is put, with listeners."""
     sources: dict[str, AnySource] = Field(default_factory=dict)
     """Who drives the machine beside its moving parts."""
     uncertainty: Uncertainty = Uncertainty()

@@ -77,10 +77,10 @@ NOT_MADE_HERE = {
 
 OF_OTHER_JOBS = (
     "predicted_", "blocked_", "validation_", "inversion_", "shell_", "best_design",
-    "structure_borne_", "level_both_ways", "gas_frequency",
+    "structure_borne_", "level_both_ways", "gas_frequency", "room_", "hemisphere_",
     "measured_", "background_", "mean_position_", "environment_",
 )  # fmt: skip
-"""Of measurements alone, of a test of the shell, of a search of designs, of a plate, of gas."""
+"""Of measurements, a test of the shell, a search of designs, a plate, gas, a room."""
 
 
 @pytest.fixture(scope="module")

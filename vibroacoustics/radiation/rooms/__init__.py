@@ -3,9 +3,17 @@
 >>> materials = va.rooms.read_library("data/rooms/materials.toml")
 """
 
+from .diffuse import (
+    DiffuseRoom,
+    blend,
+    gain_at_place_db,
+    line_of_sight,
+    mean_square_per_power,
+)
 from .join_box import JoinBox
 from .lattice import Lattice
 from .local_step import local_transfer
+from .machine_in_room import power_per_mean_square, room_pressure_per_velocity, room_vectors
 from .materials import HARD, Material, read_library
 from .response import room_transfer
 from .room import Block, Patch, Room
@@ -16,6 +24,7 @@ from .spacing_error import spacing_error_db
 __all__ = [
     "HARD",
     "Block",
+    "DiffuseRoom",
     "JoinBox",
     "Lattice",
     "Material",
@@ -23,8 +32,15 @@ __all__ = [
     "Room",
     "RoomResponse",
     "RoomSettings",
+    "blend",
+    "gain_at_place_db",
+    "line_of_sight",
     "local_transfer",
+    "mean_square_per_power",
+    "power_per_mean_square",
     "read_library",
+    "room_pressure_per_velocity",
     "room_transfer",
+    "room_vectors",
     "spacing_error_db",
 ]

@@ -83,17 +83,15 @@ class Air:
         if force:
             self.terms += force * self._push
 
-    def side_flux(self, box: int, axis: int, end: int) -> Array:
-        """Change of the flux through a side in the step, terms of the side's two axes."""
-        plan = self._layout
-        shape = np.delete(plan.shapes[box], axis)
-        start = plan.sides[box, axis, end]
-        return self._flux[start : start + shape[0] * shape[1]].reshape(shape)
+    @property
+    def plan(self) -> Layout:
+        """Where in `terms` and `flux` everything stands."""
+        return self._layout
 
-    def box_terms(self, box: int) -> Array:
-        """Terms of one box, (x, y, z)."""
-        first, last = self._layout.terms[box], self._layout.terms[box + 1]
-        return self.terms[first:last].reshape(self._layout.shapes[box])
+    @property
+    def flux(self) -> Array:
+        """Change of the fluxes through all sides in the step, as terms of the sides."""
+        return self._flux
 
     def operator(self, terms: Array) -> Array:
         """What a step of the air without resistance takes from a series: 2 now - before - M now.

@@ -12,6 +12,9 @@ from .rectangles import rectangles
 from .room import Room
 
 _SAME_PLANE_M = 1e-6
+_THIN_M = 0.05
+"""Gaps of air of so much are taken whatever the spacing: the step that they ask for is that of a
+room to 1 kHz."""
 
 
 @dataclass(frozen=True)
@@ -65,8 +68,8 @@ def cut(room: Room, spacing_m: float, least_nodes: int = 2) -> tuple[AirBox, ...
     Raises
     ------
     ParameterError
-        There is no air, or a gap of it is thinner than half the spacing: its nodes would force
-        tiny time steps on the room.
+        There is no air, or a gap of it is thinner than half the spacing and 50 mm: its nodes would
+        force tiny time steps on the room.
     """
     lines = _planes(room)
     middles = np.stack(np.meshgrid(*((a[1:] + a[:-1]) / 2.0 for a in lines), indexing="ij"), -1)
@@ -98,7 +101,7 @@ def _planes(room: Room) -> list[Array]:
 def _check_gap(lower: Array, upper: Array, spacing_m: float, least_nodes: int) -> None:
     thinnest = int(np.argmin(upper - lower))
     gap = float(upper[thinnest] - lower[thinnest])
-    least = 0.25 * least_nodes * spacing_m if least_nodes > 1 else 0.0
+    least = min(_THIN_M, 0.25 * least_nodes * spacing_m) if least_nodes > 1 else 0.0
     if gap < least:
         raise ParameterError(
             f"room.blocks: leave air of {1e3 * gap:.3g} mm at {'xyz'[thinnest]} = "

@@ -11,33 +11,53 @@ from .lattice import Lattice
 
 _MORE_NODES: Final = 6
 """Of the quadrature, beyond those that waves along the side need."""
+_QUADRATURE: Final = 1e-4
+"""Error of the quadrature by what radiates or scatters close to the box."""
 
 
 class JoinBox:
     """Points on the six sides of a box: nodes of Gauss-Legendre quadrature.
 
     The sides may pass through seams and stand near walls and blocks, but lie in the air.
+
+    Parameters
+    ----------
+    lower, upper : corners (3,), m
+    maximum_frequency_hz : of the waves
+    clearance_m : between the sides and the body in the box: the closer, the more nodes
+    on_floor : whether the box stands on something hard: its lowest side is left out, where neither
+        the field nor the Green's function has a slope
     """
 
-    def __init__(self, lower: Array, upper: Array, maximum_frequency_hz: float) -> None:
+    def __init__(
+        self,
+        lower: Array,
+        upper: Array,
+        maximum_frequency_hz: float,
+        clearance_m: float = np.inf,
+        on_floor: bool = False,
+    ) -> None:
         self.lattices: list[Lattice] = []
         """Of each side, for `room_transfer`."""
         self.axes: list[int] = []
         """Across each side."""
-        self._weights: list[Array] = []
+        self.weights: list[Array] = []
+        """Areas of the nodes, below zero on lower sides, (point,), m²."""
         lines, weights = zip(
             *(
-                _nodes(float(low), float(high), maximum_frequency_hz)
+                _nodes(float(low), float(high), maximum_frequency_hz, clearance_m)
                 for low, high in zip(lower, upper, strict=True)
             ),
             strict=True,
         )
         for axis in range(3):
             for sign, level in ((-1.0, lower[axis]), (1.0, upper[axis])):
+                if on_floor and (axis, sign) == (2, -1.0):
+                    continue
                 at, by = list(lines), list(weights)
                 at[axis], by[axis] = np.array([level]), np.array([sign])
                 self.lattices.append(Lattice(at[0], at[1], at[2]))
-                self._weights.append(np.einsum("i,j,k->ijk", *by).ravel())
+                self.weights.append(np.einsum("i,j,k->ijk", *by).ravel())
                 self.axes.append(axis)
 
     @property
@@ -67,16 +87,24 @@ class JoinBox:
         green : with gradient, as in `RoomResponse.values`, of the six sides
         """
         total = np.zeros(pressure[0].shape[0], dtype=complex)
-        for side, (axis, weights) in enumerate(zip(self.axes, self._weights, strict=True)):
+        for side, (axis, weights) in enumerate(zip(self.axes, self.weights, strict=True)):
             value = green[side][:, 0].reshape(total.size, -1)
             gradient = green[side][:, 1 + axis].reshape(total.size, -1)
             total += (pressure[side] * gradient - value * slope[side]) @ weights
         return total
 
 
-def _nodes(low: float, high: float, maximum_frequency_hz: float) -> tuple[Array, Array]:
-    """Nodes and weights between two ends: as many as two waves of opposite ways need."""
+def _nodes(
+    low: float, high: float, maximum_frequency_hz: float, clearance_m: float
+) -> tuple[Array, Array]:
+    """Nodes and weights between two ends: as many as two waves of opposite ways need.
+
+    A singularity at a distance d from a line of length L is within the quadrature's error from
+    ln(1/error)/(2 arsinh(2d/L)) nodes on (ellipse of Bernstein).
+    """
     phase = 2.0 * np.pi * maximum_frequency_hz / SPEED_OF_SOUND_M_PER_S * (high - low)
-    node, weight = np.polynomial.legendre.leggauss(_MORE_NODES + int(np.ceil(phase)))
+    close = -np.log(_QUADRATURE) / (2.0 * np.arcsinh(2.0 * clearance_m / (high - low)))
+    count = max(_MORE_NODES + int(np.ceil(phase)), int(np.ceil(close)))
+    node, weight = np.polynomial.legendre.leggauss(count)
     half = (high - low) / 2.0
     return low + half * (node + 1.0), half * weight

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...base.errors import ParameterError
-from ..arrays import Array
-from .air import Air
+from ..arrays import Array, IndexArray
 from .cutting import AirBox
-from .piece import Piece
+from .piece import Piece, piece
 
 _EDGE_M = 1e-9
 
@@ -55,34 +54,38 @@ def holding(boxes: Sequence[AirBox], point: Array, name: str = "room") -> int:
     )
 
 
-class Reader:
-    """Reads pressure, and its gradient if asked for, at a lattice."""
+def pieces_of(
+    boxes: Sequence[AirBox],
+    lattice: Lattice,
+    time_step_s: float,
+    quantities: Sequence[int],
+    first_place: int = 0,
+) -> list[Piece]:
+    """Pressure (-1) and derivatives by axis at a lattice, by box of air.
 
-    def __init__(
-        self, boxes: Sequence[AirBox], lattice: Lattice, time_step_s: float, gradient: bool = False
-    ) -> None:
-        self.shape = (4 if gradient else 1, *lattice.shape)
-        """Pressure and, if asked for, its three derivatives; points along each axis."""
-        left = np.ones(lattice.shape, dtype=bool)
-        self._pieces = []
-        for number, box in enumerate(boxes):
-            at = [
-                np.flatnonzero((line >= low - _EDGE_M) & (line <= high + _EDGE_M))
-                for line, low, high in zip(lattice.lines, box.lower, box.upper, strict=True)
+    Places are those of a flat array (quantity, x, y, z) that begins at `first_place`.
+
+    Raises
+    ------
+    ParameterError
+        A point lies in a block or outside the room.
+    """
+    shape = (len(quantities), *lattice.shape)
+    places: IndexArray = first_place + np.arange(int(np.prod(shape))).reshape(shape)
+    left, pieces = np.ones(lattice.shape, dtype=bool), []
+    for number, box in enumerate(boxes):
+        at = [
+            np.flatnonzero((line >= low - _EDGE_M) & (line <= high + _EDGE_M))
+            for line, low, high in zip(lattice.lines, box.lower, box.upper, strict=True)
+        ]
+        if left[np.ix_(*at)].any():
+            left[np.ix_(*at)] = False
+            lines = [line[i] for line, i in zip(lattice.lines, at, strict=True)]
+            pieces += [
+                piece(number, box, lines, time_step_s, quantity, of[np.ix_(*at)].ravel())
+                for quantity, of in zip(quantities, places, strict=True)
             ]
-            if left[np.ix_(*at)].any():
-                left[np.ix_(*at)] = False
-                lines = [line[i] for line, i in zip(lattice.lines, at, strict=True)]
-                piece = Piece(number, box, lines, time_step_s)
-                self._pieces.append((at, piece))
-        if left.any():
-            first = np.argwhere(left)[0]
-            holding([], np.array([line[i] for line, i in zip(lattice.lines, first, strict=True)]))
-
-    def read(self, air: Air) -> Array:
-        """Pressure and derivatives, flat from (quantity, x, y, z)."""
-        result = np.empty(self.shape)
-        for at, piece in self._pieces:
-            for quantity in range(self.shape[0]):
-                result[np.ix_(np.array([quantity]), *at)] = piece.read(air, quantity - 1)
-        return result.ravel()
+    if left.any():
+        first = np.argwhere(left)[0]
+        holding([], np.array([line[i] for line, i in zip(lattice.lines, first, strict=True)]))
+    return pieces

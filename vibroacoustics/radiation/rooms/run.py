@@ -1,8 +1,10 @@
-"""One run of a room's air: a monopole at a microphone, recorded at points."""
+"""Runs of a room's air: a monopole at a microphone each, recorded at points."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import chain
+from threading import Lock
 from typing import Final
 
 import numpy as np
@@ -12,15 +14,19 @@ from ...base.errors import SolverError
 from ...base.progress import Progress, no_progress
 from ...base.threads import in_threads
 from ..arrays import Array, ComplexArray
-from ..pulse import RunningTransform, transform
 from .air import Air, stable_air
 from .cutting import AirBox, Face
-from .lattice import Lattice, Reader, holding
+from .lattice import Lattice, holding, pieces_of
+from .reading import Readings
+from .record import Pulse, Record
 from .settings import RoomSettings
 
 _PROGRESS_STEPS: Final = 200
 _WATCH_S: Final = 0.02
 """Stretch of time over which the largest pressure is taken."""
+ALL_DERIVATIVES: Final = (-1, 0, 1, 2)
+"""Pressure and its derivatives along x, y, z."""
+PRESSURE: Final = (-1,)
 
 
 @dataclass(frozen=True)
@@ -32,6 +38,86 @@ class RoomResponse:
     its derivatives along x, y and z, 1/m²; free field is exp(-jkr)/(4 pi r)."""
     remaining_db: float
     """Level at which the run ended, of its largest pressure: what was cut off."""
+
+
+class Runs:
+    """What the runs of a room share: air, time step, points.
+
+    Parameters
+    ----------
+    boxes, faces : of the air
+    lattices : where is recorded
+    quantities : of each lattice, pressure (-1) and derivatives by axis
+    settings : spacing and duration
+    longest_s : duration after the pulse, at most
+    """
+
+    def __init__(
+        self,
+        boxes: Sequence[AirBox],
+        faces: Sequence[Face],
+        lattices: Sequence[Lattice],
+        quantities: Sequence[Sequence[int]],
+        settings: RoomSettings,
+        longest_s: float,
+    ) -> None:
+        self._boxes, self._faces, self._settings = boxes, faces, settings
+        air = stable_air(boxes, faces, settings.longest_step_s)
+        self.step_s = air.time_step_s
+        self._shapes = [
+            (len(asked), *lattice.shape)
+            for lattice, asked in zip(lattices, quantities, strict=True)
+        ]
+        first = np.cumsum([0, *(int(np.prod(shape)) for shape in self._shapes)])
+        self._columns = int(first[-1])
+        pieces = (
+            pieces_of(boxes, lattice, self.step_s, asked, int(start))
+            for lattice, asked, start in zip(lattices, quantities, first[:-1], strict=True)
+        )
+        self._readings = Readings(air.plan, list(chain.from_iterable(pieces)))
+        self._pulse = Pulse(*settings.force(self.step_s), self.step_s)
+        self._every = settings.sampling_steps(self.step_s)
+        self.steps = int(np.ceil((self._pulse.time_s[-1] + longest_s) / self.step_s))
+        """Of a run, at most."""
+
+    @property
+    def sample_s(self) -> float:
+        """Time between samples."""
+        return self._every * self.step_s
+
+    @property
+    def samples(self) -> int:
+        """Of a run, at most."""
+        return -(-self.steps // self._every)
+
+    def record(self, name: str, microphone: Array, progress: Progress = no_progress) -> Record:
+        """One run.
+
+        Raises
+        ------
+        SolverError
+            The pressure is no finite number.
+        """
+        air, force = Air(self._boxes, self._faces, self.step_s), self._pulse.force
+        air.set_source(holding(self._boxes, microphone), microphone)
+        samples, taken = np.empty((self.samples, self._columns)), 0
+        decay = _Decay(max(1, round(_WATCH_S / self.sample_s)), self._settings.decay_db)
+        for step in range(self.steps):
+            now = float(force[step]) if step < force.size else 0.0
+            air.exchange(now)
+            if step % self._every == 0:
+                row = samples[taken]
+                self._readings.read(air, row)
+                taken += 1
+                if decay.ended(row) and step > force.size:
+                    break
+            air.advance(now)
+            if step % _PROGRESS_STEPS == 0:
+                progress(f"room {name}", step, self.steps)
+        progress(f"room {name}", self.steps, self.steps)
+        if not np.isfinite(decay.remaining_db):
+            raise SolverError(f"receivers.{name}: the room's pressure is no number")
+        return Record(samples[:taken], self._shapes, self._pulse, self._every, decay.remaining_db)
 
 
 def run_all(
@@ -47,59 +133,29 @@ def run_all(
     workers: int | None = None,
 ) -> dict[str, RoomResponse]:
     """A run for each microphone, several at a time; see `room_transfer`."""
-    step_s = stable_air(boxes, faces, settings.longest_step_s).time_step_s
-    readers = [Reader(boxes, lattice, step_s, gradient) for lattice in lattices]
-    runs = [
-        partial(
-            _run, boxes, faces, step_s, position, readers, frequency_hz, settings, longest_s,
-            name, progress,
-        )
-        for name, position in microphones.items()
-    ]  # fmt: skip
-    return dict(zip(microphones, in_threads(runs, workers), strict=True))
+    quantities = [ALL_DERIVATIVES if gradient else PRESSURE] * len(lattices)
+    runs = Runs(boxes, faces, lattices, quantities, settings, longest_s)
+    told = together(progress, len(microphones))
+
+    def one(name: str, position: Array) -> RoomResponse:
+        record = runs.record(name, position, told)
+        return RoomResponse(record.at(frequency_hz), record.remaining_db)
+
+    tasks = [partial(one, name, position) for name, position in microphones.items()]
+    return dict(zip(microphones, in_threads(tasks, workers), strict=True))
 
 
-def _run(
-    boxes: Sequence[AirBox],
-    faces: Sequence[Face],
-    step_s: float,
-    microphone: Array,
-    readers: Sequence[Reader],
-    frequency_hz: Array,
-    settings: RoomSettings,
-    longest_s: float,
-    name: str,
-    progress: Progress,
-) -> RoomResponse:
-    air, box = Air(boxes, faces, step_s), holding(boxes, microphone)
-    air.set_source(box, microphone)
-    time, force = settings.force(step_s)
-    every = settings.sampling_steps(step_s)
-    steps = int(np.ceil((time[-1] + longest_s) / step_s))
-    counts = [int(np.prod(reader.shape)) for reader in readers]
-    record = RunningTransform(frequency_hz, sum(counts))
-    decay = _Decay(max(1, round(_WATCH_S / (every * step_s))), settings.decay_db)
-    for step in range(steps):
-        now = float(force[step]) if step < force.size else 0.0
-        air.exchange(now)
-        if step % every == 0:
-            row = record.next_row(step * step_s)
-            np.concatenate([reader.read(air) for reader in readers], out=row)
-            if decay.ended(row) and step > force.size:
-                break
-        air.advance(now)
-        if step % _PROGRESS_STEPS == 0:
-            progress(f"room {name}", step, steps)
-    progress(f"room {name}", steps, steps)
-    if not np.isfinite(decay.remaining_db):
-        raise SolverError(f"receivers.{name}: the room's pressure is no number")
-    # A pulse in the middle of steps, as fluxes are: see `flux_gain`.
-    phase = np.pi * frequency_hz * step_s
-    scale = every * np.tan(phase) / phase / transform(frequency_hz, time, force)
-    spectrum = record.spectrum() * scale[:, None]
-    parts = np.split(spectrum, np.cumsum(counts)[:-1], axis=1)
-    values = (part.reshape(-1, *reader.shape) for part, reader in zip(parts, readers, strict=True))
-    return RoomResponse(tuple(values), decay.remaining_db)
+def together(progress: Progress, runs: int) -> Progress:
+    """Progress of several runs as one: steps of all of them."""
+    done: dict[str, int] = {}
+    lock = Lock()
+
+    def of_one(name: str, step: int, steps: int) -> None:
+        with lock:
+            done[name] = step
+            progress("room", sum(done.values()), runs * steps)
+
+    return of_one
 
 
 class _Decay:

@@ -1,0 +1,135 @@
+"""Sound in a room from waves at the listeners and the power of a hemisphere."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from vibroacoustics.base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from vibroacoustics.levels import a_weighting
+from vibroacoustics.levels.in_room import (
+    RoomWays,
+    blended_gains,
+    power_of_hemisphere,
+    room_sound,
+    wave_gains,
+)
+from vibroacoustics.levels.measured_points import BASELINE_BANDS
+from vibroacoustics.levels.room_levels import AirInRoom, drawn_band
+from vibroacoustics.mechanics.loads import Lines
+from vibroacoustics.mechanics.received_sound import NoisePower, ReceivedSound
+
+RADIUS_M = 1.2
+RHO_C = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S
+AREA_M2 = 2.0 * np.pi * RADIUS_M**2
+PER_POWER = np.array([[100.0], [50.0]])
+
+
+def ways(share):
+    return RoomWays(2, RADIUS_M, share, lambda hertz: PER_POWER * np.ones(hertz.size))
+
+
+def step(hertz):
+    """Waves below 500 Hz."""
+    return (hertz < 500.0).astype(float)
+
+
+def received(pressure, hertz, noise=()):
+    names = tuple(f"order {number}" for number in range(hertz.size))
+    return ReceivedSound(Lines(names, hertz, {}, {}), pressure, tuple(noise))
+
+
+def test_waves_below_and_power_above():
+    hertz = np.array([0.0, 100.0, 1000.0])
+    pressure = np.zeros((2, 2 + 20, 3), dtype=complex)
+    pressure[0, :2] = [[9.0, 0.2, 7.0], [9.0, 0.4, 7.0]]
+    pressure[0, 2:] = 0.3
+    pressure[1] = -0.5 * pressure[0]
+    sound = room_sound(received(pressure, hertz), ways(step))
+    weight = 10.0 ** (a_weighting(hertz[1:]) / 10.0)
+    power = 0.5 * 0.3**2 * AREA_M2 / RHO_C
+    alone = 0.5 * np.array([0.2, 0.4]) ** 2 * weight[0] + power * PER_POWER[:, 0] * weight[1]
+    np.testing.assert_allclose(sound.alone[0], alone, rtol=1e-12)
+    np.testing.assert_allclose(sound.alone[1], 0.25 * alone, rtol=1e-12)
+    np.testing.assert_allclose(sound.total, 0.25 * alone, rtol=1e-12)  # phasors cancel by half
+    names = [band.nominal_hz for band in BASELINE_BANDS]
+    assert sound.power_band[names.index(1000.0)] == pytest.approx(0.25 * power)
+    assert sound.band[1, names.index(100.0)] == pytest.approx(0.25 * 0.5 * 0.4**2)
+    assert np.count_nonzero(sound.band[0]) == 2  # nothing at 0 Hz
+
+
+def test_noise_adds_as_energy():
+    hertz = np.array([100.0, 1000.0])
+    pressure = np.zeros((2, 22, 1), dtype=complex)
+    power = np.ones((22, 2)) * [[0.1, 0.2]]
+    quiet = received(pressure, np.array([50.0]), [NoisePower(1, hertz, power)])
+    sound = room_sound(quiet, ways(step))
+    weight = 10.0 ** (a_weighting(hertz) / 10.0)
+    expected = 0.1 * weight[0] + 0.2 * AREA_M2 / RHO_C * PER_POWER[:, 0] * weight[1]
+    np.testing.assert_allclose(sound.total, expected, rtol=1e-12)
+    np.testing.assert_allclose(sound.alone, [[0.0, 0.0], expected], rtol=1e-12)
+
+
+def test_between_the_methods_energies_are_shared():
+    half = ways(lambda hertz: 0.25 * np.ones(hertz.size))
+    square = np.ones((22, 1))
+    expected = 0.25 + 0.75 * AREA_M2 / RHO_C * PER_POWER
+    np.testing.assert_allclose(half.at_listeners(square, np.array([500.0])), expected, rtol=1e-12)
+
+
+def test_gains_are_those_of_translations_with_equal_powers():
+    """A motion ten times as strong counts as much; rotations do not count."""
+
+    def pressure(hertz):
+        values = np.ones((22, 6, hertz.size), dtype=complex)
+        values[:, 0] *= 10.0
+        values[0, 1] *= 2.0
+        values[:2, 3:] = 99.0
+        return values
+
+    gains = wave_gains(pressure, ways(step), 450.0)
+    one = RHO_C / AREA_M2
+    middle = np.array([band.middle_hz for band in BASELINE_BANDS])
+    low = middle < 451.0
+    np.testing.assert_allclose(gains[0, low], one * (1.0 + 4.0 + 1.0) / 3.0, rtol=1e-12)
+    np.testing.assert_allclose(gains[1, low], one, rtol=1e-12)
+    assert not gains[:, ~low].any()
+    both, diffuse = blended_gains(gains, ways(step))
+    np.testing.assert_allclose(both[1, middle < 400.0], one, rtol=1e-12)
+    np.testing.assert_allclose(both[:, middle > 600.0], diffuse[:, middle > 600.0], rtol=1e-12)
+
+
+def test_power_of_a_hemisphere():
+    """1 Pa² at 1 m: W = 2π/(ρ c)."""
+    assert power_of_hemisphere(np.array(1.0), 1.0) == pytest.approx(2.0 * np.pi / RHO_C)
+
+
+def test_draws_change_model_and_rest_as_at_the_microphone():
+    """Model 60 dB, rest 50 dB there; in a draw 3 and 6 dB more; in the room 1 and 2 Pa²."""
+    coords = {"speed": [2900.0], "option": ["none"], "receiver": ["front"]}
+    drawn = {**coords, "draw": [1, 2]}
+
+    def levels(name, values, where, *dims):
+        return xr.DataArray(np.reshape(values, [len(where[d]) for d in dims]), where, dims, name)
+
+    def sums(model, rest):
+        return 10.0 * np.log10(10.0 ** (np.array(model) / 10.0) + 10.0 ** (np.array(rest) / 10.0))
+
+    cases = ("speed", "option", "receiver")
+    results = xr.Dataset(
+        {
+            "level_modelled": levels("m", 60.0, coords, *cases).expand_dims(weighting=["A"]),
+            "level_total": levels("t", sums(60.0, 50.0), coords, *cases),
+            "level_modelled_by_draw": levels("d", [60.0, 63.0], drawn, "draw", *cases),
+            "level_total_by_draw": levels("e", sums([60, 63], [50, 56]), drawn, "draw", *cases),
+            "draw_weight": (("prior", "draw"), [[0.5, 0.5]]),
+            "room_level": (("speed", "option", "listener"), [[[0.0]]], {}),
+        },
+        coords={"listener": ["table"]},
+    )
+    air = AirInRoom(np.array([[[1.0]]]), np.array([[[2.0]]]), np.zeros(0), np.zeros(0), np.zeros(0))
+    band = drawn_band(air, results, "front")
+    ends = 10.0 * np.log10(np.array([3.0, 10.0**0.3 + 2.0 * 10.0**0.6]) / 4e-10)
+    assert band["room_level_middle"].item() == pytest.approx(ends.mean(), abs=1e-9)
+    low, high = ends[0] + 0.05 * np.diff(ends), ends[0] + 0.95 * np.diff(ends)
+    assert band["room_level_low"].item() == pytest.approx(low.item(), abs=1e-9)
+    assert band["room_level_high"].item() == pytest.approx(high.item(), abs=1e-9)

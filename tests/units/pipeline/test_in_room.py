@@ -1,0 +1,154 @@
+"""A study's machine in its room, with vectors that are made up: levels, plate, draws, report."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from rooms_made_up import HIGHEST_HZ, KITCHEN, RADIUS_M, made_up_vectors
+from sources_study import SOURCES_STUDY, made_up_modes
+from support import TINY, made_up_radiation
+
+import vibroacoustics as va
+from vibroacoustics.base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from vibroacoustics.base.decibel import energy_sum
+from vibroacoustics.levels import a_weighting
+from vibroacoustics.pipeline import in_room
+from vibroacoustics.radiation.rooms import of_study as rooms
+from vibroacoustics.report.html import html
+from vibroacoustics.report.in_room import room_sentence, room_table, seam_sentence
+from vibroacoustics.report.page import Page, Part
+from vibroacoustics.report.sections import SECTIONS
+
+RHO_C = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S
+PANEL = {
+    "thickness_mm": 19.0,
+    "density_kg_per_m3": 680.0,
+    "youngs_modulus_gpa": 3.0,
+    "loss_factor_ratio": 0.03,
+    "length_mm": 600.0,
+    "width_mm": 600.0,
+}
+
+
+def no_map(study, settings, air, progress):
+    level = np.full((2, 3), 40.0)
+    level[0, 0] = np.nan
+    coords = {"room_map_y": [1.0, 2.0], "room_map_x": [1.0, 2.0, 3.0]}
+    made = va.stamp("room_map_level", level, coords)
+    made.attrs |= {"speed_rpm": 2900.0, "height_m": 1.2, "highest_band_hz": 800.0}
+    return xr.Dataset({"room_map_level": made})
+
+
+def run_in_room(study, patch, room=1.0, radiation=made_up_radiation, **changes):
+    def vectors(study, settings, motions, progress):
+        listeners, highest = settings.listeners, study.radiation.maximum_frequency_hz
+        return made_up_vectors(listeners, motions, room, highest_hz=highest), False
+
+    patch.setattr(in_room, "vectors_of", vectors)
+    patch.setattr(in_room, "_map", no_map)
+    return va.run(study.replace({"room": KITCHEN, **changes}), radiation=radiation)
+
+
+@pytest.fixture(scope="module")
+def kitchen():
+    with pytest.MonkeyPatch.context() as patch:
+        yield run_in_room(va.load_study(TINY), patch, structure_borne=PANEL)
+
+
+def test_without_a_room_nothing_is_computed():
+    results = va.run(va.load_study(TINY), radiation=made_up_radiation)
+    assert not [name for name in results.data_vars if str(name).startswith("room_")]
+    assert not SECTIONS["in-room"].applies(results)
+
+
+def test_orders_by_waves_are_velocity_times_vectors(kitchen):
+    """The first orders of the moving parts, all below the seam, in third octaves."""
+    at = kitchen.sel(option="none").isel(speed=0)
+    velocity = at["velocity_order"].sum(("source", "dof"))
+    frequency = at["order_frequency"].values
+    pressure = velocity.values * 0.01j * frequency
+    band = at["room_band_level"].sel(listener="table")
+    only_second = 0.5 * abs(pressure[2]) ** 2  # 96.7 Hz, alone in the third octave of 100 Hz
+    rest = 10.0 ** (at["remainder_band_level"].sel(noise_band=100.0) / 10.0) * 4e-10
+    by_hemisphere = 2.0 * np.pi * (1.0825**2 + 0.24**2) / RHO_C * rest
+    gain = RHO_C / (2.0 * np.pi * RADIUS_M**2)  # as loud in the room as on the hemisphere
+    expected = 10.0 * np.log10((only_second + by_hemisphere * gain) / 4e-10)
+    assert band.sel(noise_band=100.0).item() == pytest.approx(expected.item(), abs=1e-3)
+
+
+def test_what_no_source_explains_is_in_the_room(kitchen):
+    """All of the published level: its power by the hemisphere, 9 dB above it, less 9.4 dB."""
+    at = kitchen.sel(option="none").isel(speed=0)
+    power = at["room_sound_power_level"].item()
+    away = np.hypot(1.0825, 0.24)
+    assert power == pytest.approx(56.0 + 10.0 * np.log10(2.0 * np.pi * away**2), abs=0.2)
+    gains = energy_sum(at["room_band_level"].values + a_weighting(at["noise_band"].values), axis=-1)
+    np.testing.assert_allclose(at["room_level"], gains, atol=0.05)  # lines off the bands' middles
+
+
+def test_louder_waves_raise_the_place_and_what_is_above(kitchen):
+    with pytest.MonkeyPatch.context() as patch:
+        louder = run_in_room(va.load_study(TINY), patch, room=10.0)
+    change = louder["room_level"] - kitchen["room_level"]
+    np.testing.assert_allclose(change, 20.0, atol=1e-6)
+    gain = louder["room_place_gain"] - kitchen["room_place_gain"]
+    assert gain.item() == pytest.approx(20.0, abs=1e-9)
+
+
+def test_the_seam_is_both_curves_and_their_difference(kitchen):
+    assert list(kitchen["seam_band"].values) == [250.0, 315.0, 400.0, 500.0, 630.0, 800.0]
+    difference = kitchen["room_gain_waves"] - kitchen["room_gain_diffuse"]
+    np.testing.assert_allclose(kitchen["room_gain_difference"], difference, atol=1e-12)
+    at_seam = 10.0 ** (difference.sel(seam_band=[400.0, 500.0, 630.0]) / 10.0)
+    assert at_seam.mean().item() == pytest.approx(1.0, abs=1e-9)
+
+
+def test_waves_end_where_the_power_takes_over():
+    share = rooms.wave_share(1000.0)
+    np.testing.assert_allclose(share(np.array([399.0, 631.0])), [1.0, 0.0])
+    lower = rooms.wave_share(315.0)
+    np.testing.assert_allclose(lower(np.array([199.0, 315.0])), [1.0, 0.0], atol=1e-12)
+    assert rooms.seam_bands_hz(315.0) == (125.0, 315.0)
+
+
+def test_plate_in_the_room(kitchen):
+    """Mean power, direct and diffuse, by the room's absorption in the line's octave."""
+    at = kitchen.sel(option="none").isel(speed=0)
+    power = at["structure_borne_power"].values
+    frequency = np.nan_to_num(at["tone_frequency"].values)
+    weight = np.where(frequency > 0.0, 10.0 ** (a_weighting(np.maximum(frequency, 1)) / 10.0), 0.0)
+    settings = va.load_study(TINY).replace({"room": KITCHEN}).room
+    per_power = rooms.diffuse_per_power(settings, rooms.foot_m(settings))(np.maximum(frequency, 20))
+    expected = 10.0 * np.log10(per_power @ (power * weight) / 4e-10)
+    np.testing.assert_allclose(at["room_plate_level"], expected, atol=1e-9)
+    both = energy_sum(np.stack([at["room_level"], at["room_plate_level"]]), axis=0)
+    np.testing.assert_allclose(at["room_level_both_ways"], both, atol=1e-12)
+    assert np.all(at["room_plate_level_low"] < at["room_plate_level_high"])
+
+
+def test_report_says_how_loud_by_which_path_and_what_changes_it(kitchen):
+    sentence = room_sentence(kitchen)
+    assert sentence.startswith("In the room the machine without a balancer is ")
+    assert "dB over the limit by night" in sentence
+    assert "carries it" in sentence or "not sure" in sentence
+    assert "option" in sentence or "takes most off it" in sentence
+    table = room_table(kitchen, "table")
+    assert [row[0] for row in table.rows] == ["none", "counterweight-half"]
+    assert len(table.head) == len(table.rows[0]) == 7
+    assert "missed by" in table.rows[0][-1]
+    assert "differ by more than 2 dB" in seam_sentence(kitchen)
+    section = SECTIONS["in-room"]
+    assert section.applies(kitchen)
+    page = Page("T", "M", "now", (Part("s", section.title, tuple(section.blocks(kitchen))),))
+    assert b"In the room" in html(page)
+
+
+@pytest.mark.long
+def test_draws_make_a_band_of_all_sources():
+    study = va.load_study(SOURCES_STUDY)
+    with pytest.MonkeyPatch.context() as patch:
+        radiation = lambda study, *_: (made_up_modes(study), False)  # noqa: E731
+        results = run_in_room(study, patch, radiation=radiation, **{"operation.stopping": False})
+    low, high = results["room_level_low"], results["room_level_high"]
+    assert np.all(high > low)
+    assert set(results["room_source_level"]["sound_source"].values) >= {"gas", "keys", "motor"}
+    assert study.radiation.maximum_frequency_hz > HIGHEST_HZ

@@ -1,0 +1,30 @@
+"""A machine in a room."""
+
+from ..registry import register
+from ..vocabulary import Coordinate, Variable
+
+for _thing in (
+    Coordinate("listener", ("listener",), "", "place where one listens in a room"),
+    Coordinate("room_frequency", ("room_frequency",), "Hz", "frequency of waves in a room"),
+    Coordinate(
+        "hemisphere_position",
+        ("hemisphere_position",),
+        "1",
+        "microphone position on a hemisphere over a hard floor",
+    ),
+    Variable(
+        "room_transfer_vector",
+        ("listener", "pattern", "room_frequency"),
+        "Pa s m-1",
+        "pressure in the room, by waves, per velocity of the housing",
+        complex_peak=True,
+    ),
+    Variable(
+        "hemisphere_transfer_vector",
+        ("hemisphere_position", "pattern", "frequency"),
+        "Pa s m-1",
+        "pressure on a hemisphere over a hard floor per velocity of the housing",
+        complex_peak=True,
+    ),
+):
+    register(_thing)

@@ -1,0 +1,174 @@
+"""Sound of a machine at listeners in a room: waves at low frequencies, its power above."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ..base.arrays import Array, ComplexArray
+from ..base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from ..mechanics.received_sound import ReceivedSound
+from .bands import Band
+from .by_source import membership, weighting_power
+from .measured_points import BASELINE_BANDS
+from .sound_power import hemisphere_area_m2
+
+IMPEDANCE: Final = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S
+LINES_OF_BAND: Final = 24
+"""Frequencies that stand for a third octave."""
+LOWEST_HZ: Final = 1.0
+"""In place of 0 Hz, where nothing is heard."""
+ROUNDED: Final = 1.001
+"""Of the middle of a band that is called by a round number."""
+
+
+@dataclass(frozen=True)
+class RoomWays:
+    """How sound comes to the listeners, and how the machine's power follows from positions.
+
+    Attributes
+    ----------
+    listeners : how many; their pressure by waves comes first among what is received, then that of
+        the positions on a hemisphere
+    radius_m : of the hemisphere
+    wave_share : of frequencies, shape (frequency,): 1 where waves count, 0 where the power does
+    per_power : mean square of pressure per power by direct sound and diffuse field, of
+        frequencies, shape (listener, frequency), Pa²/W
+    """
+
+    listeners: int
+    radius_m: float
+    wave_share: Callable[[Array], Array]
+    per_power: Callable[[Array], Array]
+
+    def power(self, mean_square: Array) -> Array:
+        """W = S/(ρ c) times the mean over the positions, which are the axis before the last, W.
+
+        ISO 3744:2010, with the intensity as p²/(ρ c).
+        """
+        area = hemisphere_area_m2(self.radius_m)
+        mean: Array = mean_square[..., self.listeners :, :].mean(axis=-2)
+        return mean * area / IMPEDANCE
+
+    def at_listeners(self, mean_square: Array, frequency_hz: Array) -> Array:
+        """Mean squares at the listeners, shape (..., listener, frequency), Pa².
+
+        Parameters
+        ----------
+        mean_square : at listeners by waves, then at the positions, (..., place, frequency), Pa²
+        frequency_hz : shape (frequency,)
+        """
+        share = self.wave_share(frequency_hz)
+        waves = mean_square[..., : self.listeners, :]
+        diffuse = self.power(mean_square)[..., None, :] * self.per_power(frequency_hz)
+        return np.asarray(share * waves + (1.0 - share) * diffuse)
+
+
+@dataclass(frozen=True)
+class RoomSound:
+    """Mean squares of all sources of a case at the listeners, and the machine's power.
+
+    Attributes
+    ----------
+    alone : A-weighted, of each source alone, shape (source, listener), Pa²
+    total : A-weighted, of all together, shape (listener,), Pa²
+    band : of all together, unweighted, in `BASELINE_BANDS`, shape (listener, band), Pa²
+    power_band : of all together, unweighted, shape (band,), W
+    """
+
+    alone: Array
+    total: Array
+    band: Array
+    power_band: Array
+
+
+def room_sound(received: ReceivedSound, ways: RoomWays) -> RoomSound:
+    """Sound of a case in a room: lines of all sources as phasors, noise as energy.
+
+    Parameters
+    ----------
+    received : at the listeners by waves, then at the positions
+    ways : to the listeners
+    """
+    hertz = received.lines.frequency_hz
+    audible = hertz > 0.0
+    by_source = 0.5 * np.abs(received.pressure) ** 2 * audible
+    together = 0.5 * np.abs(received.pressure.sum(axis=0)) ** 2 * audible
+    safe = np.maximum(hertz, LOWEST_HZ)
+    weight, in_band = weighting_power("A", safe), membership(hertz, BASELINE_BANDS)
+    alone = ways.at_listeners(by_source, safe) @ weight
+    at_listeners = ways.at_listeners(together, safe)
+    total, band = at_listeners @ weight, at_listeners @ in_band
+    power_band = ways.power(together) @ in_band
+    for part in received.noise:
+        noise = ways.at_listeners(part.power, np.maximum(part.frequency_hz, LOWEST_HZ))
+        loud = noise @ weighting_power("A", part.frequency_hz)
+        alone[part.source] += loud
+        total = total + loud
+        in_band = membership(part.frequency_hz, BASELINE_BANDS)
+        band = band + noise @ in_band
+        power_band = power_band + ways.power(part.power) @ in_band
+    return RoomSound(alone, total, band, power_band)
+
+
+def power_of_hemisphere(mean_square: Array, distance_m: float) -> Array:
+    """Power of a source on a hard floor that sends alike everywhere, 2π r² p²/(ρ c), W.
+
+    Parameters
+    ----------
+    mean_square : at the distance, Pa²
+    distance_m : from the foot of its axis
+    """
+    return np.asarray(mean_square * hemisphere_area_m2(distance_m) / IMPEDANCE)
+
+
+def wave_gains(
+    pressure_per_velocity: Callable[[Array], ComplexArray], ways: RoomWays, highest_hz: float
+) -> Array:
+    """Mean square by waves per power in `BASELINE_BANDS`, shape (listener, band), Pa²/W.
+
+    Of a machine that shakes along x, y and z with the same power each; zero above the waves.
+
+    Parameters
+    ----------
+    pressure_per_velocity : of frequencies, at listeners and positions, (place, motion, frequency)
+    ways : to the listeners
+    highest_hz : of the waves
+    """
+    gains = np.zeros((ways.listeners, len(BASELINE_BANDS)))
+    for number, band in enumerate(BASELINE_BANDS):
+        hertz = frequencies_of(band)
+        hertz = hertz[hertz <= highest_hz]
+        if band.middle_hz > highest_hz * ROUNDED:
+            break
+        square = np.abs(pressure_per_velocity(hertz)[:, :3]) ** 2
+        by_motion = np.moveaxis(square, 1, 0)
+        power = ways.power(by_motion).mean(axis=-1)
+        waves = by_motion[:, : ways.listeners].mean(axis=-1)
+        gains[:, number] = (waves / power[:, None]).mean(axis=0)
+    return gains
+
+
+def frequencies_of(band: Band) -> Array:
+    """Frequencies spread evenly over a band."""
+    middle = (np.arange(LINES_OF_BAND) + 0.5) / LINES_OF_BAND
+    return np.asarray(band.lower_hz + middle * (band.upper_hz - band.lower_hz))
+
+
+def blended_gains(waves: Array, ways: RoomWays) -> tuple[Array, Array]:
+    """Mean square per power in `BASELINE_BANDS` by both methods, and by the power alone, Pa²/W.
+
+    Parameters
+    ----------
+    waves : of `wave_gains`
+    ways : to the listeners
+
+    Returns
+    -------
+    each of shape (listener, band)
+    """
+    hertz = np.array([frequencies_of(band) for band in BASELINE_BANDS])
+    share = ways.wave_share(hertz.ravel()).reshape(hertz.shape).mean(axis=1)
+    diffuse = ways.per_power(hertz.ravel()).reshape(ways.listeners, *hertz.shape).mean(axis=2)
+    return share * waves + (1.0 - share) * diffuse, diffuse

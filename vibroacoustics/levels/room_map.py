@@ -1,0 +1,49 @@
+"""Level over a plane of a room from the power of the machine in third octaves."""
+
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.decibel import mean_square_level, power_of_level
+from ..base.vocabulary import check, stamp
+from .by_source import weighting_power
+from .measured_points import BASELINE_BANDS, MIDDLE_HZ
+from .room_levels import REFERENCE_POWER_W
+
+LOWEST_HZ: Final = 31.5
+"""Lowest third octave of a map."""
+
+
+def map_bands_hz() -> list[tuple[float, float, float]]:
+    """Lower end, nominal middle and upper end of the bands of a map, however high."""
+    return [
+        (band.lower_hz, band.nominal_hz, band.upper_hz)
+        for band in BASELINE_BANDS
+        if band.nominal_hz >= LOWEST_HZ
+    ]
+
+
+def map_level(gain: xr.DataArray, power_w: Array, speed_rpm: float, height_m: float) -> xr.Dataset:
+    """A-weighted level over the plane in the bands of the gains.
+
+    Parameters
+    ----------
+    gain : level over the power level, (room_map_y, room_map_x, seam_band), dB
+    power_w : of the machine, unweighted, in `BASELINE_BANDS`, shape (band,)
+    speed_rpm, height_m : for which it holds
+    """
+    names = [band.nominal_hz for band in BASELINE_BANDS]
+    rows = [names.index(float(middle)) for middle in gain["seam_band"].values]
+    weight = (power_w * weighting_power("A", MIDDLE_HZ))[rows] / REFERENCE_POWER_W
+    values = gain.transpose("room_map_y", "room_map_x", "seam_band").values
+    square = REFERENCE_PRESSURE_PA**2 * power_of_level(values) @ weight
+    air = np.isfinite(square)
+    level = np.full(square.shape, np.nan)
+    level[air] = mean_square_level(square[air], REFERENCE_PRESSURE_PA)
+    coords = {name: gain[name].values for name in ("room_map_y", "room_map_x")}
+    made = stamp("room_map_level", level, coords)
+    made.attrs |= {"speed_rpm": speed_rpm, "height_m": height_m, "highest_band_hz": names[rows[-1]]}
+    return check(xr.Dataset({"room_map_level": made}))

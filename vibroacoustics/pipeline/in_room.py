@@ -1,0 +1,158 @@
+"""The machine of a study in its room: levels at the listeners, the seam of methods, a map."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array
+from ..base.progress import Progress
+from ..base.vocabulary import REFERENCE_OPTION, check, stamp
+from ..levels.in_room import RoomWays, blended_gains, room_sound, wave_gains
+from ..levels.measured_points import MIDDLE_HZ
+from ..levels.room_levels import AirInRoom, air_variables, drawn_band, plate_variables
+from ..levels.room_map import map_bands_hz, map_level
+from ..levels.room_rest import rest_in_bands
+from ..levels.room_seam import seam_variables
+from ..radiation.patterns import SurfaceMotion
+from ..radiation.pressure import wrench_pressure_by
+from ..radiation.rooms import of_study as rooms
+from ..radiation.rooms import room_vectors
+from ..radiation.rooms.plane import plane_gains
+from ..results import storage
+from ..sources.cases import sources_of
+from ..study.room import StudyRoom
+from ..study.study import Study
+from ..transfer.path import ShellPath
+from ..transfer.received import Transmission, by_case_and_source
+from .motion import Motion
+
+
+def sound_in_room(
+    study: Study, motion: Motion, shell: ShellPath | None, progress: Progress
+) -> xr.Dataset:
+    """Sound of the machine in the room of the study; empty where it has none.
+
+    Parameters
+    ----------
+    study : with its table of the room
+    motion : of every speed with every option; its results hold the levels
+    shell : its elastic modes; none where no source drives it
+    progress : called with the advance
+    """
+    settings = study.room
+    if settings is None:
+        return xr.Dataset()
+    vectors, _ = vectors_of(study, settings, () if shell is None else shell.modes, progress)
+    pressure, highest_hz = rooms.pressure_at_places(vectors), settings.maximum_frequency_hz
+    at = rooms.machine_middle_m(settings, study.machine.shell)
+    share, radius_m = rooms.wave_share(highest_hz), float(vectors.attrs["hemisphere_radius_m"])
+    listeners = list(settings.listeners)
+    free = RoomWays(len(listeners), radius_m, share, rooms.diffuse_per_power(settings, at))
+    waves = wave_gains(pressure, free, highest_hz)
+    diffuse = blended_gains(waves, free)[1]
+    gain = rooms.place_gain(waves, diffuse, MIDDLE_HZ, highest_hz)
+    per_power = rooms.diffuse_per_power(settings, at, gain)
+    ways = RoomWays(len(listeners), radius_m, share, per_power)
+    air = _by_air(study, motion, _transmission(study, motion, shell, pressure), ways, waves)
+    sources = list(sources_of(study))
+    speeds, options = list(study.operation.speed_rpm), list(study.options)
+    sound = air_variables(air, speeds, options, listeners, sources)
+    results = motion.results.merge(sound)
+    sound = sound.merge(drawn_band(air, results, study.catalogue_receiver))
+    sound = sound.merge(_by_plate(settings, results.merge(sound))).merge(_of_the_room(settings))
+    between_hz = rooms.seam_bands_hz(highest_hz)
+    sound = sound.merge(seam_variables(listeners, waves, diffuse, gain, between_hz))
+    return sound.merge(_map(study, settings, air, progress))
+
+
+def vectors_of(
+    study: Study, settings: StudyRoom, motions: Sequence[SurfaceMotion], progress: Progress
+) -> tuple[xr.Dataset, bool]:
+    """Pressure per velocity at the listeners and on the hemisphere; from the cache if there."""
+    return storage.cached(
+        "room-vectors",
+        rooms.room_key(study, settings, motions),
+        lambda: room_vectors(
+            study.machine.shell,
+            study.radiation,
+            rooms.room_of(settings),
+            rooms.foot_m(settings),
+            rooms.listeners_m(settings),
+            settings.maximum_frequency_hz,
+            motions,
+            progress,
+        ),
+    )
+
+
+def _transmission(
+    study: Study, motion: Motion, shell: ShellPath | None, pressure: rooms.PressureAt
+) -> Transmission:
+    """The way of the sound to the listeners and to the positions on the hemisphere."""
+    rigid = rooms.of_rigid(pressure)
+    wrenches = wrench_pressure_by(motion.results, rigid, study.radiation.maximum_frequency_hz)
+    return Transmission(
+        study,
+        rigid,
+        None if shell is None else rooms.of_modes(pressure),
+        shell,
+        by_case_and_source(wrenches, motion.source_of_wrench),
+    )
+
+
+def _by_air(
+    study: Study, motion: Motion, transmission: Transmission, ways: RoomWays, waves: Array
+) -> AirInRoom:
+    received = transmission.received(motion.cases, motion.loads)
+    sound = {key: room_sound(one, ways) for key, one in received.items()}
+    microphone = study.receivers[study.catalogue_receiver]
+    away_m = float(np.linalg.norm([microphone.x_m, microphone.y_m, microphone.height_m]))
+    return AirInRoom.of(
+        sound,
+        list(study.operation.speed_rpm),
+        list(study.options),
+        rest_in_bands(motion.results, study.catalogue_receiver),
+        blended_gains(waves, ways)[0],
+        away_m,
+    )
+
+
+def _by_plate(settings: StudyRoom, results: xr.Dataset) -> xr.Dataset:
+    if "structure_borne_power" not in results:
+        return xr.Dataset()
+    frequency = results["tone_frequency"].transpose("speed", "line").values
+    hertz = np.where(np.nan_to_num(frequency) > 0.0, frequency, MIDDLE_HZ[0])
+    per_power = rooms.diffuse_per_power(settings, rooms.foot_m(settings))
+    return plate_variables(results, np.array([per_power(row) for row in hertz]))
+
+
+def _of_the_room(settings: StudyRoom) -> xr.Dataset:
+    """Its absorption, and what its listeners accept."""
+    octaves, area = rooms.absorption_by_octave(settings)
+    limits = settings.limits.levels
+    arrays = {"room_absorption_area": stamp("room_absorption_area", area, {"room_octave": octaves})}
+    if limits:
+        coords = {"room_limit_time": list(limits)}
+        arrays["room_limit"] = stamp("room_limit", list(limits.values()), coords)
+    return check(xr.Dataset(arrays))
+
+
+def _map(study: Study, settings: StudyRoom, air: AirInRoom, progress: Progress) -> xr.Dataset:
+    """Level over the plane of the first listener's ears, of the machine without an option."""
+    height_m = next(iter(settings.listeners.values())).height_m
+    at = rooms.machine_middle_m(settings, study.machine.shell)
+    above_m, bands = float(at[2] - settings.standing_height_m), map_bands_hz()
+    gains, _ = storage.cached(
+        "room-plane",
+        {**rooms.room_key(study, settings, ()), "plane": [height_m, *map(list, bands)]},
+        lambda: plane_gains(
+            rooms.room_of(settings), at, above_m, height_m, bands, settings.maximum_frequency_hz,
+            progress,
+        ),
+    )  # fmt: skip
+    speeds = np.array(study.operation.speed_rpm)
+    published = study.machine.overall_noise.speed_rpm
+    speed = int(np.argmin(np.abs(speeds - published)))
+    power = air.power_band[speed, list(study.options).index(REFERENCE_OPTION)]
+    return map_level(gains["room_map_gain"], power, float(speeds[speed]), height_m)

@@ -1,0 +1,158 @@
+"""The diffuse field of a room, where waves are not computed, and its seam to the waves."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ...base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from ..arrays import Array
+from .cutting import cut, faces
+from .decay import absorption_area_m2, volume_m3
+from .materials import OCTAVES_HZ
+from .room import Room
+
+SEAM_HZ: Final = (400.0, 630.0)
+"""Below, waves alone; above, the diffuse field alone."""
+SEAM_THIRDS_HZ: Final = (400.0, 500.0, 630.0)
+"""Nominal third octaves in which both are compared."""
+_MOST_MEAN_ABSORPTION: Final = 0.99
+_NEAREST_M: Final = 0.05
+_AIR_TEMPERATURE_K: Final = 293.15
+_AIR_HUMIDITY_RATIO: Final = 0.5
+
+
+@dataclass(frozen=True)
+class DiffuseRoom:
+    """What a diffuse field asks of a room."""
+
+    absorption_area_m2: Array
+    """By octave from 63 Hz to 4 kHz, (octave,)."""
+    surface_m2: float
+    """Of walls and blocks."""
+    volume_m3: float
+    """Of the air."""
+
+    @classmethod
+    def of(cls, room: Room) -> "DiffuseRoom":
+        """Of a room."""
+        return cls(absorption_area_m2(room), surface_m2(room), volume_m3(room))
+
+    def area_m2(self, frequency_hz: Array) -> Array:
+        """Absorption area of walls and air, A + 4 m V, (frequency,), m².
+
+        H. Kuttruff, Room Acoustics, 6th edition (2016), section 5.1. Octaves are interpolated over
+        the logarithm of the frequency; the first and the last hold beyond. m is the absorption of
+        air at 20 °C and 50 % relative humidity.
+        """
+        octaves = np.log(OCTAVES_HZ)
+        walls = np.interp(np.log(frequency_hz), octaves, self.absorption_area_m2)
+        area: Array = walls + 4.0 * air_attenuation_per_m(frequency_hz) * self.volume_m3
+        return area
+
+    def constant_m2(self, frequency_hz: Array) -> Array:
+        """Room constant R = A/(1 - A/S), (frequency,), m²; A/S is 0.99 at most."""
+        area = self.area_m2(frequency_hz)
+        constant: Array = area / (1.0 - np.minimum(area / self.surface_m2, _MOST_MEAN_ABSORPTION))
+        return constant
+
+
+def surface_m2(room: Room) -> float:
+    """Area of all walls and blocks that air meets, m²."""
+    boxes = cut(room, np.inf, least_nodes=1)
+    sides = sum(2.0 * float(np.prod(box.size) * np.sum(1.0 / box.size)) for box in boxes)
+    seams = (face for face in faces(room, boxes) if len(face.ends) == 2)
+    return sides - sum(2.0 * float(np.prod(face.upper - face.lower)) for face in seams)
+
+
+def mean_square_per_power(
+    frequency_hz: Array, distance_m: float, room: DiffuseRoom, in_sight: bool
+) -> Array:
+    """Mean square pressure over sound power, rho c [1/(2 pi r²) + 4/R], (frequency,), Pa²/W.
+
+    H. Kuttruff, Room Acoustics, 6th edition (2016), section 5.5, with R for A; the machine stands
+    on a hard surface and sends all its power into half the space. Where a block stands between,
+    no direct sound is left.
+
+    Parameters
+    ----------
+    frequency_hz : (frequency,), above 0
+    distance_m : from the machine to the listener; 0.05 m at least is taken
+    room : its absorption
+    in_sight : whether the machine is in the listener's sight: see `line_of_sight`
+    """
+    distance_m = max(distance_m, _NEAREST_M)
+    direct = 1.0 / (2.0 * np.pi * distance_m**2) if in_sight else 0.0
+    field = direct + 4.0 / room.constant_m2(frequency_hz)
+    result: Array = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S * field
+    return result
+
+
+def line_of_sight(room: Room, start: Array, end: Array) -> bool:
+    """Whether no block stands between two points (3,)."""
+    way = np.subtract(end, start)
+    for block in room.blocks:
+        with np.errstate(divide="ignore", invalid="ignore"):
+            to_planes = np.array([block.lower, block.upper] - np.asarray(start)) / way
+        parallel = way == 0.0
+        beside = (np.asarray(start) <= block.lower) | (np.asarray(start) >= block.upper)
+        if np.any(parallel & beside):
+            continue
+        entering = np.where(parallel, 0.0, to_planes.min(axis=0)).max()
+        leaving = np.where(parallel, 1.0, to_planes.max(axis=0)).min()
+        if max(entering, 0.0) < min(leaving, 1.0) - 1e-9:
+            return False
+    return True
+
+
+def blend(frequency_hz: Array) -> Array:
+    """Weight of the diffuse field: 0 below 400 Hz, 1 above 630 Hz, smooth in between.
+
+    3 x² - 2 x³ over the logarithm of the frequency. With it, mean squares of the waves and of the
+    diffuse field are added.
+    """
+    low, high = np.log(SEAM_HZ)
+    with np.errstate(divide="ignore"):
+        x = np.clip((np.log(frequency_hz) - low) / (high - low), 0.0, 1.0)
+    weight: Array = x**2 * (3.0 - 2.0 * x)
+    return weight
+
+
+def gain_at_place_db(waves: Array, diffuse: Array) -> float:
+    """Level of the waves above the diffuse field, dB: what the place does to the power sent out.
+
+    A machine in a corner or a niche sends out another power than in the open. The mean of the
+    ratios of both mean squares over all listeners and thirds; added to the diffuse field, both have
+    the same energy at the seam.
+
+    Parameters
+    ----------
+    waves, diffuse : mean square pressures (listener, third) in `SEAM_THIRDS_HZ`, Pa²; thirds
+        without sound are left out
+    """
+    sounding = (waves > 0.0) & (diffuse > 0.0)
+    if not sounding.any():
+        return 0.0
+    return float(10.0 * np.log10(np.mean(waves[sounding] / diffuse[sounding])))
+
+
+def air_attenuation_per_m(frequency_hz: Array) -> Array:
+    """Attenuation of the intensity by air at 20 °C, 50 % and 101.325 kPa, m in exp(-m x), 1/m.
+
+    ISO 9613-1:1993, equations 3 to 6.
+    """
+    temperature = _AIR_TEMPERATURE_K / 293.15
+    triple = 273.16 / _AIR_TEMPERATURE_K
+    molar = 100.0 * _AIR_HUMIDITY_RATIO * 10.0 ** (-6.8346 * triple**1.261 + 4.6151)
+    oxygen = 24.0 + 4.04e4 * molar * (0.02 + molar) / (0.391 + molar)
+    nitrogen = temperature**-0.5 * (
+        9.0 + 280.0 * molar * np.exp(-4.170 * (temperature ** (-1.0 / 3.0) - 1.0))
+    )
+    squared = np.asarray(frequency_hz, dtype=float) ** 2
+    relaxing = temperature**-2.5 * (
+        0.01275 * np.exp(-2239.1 / _AIR_TEMPERATURE_K) / (oxygen + squared / oxygen)
+        + 0.1068 * np.exp(-3352.0 / _AIR_TEMPERATURE_K) / (nitrogen + squared / nitrogen)
+    )
+    # The standard counts decibels of the pressure; m is twice the nepers of the pressure.
+    nepers: Array = squared * (1.84e-11 * temperature**0.5 + relaxing)
+    return 2.0 * nepers

@@ -1,0 +1,106 @@
+"""The field of a machine over a hard floor, on the box around it, joined with a room."""
+
+from functools import partial
+from typing import Final
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from ...base.progress import Progress
+from ...base.threads import in_threads
+from ..arrays import Array, ComplexArray
+from ..revolution.side import RevolutionSide
+from .join_box import JoinBox
+from .record import Record
+
+_STEP_HZ: Final = 50.0
+"""Between the frequencies at which the field is computed, at most; splines run through them."""
+_APART: Final = 0.01
+"""Of the two points of a slope, over the distance from the body to the box."""
+
+
+class MachineField:
+    """Pressure and slope on the sides of a box, of all patterns, as splines over frequency.
+
+    The delay to the box and the growth with frequency are taken out, as in
+    `interpolation.interpolant`.
+
+    Parameters
+    ----------
+    side : the machine
+    box : in the room's coordinates, without its lowest side
+    origin_m : the machine's origin in the room's coordinates, (3,)
+    clearance_m : from the body to the box
+    maximum_frequency_hz : that `join` is asked for
+    progress : told of the advance
+    """
+
+    def __init__(
+        self,
+        side: RevolutionSide,
+        box: JoinBox,
+        origin_m: Array,
+        clearance_m: float,
+        maximum_frequency_hz: float,
+        progress: Progress,
+    ) -> None:
+        points = [one - origin_m for one in box.points]
+        self._delay_s = float(np.mean(side.delays_s(np.concatenate(points))))
+        count = int(np.ceil(maximum_frequency_hz / _STEP_HZ))
+        self._table_hz = maximum_frequency_hz / count * np.arange(1.0, count + 1.0)
+        apart = _APART * clearance_m
+        layers = [
+            ahead + 0.5 * step * apart * np.eye(3)[axis]
+            for ahead, axis in zip(points, box.axes, strict=True)
+            for step in (-1.0, 1.0)
+        ]
+
+        def at(number: int) -> ComplexArray:
+            progress("machine on its floor", number, count)
+            return side.finer_pressures(float(self._table_hz[number]), np.concatenate(layers))
+
+        pressure = np.array(in_threads([partial(at, number) for number in range(count)]))
+        pressure /= self._trend(self._table_hz)[:, None, None]
+        parts = np.split(pressure, np.cumsum([len(one) for one in layers])[:-1], axis=1)
+        self._splines = [
+            self._spline(weights, below, above, apart)
+            for weights, below, above in zip(box.weights, parts[::2], parts[1::2], strict=True)
+        ]
+
+    def _spline(
+        self, weights: Array, below: ComplexArray, above: ComplexArray, apart: float
+    ) -> ComplexArray:
+        """What G and its slope are joined with: coefficients (power, piece, column, pattern).
+
+        Both halves of the spectrum are run through; the pieces above 0 Hz are kept.
+        """
+        value, slope = 0.5 * (above + below), (above - below) / apart
+        joined = np.stack([-slope, value], axis=1) * weights[:, None]
+        joined = joined.reshape(len(joined), -1, joined.shape[-1])
+        both = np.concatenate([-self._table_hz[::-1], self._table_hz])
+        spline = CubicSpline(both, np.concatenate([joined[::-1].conj(), joined]))
+        coefficients: ComplexArray = spline.c[:, self._table_hz.size - 1 :]
+        return coefficients
+
+    def _trend(self, frequency_hz: Array) -> ComplexArray:
+        omega = 2.0 * np.pi * frequency_hz
+        trend: ComplexArray = 1j * omega * np.exp(-1j * omega * self._delay_s)
+        return trend
+
+    def join(self, record: Record, length: int, lines: int, step_hz: float) -> ComplexArray:
+        """Pressure at the microphone of a record, (pattern, line); lines as in `Record.on_grid`."""
+        frequency_hz = step_hz * np.arange(1.0, lines + 1.0)
+        breaks = np.concatenate([[-self._table_hz[0]], self._table_hz])
+        piece = np.clip(np.searchsorted(breaks, frequency_hz) - 1, 0, breaks.size - 2)
+        total = np.zeros((lines, self._splines[0].shape[-1]), dtype=complex)
+        for side in range(len(self._splines)):
+            green = record.on_grid(side, length, lines).reshape(lines, -1)
+            for number in np.unique(piece):
+                rows = piece == number
+                along = (frequency_hz[rows] - breaks[number])[:, None]
+                value = np.zeros((rows.sum(), total.shape[1]), dtype=complex)
+                for coefficients in self._splines[side][:, number]:
+                    value = value * along + green[rows] @ coefficients
+                total[rows] += value
+        result: ComplexArray = (total * self._trend(frequency_hz)[:, None]).T
+        return result

@@ -1,0 +1,235 @@
+"""A machine in a room: sound pressure at listeners per velocity of its wall, by waves to 1 kHz."""
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from ...base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from ...base.errors import ParameterError
+from ...base.progress import Progress, no_progress
+from ...base.threads import in_threads
+from ...base.vocabulary import RIGID_BODY_DOFS, check, stamp
+from ...machine.shell import Shell
+from ...study.radiation import RadiationSettings
+from ..arrangements import hemisphere_positions, reference_box
+from ..arrays import Array, ComplexArray
+from ..band_limited import STENCIL_NODES, interpolation_weights
+from ..patterns import SurfaceMotion, rigid_body, surface_motion
+from ..revolution.profile import shell_profile
+from ..revolution.side import RevolutionSide
+from ..scene import machine_body
+from ..transfer_vectors import frequencies_hz
+from .cutting import cut, faces
+from .decay import reverberation_time_s
+from .join_box import JoinBox
+from .lattice import holding
+from .machine_field import MachineField
+from .room import Room
+from .run import Runs, together
+from .settings import RoomSettings
+from .standing import Standing, check_listeners, standing
+
+MOST_HZ: Final = 1000.0
+"""Of the waves in a room."""
+_PADDING: Final = 2
+"""Lines of the fine grid for each that the record's duration needs."""
+_MORE_LINES: Final = STENCIL_NODES // 2
+"""Above the highest frequency, for interpolation below it."""
+_POSITIONS: Final = 20
+_LEAST_RADIUS_M: Final = 1.0
+"""Of the hemisphere, which is twice the characteristic dimension of the machine or more."""
+
+
+def room_vectors(
+    shell: Shell,
+    settings: RadiationSettings,
+    room: Room,
+    foot_m: Array,
+    listeners: Mapping[str, Array],
+    maximum_frequency_hz: float,
+    motions: Sequence[SurfaceMotion] = (),
+    progress: Progress = no_progress,
+) -> xr.Dataset:
+    """Complex pressure at listeners in a room per unit velocity of each pattern, by waves.
+
+    The machine's field over a hard floor, from boundary elements on its meridian, is joined on a
+    box around it with the room's Green's functions. What it stands on is taken as hard and level
+    within the box. The body is a solid in the room, a cuboid of its volume and height, where the
+    air beside it allows that: then its echo is that of the cuboid, else there is none.
+
+    Parameters
+    ----------
+    shell, settings : of the machine; the settings' surroundings are not asked, the room stands
+        for them
+    room : without the machine
+    foot_m : of the axis of the shell on what it stands on, in the room's coordinates, (3,); the
+        axes of machine and room are parallel
+    listeners : (3,) by name, in the room's coordinates, m
+    maximum_frequency_hz : of the waves
+    motions : surface velocities besides the rigid motions
+    progress : told of the advance
+
+    Returns
+    -------
+    Dataset
+        `room_transfer_vector` (listener, pattern, room_frequency), Pa s/m, and
+        `hemisphere_transfer_vector` (hemisphere_position, pattern, frequency): pressure at the 20
+        positions of ISO 3744, Table B.1, over a hard floor in the open, up to the settings'
+        highest frequency; its radius is the attribute `hemisphere_radius_m`. Patterns are
+        `RIGID_BODY_DOFS` and then the motions.
+
+    Raises
+    ------
+    ParameterError
+        The body is not of revolution; its foot is neither on the floor nor on a block; it is too
+        close to walls or blocks; a listener is in a block or too close; a gap is too thin.
+    SolverError
+        The pressure is no finite number.
+    """
+    profile = shell_profile(shell, settings.body)
+    if profile is None:
+        raise ParameterError(
+            f'room: radiation.body.kind = "{settings.body.kind}": must be shell or sphere: a '
+            f"machine in a room is computed by boundary elements on its meridian"
+        )
+    if not 0.0 < maximum_frequency_hz <= MOST_HZ:
+        raise ParameterError(
+            f"room.maximum_frequency_hz = {maximum_frequency_hz:g} Hz: must be above 0 and at most "
+            f"{MOST_HZ:g} Hz"
+        )
+    waves = RoomSettings(maximum_frequency_hz)
+    stands = standing(shell, profile, room, foot_m, waves.spacing_m)
+    check_listeners(stands, listeners)
+    names = [*RIGID_BODY_DOFS, *(motion.name for motion in motions)]
+    patterns = [*map(rigid_body, RIGID_BODY_DOFS), *map(surface_motion, motions)]
+    highest = max(maximum_frequency_hz, settings.maximum_frequency_hz)
+    side = RevolutionSide(profile, patterns, highest, shell.floor_z_m)
+    in_room, attributes = _in_room(side, stands, listeners, waves, names, progress)
+    open_, radius_m = _in_the_open(shell, settings, side, names, progress)
+    return check(xr.merge([in_room, open_])).assign_attrs(
+        hemisphere_radius_m=radius_m, body_in_room=stands.body_in_room, **attributes
+    )
+
+
+def _in_room(
+    side: RevolutionSide,
+    stands: Standing,
+    listeners: Mapping[str, Array],
+    waves: RoomSettings,
+    names: Sequence[str],
+    progress: Progress,
+) -> tuple[xr.DataArray, dict[str, float | str]]:
+    """`room_transfer_vector`, and what is told of the runs."""
+    highest, clearance_m = waves.maximum_frequency_hz, stands.clearance_m
+    box = JoinBox(stands.lower, stands.upper, highest, clearance_m, on_floor=True)
+    boxes = cut(stands.room, waves.spacing_m)
+    for name, position in listeners.items():
+        holding(boxes, position, f"receivers.{name}")
+    quantities = [(-1, axis) for axis in box.axes]
+    longest_s = reverberation_time_s(stands.room)
+    runs = Runs(boxes, faces(stands.room, boxes), box.lattices, quantities, waves, longest_s)
+    length = _PADDING * runs.samples
+    step_hz = 1.0 / (length * runs.sample_s)
+    lines = int(np.ceil(highest / step_hz)) + _MORE_LINES
+    origin_m = stands.foot_m - [0.0, 0.0, side.floor_z_m or 0.0]
+    field = MachineField(side, box, origin_m, clearance_m, lines * step_hz, progress)
+    told = together(progress, len(listeners))
+    remaining: dict[str, float] = {}
+
+    def one(name: str, position: Array) -> ComplexArray:
+        record = runs.record(name, position, told)
+        remaining[name] = record.remaining_db
+        return field.join(record, length, lines, step_hz)
+
+    values = in_threads([partial(one, *of) for of in listeners.items()])
+    labelled = stamp(
+        "room_transfer_vector",
+        np.array(values),
+        {
+            "listener": list(listeners),
+            "pattern": list(names),
+            "room_frequency": step_hz * np.arange(1.0, lines + 1.0),
+        },
+    )
+    return labelled, {
+        "room_maximum_frequency_hz": highest,
+        "room_record_s": runs.samples * runs.sample_s,
+        "room_remaining_db": max(remaining.values(), default=0.0),
+        "room_boxes": len(boxes),
+        "room_terms": int(sum(np.prod(one.nodes) for one in boxes)),
+        "room_time_step_s": runs.step_s,
+    }
+
+
+def _in_the_open(
+    shell: Shell,
+    settings: RadiationSettings,
+    side: RevolutionSide,
+    names: Sequence[str],
+    progress: Progress,
+) -> tuple[xr.DataArray, float]:
+    """`hemisphere_transfer_vector` and its radius, m."""
+    box = reference_box(machine_body(shell, settings.body), shell.floor_z_m)
+    radius_m = max(_LEAST_RADIUS_M, 2.0 * box.characteristic_dimension_m)
+    points = box.origin_m + hemisphere_positions(radius_m, _POSITIONS)
+    table_hz = frequencies_hz(settings)
+    sampled = side.spectrum(points, table_hz, "machine in the open", progress)
+    labelled = stamp(
+        "hemisphere_transfer_vector",
+        np.moveaxis(sampled.pressure, 0, -1),
+        {
+            "hemisphere_position": np.arange(1, _POSITIONS + 1),
+            "pattern": list(names),
+            "frequency": table_hz,
+        },
+    )
+    return labelled, radius_m
+
+
+def power_per_mean_square(radius_m: float) -> float:
+    """Sound power over the mean square pressure on a hemisphere, 2 pi r²/(rho c), W/Pa²."""
+    return 2.0 * np.pi * radius_m**2 / (AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S)
+
+
+def room_pressure_per_velocity(vectors: xr.Dataset) -> Callable[[Array], ComplexArray]:
+    """`room_transfer_vector` as a function of frequencies in Hz, (listener, pattern, frequency).
+
+    The response lasts for as long as the record and is tabulated twice as finely as that needs:
+    with half of that duration taken out of its delay, it is band limited to half of what the grid
+    carries, and `interpolation_weights` errs by 2e-4 of it.
+
+    Raises
+    ------
+    ParameterError
+        The function is called with a frequency that is negative or above the table.
+    """
+    table = vectors["room_transfer_vector"].transpose("listener", "pattern", "room_frequency")
+    line_hz, values = table["room_frequency"].values, table.values
+    step_hz, highest_hz = float(line_hz[0]), float(vectors.attrs["room_maximum_frequency_hz"])
+    middle_s = 0.5 / (_PADDING * step_hz)
+    turned = values * np.exp(2j * np.pi * line_hz * middle_s)
+    below = turned[..., _MORE_LINES - 1 :: -1][..., -_MORE_LINES:].conj()
+    around = np.concatenate([below, np.zeros((*values.shape[:2], 1)), turned], axis=-1)
+
+    def at(frequency_hz: Array) -> ComplexArray:
+        frequency_hz = np.asarray(frequency_hz, dtype=float)
+        if frequency_hz.size and not (
+            frequency_hz.min() >= 0.0 and frequency_hz.max() <= highest_hz * (1.0 + 1e-9)
+        ):
+            raise ParameterError(
+                f"room.maximum_frequency_hz: waves in the room are computed from 0 to "
+                f"{highest_hz:g} Hz, {frequency_hz.max():g} Hz is needed"
+            )
+        line = np.minimum(frequency_hz / step_hz, highest_hz / step_hz)
+        cell = np.floor(line).astype(int)
+        weights = interpolation_weights(line - cell)
+        result = np.zeros((*values.shape[:2], line.size), dtype=complex)
+        for node in range(STENCIL_NODES):
+            result += weights[:, node] * around[..., cell + node + 1]
+        result *= np.exp(-2j * np.pi * frequency_hz * middle_s)
+        return result
+
+    return at

@@ -1,0 +1,208 @@
+"""The room of a study, its machine and its listeners, and pressure at all that is asked for."""
+
+from collections.abc import Callable, Sequence
+from functools import lru_cache
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+
+from ...base.arrays import Array, ComplexArray
+from ...base.decibel import power_of_level
+from ...base.vocabulary import RIGID_BODY_DOFS
+from ...machine.shell import Shell
+from ...study.room import StudyRoom
+from ...study.room_materials import Covering
+from ...study.study import Study
+from ..interpolation import interpolant
+from ..patterns import SurfaceMotion
+from ..transfer_vectors import cache_key_material
+from .decay import absorption_area_m2
+from .diffuse import (
+    SEAM_HZ,
+    DiffuseRoom,
+    blend,
+    gain_at_place_db,
+    line_of_sight,
+    mean_square_per_power,
+)
+from .machine_in_room import room_pressure_per_velocity
+from .materials import OCTAVES_HZ, Material
+from .room import Block, Patch, Room
+
+_KEPT: Final = 8
+"""Sets of frequencies whose values are kept: rigid motions and modes ask for the same."""
+ROUNDED: Final = 1.05
+"""Of bands that are called by round numbers."""
+SHOWN_FROM_HZ: Final = 250.0
+"""Lowest third octave in which both methods are shown."""
+
+PressureAt = Callable[[Array], ComplexArray]
+"""Of frequencies, (frequency,), to (place, pattern, frequency), Pa per unit velocity."""
+
+
+def room_of(settings: StudyRoom) -> Room:
+    """Walls, furniture and patches as the solver takes them."""
+    return Room(
+        settings.size_m,
+        {side: _material(side, covering) for side, covering in settings.walls.items()},
+        tuple(
+            Block(name, one.lower_m, one.upper_m, _material(name, one.material))
+            for name, one in settings.furniture.items()
+        ),
+        tuple(
+            Patch(name, one.side, one.lower_m, one.upper_m, _material(name, one.material))
+            for name, one in settings.patches.items()
+        ),
+    )
+
+
+def _material(name: str, covering: Covering) -> Material:
+    """With the octave of 63 Hz as that of 125 Hz (assumed)."""
+    values = covering.absorption_ratio
+    return Material(covering.name or name, (values[0], *values), covering.source)
+
+
+def foot_m(settings: StudyRoom) -> Array:
+    """Of the shell's axis on what it stands on, shape (3,)."""
+    return np.array([*settings.foot_m, settings.standing_height_m])
+
+
+def machine_middle_m(settings: StudyRoom, shell: Shell) -> Array:
+    """Middle of the shell, shape (3,)."""
+    up = shell.floor_clearance_m + 0.5 * shell.height_m
+    return np.asarray(foot_m(settings) + np.array([0.0, 0.0, up]))
+
+
+def listeners_m(settings: StudyRoom) -> dict[str, Array]:
+    """Of each listener by name, shape (3,)."""
+    return {
+        name: np.array([one.x_m, one.y_m, one.height_m]) for name, one in settings.listeners.items()
+    }
+
+
+def room_key(study: Study, settings: StudyRoom, motions: Sequence[SurfaceMotion]) -> dict[str, Any]:
+    """Everything that shapes the room's vectors, as plain data to be hashed."""
+    machine = cache_key_material(study.machine.shell, {}, study.radiation, motions=motions)
+    return {"machine": machine, "room": settings.model_dump(exclude={"limits"})}
+
+
+def pressure_at_places(vectors: xr.Dataset) -> PressureAt:
+    """Pressure at the listeners by waves, then at the positions on the hemisphere.
+
+    Above the waves' highest frequency the listeners get none.
+
+    Parameters
+    ----------
+    vectors : of `room_vectors`
+    """
+    waves = room_pressure_per_velocity(vectors)
+    highest_hz = float(vectors.attrs["room_maximum_frequency_hz"])
+    table = vectors["hemisphere_transfer_vector"]
+    table = table.transpose("hemisphere_position", "pattern", "frequency")
+    radius_m = np.full((table.shape[0], 1), float(vectors.attrs["hemisphere_radius_m"]))
+    positions = interpolant(table["frequency"].values, table.values, radius_m)
+    listeners = vectors.sizes["listener"]
+
+    @lru_cache(maxsize=_KEPT)
+    def kept(frequency: bytes) -> ComplexArray:
+        hertz = np.frombuffer(frequency)
+        shape = (listeners + table.shape[0], table.shape[1], hertz.size)
+        values = np.zeros(shape, dtype=complex)
+        low = hertz <= highest_hz
+        values[:listeners, :, low] = waves(hertz[low])
+        values[listeners:] = positions(hertz)
+        values.flags.writeable = False
+        return values
+
+    return lambda frequency_hz: kept(np.asarray(frequency_hz, dtype=np.float64).tobytes())
+
+
+def of_rigid(pressure: PressureAt) -> PressureAt:
+    """The rigid motions among the patterns."""
+    return lambda frequency_hz: pressure(frequency_hz)[:, : len(RIGID_BODY_DOFS)]
+
+
+def of_modes(pressure: PressureAt) -> PressureAt:
+    """The shell's modes among the patterns."""
+    return lambda frequency_hz: pressure(frequency_hz)[:, len(RIGID_BODY_DOFS) :]
+
+
+def wave_share(highest_hz: float) -> Callable[[Array], Array]:
+    """Share of the waves in mean squares, of frequencies.
+
+    From the waves to the power over the seam's frequencies; lower by a factor where the waves end
+    below them.
+
+    Parameters
+    ----------
+    highest_hz : of the waves
+    """
+    return lambda frequency_hz: np.asarray(1.0 - blend(frequency_hz / seam_shift(highest_hz)))
+
+
+def seam_shift(highest_hz: float) -> float:
+    """Factor on the seam's frequencies where waves end below it."""
+    return min(1.0, highest_hz / SEAM_HZ[1])
+
+
+def diffuse_per_power(
+    settings: StudyRoom, source_m: Array, gain: float = 1.0
+) -> Callable[[Array], Array]:
+    """Mean square of pressure per power at the listeners by direct sound and diffuse field.
+
+    Parameters
+    ----------
+    settings : of the room
+    source_m : where the sound comes from, shape (3,)
+    gain : of the power at its place
+
+    Returns
+    -------
+    of frequencies, shape (listener, frequency), Pa²/W
+    """
+    room = room_of(settings)
+    diffuse = DiffuseRoom.of(room)
+    ways = [
+        (float(np.linalg.norm(place - source_m)), line_of_sight(room, source_m, place))
+        for place in listeners_m(settings).values()
+    ]
+
+    def per_power(frequency_hz: Array) -> Array:
+        return np.asarray(
+            gain
+            * np.array(
+                [mean_square_per_power(frequency_hz, away, diffuse, seen) for away, seen in ways]
+            )
+        )
+
+    return per_power
+
+
+def seam_bands_hz(highest_hz: float) -> tuple[float, float]:
+    """Lowest and highest middle of the third octaves that are shown around the seam, Hz.
+
+    Parameters
+    ----------
+    highest_hz : of the waves
+    """
+    return SHOWN_FROM_HZ * seam_shift(highest_hz), highest_hz
+
+
+def place_gain(waves: Array, diffuse: Array, middle_hz: Array, highest_hz: float) -> float:
+    """Power at the machine's place over that in the open, from the thirds of the seam.
+
+    Parameters
+    ----------
+    waves, diffuse : mean squares per power, shape (listener, band)
+    middle_hz : of the bands, shape (band,)
+    highest_hz : of the waves
+    """
+    low, high = (end * seam_shift(highest_hz) for end in SEAM_HZ)
+    within = (middle_hz > low / ROUNDED) & (middle_hz < high * ROUNDED)
+    return float(power_of_level(gain_at_place_db(waves[:, within], diffuse[:, within])))
+
+
+def absorption_by_octave(settings: StudyRoom) -> tuple[list[float], Array]:
+    """Octaves, Hz, and the equivalent absorption area of walls and furniture in them, m²."""
+    return list(OCTAVES_HZ), np.asarray(absorption_area_m2(room_of(settings)), dtype=np.float64)

@@ -1,0 +1,201 @@
+"""The machine in a room, in words and tables: how loud, by which path, what changes it."""
+
+from typing import Final
+
+import xarray as xr
+
+from ..base import rounding
+from ..base.vocabulary import REFERENCE_OPTION
+from .structure_borne import carrier
+from .study import balancers, options, overall_noise, speeds
+from .tables import Table
+
+SEAM_DB: Final = 2.0
+"""Difference of the two methods that is told."""
+_LEAST_DB: Final = 0.1
+_TIMES: Final = {"day": "by day", "night": "by night"}
+
+
+def has_room(results: xr.Dataset) -> bool:
+    """Whether the machine was put into a room."""
+    return "room_level" in results
+
+
+def listeners(results: xr.Dataset) -> list[str]:
+    """Names of those who listen."""
+    return [str(name) for name in results["listener"].values]
+
+
+def loudest_listener(results: xr.Dataset) -> str:
+    """The one at whom the machine without a balancer is loudest by all ways."""
+    at = _at(results, REFERENCE_OPTION)
+    names = listeners(results)
+    return max(names, key=lambda name: _both(at.sel(listener=name)))
+
+
+def room_sentence(results: xr.Dataset) -> str:
+    """How loud the machine is in the room, which path carries it, which option changes that."""
+    name = loudest_listener(results)
+    at = _at(results, REFERENCE_OPTION).sel(listener=name)
+    return (
+        f"In the room the machine without a balancer is {rounding.level(_both(at))} dB(A) at "
+        f"{name}, the loudest place of those asked for, at {_speed(results):g} rpm"
+        f"{_limit_words(results, _both(at))}: {_carrier_words(at)}{_best(results, name)}"
+    )
+
+
+def room_table(results: xr.Dataset, listener: str) -> Table:
+    """Of every option the level by air, by the feet and both, against the limits."""
+    plate = "room_plate_level" in results
+    head = ["Option", "By air, dB(A)"]
+    if plate:
+        head += ["By the feet, dB(A)", "Both, dB(A)", "Carried by"]
+    limits = _limits(results)
+    head += [f"Limit {_TIMES.get(time, time)}, {limit:g} dB(A)" for time, limit in limits.items()]
+    rows = []
+    for option in options(results):
+        at = _at(results, option).sel(listener=listener)
+        cells = [option, _ranged(at, "room_level")]
+        if plate:
+            both = rounding.level(_both(at))
+            cells += [_ranged(at, "room_plate_level"), both, _carrier(at)]
+        cells += [_met(_both(at) - limit) for limit in limits.values()]
+        rows.append(tuple(cells))
+    caption = f"{listener}, {_speed(results):g} rpm: level of the machine in the room"
+    words = frozenset({0, *range(4 if plate else 2, len(head))} - ({2, 3} if plate else set()))
+    return Table(caption, tuple(head), tuple(rows), words)
+
+
+def seam_table(results: xr.Dataset) -> Table:
+    """Waves less diffuse field at every listener, in third octaves."""
+    bands = results["seam_band"].values
+    difference = results["room_gain_difference"]
+    rows = tuple(
+        (name, *(rounding.signed(float(one)) for one in difference.sel(listener=name).values))
+        for name in listeners(results)
+    )
+    head = ("Listener", *(f"{band:g} Hz" for band in bands))
+    return Table("Waves less diffuse field, dB", head, rows)
+
+
+def seam_sentence(results: xr.Dataset) -> str:
+    """Where the two methods differ by more than is to be passed over."""
+    off = [
+        f"{name} {band:g} Hz ({rounding.signed(float(value))} dB)"
+        for name in listeners(results)
+        for band, value in zip(
+            results["seam_band"].values,
+            results["room_gain_difference"].sel(listener=name).values,
+            strict=True,
+        )
+        if abs(value) > SEAM_DB
+    ]
+    gain = rounding.signed(float(results["room_place_gain"]))
+    first = (
+        f"The place changes the power of the machine by {gain} dB, the mean of the seam; the "
+        "diffuse field takes that over. "
+    )
+    if not off:
+        return f"{first}Nowhere do the methods differ by more than {SEAM_DB:g} dB."
+    return f"{first}The methods differ by more than {SEAM_DB:g} dB at {', '.join(off)}."
+
+
+def power_sentence(results: xr.Dataset) -> str:
+    """Sound power in the open, the same machine at its published point, and the room's gain."""
+    at = _at(results, REFERENCE_OPTION)
+    name = loudest_listener(results)
+    by_air = at.sel(listener=name)
+    power = float(
+        results["room_sound_power_level"].sel(speed=_speed(results), option=REFERENCE_OPTION)
+    )
+    published = overall_noise(results)
+    drawn = "; the draws keep to what is published" if "room_level_middle" in by_air else ""
+    return (
+        f"On a hard floor in the open the machine has a sound power level of "
+        f"{rounding.level(power)} dB(A) re 1 pW with the values as given; its noise is published "
+        f"as {published['level_dba']:g} dB(A) at {published['distance_m']:g} m and "
+        f"{published['speed_rpm']:g} rpm{drawn}. With the values as given it is "
+        f"{rounding.level(float(by_air['room_level']))} dB(A) by air at {name}."
+    )
+
+
+def _at(results: xr.Dataset, option: str) -> xr.Dataset:
+    names = [
+        name
+        for name in results.data_vars
+        if {"listener", "option"} <= set(results[name].dims) and results[name].ndim == 3
+    ]
+    return results[names].sel(speed=_speed(results), option=option)
+
+
+def _speed(results: xr.Dataset) -> float:
+    published = overall_noise(results)["speed_rpm"]
+    return min(speeds(results), key=lambda speed: abs(speed - published))
+
+
+def _both(at: xr.Dataset) -> float:
+    return float(at["room_level_both_ways"]) if "room_level_both_ways" in at else _by_air(at)
+
+
+def _by_air(at: xr.Dataset) -> float:
+    """The middle of the draws where there are some."""
+    return float(at["room_level_middle" if "room_level_middle" in at else "room_level"])
+
+
+def _carrier(at: xr.Dataset) -> str:
+    low, high = (float(at[f"room_plate_level_{end}"]) for end in ("low", "high"))
+    which = carrier(_by_air(at), low, high)
+    return "the feet" if which == "the plate" else which
+
+
+def _carrier_words(at: xr.Dataset) -> str:
+    if "room_plate_level" not in at:
+        return f"it comes by air, {_ranged(at, 'room_level')} dB(A)"
+    which = _carrier(at)
+    ways = (
+        f"by air {_ranged(at, 'room_level')}, by the feet and the plate "
+        f"{_ranged(at, 'room_plate_level')}"
+    )
+    verdict = "which carries it is not sure" if which == "not sure" else f"{which} carries it"
+    return f"{verdict} ({ways} dB(A))"
+
+
+def _best(results: xr.Dataset, listener: str) -> str:
+    each = {one: _both(_at(results, one).sel(listener=listener)) for one in balancers(results)}
+    given = _both(_at(results, REFERENCE_OPTION).sel(listener=listener))
+    if not each:
+        return "."
+    least = min(each, key=lambda option: each[option])
+    if each[least] > given - _LEAST_DB:
+        return "; no option changes that."
+    return f"; {least} takes most off it, {rounding.signed(each[least] - given)} dB."
+
+
+def _limits(results: xr.Dataset) -> dict[str, float]:
+    if "room_limit" not in results:
+        return {}
+    limit = results["room_limit"]
+    return {
+        str(time): float(limit.sel(room_limit_time=time)) for time in limit.room_limit_time.values
+    }
+
+
+def _limit_words(results: xr.Dataset, level: float) -> str:
+    words = [
+        f"{rounding.fixed(abs(level - limit))} dB {'over' if level > limit else 'under'} the limit "
+        f"{_TIMES.get(time, time)}"
+        for time, limit in _limits(results).items()
+    ]
+    return f", {' and '.join(words)}" if words else ""
+
+
+def _met(over_db: float) -> str:
+    return "met" if over_db <= 0.0 else f"missed by {rounding.fixed(over_db)} dB"
+
+
+def _ranged(at: xr.Dataset, name: str) -> str:
+    level = _by_air(at) if name == "room_level" else float(at[name])
+    if f"{name}_low" not in at or level < rounding.LEVEL_FLOOR_DB:
+        return rounding.level(level)
+    low, high = (rounding.level(float(at[f"{name}_{end}"])) for end in ("low", "high"))
+    return f"{rounding.level(level)} ({low} to {high})"

@@ -1,0 +1,203 @@
+"""A room with walls, furniture and listeners into which the machine is put."""
+
+from math import hypot
+from typing import Annotated, Final, Literal, Self
+
+from pydantic import Field, model_validator
+
+from ..base.parameters import Parameters
+from ..machine.shell import Shell
+from .room_materials import Material
+
+RoomSide = Literal["-x", "+x", "-y", "+y", "floor", "ceiling"]
+AXIS_OF: Final[dict[RoomSide, int]] = {
+    "-x": 0, "+x": 0, "-y": 1, "+y": 1, "floor": 2, "ceiling": 2,
+}  # fmt: skip
+"""Axis across each side."""
+SHORTEST_M: Final = 0.5
+LONGEST_M: Final = 30.0
+LARGEST_M3: Final = 500.0
+"""Beyond, waves to some hundred hertz take hours."""
+Length = Annotated[float, Field(ge=SHORTEST_M, le=LONGEST_M)]
+Coordinate = Annotated[float, Field(ge=0.0, le=LONGEST_M)]
+
+
+class Furniture(Parameters):
+    """A solid cuboid that is left out of the air of a room."""
+
+    lower_m: tuple[Coordinate, Coordinate, Coordinate]
+    """Its corner nearest to the room's origin: x, y, z."""
+    upper_m: tuple[Coordinate, Coordinate, Coordinate]
+    material: Material
+
+    def holds(self, x_m: float, y_m: float, z_m: float) -> bool:
+        """Whether a point lies inside."""
+        point = (x_m, y_m, z_m)
+        return all(
+            low < at < high for low, at, high in zip(self.lower_m, point, self.upper_m, strict=True)
+        )
+
+
+class RoomPatch(Parameters):
+    """A rectangle of another material on a side of the room: a window, a door, an opening."""
+
+    side: RoomSide
+    lower_m: tuple[Coordinate, Coordinate]
+    """Its corner nearest to the origin, along the two other axes in their order."""
+    upper_m: tuple[Coordinate, Coordinate]
+    material: Material
+
+
+class Listener(Parameters):
+    """Someone's ears in the room, from its corner and its floor."""
+
+    x_m: Coordinate
+    y_m: Coordinate
+    height_m: Coordinate
+
+
+class RoomLimits(Parameters):
+    """A-weighted levels that listeners accept, of all that the machine makes."""
+
+    day_dba: float | None = Field(default=None, ge=0.0, le=120.0)
+    night_dba: float | None = Field(default=None, ge=0.0, le=120.0)
+
+    @property
+    def levels(self) -> dict[str, float]:
+        """Those that are given, by time of day."""
+        given = {"day": self.day_dba, "night": self.night_dba}
+        return {time: level for time, level in given.items() if level is not None}
+
+
+class StudyRoom(Parameters):
+    """A room from its origin in a lower corner, x and y level, z up; hard where nothing covers it.
+
+    The machine stands with its axis at a place of it.
+    """
+
+    size_m: tuple[Length, Length, Length]
+    foot_m: tuple[Coordinate, Coordinate]
+    """Of the shell's axis: x and y."""
+    standing_height_m: float = Field(default=0.0, ge=0.0, le=LONGEST_M)
+    """Top of what the machine stands on, above the floor."""
+    maximum_frequency_hz: float = Field(default=1000.0, ge=250.0, le=1000.0)
+    """Up to which waves are computed; above, the diffuse field."""
+    walls: dict[RoomSide, Material] = Field(default_factory=dict)
+    furniture: dict[str, Furniture] = Field(default_factory=dict)
+    patches: dict[str, RoomPatch] = Field(default_factory=dict)
+    listeners: dict[str, Listener] = Field(min_length=1)
+    limits: RoomLimits = RoomLimits()
+
+    @model_validator(mode="after")
+    def _possible(self) -> Self:
+        volume = self.size_m[0] * self.size_m[1] * self.size_m[2]
+        if volume > LARGEST_M3:
+            raise ValueError(
+                f"size_mm = {_millimetres(self.size_m)}: a volume of {volume:.4g} m³; "
+                f"allowed to {LARGEST_M3:g} m³"
+            )
+        for name, block in self.furniture.items():
+            _check_rises(f"furniture.{name}", block.lower_m, block.upper_m, self.size_m)
+        for name, patch in self.patches.items():
+            across = _without(self.size_m, AXIS_OF[patch.side])
+            _check_rises(f"patches.{name}", patch.lower_m, patch.upper_m, across)
+        self._check_listeners()
+        self._check_stands()
+        return self
+
+    def _check_listeners(self) -> None:
+        for name, one in self.listeners.items():
+            point = (one.x_m, one.y_m, one.height_m)
+            if not all(0.0 < at < size for at, size in zip(point, self.size_m, strict=True)):
+                raise ValueError(
+                    f"listeners.{name}: at {_millimetres(point)} mm: must lie in the room, "
+                    f"0 to {_millimetres(self.size_m)} mm"
+                )
+            for block_name, block in self.furniture.items():
+                if block.holds(*point):
+                    raise ValueError(
+                        f"listeners.{name}: at {_millimetres(point)} mm: lies in "
+                        f"furniture.{block_name}"
+                    )
+
+    def _check_stands(self) -> None:
+        """The machine needs something to stand on."""
+        x, y = self.foot_m
+        tops = {
+            round(block.upper_m[2], 6)
+            for block in self.furniture.values()
+            if block.lower_m[0] <= x <= block.upper_m[0]
+            and block.lower_m[1] <= y <= block.upper_m[1]
+        }
+        if round(self.standing_height_m, 6) not in {0.0, *tops}:
+            allowed = ", ".join(f"{1e3 * top:g}" for top in sorted({0.0, *tops}))
+            raise ValueError(
+                f"standing_height_mm = {1e3 * self.standing_height_m:g} mm: neither the floor nor "
+                f"the top of furniture at foot_mm; allowed {allowed} mm"
+            )
+
+    def check_holds(self, shell: Shell) -> None:
+        """Refuse a machine that stands in a wall or in furniture, or a listener in the machine.
+
+        Raises
+        ------
+        ValueError
+            With what is in the way.
+        """
+        x, y = self.foot_m
+        bottom = self.standing_height_m + shell.floor_clearance_m
+        lower = (x - shell.radius_m, y - shell.radius_m, bottom)
+        upper = (x + shell.radius_m, y + shell.radius_m, bottom + shell.height_m)
+        for axis, word in enumerate("xyz"):
+            if lower[axis] < 0.0 or upper[axis] > self.size_m[axis]:
+                raise ValueError(
+                    f"foot_mm = {_millimetres(self.foot_m)}: the shell reaches from "
+                    f"{1e3 * lower[axis]:.4g} to {1e3 * upper[axis]:.4g} mm along {word}; the room "
+                    f"from 0 to {1e3 * self.size_m[axis]:g} mm"
+                )
+        for name, block in self.furniture.items():
+            if _overlaps(block, x, y, lower, upper, shell.radius_m):
+                raise ValueError(
+                    f"foot_mm = {_millimetres(self.foot_m)}: the shell stands in furniture.{name}"
+                )
+        for name, one in self.listeners.items():
+            height = one.height_m - self.standing_height_m
+            if shell.distance_m(one.x_m - x, one.y_m - y, height) <= 0.0:
+                raise ValueError(f"listeners.{name}: lies in the machine")
+
+
+def _overlaps(
+    block: Furniture,
+    x: float,
+    y: float,
+    lower: tuple[float, float, float],
+    upper: tuple[float, float, float],
+    radius: float,
+) -> bool:
+    """Whether an upright cylinder and a cuboid share air."""
+    if not block.lower_m[2] < upper[2] or not lower[2] < block.upper_m[2]:
+        return False
+    beside = [
+        max(low - at, at - high, 0.0)
+        for at, low, high in zip((x, y), block.lower_m, block.upper_m, strict=False)
+    ]
+    return hypot(*beside) < radius
+
+
+def _check_rises(
+    name: str, lower: tuple[float, ...], upper: tuple[float, ...], size: tuple[float, ...]
+) -> None:
+    for low, high, most in zip(lower, upper, size, strict=True):
+        if not low < high <= most * (1.0 + 1e-9):
+            raise ValueError(
+                f"{name}: from {1e3 * low:g} to {1e3 * high:g} mm: must rise and lie in the room, "
+                f"0 to {1e3 * most:g} mm"
+            )
+
+
+def _without(values: tuple[float, ...], axis: int) -> tuple[float, ...]:
+    return tuple(value for number, value in enumerate(values) if number != axis)
+
+
+def _millimetres(values: tuple[float, ...]) -> list[float]:
+    return [float(f"{1e3 * value:.6g}") for value in values]
