@@ -217,7 +217,8 @@ def _local_frequencies(room, spacing, count):
         values += [share, share, -share, -share]
     entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
     matrix = csc_array(entries, shape=(grid.air.sum(),) * 2)
-    squared = eigsh(matrix, count + 1, sigma=-1e4, which="LM", return_eigenvectors=False)
+    # Nearer to the constant, which is no mode, that one returns a second time.
+    squared = eigsh(matrix, count + 1, sigma=-1e6, which="LM", return_eigenvectors=False)
     return np.sqrt(np.sort(squared)[1:]) / (2.0 * np.pi)
 
 

@@ -13,7 +13,7 @@ from ..revolution.profile import Profile
 from .cutting import cut
 from .room import Block, Room
 
-_MARGIN_M: Final = 0.05
+_MARGIN_M: Final = 0.1
 """From the body to the box around it where nothing is in the way, else half the gap."""
 LEAST_GAP_M: Final = 0.03
 """Between the body and what stands beside it."""
