@@ -152,7 +152,6 @@ def _map(study: Study, settings: StudyRoom, air: AirInRoom, progress: Progress) 
         ),
     )  # fmt: skip
     speeds = np.array(study.operation.speed_rpm)
-    published = study.machine.overall_noise.speed_rpm
-    speed = int(np.argmin(np.abs(speeds - published)))
+    speed = int(np.argmin(np.abs(speeds - study.catalogue_speed_rpm)))
     power = air.power_band[speed, list(study.options).index(REFERENCE_OPTION)]
     return map_level(gains["room_map_gain"], power, float(speeds[speed]), height_m)

@@ -7,7 +7,7 @@ import xarray as xr
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
 from .structure_borne import carrier
-from .study import balancers, options, overall_noise, speeds
+from .study import balancers, nearest_speed, options, overall_noise
 from .tables import Table
 
 SEAM_DB: Final = 2.0
@@ -39,7 +39,7 @@ def room_sentence(results: xr.Dataset) -> str:
     at = _at(results, REFERENCE_OPTION).sel(listener=name)
     return (
         f"In the room the machine without a balancer is {rounding.level(_both(at))} dB(A) at "
-        f"{name}, the loudest place of those asked for, at {_speed(results):g} rpm"
+        f"{name}, the loudest place of those asked for, at {nearest_speed(results):g} rpm"
         f"{_limit_words(results, _both(at))}: {_carrier_words(at)}{_best(results, name)}"
     )
 
@@ -61,7 +61,7 @@ def room_table(results: xr.Dataset, listener: str) -> Table:
             cells += [_ranged(at, "room_plate_level"), both, _carrier(at)]
         cells += [_met(_both(at) - limit) for limit in limits.values()]
         rows.append(tuple(cells))
-    caption = f"{listener}, {_speed(results):g} rpm: level of the machine in the room"
+    caption = f"{listener}, {nearest_speed(results):g} rpm: level of the machine in the room"
     words = frozenset({0, *range(4 if plate else 2, len(head))} - ({2, 3} if plate else set()))
     return Table(caption, tuple(head), tuple(rows), words)
 
@@ -106,16 +106,24 @@ def power_sentence(results: xr.Dataset) -> str:
     name = loudest_listener(results)
     by_air = at.sel(listener=name)
     power = float(
-        results["room_sound_power_level"].sel(speed=_speed(results), option=REFERENCE_OPTION)
+        results["room_sound_power_level"].sel(speed=nearest_speed(results), option=REFERENCE_OPTION)
     )
-    published = overall_noise(results)
     drawn = "; the draws keep to what is published" if "room_level_middle" in by_air else ""
     return (
         f"On a hard floor in the open the machine has a sound power level of "
-        f"{rounding.level(power)} dB(A) re 1 pW with the values as given; its noise is published "
-        f"as {published['level_dba']:g} dB(A) at {published['distance_m']:g} m and "
-        f"{published['speed_rpm']:g} rpm{drawn}. With the values as given it is "
+        f"{rounding.level(power)} dB(A) re 1 pW with the values as given; {_published(results)}"
+        f"{drawn}. With the values as given it is "
         f"{rounding.level(float(by_air['room_level']))} dB(A) by air at {name}."
+    )
+
+
+def _published(results: xr.Dataset) -> str:
+    published = overall_noise(results)
+    if published is None:
+        return "no level is published"
+    return (
+        f"its noise is published as {published['level_dba']:g} dB(A) at "
+        f"{published['distance_m']:g} m and {published['speed_rpm']:g} rpm"
     )
 
 
@@ -125,12 +133,7 @@ def _at(results: xr.Dataset, option: str) -> xr.Dataset:
         for name in results.data_vars
         if {"listener", "option"} <= set(results[name].dims) and results[name].ndim == 3
     ]
-    return results[names].sel(speed=_speed(results), option=option)
-
-
-def _speed(results: xr.Dataset) -> float:
-    published = overall_noise(results)["speed_rpm"]
-    return min(speeds(results), key=lambda speed: abs(speed - published))
+    return results[names].sel(speed=nearest_speed(results), option=option)
 
 
 def _both(at: xr.Dataset) -> float:

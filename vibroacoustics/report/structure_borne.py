@@ -7,7 +7,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
-from .study import balancers, options, quoted_speed, speeds
+from .study import balancers, nearest_speed, options
 from .tables import Table
 
 _FIRST: Final = "order 1"
@@ -49,7 +49,7 @@ def way_sentence(results: xr.Dataset, receiver: str) -> str:
         "which of them carries it is not sure" if which == "not sure" else f"{which} carries it"
     )
     return (
-        f"At {receiver} and {_speed(results):g} rpm without a balancer 1× is "
+        f"At {receiver} and {nearest_speed(results):g} rpm without a balancer 1× is "
         f"{rounding.level(by_air)} dB(A) by air and {rounding.level(by_plate)} dB(A) "
         f"({_span(low, high)} with 90 %) by the feet and the plate: {verdict}."
         f"{_best(results, receiver, by_plate)}"
@@ -79,8 +79,8 @@ def ways_table(results: xr.Dataset, receiver: str) -> Table:
         "All by air, dB(A)", "All by the plate, dB(A)", "Both, dB(A)",
     )  # fmt: skip
     caption = (
-        f"{receiver}, {_speed(results):g} rpm: by air, and by the feet and the plate under them "
-        "with the span of 90 % of such plates"
+        f"{receiver}, {nearest_speed(results):g} rpm: by air, and by the feet and the plate under "
+        "them with the span of 90 % of such plates"
     )
     return Table(caption, head, tuple(rows), frozenset({0, 3}))
 
@@ -104,8 +104,8 @@ def plate_lines_table(results: xr.Dataset, receiver: str) -> Table:
             )
         )
     head = ("Line", "Hz", "Into the plate, mW", "Sound power, µW", "Level, dB(A)")
-    caption = f"{receiver}, {_speed(results):g} rpm, option {REFERENCE_OPTION}: lines of the plate"
-    return Table(caption, head, tuple(rows))
+    where = f"{receiver}, {nearest_speed(results):g} rpm, option {REFERENCE_OPTION}"
+    return Table(f"{where}: lines of the plate", head, tuple(rows))
 
 
 def _at(results: xr.Dataset, receiver: str, option: str) -> xr.Dataset:
@@ -114,14 +114,8 @@ def _at(results: xr.Dataset, receiver: str, option: str) -> xr.Dataset:
         for name in results.data_vars
         if str(name).startswith("structure_borne_") or name in ("level_both_ways", "level_total")
     ]
-    chosen = results[[*names, "order_level"]].sel(speed=_speed(results), option=option)
+    chosen = results[[*names, "order_level"]].sel(speed=nearest_speed(results), option=option)
     return chosen.sel(receiver=receiver, weighting="A")
-
-
-def _speed(results: xr.Dataset) -> float:
-    """That of the published level, or the nearest to it."""
-    quoted = quoted_speed(results)
-    return min(speeds(results), key=lambda speed: abs(speed - quoted))
 
 
 def _best(results: xr.Dataset, receiver: str, by_plate: float) -> str:

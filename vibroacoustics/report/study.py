@@ -80,6 +80,12 @@ def quoted_speed(results: xr.Dataset) -> float:
     return speeds(results)[0] if noise is None else noise["speed_rpm"]
 
 
+def nearest_speed(results: xr.Dataset) -> float:
+    """The speed that was run nearest to the published one."""
+    quoted = quoted_speed(results)
+    return min(speeds(results), key=lambda speed: abs(speed - quoted))
+
+
 def whole_dba(results: xr.Dataset) -> float:
     """The published level; where none is, that of all that is modelled, without a balancer."""
     noise = overall_noise(results)
