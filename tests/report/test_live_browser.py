@@ -323,3 +323,27 @@ def test_sliders_move_over_a_baseline_as_in_the_pipeline(browser, tmp_path):
         expected = levels_of(results, option)
         np.testing.assert_allclose(got, expected, atol=1e-3)
         assert option == "none" or np.abs(expected - none)[0, 0, 0] > 0.03
+
+
+def test_charts_are_drawn_when_seen_and_one_wave_is_made_of_many_events(browser, page):
+    open_page(browser, page)
+    script = """const done = arguments[0], panel = vibroacoustics.panel, counts = [0, 0];
+    const later = (act) => setTimeout(act, 300);
+    panel.hear("B");
+    const voice = panel.player.voices.B;
+    voice.retune = () => { counts[1] += 1; };
+    for (let i = 0; i < 5; i++) {
+      panel.at("angle").value = 10 * i;
+      panel.at("angle").dispatchEvent(new Event("input"));
+      panel.spectrum.draw(() => { counts[0] += 1; return [[], [], [], []]; });
+    }
+    later(() => {
+      const folded = [...counts];
+      document.querySelector("details:has(#live)").open = true;
+      panel.at("spectrum").scrollIntoView();
+      panel.hear(null);
+      later(() => done([folded, counts]));
+    });"""
+    folded, seen = browser.execute_async_script(script)
+    assert folded == [0, 1]
+    assert seen == [1, 1]
