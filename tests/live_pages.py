@@ -10,6 +10,7 @@ from selenium.webdriver import Chrome
 from support import PIPELINES, labelled_vectors, made_up_transfer_vectors
 
 import vibroacoustics as va
+from vibroacoustics.levels.measured_points import BASELINE_BANDS
 from vibroacoustics.machine.floor import Floor
 from vibroacoustics.report.blocks import Text
 from vibroacoustics.report.html import html
@@ -69,6 +70,30 @@ def both_run() -> xr.Dataset:
     """With weight and mounts at once: of the machine the mounts, as an option the weight."""
     mounts = {f"machine.mounts.{name}": value for name, value in TRIED.items()}
     return thesis_run(mounts | {"options.weight": WEIGHT})
+
+
+def baseline_run(folder: Path) -> xr.Dataset:
+    """With what the sliders reach as options, over orders with and without phase and bands."""
+    orders = [
+        f"front_1m,2900,{order},{level},{phase}"
+        for order, level, phase in ((1, 74.0, 40), (2, 60.0, ""), (3, 50.0, -70), (9, 41.0, ""))
+    ]
+    quiet = {band.nominal_hz: 20.0 for band in BASELINE_BANDS if band.nominal_hz > 40.0}
+    levels = quiet | {50.0: 74.5, 100.0: 62.0, 160.0: 51.0, 400.0: 42.0}
+    bands = [f"front_1m,2900,{hertz:g},{level}" for hertz, level in levels.items()]
+    heads = {"orders": "order,level_db,phase_deg", "thirds": "band_hz,level_db"}
+    for (name, head), rows in zip(heads.items(), (orders, bands), strict=True):
+        (folder / f"{name}.csv").write_text("\n".join([f"microphone,speed_rpm,{head}", *rows]))
+    return thesis_run(
+        {
+            "options.weight": WEIGHT,
+            "options.mounts": {"kind": "redesign", "change": {"mounts": TRIED}},
+            "measured.baseline": {
+                "file": [str(folder / "orders.csv"), str(folder / "thirds.csv")],
+                "tacho_angle_deg": 0.0,
+            },
+        }
+    )
 
 
 def floor_run() -> xr.Dataset:

@@ -13,6 +13,7 @@ from live_pages import (
     MOUNTS,
     OF_MOUNTS,
     OF_WEIGHT,
+    baseline_run,
     both_run,
     floor_run,
     open_page,
@@ -309,3 +310,40 @@ def test_a_weight_adds_to_what_cannot_be_taken_apart(browser, tmp_path):
     unfold(browser)
     assert not browser.find_element(By.CSS_SELECTOR, "[data-live=lateral]").is_displayed()
     assert "do not move here" in browser.find_element(By.ID, "live").text
+
+
+def test_sliders_move_over_a_baseline_as_in_the_pipeline(browser, tmp_path):
+    results = baseline_run(tmp_path)
+    (tmp_path / "page.html").write_bytes(page_of(results))
+    open_page(browser, tmp_path / "page.html")
+    assert browser.execute_script("return vibroacoustics.panel.page.mounts_move") is True
+    none = levels_of(results, "none")
+    for option, moved in (("none", {}), ("weight", OF_WEIGHT), ("mounts", OF_MOUNTS)):
+        got = np.array(browser.execute_script(EVERY, 0, moved))
+        expected = levels_of(results, option)
+        np.testing.assert_allclose(got, expected, atol=1e-3)
+        assert option == "none" or np.abs(expected - none)[0, 0, 0] > 0.03
+
+
+def test_charts_are_drawn_when_seen_and_one_wave_is_made_of_many_events(browser, page):
+    open_page(browser, page)
+    script = """const done = arguments[0], panel = vibroacoustics.panel, counts = [0, 0];
+    const later = (act) => setTimeout(act, 300);
+    panel.hear("B");
+    const voice = panel.player.voices.B;
+    voice.retune = () => { counts[1] += 1; };
+    for (let i = 0; i < 5; i++) {
+      panel.at("angle").value = 10 * i;
+      panel.at("angle").dispatchEvent(new Event("input"));
+      panel.spectrum.draw(() => { counts[0] += 1; return [[], [], [], []]; });
+    }
+    later(() => {
+      const folded = [...counts];
+      document.querySelector("details:has(#live)").open = true;
+      panel.at("spectrum").scrollIntoView();
+      panel.hear(null);
+      later(() => done([folded, counts]));
+    });"""
+    folded, seen = browser.execute_async_script(script)
+    assert folded == [0, 1]
+    assert seen == [1, 1]

@@ -138,14 +138,14 @@ def test_full_scale_has_room_for_all():
     peak = np.array([[[0.003 + 0.004j, 0.01]]])
     noise = np.array([[[0.0002, 0.0002]]])
     nothing = np.zeros(0)
-    lines = Lines(nothing, nothing, peak, nothing, nothing, noise)
+    no_phase = np.zeros(0, dtype=bool)
+    lines = Lines(nothing, nothing, peak, peak, nothing, no_phase, nothing, nothing, noise)
     assert full_scale_pa([lines]) == pytest.approx(0.2)  # 2 (0.015 + 4 × 0.02) = 0.19
 
 
-@pytest.mark.parametrize("measured", ["baseline", "sound"])
-def test_nothing_moves_over_measured_sound(results, measured):
+def test_nothing_moves_over_sound_measured_by_force(results):
     parameters = json.loads(results.attrs["parameters"])
-    parameters["measured"] = {measured: {"file": "a.csv"}}
+    parameters["measured"] = {"sound": {"file": "a.csv"}}
     other = results.assign_attrs(parameters=json.dumps(parameters))
     assert moving_of(results) is not None
     assert moving_of(other) is None

@@ -138,14 +138,14 @@ def baseline_variables(
     bands = np.full((*sizes, len(BASELINE_BANDS)), np.nan)
     orders = np.full((*sizes, order.size), np.nan)
     share, order_share = bands[:, 0].copy(), orders[:, 0].copy()
-    phase = order_share.copy()
+    phase, peak = order_share.copy(), np.zeros(order_share.shape, dtype=complex)
     none = list(axes.options).index(REFERENCE_OPTION)
     for (receiver, speed), point in points.items():
         s, r = axes.speeds.index(speed), axes.receivers.index(receiver)
         changed = _changed(study, axes, (receiver, speed), point, sound)
         chosen = _columns(axes, point)
         orders[s][:, r, chosen] = _level(changed.order)
-        phase[s, r, chosen] = point.has_phase
+        phase[s, r, chosen], peak[s, r, chosen] = point.has_phase, point.peak
         square = 0.5 * np.abs(point.peak) ** 2
         order_share[s, r, chosen] = _ratio(changed.modelled_order[none], square)
         tones = changed.order @ holds(point.frequency_hz)[:, point.band]
@@ -162,6 +162,7 @@ def baseline_variables(
         arrays |= {
             "baseline_order_share": (order_share, shared | in_orders),
             "baseline_order_phase": (phase, shared | in_orders),
+            "baseline_order_pressure": (peak, shared | in_orders),
             "baseline_order_level": (orders, axes.by_receiver | in_orders),
         }
     return check(xr.Dataset({name: stamp(name, value, at) for name, (value, at) in arrays.items()}))

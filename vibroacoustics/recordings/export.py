@@ -8,6 +8,8 @@ from scipy.io import wavfile
 
 from ..base import csv_text
 from ..base.errors import ParameterError
+from .riff import with_comment
+from .stated_scale import scale_comment
 
 
 def csv_bytes(recording: xr.Dataset) -> bytes:
@@ -30,9 +32,9 @@ def csv_bytes(recording: xr.Dataset) -> bytes:
 
 
 def wav_bytes(recording: xr.Dataset) -> bytes:
-    """A WAV file of 64-bit floats that are the SI values themselves.
+    """A WAV file of 64-bit floats that are the SI values themselves, their units in its comment.
 
-    A WAV file states neither units nor channel names: `read_recording` needs `units` again.
+    A WAV file states no channel names: they are `channel 1`, `channel 2` … when it is read.
 
     Parameters
     ----------
@@ -54,4 +56,5 @@ def wav_bytes(recording: xr.Dataset) -> bytes:
         wavfile.write(content, int(rate), recording["signal"].values.T)
     except ValueError as error:
         raise ParameterError(f"recording cannot be written as WAV: {error}") from None
-    return content.getvalue()
+    units = map(str, recording["channel_unit"].values)
+    return with_comment(content.getvalue(), scale_comment((1.0, unit) for unit in units))

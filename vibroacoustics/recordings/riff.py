@@ -100,6 +100,23 @@ def read_wave(file: BinaryIO) -> Wave:
     raise StorageError("holds no samples: it has no data chunk")
 
 
+def with_comment(wave: bytes, comment: str) -> bytes:
+    """A WAV file with a comment in a list behind its samples; one of RF64 stays as it is.
+
+    Parameters
+    ----------
+    wave : the file, RIFF
+    comment : of letters of Latin-1
+    """
+    if wave[:4] != b"RIFF":
+        return wave
+    text = comment.encode("latin-1") + b"\0"
+    text += bytes(len(text) % 2)
+    content = b"INFO" + struct.pack("<4sI", b"ICMT", len(text)) + text
+    whole = wave + struct.pack("<4sI", b"LIST", len(content)) + content
+    return whole[:4] + struct.pack("<I", len(whole) - 8) + whole[8:]
+
+
 def _wave(block: bytes, order: ByteOrder, start: int, size: int, comment: str) -> Wave:
     if len(block) < 16:
         raise StorageError("has no format chunk before its samples")

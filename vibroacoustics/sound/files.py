@@ -9,20 +9,22 @@ from scipy.io import wavfile
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
+from ..recordings.riff import with_comment
+from ..recordings.stated_scale import scale_comment
 from .gain import peak_of_tone
 
 CALIBRATION_HZ: Final = 1000.0
 
 
-def wav_bytes(sound: Array, sample_rate_hz: int) -> bytes:
-    """A WAV file of 32-bit floats."""
+def wav_bytes(sound: Array, sample_rate_hz: int, full_scale_pa: float) -> bytes:
+    """A WAV file of 32-bit floats, its full scale in its comment."""
     content = io.BytesIO()
     wavfile.write(content, sample_rate_hz, sound.astype(np.float32))
-    return content.getvalue()
+    return with_comment(content.getvalue(), scale_comment([(full_scale_pa, "Pa")]))
 
 
-def flac_bytes(sound: Array, sample_rate_hz: int) -> bytes:
-    """A FLAC file of 24 bits.
+def flac_bytes(sound: Array, sample_rate_hz: int, full_scale_pa: float) -> bytes:
+    """A FLAC file of 24 bits, its full scale in its comment.
 
     Raises
     ------
@@ -36,11 +38,18 @@ def flac_bytes(sound: Array, sample_rate_hz: int) -> bytes:
             "format = flac: needs soundfile: pip install 'vibroacoustics[sound]'"
         ) from None
     content = io.BytesIO()
-    soundfile.write(content, sound, sample_rate_hz, format="FLAC", subtype="PCM_24")
+    with soundfile.SoundFile(
+        content, "w", sample_rate_hz, channels=1, format="FLAC", subtype="PCM_24"
+    ) as file:
+        file.comment = scale_comment([(full_scale_pa, "Pa")])
+        file.write(sound)
     return content.getvalue()
 
 
-FORMATS: Final[dict[str, Callable[[Array, int], bytes]]] = {"wav": wav_bytes, "flac": flac_bytes}
+FORMATS: Final[dict[str, Callable[[Array, int, float], bytes]]] = {
+    "wav": wav_bytes,
+    "flac": flac_bytes,
+}
 
 
 def at_gain(pressure_pa: Array, full_scale_pa: float) -> Array:

@@ -62,6 +62,7 @@ NOT_MADE_HERE = {
     "baseline_band_level",
     "baseline_order_level",
     "baseline_order_phase",
+    "baseline_order_pressure",
     "baseline_order_share",
     "truncation",  # of measurements alone
     "truncation_error",

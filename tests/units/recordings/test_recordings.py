@@ -1,6 +1,7 @@
 """Recordings in: every format gives back, bit by bit, what was written, with unit and rate."""
 
 import hashlib
+import io
 import os
 import struct
 import sys
@@ -28,6 +29,8 @@ from vibroacoustics.recordings.quantities import QUANTITIES, find_quantity, quan
 from vibroacoustics.recordings.readers import csv_table
 from vibroacoustics.recordings.recorded import Request
 from vibroacoustics.recordings.remarks import RecordingWarning
+from vibroacoustics.recordings.riff import with_comment
+from vibroacoustics.recordings.stated_scale import scale_comment, stated_scales
 from vibroacoustics.recordings.time_axis import even_rate_hz
 from vibroacoustics.results import storage
 
@@ -162,11 +165,46 @@ def test_wav_round_trip_in_floats(recording, tmp_path):
     whole = recording.assign_attrs(sample_rate_hz=51200.0)
     path = write(tmp_path / "a.wav", wav_bytes(whole))
     names = ["channel 1", "channel 2", "channel 3"]
-    found = read_recording(path, units=dict(zip(names, UNITS, strict=True)))
+    found = read_recording(path)  # the file's comment holds the units
     check_same(found, names)
     assert found.attrs["sample_rate_hz"] == 51200.0
     assert found.attrs["source_file"] == "a.wav"
     assert found.attrs["source_sha256"] == hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+@pytest.mark.parametrize(
+    ("comment", "scales"),
+    [
+        (scale_comment([(0.5, "Pa"), (1e-6, "m/s²")]), [(0.5, "Pa"), (1e-6, "m/s²")]),
+        (scale_comment([(0.5, "Pa")]), []),  # of one channel, the file has two
+        ("vibroacoustics: 0.5 Pa, -1.0 V at full scale", []),
+        ("vibroacoustics: 0.5 Pa, e V at full scale", []),
+        ("vibroacoustics: 0.5 Pa, V at full scale", []),
+        ("0.5 Pa, 1.0 V at full scale", []),
+    ],
+)
+def test_comments_of_another_form_state_nothing(comment, scales):
+    assert stated_scales(comment, 2) == scales
+
+
+@pytest.mark.parametrize("kind", ["float32", "int16"])
+def test_a_wav_states_its_scale_unless_another_is_given(tmp_path, kind):
+    samples = np.array([0.25, -0.5, 0.75, 0.0])
+    stored = samples.astype(kind) if kind == "float32" else (samples * 2**15).astype(kind)
+    content = io.BytesIO()
+    wavfile.write(content, 48000, stored)
+    stating = with_comment(content.getvalue(), scale_comment([(20.0, "Pa")]))
+    path = write(tmp_path / "a.wav", stating)
+    found = read_recording(path)["signal"]
+    np.testing.assert_allclose(found.values[0], 20.0 * samples)
+    assert found["channel_unit"].values == ["Pa"]
+    louder = read_recording(path, calibration={"*": 40.0})["signal"]
+    np.testing.assert_allclose(louder.values[0], 40.0 * samples)
+    volt = read_recording(path, units={"*": "V"}, calibration={"*": 1.0})["signal"]
+    np.testing.assert_allclose(volt.values[0], samples)
+    assert volt["channel_unit"].values == ["V"]
+    (_, again) = wavfile.read(path)
+    np.testing.assert_array_equal(again, stored)
 
 
 def test_wav_states_whole_rates_only(recording):

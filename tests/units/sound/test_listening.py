@@ -54,10 +54,23 @@ def test_no_option_exceeds_full_scale(results):
     assert gain.full_scale_of(quiet) == 2e-5
 
 
+@pytest.mark.parametrize("kind", ["wav", "flac"])
+def test_a_file_states_its_full_scale_to_who_reads_it(tmp_path, results, kind):
+    if kind == "flac":
+        pytest.importorskip("soundfile")
+    (path,) = va.listen(results, tmp_path, ["none"], duration_s=1.0, file_format=kind)
+    found = va.read_recording(path)["signal"]
+    assert found["channel_unit"].values == ["Pa"]
+    parts = va.sound.ingredients(results, "none", "front_1m", 900.0)
+    expected = rendered(parts, found.sizes["time"])
+    full_scale = gain.full_scale_of(results)
+    np.testing.assert_allclose(found.values[0], expected, atol=2.0**-23 * full_scale)
+
+
 def test_flac_holds_24_bits():
     soundfile = pytest.importorskip("soundfile")
     sound = 0.5 * np.sin(0.1 * np.arange(4800))
-    content = files.flac_bytes(sound, 48000)
+    content = files.flac_bytes(sound, 48000, 20.0)
     again, rate = soundfile.read(io.BytesIO(content))
     assert rate == 48000
     np.testing.assert_allclose(again, sound, atol=2.0**-23)
@@ -102,7 +115,7 @@ def test_the_command_refuses_in_one_line(tmp_path, results_file):
 def test_without_soundfile_one_line_says_what_to_install(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "soundfile", None)
     with pytest.raises(va.ParameterError, match=r"pip install 'vibroacoustics\[sound\]'"):
-        files.flac_bytes(np.zeros(10), 48000)
+        files.flac_bytes(np.zeros(10), 48000, 1.0)
 
 
 def test_tones_of_a_sound_file(tmp_path, results):

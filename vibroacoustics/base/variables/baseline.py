@@ -42,6 +42,14 @@ for _thing in (
         "modelled over measured mean square of an order without an option",
     ),
     Variable(
+        "baseline_order_pressure",
+        ("speed", "receiver", "baseline_order"),
+        "Pa",
+        "pressure of an order measured, with phase 0 where its phase is not known; 0 where none is "
+        "measured",
+        complex_peak=True,
+    ),
+    Variable(
         "baseline_order_phase",
         ("speed", "receiver", "baseline_order"),
         "1",

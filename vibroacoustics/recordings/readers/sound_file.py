@@ -6,6 +6,7 @@ from ...base.errors import StorageError
 from ...base.registry import register
 from ..reader import Reader
 from ..recorded import Recorded, Request, check_size
+from ..stated_scale import stated_scales
 
 _BITS: Final = {"PCM_S8": 8, "PCM_U8": 8, "PCM_16": 16, "PCM_24": 24, "PCM_32": 32}
 _FLOATS: Final = ("FLOAT", "DOUBLE")
@@ -33,17 +34,19 @@ def read(request: Request) -> Recorded:
             raise StorageError(
                 f"holds {len(frames)} of {last - first} samples that it claims: it is truncated"
             )
+        scales = stated_scales(file.comment, file.channels)
         bits = _BITS.get(file.subtype)
         limits = None if bits is None else (-1.0, 1.0 - 2.0 ** (1 - bits))
         return Recorded(
             names=[names[column] for column in chosen],
-            units=[""] * len(chosen),
+            units=[scales[column][1] if scales else "" for column in chosen],
             samples=[frames[:, column] for column in chosen],
             sample_rate_hz=rate_hz,
             full_scale=file.subtype not in _FLOATS,
             first_sample=first,
             total_samples=file.frames,
             limits=[limits] * len(chosen),
+            calibration=[scales[column][0] if scales else None for column in chosen],
         )
 
 

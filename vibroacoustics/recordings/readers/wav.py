@@ -11,6 +11,7 @@ from ..by_channel import by_channel
 from ..reader import Reader
 from ..recorded import Recorded, Request, Samples, check_rate, check_size
 from ..riff import FLOAT, PCM, Wave, read_wave
+from ..stated_scale import stated_scales
 from . import sound_file
 
 
@@ -34,18 +35,21 @@ def read(request: Request) -> Recorded:
     check_size(len(chosen), last - first)
     stored = by_channel(partial(_frames, request, wave, chosen), first, last, len(chosen))
     is_whole = wave.kind == PCM
+    scales = stated_scales(wave.comment, wave.channels)
     pascal = wave.pascal_at_full_scale if is_whole else None
+    if pascal is not None:
+        scales = [(pascal, "Pa")] * wave.channels
     highest = 1.0 - 2.0 ** (1 - 8 * wave.sample_bytes)
     return Recorded(
         names=[names[column] for column in chosen],
-        units=["" if pascal is None else "Pa"] * len(chosen),
+        units=[scales[column][1] if scales else "" for column in chosen],
         samples=[_full_scale_fraction(samples) for samples in stored],
         sample_rate_hz=rate_hz,
         full_scale=is_whole,
         first_sample=first,
         total_samples=wave.frames,
         limits=[(-1.0, highest) if is_whole else None] * len(chosen),
-        calibration=[pascal] * len(chosen),
+        calibration=[scales[column][0] if scales else None for column in chosen],
     )
 
 

@@ -5,6 +5,8 @@ from typing import Any
 import numpy as np
 
 from ...base.arrays import ComplexArray
+from ...base.vocabulary import REFERENCE_OPTION
+from ...levels.measured_change import left_of_squares
 from .lines import Lines
 from .mounts import is_over_frequency, stiffness_over_frequency
 from .moving import Moving
@@ -16,10 +18,12 @@ def case_of(numbers: Numbers, lines: Lines, moving: Moving | None, speed: int) -
     """One speed with all options.
 
     Arrays are the numbers of their first elements in `numbers`, by option where nothing else is
-    said: `rest` and `modelled` (microphone), `noise` (microphone, band), `pressure` beside that of
-    the loads (microphone, line), `load` (line, 6), `weight` (line; force, moment; axis), `factor`
-    (line); `vector` of all options (line, microphone, 6) and, by machine, `stiffness` over
-    frequency (line, 21). A line that is no order has zeros.
+    said: `rest` and `modelled` (microphone), beside the lines, `noise` (microphone, band),
+    `pressure` beside that of the loads (microphone, line), `load` (line, 6), `weight` (line; force,
+    moment; axis), `factor` (line); `vector` of all options (line, microphone, 6) and, by machine,
+    `stiffness` over frequency (line, 21); with a baseline what the model leaves of it, `left`
+    (microphone, line) and whether with its `phase`. A line that is no order has zeros. Where
+    nothing moves there are `pressure`, as it sounds, and `modelled` with its lines.
 
     Parameters
     ----------
@@ -32,11 +36,14 @@ def case_of(numbers: Numbers, lines: Lines, moving: Moving | None, speed: int) -
         "frequency": [round(float(hertz), 9) for hertz in lines.frequency_hz],
         "order": [None if np.isnan(order) else float(order) for order in lines.order],
         "rest": [numbers.put(of_option) for of_option in lines.rest],
-        "modelled": [numbers.put(of_option) for of_option in lines.modelled_rest],
         "noise": [numbers.put(of_option, NOISE_BITS) for of_option in lines.noise],
     }
     if moving is None:
-        return case | {"pressure": [numbers.put(one, FEW_BITS) for one in lines.pressure]}
+        return case | {
+            "modelled": [numbers.put(one) for one in lines.modelled_rest + lines.of_model],
+            "pressure": [numbers.put(one, FEW_BITS) for one in lines.pressure],
+        }
+    case["modelled"] = [numbers.put(of_option) for of_option in lines.modelled_rest]
     return case | _moving_case(numbers, lines, moving, speed)
 
 
@@ -45,13 +52,17 @@ def _moving_case(numbers: Numbers, lines: Lines, moving: Moving, speed: int) -> 
     load = [_by_line(lines, one) for one in of_run.load[speed]]
     factor = [machines.amplitude_factor(name, lines.frequency_hz) for name in machines.option]
     of_loads = np.array([_by_line(lines, one).T for one in of_run.pressure[speed]])
-    others = beside(lines.pressure, of_loads)
+    others = beside(lines.modelled, of_loads)
     case: dict[str, Any] = {
         "vector": numbers.put(_by_line(lines, of_run.vector[speed]), FEW_BITS),
         "load": [numbers.put(one, LOAD_BITS) for one in load],
         "factor": [numbers.put_unless(one, 1.0) for one in factor],
         "pressure": [numbers.put_unless(one, 0.0, FEW_BITS) for one in others],
     }
+    if np.any(lines.measured):
+        none = list(machines.option).index(REFERENCE_OPTION)
+        case["left"] = numbers.put(_left(lines, none), LOAD_BITS)
+        case["phase"] = numbers.put(lines.has_phase)
     if moving.unit_loads is not None:
         weight = [_by_line(lines, one) for one in moving.unit_loads[speed]]
         case["weight"] = [numbers.put(one, LOAD_BITS) for one in weight]
@@ -59,6 +70,16 @@ def _moving_case(numbers: Numbers, lines: Lines, moving: Moving, speed: int) -> 
         at_lines = (stiffness_over_frequency(one, lines.frequency_hz) for one in machines.different)
         case["stiffness"] = [numbers.put(one, LOAD_BITS) for one in at_lines]
     return case
+
+
+def _left(lines: Lines, none: int) -> ComplexArray:
+    """What the model without an option leaves of measured orders, (receiver, line), Pa.
+
+    A difference of peaks where the phase is known, else of energies, as `changed_orders` has it.
+    """
+    before = lines.modelled[none]
+    squares = left_of_squares(np.abs(lines.measured) ** 2, np.abs(before) ** 2)
+    return np.where(lines.has_phase, lines.measured - before, np.sqrt(squares))
 
 
 def _by_line(lines: Lines, values: ComplexArray) -> ComplexArray:

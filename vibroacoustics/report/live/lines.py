@@ -28,6 +28,9 @@ class Lines:
     frequency_hz : shape (line,)
     order : not a number where it is none, shape (line,)
     pressure : complex peaks, shape (option, receiver, line), Pa
+    modelled : the same without what was measured
+    measured : of the orders of a baseline, (receiver, line), Pa; zero where there is none
+    has_phase : whether its phase is known, of the same shape
     rest : A-weighted mean square beside these lines, as the total has it, (option, receiver), Pa²
     modelled_rest : the same of the modelled level
     noise : mean square of the noise in third octaves, shape (option, receiver, band), Pa²
@@ -36,9 +39,17 @@ class Lines:
     frequency_hz: Array
     order: Array
     pressure: ComplexArray
+    modelled: ComplexArray
+    measured: ComplexArray
+    has_phase: NDArray[np.bool_]
     rest: Array
     modelled_rest: Array
     noise: Array
+
+    @property
+    def of_model(self) -> Array:
+        """A-weighted mean square of the modelled lines, shape (option, receiver), Pa²."""
+        return _squares(self.modelled, self.frequency_hz)
 
 
 def lines_at(results: xr.Dataset, speed: float, bands: Array, always: frozenset[float]) -> Lines:
@@ -65,21 +76,24 @@ def lines_at(results: xr.Dataset, speed: float, bands: Array, always: frozenset[
         hertz.setdefault(f"order {order:g}", order * shaft_frequency_hz(speed))
     names = sorted(hertz, key=lambda name: hertz[name])
     pressure = np.array([[_pressure(sound, names) for sound in row] for row in sounds])
+    at = results.sel(speed=speed)
+    modelled = _modelled(at, names)
     frequency = np.array([hertz[name] for name in names])
     orders = np.array([_order(name) for name in names])
     kept = _loud(pressure, frequency) | np.isin(orders, list(always))
-    pressure, frequency = pressure[..., kept], frequency[kept]
-    of_lines = 0.5 * np.abs(pressure) ** 2 @ _a_power(frequency)
-    at = results.sel(speed=speed)
+    pressure, modelled = pressure[..., kept], modelled[..., kept]
+    frequency, orders = frequency[kept], orders[kept]
     total = at["level_total"].transpose("option", "receiver").values
-    modelled = at["level_modelled"].sel(weighting="A").transpose("option", "receiver").values
+    level = at["level_modelled"].sel(weighting="A").transpose("option", "receiver").values
     noise = np.array([[_noise(sound, bands) for sound in row] for row in sounds])
     return Lines(
         frequency,
-        orders[kept],
+        orders,
         pressure,
-        _energy(total) - of_lines,
-        _energy(modelled) - of_lines,
+        modelled,
+        *_measured(at, orders),
+        _energy(total) - _squares(pressure, frequency),
+        _energy(level) - _squares(modelled, frequency),
         noise,
     )
 
@@ -87,6 +101,23 @@ def lines_at(results: xr.Dataset, speed: float, bands: Array, always: frozenset[
 def _pressure(sound: Ingredients, names: list[str]) -> ComplexArray:
     known = dict(zip(sound.lines.name, sound.lines.pressure_pa, strict=True))
     return np.array([known.get(name, 0.0) for name in names], dtype=complex)
+
+
+def _modelled(at: xr.Dataset, names: list[str]) -> ComplexArray:
+    """Of all sources together, zero where a line was measured alone, (option, receiver, line)."""
+    pressure = at["pressure_line"].sum("sound_source").transpose("option", "receiver", "line")
+    return np.asarray(pressure.reindex(line=names, fill_value=0.0).values)
+
+
+def _measured(at: xr.Dataset, orders: Array) -> tuple[ComplexArray, NDArray[np.bool_]]:
+    """Peaks of a baseline's orders and whether their phase is known, (receiver, line)."""
+    if "baseline_order_pressure" not in at:
+        shape = at.sizes["receiver"], orders.size
+        return np.zeros(shape, dtype=complex), np.zeros(shape, dtype=bool)
+    of_orders = at[["baseline_order_pressure", "baseline_order_phase"]]
+    of_lines = of_orders.transpose("receiver", "baseline_order").reindex(baseline_order=orders)
+    peak, phase = (of_lines[str(name)].values for name in of_orders)
+    return np.where(np.isnan(peak), 0.0, peak), phase == 1.0
 
 
 def _order(name: str) -> float:
@@ -108,6 +139,10 @@ def _loud(pressure: ComplexArray, frequency_hz: Array) -> NDArray[np.bool_]:
         total = weighted.sum(axis=-1, keepdims=True)
         loud |= np.any(weighted > QUIET * total, axis=(0, 1))
     return loud
+
+
+def _squares(pressure: ComplexArray, frequency_hz: Array) -> Array:
+    return np.asarray(0.5 * np.abs(pressure) ** 2 @ _a_power(frequency_hz))
 
 
 def _a_power(frequency_hz: Array) -> Array:

@@ -95,8 +95,7 @@ def moving_of(results: xr.Dataset) -> Moving | None:
     ----------
     results : of a run
     """
-    measured = parameters(results).get("measured") or {}
-    if measured.get("baseline") or measured.get("sound"):
+    if (parameters(results).get("measured") or {}).get("sound"):
         return None
     machines = machines_of(results)
     if machines is None:

@@ -20,6 +20,7 @@ function sticks(shift) {
   };
 }
 
+// A plot that is drawn when it is seen, and not before.
 function chart(target, title, scales, axes, series) {
   const size = () => ({ width: target.clientWidth || 300, height: 260 });
   const named = series.map((one) => ({
@@ -32,7 +33,18 @@ function chart(target, title, scales, axes, series) {
   new ResizeObserver(() => {
     if (target.clientWidth && target.clientWidth !== plot.width) plot.setSize(size());
   }).observe(target);
-  return plot;
+  let seen = false, waiting = null;
+  const draw = (data) => {
+    waiting = data;
+    if (!seen || !waiting) return;
+    plot.setData(waiting());
+    waiting = null;
+  };
+  new IntersectionObserver((changes) => {
+    seen = changes[changes.length - 1].isIntersecting;
+    draw(waiting);
+  }).observe(target);
+  return { draw };
 }
 
 function spectrumChart(target) {
@@ -74,4 +86,14 @@ function spectrum(model, s, m, compared, live) {
   });
   rows.sort((a, b) => a[0] - b[0]);
   return [0, 1, 2, 3].map((column) => rows.map((row) => row[column]));
+}
+
+// Total and modelled levels at a microphone by speed, rising.
+function overSpeed(speeds, m, before, live) {
+  const rows = speeds.map((rpm, s) => {
+    const [one, other] = [before[s].of[m], live[s].of[m]];
+    return [rpm, one.total, other.total, one.modelled, other.modelled];
+  });
+  rows.sort((one, other) => one[0] - other[0]);
+  return [0, 1, 2, 3, 4].map((column) => rows.map((row) => row[column]));
 }

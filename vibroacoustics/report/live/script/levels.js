@@ -144,11 +144,12 @@ class Model {
     }
   }
 
-  // Complex peaks in Pa at every microphone and line of a speed: real and imaginary in turn.
-  pressure(s, values) {
+  // Modelled complex peaks in Pa at every microphone and line of a speed, real and imaginary in turn,
+  // into an array where there is one.
+  pressure(s, values, before) {
     const one = this.page.cases[s], lines = one.frequency.length, { numbers } = this, { six } = this.room;
-    const microphones = this.page.microphones.length;
-    const sound = new Float64Array(2 * microphones * lines), given = one.pressure[values.option];
+    const microphones = this.page.microphones.length, given = one.pressure[values.option];
+    const sound = before ? before.fill(0) : new Float64Array(2 * microphones * lines);
     if (given >= 0) sound.set(numbers.subarray(given, given + sound.length));
     if (!one.load) return sound;
     const factor = one.factor[values.option];
@@ -171,36 +172,61 @@ class Model {
     return sound;
   }
 
-  // Levels in dB(A) at every microphone of a speed: total, modelled, of each line; and the pressure.
-  levels(s, values) {
-    const one = this.page.cases[s], lines = one.frequency.length;
-    const pressure = this.pressure(s, values);
-    const of = this.page.microphones.map((_, m) => {
-      const line = new Float64Array(lines);
+  // The orders of a baseline, in place: measured, less the model without an option, plus that with it;
+  // with the phase of the model.
+  overMeasured(s, values, sound) {
+    const { numbers } = this, one = this.page.cases[s], lines = one.frequency.length;
+    const factor = one.factor[values.option];
+    for (let i = 0; i < sound.length / 2; i++) {
+      const amplitude = factor < 0 ? 1 : numbers[factor + (i % lines)];
+      const re = amplitude * numbers[one.left + 2 * i], im = amplitude * numbers[one.left + 2 * i + 1];
+      const [p, q] = [sound[2 * i], sound[2 * i + 1]], before = Math.hypot(p, q);
+      const after = numbers[one.phase + i] ? Math.hypot(re + p, im + q) : Math.hypot(re, before);
+      sound[2 * i] = before ? (p * after) / before : after;
+      sound[2 * i + 1] = before ? (q * after) / before : 0;
+    }
+  }
+
+  // A-weighted mean square of all lines at each microphone, Pa².
+  squares(s, pressure) {
+    return this.page.microphones.map((_, m) => {
       let sum = 0;
-      for (let i = 0; i < lines; i++) {
-        const at = 2 * (m * lines + i);
-        const square = 0.5 * (pressure[at] ** 2 + pressure[at + 1] ** 2) * this.weighting[s][i];
-        line[i] = level(square);
-        sum += square;
-      }
-      const { option } = values;
-      return {
-        total: level(this.numbers[one.rest[option] + m] + sum),
-        modelled: level(this.numbers[one.modelled[option] + m] + sum),
-        line,
-      };
+      for (let i = 0; i < this.weighting[s].length; i++) sum += this.square(s, m, i, pressure);
+      return sum;
     });
+  }
+
+  // A-weighted mean square of a line at a microphone, Pa².
+  square(s, m, i, pressure) {
+    const at = 2 * (m * this.weighting[s].length + i), re = pressure[at], im = pressure[at + 1];
+    return 0.5 * (re * re + im * im) * this.weighting[s][i];
+  }
+
+  // Levels in dB(A) at every microphone of a speed, total and modelled, and the pressure.
+  levels(s, values, before) {
+    const one = this.page.cases[s], { option } = values;
+    const pressure = this.pressure(s, values, before), modelled = this.squares(s, pressure);
+    if (one.left !== undefined) this.overMeasured(s, values, pressure);
+    const all = one.left === undefined ? modelled : this.squares(s, pressure);
+    const of = this.page.microphones.map((_, m) => ({
+      total: level(this.numbers[one.rest[option] + m] + all[m]),
+      modelled: level(this.numbers[one.modelled[option] + m] + (one.load ? modelled[m] : 0)),
+    }));
     return { pressure, of };
   }
 
-  // All speeds.
-  every(values) {
-    return this.page.speeds.map((_, s) => this.levels(s, values));
+  // Of all speeds, into the arrays of such ones that are needed no more.
+  every(values, before) {
+    return this.page.speeds.map((_, s) => this.levels(s, values, before && before[s].pressure));
+  }
+
+  // Level in dB(A) of each line at a microphone.
+  lines(s, m, pressure) {
+    return Array.from(this.weighting[s], (_, i) => level(this.square(s, m, i, pressure)));
   }
 
   // What a microphone hears: orders by number, other tones, noise.
-  sound(s, m, values, pressure = this.pressure(s, values)) {
+  sound(s, m, values, pressure = this.levels(s, values).pressure) {
     const one = this.page.cases[s], lines = one.frequency.length, bands = this.page.bands;
     const orders = [], tones = [];
     for (let i = 0; i < lines; i++) {

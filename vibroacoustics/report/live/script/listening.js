@@ -1,10 +1,22 @@
 // Sound, blind test and text of the panel.
+const WHILE = 10; // ms; from a slider to its sound, at most one wave in as long
+
 Object.assign(Panel.prototype, {
   sounds(create = false) {
     if (!this.player.context && !create) return;
     const { s, m, compared, values, before, live } = this.state;
     this.player.voice("A", this.model.sound(s, m, compared, before[s].pressure));
     this.player.voice("B", this.model.sound(s, m, values, live[s].pressure));
+  },
+
+  // Once for all events of a while: a wave takes longer to make than the levels.
+  retune() {
+    if (!this.player.voices.B || this.waiting) return;
+    this.waiting = setTimeout(() => {
+      const { s, m, values, live } = this.state;
+      this.waiting = null;
+      this.player.retune("B", this.model.sound(s, m, values, live[s].pressure));
+    }, WHILE);
   },
 
   hear(name) {
@@ -31,6 +43,7 @@ Object.assign(Panel.prototype, {
     press("hear-tone", () => { this.player.tone(peak); this.hear("tone"); });
     press("stop", () => this.hear(null));
     press("reset", () => this.reset());
+    this.at("toml").closest("details").addEventListener("toggle", () => this.write());
     press("copy", () => this.copy());
     press("abx-start", () => { this.abx = new Abx(); this.hear(null); this.score(); });
     press("abx-X", () => this.hear(this.abx.x));
@@ -43,6 +56,12 @@ Object.assign(Panel.prototype, {
     ["abx-X", "abx-is-A", "abx-is-B"].forEach((name) => { this.at(name).disabled = abx.finished; });
     const by = abx.done ? `; by guessing as many or more in ${(100 * abx.chance).toFixed(1)} %` : "";
     this.at("abx-score").textContent = `${abx.right} of ${abx.done} right, ${abx.trials} in all${by}`;
+  },
+
+  // Where it can be read.
+  write() {
+    const text = this.at("toml");
+    if (text.closest("details").open) text.value = this.toml(this.state.values);
   },
 
   copy() {

@@ -67,8 +67,9 @@ class Panel {
       if (name === "lateral" || name === "vertical") {
         if (number) values[name] = Number((values[name] * 10 ** (number / 60)).toPrecision(3));
       } else if (name !== "loss" || slider.dataset.moved) values[name] = number * unit;
-      const text = words(values[name] / unit);
-      this.at(`${name}-value`).textContent = text;
+      const text = words(values[name] / unit), shown = this.at(`${name}-value`);
+      if (shown.textContent === text) return;
+      shown.textContent = text;
       slider.setAttribute("aria-valuetext", text);
     });
     return values;
@@ -90,24 +91,21 @@ class Panel {
     const s = Number(this.at("speed").value), m = Number(this.at("microphone").value);
     const compared = this.model.given(Number(this.at("compared").value)), values = this.values();
     const before = everything ? this.model.every(compared) : this.state.before;
-    const live = this.model.every(values);
+    const live = this.model.every(values, this.state && this.state.live);
     this.state = { s, m, compared, values, before, live };
     this.show(s, m, before, live);
-    this.at("toml").value = this.toml(values);
+    this.write();
     if (everything) this.sounds();
-    else this.player.retune("B", this.model.sound(s, m, values, live[s].pressure));
+    else this.retune();
   }
 
   show(s, m, before, live) {
-    const [a, b] = [before[s].of[m], live[s].of[m]];
-    this.spectrum.setData(spectrum(this.model, s, m, a, { ...b, option: this.state.values.option }));
+    const [a, b] = [before[s].of[m], live[s].of[m]], { option } = this.state.values;
+    a.line = this.model.lines(s, m, before[s].pressure);
+    b.line = this.model.lines(s, m, live[s].pressure);
+    this.spectrum.draw(() => spectrum(this.model, s, m, a, { ...b, option }));
     if (this.speeds) {
-      const rows = this.page.speeds.map((rpm, i) => {
-        const [one, other] = [before[i].of[m], live[i].of[m]];
-        return [rpm, one.total, other.total, one.modelled, other.modelled];
-      });
-      rows.sort((one, other) => one[0] - other[0]);
-      this.speeds.setData([0, 1, 2, 3, 4].map((column) => rows.map((row) => row[column])));
+      this.speeds.draw(() => overSpeed(this.page.speeds, m, before, live));
     }
     const one = this.page.cases[s];
     const loudest = one.frequency.map((_, i) => i)
