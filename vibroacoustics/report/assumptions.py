@@ -14,7 +14,7 @@ from .study import (
     operating_points,
     overall_noise,
     parameters,
-    whole_dba,
+    quoted_dba,
     words,
 )
 from .tables import Table
@@ -145,7 +145,7 @@ def _point_words(results: xr.Dataset) -> str:
 
 def structure_borne_sentence(results: xr.Dataset) -> str:
     """What removing a line would buy, were it far louder through the feet than through the air."""
-    total = whole_dba(results)
+    total = quoted_dba(results)
     gain = level_of_power(1.0 - power_of_level(-LOUD_LINE_BELOW_TOTAL_DB))
     return (
         f"To see what such sound could change: a 1× line of {total - LOUD_LINE_BELOW_TOTAL_DB:g} "

@@ -11,7 +11,7 @@ from ..base.decibel import level_of_power, power_of_level
 from ..base.quantiles import weighted_quantiles
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.agreement import effective_draws
-from .study import catalogue_receiver, has_draws, quoted_speed, whole_dba
+from .study import catalogue_receiver, has_draws, quoted_dba, quoted_speed
 
 
 class Band(NamedTuple):
@@ -123,7 +123,7 @@ def share_band(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> Band
     prior : number of the prior of the remainder
     """
     if not has_draws(results):
-        return Band(*map(float, over_draws(results, level).values)).share_of(whole_dba(results))
+        return Band(*map(float, over_draws(results, level).values)).share_of(quoted_dba(results))
     share = power_of_level(level - total_by_draw(results, prior))
     return Band(*map(float, over_draws(results, share, prior).values))
 

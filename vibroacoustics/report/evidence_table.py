@@ -26,7 +26,9 @@ def rungs_table(caption: str, shown: Iterable[Rung]) -> Table:
 def _row(rung: Rung) -> tuple[str, ...]:
     numbers = (rung.simulation, rung.data)
     spreads = (rung.numerical, rung.inputs, rung.published, rung.uncertainty)
-    reach = f"{rounding.significant(COVERAGE * rung.uncertainty)} {rung.unit.removesuffix('(A)')}"
+    is_level = rung.unit.startswith("dB")
+    write = rounding.fixed if is_level else rounding.significant
+    reach = f"{write(COVERAGE * rung.uncertainty)} {rung.unit.removesuffix('(A)')}"
     verdict = (
         f"agrees: no error above {reach} is seen"
         if rung.agrees
@@ -35,8 +37,8 @@ def _row(rung: Rung) -> tuple[str, ...]:
     return (
         rung.quantity,
         rung.unit,
-        *map(rounding.significant, numbers),
-        _with_sign(rung.error),
+        *map(write, numbers),
+        rounding.signed(rung.error) if is_level else _with_sign(rung.error),
         *(rounding.significant(spread, 2) for spread in spreads),
         verdict,
         rung.source,

@@ -11,7 +11,7 @@ from ..base.arrays import Array
 from .bands import Band, band_words, bands_by_speed
 from .quantities import TOLERANCE_DB, TOTAL
 from .shifts import shift
-from .study import balancers, catalogue_receiver, has_draws, many_speeds, speeds, whole
+from .study import balancers, catalogue_receiver, has_draws, many_speeds, speeds, total_of
 
 
 class SourceChange(NamedTuple):
@@ -35,7 +35,7 @@ def changes_sentence(results: xr.Dataset) -> str:
     louder = [option for option, one in shifts.items() if one.worsens]
     quieter = [option for option, one in shifts.items() if one.improves and not one.worsens]
     rest = [option for option in shifts if option not in louder + quieter]
-    of = whole(results)
+    of = total_of(results)
     parts = [
         f"{of[0].upper()}{of[1:]} becomes louder with {_named(results, louder)}." if louder else "",
         f"{of[0].upper()}{of[1:]} becomes quieter with {_named(results, quieter)}."

@@ -23,7 +23,7 @@ from .study import (
     overall_noise,
     quoted_speed,
     speeds,
-    whole,
+    total_of,
     words,
 )
 from .tables import Table, to_csv
@@ -114,7 +114,7 @@ def _source_table(results: xr.Dataset, speed: float) -> Table:
         "Share of the modelled energy, as assumed",
     ]
     if quoted:
-        head.append(f"Share of the energy of {whole(results)}, middle ({band_words(results)})")
+        head.append(f"Share of the energy of {total_of(results)}, middle ({band_words(results)})")
     rows = [
         _row(
             source_name(results, source).capitalize(),

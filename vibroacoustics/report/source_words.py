@@ -18,10 +18,10 @@ from .study import (
     many_speeds,
     overall_noise,
     parameters,
+    quoted_dba,
     quoted_speed,
     speeds,
-    whole,
-    whole_dba,
+    total_of,
     words,
 )
 
@@ -45,7 +45,7 @@ def ranked(results: xr.Dataset, speed: float) -> list[tuple[str, Band]]:
 
 def carrier_sentence(results: xr.Dataset) -> str:
     """Which source carries the modelled level, and how loud it is."""
-    speed, overall = quoted_speed(results), whole_dba(results)
+    speed, overall = quoted_speed(results), quoted_dba(results)
     source, level = ranked(results, speed)[0]
     assumed, published = _assumed_level(results, source), overall_noise(results)
     if not has_draws(results):
@@ -53,7 +53,7 @@ def carrier_sentence(results: xr.Dataset) -> str:
             f"At {catalogue_receiver(results)} and {speed:g} rpm, without a balancer, the loudest "
             f"modelled source at the assumed values is: {source_name(results, source)}, "
             f"{rounding.level(assumed)} dB(A), which is {percent(energy_share(assumed, overall))} "
-            f"of the energy of {f'{overall:g} dB(A)' if published else whole(results)}."
+            f"of the energy of {f'{overall:g} dB(A)' if published else total_of(results)}."
         )
     rest = ", as the prior of what is not modelled is" if published else ""
     shares = (source_share(results, source, prior) for prior in range(results.sizes["prior"]))
@@ -64,7 +64,7 @@ def carrier_sentence(results: xr.Dataset) -> str:
         f"({band_words(results)} {level.ends(rounding.level)}) or "
         f"{rounding.level(assumed)} dB(A) at the assumed values; "
         f"{' or '.join(share.middle_and_ends(percent) for share in shares)} of the energy of "
-        f"{whole(results)} is its{rest}."
+        f"{total_of(results)} is its{rest}."
     )
 
 
@@ -174,7 +174,7 @@ def _unresolved(results: xr.Dataset) -> str:
             f"Shares and bands are not resolved: {tried} draws are worth no more than "
             f"{effective:.1f} that have a solution. What follows holds at the assumed values only."
         )
-    overall = whole_dba(results)
+    overall = quoted_dba(results)
     louder = float((results["bank_level"] > overall).mean())
     agree = "the measured baseline" if "baseline_band_level" in results else "it"
     return (
@@ -224,7 +224,7 @@ def _ranking(results: xr.Dataset) -> str:
 
 def _as_assumed(results: xr.Dataset) -> str:
     """Warn where the assumed values lie outside of the band of the loudest source."""
-    speed, overall = quoted_speed(results), whole_dba(results)
+    speed, overall = quoted_speed(results), quoted_dba(results)
     source, level = ranked(results, speed)[0]
     value = _assumed_level(results, source)
     if level.lowest <= value <= level.highest:

@@ -86,7 +86,7 @@ def nearest_speed(results: xr.Dataset) -> float:
     return min(speeds(results), key=lambda speed: abs(speed - quoted))
 
 
-def whole_dba(results: xr.Dataset) -> float:
+def quoted_dba(results: xr.Dataset) -> float:
     """The published level; where none is, that of all that is modelled, without a balancer."""
     noise = overall_noise(results)
     if noise is not None:
@@ -95,7 +95,7 @@ def whole_dba(results: xr.Dataset) -> float:
     return float(results["level_total"].sel(at).sel(speed=quoted_speed(results)).round(1))
 
 
-def whole(results: xr.Dataset) -> str:
+def total_of(results: xr.Dataset) -> str:
     """What the total level is the level of."""
     return "all that is modelled" if overall_noise(results) is None else "the whole machine"
 

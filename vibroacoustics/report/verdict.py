@@ -28,9 +28,9 @@ from .study import (
     has_sources,
     many_speeds,
     overall_noise,
+    quoted_dba,
     quoted_speed,
     speeds,
-    whole_dba,
 )
 from .tables import Table
 from .unknowns import measure_next_sentence
@@ -231,6 +231,6 @@ def _total_dba(results: xr.Dataset) -> float:
     """As it was measured, else as it is published, else as it is modelled."""
     speed = measured_rpm(results)
     if speed is None:
-        return whole_dba(results)
+        return quoted_dba(results)
     at = {"speed": speed, "option": REFERENCE_OPTION, "receiver": catalogue_receiver(results)}
     return float(results["level_total"].sel(at).round(1))

@@ -8,9 +8,11 @@ import zipfile
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
-from support import ROOT, assert_refused, command_here
+from support import ROOT, assert_refused, command_here, made_up_radiation
 
+from vibroacoustics import pipeline
 from vibroacoustics.commands.starter import STUDIES, starting_files
 from vibroacoustics.machine.machine import MACHINES
 from vibroacoustics.study.loading import load_study
@@ -105,6 +107,16 @@ def test_study_says_what_the_shipped_one_says(kind: str, tmp_path: Path) -> None
     assert new.ranges == shipped.ranges
     assert not new.evidence.two_speed_levels
     assert "../" not in (tmp_path / "study.toml").read_text()
+
+
+def test_the_scores_tell_the_options_apart(tmp_path: Path) -> None:
+    """Of the scales' whole span, 1, the best and the worst option are a fifth apart at least."""
+    for name, content in starting_files("table").items():
+        (tmp_path / name).write_bytes(content)
+    results = pipeline.run(load_study(tmp_path / "study.toml"), radiation=made_up_radiation)
+    scores = results["score"].isel(scoring_method=0).values
+    assert np.ptp(scores) > 0.2
+    assert len(set(scores.round(2))) == len(scores)
 
 
 def _values(study: Study) -> list[dict[str, Any]]:

@@ -46,13 +46,14 @@ def figure_limits_table(figures: Sequence[CheckedFigure]) -> Table:
         (
             f"{row.result}: {row.figure}",
             _speed(row),
-            rounding.significant(row.value, 4),
-            f"{row.side} {rounding.significant(row.limit, 4)}",
+            value,
+            f"{row.side} {limit}",
             row.unit,
-            rounding.significant(row.margin),
+            rounding.fixed(row.margin) if _is_level(row) else rounding.significant(row.margin),
             "" if row.is_within else "broken",
         )
         for row in figures
+        for value, limit in [_numbers(row)]
     ]
     head = ("Figure", "rpm", "Value", "Limit", "Unit", "Margin", "")
     return Table(
@@ -83,8 +84,20 @@ def _speed(row: CheckedFigure) -> str:
 def _broken(row: CheckedFigure) -> str:
     at = "" if np.isnan(row.speed_rpm) else f" at {row.speed_rpm:.0f} rpm"
     beyond = "above" if row.side == "highest" else "below"
-    value, limit = (rounding.significant(one, 4) for one in (row.value, row.limit))
+    value, limit = _numbers(row)
     return (
         f"{row.figure}{at} in {row.result}: {value} {row.unit} is {beyond} {limit} {row.unit} "
         f"({row.origin})"
     )
+
+
+def _numbers(row: CheckedFigure) -> tuple[str, str]:
+    """Value and limit: levels to 0.1 dB, to more digits where they would read the same."""
+    level, limit = (rounding.fixed(one) for one in (row.value, row.limit))
+    if _is_level(row) and level != limit:
+        return level, limit
+    return rounding.significant(row.value, 4), rounding.significant(row.limit, 4)
+
+
+def _is_level(row: CheckedFigure) -> bool:
+    return row.unit.startswith("dB")
