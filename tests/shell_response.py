@@ -54,6 +54,11 @@ class PointForces:
         return total
 
 
+def dense(matrices):
+    """Stiffness and mass of sparse ones."""
+    return [matrix.toarray() for matrix in matrices]
+
+
 def normal_velocity(mode: ShellMode, points: Array, normals: Array) -> Array:
     """Velocity along unit normals (point, 3), shape (point,)."""
     return np.asarray(np.einsum("pi,pi->p", mode.velocity(points), normals))
@@ -72,7 +77,7 @@ def elastic_flexibility(harmonic: Harmonic, load: Array, frequency_hz: float) ->
     frequency_hz : of the order of the elastic modes', sets s
     """
     shift = (2.0 * np.pi * frequency_hz) ** 2
-    stiffness, mass = harmonic.free_matrices
+    stiffness, mass = dense(harmonic.free_matrices)
     rigid, momentum = harmonic.rigid_motions, mass @ harmonic.rigid_motions
     reduced = harmonic.reduction.T @ load
     moved = cho_solve(cho_factor(stiffness + shift * momentum @ momentum.T), reduced)

@@ -13,6 +13,7 @@ from scipy.optimize import brentq
 from scipy.special import ive, jv
 from shell_response import (
     PointForces,
+    dense,
     elastic_flexibility,
     mobility,
     normal_velocity,
@@ -157,7 +158,7 @@ def between_diaphragms(order, elements, span=0.38):
     """Open cylinder whose ends move neither outwards nor around."""
     heights = np.linspace(0.0, span, elements + 1)
     meridian = Meridian(np.stack([np.full(elements + 1, RADIUS), heights], axis=1))
-    stiffness, mass = matrices(meridian, STEEL, order)
+    stiffness, mass = dense(matrices(meridian, STEEL, order))
     last = NODE_FREEDOMS * elements
     kept = np.setdiff1d(np.arange(len(mass)), [0, 2, last, last + 2])
     at = np.ix_(kept, kept)
@@ -230,7 +231,7 @@ def test_clamped_disc(order):
     exact = (roots / 0.08) ** 2 * np.sqrt(bending / SURFACE_MASS) / (2.0 * np.pi)
     radius = np.linspace(0.0, 0.08, 25)
     harmonic = Harmonic(Meridian(np.stack([radius, np.zeros(25)], axis=1)), STEEL, order)
-    stiffness, mass = harmonic.free_matrices
+    stiffness, mass = dense(harmonic.free_matrices)
     edge = 24 * NODE_FREEDOMS + np.arange(NODE_FREEDOMS)
     kept = np.flatnonzero(~np.isin(harmonic.kept, edge))
     at = np.ix_(kept, kept)
@@ -280,7 +281,7 @@ def test_rigid_motions_have_no_strain(shell, order, request):
     body = request.getfixturevalue(shell)
     harmonic = body.harmonics[order]
     motions = harmonic.reduction @ harmonic.rigid_motions
-    stiffness, _ = matrices(body.meridian, STEEL, order)
+    stiffness, _ = dense(matrices(body.meridian, STEEL, order))
     size = np.abs(stiffness).max() * np.abs(motions).max() ** 2
     assert np.abs(motions.T @ stiffness @ motions).max() < 100.0 * EPS * size
     assert harmonic.rigid_motions.shape[1] == 2
@@ -292,7 +293,7 @@ def test_mass_of_the_flat_capped_shell(flat):
     mass = SURFACE_MASS * 2.0 * np.pi * RADIUS * (height + RADIUS)
     axial, sideways = (flat.harmonics[order] for order in (0, 1))
     for harmonic, freedoms in ((axial, {1: 1.0}), (sideways, {0: 1.0, 2: -1.0})):
-        _, mass_matrix = matrices(flat.meridian, STEEL, harmonic.order)
+        _, mass_matrix = dense(matrices(flat.meridian, STEEL, harmonic.order))
         motion = np.zeros(len(mass_matrix))
         for freedom, value in freedoms.items():
             motion[freedom : NODE_FREEDOMS * (flat.meridian.elements + 1) : NODE_FREEDOMS] = value
@@ -306,8 +307,8 @@ def test_modes_are_orthogonal_and_not_rigid(flat):
     """
     for harmonic in flat.harmonics:
         frequencies, shapes = harmonic.modes(MAXIMUM_HZ)
-        stiffness, mass = matrices(flat.meridian, STEEL, harmonic.order)
-        largest = eigh(*harmonic.free_matrices, eigvals_only=True)[-1]
+        stiffness, mass = dense(matrices(flat.meridian, STEEL, harmonic.order))
+        largest = eigh(*dense(harmonic.free_matrices), eigvals_only=True)[-1]
         squares = (2.0 * np.pi * frequencies) ** 2
         assert np.abs(shapes.T @ mass @ shapes - np.eye(squares.size)).max() < 1e-11
         rounding = 10.0 * EPS * largest
@@ -513,7 +514,7 @@ def test_static_solution_leaves_out_the_rigid_motion_only(flat):
         load = PLACES.generalised(flat.meridian, around)
         moved = elastic_flexibility(harmonic, load, MAXIMUM_HZ)
         free = moved[harmonic.kept]
-        stiffness, mass = harmonic.free_matrices
+        stiffness, mass = dense(harmonic.free_matrices)
         momentum = mass @ harmonic.rigid_motions
         given = harmonic.reduction.T @ load
         left = given - momentum @ (harmonic.rigid_motions.T @ given)
@@ -528,7 +529,7 @@ def test_all_modes_together_are_the_static_solution(flat):
     for order in (0, 1, 3):
         harmonic = flat.harmonics[order]
         load = PLACES.generalised(flat.meridian, flat.arounds(order)[0])
-        squares, shapes = eigh(*harmonic.free_matrices)
+        squares, shapes = eigh(*dense(harmonic.free_matrices))
         rigid = harmonic.rigid_motions.shape[1]
         driven = shapes[:, rigid:].T @ harmonic.reduction.T @ load
         modal = driven.T / squares[rigid:] @ driven
@@ -546,7 +547,7 @@ def test_mobility_against_the_direct_solution(flat, frequency):
     omega = 2.0 * np.pi * frequency
     direct = np.zeros((3, 4), dtype=complex)
     for harmonic in flat.harmonics:
-        stiffness, mass = harmonic.free_matrices
+        stiffness, mass = dense(harmonic.free_matrices)
         momentum = mass @ harmonic.rigid_motions
         shift = (2.0 * np.pi * MAXIMUM_HZ) ** 2
         held = (stiffness + shift * momentum @ momentum.T) * (1.0 + 0.01j)

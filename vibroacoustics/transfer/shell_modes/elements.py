@@ -4,10 +4,11 @@ Sanders (1959), NASA TR R-24: strains that vanish in every rigid motion. All dis
 cubic along the meridian, so that bending without stretching is not locked.
 """
 
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.polynomial import polynomial
+from scipy.sparse import coo_matrix
 
 from ...base.arrays import Array, IndexArray
 from ...machine.shell_structure import ShellStructure
@@ -135,8 +136,8 @@ def strains(meridian: Meridian, element: IndexArray, coordinate: Array, order: i
     )
 
 
-def matrices(meridian: Meridian, structure: ShellStructure, order: int) -> tuple[Array, Array]:
-    """Stiffness and mass of the free shell, both (freedom, freedom), N/m and kg and the like.
+def matrices(meridian: Meridian, structure: ShellStructure, order: int) -> tuple[Any, Any]:
+    """Stiffness and mass of the free shell, sparse (freedom, freedom), N/m and kg and the like.
 
     Parameters
     ----------
@@ -203,10 +204,12 @@ def _elasticity(structure: ShellStructure) -> Array:
     return np.asarray(stretching * np.kron(np.diag([1.0, thickness**2 / 12.0]), plane))
 
 
-def _assembled(meridian: Meridian, at_points: Array) -> Array:
-    """Sum of the matrices (point, 12, 12) of all Gauss points."""
+def _assembled(meridian: Meridian, at_points: Array) -> Any:
+    """Sum of the matrices (point, 12, 12) of all Gauss points, sparse."""
     by_element = at_points.reshape(meridian.elements, _GAUSS, 12, 12).sum(axis=1)
     at = element_freedoms(meridian)
-    total = np.zeros((freedom_count(meridian),) * 2)
-    np.add.at(total, (at[:, :, None], at[:, None, :]), by_element)
-    return total
+    rows, columns = (
+        np.broadcast_to(part, by_element.shape) for part in (at[:, :, None], at[:, None])
+    )
+    places = rows.ravel(), columns.ravel()
+    return coo_matrix((by_element.ravel(), places), (freedom_count(meridian),) * 2).tocsc()

@@ -6,8 +6,8 @@ from typing import Any, Final
 
 import numpy as np
 from scipy.linalg import eigh
-from scipy.sparse import csc_matrix, identity
-from scipy.sparse.linalg import eigsh
+from scipy.sparse import bmat, identity
+from scipy.sparse.linalg import eigsh, splu
 
 from ...base.arrays import Array, IndexArray
 from ...machine.shell_structure import ShellStructure
@@ -60,10 +60,11 @@ class Harmonic:
         return [NODE_FREEDOMS * end for end in ends if self.meridian.nodes[end, 0] == 0.0]
 
     @cached_property
-    def free_matrices(self) -> tuple[Array, Array]:
-        """Stiffness and mass of the free amplitudes."""
+    def free_matrices(self) -> tuple[Any, Any]:
+        """Stiffness and mass of the free amplitudes, sparse (free, free)."""
         all_matrices = matrices(self.meridian, self.structure, self.order)
-        stiffness, mass = (self.reduction.T @ matrix @ self.reduction for matrix in all_matrices)
+        reduced = (self.reduction.T @ matrix @ self.reduction for matrix in all_matrices)
+        stiffness, mass = (matrix.tocsc() for matrix in reduced)
         return stiffness, mass
 
     @cached_property
@@ -106,7 +107,7 @@ class Harmonic:
 
     def _lowest(self, limit: float) -> tuple[Array, Array]:
         """At least all motions with squares of angular frequency up to a limit, rigid ones too."""
-        stiffness, mass = (csc_matrix(matrix) for matrix in self.free_matrices)
+        stiffness, mass = self.free_matrices
         start = np.random.default_rng(0).standard_normal(self.kept.size)  # no symmetry
         count = _FIRST_MOTIONS
         while count < self.kept.size // 2:
@@ -114,7 +115,7 @@ class Harmonic:
             if squares.max() > limit:
                 return squares, shapes
             count *= 2
-        return eigh(*self.free_matrices)  # type: ignore[no-any-return]
+        return eigh(stiffness.toarray(), mass.toarray())  # type: ignore[no-any-return]
 
     def static_flexibility(self, freedoms: IndexArray) -> Array:
         """Displacement per steady force without the rigid motions, (freedoms, freedoms).
@@ -125,17 +126,15 @@ class Harmonic:
         ----------
         freedoms : among all amplitudes
         """
-        forces = self.reduction.T[:, freedoms].toarray()
-        momentum = self.free_matrices[1] @ self.rigid_motions
-        balanced = forces - momentum @ (self.rigid_motions.T @ forces)
-        moved = np.linalg.solve(self._held_stiffness(1.0), balanced)
-        return np.asarray(balanced.T @ moved)
-
-    def _held_stiffness(self, shift: float) -> Array:
-        """K + s M R Rᵀ M: the rigid motions get the eigenvalue s, the elastic modes keep theirs."""
+        forces = self.reduction.T[:, freedoms]
         stiffness, mass = self.free_matrices
-        momentum = mass @ self.rigid_motions
-        return np.asarray(stiffness + shift * momentum @ momentum.T)
+        momentum, rigid = mass @ self.rigid_motions, self.rigid_motions.shape[1]
+        right = forces.toarray() - momentum @ (forces.T @ self.rigid_motions).T
+        if rigid:  # without their momentum; its rows as large as the others
+            momentum *= abs(stiffness).max() / abs(momentum).max()
+            stiffness = bmat([[stiffness, momentum], [momentum.T, None]], "csc")
+            right = np.concatenate([right, np.zeros((rigid, freedoms.size))])
+        return np.asarray(forces.T @ splu(stiffness).solve(right)[: self.kept.size])
 
 
 _FIRST_MOTIONS: Final = 24
