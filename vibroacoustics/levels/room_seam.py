@@ -9,10 +9,9 @@ from ..base.arrays import Array, IndexArray
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level, power_of_level
 from ..base.vocabulary import check, stamp
+from .in_room import ROUNDED
 from .measured_points import BASELINE_BANDS, MIDDLE_HZ
 from .room_levels import REFERENCE_POWER_W
-
-_ROUNDED = 1.02
 
 
 def shown_bands(between_hz: tuple[float, float]) -> IndexArray:
@@ -23,7 +22,7 @@ def shown_bands(between_hz: tuple[float, float]) -> IndexArray:
     between_hz : lowest and highest middle
     """
     low, high = between_hz
-    return np.flatnonzero((low / _ROUNDED < MIDDLE_HZ) & (high * _ROUNDED > MIDDLE_HZ))
+    return np.flatnonzero((low / ROUNDED < MIDDLE_HZ) & (high * ROUNDED > MIDDLE_HZ))
 
 
 def seam_variables(

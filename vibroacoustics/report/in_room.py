@@ -158,12 +158,11 @@ def _carrier_words(at: xr.Dataset) -> str:
     if "room_plate_level" not in at:
         return f"it comes by air, {_ranged(at, 'room_level')} dB(A)"
     which = _carrier(at)
-    ways = (
-        f"by air {_ranged(at, 'room_level')}, by the feet and the plate "
-        f"{_ranged(at, 'room_plate_level')}"
-    )
     verdict = "which carries it is not sure" if which == "not sure" else f"{which} carries it"
-    return f"{verdict} ({ways} dB(A))"
+    return (
+        f"by air {_ranged(at, 'room_level')} dB(A), by the feet and the plate "
+        f"{_ranged(at, 'room_plate_level')} dB(A); {verdict}"
+    )
 
 
 def _best(results: xr.Dataset, listener: str) -> str:
