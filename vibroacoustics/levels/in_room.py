@@ -19,7 +19,7 @@ LINES_OF_BAND: Final = 24
 """Frequencies that stand for a third octave."""
 LOWEST_HZ: Final = 1.0
 """In place of 0 Hz, where nothing is heard."""
-ROUNDED: Final = 1.001
+ROUNDED: Final = 1.01
 """Of the middle of a band that is called by a round number."""
 
 

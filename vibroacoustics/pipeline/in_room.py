@@ -13,7 +13,7 @@ from ..levels.measured_points import MIDDLE_HZ
 from ..levels.room_levels import AirInRoom, air_variables, drawn_band, plate_variables
 from ..levels.room_map import map_bands_hz, map_level
 from ..levels.room_rest import rest_in_bands
-from ..levels.room_seam import seam_variables
+from ..levels.room_seam import seam_variables, shown_bands
 from ..radiation.patterns import SurfaceMotion
 from ..radiation.pressure import wrench_pressure_by
 from ..radiation.rooms import of_study as rooms
@@ -50,8 +50,10 @@ def sound_in_room(
     listeners = list(settings.listeners)
     free = RoomWays(len(listeners), radius_m, share, rooms.diffuse_per_power(settings, at))
     waves = wave_gains(pressure, free, highest_hz)
-    diffuse = blended_gains(waves, free)[1]
-    gain = rooms.place_gain(waves, diffuse, MIDDLE_HZ, highest_hz)
+    shown = shown_bands(rooms.seam_bands_hz(highest_hz))
+    both = (waves[:, shown], blended_gains(waves, free)[1][:, shown])
+    gains_db = rooms.place_gains_db(*both, MIDDLE_HZ[shown], highest_hz)
+    gain = rooms.gain_over_frequency(gains_db, MIDDLE_HZ[shown])
     per_power = rooms.diffuse_per_power(settings, at, gain)
     ways = RoomWays(len(listeners), radius_m, share, per_power)
     air = _by_air(study, motion, _transmission(study, motion, shell, pressure), ways, waves)
@@ -61,8 +63,7 @@ def sound_in_room(
     results = motion.results.merge(sound)
     sound = sound.merge(drawn_band(air, results, study.catalogue_receiver))
     sound = sound.merge(_by_plate(settings, results.merge(sound))).merge(_of_the_room(settings))
-    between_hz = rooms.seam_bands_hz(highest_hz)
-    sound = sound.merge(seam_variables(listeners, waves, diffuse, gain, between_hz))
+    sound = sound.merge(seam_variables(listeners, shown, *both, gains_db))
     return sound.merge(_map(study, settings, air, progress))
 
 

@@ -2,6 +2,7 @@
 
 from typing import Final
 
+import numpy as np
 import xarray as xr
 
 from ..base import rounding
@@ -75,7 +76,9 @@ def seam_table(results: xr.Dataset) -> Table:
         for name in listeners(results)
     )
     head = ("Listener", *(f"{band:g} Hz" for band in bands))
-    return Table("Waves less diffuse field, dB", head, rows)
+    gain = results["room_place_gain"].values
+    place = ("gain of the place", *(rounding.signed(float(one)) for one in gain))
+    return Table("Waves less diffuse field, dB", head, (*rows, place))
 
 
 def seam_sentence(results: xr.Dataset) -> str:
@@ -90,14 +93,17 @@ def seam_sentence(results: xr.Dataset) -> str:
         )
         if abs(value) > SEAM_DB
     ]
-    gain = rounding.signed(float(results["room_place_gain"]))
+    low, high = (
+        rounding.signed(float(results["room_place_gain"].reduce(end))) for end in (np.min, np.max)
+    )
+    above = rounding.signed(float(results["room_place_gain_above"]))
     first = (
-        f"The place changes the power of the machine by {gain} dB, the mean of the seam; the "
-        "diffuse field takes that over. "
+        f"The place changes the power of the machine by {low} to {high} dB in these third octaves, "
+        f"the mean over the listeners, which the diffuse field takes over; above, by {above} dB. "
     )
     if not off:
-        return f"{first}Nowhere do the methods differ by more than {SEAM_DB:g} dB."
-    return f"{first}The methods differ by more than {SEAM_DB:g} dB at {', '.join(off)}."
+        return f"{first}Then nowhere do the methods differ by more than {SEAM_DB:g} dB."
+    return f"{first}Then they still differ by more than {SEAM_DB:g} dB at {', '.join(off)}."
 
 
 def power_sentence(results: xr.Dataset) -> str:
@@ -155,12 +161,11 @@ def _carrier_words(at: xr.Dataset) -> str:
     if "room_plate_level" not in at:
         return f"it comes by air, {_ranged(at, 'room_level')} dB(A)"
     which = _carrier(at)
-    ways = (
-        f"by air {_ranged(at, 'room_level')}, by the feet and the plate "
-        f"{_ranged(at, 'room_plate_level')}"
-    )
     verdict = "which carries it is not sure" if which == "not sure" else f"{which} carries it"
-    return f"{verdict} ({ways} dB(A))"
+    return (
+        f"by air {_ranged(at, 'room_level')} dB(A), by the feet and the plate "
+        f"{_ranged(at, 'room_plate_level')} dB(A); {verdict}"
+    )
 
 
 def _best(results: xr.Dataset, listener: str) -> str:

@@ -45,7 +45,7 @@ TOGETHER: Final = (
      "structure_borne_level_low", "structure_borne_level_high", "level_both_ways"),
     ("room_level", "room_source_level", "room_band_level", "room_sound_power_level",
      "room_gain_waves", "room_gain_diffuse", "room_gain_difference", "room_place_gain",
-     "room_absorption_area", "room_map_level"),
+     "room_place_gain_above", "room_absorption_area", "room_map_level"),
     ("room_level_low", "room_level_middle", "room_level_high"),
     ("room_plate_level", "room_plate_level_low", "room_plate_level_high", "room_level_both_ways"),
     ("published_score", "published_sum", "recomputed_sum"),

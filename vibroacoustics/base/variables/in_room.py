@@ -88,9 +88,15 @@ for _thing in (
     ),
     Variable(
         "room_place_gain",
-        (),
+        ("seam_band",),
         "dB",
         "sound power at the machine's place over that on a hard floor in the open",
+    ),
+    Variable(
+        "room_place_gain_above",
+        (),
+        "dB",
+        "sound power at the machine's place over that in the open, taken above the waves",
     ),
     Variable("room_absorption_area", ("room_octave",), "m2", "equivalent absorption area"),
     Variable("room_limit", ("room_limit_time",), "dB", "A-weighted level that listeners accept"),

@@ -147,7 +147,7 @@ def seam_shift(highest_hz: float) -> float:
 
 
 def diffuse_per_power(
-    settings: StudyRoom, source_m: Array, gain: float = 1.0
+    settings: StudyRoom, source_m: Array, gain: Callable[[Array], Array] = np.ones_like
 ) -> Callable[[Array], Array]:
     """Mean square of pressure per power at the listeners by direct sound and diffuse field.
 
@@ -155,7 +155,7 @@ def diffuse_per_power(
     ----------
     settings : of the room
     source_m : where the sound comes from, shape (3,)
-    gain : of the power at its place
+    gain : of the power at its place, of frequencies
 
     Returns
     -------
@@ -170,7 +170,7 @@ def diffuse_per_power(
 
     def per_power(frequency_hz: Array) -> Array:
         return np.asarray(
-            gain
+            gain(frequency_hz)
             * np.array(
                 [mean_square_per_power(frequency_hz, away, diffuse, seen) for away, seen in ways]
             )
@@ -189,18 +189,35 @@ def seam_bands_hz(highest_hz: float) -> tuple[float, float]:
     return SHOWN_FROM_HZ * seam_shift(highest_hz), highest_hz
 
 
-def place_gain(waves: Array, diffuse: Array, middle_hz: Array, highest_hz: float) -> float:
-    """Power at the machine's place over that in the open, from the thirds of the seam.
+def place_gains_db(waves: Array, diffuse: Array, middle_hz: Array, highest_hz: float) -> Array:
+    """Level of the power at the machine's place over that in the open, (shown band + 1,), dB.
+
+    Of each third octave that is shown, the mean over the listeners; the last one, of those from the
+    seam's upper end on together, holds above the waves.
 
     Parameters
     ----------
-    waves, diffuse : mean squares per power, shape (listener, band)
-    middle_hz : of the bands, shape (band,)
+    waves, diffuse : mean squares per power in these bands, shape (listener, shown band)
+    middle_hz : of the bands, shape (shown band,)
     highest_hz : of the waves
     """
-    low, high = (end * seam_shift(highest_hz) for end in SEAM_HZ)
-    within = (middle_hz > low / ROUNDED) & (middle_hz < high * ROUNDED)
-    return float(power_of_level(gain_at_place_db(waves[:, within], diffuse[:, within])))
+    above = middle_hz > SEAM_HZ[1] * seam_shift(highest_hz) / ROUNDED
+    parts = [np.array([number]) for number in range(middle_hz.size)] + [np.flatnonzero(above)]
+    return np.array([gain_at_place_db(waves[:, part], diffuse[:, part]) for part in parts])
+
+
+def gain_over_frequency(gains_db: Array, middle_hz: Array) -> Callable[[Array], Array]:
+    """Factor on the power, of frequencies; over the logarithm between the bands.
+
+    Parameters
+    ----------
+    gains_db : of `place_gains_db`
+    middle_hz : of the shown bands
+    """
+    known = np.log([*middle_hz, middle_hz[-1] * 2.0 ** (1.0 / 3.0)])
+    return lambda frequency_hz: np.asarray(
+        power_of_level(np.interp(np.log(frequency_hz), known, gains_db))
+    )
 
 
 def absorption_by_octave(settings: StudyRoom) -> tuple[list[float], Array]:
