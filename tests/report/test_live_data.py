@@ -16,6 +16,7 @@ from vibroacoustics.mechanics.rotation import Rotation
 from vibroacoustics.orders.spectrum import order_spectrum_at_speed
 from vibroacoustics.report.blocks import Live
 from vibroacoustics.report.html import html
+from vibroacoustics.report.live.assets import live_script, live_style, unpacking_script
 from vibroacoustics.report.live.data import full_scale_pa, live_data
 from vibroacoustics.report.live.lines import Lines
 from vibroacoustics.report.live.mounts import mount_matrices
@@ -28,6 +29,12 @@ from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.transfer import on_mounts
 
 SPEED = np.array([2900.0])
+
+
+def test_scripts_and_style_take_a_quarter_of_the_room():
+    scripts = unpacking_script() + packed(live_script().encode())
+    assert len((scripts + live_style()).encode()) < 50_000
+    assert unpacked(packed(live_script().encode())).decode() == live_script()
 
 
 @pytest.fixture(scope="module")

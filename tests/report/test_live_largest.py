@@ -16,7 +16,7 @@ from vibroacoustics.report.live.assets import live_script, live_style, unpacking
 from vibroacoustics.report.live.data import live_data
 from vibroacoustics.report.live.numbers import packed
 
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.long
 
 MOST_BYTES: Final = 200_000
 WEIGHT: Final = {
@@ -74,7 +74,6 @@ def test_it_is_small_and_agrees_with_the_pipeline(browser, tmp_path):
     )  # fmt: skip
 
 
-@pytest.mark.long
 def test_so_it_is_on_a_floor_that_gives_way(browser, tmp_path):
     results = run(Floor(mass_kg=60.0, stiffness_n_per_m=5e5, loss_factor_ratio=0.1))
     assert size(results) < MOST_BYTES
