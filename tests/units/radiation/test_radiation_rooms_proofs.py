@@ -163,7 +163,8 @@ def _absorption_in_a_duct(share, angle, frequency_hz=1000.0):
     room = Room((length, width, 0.1), {"-x": end, "+x": end})
     along = np.linspace(0.7, 1.5, 81)  # many: what a series lacks of a point source averages out
     lattice = Lattice(along, np.array([0.0, width]), np.array([0.05]))
-    settings = RoomSettings(frequency_hz, longest_s=0.25 / share)
+    # Down to 60 dB alone, what is cut off would be 0.002 of the absorption.
+    settings = RoomSettings(frequency_hz, decay_db=100.0, longest_s=0.75 / share)
     source = np.array([0.2, 0.0, 0.05])
     run = room_transfer(room, [lattice], {"m": source}, np.array([frequency_hz]), settings)["m"]
     field = run.values[0][0, 0, :, :, 0] @ np.array([1.0, -1.0 if angle else 1.0])
@@ -181,11 +182,7 @@ def _absorption_in_a_duct(share, angle, frequency_hz=1000.0):
 def test_a_wall_absorbs_by_its_impedance_at_every_angle(share, angle):
     admittance = fitted_branches(_uniform(share)).admittance(np.array([1000.0]))
     wanted = absorption_at_angle(admittance, np.cos(np.radians(angle)))[0]
-    difference = abs(_absorption_in_a_duct(share, angle) - wanted)
-    if share == 0.8 and angle < 45.0 and difference > 0.005:
-        assert difference < 0.006
-        pytest.xfail("0.0055 off at 0 and 0.0052 at 30 degrees; asked for 0.005")
-    assert difference <= 0.005
+    assert abs(_absorption_in_a_duct(share, angle) - wanted) <= 0.005
 
 
 def _flat_l(height):
@@ -217,13 +214,12 @@ def _local_frequencies(room, spacing, count):
         values += [share, share, -share, -share]
     entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
     matrix = csc_array(entries, shape=(grid.air.sum(),) * 2)
-    # Nearer to the constant, which is no mode, that one returns a second time.
-    squared = eigsh(matrix, count + 1, sigma=-1e6, which="LM", return_eigenvectors=False)
+    squared = eigsh(matrix, count + 1, sigma=-1e4, which="LM", return_eigenvectors=False)
     return np.sqrt(np.sort(squared)[1:]) / (2.0 * np.pi)
 
 
 def _error_of_the_l(spacing, finest, count):
-    room = _flat_l(0.04)
+    room = _flat_l(0.9 * finest)  # one layer of cells
     coarse, fine = (_local_frequencies(room, h, count) for h in (2.0 * finest, finest))
     extrapolated = fine + (fine - coarse) / 3.0
     return np.abs(_series_frequencies(room, spacing, count) / extrapolated - 1.0)

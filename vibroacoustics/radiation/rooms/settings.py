@@ -11,8 +11,9 @@ from ..arrays import Array
 NODES_PER_WAVE: Final = 3.5
 SAMPLES_PER_PERIOD: Final = 3.0
 """Of what is recorded, at the highest frequency: the pulse has next to nothing at twice that."""
-STEPS_PER_PERIOD: Final = 8.0
-"""At the highest frequency, at least."""
+STEPS_PER_PERIOD: Final = 10.0
+"""At the highest frequency, at least: with 8 a wall of 0.8 takes 0.0055 too much. Rooms with
+furniture are stable with about as many only."""
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,9 @@ from .materials import WAVE_OCTAVES, Material
 from .settings import STEPS_PER_PERIOD
 
 _LOWEST_HZ: Final = 20.0
-_HIGHEST_STEPS: Final = 1.0 / STEPS_PER_PERIOD
-"""Highest frequency of interest times the time step."""
+_HIGHEST_STEPS: Final = 1.25 / STEPS_PER_PERIOD
+"""Highest frequency that is fitted times the time step: a quarter above that of interest, where
+the fit would be worst at its end."""
 _FREQUENCIES: Final = 60
 _STAY: Final = 1e-3
 """Weight by which branches that matter little stay what they are."""
