@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
-from ..base.decibel import energy_sum, level_of_power
+from ..base.decibel import energy_sum, level_of_power, power_of_level
 from ..base.quantiles import weighted_quantiles
 from ..base.vocabulary import check, stamp
 from ..machine.source import CaseKey
@@ -174,4 +174,4 @@ def _coordinates(array: xr.DataArray) -> dict[str, Any]:
 
 
 def _square(levels: xr.DataArray) -> Array:
-    return np.asarray(10.0 ** (levels.values / 10.0))
+    return np.asarray(power_of_level(levels.values))
