@@ -6,6 +6,7 @@ from typing import Final
 import numpy as np
 
 from ...base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from ...base.decibel import level_of_power
 from ..arrays import Array
 from .cutting import cut, faces
 from .decay import absorption_area_m2, volume_m3
@@ -14,8 +15,6 @@ from .room import Room
 
 SEAM_HZ: Final = (400.0, 630.0)
 """Below, waves alone; above, the diffuse field alone."""
-SEAM_THIRDS_HZ: Final = (400.0, 500.0, 630.0)
-"""Nominal third octaves in which both are compared."""
 _MOST_MEAN_ABSORPTION: Final = 0.99
 _NEAREST_M: Final = 0.05
 _AIR_TEMPERATURE_K: Final = 293.15
@@ -122,18 +121,18 @@ def gain_at_place_db(waves: Array, diffuse: Array) -> float:
     """Level of the waves above the diffuse field, dB: what the place does to the power sent out.
 
     A machine in a corner or a niche sends out another power than in the open. The mean of the
-    ratios of both mean squares over all listeners and thirds; added to the diffuse field, both have
-    the same energy at the seam.
+    ratios of both mean squares over all listeners and third octaves; added to the diffuse field,
+    both have the same energy at the seam.
 
     Parameters
     ----------
-    waves, diffuse : mean square pressures (listener, third) in `SEAM_THIRDS_HZ`, Pa²; thirds
-        without sound are left out
+    waves, diffuse : mean square pressures (listener, third octave), Pa²; those without sound
+        are left out
     """
     sounding = (waves > 0.0) & (diffuse > 0.0)
     if not sounding.any():
         return 0.0
-    return float(10.0 * np.log10(np.mean(waves[sounding] / diffuse[sounding])))
+    return float(level_of_power(float(np.mean(waves[sounding] / diffuse[sounding]))))
 
 
 def air_attenuation_per_m(frequency_hz: Array) -> Array:

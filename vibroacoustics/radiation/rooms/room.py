@@ -2,15 +2,15 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Final, Literal
+from typing import Final
 
 import numpy as np
 
 from ...base.errors import ParameterError
+from ...study.room import RoomSide
 from ..arrays import Array
 from .materials import HARD, Material
 
-RoomSide = Literal["-x", "+x", "-y", "+y", "floor", "ceiling"]
 SIDES: Final[dict[RoomSide, tuple[int, int]]] = {
     "-x": (0, 0),
     "+x": (0, 1),
