@@ -36,7 +36,7 @@ class Mouth:
         return float(np.mean(around.radial(np.asarray(self.angles_rad))))
 
 
-class _DrivenOrder(NamedTuple):
+class _OrderWithSource(NamedTuple):
     """Modes of one order with what a source drives besides, see `GasOrder.with_attachment`.
 
     Attributes
@@ -69,7 +69,7 @@ class GasInShell:
     under_cap: bool
     meridian: Meridian
     modes: tuple[ShellMode, ...]
-    _last: list[tuple[tuple[float, float], Sequence[_DrivenOrder]]] = field(
+    _last: list[tuple[tuple[float, float], Sequence[_OrderWithSource]]] = field(
         default_factory=list, repr=False
     )
 
@@ -92,39 +92,39 @@ class GasInShell:
         quality_ratio : Q
         """
         mouth, parts, walls = interpolation(self.profile, tube.radius_m, tube.height_m), [], []
-        for one in self._driven_at(source.radius_m, source.height_m):
-            at_tube = mouth @ one.shapes
-            for around, wall in one.on_wall.items():
-                of_twin = source.around(around) * one.at_source, tube.around(around) * at_tube
-                parts.append((one.squares, *of_twin))
+        for order in self._driven_at(source.radius_m, source.height_m):
+            at_tube = mouth @ order.shapes
+            for around, wall in order.on_wall.items():
+                of_twin = source.around(around) * order.at_source, tube.around(around) * at_tube
+                parts.append((order.squares, *of_twin))
                 walls.append(wall)
         squares, at_source, at_tube = (np.concatenate(rows) for rows in zip(*parts, strict=True))
         on_modes = np.concatenate(walls)
         return DrivenGas(squares, at_source, at_tube, on_modes, tube_area_m2, quality_ratio)
 
-    def _driven_at(self, radius_m: float, height_m: float) -> Sequence[_DrivenOrder]:
+    def _driven_at(self, radius_m: float, height_m: float) -> Sequence[_OrderWithSource]:
         """All orders with a source at a place; the last place is kept, as most draws share it."""
-        place = radius_m, height_m
+        opening = radius_m, height_m
         for kept, every in self._last.copy():
-            if kept == place:
+            if kept == opening:
                 return every
         source = interpolation(self.profile, radius_m, height_m)
         driven = [
-            self._driven_order(gas, source, on_wall)
+            self._of_order(gas, source, on_wall)
             for gas, on_wall in zip(self.orders, self._on_wall, strict=True)
         ]
-        self._last[:] = [(place, driven)]
+        self._last[:] = [(opening, driven)]
         return driven
 
-    def _driven_order(
+    def _of_order(
         self, gas: GasOrder, source: Array, on_wall: Mapping[Around, tuple[IndexArray, Array]]
-    ) -> _DrivenOrder:
+    ) -> _OrderWithSource:
         squares, shapes = gas.with_attachment(source)
         walls = {}
         for around, (modes, forces) in on_wall.items():
             walls[around] = np.zeros((squares.size, len(self.modes)))
             walls[around][:, modes] = shapes.T @ forces
-        return _DrivenOrder(squares, shapes, source @ shapes, walls)
+        return _OrderWithSource(squares, shapes, source @ shapes, walls)
 
     @cached_property
     def _on_wall(self) -> tuple[dict[Around, tuple[IndexArray, Array]], ...]:
