@@ -1,6 +1,7 @@
 """How long work reports its advance."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 Progress = Callable[[str, int, int], None]
 """Called with what is being done, steps done and steps in all."""
@@ -8,3 +9,11 @@ Progress = Callable[[str, int, int], None]
 
 def no_progress(task: str, done: int, total: int) -> None:
     """Report nothing."""
+
+
+@contextmanager
+def stage(progress: Progress, task: str) -> Iterator[None]:
+    """Report work of a few seconds that has no steps: its begin and its end."""
+    progress(task, 0, 1)
+    yield
+    progress(task, 1, 1)

@@ -5,6 +5,7 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
+from ..base.progress import Progress
 from ..base.vocabulary import WEIGHTINGS
 from ..levels.axes import LevelAxes
 from ..levels.contributions import contribution_variables
@@ -30,6 +31,7 @@ def contributions_of(
     motion: Motion,
     axes: LevelAxes,
     levels: xr.Dataset,
+    progress: Progress,
     by_force: ForceSound | None = None,
 ) -> xr.Dataset:
     """What comes by which path; no draws, as the values as given tell the paths.
@@ -40,6 +42,7 @@ def contributions_of(
     motion : its results hold the transfer vectors
     axes : of the levels
     levels : with `order_level`
+    progress : called with the number of cases that are done
     by_force : measured pressure per force, in place of the transfer vectors
     """
     speeds = chosen_speeds(transmission.study)
@@ -49,8 +52,12 @@ def contributions_of(
         of_wrenches = by_case_and_source(by_motion, motion.source_of_wrench)
     else:
         of_wrenches = wrench_pressure_by_motion(motion, by_force)
-    split = transmission.contributions(cases, motion.loads, of_wrenches)
-    return contribution_variables(axes, dict(split), loudest_orders(levels))
+    split = {}
+    progress("sound by path", 0, len(cases))
+    for key, of_case in transmission.contributions(cases, motion.loads, of_wrenches):
+        split[key] = of_case
+        progress("sound by path", len(split), len(cases))
+    return contribution_variables(axes, split, loudest_orders(levels))
 
 
 def _pressure_by_motion(results: xr.Dataset) -> xr.DataArray:

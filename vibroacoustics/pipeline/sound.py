@@ -108,7 +108,7 @@ def levels_of(
     measured = baseline_variables(study, axes, points, sound)
     levels = level_variables(axes, sound, lines["pressure_line"], frequency, left, rest, measured)
     levels = levels.merge(lines).merge(measured).merge(noise)
-    levels = levels.merge(contributions_of(transmission, motion, axes, levels, by_force))
+    levels = levels.merge(contributions_of(transmission, motion, axes, levels, progress, by_force))
     if not study.ranges:
         return levels
     bank, of_shell = _bank(transmission, axes, points, cases, sound, progress, test)
@@ -116,7 +116,7 @@ def levels_of(
     levels = levels.merge(of_shell)
     weight = of_shell["shell_weight"].values if "shell_weight" in of_shell else None
     levels = levels.merge(level_shares(study.ranges, bank, weight))
-    errors = {} if shell is None else projection_errors(study, shell)
+    errors = {} if shell is None else projection_errors(study, shell, progress)
     levels = levels.merge(errors_of_projection(study.ranges, errors))
     if not bank.suffices:
         return levels

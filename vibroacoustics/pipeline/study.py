@@ -8,7 +8,8 @@ import xarray as xr
 from .. import scoring
 from ..base.errors import ParameterError
 from ..base.hashing import canonical_json
-from ..base.progress import Progress, no_progress
+from ..base.linear_algebra import one_thread_of_linear_algebra
+from ..base.progress import Progress, no_progress, stage
 from ..base.vocabulary import check, label_coordinates
 from ..radiation.given import Radiation
 from ..results import provenance
@@ -63,7 +64,9 @@ def run(
     array([45.3])
     """
     try:
-        return _run(study, progress, radiation)
+        # What is large runs in threads of its own; two of linear algebra would wait in busy loops.
+        with one_thread_of_linear_algebra():
+            return _run(study, progress, radiation)
     except ParameterError as error:
         raise ParameterError(f"{study.source_file}: {error}") from None
 
@@ -71,7 +74,8 @@ def run(
 def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
     study = on_measured_floor(study)
     motion = motion_of(study, progress)
-    path = shell_path(study)
+    with stage(progress, "modes of the shell"):
+        path = shell_path(study)
     test = shell_test(study, path)
     by_force = measured_force_sound(study)
     if by_force is not None:
@@ -80,7 +84,8 @@ def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
         radiated, was_cached = radiation(study, progress, () if path is None else path.modes)
     results = motion.results.merge(radiated)
     of_any_case, highest = next(iter(motion.loads.values())), study.radiation.maximum_frequency_hz
-    results = results.merge(natural_variables(study.machine, path, of_any_case, highest))
+    with stage(progress, "natural frequencies"):
+        results = results.merge(natural_variables(study.machine, path, of_any_case, highest))
     results = results.merge(sound_field(study, results))
     results = results.merge(line_difference(study, results))
     moved = motion.with_results(results)
@@ -90,7 +95,8 @@ def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
     results = results.merge(in_room)
     if study.operation.stopping:
         body = on_mounts(study.machine)
-        results = results.merge(stopping_variables(study, study.machine, body, results, path))
+        with stage(progress, "switching off"):
+            results = results.merge(stopping_variables(study, study.machine, body, results, path))
     results = results.merge(scoring.study_scores(study, results))
     results.attrs = provenance.radiation_attributes(study, radiated, was_cached)
     results.attrs["words"] = canonical_json(words(study, motion.loads, results))

@@ -1,7 +1,7 @@
 """Transfer vectors between the tabulated frequencies."""
 
-from collections.abc import Callable
-from functools import lru_cache
+from collections.abc import Sequence
+from functools import lru_cache, partial
 from typing import Final
 
 import numba
@@ -15,8 +15,29 @@ from ..base.errors import ParameterError
 _KEPT: Final = 16
 """Sets of frequencies whose values are kept, as draws ask for the same ones."""
 
-Interpolant = Callable[[Array], ComplexArray]
-"""Of frequencies in Hz, (m,), to Pa per unit velocity, (..., m)."""
+
+class Interpolant:
+    """Of frequencies in Hz, (m,), to Pa per unit velocity, (..., m); what `interpolant` makes.
+
+    Parameters
+    ----------
+    breaks : between the pieces, rising, shape (break,)
+    coefficients : of the powers from the third down, shape (4, piece, ...)
+    distance_m : shape (...)
+    """
+
+    def __init__(self, breaks: Array, coefficients: ComplexArray, distance_m: Array) -> None:
+        self._table = breaks, coefficients, distance_m
+        self._kept = lru_cache(maxsize=_KEPT)(partial(_values, breaks, coefficients, distance_m))
+
+    def __call__(self, frequency_hz: Array) -> ComplexArray:
+        return self._kept(np.asarray(frequency_hz, dtype=np.float64).tobytes())
+
+    def to(self, rows: Sequence[int]) -> "Interpolant":
+        """Some rows of the first dimension alone, the dimension kept."""
+        breaks, coefficients, distance_m = self._table
+        chosen = list(rows)
+        return Interpolant(breaks, coefficients[:, :, chosen], distance_m[chosen])
 
 
 def interpolant(tabulated_hz: Array, transfer: ComplexArray, distance_m: Array) -> Interpolant:
@@ -46,20 +67,22 @@ def interpolant(tabulated_hz: Array, transfer: ComplexArray, distance_m: Array) 
         axis=-1,
     )
 
-    coefficients = spline.c.reshape(*spline.c.shape[:2], -1)
+    return Interpolant(spline.x, spline.c, np.broadcast_to(distance_m, transfer.shape[:-1]))
 
-    @lru_cache(maxsize=_KEPT)
-    def kept(frequency: bytes) -> ComplexArray:
-        frequency_hz = np.frombuffer(frequency)
-        _check_range(frequency_hz, tabulated_hz)
-        smooth = np.empty((frequency_hz.size, coefficients.shape[-1]), dtype=complex)
-        _evaluate(spline.x, coefficients, frequency_hz, smooth)
-        shape = (*transfer.shape[:-1], frequency_hz.size)
-        values = np.asarray(smooth.T.reshape(shape) * _trend(frequency_hz, distance_m))
-        values.flags.writeable = False  # all who ask share them
-        return values
 
-    return lambda frequency_hz: kept(np.asarray(frequency_hz, dtype=np.float64).tobytes())
+def _values(
+    breaks: Array, coefficients: ComplexArray, distance_m: Array, frequency: bytes
+) -> ComplexArray:
+    """Of frequencies as bytes, shape (..., m)."""
+    frequency_hz = np.frombuffer(frequency)
+    _check_range(frequency_hz, float(breaks[-1]))
+    columns = coefficients.reshape(*coefficients.shape[:2], -1)
+    smooth = np.empty((frequency_hz.size, columns.shape[-1]), dtype=complex)
+    _evaluate(breaks, columns, frequency_hz, smooth)
+    shape = (*coefficients.shape[2:], frequency_hz.size)
+    values = np.asarray(smooth.T.reshape(shape) * _trend(frequency_hz, distance_m))
+    values.flags.writeable = False  # all who ask share them
+    return values
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
@@ -84,12 +107,12 @@ def _evaluate(
             result[row, n] = value * along + parts[3, n]
 
 
-def _check_range(frequency_hz: Array, tabulated_hz: Array) -> None:
+def _check_range(frequency_hz: Array, highest_hz: float) -> None:
     lowest, highest = float(np.min(frequency_hz)), float(np.max(frequency_hz))
-    if lowest < 0.0 or highest > tabulated_hz[-1] * (1.0 + 1e-9):
+    if lowest < 0.0 or highest > highest_hz * (1.0 + 1e-9):
         raise ParameterError(
             f"radiation.maximum_frequency_hz: the transfer vectors cover 0 to "
-            f"{tabulated_hz[-1]:g} Hz, {highest if lowest >= 0 else lowest:g} Hz is needed"
+            f"{highest_hz:g} Hz, {highest if lowest >= 0 else lowest:g} Hz is needed"
         )
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -10,6 +11,14 @@ from .machine import MachineOnMounts
 
 PressurePerVelocity = Callable[[Array], ComplexArray]
 """Of frequencies in Hz, shape (frequency,), to shape (receiver, motion, frequency), Pa s/m."""
+
+
+@runtime_checkable
+class OfReceivers(Protocol):
+    """Pressure per velocity that is computed for some receivers alone."""
+
+    def to(self, rows: Sequence[int]) -> PressurePerVelocity:
+        """To these receivers."""
 
 
 @dataclass(frozen=True)

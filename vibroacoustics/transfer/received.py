@@ -22,7 +22,7 @@ from ..mechanics.scroll_shaft import ScrollShaft
 from ..study.study import Study
 from .bending import bending_shell
 from .contributions import contributions
-from .force_sound import ForceSound, PressurePerVelocity
+from .force_sound import OfReceivers, PressurePerVelocity
 from .machine import on_mounts
 from .path import ShellPath
 from .sound_path import BendingShell, SoundPath
@@ -145,7 +145,7 @@ class Transmission:
 
 
 def _to(pressure: PressurePerVelocity, rows: list[int]) -> PressurePerVelocity:
-    if isinstance(pressure, ForceSound):
+    if isinstance(pressure, OfReceivers):
         return pressure.to(rows)
     return lambda frequency_hz: pressure(frequency_hz)[rows]
 

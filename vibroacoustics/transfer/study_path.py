@@ -3,6 +3,7 @@
 from typing import Final
 
 from ..base.arrays import Array
+from ..base.progress import Progress, no_progress
 from ..machine.shell_structure import ShellStructure, ShellVariation
 from ..study.study import Study
 from .path import ShellPath, computed_path, measured_path
@@ -24,7 +25,9 @@ def computed_shell_path(study: Study) -> ShellPath:
     return computed_path(machine.shell, structure, highest, least, walls)
 
 
-def projection_errors(study: Study, path: ShellPath) -> dict[str, float]:
+def projection_errors(
+    study: Study, path: ShellPath, progress: Progress = no_progress
+) -> dict[str, float]:
     """Largest relative error of a natural frequency by projection, by name of the drawn value.
 
     Over the modes up to the highest frequency, at both ends of the value's range, the other values
@@ -33,11 +36,14 @@ def projection_errors(study: Study, path: ShellPath) -> dict[str, float]:
     if path.wall is None:
         return {}
     highest, shell = study.radiation.maximum_frequency_hz, study.machine.shell
-    return {
-        name: max(projection_error(path.wall, shell, end, highest) for end in ends)
-        for name, ends in _ends(study, path.structure).items()
-        if name.rpartition(".")[2] in path.structure.changes_shapes
-    }
+    every = _ends(study, path.structure).items()
+    shaping = [one for one in every if one[0].rpartition(".")[2] in path.structure.changes_shapes]
+    errors: dict[str, float] = {}
+    for name, ends in shaping:
+        progress("errors of projection", len(errors), len(shaping))
+        errors[name] = max(projection_error(path.wall, shell, end, highest) for end in ends)
+    progress("errors of projection", len(errors), len(shaping))
+    return errors
 
 
 def _ends(study: Study, structure: ShellStructure) -> dict[str, list[ShellStructure]]:

@@ -173,6 +173,16 @@ def test_interpolation_of_an_exact_sphere():
     np.testing.assert_allclose(np.angle(ours / values[1]), 0.0, atol=1e-3)
 
 
+def test_transfer_vectors_to_some_receivers_are_rows_of_those_to_all():
+    table, wanted = np.arange(100.0, 1001.0, 100.0), np.array([0.0, 50.0, 333.0, 1000.0])
+    random = np.random.default_rng(2)
+    values = random.normal(size=(3, 2, table.size)) + 1j * random.normal(size=(3, 2, table.size))
+    to_all = interpolant(table, values, np.array([[1.0], [2.0], [0.5]]))
+    some = to_all.to([2, 0])
+    np.testing.assert_array_equal(some(wanted), to_all(wanted)[[2, 0]])
+    np.testing.assert_array_equal(some.to([1])(wanted), to_all(wanted)[[0]])
+
+
 def test_interpolation_at_zero_and_on_the_table():
     table = 25.0 * np.arange(1, 41)
     values = sphere_pressure(0, 0.1, 1.0, np.ones(1), table)[:, 0]

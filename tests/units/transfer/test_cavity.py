@@ -8,7 +8,7 @@ from scipy.special import jnp_zeros, jvp, yvp
 from support import ROOT
 
 from vibroacoustics.study.loading import load_study
-from vibroacoustics.transfer.cavity.elements import matrices
+from vibroacoustics.transfer.cavity.elements import interpolation, matrices
 from vibroacoustics.transfer.cavity.in_shell import GasInShell, Mouth
 from vibroacoustics.transfer.cavity.modes import GasOrder
 from vibroacoustics.transfer.cavity.profile import annulus_profile, disc_profile
@@ -88,7 +88,7 @@ def test_dome_as_computed_elsewhere(order, expected):
 def test_attachment_mode_is_the_steady_response_that_modes_leave_out():
     """At the source and far below the first mode, where modes alone miss most of it."""
     gas = GasOrder(dome(), 2)
-    source = gas.at(0.005, RIM - DEPTH)
+    source = interpolation(gas.profile, 0.005, RIM - DEPTH)
     stiffness, mass = matrices(gas.profile, 2)
     free = gas.profile.nodes[..., 0].ravel() > 0.0
     squares, shapes = gas.with_attachment(source)
@@ -107,7 +107,7 @@ def test_attachment_mode_is_the_steady_response_that_modes_leave_out():
 def test_a_source_on_the_axis_drives_order_zero_alone():
     for order in range(4):
         gas = GasOrder(dome(), order)
-        source = gas.at(0.0, RIM - DEPTH)
+        source = interpolation(gas.profile, 0.0, RIM - DEPTH)
         _, shapes = gas.with_attachment(source)
         assert np.any(np.abs(source @ shapes) > 1.0) == (order == 0)
 
@@ -197,6 +197,18 @@ def coupled(path):
     port = Mouth(0.005, RIM - DEPTH, (0.7,))
     gas = space.driven(port, Mouth(RADIUS, RIM - 0.007, (2.9,)), 9e-5, 60.0)
     return GasAndWall(gas, DENSITY, SOUND, path.natural_hz, path.modal_mass_kg, 0.01)
+
+
+def test_a_source_that_stays_is_as_one_computed_anew(path):
+    """Modes with the source are kept from one set of values to the next; another source is not."""
+    tube, others = Mouth(RADIUS, RIM - 0.007, (2.9,)), [(0.005, 0.7), (0.005, 1.9), (0.02, 1.9)]
+    ports = [Mouth(radius, RIM - DEPTH, (angle,)) for radius, angle in others]
+    space = GasInShell(dome(), True, path.wall.shell.meridian, path.modes)
+    for port in ports:
+        anew = GasInShell(dome(), True, path.wall.shell.meridian, path.modes)
+        one, other = space.driven(port, tube, 0.0, 60.0), anew.driven(port, tube, 0.0, 60.0)
+        np.testing.assert_allclose(one.at_source, other.at_source, rtol=1e-9, atol=1e-12)
+        assert one.on_wall == pytest.approx(other.on_wall, abs=1e-9 * abs(other.on_wall).max())
 
 
 def test_reciprocity(coupled):

@@ -1,14 +1,16 @@
 """A space of gas in the elastic shell: its modes, what drives them, what they do to the wall."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from ...base.arrays import Array, IndexArray
 from ..shell_modes.meridian import Meridian
 from ..shell_modes.modes import Around, ShellMode
+from .elements import interpolation
 from .modes import GasOrder
 from .profile import Profile
 from .response import DrivenGas
@@ -34,6 +36,23 @@ class Mouth:
         return float(np.mean(around.radial(np.asarray(self.angles_rad))))
 
 
+class _OrderWithSource(NamedTuple):
+    """Modes of one order with what a source drives besides, see `GasOrder.with_attachment`.
+
+    Attributes
+    ----------
+    squares : k² of the modes, shape (mode,), 1/m²
+    shapes : pressures of the nodes, shape (node, mode)
+    at_source : pressure at the source where θ = θ₀, shape (mode,)
+    on_wall : by twin ∫ φ ψ dS with the wall's modes, shape (mode, wall)
+    """
+
+    squares: Array
+    shapes: Array
+    at_source: Array
+    on_wall: Mapping[Around, Array]
+
+
 @dataclass(frozen=True)
 class GasInShell:
     """A space of gas with the wall's modes, whatever drives it.
@@ -50,6 +69,9 @@ class GasInShell:
     under_cap: bool
     meridian: Meridian
     modes: tuple[ShellMode, ...]
+    _last: list[tuple[tuple[float, float], Sequence[_OrderWithSource]]] = field(
+        default_factory=list, repr=False
+    )
 
     @cached_property
     def orders(self) -> tuple[GasOrder, ...]:
@@ -69,21 +91,40 @@ class GasInShell:
         tube_area_m2 : 0 where there is no tube
         quality_ratio : Q
         """
-        parts, walls = [], []
-        for gas, on_wall in zip(self.orders, self._on_wall, strict=True):
-            driven = gas.at(source.radius_m, source.height_m)
-            squares, shapes = gas.with_attachment(driven)
-            at_source = driven @ shapes
-            at_tube = gas.at(tube.radius_m, tube.height_m) @ shapes
-            for around, (modes, forces) in on_wall.items():
-                of_twin = source.around(around) * at_source, tube.around(around) * at_tube
-                parts.append((squares, *of_twin))
-                wall = np.zeros((squares.size, len(self.modes)))
-                wall[:, modes] = shapes.T @ forces
+        mouth, parts, walls = interpolation(self.profile, tube.radius_m, tube.height_m), [], []
+        for order in self._driven_at(source.radius_m, source.height_m):
+            at_tube = mouth @ order.shapes
+            for around, wall in order.on_wall.items():
+                of_twin = source.around(around) * order.at_source, tube.around(around) * at_tube
+                parts.append((order.squares, *of_twin))
                 walls.append(wall)
         squares, at_source, at_tube = (np.concatenate(rows) for rows in zip(*parts, strict=True))
         on_modes = np.concatenate(walls)
         return DrivenGas(squares, at_source, at_tube, on_modes, tube_area_m2, quality_ratio)
+
+    def _driven_at(self, radius_m: float, height_m: float) -> Sequence[_OrderWithSource]:
+        """All orders with a source at a place; the last place is kept, as most draws share it."""
+        opening = radius_m, height_m
+        for kept, every in self._last.copy():
+            if kept == opening:
+                return every
+        source = interpolation(self.profile, radius_m, height_m)
+        driven = [
+            self._of_order(gas, source, on_wall)
+            for gas, on_wall in zip(self.orders, self._on_wall, strict=True)
+        ]
+        self._last[:] = [(opening, driven)]
+        return driven
+
+    def _of_order(
+        self, gas: GasOrder, source: Array, on_wall: Mapping[Around, tuple[IndexArray, Array]]
+    ) -> _OrderWithSource:
+        squares, shapes = gas.with_attachment(source)
+        walls = {}
+        for around, (modes, forces) in on_wall.items():
+            walls[around] = np.zeros((squares.size, len(self.modes)))
+            walls[around][:, modes] = shapes.T @ forces
+        return _OrderWithSource(squares, shapes, source @ shapes, walls)
 
     @cached_property
     def _on_wall(self) -> tuple[dict[Around, tuple[IndexArray, Array]], ...]:

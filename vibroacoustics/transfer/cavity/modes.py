@@ -8,7 +8,7 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve, eigh
 
 from ...base.arrays import Array, IndexArray
-from .elements import interpolation, matrices
+from .elements import matrices
 from .profile import Profile
 
 MODES: Final = 12
@@ -38,10 +38,6 @@ class GasOrder:
         shapes = np.zeros((self._count, MODES))
         shapes[self._free] = free
         return np.maximum(squares, 0.0), shapes
-
-    def at(self, radius_m: float, height_m: float) -> Array:
-        """What each node adds at a place where θ = θ₀, shape (node,)."""
-        return interpolation(self.profile, radius_m, height_m)
 
     def with_attachment(self, source: Array) -> tuple[Array, Array]:
         """The modes and the steady response to a source that they leave out, as one more.
