@@ -91,7 +91,9 @@ def _lines(
             if details["type"] == "extra_forbidden" and len(lines) < MOST_LINES:
                 meant, words = _meant(model, inner, missing, reader, table)
                 missing = [other for other in missing if other != meant]
-            lines[inner] = [_one_line(model, details, reader, table) + words]
+            lines[inner] = [
+                line + words for line in _one_line(model, details, reader, table).split("\n")
+            ]
     lines |= {inner: _asked(model, inner, reader, table) for inner in missing}
     return [line for inner in refused for line in lines.get(inner, ())]
 
@@ -154,7 +156,9 @@ def _one_line(
     if plain is not None:
         return f"{where}: {plain}"
     if details["type"] == "value_error":
-        return f"{where}: {details['ctx']['error']}"
+        error = details["ctx"]["error"]
+        each = error.args if type(error) is ValueError else (error,)
+        return "\n".join(f"{where}: {problem}" for problem in each)
     if details["type"] == "union_tag_invalid":
         context = details["ctx"]
         return f"{where}.kind = {context['tag']}: unknown; allowed {context['expected_tags']}"
