@@ -87,6 +87,7 @@ def test_without_browser_or_paper_one_line_and_nothing_written(
 ) -> None:
     monkeypatch.setattr(printing.shutil, "which", lambda name: None)
     assert_refused(command_here("report", tmp_path / "results.nc", *arguments), words)
+    assert_refused(command_here("orders", tmp_path / "a.wav", "--rpm", 2900, *arguments), words)
     assert list(tmp_path.iterdir()) == []
 
 

@@ -349,10 +349,10 @@ def test_options_that_worsen_are_named_so(results: xr.Dataset) -> None:
         (
             ["Foot force", "Cost", "Added mass"],
             [[4.0, 0.0, 0.0], [2.0, 9.0, 3.0]],
-            "none scores better in Cost; Added mass.",
+            "none scores better in cost and added mass.",
         ),
-        (["Foot force", "Added mass"], [[4.0, 0.0], [3.0, 5.0]], "better in Added mass."),
-        (["Foot force", "Risk, 1 to 9"], [[4.0, 1.0], [3.0, 5.0]], "better in Risk, 1 to 9."),
+        (["Foot force", "Added mass"], [[4.0, 0.0], [3.0, 5.0]], "better in added mass."),
+        (["Foot force", "Risk, 1 to 9"], [[4.0, 1.0], [3.0, 5.0]], "better in risk, 1 to 9."),
         (["Foot force", "Risk"], [[4.0, 1.0], [1.0, 1.0]], ""),
     ],
 )

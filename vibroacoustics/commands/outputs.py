@@ -188,7 +188,7 @@ def write_radiation(radiated: xr.Dataset, folder: str | Path) -> Path:
     return write_analysis(radiated, folder, TRANSFER_VECTORS_NAME, {}, report.radiation_figures)
 
 
-def write_orders(results: xr.Dataset, folder: str | Path) -> Path:
+def write_orders(results: xr.Dataset, folder: str | Path, printer: Printer | None = None) -> Path:
     """Write the orders of a recording with page, tables and figures; see `write_radiation`."""
     tables = {"orders.csv": report.orders_csv(results)}
     if "equivalent_level" in results:
@@ -197,6 +197,7 @@ def write_orders(results: xr.Dataset, folder: str | Path) -> Path:
         tables[LIMITS_NAME] = report.limits_csv(results)
     pictures = report.recorded_order_figures(results)
     tables[ORDERS_REPORT_NAME] = report.orders_html(results, pictures)
+    tables = with_pdf(tables, printer)
     return write_analysis(results, folder, ORDERS_NAME, tables, lambda _: pictures)
 
 

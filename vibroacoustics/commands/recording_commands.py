@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from .option_words import in_own_words
-from .options import LimitsFile, Plugins
+from .options import LimitsFile, Paper, Pdf, Plugins
 from .progress import progress_on_stderr
 
 commands = typer.Typer()
@@ -90,16 +90,19 @@ def orders_command(
     out: Out = None,
     limits: LimitsFile = None,
     plugin: Plugins = None,
+    pdf: Pdf = False,
+    paper: Paper = None,
 ) -> None:
     """Find the orders of a recording: orders.html, netCDF, CSV, figures and a table."""
     from .. import pipeline, report
     from . import arguments, checking, outputs, reading
+    from .printing import printer
 
     source = arguments.speed_source(speed, pulses, index, rpm, tacholess, comb, mains)
     settings = arguments.order_analysis(
         source, orders, maximum_order, resolution, speed_step, with_map, bands
     )
-    folder = out or Path("reports") / recording_file.stem
+    folder, prints = out or Path("reports") / recording_file.stem, printer(pdf, paper)
     outputs.check_folder(folder)
     allowed = checking.read(limits)
     recording = reading.Reading(
@@ -108,11 +111,13 @@ def orders_command(
     with progress_on_stderr() as progress:
         results = pipeline.analyse_orders(recording, settings, progress)
         results = checking.held_against(results, allowed)
-        written = outputs.write_orders(results, folder)
+        written = outputs.write_orders(results, folder, prints)
     typer.echo(report.orders_text(results))
     checking.print_margins(results, folder / outputs.LIMITS_NAME)
     typer.echo(f"orders: {written}")
     typer.echo(f"report: {folder / outputs.ORDERS_REPORT_NAME}")
+    if prints is not None:
+        typer.echo(f"pdf: {(folder / outputs.ORDERS_REPORT_NAME).with_suffix('.pdf')}")
 
 
 @commands.command("track")

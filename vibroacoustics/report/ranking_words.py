@@ -39,5 +39,10 @@ def _behind(results: xr.Dataset, option: str) -> str:
     criteria = criteria_of_advantage(results, REFERENCE_OPTION, option)
     return (
         f" {option} ranks below {REFERENCE_OPTION} all the same: {REFERENCE_OPTION} scores better "
-        f"in {'; '.join(criteria)}."
+        f"in {' and '.join(map(_inside_a_sentence, criteria))}."
     )
+
+
+def _inside_a_sentence(label: str) -> str:
+    """A label without its capital, which a name of two capitals keeps."""
+    return label if label[1:2].isupper() else label[:1].lower() + label[1:]

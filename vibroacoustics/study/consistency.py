@@ -1,5 +1,7 @@
 """What holds between the tables of a study."""
 
+from collections.abc import Callable, Iterable
+from functools import partial
 from typing import TYPE_CHECKING, Final
 
 from ..base.units import shaft_frequency_hz
@@ -30,23 +32,42 @@ def check_consistent(study: "Study") -> None:
     Raises
     ------
     ValueError
-        With the key, the value and what is allowed.
+        With the key, the value and what is allowed; an argument for each refusal.
     """
     reference = study.options.get(REFERENCE_OPTION)
     if reference is None or reference.kind != REFERENCE_OPTION:
         raise ValueError('options: an option named none with kind = "none" is required')
-    for name, option in study.options.items():
-        _check_fits(study, name, option)
-    check_given(study.given, study.options)
-    check_scales(study.scoring, study.given, study.options)
-    _check_catalogue(study)
+    _raise_all(partial(_check_fits, study, name, one) for name, one in study.options.items())
+    checks = (
+        _check_catalogue, _check_orders, _check_sources, _check_sound_power, _check_room,
+    )  # fmt: skip
+    _raise_all(
+        (
+            lambda: check_given(study.given, study.options),
+            lambda: check_scales(study.scoring, study.given, study.options),
+            lambda: _check_measured(study),
+            *(partial(check, study) for check in checks),
+        )
+    )
+
+
+def _raise_all(checks: Iterable[Callable[[], None]]) -> None:
+    """Refuse with what each of some checks, of which none needs another, refuses."""
+    problems: list[str] = []
+    for check in checks:
+        try:
+            check()
+        except ValueError as error:
+            problems += map(str, error.args)
+    if problems:
+        raise ValueError(*problems)
+
+
+def _check_measured(study: "Study") -> None:
     if study.measured is not None:
-        for problem in study.measured.problems(list(study.receivers), study.operation.speed_rpm):
-            raise ValueError(problem)
-    _check_orders(study)
-    _check_sources(study)
-    _check_sound_power(study)
-    _check_room(study)
+        names, speeds = list(study.receivers), study.operation.speed_rpm
+        if problems := list(study.measured.problems(names, speeds)):
+            raise ValueError(*problems)
 
 
 def _check_catalogue(study: "Study") -> None:

@@ -1,5 +1,6 @@
 """The wording of refusals: pydantic's findings, a line each, in the file's own keys and units."""
 
+from functools import partial
 from typing import Any, Final, Protocol, TypeVar, get_args
 
 from pydantic import BaseModel, ValidationError
@@ -91,7 +92,8 @@ def _lines(
             if details["type"] == "extra_forbidden" and len(lines) < MOST_LINES:
                 meant, words = _meant(model, inner, missing, reader, table)
                 missing = [other for other in missing if other != meant]
-            lines[inner] = [_one_line(model, details, reader, table) + words]
+            each = map(partial(_one_line, model, reader, table), _apart(details))
+            lines[inner] = [line + words for line in each]
     lines |= {inner: _asked(model, inner, reader, table) for inner in missing}
     return [line for inner in refused for line in lines.get(inner, ())]
 
@@ -143,8 +145,16 @@ def _is_table(model: type[BaseModel], inner: tuple[str, ...]) -> bool:
     return isinstance(annotation, type) and issubclass(annotation, BaseModel)
 
 
+def _apart(details: ErrorDetails) -> list[ErrorDetails]:
+    """Of a refusal with several arguments one for each."""
+    problems = details["ctx"]["error"].args if details["type"] == "value_error" else ()
+    if len(problems) < 2:
+        return [details]
+    return [{**details, "ctx": {"error": problem}} for problem in problems]
+
+
 def _one_line(
-    model: type[BaseModel], details: ErrorDetails, reader: FileKeys, table: tuple[str, ...]
+    model: type[BaseModel], reader: FileKeys, table: tuple[str, ...], details: ErrorDetails
 ) -> str:
     inner = _without_tags(tuple(str(part) for part in details["loc"]))
     location = (*table, *inner)

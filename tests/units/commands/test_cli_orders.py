@@ -8,6 +8,7 @@ import pytest
 from support import ROOT, assert_refused, command, command_here, tiny_run
 
 from vibroacoustics import label_recording, open_results
+from vibroacoustics.commands import printing
 from vibroacoustics.recordings import csv_bytes, wav_bytes
 from vibroacoustics.results import storage
 from vibroacoustics.results.storage import write_results
@@ -155,6 +156,18 @@ def test_compare_with_itself_beside_it(analysed: Path, tmp_path: Path) -> None:
     compared = open_results(tmp_path / "compared_orders.nc")
     phase = np.degrees(compared["order_phase_difference"].sel(channel="shell", order=[1, 2]))
     np.testing.assert_allclose(phase.squeeze(), [-30.0, -60.0], atol=1e-9)
+
+
+def test_orders_on_paper(recording: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With --pdf the page is printed beside itself."""
+    browser = printing.Printer("", "a4")
+    monkeypatch.setattr(printing, "printer", lambda *_: browser)
+    monkeypatch.setattr(printing.Printer, "printed", lambda *_: b"%PDF")
+    out = tmp_path / "out"
+    outcome = command_here("orders", recording, "--speed", "tacho", "--out", out, "--pdf")
+    assert outcome.returncode == 0, outcome.stderr
+    assert f"pdf: {out / 'orders.pdf'}" in outcome.stdout
+    assert (out / "orders.pdf").read_bytes() == b"%PDF"
 
 
 def test_orders_and_comparison_with_limits(recording: Path, tmp_path: Path) -> None:

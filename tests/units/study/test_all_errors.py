@@ -186,3 +186,17 @@ def test_errors_survive_a_process():
 
 def test_the_thesis_still_loads():
     assert load_study(PIPELINES / "copeland_thesis.toml").title
+
+
+def test_contradictions_between_tables_come_together(tmp_path):
+    """Microphone, orders and a scale without values are refused in one go, a line each."""
+    old = "near_field_spacing_mm = 35.0"
+    path = tiny(tmp_path, old, f"{old}\n")
+    text = with_line(path.read_text(), "x_mm = 1082.5", "x_mm = 2000.0")
+    text = with_line(text, "maximum_order = 16", "maximum_order = 60")
+    path.write_text(f"{text}risk = {{ weight = 1.0, best = 1.0, worst = 9.0 }}\n")
+    told = lines(load_study, path)
+    assert len(told) == 3
+    assert any("catalogue_receiver = front_1m: stands" in line for line in told)
+    assert any("radiation.maximum_frequency_hz = 1000 Hz: order 60" in line for line in told)
+    assert any("risk" in line for line in told)
