@@ -1,7 +1,10 @@
 """Sound pressure of a moving housing: velocity at the lines times transfer vectors."""
 
+from collections.abc import Callable
+
 import xarray as xr
 
+from .arrays import Array, ComplexArray
 from .interpolation import Interpolant
 from .transfer_vectors import interpolate_transfer_vector, pressure_per_velocity
 
@@ -23,7 +26,9 @@ def wrench_pressure(results: xr.Dataset, name: str) -> xr.DataArray:
 
 
 def wrench_pressure_by(
-    results: xr.Dataset, pressure_per_velocity: Interpolant, highest_hz: float
+    results: xr.Dataset,
+    pressure_per_velocity: Callable[[Array], ComplexArray],
+    highest_hz: float,
 ) -> xr.DataArray:
     """`wrench_pressure` by a function of frequencies, Pa.
 
