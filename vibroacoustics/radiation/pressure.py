@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import xarray as xr
 
-from .arrays import Array, ComplexArray
+from ..base.arrays import Array, ComplexArray
 from .interpolation import Interpolant
 from .transfer_vectors import interpolate_transfer_vector, pressure_per_velocity
 
