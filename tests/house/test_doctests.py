@@ -5,6 +5,7 @@ They run in a folder that holds what the commands write, of a small study and of
 
 import doctest
 import inspect
+import json
 import os
 import sys
 from collections.abc import Iterator
@@ -41,6 +42,7 @@ def workplace(tmp_path_factory: pytest.TempPathFactory) -> Path:
     few = {"uncertainty": None, "options.twin-oldham": None, "sources.keys": None}
     results = run_made_up(va.load_study(SOURCES_STUDY).replace(few))
     storage.write_results(results.merge(_differences(results)), folder / "results.nc")
+    storage.write_results(_in_a_room(results), folder / "kitchen.nc")
     storage.write_results(_radiated(), folder / "transfer_vectors.nc")
     recording = _run_up()
     speed = va.SpeedChannel("speed")
@@ -85,6 +87,25 @@ def _differences(results: xr.Dataset) -> xr.Dataset:
     bands = stamp("baseline_band_level", measured, in_bands)
     named = {one.name: one for one in (gaps, level, bands)}
     return xr.Dataset(named, coords=_plane())
+
+
+def _in_a_room(results: xr.Dataset) -> xr.Dataset:
+    """What is drawn of a room."""
+    listener = {"x_m": 2.0, "y_m": 2.2, "height_m": 1.2}
+    room = {"size_m": [4.0, 3.0, 2.5], "foot_m": [3.5, 0.4], "furniture": {}}
+    parameters = {**json.loads(results.attrs["parameters"]), "room": room}
+    room["listeners"] = {"table": listener}
+    on_plane = {"room_map_y": [0.5, 1.5, 2.5], "room_map_x": [1.0, 2.0, 3.0]}
+    at_seam = {"listener": ["table"], "seam_band": [400.0, 500.0, 630.0]}
+    levels = stamp("room_map_level", np.array(3 * [[40.0, 42.0, 44.0]]), on_plane)
+    seam = [
+        stamp(name, np.array([[-8.0, -7.0, -9.0]]), at_seam)
+        for name in ("room_gain_waves", "room_gain_diffuse", "room_gain_difference")
+    ]
+    return xr.Dataset(
+        {one.name: one for one in (levels.assign_attrs(height_m=1.2), *seam)},
+        attrs={"parameters": json.dumps(parameters)},
+    )
 
 
 def _plane() -> dict[str, tuple[tuple[str, str], np.ndarray]]:

@@ -113,8 +113,8 @@ def with_comment(wave: bytes, comment: str) -> bytes:
     text = comment.encode("latin-1") + b"\0"
     text += bytes(len(text) % 2)
     content = b"INFO" + struct.pack("<4sI", b"ICMT", len(text)) + text
-    whole = wave + struct.pack("<4sI", b"LIST", len(content)) + content
-    return whole[:4] + struct.pack("<I", len(whole) - 8) + whole[8:]
+    file = wave + struct.pack("<4sI", b"LIST", len(content)) + content
+    return file[:4] + struct.pack("<I", len(file) - 8) + file[8:]
 
 
 def _wave(block: bytes, order: ByteOrder, start: int, size: int, comment: str) -> Wave:

@@ -77,8 +77,8 @@ def seam_table(results: xr.Dataset) -> Table:
     )
     head = ("Listener", *(f"{band:g} Hz" for band in bands))
     gain = results["room_place_gain"].values
-    place = ("gain of the place", *(rounding.signed(float(one)) for one in gain))
-    return Table("Waves less diffuse field, dB", head, (*rows, place))
+    gains = ("gain of the place", *(rounding.signed(float(one)) for one in gain))
+    return Table("Waves less diffuse field, dB", head, (*rows, gains))
 
 
 def seam_sentence(results: xr.Dataset) -> str:

@@ -40,6 +40,8 @@ def library() -> dict[str, Covering]:
 
 def _by_name(given: Any) -> Any:
     """A covering for a name of the library; anything else as it is."""
+    if isinstance(given, dict) and isinstance(ratios := given.get("absorption_ratio"), list):
+        return {**given, "absorption_ratio": tuple(ratios)}  # strict beyond this function
     if not isinstance(given, str):
         return given
     if given not in library():

@@ -71,7 +71,7 @@ def pieces_of(
         A point lies in a block or outside the room.
     """
     shape = (len(quantities), *lattice.shape)
-    places: IndexArray = first_place + np.arange(int(np.prod(shape))).reshape(shape)
+    result_rows: IndexArray = first_place + np.arange(int(np.prod(shape))).reshape(shape)
     left, pieces = np.ones(lattice.shape, dtype=bool), []
     for number, box in enumerate(boxes):
         at = [
@@ -83,7 +83,7 @@ def pieces_of(
             lines = [line[i] for line, i in zip(lattice.lines, at, strict=True)]
             pieces += [
                 piece(number, box, lines, time_step_s, quantity, of[np.ix_(*at)].ravel())
-                for quantity, of in zip(quantities, places, strict=True)
+                for quantity, of in zip(quantities, result_rows, strict=True)
             ]
     if left.any():
         first = np.argwhere(left)[0]

@@ -136,11 +136,11 @@ def _in_room(
     lines = int(np.ceil(highest / step_hz)) + _MORE_LINES
     origin_m = stands.foot_m - [0.0, 0.0, side.floor_z_m or 0.0]
     field = MachineField(side, box, origin_m, clearance_m, lines * step_hz, progress)
-    told = together(progress, len(listeners))
+    advance = together(progress, len(listeners))
     remaining: dict[str, float] = {}
 
     def one(name: str, position: Array) -> ComplexArray:
-        record = runs.record(name, position, told)
+        record = runs.record(name, position, advance)
         remaining[name] = record.remaining_db
         return field.join(record, length, lines, step_hz)
 

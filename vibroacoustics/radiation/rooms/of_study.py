@@ -164,8 +164,8 @@ def diffuse_per_power(
     room = room_of(settings)
     diffuse = DiffuseRoom.of(room)
     ways = [
-        (float(np.linalg.norm(place - source_m)), line_of_sight(room, source_m, place))
-        for place in listeners_m(settings).values()
+        (float(np.linalg.norm(ears_m - source_m)), line_of_sight(room, source_m, ears_m))
+        for ears_m in listeners_m(settings).values()
     ]
 
     def per_power(frequency_hz: Array) -> Array:

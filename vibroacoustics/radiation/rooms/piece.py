@@ -29,7 +29,7 @@ class Piece:
     """From terms to points along each axis, (point, term)."""
     near: tuple[tuple[int, int, Array], ...]
     """Sides that matter: axis, end, and what the series lacks along the axis, (point,)."""
-    places: IndexArray
+    result_rows: IndexArray
     """Of the points in what is read, (point,)."""
 
 
@@ -39,7 +39,7 @@ def piece(
     lines: Sequence[Array],
     time_step_s: float,
     quantity: int,
-    places: IndexArray,
+    result_rows: IndexArray,
 ) -> Piece:
     """Pressure (-1) or its derivative along an axis at points of a box."""
     of = [
@@ -57,4 +57,4 @@ def piece(
             if np.abs(values).max() > least:
                 along = (-slope if end else slope) if axis == quantity else values
                 near.append((axis, end, along / reach))
-    return Piece(number, (x, y, z), tuple(near), places)
+    return Piece(number, (x, y, z), tuple(near), result_rows)

@@ -49,6 +49,7 @@ def plane_gains(
     height_m : of the plane
     bands_hz : of each band lower end, nominal middle, upper end
     maximum_frequency_hz : of the waves; bands beyond it are left out
+    progress : told of the advance
 
     Returns
     -------

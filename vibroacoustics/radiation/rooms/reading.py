@@ -16,16 +16,16 @@ class Readings:
     """All pieces of all lattices, as flat arrays.
 
     Each piece has a row: first term, terms and points along each axis, first entry of its three
-    matrices, first place, first and last of its sides. Each side has one: axis, first entry of its
-    flux, first entry of what the series lacks.
+    matrices, first row of the result, first and last of its sides. Each side has one: axis, first
+    entry of its flux, first entry of what the series lacks.
     """
 
     def __init__(self, plan: Layout, pieces: Sequence[Piece]) -> None:
         rows: list[list[int]] = []
         sides: list[list[int]] = []
         numbers: list[Array] = [np.zeros(0)]
-        places: list[IndexArray] = [np.zeros(0, dtype=np.intp)]
-        entry = place = 0
+        result_rows: list[IndexArray] = [np.zeros(0, dtype=np.intp)]
+        entry = row = 0
         for one in pieces:
             matrices = []
             for basis in one.bases:
@@ -39,23 +39,32 @@ class Readings:
                 entry += along.size
             points, terms = zip(*(basis.shape for basis in one.bases), strict=True)
             start = int(plan.terms[one.box])
-            rows.append([start, *terms, *points, *matrices, place, first, len(sides)])
-            places.append(one.places)
-            place += one.places.size
+            rows.append([start, *terms, *points, *matrices, row, first, len(sides)])
+            result_rows.append(one.result_rows)
+            row += one.result_rows.size
         self._pieces = np.array(rows, dtype=np.intp).reshape(-1, 13)
         self._sides = np.array(sides, dtype=np.intp).reshape(-1, 3)
-        self._numbers, self._places = np.concatenate(numbers), np.concatenate(places)
+        self._numbers, self._result_rows = (
+            np.concatenate(numbers),
+            np.concatenate(result_rows),
+        )
 
     def read(self, air: Air, result: Array) -> None:
         """Values of all pieces, into their places (column,)."""
         read_pieces(
-            air.terms, air.flux, self._pieces, self._sides, self._numbers, self._places, result
+            air.terms,
+            air.flux,
+            self._pieces,
+            self._sides,
+            self._numbers,
+            self._result_rows,
+            result,
         )
 
 
 @kernel
 def read_pieces(
-    terms: Any, flux: Any, pieces: Any, sides: Any, matrices: Any, places: Any, result: Any
+    terms: Any, flux: Any, pieces: Any, sides: Any, matrices: Any, result_rows: Any, result: Any
 ) -> None:  # pragma: no cover
     """Values of all pieces, into their places of the result."""
     for piece in pieces:
@@ -78,7 +87,7 @@ def read_pieces(
         flat = values.ravel()
         first = piece[10]
         for point in range(flat.size):
-            result[places[first + point]] = flat[point]
+            result[result_rows[first + point]] = flat[point]
 
 
 @kernel

@@ -135,10 +135,10 @@ def run_all(
     """A run for each microphone, several at a time; see `room_transfer`."""
     quantities = [ALL_DERIVATIVES if gradient else PRESSURE] * len(lattices)
     runs = Runs(boxes, faces, lattices, quantities, settings, longest_s)
-    told = together(progress, len(microphones))
+    advance = together(progress, len(microphones))
 
     def one(name: str, position: Array) -> RoomResponse:
-        record = runs.record(name, position, told)
+        record = runs.record(name, position, advance)
         return RoomResponse(record.at(frequency_hz), record.remaining_db)
 
     tasks = [partial(one, name, position) for name, position in microphones.items()]

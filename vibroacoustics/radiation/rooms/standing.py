@@ -63,8 +63,8 @@ def standing(
     side_m = float(np.sqrt(volume_m3 / (top_z_m + shell.centre_of_mass_height_m)))
     half = np.array([side_m / 2.0, side_m / 2.0, 0.0])
     block = Block("body of the machine", _point(foot_m - half), _point(foot_m + half, height_m))
-    with_body, told = _with_body(room, block, spacing_m)
-    return Standing(with_body, foot_m, lower, upper, min(margins.values()), told)
+    with_body, of_body = _with_body(room, block, spacing_m)
+    return Standing(with_body, foot_m, lower, upper, min(margins.values()), of_body)
 
 
 def check_listeners(standing: Standing, listeners: Mapping[str, Array]) -> None:

@@ -42,7 +42,7 @@ def room_map(results: xr.Dataset) -> Figure:
 
     Examples
     --------
-    >>> results = va.open_results("results.nc")
+    >>> results = va.open_results("kitchen.nc")
     >>> va.plot.room_map(results).savefig("room_map.png")
     """
     level, room = results["room_map_level"], parameters(results)["room"]
@@ -101,7 +101,7 @@ def room_seam(results: xr.Dataset, listener: str | None = None) -> Figure:
 
     Examples
     --------
-    >>> results = va.open_results("results.nc")
+    >>> results = va.open_results("kitchen.nc")
     >>> va.plot.room_seam(results).savefig("room_seam.png")
     """
     there = results.sel(listener=chosen(results, "listener", listener))

@@ -49,7 +49,7 @@ def sourced(schema: Schema) -> Schema:
     """A value, bare or as a table with value, source and range."""
     if not _is_value(schema):
         return schema
-    kind = schema.get("type")
+    schema, kind = _of_like_items(schema), schema.get("type")
     table: Schema = {
         "required": ["value", "source"],
         "additionalProperties": False,
@@ -65,6 +65,14 @@ def sourced(schema: Schema) -> Schema:
         return {**schema, "type": [kind, "object"], **table}
     words = {"description": schema["description"]} if "description" in schema else {}
     return {**words, "if": {"type": "object"}, "then": table, "else": table["properties"]["value"]}
+
+
+def _of_like_items(schema: Schema) -> Schema:
+    """A list of a few like items by `items`, which older language servers know, too."""
+    first, *others = schema.get("prefixItems", [None])
+    if first is None or any(one != first for one in others):
+        return schema
+    return {**{key: one for key, one in schema.items() if key != "prefixItems"}, "items": first}
 
 
 SOURCE: Final[Schema] = {"type": "string", "minLength": 1, "description": "Document, or assumed"}

@@ -211,5 +211,5 @@ def _assembled(meridian: Meridian, at_points: Array) -> Any:
     rows, columns = (
         np.broadcast_to(part, by_element.shape) for part in (at[:, :, None], at[:, None])
     )
-    places = rows.ravel(), columns.ravel()
-    return coo_matrix((by_element.ravel(), places), (freedom_count(meridian),) * 2).tocsc()
+    freedoms = rows.ravel(), columns.ravel()
+    return coo_matrix((by_element.ravel(), freedoms), (freedom_count(meridian),) * 2).tocsc()
