@@ -10,8 +10,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support import ROOT, TINY, assert_refused
+from support import ROOT, TINY, assert_refused, command_here
 
+from vibroacoustics.base import registry
 from vibroacoustics.results.storage import open_results
 
 STRANGERS = ROOT / "tests" / "strangers"
@@ -131,23 +132,42 @@ def test_the_report_is_made_again_without_the_files(finished, cache, tmp_path):
     assert (tmp_path / "report.html").read_bytes() == (finished / "report.html").read_bytes()
 
 
-def test_without_the_files_the_study_is_refused(study, cache, tmp_path):
-    outcome = command(cache, "run", study, "--out", tmp_path)
-    assert_refused(outcome, "options.counter-shaft.kind = counter-shaft: unknown", "allowed")
+@pytest.fixture
+def refused(monkeypatch):
+    """Asserts a refusal by the command line of this process, which forgets the strangers again."""
+
+    def refused(words: list[object], *said: str) -> None:
+        modules = set(sys.modules)
+        with monkeypatch.context() as patch:
+            for each in registry._REGISTRIES:
+                len(each)  # fills it
+                patch.setattr(each, "_things", dict(each._things))
+                patch.setattr(each, "_origins", dict(each._origins))
+            outcome = command_here(*words)
+        for name in set(sys.modules) - modules:
+            if name.startswith("plugin_"):
+                del sys.modules[name]
+        assert_refused(outcome, *said)
+
+    return refused
+
+
+def test_without_the_files_the_study_is_refused(study, refused, tmp_path):
+    run = ["run", study, "--out", tmp_path]
+    refused(run, "options.counter-shaft.kind = counter-shaft: unknown", "allowed")
     named = plugins("counter_shaft", "force_table")
-    assert_refused(command(cache, "run", study, "--out", tmp_path, *named), "force_2x_n", "unknown")
+    refused([*run, *named], "force_2x_n", "unknown")
     named = plugins("counter_shaft", "second_order")
-    outcome = command(cache, "run", study, "--out", tmp_path, *named)
-    assert_refused(outcome, "sources.table.kind = force-table: unknown; allowed")
+    refused([*run, *named], "sources.table.kind = force-table: unknown; allowed")
     assert not any(tmp_path.iterdir())
 
 
-def test_refusal_names_key_unit_and_bounds(study, cache, tmp_path):
+def test_refusal_names_key_unit_and_bounds(study, refused, tmp_path):
     wrong = tmp_path / "wrong.toml"
     wrong.write_text(study.read_text().replace("mass_g = { value = 10.0", "mass_g = { value = 2e3"))
     named = plugins("counter_shaft", "second_order", "force_table")
-    outcome = command(cache, "run", wrong, "--out", tmp_path / "out", *named)
-    assert_refused(outcome, "options.counter-shaft.mass_g = 2000.0 g", "above 0 to 1000 g")
+    run = ["run", wrong, "--out", tmp_path / "out", *named]
+    refused(run, "options.counter-shaft.mass_g = 2000.0 g", "above 0 to 1000 g")
 
 
 def test_a_name_that_is_built_in_is_refused(study, cache, tmp_path):
@@ -203,7 +223,7 @@ def rotor_study(folder: Path) -> Path:
     return folder / "study.toml"
 
 
-def test_a_kind_of_machine_runs_to_the_report(cache, tmp_path):
+def test_a_kind_of_machine_runs_to_the_report(cache, refused, tmp_path):
     study = rotor_study(tmp_path)
     named = plugins("lone_rotor")
     outcome = command(cache, "run", study, "--out", tmp_path / "out", *named)
@@ -216,13 +236,12 @@ def test_a_kind_of_machine_runs_to_the_report(cache, tmp_path):
     again = tmp_path / "again"
     shutil.copytree(tmp_path / "out", again)
     assert command(cache, "report", again / "results.nc").returncode == 0
-    refused = command(cache, "run", study, "--out", tmp_path / "no")
-    assert_refused(refused, "machine.kind = lone-rotor: unknown")
+    refused(["run", study, "--out", tmp_path / "no"], "machine.kind = lone-rotor: unknown")
 
 
-def test_a_ring_option_is_refused_on_a_strangers_machine(cache, tmp_path):
+def test_a_ring_option_is_refused_on_a_strangers_machine(refused, tmp_path):
     study = rotor_study(tmp_path)
     ring = '[options.damped]\nkind = "ring-damping"\ndamping_ns_per_m = 5.0\n\n[receivers.'
     study.write_text(study.read_text().replace("[receivers.", ring, 1))
-    outcome = command(cache, "run", study, *plugins("lone_rotor"))
-    assert_refused(outcome, "options.damped.kind = ring-damping: needs an Oldham ring; the machine")
+    words = "options.damped.kind = ring-damping: needs an Oldham ring; the machine"
+    refused(["run", study, *plugins("lone_rotor")], words)

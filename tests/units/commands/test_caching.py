@@ -1,16 +1,30 @@
 """`vibroacoustics cache`, `--no-cache` and what `score`, `report` and `doctor` say of a folder."""
 
+import base64
 import json
 import os
 from pathlib import Path
 
 import pytest
 import xarray as xr
-from support import TINY, assert_refused, command_here, tiny_run
+from support import ROOT, TINY, assert_refused, command_here, tiny_run
 
 from vibroacoustics import open_results, write_report
 from vibroacoustics.base.hashing import sha256
 from vibroacoustics.results import cache, storage
+
+PIXEL = base64.b64decode(
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="
+)
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch) -> None:
+    """Figures of one pixel, not laid out."""
+    monkeypatch.setattr(
+        "matplotlib.figure.Figure.savefig", lambda _, content, **__: content.write(PIXEL)
+    )
+    monkeypatch.setattr("matplotlib.layout_engine.ConstrainedLayoutEngine.execute", lambda *_: None)
 
 
 @pytest.fixture
@@ -55,8 +69,17 @@ def test_bad_limits(folder, tmp_path, monkeypatch):
     assert_refused(command_here("cache", "--limit", "1"), "cannot be written")
 
 
-def test_no_cache(folder, tmp_path):
-    outcome = command_here("radiation", TINY, "--no-cache", "--out", tmp_path / "out")
+@pytest.fixture
+def study(tmp_path) -> Path:
+    """The tiny study, its room in closed form."""
+    text = TINY.read_text().replace("../../data", str(ROOT / "data"))
+    file = tmp_path / "study.toml"
+    file.write_text(text.replace("[radiation]\n", '[radiation]\nroom_solver = "closed-form"\n'))
+    return file
+
+
+def test_no_cache(folder, study, tmp_path):
+    outcome = command_here("radiation", study, "--no-cache", "--out", tmp_path / "out")
     assert (outcome.returncode, outcome.stderr) == (0, "")
     assert not folder.exists()
     assert (
@@ -71,10 +94,10 @@ def test_a_folder_whose_name_is_no_utf_8(tmp_path):
     assert_refused(outcome, "the name is no UTF-8")
 
 
-def test_a_cache_that_cannot_be_written_costs_one_line(tmp_path, monkeypatch):
+def test_a_cache_that_cannot_be_written_costs_one_line(study, tmp_path, monkeypatch):
     (tmp_path / "file").write_text("in the way")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
-    outcome = command_here("radiation", TINY, "--out", tmp_path / "out")
+    outcome = command_here("radiation", study, "--out", tmp_path / "out")
     assert outcome.returncode == 0
     (line,) = outcome.stderr.splitlines()
     assert line.startswith("warning: cache ")

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from support import ROOT, assert_refused, command
+from support import ROOT, assert_refused, command, command_here
 
 SMALL = ROOT / "tests" / "studies" / "small.toml"
 CSV_COLUMNS = (
@@ -19,6 +19,12 @@ CSV_COLUMNS = (
 @pytest.fixture(scope="module")
 def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("cache")
+
+
+@pytest.fixture
+def here(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Commands of this process take the cache of the module, as those of their own do."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(cache))
 
 
 @pytest.fixture(scope="module")
@@ -80,9 +86,10 @@ def test_level_of_the_line_is_that_of_fine_grids(finished: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("here")
 def test_second_run_takes_the_cache(finished: Path, cache: Path, tmp_path: Path) -> None:
-    again = command("run", SMALL, "--out", tmp_path, cache=cache)
-    assert again.returncode == 0
+    again = command_here("run", SMALL, "--out", tmp_path)
+    assert again.returncode == 0, again.stderr
     first = (finished / "comparison.csv").read_bytes()
     assert (tmp_path / "comparison.csv").read_bytes() == first
     assert len(list((cache / "vibroacoustics").glob("*.nc"))) == 1
@@ -105,24 +112,24 @@ def test_report_is_rebuilt_without_kwave(finished: Path, cache: Path, tmp_path: 
 
 
 @pytest.mark.slow
-def test_score_prints_the_ranking(finished: Path, cache: Path, tmp_path: Path) -> None:
-    stored = command("score", finished / "results.nc", "--out", tmp_path, cache=cache)
-    assert stored.returncode == 0
+def test_score_prints_the_ranking(finished: Path, tmp_path: Path) -> None:
+    stored = command_here("score", finished / "results.nc", "--out", tmp_path)
+    assert stored.returncode == 0, stored.stderr
     assert stored.stdout.splitlines()[1].split()[0] == "1"
     assert (tmp_path / "scores.csv").read_bytes() == (finished / "scores.csv").read_bytes()
 
 
 @pytest.mark.slow
-def test_damaged_results_are_refused(finished: Path, cache: Path, tmp_path: Path) -> None:
+def test_damaged_results_are_refused(finished: Path, tmp_path: Path) -> None:
     content = bytearray((finished / "results.nc").read_bytes())
     content[len(content) // 2] ^= 0xFF
     (tmp_path / "results.nc").write_bytes(content)
-    assert_refused(command("report", tmp_path / "results.nc", cache=cache), "hash")
+    assert_refused(command_here("report", tmp_path / "results.nc"), "hash")
     assert not (tmp_path / "report.html").exists()
 
 
-def test_schema_writes_what_is_shipped(cache: Path, tmp_path: Path) -> None:
-    outcome = command("schema", "--out", tmp_path / "schemas", cache=cache)
+def test_schema_writes_what_is_shipped(tmp_path: Path) -> None:
+    outcome = command_here("schema", "--out", tmp_path / "schemas")
     assert outcome.returncode == 0, outcome.stderr
     for name in ("study.json", "machine.json"):
         assert f"#:schema {tmp_path / 'schemas' / name}\n" in outcome.stdout
@@ -174,9 +181,7 @@ def test_doctor(cache: Path) -> None:
         ),
     ],
 )
-def test_bad_studies(
-    old: str, new: str, words: list[str] | None, cache: Path, tmp_path: Path
-) -> None:
+def test_bad_studies(old: str, new: str, words: list[str] | None, tmp_path: Path) -> None:
     """One clear line, exit code 2, no traceback, nothing written."""
     text = SMALL.read_text().replace("../../pipelines", str(ROOT / "pipelines"))
     if words is None:  # a room of 19 m at the finest spacing: larger than any memory
@@ -185,15 +190,15 @@ def test_bad_studies(
         words = ["room_spacing_mm", "GiB"]
     study = tmp_path / "bad.toml"
     study.write_text(text.replace(old, new))
-    outcome = command("run", study, "--out", tmp_path / "out", cache=cache)
+    outcome = command_here("run", study, "--out", tmp_path / "out")
     assert_refused(outcome, "bad.toml", *words)
     assert not (tmp_path / "out").exists()
 
 
-def test_output_that_cannot_be_written(cache: Path, tmp_path: Path) -> None:
+def test_output_that_cannot_be_written(tmp_path: Path) -> None:
     """Refused before anything is computed."""
     (tmp_path / "file").write_text("")
-    outcome = command("run", SMALL, "--out", tmp_path / "file" / "out", cache=cache)
+    outcome = command_here("run", SMALL, "--out", tmp_path / "file" / "out")
     assert_refused(outcome, "file/out", "cannot be written")
 
 
@@ -202,10 +207,11 @@ def test_cache_file_is_no_result(finished: Path, cache: Path) -> None:
     """A file of the cache has a hash and is netCDF, but no run."""
     (cached,) = (cache / "vibroacoustics").glob("*.nc")
     for name in ("report", "score"):
-        assert_refused(command(name, cached, cache=cache), cached.name, "schema_version")
+        assert_refused(command_here(name, cached), cached.name, "schema_version")
 
 
 def test_missing_study(cache: Path, tmp_path: Path) -> None:
+    """In a process of its own; the other refusals are the same `main` in this one."""
     assert_refused(command("run", tmp_path / "none.toml", cache=cache), "none.toml", "no such file")
 
 

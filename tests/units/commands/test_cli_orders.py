@@ -27,11 +27,6 @@ RECORDING = label_recording(
 
 
 @pytest.fixture(scope="module")
-def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp("cache")
-
-
-@pytest.fixture(scope="module")
 def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
     file = tmp_path_factory.mktemp("recording") / "machine.csv"
     file.write_bytes(csv_bytes(RECORDING))
@@ -39,10 +34,10 @@ def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def analysed(recording: Path, cache: Path) -> Path:
+def analysed(recording: Path) -> Path:
     """Folder of an analysis with everything that can be drawn."""
     out = recording.parent / "out"
-    outcome = command("orders", recording, "--speed", "tacho", "--map", "--out", out, cache=cache)
+    outcome = command_here("orders", recording, "--speed", "tacho", "--map", "--out", out)
     assert outcome.returncode == 0, outcome.stderr
     assert outcome.stderr == ""
     assert f"orders: {out / 'orders.nc'}" in outcome.stdout
@@ -112,9 +107,9 @@ def test_wav_with_units_and_calibration(tmp_path: Path) -> None:
     assert results["calibration_factor"].item() == 2.0
 
 
-def test_a_real_recording_without_a_tacho(cache: Path, tmp_path: Path) -> None:
+def test_a_real_recording_without_a_tacho(tmp_path: Path) -> None:
     """Vibration of a motor whose speed is not known: the warning says how little is known."""
-    outcome = command("orders", MOTOR, "--tacholess", 500, 6000, "--out", tmp_path, cache=cache)
+    outcome = command_here("orders", MOTOR, "--tacholess", 500, 6000, "--out", tmp_path)
     assert outcome.returncode == 0, outcome.stderr
     (line,) = outcome.stderr.splitlines()
     assert line.startswith("warning: the speed found, ")
@@ -126,11 +121,11 @@ def test_a_real_recording_without_a_tacho(cache: Path, tmp_path: Path) -> None:
     assert np.all(np.isfinite(results["channel_order_rms"]))
 
 
-def test_compare_study_with_recording(analysed: Path, cache: Path, tmp_path: Path) -> None:
+def test_compare_study_with_recording(analysed: Path, tmp_path: Path) -> None:
     study = write_results(tiny_run(), tmp_path / "study" / "results.nc")
-    outcome = command(
+    outcome = command_here(
         "compare", study, analysed / "orders.nc", "--pair", "acceleration tx=shell",
-        "--option", "counterweight-half", "--out", tmp_path / "out", cache=cache,
+        "--option", "counterweight-half", "--out", tmp_path / "out",
     )  # fmt: skip
     assert outcome.returncode == 0, outcome.stderr
     assert outcome.stderr == ""
@@ -276,11 +271,11 @@ def test_bad_recordings(name: str, tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == [file]
 
 
-def test_a_refusal_is_no_traceback(cache: Path, tmp_path: Path) -> None:
+def test_a_refusal_is_no_traceback(tmp_path: Path) -> None:
     """In a process of its own; the other refusals are the same `main` in this one."""
     empty = tmp_path / "empty.csv"
     empty.write_bytes(b"")
-    assert_refused(command("orders", empty, "--rpm", 2900, cache=cache), "empty.csv: is empty")
+    assert_refused(command("orders", empty, "--rpm", 2900, cache=tmp_path), "empty.csv: is empty")
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,7 @@ TIME = r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d "
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Made-up radiation and figures of one pixel."""
+    """Made-up radiation and figures of one pixel, not laid out."""
     monkeypatch.setattr(
         pipeline,
         "run",
@@ -33,6 +33,7 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
         "matplotlib.figure.Figure.savefig", lambda _, content, **__: content.write(PIXEL)
     )
+    monkeypatch.setattr("matplotlib.layout_engine.ConstrainedLayoutEngine.execute", lambda *_: None)
 
 
 def a_study(folder: Path, name: str, *changes: tuple[str, str]) -> Path:

@@ -201,7 +201,9 @@ def driven(folder) -> xr.Dataset:
     )
 
 
-@pytest.mark.parametrize(("speed", "supply"), [(2600.0, 45.0), (3500.0, 60.0)])
+@pytest.mark.parametrize(
+    ("speed", "supply"), [pytest.param(2600.0, 45.0, marks=pytest.mark.long), (3500.0, 60.0)]
+)
 def test_sources_at_few_speeds_agree_with_the_same_in_a_list(folder, driven, speed, supply):
     study = sources_at(
         folder,

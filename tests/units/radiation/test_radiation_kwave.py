@@ -47,8 +47,8 @@ def simulated(box, microphone, mirrors=(FLOOR,), spacing_m=0.03, maximum_hz=2500
         ((0.2, -0.6, 0.2), (FLOOR,)),
         pytest.param((0.05, -0.05, 0.6), (FLOOR,), marks=pytest.mark.long),
         pytest.param((0.2, 0.45, 0.21), (FLOOR, WALL), marks=pytest.mark.long),
-        ((0.2, -0.43, 0.21), (FLOOR, WALL, SIDE_WALL)),
-        ((0.2, -0.43, 0.21), (FLOOR, WALL, SOFT_WALL)),
+        pytest.param((0.2, -0.43, 0.21), (FLOOR, WALL, SIDE_WALL), marks=pytest.mark.long),
+        pytest.param((0.2, -0.43, 0.21), (FLOOR, WALL, SOFT_WALL), marks=pytest.mark.long),
     ],
     ids=["free-field", "floor", "floor-above-the-box", "wall", "corner", "soft-corner"],
 )
@@ -148,25 +148,27 @@ def mirrored(node, walls):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "walls",
+    ("walls", "less"),
     [
-        pytest.param([], marks=pytest.mark.long),
-        pytest.param([(2, 37)], marks=pytest.mark.long),
-        [(2, 37), (0, 40), (1, 36)],
+        pytest.param([], 0, marks=pytest.mark.long),
+        pytest.param([(2, 37)], 0, marks=pytest.mark.long),
+        pytest.param([(2, 37), (0, 40), (1, 36)], 0, marks=pytest.mark.long),
+        ([(2, 27), (0, 30), (1, 26)], 10),
     ],
-    ids=["free-field", "floor", "corner"],
+    ids=["free-field", "floor", "corner", "corner-of-a-small-room"],
 )
-def test_source_and_microphone_change_places(walls):
+def test_source_and_microphone_change_places(walls, less):
     """Reciprocity to 1e-6 of the largest pressure.
 
     It is not exact: in the absorbing layer the k-space correction does not commute with the
     layer's factors. Measured: 6e-9 in free field, 3e-7 in the corner.
     """
-    here, there = (44, 42, 45), (42, 37, 39)
+    here, there = (44 - less, 42 - less, 45 - less), (42 - less, 37 - less, 39 - less)
+    shape = (80 - 2 * less, 72 - 2 * less, 75 - 2 * less)
     pressures = []
     for source, receiver in ((here, there), (there, here)):
         nodes = mirrored(source, walls)
-        grid = room((80, 72, 75), nodes, [1.0] * len(nodes))
+        grid = room(shape, nodes, [1.0] * len(nodes))
         node = tuple(slice(index, index + 1) for index in receiver)
         with closing(kwave.build_engine(grid, pulse_of(grid), 150, 2, np.float64)) as engine:
             pressures.append(

@@ -306,26 +306,30 @@ def test_what_a_killed_writer_left_goes_with_the_next(results, tmp_path):
     assert_only_the_old(results, tmp_path)
 
 
-def test_readers_beside_a_writer_and_four_writers(results, tmp_path):
+@pytest.mark.parametrize(
+    ("names", "rounds"), [("ab", 3), pytest.param("abcd", 6, marks=pytest.mark.long)]
+)
+def test_readers_beside_several_writers(names, rounds, results, tmp_path):
     """No reader is refused, and in the end one of the writers' results lies there."""
     path = storage.write_results(results, tmp_path / "results.nc")
     script = """
         import sys
         from vibroacoustics.results import storage
-        path, title = sys.argv[1:]
+        path, rounds, title = sys.argv[1:]
         results = storage.open_results(path)
-        for number in range(6):
+        for number in range(int(rounds)):
             storage.write_results(results.assign_attrs(title=title), path)
     """
     command = [sys.executable, "-W", "ignore", "-c", textwrap.dedent(script), path]
-    writers = [subprocess.Popen([*command, name], stderr=subprocess.PIPE) for name in "abcd"]
+    command.append(str(rounds))
+    writers = [subprocess.Popen([*command, name], stderr=subprocess.PIPE) for name in names]
     reads = 0
     while any(writer.poll() is None for writer in writers):
         storage.open_results(path)
         reads += 1
-    assert [writer.communicate()[1] for writer in writers] == [b""] * 4
+    assert [writer.communicate()[1] for writer in writers] == [b""] * len(names)
     assert reads > 10
-    assert storage.open_results(path).attrs["title"] in "abcd"
+    assert storage.open_results(path).attrs["title"] in names
     assert [item.name for item in tmp_path.iterdir()] == ["results.nc"]
 
 
