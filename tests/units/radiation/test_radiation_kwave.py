@@ -148,27 +148,25 @@ def mirrored(node, walls):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("walls", "less"),
+    "walls",
     [
-        pytest.param([], 0, marks=pytest.mark.long),
-        pytest.param([(2, 37)], 0, marks=pytest.mark.long),
-        pytest.param([(2, 37), (0, 40), (1, 36)], 0, marks=pytest.mark.long),
-        ([(2, 27), (0, 30), (1, 26)], 10),
+        pytest.param([], marks=pytest.mark.long),
+        pytest.param([(2, 37)], marks=pytest.mark.long),
+        [(2, 37), (0, 40), (1, 36)],
     ],
-    ids=["free-field", "floor", "corner", "corner-of-a-small-room"],
+    ids=["free-field", "floor", "corner"],
 )
-def test_source_and_microphone_change_places(walls, less):
+def test_source_and_microphone_change_places(walls):
     """Reciprocity to 1e-6 of the largest pressure.
 
     It is not exact: in the absorbing layer the k-space correction does not commute with the
     layer's factors. Measured: 6e-9 in free field, 3e-7 in the corner.
     """
-    here, there = (44 - less, 42 - less, 45 - less), (42 - less, 37 - less, 39 - less)
-    shape = (80 - 2 * less, 72 - 2 * less, 75 - 2 * less)
+    here, there = (44, 42, 45), (42, 37, 39)
     pressures = []
     for source, receiver in ((here, there), (there, here)):
         nodes = mirrored(source, walls)
-        grid = room(shape, nodes, [1.0] * len(nodes))
+        grid = room((80, 72, 75), nodes, [1.0] * len(nodes))
         node = tuple(slice(index, index + 1) for index in receiver)
         with closing(kwave.build_engine(grid, pulse_of(grid), 150, 2, np.float64)) as engine:
             pressures.append(

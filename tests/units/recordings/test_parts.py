@@ -44,7 +44,7 @@ def long_hdf5(path, stored_s, rate_hz=RATE_HZ, duration_s=3600.0, channels=16):
 
 
 @pytest.mark.parametrize("seconds", [10, pytest.param(60, marks=pytest.mark.long)])
-def test_up_to_a_minute_of_22_gib(seconds, tmp_path):
+def test_a_minute_of_22_gib(seconds, tmp_path):
     end = 600 + seconds
     path = long_hdf5(tmp_path / "a.h5", (600, end))
     claimed = 16 * 3600 * 51200 * 8
