@@ -5,11 +5,17 @@ from typing import Final
 REFERENCE_PRESSURE_PA: Final = 20e-6
 """Reference sound pressure, Pa (ISO 1683)."""
 
+REFERENCE_POWER_W: Final = 1e-12
+"""Reference sound power, W (ISO 1683)."""
+
 SPEED_OF_SOUND_M_PER_S: Final = 343.0
 """Speed of sound in dry air at 20 °C, m/s (ISO 9613-1: 343.2)."""
 
 AIR_DENSITY_KG_PER_M3: Final = 1.2
 """Density of air at 20 °C and 101.325 kPa, kg/m³ (ISO 9613-1: 1.204)."""
+
+AIR_IMPEDANCE_PA_S_PER_M: Final = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S
+"""Density times speed of sound of air, Pa s/m."""
 
 STANDARD_GRAVITY_M_PER_S2: Final = 9.80665
 """Standard acceleration of free fall, m/s² (ISO 80000-3)."""

@@ -7,14 +7,13 @@ from typing import Final
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
-from ..base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from ..base.constants import AIR_IMPEDANCE_PA_S_PER_M
 from ..mechanics.received_sound import ReceivedSound
 from .bands import Band
 from .by_source import membership, weighting_power
 from .measured_points import BASELINE_BANDS
 from .sound_power import hemisphere_area_m2
 
-IMPEDANCE: Final = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S
 LINES_OF_BAND: Final = 24
 """Frequencies that stand for a third octave."""
 LOWEST_HZ: Final = 1.0
@@ -49,7 +48,7 @@ class RoomWays:
         """
         area = hemisphere_area_m2(self.radius_m)
         mean: Array = mean_square[..., self.listeners :, :].mean(axis=-2)
-        return mean * area / IMPEDANCE
+        return mean * area / AIR_IMPEDANCE_PA_S_PER_M
 
     def at_listeners(self, mean_square: Array, frequency_hz: Array) -> Array:
         """Mean squares at the listeners, shape (..., listener, frequency), Pa².
@@ -120,7 +119,7 @@ def power_of_hemisphere(mean_square: Array, distance_m: float) -> Array:
     mean_square : at the distance, Pa²
     distance_m : from the foot of its axis
     """
-    return np.asarray(mean_square * hemisphere_area_m2(distance_m) / IMPEDANCE)
+    return np.asarray(mean_square * hemisphere_area_m2(distance_m) / AIR_IMPEDANCE_PA_S_PER_M)
 
 
 def wave_gains(

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
+from ..base.constants import REFERENCE_POWER_W
 from ..base.decibel import energy_sum, level_of_power, power_of_level
 from ..base.quantiles import weighted_quantiles
 from ..base.vocabulary import check, stamp
@@ -19,7 +20,6 @@ from .measured_points import BASELINE_BANDS, MIDDLE_HZ
 from .room_rest import beside_model
 from .structure_borne import weight_of
 
-REFERENCE_POWER_W: Final = 1e-12
 BAND_SHARES: Final = {"low": 0.05, "middle": 0.5, "high": 0.95}
 
 

@@ -6,24 +6,24 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
-from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.constants import REFERENCE_POWER_W, REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level, power_of_level
 from ..base.vocabulary import check, stamp
 from .by_source import weighting_power
+from .in_room import frequencies_of
 from .measured_points import BASELINE_BANDS, MIDDLE_HZ
-from .room_levels import REFERENCE_POWER_W
 
 LOWEST_HZ: Final = 31.5
 """Lowest third octave of a map."""
 
 
-def map_bands_hz() -> list[tuple[float, float, float]]:
-    """Lower end, nominal middle and upper end of the bands of a map, however high."""
-    return [
-        (band.lower_hz, band.nominal_hz, band.upper_hz)
+def map_bands_hz() -> dict[float, Array]:
+    """Frequencies that stand for each band of a map, however high, by its nominal middle."""
+    return {
+        band.nominal_hz: frequencies_of(band)
         for band in BASELINE_BANDS
         if band.nominal_hz >= LOWEST_HZ
-    ]
+    }
 
 
 def map_level(gain: xr.DataArray, power_w: Array, speed_rpm: float, height_m: float) -> xr.Dataset:

@@ -6,12 +6,11 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array, IndexArray
-from ..base.constants import REFERENCE_PRESSURE_PA
-from ..base.decibel import mean_square_level, power_of_level
+from ..base.constants import REFERENCE_POWER_W, REFERENCE_PRESSURE_PA
+from ..base.decibel import mean_square_level
 from ..base.vocabulary import check, stamp
 from .in_room import ROUNDED
 from .measured_points import BASELINE_BANDS, MIDDLE_HZ
-from .room_levels import REFERENCE_POWER_W
 
 
 def shown_bands(between_hz: tuple[float, float]) -> IndexArray:
@@ -35,14 +34,15 @@ def seam_variables(
     listeners : their names
     shown : numbers of the bands
     waves : mean square per power, shape (listener, shown band), Pa²/W
-    diffuse : the same by direct sound and diffuse field, without the gain of the place
-    gains_db : which the diffuse field takes over, of the bands and of all above
+    diffuse : the same by direct sound and diffuse field of the power in the open
+    gains_db : which the diffuse field takes over, of the bands and of all above; no part of the
+        curves, whose mean difference over the listeners they are
     """
     bands = {"seam_band": [BASELINE_BANDS[number].nominal_hz for number in shown]}
     coords = {"listener": list(listeners), **bands}
     by_waves, by_power = (
         mean_square_level(each * REFERENCE_POWER_W, REFERENCE_PRESSURE_PA)
-        for each in (waves, power_of_level(gains_db[:-1]) * diffuse)
+        for each in (waves, diffuse)
     )
     arrays = {
         "room_gain_waves": stamp("room_gain_waves", by_waves, coords),

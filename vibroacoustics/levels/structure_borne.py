@@ -8,11 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
-from ..base.constants import (
-    AIR_DENSITY_KG_PER_M3,
-    REFERENCE_PRESSURE_PA,
-    SPEED_OF_SOUND_M_PER_S,
-)
+from ..base.constants import AIR_IMPEDANCE_PA_S_PER_M, REFERENCE_PRESSURE_PA
 from ..base.decibel import energy_sum, mean_square_level
 from ..base.vocabulary import WEIGHTINGS, check, stamp
 from .by_source import weighting_power
@@ -46,7 +42,7 @@ def mean_square_per_power(distance_m: Array, absorption_area_m2: float | None) -
     """
     diffuse = 0.0 if absorption_area_m2 is None else 4.0 / absorption_area_m2
     direct = 1.0 / (2.0 * np.pi * np.asarray(distance_m, dtype=float) ** 2)
-    return np.asarray(AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S * (direct + diffuse))
+    return np.asarray(AIR_IMPEDANCE_PA_S_PER_M * (direct + diffuse))
 
 
 def structure_borne_variables(

@@ -130,7 +130,7 @@ def _room(study: Study, path: ShellPath | None) -> list[Cost]:
     material = room_key(study, settings, _modes(path))
     if is_cached("room-vectors", material):
         return []
-    return [room_cost(settings)]
+    return [room_cost(study, settings)]
 
 
 def _made_up(study: Study, path: ShellPath | None) -> Radiation:

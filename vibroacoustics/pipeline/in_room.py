@@ -107,15 +107,13 @@ def _by_air(
 ) -> AirInRoom:
     received = transmission.received(motion.cases, motion.loads)
     sound = {key: room_sound(one, ways) for key, one in received.items()}
-    microphone = study.receivers[study.catalogue_receiver]
-    away_m = float(np.linalg.norm([microphone.x_m, microphone.y_m, microphone.height_m]))
     return AirInRoom.of(
         sound,
         list(study.operation.speed_rpm),
         list(study.options),
         rest_in_bands(motion.results, study.catalogue_receiver),
         blended_gains(waves, ways)[0],
-        away_m,
+        study.receivers[study.catalogue_receiver].distance_m,
     )
 
 
@@ -146,7 +144,7 @@ def _map(study: Study, settings: StudyRoom, air: AirInRoom, progress: Progress) 
     above_m, bands = float(at[2] - settings.standing_height_m), map_bands_hz()
     gains, _ = storage.cached(
         "room-plane",
-        {**rooms.room_key(study, settings, ()), "plane": [height_m, *map(list, bands)]},
+        {**rooms.room_key(study, settings, ()), "plane": [height_m, *map(list, bands.values())]},
         lambda: plane_gains(
             rooms.room_of(settings), at, above_m, height_m, bands, settings.maximum_frequency_hz,
             progress,

@@ -50,9 +50,10 @@ def structure_borne_sound(study: Study, motion: Motion, levels: xr.Dataset) -> x
             force = foot_force(case, loads, at["foot_force_order"], names)
             row = np.nan_to_num(frequency_hz[s])
             _of_case(settings, on_mounts(case.machine), force, row, sound, (s, o))
+    away_m = np.array([one.distance_m for one in study.receivers.values()])
     return structure_borne_variables(
         sound,
-        mean_square_per_power(_distances(study), settings.absorption_area_m2),
+        mean_square_per_power(away_m, settings.absorption_area_m2),
         frequency_hz,
         _spread(settings, sound, frequency_hz),
         levels["level_total"],
@@ -160,9 +161,3 @@ def _spread(
         "line": level_range(sound.variance, settings.deviation_db),
         "total": level_range(variance, settings.deviation_db),
     }
-
-
-def _distances(study: Study) -> Array:
-    """From the middle of the machine's footprint on the plate to the microphones, m."""
-    points = [[one.x_m, one.y_m, one.height_m] for one in study.receivers.values()]
-    return np.asarray(np.linalg.norm(points, axis=1))

@@ -21,7 +21,7 @@ from typing import Any, Final, Protocol
 
 import numpy as np
 
-from ..base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from ..base.constants import AIR_DENSITY_KG_PER_M3, AIR_IMPEDANCE_PA_S_PER_M, SPEED_OF_SOUND_M_PER_S
 from ..base.errors import SolverError
 from . import device
 from .arrays import Array
@@ -143,11 +143,9 @@ def pressure_source(grid: RoomGrid, volume_velocity: Array) -> PressureSource:
     adds p 2 c dt/(3 d) to the part of each axis of spacing d: so
     p = 3 rho c Q/(2 dx dy dz (1/dx + 1/dy + 1/dz)), which is rho c Q/(2 dx²) on a cubic grid.
     """
-    impedance = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S
     area = 2.0 / 3.0 * np.prod(grid.spacing_m) * np.sum(1.0 / grid.spacing_m)
-    return PressureSource(
-        grid.source_nodes, grid.source_strengths, impedance / area * volume_velocity
-    )
+    pressure = AIR_IMPEDANCE_PA_S_PER_M / area * volume_velocity
+    return PressureSource(grid.source_nodes, grid.source_strengths, pressure)
 
 
 def axis_operators(grid: RoomGrid) -> list[AxisOperators]:

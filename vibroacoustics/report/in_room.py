@@ -2,7 +2,6 @@
 
 from typing import Final
 
-import numpy as np
 import xarray as xr
 
 from ..base import rounding
@@ -68,7 +67,7 @@ def room_table(results: xr.Dataset, listener: str) -> Table:
 
 
 def seam_table(results: xr.Dataset) -> Table:
-    """Waves less diffuse field at every listener, in third octaves."""
+    """Waves less diffuse field of the power in the open at every listener, in third octaves."""
     bands = results["seam_band"].values
     difference = results["room_gain_difference"]
     rows = tuple(
@@ -77,33 +76,35 @@ def seam_table(results: xr.Dataset) -> Table:
     )
     head = ("Listener", *(f"{band:g} Hz" for band in bands))
     gain = results["room_place_gain"].values
-    gains = ("gain of the place", *(rounding.signed(float(one)) for one in gain))
-    return Table("Waves less diffuse field, dB", head, (*rows, gains))
+    gains = ("mean, for the gain of the place", *(rounding.signed(float(one)) for one in gain))
+    return Table("Waves less diffuse field of the power in the open, dB", head, (*rows, gains))
 
 
 def seam_sentence(results: xr.Dataset) -> str:
-    """Where the two methods differ by more than is to be passed over."""
-    off = [
+    """Where the two methods differ by more than is to be passed over, and what follows of it."""
+    difference, gain = results["room_gain_difference"], results["room_place_gain"]
+    on_average = [
+        f"{band:g} Hz ({rounding.signed(float(gain.sel(seam_band=band)))} dB)"
+        for band in gain["seam_band"].values
+        if abs(float(gain.sel(seam_band=band))) > SEAM_DB
+    ]
+    alone = [
         f"{name} {band:g} Hz ({rounding.signed(float(value))} dB)"
         for name in listeners(results)
         for band, value in zip(
-            results["seam_band"].values,
-            results["room_gain_difference"].sel(listener=name).values,
-            strict=True,
+            gain["seam_band"].values, (difference - gain).sel(listener=name).values, strict=True
         )
         if abs(value) > SEAM_DB
     ]
-    low, high = (
-        rounding.signed(float(results["room_place_gain"].reduce(end))) for end in (np.min, np.max)
-    )
     above = rounding.signed(float(results["room_place_gain_above"]))
-    first = (
-        f"The place changes the power of the machine by {low} to {high} dB in these third octaves, "
-        f"the mean over the listeners, which the diffuse field takes over; above, by {above} dB. "
+    none = "no third octave"
+    return (
+        "Waves and the diffuse field of the power in the open differ by more than "
+        f"{SEAM_DB:g} dB, in the mean over {len(listeners(results))} listeners, at "
+        f"{', '.join(on_average) or none}. The mean is taken for what the place does "
+        f"to the machine's power and given to the diffuse field; above the waves {above} dB. "
+        f"From that mean single listeners differ by more at {', '.join(alone) or none}."
     )
-    if not off:
-        return f"{first}Then nowhere do the methods differ by more than {SEAM_DB:g} dB."
-    return f"{first}Then they still differ by more than {SEAM_DB:g} dB at {', '.join(off)}."
 
 
 def power_sentence(results: xr.Dataset) -> str:

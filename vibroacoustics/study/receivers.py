@@ -1,5 +1,7 @@
 """Where the microphones stand."""
 
+from math import hypot
+
 from pydantic import Field
 
 from ..base.parameters import Parameters
@@ -11,3 +13,8 @@ class Receiver(Parameters):
     x_m: float = Field(ge=-20.0, le=20.0)
     y_m: float = Field(ge=-20.0, le=20.0)
     height_m: float = Field(ge=0.0, le=20.0)
+
+    @property
+    def distance_m(self) -> float:
+        """From the foot of the machine's axis on the floor."""
+        return hypot(self.x_m, self.y_m, self.height_m)

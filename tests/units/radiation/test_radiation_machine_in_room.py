@@ -50,8 +50,8 @@ def _kitchen(*blocks):
 @pytest.mark.parametrize(
     ("blocks", "foot", "message"),
     [
-        ((), (2.0, 1.0, 0.5), "room.machine: its foot is at a height of 500 mm: must be on"),
-        ((Block("b", (1, 1, 0), (2, 2, 1)),), (1.5, 1.5, 0.0), "room.machine: meets room.blocks.b"),
+        ((), (2.0, 1.0, 0.5), "room.foot_mm: its foot is at a height of 500 mm: must be on"),
+        ((Block("b", (1, 1, 0), (2, 2, 1)),), (1.5, 1.5, 0.0), "foot_mm: meets room.furniture.b"),
         ((), (0.09, 1.0, 0.0), "leaves 7.5 mm between .* towards -x; needed at least 30 mm"),
         ((Block("b", (1, 1, 0.45), (2, 2, 1)),), (1.5, 1.5, 0.0), "leaves 8 mm .* towards \\+z"),
         ((Block("b", (1, 1, 0), (2, 2, 1)),), (1.5, 1.9, 1.0), "leaves 17.5 mm .* towards \\+y"),
@@ -66,7 +66,7 @@ def test_machines_that_cannot_stand_are_refused(blocks, foot, message):
     ("change", "message"),
     [
         ({"body": BoxBody(kind="box", length_m=0.2, width_m=0.2, height_m=0.3)}, 'kind = "box"'),
-        ({}, "receivers.near: stands within 100 mm of the machine"),
+        ({}, "room.listeners.near: stands within 100 mm of the machine"),
         ({"maximum_frequency_hz": 1500.0}, "room.maximum_frequency_hz = 1500 Hz: must be above 0"),
     ],
 )

@@ -62,7 +62,7 @@ def test_absorption_that_no_wall_takes_is_clipped_and_named():
         (lambda: Room((4.0, -3.0, 2.5)), "room.size_m"),
         (
             lambda: Room((4.0, 3.0, 2.5), blocks=(Block("fridge", (0, 0, 0), (5.0, 1.0, 1.0)),)),
-            "room.blocks.fridge: from 0 to 5 m: must rise and lie in the room, 0 to 4 m",
+            "room.furniture.fridge: from 0 to 5 m: must rise and lie in the room, 0 to 4 m",
         ),
         (
             lambda: Room((4.0,) * 3, patches=(Patch("door", "-x", (1.0, 0.0), (1.0, 2.0), HARD),)),
@@ -86,7 +86,7 @@ def test_rooms_that_cannot_be_are_refused(make, message):
 @pytest.mark.parametrize(
     ("microphone", "point", "frequency", "message"),
     [
-        ([5.0, 1.0, 1.0], [1.0, 1.0, 1.0], 100.0, "receivers.m: the point .* outside the room"),
+        ([5.0, 1.0, 1.0], [1.0, 1.0, 1.0], 100.0, "microphones.m: the point .* outside the room"),
         ([0.8, 0.8, 0.8], [2.0, 0.2, 0.2], 100.0, "room: the point .* outside the room"),
         ([0.8, 0.8, 0.8], [0.5, 0.5, 0.5], 300.0, "300 Hz is asked for"),
     ],

@@ -9,7 +9,7 @@ from exact_room import exact_green
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import eigsh
 
-from vibroacoustics.base.constants import SPEED_OF_SOUND_M_PER_S
+from vibroacoustics.base.constants import AIR_IMPEDANCE_PA_S_PER_M, SPEED_OF_SOUND_M_PER_S
 from vibroacoustics.base.decibel import level_of_power
 from vibroacoustics.levels.bands import bands_between
 from vibroacoustics.radiation.rooms import (
@@ -25,6 +25,7 @@ from vibroacoustics.radiation.rooms.cutting import AirBox, cut, faces
 from vibroacoustics.radiation.rooms.impedance import absorption_at_angle, fitted_branches
 from vibroacoustics.radiation.rooms.local_grid import local_grid
 from vibroacoustics.radiation.rooms.local_step import local_transfer
+from vibroacoustics.radiation.rooms.plane import plane_gains
 from vibroacoustics.radiation.rooms.room import SIDES
 from vibroacoustics.radiation.rooms.run import run_all
 from vibroacoustics.radiation.rooms.spacing_error import spacing_error_db
@@ -138,6 +139,29 @@ def test_a_hard_box_has_its_modes_and_no_damping():
 
 def test_six_materials_agree_with_the_exact_room(small_room):
     assert _rms(small_room.error_db([(), (), ()])) <= 0.1
+
+
+def test_a_map_is_the_exact_field_of_a_monopole_of_known_power(small_room):
+    above_m, height_m = 0.2, 0.9
+    bands = {
+        middle: np.linspace(0.9 * middle, 1.11 * middle, 24) for middle in (160.0, 250.0, 400.0)
+    }
+    room, source = small_room.room, np.array([0.5, 0.5, 0.35])
+    gains = plane_gains(room, source, above_m, height_m, bands, 500.0)["room_map_gain"]
+    x, y = (gains[f"room_map_{axis}"].values for axis in "xy")
+    assert x.size * y.size > 50
+    points = np.array([(one, other, height_m) for other in y for one in x])
+    cosine = (np.arange(1000) + 0.5) / 1000
+    for middle, hertz in bands.items():
+        admittance = np.stack([fitted_branches(one).admittance(hertz) for one in SIX], axis=1)
+        green = exact_green(room.size_m, admittance, source, points, hertz, 24)
+        # power through a far hemisphere over a hard floor of a source with p = exp(-jkr)/(4 pi r)
+        k = 2.0 * np.pi * hertz[:, None] / SPEED_OF_SOUND_M_PER_S
+        pair = np.mean((2.0 * np.cos(k * above_m * cosine)) ** 2, axis=1) / (4.0 * np.pi) ** 2
+        power = 2.0 * np.pi * pair / AIR_IMPEDANCE_PA_S_PER_M
+        exact = np.mean(np.abs(green) ** 2 / power[:, None], axis=0) * 1e-12 / 20e-6**2
+        level = gains.sel(seam_band=middle).transpose("room_map_y", "room_map_x").values.ravel()
+        assert _rms(level - level_of_power(exact)) <= 0.1
 
 
 def test_a_needless_cut_into_eight_boxes_changes_little(small_room):

@@ -13,7 +13,7 @@ from .diffuse import (
 from .join_box import JoinBox
 from .lattice import Lattice
 from .local_step import local_transfer
-from .machine_in_room import power_per_mean_square, room_pressure_per_velocity, room_vectors
+from .machine_in_room import room_pressure_per_velocity, room_vectors
 from .materials import HARD, Material, read_library
 from .response import room_transfer
 from .room import Block, Patch, Room
@@ -37,7 +37,6 @@ __all__ = [
     "line_of_sight",
     "local_transfer",
     "mean_square_per_power",
-    "power_per_mean_square",
     "read_library",
     "room_pressure_per_velocity",
     "room_transfer",

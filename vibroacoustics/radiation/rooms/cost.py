@@ -4,12 +4,14 @@ from math import ceil
 from typing import Final
 
 from ...study.room import StudyRoom
+from ...study.study import Study
 from ..cost import Cost, processor_time_s
 from .air import stable_air
 from .cutting import cut, faces
 from .decay import reverberation_time_s
 from .lattice import holding
-from .of_study import listeners_m, room_of
+from .machine_in_room import placed
+from .of_study import foot_m, listeners_m, room_of
 from .settings import RoomSettings
 
 _STEPS: Final = 50
@@ -18,20 +20,30 @@ _LOW: Final = 0.5
 _HIGH: Final = 2.0
 """Points around the machine and over the map are read, too."""
 _MACHINE_S: Final = (3.0, 40.0)
-"""The machine's field on the box around it and on the hemisphere (seen, not derived)."""
+"""The machine's field on the box around it and on the hemisphere: 7 s were measured with the rigid
+motions of a compressor on its floor, some 20 s with the modes of its shell."""
 
 
-def room_cost(settings: StudyRoom) -> Cost:
+def room_cost(study: Study, settings: StudyRoom) -> Cost:
     """A run for each listener and one for the map, and the machine's field.
 
     Parameters
     ----------
+    study : with its machine
     settings : of the room
+
+    Raises
+    ------
+    ParameterError
+        As `room_vectors`.
     """
-    room, waves = room_of(settings), RoomSettings(settings.maximum_frequency_hz)
+    waves, ears = RoomSettings(settings.maximum_frequency_hz), listeners_m(settings)
+    shell, radiation = study.machine.shell, study.radiation
+    _, stands = placed(shell, radiation, room_of(settings), foot_m(settings), ears, waves)
+    room = stands.room
     boxes = cut(room, waves.spacing_m)
     air = stable_air(boxes, faces(room, boxes), waves.longest_step_s)
-    first = next(iter(listeners_m(settings).values()))
+    first = next(iter(ears.values()))
     air.set_source(holding(boxes, first), first)
 
     def some() -> None:

@@ -77,7 +77,7 @@ def cut(room: Room, spacing_m: float, least_nodes: int = 2) -> tuple[AirBox, ...
     for block in room.blocks:
         air &= ~np.all((middles > block.lower) & (middles < block.upper), axis=-1)
     if not air.any():
-        raise ParameterError("room.blocks: leave no air in the room")
+        raise ParameterError("room.furniture: leave no air in the room")
     boxes = []
     for ranges in rectangles(air, lines):
         lower = np.array([line[a] for line, (a, _) in zip(lines, ranges, strict=True)])
@@ -104,7 +104,7 @@ def _check_gap(lower: Array, upper: Array, spacing_m: float, least_nodes: int) -
     least = min(_THIN_M, 0.25 * least_nodes * spacing_m) if least_nodes > 1 else 0.0
     if gap < least:
         raise ParameterError(
-            f"room.blocks: leave air of {1e3 * gap:.3g} mm at {'xyz'[thinnest]} = "
+            f"room.furniture: leave air of {1e3 * gap:.3g} mm at {'xyz'[thinnest]} = "
             f"{lower[thinnest]:.4g} m; needed at least {1e3 * least:.3g} mm: close the gap, widen "
             f"it, or take a smaller spacing"
         )

@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from ...base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from ...base.constants import AIR_IMPEDANCE_PA_S_PER_M
 from ...base.decibel import level_of_power
 from ..arrays import Array
 from .cutting import cut, faces
@@ -83,7 +83,7 @@ def mean_square_per_power(
     distance_m = max(distance_m, _NEAREST_M)
     direct = 1.0 / (2.0 * np.pi * distance_m**2) if in_sight else 0.0
     field = direct + 4.0 / room.constant_m2(frequency_hz)
-    result: Array = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S * field
+    result: Array = AIR_IMPEDANCE_PA_S_PER_M * field
     return result
 
 

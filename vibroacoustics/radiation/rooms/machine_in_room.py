@@ -7,7 +7,6 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from ...base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from ...base.errors import ParameterError
 from ...base.progress import Progress, no_progress
 from ...base.threads import in_threads
@@ -18,7 +17,7 @@ from ..arrangements import hemisphere_positions, reference_box
 from ..arrays import Array, ComplexArray
 from ..band_limited import STENCIL_NODES, interpolation_weights
 from ..patterns import SurfaceMotion, rigid_body, surface_motion
-from ..revolution.profile import shell_profile
+from ..revolution.profile import Profile, shell_profile
 from ..revolution.side import RevolutionSide
 from ..scene import machine_body
 from ..transfer_vectors import frequencies_hz
@@ -89,20 +88,13 @@ def room_vectors(
     SolverError
         The pressure is no finite number.
     """
-    profile = shell_profile(shell, settings.body)
-    if profile is None:
-        raise ParameterError(
-            f'room: radiation.body.kind = "{settings.body.kind}": must be shell or sphere: a '
-            f"machine in a room is computed by boundary elements on its meridian"
-        )
     if not 0.0 < maximum_frequency_hz <= MOST_HZ:
         raise ParameterError(
             f"room.maximum_frequency_hz = {maximum_frequency_hz:g} Hz: must be above 0 and at most "
             f"{MOST_HZ:g} Hz"
         )
     waves = RoomSettings(maximum_frequency_hz)
-    stands = standing(shell, profile, room, foot_m, waves.spacing_m)
-    check_listeners(stands, listeners)
+    profile, stands = placed(shell, settings, room, foot_m, listeners, waves)
     names = [*RIGID_BODY_DOFS, *(motion.name for motion in motions)]
     patterns = [*map(rigid_body, RIGID_BODY_DOFS), *map(surface_motion, motions)]
     highest = max(maximum_frequency_hz, settings.maximum_frequency_hz)
@@ -112,6 +104,35 @@ def room_vectors(
     return check(xr.merge([in_room, open_])).assign_attrs(
         hemisphere_radius_m=radius_m, body_in_room=stands.body_in_room, **attributes
     )
+
+
+def placed(
+    shell: Shell,
+    settings: RadiationSettings,
+    room: Room,
+    foot_m: Array,
+    listeners: Mapping[str, Array],
+    waves: RoomSettings,
+) -> tuple[Profile, Standing]:
+    """Meridian of the body and where it stands, once nothing is left to refuse.
+
+    Raises
+    ------
+    ParameterError
+        As `room_vectors`.
+    """
+    profile = shell_profile(shell, settings.body)
+    if profile is None:
+        raise ParameterError(
+            f'room: radiation.body.kind = "{settings.body.kind}": must be shell or sphere: a '
+            f"machine in a room is computed by boundary elements on its meridian"
+        )
+    stands = standing(shell, profile, room, foot_m, waves.spacing_m)
+    check_listeners(stands, listeners)
+    boxes = cut(stands.room, waves.spacing_m)
+    for name, position in listeners.items():
+        holding(boxes, position, f"room.listeners.{name}")
+    return profile, stands
 
 
 def _in_room(
@@ -126,8 +147,6 @@ def _in_room(
     highest, clearance_m = waves.maximum_frequency_hz, stands.clearance_m
     box = JoinBox(stands.lower, stands.upper, highest, clearance_m, on_floor=True)
     boxes = cut(stands.room, waves.spacing_m)
-    for name, position in listeners.items():
-        holding(boxes, position, f"receivers.{name}")
     quantities = [(-1, axis) for axis in box.axes]
     longest_s = reverberation_time_s(stands.room)
     runs = Runs(boxes, faces(stands.room, boxes), box.lattices, quantities, waves, longest_s)
@@ -187,11 +206,6 @@ def _in_the_open(
         },
     )
     return labelled, radius_m
-
-
-def power_per_mean_square(radius_m: float) -> float:
-    """Sound power over the mean square pressure on a hemisphere, 2 pi r²/(rho c), W/Pa²."""
-    return 2.0 * np.pi * radius_m**2 / (AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S)
 
 
 def room_pressure_per_velocity(vectors: xr.Dataset) -> Callable[[Array], ComplexArray]:

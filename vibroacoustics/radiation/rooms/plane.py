@@ -1,6 +1,6 @@
 """Sound of a monopole over a plane of a room, by waves: a map of where it is loud."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from typing import Final
 
 import numpy as np
@@ -8,7 +8,8 @@ import xarray as xr
 
 from ...base.arrays import Array, IndexArray
 from ...base.constants import (
-    AIR_DENSITY_KG_PER_M3,
+    AIR_IMPEDANCE_PA_S_PER_M,
+    REFERENCE_POWER_W,
     REFERENCE_PRESSURE_PA,
     SPEED_OF_SOUND_M_PER_S,
 )
@@ -22,9 +23,6 @@ from .settings import RoomSettings
 
 LATTICE_M: Final = 0.2
 """Distance of the points of a map at most."""
-_LINES: Final = 24
-"""Frequencies that stand for a band."""
-REFERENCE_POWER_W: Final = 1e-12
 
 
 def plane_gains(
@@ -32,7 +30,7 @@ def plane_gains(
     source_m: Array,
     above_floor_m: float,
     height_m: float,
-    bands_hz: Sequence[tuple[float, float, float]],
+    bands_hz: Mapping[float, Array],
     maximum_frequency_hz: float,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
@@ -47,7 +45,7 @@ def plane_gains(
     source_m : the monopole, shape (3,)
     above_floor_m : height of the monopole over what it stands on
     height_m : of the plane
-    bands_hz : of each band lower end, nominal middle, upper end
+    bands_hz : frequencies that stand for each band, alike in number, by its nominal middle
     maximum_frequency_hz : of the waves; bands beyond it are left out
     progress : told of the advance
 
@@ -55,10 +53,8 @@ def plane_gains(
     -------
     `room_map_gain` (room_map_y, room_map_x, seam_band), dB; not a number in furniture
     """
-    bands = [one for one in bands_hz if one[2] <= maximum_frequency_hz * (1.0 + 1e-3)]
-    frequency = np.concatenate(
-        [low + (np.arange(_LINES) + 0.5) / _LINES * (high - low) for low, _, high in bands]
-    )
+    bands = {name: of for name, of in bands_hz.items() if of.max() <= maximum_frequency_hz}
+    frequency = np.concatenate(list(bands.values()))
     x, y = (_line(size) for size in room.size_m[:2])
     rows = _free_rows(room, x, y, height_m)
     lattices = [Lattice(x[row], y[[j]], np.array([height_m])) for j, row in rows]
@@ -67,14 +63,14 @@ def plane_gains(
         room, lattices, {"map": source_m}, frequency, settings, progress=progress
     )["map"]
     k = 2.0 * np.pi * frequency / SPEED_OF_SOUND_M_PER_S
-    impedance = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S
-    per_power = 4.0 * np.pi * impedance / (1.0 + np.sinc(2.0 * k * above_floor_m / np.pi))
+    over_floor = 1.0 + np.sinc(2.0 * k * above_floor_m / np.pi)
+    per_power = 4.0 * np.pi * AIR_IMPEDANCE_PA_S_PER_M / over_floor
     gain = np.full((y.size, x.size, len(bands)), np.nan)
     for (j, row), value in zip(rows, response.values, strict=True):
         square = np.abs(value[:, 0, :, 0, 0]) ** 2 * per_power[:, None]
-        mean = square.reshape(len(bands), _LINES, -1).mean(axis=1)
+        mean = square.reshape(len(bands), -1, square.shape[1]).mean(axis=1)
         gain[j, row] = mean_square_level(mean.T * REFERENCE_POWER_W, REFERENCE_PRESSURE_PA)
-    coords = {"room_map_y": y, "room_map_x": x, "seam_band": [middle for _, middle, _ in bands]}
+    coords = {"room_map_y": y, "room_map_x": x, "seam_band": list(bands)}
     return check(xr.Dataset({"room_map_gain": stamp("room_map_gain", gain, coords)}))
 
 

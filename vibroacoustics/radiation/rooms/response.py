@@ -55,7 +55,7 @@ def room_transfer(
         )
     boxes = cut(room, settings.spacing_m)
     for name, position in microphones.items():
-        holding(boxes, position, f"receivers.{name}")
+        holding(boxes, position, f"microphones.{name}")
     longest = settings.longest_s or reverberation_time_s(room)
     return run_all(
         boxes, faces(room, boxes), lattices, gradient, microphones, frequency_hz, settings, longest,

@@ -58,7 +58,7 @@ class Room:
         if not all(0.0 < size < np.inf for size in self.size_m):
             raise ParameterError(f"room.size_m = {list(self.size_m)}: must be lengths above 0 m")
         for block in self.blocks:
-            _check(f"room.blocks.{block.name}", block.lower, block.upper, self.size_m)
+            _check(f"room.furniture.{block.name}", block.lower, block.upper, self.size_m)
         for patch in self.patches:
             axis, _ = SIDES[patch.side]
             across = [size for other, size in enumerate(self.size_m) if other != axis]

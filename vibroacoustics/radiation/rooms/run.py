@@ -116,7 +116,7 @@ class Runs:
                 progress(f"room {name}", step, self.steps)
         progress(f"room {name}", self.steps, self.steps)
         if not np.isfinite(decay.remaining_db):
-            raise SolverError(f"receivers.{name}: the room's pressure is no number")
+            raise SolverError(f"room: the pressure of {name} is no number")
         return Record(samples[:taken], self._shapes, self._pulse, self._every, decay.remaining_db)
 
 

@@ -72,7 +72,7 @@ def check_listeners(standing: Standing, listeners: Mapping[str, Array]) -> None:
     for name, position in listeners.items():
         if np.all((position > standing.lower) & (position < standing.upper)):
             raise ParameterError(
-                f"receivers.{name}: stands within {1e3 * standing.clearance_m:.0f} mm of the "
+                f"room.listeners.{name}: stands within {1e3 * standing.clearance_m:.0f} mm of the "
                 f"machine, in the box where its sound is handed to the room"
             )
 
@@ -121,7 +121,7 @@ def _gaps(room: Room, lower: Array, upper: Array) -> dict[tuple[int, int], float
         gap = float(limits[1][axis] - upper[axis] if end else lower[axis] - limits[0][axis])
         if gap < LEAST_GAP_M - 1e-9:
             raise ParameterError(
-                f"room.machine: leaves {1e3 * gap:.4g} mm between the machine and what bounds it "
+                f"room.foot_mm: leaves {1e3 * gap:.4g} mm between the machine and what bounds it "
                 f"towards {'-+'[end]}{'xyz'[axis]}; needed at least {1e3 * LEAST_GAP_M:g} mm"
             )
         gaps[axis, end] = gap
@@ -138,7 +138,7 @@ def _support(room: Room, lower: Array, upper: Array) -> Block | None:
         if under and abs(block.upper[2] - foot_z_m) <= _SAME_LEVEL_M:
             return block
     raise ParameterError(
-        f"room.machine: its foot is at a height of {1e3 * foot_z_m:.4g} mm: must be on the floor, "
+        f"room.foot_mm: its foot is at a height of {1e3 * foot_z_m:.4g} mm: must be on the floor, "
         f"0 mm, or on the top of a block below it"
     )
 
@@ -162,5 +162,5 @@ def _between(block: Block, lower: Array, upper: Array) -> tuple[int, int]:
     }
     side = max(away, key=lambda one: away[one])
     if away[side] < 0.0:
-        raise ParameterError(f"room.machine: meets room.blocks.{block.name}")
+        raise ParameterError(f"room.foot_mm: meets room.furniture.{block.name}")
     return side

@@ -116,7 +116,8 @@ def room_seam(results: xr.Dataset, listener: str | None = None) -> Figure:
         upper.set_title(plain("Level at the listener over the power level"), loc="left")
         lower.axhspan(-2.0, 2.0, color="0.5", alpha=0.2, lw=0)
         lower.plot(band, there["room_gain_difference"], "ko-")
-        lower.set_title("Waves less diffuse field; grey: 2 dB", loc="left")
+        lower.plot(band, there["room_place_gain"], "k--")
+        lower.set_title("Difference and, dashed, its mean over listeners; grey: 2 dB", loc="left")
         lower.set_ylabel("dB")
         lower.set(xlabel="third octave, Hz", xscale="log")
         lower.set_xticks(band, [f"{one:g}" for one in band])
@@ -146,7 +147,7 @@ def room_pictures(results: xr.Dataset, listener: str) -> tuple[Picture, ...]:
             "room_seam",
             "Both methods around the frequencies where one follows the other, and their difference",
             f"{listener}: both methods where one follows the other, of a machine that shakes along "
-            "x, y and z with equal powers.",
+            "x, y and z with equal powers; the diffuse field is that of the power in the open.",
             png(room_seam(results, listener)),
         ),
     )

@@ -10,10 +10,13 @@ import numpy as np
 from scipy.special import j0
 
 from ...base.arrays import Array, ComplexArray
-from ...base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from ...base.constants import (
+    AIR_DENSITY_KG_PER_M3,
+    AIR_IMPEDANCE_PA_S_PER_M,
+    SPEED_OF_SOUND_M_PER_S,
+)
 from .radiation_efficiency import radiation_efficiency
 
-_AIR: Final = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S
 _SIDES: Final = 2.0
 """With air in front of them, which takes energy and loads the plate."""
 _NODES: Final = 48
@@ -51,7 +54,9 @@ class Plate:
         """Loss factor of free bending waves with what both sides radiate: η + 2 ρ c σ/(ω m)."""
         efficiency = radiation_efficiency(frequency_hz, self.coincidence_hz, self.size_m)
         inertia = 2.0 * np.pi * frequency_hz * self.mass_kg_per_m2
-        return np.asarray(self.loss_factor_ratio + _SIDES * _AIR * efficiency / inertia)
+        return np.asarray(
+            self.loss_factor_ratio + _SIDES * AIR_IMPEDANCE_PA_S_PER_M * efficiency / inertia
+        )
 
 
 def input_power(force: ComplexArray, mobility: Array, likeness: Array) -> Array:
@@ -104,7 +109,7 @@ def near_power(plate: Plate, frequency_hz: Array, force: ComplexArray, position_
     """
     u, weight = _rule()
     omega = 2.0 * np.pi * frequency_hz
-    load = _SIDES * _AIR / (omega * plate.mass_kg_per_m2)
+    load = _SIDES * AIR_IMPEDANCE_PA_S_PER_M / (omega * plate.mass_kg_per_m2)
     ratio = (frequency_hz / plate.coincidence_hz)[:, None]
     stiff = u * (1.0 - ratio**2 * (1.0 - u**2) ** 2)
     pattern = weight * u**2 / (stiff**2 + load[:, None] ** 2)
