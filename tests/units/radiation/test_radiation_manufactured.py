@@ -64,7 +64,7 @@ SHAPES = {
     ],
     ids=["two", "all"],
 )
-def both(request: pytest.FixtureRequest) -> tuple[Array, Array]:
+def true_and_estimated(request: pytest.FixtureRequest) -> tuple[Array, Array]:
     """True and estimated errors, (shape, frequency), of monopoles 20 and 30 mm apart."""
     offsets = np.array([[0.01, 0.0, 0.01], [-0.02, 0.02, -0.01]])
     frequency_hz = np.array([100.0, 700.0])
@@ -78,15 +78,15 @@ def both(request: pytest.FixtureRequest) -> tuple[Array, Array]:
 
 
 @pytest.mark.slow
-def test_radiates_the_field_of_what_it_holds(both):
+def test_radiates_the_field_of_what_it_holds(true_and_estimated):
     """2 % of the largest, 0.17 dB."""
-    true, _ = both
+    true, _ = true_and_estimated
     assert np.all(true < 0.02), true
 
 
 @pytest.mark.slow
-def test_the_estimate_covers_the_error(both):
-    true, estimated = both
+def test_the_estimate_covers_the_error(true_and_estimated):
+    true, estimated = true_and_estimated
     assert np.mean(estimated >= true) >= 0.9, estimated / true
     assert 1.0 <= np.median(estimated / true) <= 10.0, estimated / true
 
@@ -100,9 +100,9 @@ def test_the_estimate_covers_the_error_of_any_field():
         sources = np.array(middle) + rng.uniform(-0.03, 0.03, (3, 3))
         field = Field(sources, rng.uniform(-1.0, 1.0, 3), walls)
         frequency_hz = np.sort(rng.uniform(50.0, 1000.0, 4))
-        both = errors(body, field, frequency_hz, SPACING_M, AROUND)
-        true.extend(both[0])
-        estimated.extend(both[1])
+        one = errors(body, field, frequency_hz, SPACING_M, AROUND)
+        true.extend(one[0])
+        estimated.extend(one[1])
     ratio = np.array(estimated) / np.array(true)
     assert ratio.size == 60
     assert max(true) < 0.02
