@@ -52,7 +52,7 @@ def sound_in_room(
     waves = wave_gains(pressure, free, highest_hz)
     shown = shown_bands(rooms.seam_bands_hz(highest_hz))
     both = (waves[:, shown], blended_gains(waves, free)[1][:, shown])
-    gains_db = rooms.place_gains_db(*both, MIDDLE_HZ[shown], highest_hz)
+    gains_db = rooms.place_gains_db(*both)
     gain = rooms.gain_over_frequency(gains_db, MIDDLE_HZ[shown])
     per_power = rooms.diffuse_per_power(settings, at, gain)
     ways = RoomWays(len(listeners), radius_m, share, per_power)

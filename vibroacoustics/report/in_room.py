@@ -102,7 +102,8 @@ def seam_sentence(results: xr.Dataset) -> str:
         "Waves and the diffuse field of the power in the open differ by more than "
         f"{SEAM_DB:g} dB, in the mean over {len(listeners(results))} listeners, at "
         f"{', '.join(on_average) or none}. The mean is taken for what the place does "
-        f"to the machine's power and given to the diffuse field; above the waves {above} dB. "
+        f"to the machine's power and given to the diffuse field; above the waves {above} dB, "
+        "where single third octaves may be 5 dB off (assumed). "
         f"From that mean single listeners differ by more at {', '.join(alone) or none}."
     )
 

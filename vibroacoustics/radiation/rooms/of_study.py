@@ -32,8 +32,6 @@ from .room import Block, Patch, Room
 
 _KEPT: Final = 8
 """Sets of frequencies whose values are kept: rigid motions and modes ask for the same."""
-ROUNDED: Final = 1.05
-"""Of bands that are called by round numbers."""
 SHOWN_FROM_HZ: Final = 250.0
 """Lowest third octave in which both methods are shown."""
 
@@ -189,20 +187,17 @@ def seam_bands_hz(highest_hz: float) -> tuple[float, float]:
     return SHOWN_FROM_HZ * seam_shift(highest_hz), highest_hz
 
 
-def place_gains_db(waves: Array, diffuse: Array, middle_hz: Array, highest_hz: float) -> Array:
+def place_gains_db(waves: Array, diffuse: Array) -> Array:
     """Level of the power at the machine's place over that in the open, (shown band + 1,), dB.
 
-    Of each third octave that is shown, the mean over the listeners; the last one, of those from the
-    seam's upper end on together, holds above the waves.
+    Of each third octave that is shown, the mean over the listeners; the last one, of all of them
+    together, holds above the waves.
 
     Parameters
     ----------
     waves, diffuse : mean squares per power in these bands, shape (listener, shown band)
-    middle_hz : of the bands, shape (shown band,)
-    highest_hz : of the waves
     """
-    above = middle_hz > SEAM_HZ[1] * seam_shift(highest_hz) / ROUNDED
-    parts = [np.array([number]) for number in range(middle_hz.size)] + [np.flatnonzero(above)]
+    parts = [np.array([number]) for number in range(waves.shape[1])] + [np.arange(waves.shape[1])]
     return np.array([gain_at_place_db(waves[:, part], diffuse[:, part]) for part in parts])
 
 
