@@ -337,6 +337,23 @@ def test_the_local_scheme_agrees_in_a_furnished_room():
     assert rms.max() <= 0.2
 
 
+def test_the_local_scheme_agrees_for_a_source_in_a_niche():
+    wall = _uniform(0.1)
+    blocks = (
+        Block("left", (0.0, 0.0, 0.0), (0.6, 0.6, 0.9), wall),
+        Block("right", (1.2, 0.0, 0.0), (1.8, 0.6, 0.9), wall),
+        Block("worktop", (0.6, 0.0, 0.75), (1.2, 0.6, 0.9), wall),
+    )
+    room = Room((1.8, 1.6, 1.5), dict.fromkeys(SIDES, wall), blocks)
+    nodes_per_wave = SPEED_OF_SOUND_M_PER_S / 0.098 / 450.0
+    settings = RoomSettings(450.0, nodes_per_wave, longest_s=0.5)  # the spacing of 1 kHz
+    points = [np.array([0.75, 1.05, 1.55]), np.array([0.85, 1.15, 1.45]), np.array([0.95, 1.25])]
+    frequency = np.arange(80.0, 450.0, 2.0)
+    source = np.array([0.95, 0.35, 0.35])
+    rms = _second_method_db(room, settings, frequency, points, source, 0.05)
+    assert rms.max() <= 0.2
+
+
 @pytest.mark.long
 def test_the_local_scheme_agrees_in_a_kitchen():
     board = _material("boards", 0.15, 0.15, 0.11, 0.10, 0.07)
