@@ -10,6 +10,8 @@ with the moving parts alone and waves to 250 Hz.
    :language: toml
 """
 
+import tempfile
+
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -35,6 +37,14 @@ for limit in results["room_limit"].values:
     axes.axvline(limit, color="grey", linestyle="--", linewidth=0.8)
 axes.set(yticks=rows, yticklabels=options, xlabel="at the table, dB(A)")
 figure.legend(loc="outside lower center", ncols=2)
+
+# %%
+# What it sounds like
+# -------------------
+# Listeners are asked for by name, as microphones are; the sound comes by air and by the feet.
+with tempfile.TemporaryDirectory() as folder:
+    for path in va.listen(results, folder, ["none", "jacket"], ["table"], duration_s=1.0):
+        print(path.name)
 
 # %%
 # Where it is loud

@@ -15,7 +15,8 @@ def listen_command(
         list[str] | None, typer.Option(help="Option to listen to; default: all.")
     ] = None,
     microphone: Annotated[
-        list[str] | None, typer.Option(help="Microphone; default: the first.")
+        list[str] | None,
+        typer.Option(help="Microphone, or listener in a room; default: the first."),
     ] = None,
     speed: Annotated[
         list[float] | None, typer.Option(help="Speed, rpm; default: the first.")
@@ -42,7 +43,7 @@ def listen_command(
         typer.Option("--out", help="Folder of the sounds; default: sound, beside the file."),
     ] = None,
 ) -> None:
-    """Write the sound of options at a microphone, all at one gain, which the names state."""
+    """Write the sound of options where one listens, all at one gain, which the names state."""
     from . import outputs
     from .listening import listen
 

@@ -38,14 +38,14 @@ def listen(
     calibration_db: float | None = None,
     file_format: str = "wav",
 ) -> list[Path]:
-    """Write the sound of options at microphones, all at the same gain, which the names state.
+    """Write the sound of options at microphones and listeners, at one gain, which the names state.
 
     Parameters
     ----------
     results : of a run
     folder : of the files; it is made where it is missing
     options, microphones, speeds : all options, the first microphone and the first speed where
-        nothing is given; rpm
+        nothing is given; rpm. Listeners in a room are asked for as microphones
     duration_s : 1 to 600 s; rounded to whole revolutions
     full_scale_pa : pressure at full scale; none for one that all sounds of the results fit in
     calibration_db : level of a tone of 1 kHz, a file of its own; none for none

@@ -74,12 +74,18 @@ class RoomSound:
     total : A-weighted, of all together, shape (listener,), Pa²
     band : of all together, unweighted, in `BASELINE_BANDS`, shape (listener, band), Pa²
     power_band : of all together, unweighted, shape (band,), W
+    pressure : of all together at the lines, complex peaks, shape (listener, line), Pa
+    noise_band : of all together without lines, unweighted, shape (listener, band), Pa²
+    line : names of the lines
     """
 
     alone: Array
     total: Array
     band: Array
     power_band: Array
+    pressure: ComplexArray
+    noise_band: Array
+    line: tuple[str, ...]
 
 
 def room_sound(received: ReceivedSound, ways: RoomWays) -> RoomSound:
@@ -93,22 +99,38 @@ def room_sound(received: ReceivedSound, ways: RoomWays) -> RoomSound:
     hertz = received.lines.frequency_hz
     audible = hertz > 0.0
     by_source = 0.5 * np.abs(received.pressure) ** 2 * audible
-    together = 0.5 * np.abs(received.pressure.sum(axis=0)) ** 2 * audible
+    of_all = received.pressure.sum(axis=0)
+    together = 0.5 * np.abs(of_all) ** 2 * audible
     safe = np.maximum(hertz, LOWEST_HZ)
     weight, in_band = weighting_power("A", safe), membership(hertz, BASELINE_BANDS)
     alone = ways.at_listeners(by_source, safe) @ weight
     at_listeners = ways.at_listeners(together, safe)
     total, band = at_listeners @ weight, at_listeners @ in_band
     power_band = ways.power(together) @ in_band
+    noise_band = np.zeros_like(band)
     for part in received.noise:
         noise = ways.at_listeners(part.power, np.maximum(part.frequency_hz, LOWEST_HZ))
         loud = noise @ weighting_power("A", part.frequency_hz)
         alone[part.source] += loud
         total = total + loud
         in_band = membership(part.frequency_hz, BASELINE_BANDS)
-        band = band + noise @ in_band
+        noise_band += noise @ in_band
         power_band = power_band + ways.power(part.power) @ in_band
-    return RoomSound(alone, total, band, power_band)
+    peaks = np.sqrt(2.0 * at_listeners) * _turn(of_all, ways.listeners)
+    return RoomSound(
+        alone, total, band + noise_band, power_band, peaks, noise_band, received.lines.names
+    )
+
+
+def _turn(pressure: ComplexArray, listeners: int) -> ComplexArray:
+    """exp(jφ) at the listeners, shape (listener, line).
+
+    φ is the phase of the waves; where there are none, that at the first position on the hemisphere
+    (assumed: in a room it is random).
+    """
+    waves = pressure[:listeners]
+    phase = np.angle(np.where(waves == 0.0, pressure[listeners], waves))
+    return np.asarray(np.exp(1j * phase))
 
 
 def power_of_hemisphere(mean_square: Array, distance_m: float) -> Array:

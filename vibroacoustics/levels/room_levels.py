@@ -34,6 +34,7 @@ class AirInRoom:
     alone : of each source, A-weighted, shape (speed, option, listener, source), Pa²
     band : of all of it, shape (speed, option, listener, band), Pa²
     power_band : of the machine, shape (speed, option, band), W
+    noise_band : of what is no line, shape (speed, option, listener, band), Pa²
     """
 
     modelled: Array
@@ -41,6 +42,7 @@ class AirInRoom:
     alone: Array
     band: Array
     power_band: Array
+    noise_band: Array
 
     @classmethod
     def of(
@@ -75,6 +77,7 @@ class AirInRoom:
             np.moveaxis(gathered("alone"), 2, -1),
             gathered("band") + rest_band,
             gathered("power_band") + rest_power,
+            gathered("noise_band") + rest_band,
         )
 
     @property
@@ -100,11 +103,33 @@ def air_variables(
             "room_source_level", level(air.alone), {**coords, "sound_source": list(sources)}
         ),
         "room_band_level": stamp("room_band_level", level(air.band), coords | bands),
+        "room_noise_band_level": stamp(
+            "room_noise_band_level", level(air.noise_band), coords | bands
+        ),
         "room_sound_power_level": stamp(
             "room_sound_power_level", power_level(air.power_band), cases
         ),
     }
     return check(xr.Dataset(arrays))
+
+
+def line_variables(sound: Mapping[CaseKey, RoomSound], results: xr.Dataset) -> xr.Dataset:
+    """Pressure of all sources together at the lines, by air with the values as given.
+
+    Parameters
+    ----------
+    sound : of every case, with its lines' names
+    results : with `room_level`, and all lines
+    """
+    coords = {**_coordinates(results["room_level"]), "line": results["line"].values}
+    column = {str(name): number for number, name in enumerate(coords["line"])}
+    pressure = np.zeros(tuple(map(len, coords.values())), dtype=complex)
+    for s, speed in enumerate(coords["speed"]):
+        for o, option in enumerate(coords["option"]):
+            one = sound[float(speed), str(option)]
+            pressure[s, o][:, [column[name] for name in one.line]] = one.pressure
+    labelled = stamp("room_pressure_line", pressure, coords)
+    return check(xr.Dataset({"room_pressure_line": labelled}))
 
 
 def power_level(power_band: Array) -> Array:
@@ -154,11 +179,15 @@ def plate_variables(results: xr.Dataset, per_power: Array) -> xr.Dataset:
     """
     power = results["structure_borne_power"].transpose("speed", "option", "line").values
     frequency = results["tone_frequency"].transpose("speed", "line").values
-    weighted = power * weight_of("A", frequency)[:, None]
-    by_plate = level(np.einsum("sof,slf->sol", weighted, per_power))
+    of_lines = power[:, :, None] * per_power[:, None]
+    by_plate = level(np.einsum("solf,sf->sol", of_lines, weight_of("A", frequency)))
     span = results["structure_borne_level"].sel(weighting="A").isel(receiver=0)
     coords = _coordinates(results["room_level"])
-    arrays = {"room_plate_level": stamp("room_plate_level", by_plate, coords)}
+    by_line = {**coords, "line": results["line"].values}
+    arrays = {
+        "room_plate_level": stamp("room_plate_level", by_plate, coords),
+        "room_plate_line_level": stamp("room_plate_line_level", level(of_lines), by_line),
+    }
     for end in ("low", "high"):
         of_end = results[f"structure_borne_level_{end}"].isel(receiver=0) - span
         values = by_plate + of_end.transpose("speed", "option").values[..., None]

@@ -1,6 +1,6 @@
 """The machine of a study in its room: levels at the listeners, the seam of methods, a map."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
@@ -8,12 +8,19 @@ import xarray as xr
 from ..base.arrays import Array
 from ..base.progress import Progress
 from ..base.vocabulary import REFERENCE_OPTION, check, stamp
-from ..levels.in_room import RoomWays, blended_gains, room_sound, wave_gains
+from ..levels.in_room import RoomSound, RoomWays, blended_gains, room_sound, wave_gains
 from ..levels.measured_points import MIDDLE_HZ
-from ..levels.room_levels import AirInRoom, air_variables, drawn_band, plate_variables
+from ..levels.room_levels import (
+    AirInRoom,
+    air_variables,
+    drawn_band,
+    line_variables,
+    plate_variables,
+)
 from ..levels.room_map import map_bands_hz, map_level
 from ..levels.room_rest import rest_in_bands
 from ..levels.room_seam import seam_variables, shown_bands
+from ..machine.source import CaseKey
 from ..radiation.patterns import SurfaceMotion
 from ..radiation.pressure import wrench_pressure_by
 from ..radiation.rooms import of_study as rooms
@@ -56,10 +63,13 @@ def sound_in_room(
     gain = rooms.gain_over_frequency(gains_db, MIDDLE_HZ[shown])
     per_power = rooms.diffuse_per_power(settings, at, gain)
     ways = RoomWays(len(listeners), radius_m, share, per_power)
-    air = _by_air(study, motion, _transmission(study, motion, shell, pressure), ways, waves)
+    received = _transmission(study, motion, shell, pressure).received(motion.cases, motion.loads)
+    by_case = {key: room_sound(one, ways) for key, one in received.items()}
+    air = _by_air(study, motion, by_case, blended_gains(waves, ways)[0])
     sources = list(sources_of(study))
     speeds, options = list(study.operation.speed_rpm), list(study.options)
     sound = air_variables(air, speeds, options, listeners, sources)
+    sound = sound.merge(line_variables(by_case, motion.results.merge(sound)))
     results = motion.results.merge(sound)
     sound = sound.merge(drawn_band(air, results, study.catalogue_receiver))
     sound = sound.merge(_by_plate(settings, results.merge(sound))).merge(_of_the_room(settings))
@@ -103,16 +113,14 @@ def _transmission(
 
 
 def _by_air(
-    study: Study, motion: Motion, transmission: Transmission, ways: RoomWays, waves: Array
+    study: Study, motion: Motion, sound: Mapping[CaseKey, RoomSound], gains: Array
 ) -> AirInRoom:
-    received = transmission.received(motion.cases, motion.loads)
-    sound = {key: room_sound(one, ways) for key, one in received.items()}
     return AirInRoom.of(
         sound,
         list(study.operation.speed_rpm),
         list(study.options),
         rest_in_bands(motion.results, study.catalogue_receiver),
-        blended_gains(waves, ways)[0],
+        gains,
         study.receivers[study.catalogue_receiver].distance_m,
     )
 

@@ -6,6 +6,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
+from .room_loudness import SONE_HEAD, sones
 from .structure_borne import carrier
 from .study import balancers, nearest_speed, options, overall_noise
 from .tables import Table
@@ -45,24 +46,29 @@ def room_sentence(results: xr.Dataset) -> str:
 
 
 def room_table(results: xr.Dataset, listener: str) -> Table:
-    """Of every option the level by air, by the feet and both, against the limits."""
+    """Of every option the level by air, by the feet and both, loudness, against the limits."""
     plate = "room_plate_level" in results
+    at_option = [_at(results, option).sel(listener=listener) for option in options(results)]
+    loud = sones(results, listener, [_both(at) for at in at_option])
     head = ["Option", "By air, dB(A)"]
     if plate:
-        head += ["By the feet, dB(A)", "Both, dB(A)", "Carried by"]
+        head += ["By the feet, dB(A)", "Both, dB(A)"]
+    head += [SONE_HEAD] if loud else []
+    of_words = len(head)
+    head += ["Carried by"] if plate else []
     limits = _limits(results)
     head += [f"Limit {_TIMES.get(time, time)}, {limit:g} dB(A)" for time, limit in limits.items()]
     rows = []
-    for option in options(results):
-        at = _at(results, option).sel(listener=listener)
+    for number, (option, at) in enumerate(zip(options(results), at_option, strict=True)):
         cells = [option, _ranged(at, "room_level")]
         if plate:
-            both = rounding.level(_both(at))
-            cells += [_ranged(at, "room_plate_level"), both, _carrier(at)]
+            cells += [_ranged(at, "room_plate_level"), rounding.level(_both(at))]
+        cells += loud[number : number + 1]
+        cells += [_carrier(at)] if plate else []
         cells += [_met(_both(at) - limit) for limit in limits.values()]
         rows.append(tuple(cells))
     caption = f"{listener}, {nearest_speed(results):g} rpm: level of the machine in the room"
-    words = frozenset({0, *range(4 if plate else 2, len(head))} - ({2, 3} if plate else set()))
+    words = frozenset({0, *range(of_words, len(head))})
     return Table(caption, tuple(head), tuple(rows), words)
 
 

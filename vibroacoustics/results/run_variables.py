@@ -47,6 +47,7 @@ TOGETHER: Final = (
      "room_gain_waves", "room_gain_diffuse", "room_gain_difference", "room_place_gain",
      "room_place_gain_above", "room_absorption_area", "room_map_level"),
     ("room_level_low", "room_level_middle", "room_level_high"),
+    ("room_pressure_line", "room_noise_band_level"),
     ("room_plate_level", "room_plate_level_low", "room_plate_level_high", "room_level_both_ways"),
     ("published_score", "published_sum", "recomputed_sum"),
 )  # fmt: skip
@@ -61,6 +62,8 @@ NEEDS: Final = {
     "path_share": ("foot_force_order",),
     "room_level_low": ("room_level", "draw_weight"),
     "room_plate_level": ("room_level", "structure_borne_power"),
+    "room_pressure_line": ("room_level",),
+    "room_plate_line_level": ("room_plate_level", "room_pressure_line"),
 }
 """Further variables, and what stands beside each."""
 COORDINATES_OF: Final = {

@@ -15,7 +15,7 @@ _CREST: Final = 5.5
 
 
 def full_scale_of(results: xr.Dataset, calibration_db: float | None = None) -> float:
-    """Pressure at full scale that no option exceeds at any microphone and speed, Pa.
+    """Pressure at full scale that no option exceeds at any microphone, listener and speed, Pa.
 
     A number 1, 2 or 5 times a power of ten, so that files of one study, made at different times,
     have the same gain.
@@ -33,10 +33,22 @@ def full_scale_of(results: xr.Dataset, calibration_db: float | None = None) -> f
         level = results["baseline_order_level"].fillna(-np.inf)
         of_orders = np.sqrt(2.0) * REFERENCE_PRESSURE_PA * amplitude_of_level(level)
         peak = peak + of_orders.sum("baseline_order")
-    highest = float((peak + _CREST * np.sqrt(square)).max())
+    highest = max(float((peak + _CREST * np.sqrt(square)).max()), _highest_in_room(results))
     if calibration_db is not None:
         highest = max(highest, peak_of_tone(calibration_db))
     return _rounded_up(highest)
+
+
+def _highest_in_room(results: xr.Dataset) -> float:
+    """What no option exceeds at any listener; 0 without a room."""
+    if "room_pressure_line" not in results:
+        return 0.0
+    square: xr.DataArray = abs(results["room_pressure_line"]) ** 2
+    if "room_plate_line_level" in results:
+        level = results["room_plate_line_level"]
+        square = square + 2.0 * REFERENCE_PRESSURE_PA**2 * power_of_level(level)
+    noise = _square(results["room_noise_band_level"])
+    return float(((square**0.5).sum("line") + _CREST * noise**0.5).max())
 
 
 def peak_of_tone(level_db: float) -> float:

@@ -1,6 +1,6 @@
-"""What the sound of an option at a microphone is made of: lines with phase and bands of noise."""
+"""What the sound of an option is made of, at a microphone or in a room: lines and noise."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -19,6 +19,11 @@ _AT_1_KHZ: Final = 30
 """Number of its third octave."""
 HALF_BAND: Final = OCTAVE_RATIO ** (1.0 / 6.0)
 """Upper edge of a third octave over its centre, 10^0.05."""
+_AT_MICROPHONE: Final = (
+    "pressure_line", "noise_band_level", "remainder_band_level", "baseline_band_level",
+    "baseline_order_level",
+)  # fmt: skip
+_IN_ROOM: Final = ("room_pressure_line", "room_plate_line_level", "room_noise_band_level")
 DUST: Final = 1e-9
 """Of a band's mean square: less is what rounding leaves where lines are taken out."""
 
@@ -73,9 +78,17 @@ class Ingredients:
             0.5 * np.sum(np.abs(self.lines.pressure_pa) ** 2) + np.sum(self.bands.pressure_pa**2)
         )
 
+    def louder(self, by_db: float) -> "Ingredients":
+        """The same sound at a level higher by some dB."""
+        factor = amplitude_of_level(by_db)
+        return Ingredients(
+            replace(self.lines, pressure_pa=factor * self.lines.pressure_pa),
+            replace(self.bands, pressure_pa=factor * self.bands.pressure_pa),
+        )
+
 
 def ingredients(results: xr.Dataset, option: str, microphone: str, speed: float) -> Ingredients:
-    """Lines with phase and bands of noise of an option at a microphone and speed.
+    """Lines with phase and bands of noise of an option at a microphone or listener, and speed.
 
     The one source of every rendering: of `vibroacoustics listen` as of the report's page. Lines are
     the sum of all sources; orders of a measured baseline have its levels, with the phases of the
@@ -83,10 +96,14 @@ def ingredients(results: xr.Dataset, option: str, microphone: str, speed: float)
     explain: the remainder of the catalogue level or, in bands that were measured, the baseline.
     Their sum is `level_total`, with A-weighting of noise at its midband frequencies.
 
+    At a listener in a room the sum is `room_level` and, where the feet push a plate,
+    `room_plate_level` together: what comes that way adds to the energy of the lines and leaves
+    them their phase (assumed).
+
     Parameters
     ----------
     results : of a run
-    option, microphone : names in the results
+    option, microphone : names in the results; also a listener's, where no microphone has it
     speed : one of theirs, rpm
 
     Returns
@@ -96,46 +113,74 @@ def ingredients(results: xr.Dataset, option: str, microphone: str, speed: float)
     Raises
     ------
     ParameterError
-        The results hold no such option, microphone or speed.
+        The results hold no such option, microphone, listener or speed.
     SchemaError
         The results are of a version that kept no noise.
     """
     case = _case(results, option, microphone, speed)
+    if "listener" in case.coords:
+        return Ingredients(_room_lines(case), _bands(case, _square(case["room_noise_band_level"])))
     lines = _measured_orders(case, _modelled_lines(case))
     number = third_octave_number(case["noise_band"].values)
     square = _square(case["noise_band_level"]) + _square(case["remainder_band_level"])
     if "baseline_band_level" in case:
         square = _measured_bands(case, lines, number, square)
-    loud = square > 0.0
-    centres = [Band(3, int(one) - _AT_1_KHZ).middle_hz for one in number[loud]]
-    bands = SoundBands(np.array(centres), np.sqrt(square[loud]))
-    return Ingredients(lines, bands)
+    return Ingredients(lines, _bands(case, square))
+
+
+def _microphones_and_listeners(results: xr.Dataset) -> list[str]:
+    """Names of the microphones, then of the listeners in a room."""
+    names = results["receiver"].values.tolist()
+    if "room_level" in results:
+        names += results["listener"].values.tolist()
+    return list(dict.fromkeys(names))
 
 
 def _case(results: xr.Dataset, option: str, microphone: str, speed: float) -> xr.Dataset:
-    asked: dict[str, str | float]
-    asked = {"option": option, "receiver": microphone, "speed": speed}
-    words = {"option": "option", "receiver": "microphone", "speed": "speed"}
     if "noise_band_level" not in results:
         raise SchemaError("the results hold no noise of third octaves: run the study again")
-    for dim, value in asked.items():
-        there = results[dim].values
+    for word, value, there in (
+        ("option", option, results["option"].values),
+        ("microphone", microphone, _microphones_and_listeners(results)),
+        ("speed", speed, results["speed"].values),
+    ):
         if value not in there:
-            unit = " rpm" if dim == "speed" else ""
-            known = ", ".join(f"{one:g}" if dim == "speed" else str(one) for one in there)
+            unit = " rpm" if word == "speed" else ""
+            known = ", ".join(f"{one:g}" if word == "speed" else str(one) for one in there)
             raise ParameterError(
-                f"{words[dim]} = {value}{unit}: the results hold no such one; there are {known}"
+                f"{word} = {value}{unit}: the results hold no such one; there are {known}"
             )
-    names = (
-        "pressure_line", "noise_band_level", "remainder_band_level", "baseline_band_level",
-        "baseline_order_level",
-    )  # fmt: skip
-    return results[[name for name in names if name in results]].sel(asked)
+    in_room = microphone not in results["receiver"].values  # of one name the microphone counts
+    if in_room and "room_pressure_line" not in results:
+        raise SchemaError("the results hold no sound in the room: run the study again")
+    names = _IN_ROOM if in_room else _AT_MICROPHONE
+    at = {"option": option, "listener" if in_room else "receiver": microphone, "speed": speed}
+    return results[[name for name in names if name in results]].sel(at)
+
+
+def _bands(case: xr.Dataset, square: Array) -> SoundBands:
+    """Noise of the bands that hold some, of their mean squares."""
+    number = third_octave_number(case["noise_band"].values)
+    loud = square > 0.0
+    centres = [Band(3, int(one) - _AT_1_KHZ).middle_hz for one in number[loud]]
+    return SoundBands(np.array(centres), np.sqrt(square[loud]))
+
+
+def _room_lines(case: xr.Dataset) -> SoundLines:
+    """Lines of all sources by air, with the energy of what comes by the plate."""
+    pressure = case["room_pressure_line"].values
+    if "room_plate_line_level" in case:
+        by_plate = 2.0 * _square(case["room_plate_line_level"])
+        pressure = np.sqrt(np.abs(pressure) ** 2 + by_plate) * np.exp(1j * np.angle(pressure))
+    return _sounding(case, pressure)
 
 
 def _modelled_lines(case: xr.Dataset) -> SoundLines:
     """Lines of all sources together that sound."""
-    pressure = case["pressure_line"].sum("sound_source").values
+    return _sounding(case, case["pressure_line"].sum("sound_source").values)
+
+
+def _sounding(case: xr.Dataset, pressure: ComplexArray) -> SoundLines:
     hertz = case["tone_frequency"].values
     sounds = (hertz > 0.0) & (pressure != 0.0)
     names = tuple(str(name) for name in case["line"].values[sounds])

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.util import find_spec
-from typing import Final
+from typing import Final, Literal
 
 import numpy as np
 
@@ -23,6 +23,9 @@ _SILENT_DB: Final = -60.0
 _QUIET_SONE: Final = 0.1
 """Below it sharpness is not judged."""
 
+SoundField = Literal["free", "diffuse"]
+"""How the sound comes to the ears: from the front, or from everywhere (ISO 532-1)."""
+
 
 @dataclass(frozen=True)
 class Loudness:
@@ -30,7 +33,7 @@ class Loudness:
 
     Attributes
     ----------
-    loudness_sone : N, in a free field from the front
+    loudness_sone : N, in the field that was asked for
     sharpness_acum : S; not a number of a sound that is hardly audible
     """
 
@@ -50,19 +53,20 @@ def available() -> bool:
     return find_spec("mosqito") is not None
 
 
-def loudness_of(parts: Sequence[Ingredients]) -> list[Loudness]:
+def loudness_of(parts: Sequence[Ingredients], field: SoundField = "free") -> list[Loudness]:
     """Loudness and sharpness of computed sounds.
 
     Parameters
     ----------
     parts : of `ingredients`
+    field : `free`, from the front, or `diffuse`, as at a listener in a room
 
     Raises
     ------
     ParameterError
         mosqito is not installed, or a band below 300 Hz exceeds 120 dB.
     """
-    return loudness_of_thirds(np.array([_thirds(part) for part in parts]))
+    return loudness_of_thirds(np.array([_thirds(part) for part in parts]), field)
 
 
 def recorded_loudness(bands: NarrowBands) -> Loudness:
@@ -83,12 +87,13 @@ def recorded_loudness(bands: NarrowBands) -> Loudness:
     return one
 
 
-def loudness_of_thirds(mean_square: Array) -> list[Loudness]:
+def loudness_of_thirds(mean_square: Array, field: SoundField = "free") -> list[Loudness]:
     """Loudness and sharpness from third octaves (ISO 532-1, 5.4 and Annex A).
 
     Parameters
     ----------
     mean_square : in the bands `CENTRES_HZ`, shape (sound, band), Pa²
+    field : as of `loudness_of`
 
     Raises
     ------
@@ -105,7 +110,7 @@ def loudness_of_thirds(mean_square: Array) -> list[Loudness]:
 
     level_db = np.maximum(mean_square_level(mean_square, REFERENCE_PRESSURE_PA), _SILENT_DB)
     try:
-        core = _main_loudness(level_db.T, "free")
+        core = _main_loudness(level_db.T, field)
     except ValueError as error:
         raise ParameterError(f"loudness: {' '.join(str(error).split())}") from None
     total, specific = _calc_slopes(core)

@@ -123,6 +123,12 @@ def _check_room(study: "Study") -> None:
             "room: is computed from the shell's motion; measured.sound holds at its microphones "
             "alone"
         )
+    for name in study.room.listeners:
+        if name in study.receivers:
+            raise ValueError(
+                f"room.listeners.{name}: a microphone has this name, receivers.{name}; give "
+                "another, so that sounds and tables tell them apart"
+            )
     try:
         study.room.check_holds(study.machine.shell)
     except ValueError as error:

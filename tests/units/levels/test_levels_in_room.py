@@ -58,6 +58,24 @@ def test_waves_below_and_power_above():
     assert np.count_nonzero(sound.band[0]) == 2  # nothing at 0 Hz
 
 
+def test_lines_keep_the_phase_of_the_waves_and_the_energy_of_both():
+    """Sources together; without waves the phase is that at the first position."""
+    hertz = np.array([0.0, 100.0, 700.0, 1000.0])
+    pressure = np.zeros((2, 2 + 20, 4), dtype=complex)
+    pressure[:, :2] = [[[9.0, 0.2j, 0.3 + 0.4j, 0.0]], [[9.0, 0.1, 0.0, 0.0]]]
+    pressure[0, 2:] = 0.3
+    pressure[0, 2] = 0.3j
+    sound = room_sound(received(pressure, hertz), ways(step))
+    assert sound.line == ("order 0", "order 1", "order 2", "order 3")
+    np.testing.assert_allclose(sound.pressure[:, :2], [[0.0, 0.1 + 0.2j]] * 2, atol=1e-15)
+    size = 0.3 * np.sqrt(AREA_M2 / RHO_C * PER_POWER[:, 0])
+    np.testing.assert_allclose(sound.pressure[:, 2], size * (0.6 + 0.8j), rtol=1e-12)
+    np.testing.assert_allclose(sound.pressure[:, 3], size * 1j, rtol=1e-12)
+    weight = 10.0 ** (a_weighting(hertz[1:]) / 10.0)
+    of_lines = 0.5 * np.abs(sound.pressure[:, 1:]) ** 2 @ weight
+    np.testing.assert_allclose(of_lines, sound.total, rtol=1e-12)
+
+
 def test_noise_adds_as_energy():
     hertz = np.array([100.0, 1000.0])
     pressure = np.zeros((2, 22, 1), dtype=complex)
@@ -68,6 +86,8 @@ def test_noise_adds_as_energy():
     expected = 0.1 * weight[0] + 0.2 * AREA_M2 / RHO_C * PER_POWER[:, 0] * weight[1]
     np.testing.assert_allclose(sound.total, expected, rtol=1e-12)
     np.testing.assert_allclose(sound.alone, [[0.0, 0.0], expected], rtol=1e-12)
+    assert not sound.pressure.any()
+    np.testing.assert_allclose(sound.noise_band, sound.band, rtol=1e-12)
 
 
 def test_between_the_methods_energies_are_shared():
@@ -127,7 +147,8 @@ def test_draws_change_model_and_rest_as_at_the_microphone():
         },
         coords={"listener": ["table"]},
     )
-    air = AirInRoom(np.array([[[1.0]]]), np.array([[[2.0]]]), np.zeros(0), np.zeros(0), np.zeros(0))
+    none = [np.zeros(0)] * 4
+    air = AirInRoom(np.array([[[1.0]]]), np.array([[[2.0]]]), *none)
     band = drawn_band(air, results, "front")
     ends = 10.0 * np.log10(np.array([3.0, 10.0**0.3 + 2.0 * 10.0**0.6]) / 4e-10)
     assert band["room_level_middle"].item() == pytest.approx(ends.mean(), abs=1e-9)

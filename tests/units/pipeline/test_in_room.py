@@ -4,12 +4,14 @@ import numpy as np
 import pytest
 import xarray as xr
 from rooms_made_up import HIGHEST_HZ, KITCHEN, RADIUS_M, made_up_vectors
+from sound_studies import a_level
 from sources_study import SOURCES_STUDY, made_up_modes
 from support import TINY, made_up_radiation
 
 import vibroacoustics as va
 from vibroacoustics.base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from vibroacoustics.base.decibel import energy_sum
+from vibroacoustics.base.errors import SchemaError
 from vibroacoustics.levels import a_weighting
 from vibroacoustics.pipeline import in_room
 from vibroacoustics.pipeline.cost import run_cost
@@ -17,7 +19,12 @@ from vibroacoustics.radiation.rooms import of_study as rooms
 from vibroacoustics.report.html import html
 from vibroacoustics.report.in_room import room_sentence, room_table, seam_sentence, seam_table
 from vibroacoustics.report.page import Page, Part
+from vibroacoustics.report.room_loudness import sones
 from vibroacoustics.report.sections import SECTIONS
+from vibroacoustics.sound import loudness
+from vibroacoustics.sound.gain import full_scale_of
+from vibroacoustics.sound.ingredients import ingredients
+from vibroacoustics.sound.loudness import loudness_of
 
 RHO_C = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S
 PANEL = {
@@ -146,6 +153,68 @@ def test_plate_in_the_room(kitchen):
     assert np.all(at["room_plate_level_low"] < at["room_plate_level_high"])
 
 
+@pytest.mark.parametrize("listener", ["table", "doorway"])
+@pytest.mark.parametrize("option", ["none", "counterweight-half"])
+def test_what_a_sound_is_made_of_has_the_level_in_the_room(kitchen, listener, option):
+    """Both ways; without the lines of the plate by air alone."""
+    speed = kitchen["speed"].item()
+    at = kitchen.sel(option=option, listener=listener, speed=speed)
+    both = energy_sum(np.stack([at["room_level"], at["room_plate_level"]]), axis=0)
+    parts = ingredients(kitchen, option, listener, speed)
+    assert a_level(parts) == pytest.approx(both.item(), abs=1e-9)
+    by_air = ingredients(kitchen.drop_vars("room_plate_line_level"), option, listener, speed)
+    assert a_level(by_air) == pytest.approx(at["room_level"].item(), abs=1e-9)
+    np.testing.assert_allclose(
+        np.angle(parts.lines.pressure_pa), np.angle(by_air.lines.pressure_pa), atol=1e-12
+    )
+
+
+def test_lines_below_the_seam_are_the_waves(kitchen):
+    """Velocity times the made-up vector with its phase; `interpolation_weights` errs by 2e-4."""
+    at = kitchen.sel(option="none").isel(speed=0)
+    velocity = at["velocity_order"].sum(("source", "dof")).values
+    frequency = at["order_frequency"].values
+    assert frequency[4] < 400.0
+    pressure = at["room_pressure_line"].sel(listener="doorway")
+    by_waves = (velocity * 0.01j * frequency)[1:5]
+    orders = pressure.sel(line=[f"order {number}" for number in range(1, 5)])
+    np.testing.assert_allclose(orders, by_waves, rtol=4e-4)
+
+
+def test_sounds_at_listeners_are_files_at_the_gain_of_all(kitchen, tmp_path):
+    full_scale = full_scale_of(kitchen)
+    (path,) = va.listen(kitchen, tmp_path, ["none"], ["table"], duration_s=1.0)
+    assert path.name == f"none_table_{kitchen['speed'].item():g}rpm_{full_scale:g}Pa.wav"
+    louder = kitchen.copy()
+    louder["room_pressure_line"] = 1e3 * kitchen["room_pressure_line"]
+    highest = np.abs(louder["room_pressure_line"]).sum("line").max().item()
+    assert full_scale_of(louder) > highest > full_scale
+    with pytest.raises(va.ParameterError, match=r"there are front_1m, .*table, doorway"):
+        va.listen(kitchen, tmp_path, ["none"], ["behind"])
+    without = kitchen.drop_vars(("room_pressure_line", "room_noise_band_level"))
+    with pytest.raises(SchemaError, match="no sound in the room: run the study again"):
+        ingredients(without, "none", "table", kitchen["speed"].item())
+
+
+def test_loudness_at_a_listener_is_that_of_the_level_in_the_table(kitchen):
+    pytest.importorskip("mosqito")
+    speed = kitchen["speed"].item()
+    table = room_table(kitchen, "table")
+    column = table.head.index("Loudness, sone (diffuse field)")
+    (loud,) = loudness_of([ingredients(kitchen, "none", "table", speed)], field="diffuse")
+    assert float(table.rows[0][column]) == pytest.approx(loud.loudness_sone, rel=5e-3)
+    both = kitchen["room_level_both_ways"].sel(listener="table", speed=speed).values
+    (louder, _) = sones(kitchen, "table", [float(both[0]) + 10.0, float(both[1])])
+    assert 1.6 < float(louder) / loud.loudness_sone < 2.5  # 10 dB are about twice as loud
+
+
+def test_without_mosqito_the_room_says_what_to_install(kitchen, monkeypatch):
+    monkeypatch.setattr(loudness, "find_spec", lambda name: None)
+    assert len(room_table(kitchen, "table").head) == 7
+    *_, note = SECTIONS["in-room"].blocks(kitchen)
+    assert "pip install 'vibroacoustics[sound]'" in note.words
+
+
 def test_report_says_how_loud_by_which_path_and_what_changes_it(kitchen):
     sentence = room_sentence(kitchen)
     assert sentence.startswith("In the room the machine without a balancer is ")
@@ -154,7 +223,7 @@ def test_report_says_how_loud_by_which_path_and_what_changes_it(kitchen):
     assert "option" in sentence or "takes most off it" in sentence
     table = room_table(kitchen, "table")
     assert [row[0] for row in table.rows] == ["none", "counterweight-half"]
-    assert len(table.head) == len(table.rows[0]) == 7
+    assert len(table.head) == len(table.rows[0]) == 7 + loudness.available()
     assert "missed by" in table.rows[0][-1]
     assert "differ by more than 2 dB, in the mean over 2 listeners, at 250 Hz (" in (
         seam_sentence(kitchen)
@@ -176,3 +245,8 @@ def test_draws_make_a_band_of_all_sources():
     assert np.all(high > low)
     assert set(results["room_source_level"]["sound_source"].values) >= {"gas", "keys", "motor"}
     assert study.radiation.maximum_frequency_hz > HIGHEST_HZ
+    speed = results["speed"].values[0]
+    there = results["room_level"].sel(option="none", speed=speed, listener="table").item()
+    parts = ingredients(results, "none", "table", speed)
+    # a third octave of even noise at 100 Hz, where A rises by 16 dB an octave
+    assert a_level(parts) == pytest.approx(there, abs=0.3)

@@ -64,6 +64,16 @@ def test_loudness_of_third_octaves():
     assert direct.loudness_sone == pytest.approx(83.296, abs=0.01)
 
 
+def test_a_diffuse_field_counts_as_the_standard_has_it():
+    """3 dB more at 1 kHz and 2 dB less at 2.5 kHz, as much below 180 Hz."""
+    deep = tone(63.0, 70.0)
+    for hertz, more_db in ((1000.0, 3.0), (2500.0, -2.0)):
+        (free,) = loudness_of([tone(hertz, 60.0 + more_db)])
+        (diffuse,) = loudness_of([tone(hertz, 60.0)], field="diffuse")
+        assert diffuse.loudness_sone == pytest.approx(free.loudness_sone, rel=0.02)  # flanks
+    assert loudness_of([deep]) == loudness_of([deep], field="diffuse")
+
+
 def test_sharpness_of_narrow_noise():
     hertz = np.arange(1.0, 12000.0)
     gain = filter_gain(hertz)

@@ -88,6 +88,10 @@ def test_no_room_is_none():
         ),
         ({"listeners": {}}, "room.listeners = {}: "),
         (
+            {"listeners": {"front_1m": KITCHEN["listeners"]["table"]}},
+            "room.listeners.front_1m: a microphone has this name, receivers.front_1m",
+        ),
+        (
             {"foot_mm": [3990.0, 400.0]},
             "room.foot_mm = [3990.0, 400.0]: the shell reaches from",
         ),

@@ -37,6 +37,20 @@ for _thing in (
         "level of the machine by air in the room in third octaves",
     ),
     Variable(
+        "room_pressure_line",
+        (*_CASES, "line"),
+        "Pa",
+        "pressure of all sources by air at a line in the room",
+        complex_peak=True,
+    ),
+    Variable(
+        "room_noise_band_level",
+        (*_CASES, "noise_band"),
+        "dB",
+        "unweighted level by air in the room of what is no tone: noise of all sources and what no "
+        "source explains",
+    ),
+    Variable(
         "room_sound_power_level",
         ("speed", "option"),
         "dB",
@@ -47,6 +61,12 @@ for _thing in (
         _CASES,
         "dB",
         "A-weighted level by the feet and the plate in the room",
+    ),
+    Variable(
+        "room_plate_line_level",
+        (*_CASES, "line"),
+        "dB",
+        "level of a line by the feet and the plate in the room",
     ),
     Variable(
         "room_plate_level_low",

@@ -15,6 +15,7 @@ from ..in_room import (
     seam_sentence,
     seam_table,
 )
+from ..room_loudness import loudness_words
 from . import Section
 
 
@@ -36,7 +37,8 @@ def _blocks(results: xr.Dataset) -> list[Block]:
             "sound of a machine that shakes along x, y and z with equal powers. The sound of the "
             "plate is that of its mean power in a diffuse field: below some hundred hertz single "
             "resonances of the room move it by 10 dB either way. Bands of the draws are those at "
-            "the published microphone, of the model and of what it does not explain each.",
+            "the published microphone, of the model and of what it does not explain each. "
+            f"{loudness_words(results)}",
             "note",
         ),
     ]
