@@ -6,6 +6,8 @@ import xarray as xr
 from vibroacoustics.base.vocabulary import RIGID_BODY_DOFS, stamp
 
 RADIUS_M = 1.1
+TO_EARS_S = 0.01
+"""Of the sound of a plate, whose Green's function has an amplitude of 1/m."""
 HIGHEST_HZ = 800.0
 KITCHEN = {
     "size_mm": [4000.0, 3000.0, 2500.0],
@@ -39,6 +41,11 @@ def made_up_vectors(listeners, motions=(), room=1.0, open_=1.0, highest_hz=4000.
                 "room_transfer_vector",
                 waves,
                 {"listener": list(listeners), "pattern": patterns, "room_frequency": fine},
+            ),
+            "room_green_of_foot": stamp(
+                "room_green_of_foot",
+                room * np.exp(-2j * np.pi * fine * TO_EARS_S) * np.ones((len(listeners), 1)),
+                {"listener": list(listeners), "room_frequency": fine},
             ),
             "hemisphere_transfer_vector": stamp(
                 "hemisphere_transfer_vector",

@@ -102,8 +102,10 @@ def _in_a_room(results: xr.Dataset) -> xr.Dataset:
         stamp(name, np.array([[-8.0, -7.0, -9.0]]), at_seam)
         for name in ("room_gain_waves", "room_gain_diffuse", "room_gain_difference")
     ]
+    band = {"seam_band": at_seam["seam_band"]}
+    gain = stamp("room_place_gain", np.array([-1.0, 0.0, 1.0]), band)
     return xr.Dataset(
-        {one.name: one for one in (levels.assign_attrs(height_m=1.2), *seam)},
+        {one.name: one for one in (levels.assign_attrs(height_m=1.2), gain, *seam)},
         attrs={"parameters": json.dumps(parameters)},
     )
 

@@ -128,7 +128,7 @@ def _room(study: Study, path: ShellPath | None) -> list[Cost]:
     if settings is None:
         return []
     material = room_key(study, settings, _modes(path))
-    if is_cached("room-vectors", material):
+    if is_cached("room-responses", material):
         return []
     return [room_cost(study, settings)]
 

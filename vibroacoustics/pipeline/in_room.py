@@ -72,7 +72,9 @@ def sound_in_room(
     sound = sound.merge(line_variables(by_case, motion.results.merge(sound)))
     results = motion.results.merge(sound)
     sound = sound.merge(drawn_band(air, results, study.catalogue_receiver))
-    sound = sound.merge(_by_plate(settings, results.merge(sound))).merge(_of_the_room(settings))
+    sound = sound.merge(_by_plate(settings, vectors, results.merge(sound))).merge(
+        _of_the_room(settings)
+    )
     sound = sound.merge(seam_variables(listeners, shown, *both, gains_db))
     return sound.merge(_map(study, settings, air, progress))
 
@@ -82,7 +84,7 @@ def vectors_of(
 ) -> tuple[xr.Dataset, bool]:
     """Pressure per velocity at the listeners and on the hemisphere; from the cache if there."""
     return storage.cached(
-        "room-vectors",
+        "room-responses",
         rooms.room_key(study, settings, motions),
         lambda: room_vectors(
             study.machine.shell,
@@ -125,12 +127,12 @@ def _by_air(
     )
 
 
-def _by_plate(settings: StudyRoom, results: xr.Dataset) -> xr.Dataset:
+def _by_plate(settings: StudyRoom, vectors: xr.Dataset, results: xr.Dataset) -> xr.Dataset:
     if "structure_borne_power" not in results:
         return xr.Dataset()
     frequency = results["tone_frequency"].transpose("speed", "line").values
     hertz = np.where(np.nan_to_num(frequency) > 0.0, frequency, MIDDLE_HZ[0])
-    per_power = rooms.diffuse_per_power(settings, rooms.foot_m(settings))
+    per_power = rooms.plate_per_power(settings, vectors)
     return plate_variables(results, np.array([per_power(row) for row in hertz]))
 
 

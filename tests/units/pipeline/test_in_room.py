@@ -139,18 +139,29 @@ def test_waves_end_where_the_power_takes_over():
 
 
 def test_plate_in_the_room(kitchen):
-    """Mean power, direct and diffuse, by the room's absorption in the line's octave."""
+    """Mean power by waves of an amplitude of 1/m, above them direct and diffuse."""
     at = kitchen.sel(option="none").isel(speed=0)
     power = at["structure_borne_power"].values
     frequency = np.nan_to_num(at["tone_frequency"].values)
     weight = np.where(frequency > 0.0, 10.0 ** (a_weighting(np.maximum(frequency, 1)) / 10.0), 0.0)
     settings = va.load_study(TINY).replace({"room": KITCHEN}).room
-    per_power = rooms.diffuse_per_power(settings, rooms.foot_m(settings))(np.maximum(frequency, 20))
+    frequency = np.maximum(frequency, 20.0)
+    share = rooms.wave_share(HIGHEST_HZ)(frequency)
+    diffuse = rooms.diffuse_per_power(settings, rooms.foot_m(settings))(frequency)
+    per_power = share * 2.0 * np.pi * RHO_C + (1.0 - share) * diffuse
     expected = 10.0 * np.log10(per_power @ (power * weight) / 4e-10)
-    np.testing.assert_allclose(at["room_plate_level"], expected, atol=1e-9)
+    np.testing.assert_allclose(at["room_plate_level"], expected, atol=0.01)  # between lines
     both = energy_sum(np.stack([at["room_level"], at["room_plate_level"]]), axis=0)
     np.testing.assert_allclose(at["room_level_both_ways"], both, atol=1e-12)
     assert np.all(at["room_plate_level_low"] < at["room_plate_level_high"])
+
+
+def test_a_plate_in_the_open_has_its_power_on_a_hemisphere():
+    settings = va.load_study(TINY).replace({"room": KITCHEN}).room
+    away_m, vectors = 2.3, made_up_vectors(settings.listeners)
+    vectors["room_green_of_foot"] /= 2.0 * np.pi * away_m  # of a source on a hard floor
+    got = rooms.plate_per_power(settings, vectors)(np.array([48.3, 96.7]))
+    np.testing.assert_allclose(got, RHO_C / (2.0 * np.pi * away_m**2), rtol=2e-3)
 
 
 @pytest.mark.parametrize("listener", ["table", "doorway"])

@@ -20,6 +20,13 @@ for _thing in (
         complex_peak=True,
     ),
     Variable(
+        "room_green_of_foot",
+        ("listener", "room_frequency"),
+        "m-1",
+        "Green's function in the room, by waves, from beside the machine's foot",
+        complex_peak=True,
+    ),
+    Variable(
         "hemisphere_transfer_vector",
         ("hemisphere_position", "pattern", "frequency"),
         "Pa s m-1",

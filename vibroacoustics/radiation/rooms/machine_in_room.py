@@ -24,10 +24,10 @@ from ..transfer_vectors import frequencies_hz
 from .cutting import cut, faces
 from .decay import reverberation_time_s
 from .join_box import JoinBox
-from .lattice import holding
+from .lattice import Lattice, holding
 from .machine_field import MachineField
 from .room import Room
-from .run import Runs, together
+from .run import PRESSURE, Runs, together
 from .settings import RoomSettings
 from .standing import Standing, check_listeners, standing
 
@@ -74,7 +74,8 @@ def room_vectors(
     Returns
     -------
     Dataset
-        `room_transfer_vector` (listener, pattern, room_frequency), Pa s/m, and
+        `room_transfer_vector` (listener, pattern, room_frequency), Pa s/m, `room_green_of_foot`
+        (listener, room_frequency), 1/m, the mean of the points beside the foot, and
         `hemisphere_transfer_vector` (hemisphere_position, pattern, frequency): pressure at the 20
         positions of ISO 3744, Table B.1, over a hard floor in the open, up to the settings'
         highest frequency; its radius is the attribute `hemisphere_radius_m`. Patterns are
@@ -99,10 +100,10 @@ def room_vectors(
     patterns = [*map(rigid_body, RIGID_BODY_DOFS), *map(surface_motion, motions)]
     highest = max(maximum_frequency_hz, settings.maximum_frequency_hz)
     side = RevolutionSide(profile, patterns, highest, shell.floor_z_m)
-    in_room, attributes = _in_room(side, stands, listeners, waves, names, progress)
+    in_room = _in_room(side, stands, listeners, waves, names, progress)
     open_, radius_m = _in_the_open(shell, settings, side, names, progress)
     return check(xr.merge([in_room, open_])).assign_attrs(
-        hemisphere_radius_m=radius_m, body_in_room=stands.body_in_room, **attributes
+        hemisphere_radius_m=radius_m, body_in_room=stands.body_in_room, **in_room.attrs
     )
 
 
@@ -142,14 +143,15 @@ def _in_room(
     waves: RoomSettings,
     names: Sequence[str],
     progress: Progress,
-) -> tuple[xr.DataArray, dict[str, float | str]]:
-    """`room_transfer_vector`, and what is told of the runs."""
+) -> xr.Dataset:
+    """`room_transfer_vector` and `room_green_of_foot`, with what is told of the runs."""
     highest, clearance_m = waves.maximum_frequency_hz, stands.clearance_m
     box = JoinBox(stands.lower, stands.upper, highest, clearance_m, on_floor=True)
     boxes = cut(stands.room, waves.spacing_m)
-    quantities = [(-1, axis) for axis in box.axes]
+    lattices = [*box.lattices, _around_foot(stands)]
+    quantities = [*((-1, axis) for axis in box.axes), PRESSURE]
     longest_s = reverberation_time_s(stands.room)
-    runs = Runs(boxes, faces(stands.room, boxes), box.lattices, quantities, waves, longest_s)
+    runs = Runs(boxes, faces(stands.room, boxes), lattices, quantities, waves, longest_s)
     length = _PADDING * runs.samples
     step_hz = 1.0 / (length * runs.sample_s)
     lines = int(np.ceil(highest / step_hz)) + _MORE_LINES
@@ -158,22 +160,21 @@ def _in_room(
     advance = together(progress, len(listeners))
     remaining: dict[str, float] = {}
 
-    def one(name: str, position: Array) -> ComplexArray:
+    def one(name: str, position: Array) -> tuple[ComplexArray, ComplexArray]:
         record = runs.record(name, position, advance)
         remaining[name] = record.remaining_db
-        return field.join(record, length, lines, step_hz)
+        green = record.on_grid(len(box.lattices), length, lines)[:, 0].mean(axis=-1)
+        return field.join(record, length, lines, step_hz), green
 
-    values = in_threads([partial(one, *of) for of in listeners.items()])
-    labelled = stamp(
-        "room_transfer_vector",
-        np.array(values),
-        {
-            "listener": list(listeners),
-            "pattern": list(names),
-            "room_frequency": step_hz * np.arange(1.0, lines + 1.0),
-        },
-    )
-    return labelled, {
+    values, green = zip(*in_threads([partial(one, *of) for of in listeners.items()]), strict=True)
+    ears = {"listener": list(listeners)}
+    hertz = {"room_frequency": step_hz * np.arange(1.0, lines + 1.0)}
+    coords = {**ears, "pattern": list(names), **hertz}
+    arrays = {
+        "room_transfer_vector": stamp("room_transfer_vector", np.array(values), coords),
+        "room_green_of_foot": stamp("room_green_of_foot", np.array(green), ears | hertz),
+    }
+    attributes = {
         "room_maximum_frequency_hz": highest,
         "room_record_s": runs.samples * runs.sample_s,
         "room_remaining_db": max(remaining.values(), default=0.0),
@@ -181,6 +182,13 @@ def _in_room(
         "room_terms": int(sum(np.prod(one.nodes) for one in boxes)),
         "room_time_step_s": runs.step_s,
     }
+    return xr.Dataset(arrays, attrs=attributes)
+
+
+def _around_foot(stands: Standing) -> Lattice:
+    """The corners of the box around the machine, on what it stands on."""
+    (x, y, z), (far_x, far_y, _) = stands.lower, stands.upper
+    return Lattice(np.array([x, far_x]), np.array([y, far_y]), np.array([z]))
 
 
 def _in_the_open(
@@ -211,22 +219,40 @@ def _in_the_open(
 def room_pressure_per_velocity(vectors: xr.Dataset) -> Callable[[Array], ComplexArray]:
     """`room_transfer_vector` as a function of frequencies in Hz, (listener, pattern, frequency).
 
-    The response lasts for as long as the record and is tabulated twice as finely as that needs:
-    with half of that duration taken out of its delay, it is band limited to half of what the grid
-    carries, and `interpolation_weights` errs by 2e-4 of it.
-
     Raises
     ------
     ParameterError
         The function is called with a frequency that is negative or above the table.
     """
     table = vectors["room_transfer_vector"].transpose("listener", "pattern", "room_frequency")
-    line_hz, values = table["room_frequency"].values, table.values
+    return _between_lines(table.values, vectors)
+
+
+def green_of_foot(vectors: xr.Dataset) -> Callable[[Array], ComplexArray]:
+    """`room_green_of_foot` as a function of frequencies in Hz, (listener, frequency), 1/m.
+
+    Raises
+    ------
+    ParameterError
+        As `room_pressure_per_velocity`.
+    """
+    table = vectors["room_green_of_foot"].transpose("listener", "room_frequency")
+    return _between_lines(table.values, vectors)
+
+
+def _between_lines(values: ComplexArray, vectors: xr.Dataset) -> Callable[[Array], ComplexArray]:
+    """Values at lines, (..., line), as a function of frequencies in Hz, (..., frequency).
+
+    The response lasts for as long as the record and is tabulated twice as finely as that needs:
+    with half of that duration taken out of its delay, it is band limited to half of what the grid
+    carries, and `interpolation_weights` errs by 2e-4 of it.
+    """
+    line_hz = vectors["room_frequency"].values
     step_hz, highest_hz = float(line_hz[0]), float(vectors.attrs["room_maximum_frequency_hz"])
     middle_s = 0.5 / (_PADDING * step_hz)
     turned = values * np.exp(2j * np.pi * line_hz * middle_s)
     below = turned[..., _MORE_LINES - 1 :: -1][..., -_MORE_LINES:].conj()
-    around = np.concatenate([below, np.zeros((*values.shape[:2], 1)), turned], axis=-1)
+    around = np.concatenate([below, np.zeros((*values.shape[:-1], 1)), turned], axis=-1)
 
     def at(frequency_hz: Array) -> ComplexArray:
         frequency_hz = np.asarray(frequency_hz, dtype=float)
@@ -240,7 +266,7 @@ def room_pressure_per_velocity(vectors: xr.Dataset) -> Callable[[Array], Complex
         line = np.minimum(frequency_hz / step_hz, highest_hz / step_hz)
         cell = np.floor(line).astype(int)
         weights = interpolation_weights(line - cell)
-        result = np.zeros((*values.shape[:2], line.size), dtype=complex)
+        result = np.zeros((*values.shape[:-1], line.size), dtype=complex)
         for node in range(STENCIL_NODES):
             result += weights[:, node] * around[..., cell + node + 1]
         result *= np.exp(-2j * np.pi * frequency_hz * middle_s)

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ...base.arrays import Array, ComplexArray
+from ...base.constants import AIR_IMPEDANCE_PA_S_PER_M
 from ...base.decibel import power_of_level
 from ...base.vocabulary import RIGID_BODY_DOFS
 from ...machine.shell import Shell
@@ -26,7 +27,7 @@ from .diffuse import (
     line_of_sight,
     mean_square_per_power,
 )
-from .machine_in_room import room_pressure_per_velocity
+from .machine_in_room import green_of_foot, room_pressure_per_velocity
 from .materials import OCTAVES_HZ, Material
 from .room import Block, Patch, Room
 
@@ -173,6 +174,37 @@ def diffuse_per_power(
                 [mean_square_per_power(frequency_hz, away, diffuse, seen) for away, seen in ways]
             )
         )
+
+    return per_power
+
+
+def plate_per_power(settings: StudyRoom, vectors: xr.Dataset) -> Callable[[Array], Array]:
+    """Mean square of pressure at the listeners per power of the plate that the feet push.
+
+    The plate is a volume velocity Q beside the machine's foot, of the power ρ ω²|Q|²/(4π c) that it
+    has over a hard surface in the open (assumed). By waves it gives the pressure jωρ Q G, so that a
+    mean square per power is 2π ρ c |G|²; above them direct sound and diffuse field.
+
+    Parameters
+    ----------
+    settings : of the room
+    vectors : of `room_vectors`
+
+    Returns
+    -------
+    of frequencies, shape (listener, frequency), Pa²/W
+    """
+    highest_hz = float(vectors.attrs["room_maximum_frequency_hz"])
+    share, diffuse = wave_share(highest_hz), diffuse_per_power(settings, foot_m(settings))
+    green = green_of_foot(vectors)
+
+    def per_power(frequency_hz: Array) -> Array:
+        low = frequency_hz <= highest_hz
+        waves = np.zeros((len(settings.listeners), frequency_hz.size))
+        waves[:, low] = np.abs(green(frequency_hz[low])) ** 2
+        waves *= 2.0 * np.pi * AIR_IMPEDANCE_PA_S_PER_M
+        part = share(frequency_hz)
+        return np.asarray(part * waves + (1.0 - part) * diffuse(frequency_hz))
 
     return per_power
 

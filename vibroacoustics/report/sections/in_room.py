@@ -35,9 +35,10 @@ def _blocks(results: xr.Dataset) -> list[Block]:
             "machine sends out on a hard floor in the open. What no source explains is taken as "
             "sent alike everywhere from the machine's axis, and to come to the listeners as the "
             "sound of a machine that shakes along x, y and z with equal powers. The sound of the "
-            "plate is that of its mean power in a diffuse field: below some hundred hertz single "
-            "resonances of the room move it by 10 dB either way. Bands of the draws are those at "
-            "the published microphone, of the model and of what it does not explain each. "
+            "plate is that of its mean power, sent out beside the machine's foot (assumed); where "
+            "modes of the room cancel, one listener has 20 dB and more less of it than another. "
+            "Bands of the draws are those at the published microphone, of the model and of what it "
+            "does not explain each. "
             f"{loudness_words(results)}",
             "note",
         ),
