@@ -45,7 +45,7 @@ def sones(results: xr.Dataset, listener: str, levels_dba: Sequence[float]) -> li
     ]
     with suppress(ParameterError):  # louder than the standard goes: without it
         loud = loudness_of(parts, field="diffuse")
-        return [rounding.three_digits(one.loudness_sone) for one in loud]
+        return [rounding.fixed(one.loudness_sone) for one in loud]
     return []
 
 
