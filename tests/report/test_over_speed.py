@@ -266,7 +266,9 @@ def test_maps_of_a_thousand_speeds_are_coarse(results):
 def over_a_thousand(results):
     speed = np.linspace(1500.0, 4500.0, 1000)
     kept = results[["pressure_line", "level_modelled", "level_total", "foot_force_amplitude",
-                    "natural_frequency", "reported_figure", "shell_frequency"]]  # fmt: skip
+                    "natural_frequency", "reported_figure", "shell_frequency",
+                    "force_order", "moment_order", "foot_force_order",
+                    "velocity_order"]]  # fmt: skip
     return kept.interp(speed=speed, assume_sorted=True).assign_attrs(results.attrs)
 
 
