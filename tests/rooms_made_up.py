@@ -57,5 +57,9 @@ def made_up_vectors(listeners, motions=(), room=1.0, open_=1.0, highest_hz=4000.
                 },
             ),
         },
-        attrs={"hemisphere_radius_m": RADIUS_M, "room_maximum_frequency_hz": HIGHEST_HZ},
+        attrs={
+            "hemisphere_radius_m": RADIUS_M,
+            "room_maximum_frequency_hz": HIGHEST_HZ,
+            "room_record_s": 0.5,
+        },
     )

@@ -50,7 +50,8 @@ it (ISO 3744), on a `MeasurementSurface`.
 listening, tones, loudness and sharpness, `rooms` the sound of a source in a furnished room.
 
 **Sound.**
-`listen(results, folder)` writes the sound of options at microphones as WAV or FLAC.
+`listen(results, folder)` writes the sound of options at microphones as WAV or FLAC;
+`impulse_responses(study)` are the responses in its room to accelerations of the machine.
 
 **Things of your own.**
 `register(thing)` and `load_plugin(path)` take them in: a class derived from `Option`, `Machine`,
@@ -115,6 +116,7 @@ if TYPE_CHECKING:
     from .pipeline import (
         MeasurementSurface,
         analyse_orders,
+        impulse_responses,
         radiate,
         run,
         sound_power,
@@ -210,6 +212,7 @@ __all__ = [
     "export_functions",
     "export_recording",
     "given_radiation",
+    "impulse_responses",
     "inverted_forces",
     "label_recording",
     "levels",
@@ -301,6 +304,7 @@ _HOME = {
     "export_functions": "commands.exporting",
     "export_recording": "commands.exporting",
     "given_radiation": "radiation.given",
+    "impulse_responses": "pipeline",
     "inverted_forces": "measured.inversion",
     "label_recording": "recordings",
     "listen": "commands.listening",

@@ -47,6 +47,15 @@ with tempfile.TemporaryDirectory() as folder:
         print(path.name)
 
 # %%
+# From an acceleration to the table
+# ---------------------------------
+# The response to a motion of the shell, to be convolved with what an accelerometer measured.
+responses = va.impulse_responses(study)
+figure, axes = plt.subplots(layout="constrained")
+responses.sel(listener="table", dof="tz").plot(ax=axes, linewidth=0.5)
+axes.set(title="up and down, at the table", xlabel="time, s", ylabel="Pa/(m/s²) a sample")
+
+# %%
 # Where it is loud
 # ----------------
 va.plot.room_map(results)

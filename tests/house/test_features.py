@@ -60,6 +60,8 @@ FEATURES = {
     "filter bank": "va.levels.band_signal",
     "options to listen to": "command listen",
     "options to listen to, in Python": "va.listen",
+    "impulse responses of a room": "command impulse-responses",
+    "impulse responses of a room, in Python": "va.impulse_responses",
     "what a sound is made of": "va.sound.ingredients",
     "sound in a room": "va.rooms.room_transfer",
     "materials of rooms": "va.rooms.read_library",

@@ -1,9 +1,12 @@
-"""Command that writes sound. Heavy imports wait until it runs."""
+"""Commands that write sound. Heavy imports wait until they run."""
 
 from pathlib import Path
 from typing import Annotated
 
 import typer
+
+from .options import NoCache, Plugins, load_plugins, used_cache
+from .progress import progress_on_stderr
 
 commands = typer.Typer()
 
@@ -62,3 +65,45 @@ def listen_command(
         )
     for path in written:
         typer.echo(f"sound: {path}")
+
+
+@commands.command("impulse-responses")
+def impulse_responses_command(
+    study_file: Annotated[
+        Path, typer.Argument(metavar="STUDY.toml", help="A study with a table `room`.")
+    ],
+    listener: Annotated[
+        list[str] | None, typer.Option(help="Listener in the room; default: all.")
+    ] = None,
+    full_scale: Annotated[
+        float | None,
+        typer.Option(
+            metavar="PA",
+            help="Pa per m/s² or rad/s² at full scale; default: one that all responses fit in.",
+        ),
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out",
+            help="Folder of the files; default: reports/NAME OF THE STUDY/impulse_responses.",
+        ),
+    ] = None,
+    plugin: Plugins = None,
+    no_cache: NoCache = False,
+) -> None:
+    """Write responses in a room to the shell's accelerations, for listening to measured ones."""
+    from .. import pipeline
+    from ..study.loading import load_study
+    from . import outputs
+    from .impulse_files import write_impulse_responses
+
+    load_plugins(plugin)
+    folder = out or Path("reports") / study_file.stem / "impulse_responses"
+    study = load_study(study_file)
+    outputs.check_folder(folder)
+    with outputs.naming(study_file), used_cache(no_cache), progress_on_stderr() as progress:
+        responses = pipeline.impulse_responses(study, progress)
+        written = write_impulse_responses(responses, folder, listener or None, full_scale)
+    for path in written:
+        typer.echo(f"impulse response: {path}")

@@ -12,11 +12,13 @@ if TYPE_CHECKING:
     from .measurement_surface import MeasurementSurface
     from .radiating import radiate
     from .recording import analyse_orders, speed_frequency_map, track_orders
+    from .room_responses import impulse_responses
     from .study import run
 
 __all__ = [
     "MeasurementSurface",
     "analyse_orders",
+    "impulse_responses",
     "radiate",
     "run",
     "sound_power",
@@ -27,6 +29,7 @@ __all__ = [
 _HOME = {
     "MeasurementSurface": "measurement_surface",
     "analyse_orders": "recording",
+    "impulse_responses": "room_responses",
     "radiate": "radiating",
     "run": "study",
     "sound_power": "measured_power",

@@ -1,11 +1,12 @@
 """The machine of a study in its room: levels at the listeners, the seam of methods, a map."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 
-from ..base.arrays import Array
+from ..base.arrays import Array, IndexArray
 from ..base.progress import Progress
 from ..base.vocabulary import REFERENCE_OPTION, check, stamp
 from ..levels.in_room import RoomSound, RoomWays, blended_gains, room_sound, wave_gains
@@ -20,6 +21,7 @@ from ..levels.room_levels import (
 from ..levels.room_map import map_bands_hz, map_level
 from ..levels.room_rest import rest_in_bands
 from ..levels.room_seam import seam_variables, shown_bands
+from ..machine.shell import Shell
 from ..machine.source import CaseKey
 from ..radiation.patterns import SurfaceMotion
 from ..radiation.pressure import wrench_pressure_by
@@ -51,32 +53,69 @@ def sound_in_room(
     if settings is None:
         return xr.Dataset()
     vectors, _ = vectors_of(study, settings, () if shell is None else shell.modes, progress)
-    pressure, highest_hz = rooms.pressure_at_places(vectors), settings.maximum_frequency_hz
-    at = rooms.machine_middle_m(settings, study.machine.shell)
-    share, radius_m = rooms.wave_share(highest_hz), float(vectors.attrs["hemisphere_radius_m"])
-    listeners = list(settings.listeners)
-    free = RoomWays(len(listeners), radius_m, share, rooms.diffuse_per_power(settings, at))
-    waves = wave_gains(pressure, free, highest_hz)
-    shown = shown_bands(rooms.seam_bands_hz(highest_hz))
-    both = (waves[:, shown], blended_gains(waves, free)[1][:, shown])
-    gains_db = rooms.place_gains_db(*both)
-    gain = rooms.gain_over_frequency(gains_db, MIDDLE_HZ[shown])
-    per_power = rooms.diffuse_per_power(settings, at, gain)
-    ways = RoomWays(len(listeners), radius_m, share, per_power)
+    pressure, listeners = rooms.pressure_at_places(vectors), list(settings.listeners)
+    both_ways = ways_of(settings, study.machine.shell, vectors, pressure)
     received = _transmission(study, motion, shell, pressure).received(motion.cases, motion.loads)
-    by_case = {key: room_sound(one, ways) for key, one in received.items()}
-    air = _by_air(study, motion, by_case, blended_gains(waves, ways)[0])
+    by_case = {key: room_sound(one, both_ways.ways) for key, one in received.items()}
+    gains, _ = blended_gains(both_ways.waves, both_ways.ways)
+    air = _by_air(study, motion, by_case, gains)
     sources = list(sources_of(study))
     speeds, options = list(study.operation.speed_rpm), list(study.options)
     sound = air_variables(air, speeds, options, listeners, sources)
     sound = sound.merge(line_variables(by_case, motion.results.merge(sound)))
     results = motion.results.merge(sound)
     sound = sound.merge(drawn_band(air, results, study.catalogue_receiver))
-    sound = sound.merge(_by_plate(settings, vectors, results.merge(sound))).merge(
-        _of_the_room(settings)
-    )
-    sound = sound.merge(seam_variables(listeners, shown, *both, gains_db))
+    sound = sound.merge(_by_plate(settings, vectors, results.merge(sound)))
+    of_seam = (both_ways.shown, *both_ways.both, both_ways.gains_db)
+    sound = sound.merge(_of_the_room(settings)).merge(seam_variables(listeners, *of_seam))
     return sound.merge(_map(study, settings, air, progress))
+
+
+class BothMethods(NamedTuple):
+    """Ways to the listeners, and both methods around their seam.
+
+    Attributes
+    ----------
+    ways : with the gain of the place
+    gain : of the power at the machine's place, of frequencies
+    waves : mean square per power, shape (listener, band), Pa²/W
+    shown : numbers of the bands around the seam
+    both : waves and diffuse field in these, without the gain
+    gains_db : of the place, in these and above
+    """
+
+    ways: RoomWays
+    gain: Callable[[Array], Array]
+    waves: Array
+    shown: IndexArray
+    both: tuple[Array, Array]
+    gains_db: Array
+
+
+def ways_of(
+    settings: StudyRoom, shell: Shell, vectors: xr.Dataset, pressure: rooms.PressureAt
+) -> BothMethods:
+    """How the machine's sound comes to the listeners.
+
+    Parameters
+    ----------
+    settings : of the room
+    shell : of the machine
+    vectors, pressure : of `vectors_of` and `pressure_at_places`
+    """
+    highest_hz, at = settings.maximum_frequency_hz, rooms.machine_middle_m(settings, shell)
+    share, radius_m = rooms.wave_share(highest_hz), float(vectors.attrs["hemisphere_radius_m"])
+    count = len(settings.listeners)
+    free = RoomWays(count, radius_m, share, rooms.diffuse_per_power(settings, at))
+    waves = wave_gains(pressure, free, highest_hz)
+    shown = shown_bands(rooms.seam_bands_hz(highest_hz))
+    both = (waves[:, shown], blended_gains(waves, free)[1][:, shown])
+    gains_db = rooms.place_gains_db(*both)
+    gain = rooms.gain_over_frequency(gains_db, MIDDLE_HZ[shown])
+    per_power = rooms.diffuse_per_power(settings, at, gain)
+    return BothMethods(
+        RoomWays(count, radius_m, share, per_power), gain, waves, shown, both, gains_db
+    )
 
 
 def vectors_of(

@@ -16,11 +16,11 @@ from .gain import peak_of_tone
 CALIBRATION_HZ: Final = 1000.0
 
 
-def wav_bytes(sound: Array, sample_rate_hz: int, full_scale_pa: float) -> bytes:
+def wav_bytes(sound: Array, sample_rate_hz: int, full_scale_pa: float, unit: str = "Pa") -> bytes:
     """A WAV file of 32-bit floats, its full scale in its comment."""
     content = io.BytesIO()
     wavfile.write(content, sample_rate_hz, sound.astype(np.float32))
-    return with_comment(content.getvalue(), scale_comment([(full_scale_pa, "Pa")]))
+    return with_comment(content.getvalue(), scale_comment([(full_scale_pa, unit)]))
 
 
 def flac_bytes(sound: Array, sample_rate_hz: int, full_scale_pa: float) -> bytes:

@@ -36,7 +36,7 @@ def full_scale_of(results: xr.Dataset, calibration_db: float | None = None) -> f
     highest = max(float((peak + _CREST * np.sqrt(square)).max()), _highest_in_room(results))
     if calibration_db is not None:
         highest = max(highest, peak_of_tone(calibration_db))
-    return _rounded_up(highest)
+    return next_full_scale(highest)
 
 
 def _highest_in_room(results: xr.Dataset) -> float:
@@ -62,6 +62,6 @@ def _square(level: xr.DataArray) -> xr.DataArray:
     return square.sum([dim for dim in level.dims if str(dim).endswith("band")])
 
 
-def _rounded_up(value: float) -> float:
-    """The next of 1, 2, 5, 10, 20, …; of silence the threshold of hearing."""
+def next_full_scale(value: float) -> float:
+    """The next of 1, 2, 5, 10, 20, …, 2e-5 at least: in pascal the threshold of hearing."""
     return next((step for step in _STEPS if step >= value * (1.0 - 1e-9)), value)

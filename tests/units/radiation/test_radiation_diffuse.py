@@ -13,6 +13,7 @@ from vibroacoustics.radiation.rooms import (
     line_of_sight,
     mean_square_per_power,
 )
+from vibroacoustics.radiation.rooms.decay import reverberation_time_s
 from vibroacoustics.radiation.rooms.diffuse import air_attenuation_per_m, surface_m2
 from vibroacoustics.radiation.rooms.room import SIDES
 
@@ -47,6 +48,16 @@ def test_octaves_are_interpolated_and_held_at_the_ends():
     room = DiffuseRoom(np.array([4.0, 6.0, 6.0, 6.0, 6.0, 6.0, 8.0]), 50.0, 0.0)
     between = float(np.sqrt(63.0 * 125.0))
     assert np.allclose(room.area_m2(np.array([20.0, between, 8000.0])), [4.0, 5.0, 8.0])
+
+
+def test_the_reverberation_time_is_that_of_walls_and_air():
+    diffuse = DiffuseRoom.of(ROOM)
+    low, high = diffuse.reverberation_time_s(np.array([63.0, 4000.0]))
+    assert low == pytest.approx(reverberation_time_s(ROOM), rel=1e-3)  # of walls alone
+    area = diffuse.area_m2(np.array([4000.0]))[0]
+    assert high == pytest.approx(24.0 * np.log(10.0) * (30.0 - 0.648) / (343.0 * area), rel=1e-9)
+    bare = DiffuseRoom(np.full(7, 1e-3), 50.0, 30.0)
+    assert bare.reverberation_time_s(np.array([63.0]))[0] == 5.0
 
 
 def test_air_adds_to_the_walls():

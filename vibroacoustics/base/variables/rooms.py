@@ -33,5 +33,11 @@ for _thing in (
         "pressure on a hemisphere over a hard floor per velocity of the housing",
         complex_peak=True,
     ),
+    Variable(
+        "room_impulse_response",
+        ("listener", "dof", "time"),
+        "Pa s2 m-1",
+        "pressure in the room per acceleration of the housing, of samples to be convolved",
+    ),
 ):
     register(_thing)

@@ -10,7 +10,7 @@ from .cutting import cut, faces
 from .materials import OCTAVES_HZ, WAVE_OCTAVES
 from .room import Room
 
-_LONGEST_S: Final = 5.0
+LONGEST_S: Final = 5.0
 """Of rooms that hardly absorb."""
 
 
@@ -35,4 +35,4 @@ def reverberation_time_s(room: Room) -> float:
     """
     least = float(absorption_area_m2(room)[:WAVE_OCTAVES].min())
     volume = 24.0 * np.log(10.0) * volume_m3(room) / SPEED_OF_SOUND_M_PER_S
-    return float(min(_LONGEST_S, volume / least)) if least > 0.0 else _LONGEST_S
+    return float(min(LONGEST_S, volume / least)) if least > 0.0 else LONGEST_S

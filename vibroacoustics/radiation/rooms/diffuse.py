@@ -5,11 +5,11 @@ from typing import Final
 
 import numpy as np
 
-from ...base.constants import AIR_IMPEDANCE_PA_S_PER_M
+from ...base.constants import AIR_IMPEDANCE_PA_S_PER_M, SPEED_OF_SOUND_M_PER_S
 from ...base.decibel import level_of_power
 from ..arrays import Array
 from .cutting import cut, faces
-from .decay import absorption_area_m2, volume_m3
+from .decay import LONGEST_S, absorption_area_m2, volume_m3
 from .materials import OCTAVES_HZ
 from .room import Room
 
@@ -55,6 +55,15 @@ class DiffuseRoom:
         constant: Array = area / (1.0 - np.minimum(area / self.surface_m2, _MOST_MEAN_ABSORPTION))
         return constant
 
+    def reverberation_time_s(self, frequency_hz: Array) -> Array:
+        """Of walls and air, T = 24 ln 10 V/(c A), (frequency,), s; 5 s at most.
+
+        H. Kuttruff, Room Acoustics, 6th edition (2016), equation 5.25 (Sabine).
+        """
+        volume = 24.0 * np.log(10.0) * self.volume_m3 / SPEED_OF_SOUND_M_PER_S
+        time: Array = volume / np.maximum(self.area_m2(frequency_hz), volume / LONGEST_S)
+        return time
+
 
 def surface_m2(room: Room) -> float:
     """Area of all walls and blocks that air meets, m²."""
@@ -80,11 +89,15 @@ def mean_square_per_power(
     room : its absorption
     in_sight : whether the machine is in the listener's sight: see `line_of_sight`
     """
-    distance_m = max(distance_m, _NEAREST_M)
-    direct = 1.0 / (2.0 * np.pi * distance_m**2) if in_sight else 0.0
-    field = direct + 4.0 / room.constant_m2(frequency_hz)
-    result: Array = AIR_IMPEDANCE_PA_S_PER_M * field
+    reflected = AIR_IMPEDANCE_PA_S_PER_M * 4.0 / room.constant_m2(frequency_hz)
+    result: Array = direct_per_power(distance_m, in_sight) + reflected
     return result
+
+
+def direct_per_power(distance_m: float, in_sight: bool) -> float:
+    """The part of the direct sound in `mean_square_per_power`, Pa²/W."""
+    distance_m = max(distance_m, _NEAREST_M)
+    return AIR_IMPEDANCE_PA_S_PER_M / (2.0 * np.pi * distance_m**2) if in_sight else 0.0
 
 
 def line_of_sight(room: Room, start: Array, end: Array) -> bool:

@@ -1,0 +1,90 @@
+"""Impulse responses of a study's room, with vectors that are made up, and their files."""
+
+import numpy as np
+import pytest
+from rooms_made_up import KITCHEN, made_up_vectors
+from scipy.io import wavfile
+from support import TINY, assert_refused, command_here
+
+import vibroacoustics as va
+from vibroacoustics.base.vocabulary import RIGID_BODY_DOFS
+from vibroacoustics.commands.impulse_files import write_impulse_responses
+from vibroacoustics.pipeline import in_room
+from vibroacoustics.radiation.rooms import of_study as rooms
+
+
+@pytest.fixture(scope="module")
+def study():
+    return va.load_study(TINY).replace({"room": KITCHEN})
+
+
+@pytest.fixture(scope="module")
+def vectors(study):
+    return made_up_vectors(study.room.listeners, highest_hz=2000.0)
+
+
+@pytest.fixture(scope="module")
+def responses(study, vectors):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(in_room, "vectors_of", lambda *_: (vectors, False))
+        return va.impulse_responses(study)
+
+
+def test_they_are_the_vectors_below_the_seam_and_the_levels_above(study, vectors, responses):
+    """0.01 j f per velocity, at all places: 0.01/2π per acceleration, where waves are alone.
+
+    These start at 0 s: 1e-4 of their energy, what filters leave before it, is cut off, and up to
+    1.3 % at single frequencies with it.
+    """
+    assert responses.dims == ("listener", "dof", "time")
+    assert list(responses["dof"].values) == list(RIGID_BODY_DOFS)
+    assert responses["time"].values[1] == pytest.approx(1.0 / 48000.0)
+    written = np.abs(np.fft.rfft(responses.values, 2**16)) ** 2
+    hertz = np.fft.rfftfreq(2**16, 1.0 / 48000.0)
+    low = (hertz > 100.0) & (hertz < 300.0)
+    np.testing.assert_allclose(written[..., low], (0.01 / (2.0 * np.pi)) ** 2, rtol=0.02)
+    pressure = rooms.pressure_at_places(vectors)
+    ways = in_room.ways_of(study.room, study.machine.shell, vectors, pressure).ways
+    for middle in (1000.0, 1258.9):
+        within = (hertz > middle * 10.0**-0.05) & (hertz < middle * 10.0**0.05)
+        at = hertz[within]
+        square = np.full((22, at.size), (0.01 / (2.0 * np.pi)) ** 2)
+        wanted = ways.at_listeners(square, at).mean(axis=-1)
+        off_db = 10.0 * np.log10(written[..., within].mean(axis=-1) / wanted[:, None])
+        assert np.abs(off_db).max() < 0.1
+
+
+def test_files_state_their_gain_and_unit(tmp_path, responses):
+    paths = write_impulse_responses(responses, tmp_path, ["table"])
+    scale = float(paths[0].stem.rpartition("_")[2].removesuffix("Pa"))
+    assert [path.name for path in paths] == [
+        f"table_{dof}_{scale:g}Pa.wav" for dof in RIGID_BODY_DOFS
+    ]
+    assert scale >= np.abs(responses).max() > 0.4 * scale  # of all listeners
+    rate, samples = wavfile.read(paths[2])
+    assert (rate, samples.dtype) == (48000, np.float32)
+    expected = responses.sel(listener="table", dof="tz")
+    np.testing.assert_allclose(scale * samples, expected, atol=1e-7 * scale)
+    for path, unit in ((paths[2], "Pa/(m/s²)"), (paths[3], "Pa/(rad/s²)")):
+        assert (
+            f"vibroacoustics: {scale!r} {unit} at full scale".encode("latin-1") in path.read_bytes()
+        )
+
+
+def test_the_command_writes_and_refuses_in_one_line(tmp_path, study, vectors, monkeypatch):
+    monkeypatch.setattr(in_room, "vectors_of", lambda *_: (vectors, False))
+    monkeypatch.setattr("vibroacoustics.study.loading.load_study", lambda _: study)
+    out = tmp_path / "responses"
+    asked = ("impulse-responses", TINY, "--out", out, "--listener")
+    assert_refused(command_here(*asked, "cook"), "listener = cook", "there are table, doorway")
+    outcome = command_here(*asked, "doorway", "--full-scale", 1)
+    assert outcome.returncode == 0, outcome.stderr
+    names = [line.rpartition("/")[2] for line in outcome.stdout.splitlines()]
+    assert names == [f"doorway_{dof}_1Pa.wav" for dof in RIGID_BODY_DOFS]
+    assert_refused(command_here(*asked, "doorway", "--full-scale", 1e-9), "full scale = 1e-09 Pa")
+    assert_refused(command_here(*asked, "doorway", "--full-scale", -1), "must be above 0")
+
+
+def test_a_study_without_a_room_has_none(tmp_path):
+    outcome = command_here("impulse-responses", TINY, "--out", tmp_path)
+    assert_refused(outcome, "room: the study has none")
