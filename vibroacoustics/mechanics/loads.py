@@ -156,6 +156,7 @@ def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int) -> Lines
     tones = [(source, tone) for source, given in loads.items() for tone in given.tones]
     orders, count = highest + 1, highest + 1 + len(tones)
     rigid, on_parts, flows = {}, {}, {}
+    end = orders
     for source, given in loads.items():
         wrench = np.zeros((6, count), dtype=complex)
         parts = np.zeros((len(PARTS), PART_COMPONENTS, count), dtype=complex)
@@ -165,9 +166,10 @@ def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int) -> Lines
         if given.on_parts is not None:
             held = min(orders, given.on_parts.shape[-1])
             parts[..., :held] = given.on_parts[..., :held]
-        for number, (maker, tone) in enumerate(tones, orders):
-            if maker == source:
-                wrench[:, number], parts[..., number] = tone.rigid, tone.on_parts
+        begin, end = end, end + len(given.tones)
+        if given.tones:
+            wrench[:, begin:end] = np.stack([tone.rigid for tone in given.tones], axis=-1)
+            parts[..., begin:end] = np.stack([tone.on_parts for tone in given.tones], axis=-1)
         rigid[source], on_parts[source] = wrench, parts
         flows[source] = tuple(_at_lines(flow, orders, count) for flow in given.flows)
     frequency = [*(shaft_hz * np.arange(orders)), *(tone.frequency_hz for _, tone in tones)]

@@ -59,6 +59,17 @@ def check_finite(signal: Array) -> None:
         raise ParameterError("signal: has samples that are not finite")
 
 
+def check_whole(samples: int, revolutions: int) -> int:
+    """Samples of each revolution; refused where they are no whole number."""
+    each, rest = divmod(samples, revolutions)
+    if rest:
+        raise ParameterError(
+            f"signal: {samples} samples are not a whole number for each of "
+            f"{revolutions} revolutions"
+        )
+    return each
+
+
 def whole_revolutions(signal: Array, revolutions: int, frequency_hz: float) -> AngularSignal:
     """A simulated signal at constant speed that is sampled over the crank angle already.
 
@@ -74,11 +85,6 @@ def whole_revolutions(signal: Array, revolutions: int, frequency_hz: float) -> A
         The revolutions do not divide the samples, or a sample is not finite.
     """
     check_finite(signal)
-    samples, rest = divmod(signal.shape[-1], revolutions)
-    if rest:
-        raise ParameterError(
-            f"signal: {signal.shape[-1]} samples are not a whole number for each of "
-            f"{revolutions} revolutions"
-        )
+    samples = check_whole(signal.shape[-1], revolutions)
     time_s = np.arange(signal.shape[-1]) / (samples * frequency_hz)
     return AngularSignal(np.asarray(signal, dtype=float), samples, 0, (samples - 1) // 2, time_s)

@@ -1,21 +1,19 @@
 """Order spectrum of a signal over whole revolutions of the shaft."""
 
 import numpy as np
+from scipy import fft
 
 from ..base.arrays import Array, ComplexArray
 from ..mechanics.rotation import crank_time_s
-from .angular import whole_revolutions
-from .fourier import real_transform
-from .order_cut import order_lines
-from .order_map import order_map
+from .angular import check_finite, check_whole
 
 
 def order_spectrum(signal: Array, maximum_order: int, revolutions: int = 1) -> ComplexArray:
     """Complex peak amplitude of each shaft order, x(θ) = Re Σ X_k exp(jkθ).
 
-    X_0 = (1/N) Σ x and X_k = (2/N) Σ x exp(-jkθ): the one-sided Fourier series. One block of the
-    order map that recordings go through; a constant speed and whole revolutions leave no leakage,
-    so no window and no correction for one.
+    X_0 = (1/N) Σ x and X_k = (2/N) Σ x exp(-jkθ): the one-sided Fourier series. The same as one
+    block of the order map that recordings go through; a constant speed and whole revolutions leave
+    no leakage, so no window and no correction for one.
 
     Parameters
     ----------
@@ -38,9 +36,9 @@ def order_spectrum(signal: Array, maximum_order: int, revolutions: int = 1) -> C
             f"maximum_order {maximum_order} needs more than {2 * maximum_order * revolutions} "
             f"samples, got {samples}"
         )
-    angular = whole_revolutions(signal, revolutions, frequency_hz=1.0)
-    spectra = order_map(angular, 1.0 / revolutions, "rectangular", overlap_ratio=0.0)
-    return order_lines(spectra, range(maximum_order + 1))[..., 0, :]
+    check_finite(signal)
+    check_whole(samples, revolutions)
+    return _series(signal, maximum_order, revolutions)
 
 
 def order_spectrum_at_speed(
@@ -85,10 +83,23 @@ def order_spectra(signal: Array, speed_rad_per_s: Array, maximum_order: int) -> 
     shape (*cases, ..., maximum_order + 1), in the signal's unit, peak
     """
     if np.all(speed_rad_per_s == speed_rad_per_s[..., :1]):
-        lines = real_transform(signal)[..., : maximum_order + 1] * (2.0 / signal.shape[-1])
-        lines[..., 0] *= 0.5
-        return lines
+        return _series(signal, maximum_order)
     spectra = np.empty((*signal.shape[:-1], maximum_order + 1), dtype=complex)
     for case in np.ndindex(speed_rad_per_s.shape[:-1]):
         spectra[case] = order_spectrum_at_speed(signal[case], speed_rad_per_s[case], maximum_order)
     return spectra
+
+
+def _series(signal: Array, maximum_order: int, revolutions: int = 1) -> ComplexArray:
+    """One-sided Fourier series of short courses; by scipy, as FFTW plans longer than it computes.
+
+    Parameters
+    ----------
+    signal : shape (..., samples), over whole revolutions
+    maximum_order : highest order to return
+    revolutions : number of revolutions
+    """
+    wanted = slice(0, maximum_order * revolutions + 1, revolutions)
+    lines = np.asarray(fft.rfft(signal, axis=-1)[..., wanted] * (2.0 / signal.shape[-1]))
+    lines[..., 0] *= 0.5
+    return lines

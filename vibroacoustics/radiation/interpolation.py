@@ -23,7 +23,7 @@ class Interpolant:
     ----------
     breaks : between the pieces, rising, shape (break,)
     coefficients : of the powers from the third down, shape (4, piece, ...)
-    distance_m : shape (...)
+    distance_m : broadcasts against (...): motions of a receiver share its distance and trend
     """
 
     def __init__(self, breaks: Array, coefficients: ComplexArray, distance_m: Array) -> None:
@@ -34,7 +34,7 @@ class Interpolant:
         return self._kept(np.asarray(frequency_hz, dtype=np.float64).tobytes())
 
     def to(self, rows: Sequence[int]) -> "Interpolant":
-        """Some rows of the first dimension alone, the dimension kept."""
+        """Some rows of the first dimension alone, which each have a distance; it is kept."""
         breaks, coefficients, distance_m = self._table
         chosen = list(rows)
         return Interpolant(breaks, coefficients[:, :, chosen], distance_m[chosen])
@@ -67,7 +67,7 @@ def interpolant(tabulated_hz: Array, transfer: ComplexArray, distance_m: Array) 
         axis=-1,
     )
 
-    return Interpolant(spline.x, spline.c, np.broadcast_to(distance_m, transfer.shape[:-1]))
+    return Interpolant(spline.x, spline.c, np.asarray(distance_m))
 
 
 def _values(

@@ -80,12 +80,14 @@ class ScrollGasForces(Source):
     def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
         """Orders of the gas forces on the scrolls, and the torque that the shaft needs."""
         cycle = gas_cycle(case.machine, case.shared, case.speed_rpm)
-        highest = case.maximum_order
-        on_parts = gas_loads(cycle, *_of_frame(case.machine))
-        return Loads(
-            on_parts=order_spectrum(on_parts, highest),
-            flows=_flows(case, cycle, highest),
-            shaft_torque_n_m=order_spectrum(cycle.torque_n_m, highest),
+        of_frame, highest = _of_frame(case.machine), case.maximum_order
+        return case.shared(
+            ("gas loads", id(cycle), of_frame, highest),
+            lambda: Loads(
+                on_parts=order_spectrum(gas_loads(cycle, *of_frame), highest),
+                flows=_flows(case, cycle, highest),
+                shaft_torque_n_m=order_spectrum(cycle.torque_n_m, highest),
+            ),
         )
 
     def curves(self, case: Case) -> Iterable[Curve]:

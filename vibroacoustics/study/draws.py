@@ -148,15 +148,16 @@ def _derived(machine: Machine, changed: Mapping[str, float], draw: Draw) -> dict
     They are not checked before: drawn values may contradict a given one that follows from them.
     """
     follows: dict[str, float] = {}
+    drawn = _unchecked(machine, changed)
     for derived in machine.derived:
         table, _, field = derived.name.rpartition(".")
         value = _read(machine, table, field)
         if (table, field) in draw or value is None:
             continue
-        drawn = _unchecked(machine, {**changed, **follows})
         before, after = derived.rule(machine), derived.rule(drawn)
         if before is not None and after is not None and before != after:
             follows[derived.name] = value * after / before
+            drawn = _unchecked(drawn, {derived.name: follows[derived.name]})
     return follows
 
 

@@ -118,7 +118,8 @@ class Bushing:
 
     def in_frame(self, matrix: Array) -> Array:
         """A matrix in the bushing's own axes, in those of the frame, shape (6, 6)."""
-        turn = np.kron(np.eye(2), self.axes)
+        turn = np.zeros((6, 6))
+        turn[:3, :3] = turn[3:, 3:] = self.axes
         return np.asarray(turn @ matrix @ turn.T)
 
 
@@ -132,7 +133,8 @@ def motion_at(point_m: Array, centre_m: Array) -> Array:
     point_m, centre_m : shape (3,)
     """
     motion = np.eye(6)
-    motion[:3, 3:] = -np.cross(np.eye(3), point_m - centre_m)
+    x, y, z = point_m - centre_m
+    motion[:3, 3:] = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]
     return motion
 
 

@@ -215,7 +215,7 @@ class Isolation:
 
     def _assembled(self, matrices: Array) -> Array:
         motion = self.bushing_motion
-        return np.asarray(np.einsum("bki,bkl,blj->ij", motion, matrices, motion))
+        return np.asarray((motion.transpose(0, 2, 1) @ (matrices @ motion)).sum(axis=0))
 
 
 def _check_unique(what: str, names: Iterable[str]) -> None:

@@ -15,14 +15,12 @@ from ..machine.shell_structure import (
     FIXED_SCROLL,
     JOINTS,
     STATOR,
-    Joint,
     ShellStructure,
     ShellVariation,
 )
 from ..mechanics.loads import ORBITING_SCROLL, PART_COMPONENTS, PARTS
 from .cavity.in_shell import GasInShell
 from .shell_modes import (
-    ElasticShell,
     JointLoads,
     SampledMode,
     ShellMode,
@@ -49,7 +47,6 @@ class ShellPath:
     ----------
     modes : computed or measured
     structure : its joints and, where the modes are computed, its wall
-    joint_forces : generalised force per unit load, shape (mode, joint, component)
     wall : all modes as given, for walls that differ; none where they are measured
     radius_m : of the wall
     rows : the path's modes among those of the wall, shape (mode,)
@@ -60,7 +57,6 @@ class ShellPath:
 
     modes: tuple[ShellMode, ...] | tuple[SampledMode, ...]
     structure: ShellStructure
-    joint_forces: Array
     wall: ProjectedModes | None
     radius_m: float
     rows: IndexArray
@@ -77,6 +73,24 @@ class ShellPath:
     def modal_mass_kg(self) -> Array:
         """Shape (mode,)."""
         return self.mass_factor * np.array([mode.modal_mass_kg for mode in self.modes])
+
+    @cached_property
+    def joint_forces(self) -> Array:
+        """Generalised force per unit load, shape (mode, joint, component).
+
+        Raises
+        ------
+        ParameterError
+            A joint reaches beyond the wall.
+        """
+        joints = [getattr(self.structure, name) for name in JOINTS]
+        if self.wall is not None:
+            loads = [modal_forces(self.wall.shell, JointLoads(joint)) for joint in joints]
+            return np.stack(loads, axis=1)[self.rows]
+        modes = [mode for mode in self.modes if isinstance(mode, SampledMode)]
+        return np.array(
+            [[mode.modal_forces(joint, self.radius_m) for joint in joints] for mode in modes]
+        )
 
     def forces_of_parts(self) -> Array:
         """Generalised force of each mode per load on a part that its joint hands on.
@@ -98,16 +112,8 @@ class ShellPath:
 
         Joints are exact; another wall changes frequencies and masses of the modes as given, by
         `ProjectedModes`, not their shapes. Measured modes stay.
-
-        Raises
-        ------
-        ParameterError
-            A joint reaches beyond the wall.
         """
-        joints = [getattr(structure, name) for name in JOINTS]
         path = replace(self, structure=structure)
-        if joints != [getattr(self.structure, name) for name in JOINTS]:
-            path = replace(path, joint_forces=self._joint_forces(joints))
         if self.wall is not None:
             path = replace(
                 path,
@@ -115,12 +121,6 @@ class ShellPath:
                 mass_factor=self.wall.mass_factor(structure),
             )
         return path
-
-    def _joint_forces(self, joints: Sequence[Joint]) -> Array:
-        if self.wall is not None:
-            return _of_computed(self.wall.shell, joints)[self.rows]
-        modes = [mode for mode in self.modes if isinstance(mode, SampledMode)]
-        return _of_measured(modes, joints, self.radius_m)
 
 
 def computed_path(
@@ -145,11 +145,9 @@ def computed_path(
     elastic = elastic_shell(shell, structure, highest / bound)
     projected = ProjectedModes(elastic)
     rows = projected.below(highest, walls)
-    joints = [getattr(structure, name) for name in JOINTS]
     return ShellPath(
         tuple(elastic.modes[row] for row in rows),
         structure,
-        _of_computed(elastic, joints)[rows],
         projected,
         shell.radius_m,
         rows,
@@ -167,16 +165,7 @@ def measured_path(
     structure : its joints
     radius_m : of the wall
     """
-    forces = _of_measured(modes, [getattr(structure, name) for name in JOINTS], radius_m)
-    return ShellPath(tuple(modes), structure, forces, None, radius_m, np.arange(len(modes)))
-
-
-def _of_computed(shell: ElasticShell, joints: Sequence[Joint]) -> Array:
-    return np.stack([modal_forces(shell, JointLoads(joint)) for joint in joints], axis=1)
-
-
-def _of_measured(modes: Sequence[SampledMode], joints: Sequence[Joint], radius_m: float) -> Array:
-    return np.array([[mode.modal_forces(joint, radius_m) for joint in joints] for mode in modes])
+    return ShellPath(tuple(modes), structure, None, radius_m, np.arange(len(modes)))
 
 
 def pressure_per_load(

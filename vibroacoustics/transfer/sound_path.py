@@ -164,11 +164,12 @@ class SoundPath:
         frequency, wrench, parts = lines.frequency_hz, lines.rigid[source], lines.on_parts[source]
         pressure: ComplexArray = np.zeros((1, frequency.size), dtype=complex)
         on_shell = lines.on_shell.get(source, np.zeros_like(wrench))
-        if wrench.any() or on_shell.any():
-            velocity = body.response(wrench.T, frequency, on_shell.T).velocity
-            pressure = pressure + np.einsum(
-                "rdf,fd->rf", of_body(self.rigid, body)(frequency), velocity
-            )
+        loaded = np.flatnonzero(wrench.any(axis=0) | on_shell.any(axis=0))
+        if loaded.size:
+            response = body.response(wrench.T[loaded], frequency[loaded], on_shell.T[loaded])
+            vectors = of_body(self.rigid, body)(frequency)
+            pressure = np.zeros((len(vectors), frequency.size), dtype=complex)
+            pressure[:, loaded] = np.einsum("rdf,fd->rf", vectors[..., loaded], response.velocity)
         if self.shell is not None and parts.any():
             per_load = self.shell.per_load(frequency)
             pressure = pressure + np.einsum("rpcf,pcf->rf", per_load, parts, optimize=True)

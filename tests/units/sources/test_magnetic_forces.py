@@ -191,7 +191,7 @@ def test_all_of_the_synchronous_motor_are_orders():
 
 def test_measured_modes_are_refused(study):
     path = path_of(study)
-    measured = YokeOnWall(ring(), type(path)((), path.structure, np.zeros((0, 3, 4)), None, 0.08,
-                                             np.arange(0)), 1.0)  # fmt: skip
+    without = type(path)((), path.structure, None, 0.08, np.arange(0))
+    measured = YokeOnWall(ring(), without, 1.0)
     with pytest.raises(ParameterError, match="leave magnetic forces out"):
         measured.forces(np.array([100.0]))

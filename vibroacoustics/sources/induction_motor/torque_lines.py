@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,8 +12,7 @@ from .revolving_fields import OperatingPoint, point_at_torque
 from .speed_response import SpeedResponse, TwoAxisMotor, speed_response, two_axis_motor
 
 
-@dataclass(frozen=True)
-class TorqueLine:
+class TorqueLine(NamedTuple):
     """One frequency of the balance J Ω̇ = T_motor - T_load; complex peaks.
 
     Attributes

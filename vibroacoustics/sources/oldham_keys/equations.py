@@ -15,6 +15,8 @@ from .contact import contact_force
 
 KEYS: Final = 4
 COORDINATES: Final = 4
+ALL_SLIDES: Final = 22.0
+"""Argument beyond which a hyperbolic tangent rounds to one."""
 SIDE, APPROACH = 0, 1
 """Rows of a contacts array, shape (2, 4): face that each key touches, -1, 1 or 0 for none; speed
 at which the contact began, m/s."""
@@ -95,6 +97,14 @@ def key_motion(drive: Drive, state: Array, c: Coupling, keys: Array) -> None:
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def sliding(ratio: float) -> float:
+    """Hyperbolic tangent; keys mostly slide so fast that it is one."""
+    if abs(ratio) > ALL_SLIDES:
+        return 1.0 if ratio > 0.0 else -1.0
+    return float(np.tanh(ratio))
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy", inline="always")
 def key_forces(drive: Drive, state: Array, contacts: Array, c: Coupling, keys: Array) -> None:
     """Motion of the ring's keys and forces on them, into all rows of `keys`.
 
@@ -110,8 +120,8 @@ def key_forces(drive: Drive, state: Array, contacts: Array, c: Coupling, keys: A
     orbital = c.angular_speed * c.stroke
     along_scroll = state[5] - orbital * drive.cosine
     along_housing = state[4] - orbital * drive.sine
-    friction_scroll = -c.friction * np.tanh(along_scroll / c.sticking_speed)
-    friction_housing = -c.friction * np.tanh(along_housing / c.sticking_speed)
+    friction_scroll = -c.friction * sliding(along_scroll / c.sticking_speed)
+    friction_housing = -c.friction * sliding(along_housing / c.sticking_speed)
     for key in range(KEYS):
         side, rate = contacts[SIDE, key], keys[RATE, key]
         push = 0.0

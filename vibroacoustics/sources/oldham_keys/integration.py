@@ -50,6 +50,7 @@ def runge_kutta_step(
     time: float,
     step: float,
     start: Drive,
+    end: Drive,
     state: Array,
     contacts: Array,
     c: Coupling,
@@ -60,7 +61,7 @@ def runge_kutta_step(
     Parameters
     ----------
     time, step : start and length of the step, s
-    start : at the time
+    start, end : at the ends of the step
     state : coordinates and their rates, shape (8,)
     contacts, c : see `key_forces`
     work : it is changed
@@ -69,8 +70,10 @@ def runge_kutta_step(
     copy(state, work.trial)
     drive = start
     for stage in range(4):
-        if stage in (1, 3):
-            drive = drive_at(time + (step if stage == 3 else 0.5 * step), c)
+        if stage == 1:
+            drive = drive_at(time + 0.5 * step, c)
+        elif stage == 3:
+            drive = end
         weight = step / (3.0 if stage in (1, 2) else 6.0)
         state_rate(drive, work.trial, contacts, c, work.keys, work.rate)
         reach = step if stage == 2 else 0.5 * step
@@ -153,18 +156,20 @@ def advance(
     impact_speed : shape (4,), m/s; set to the speed of approach of keys that meet a face
     work : it is changed
     """
-    done = 0.0
+    done, last = 0.0, drive_at(time + duration, c)
     while done < duration:
         step = duration - done
         start = drive_at(time + done, c)
+        end = last if done == 0.0 else drive_at(time + done + step, c)
         key_motion(start, state, c, work.before)
-        runge_kutta_step(time + done, step, start, state, contacts, c, work)
-        key_motion(drive_at(time + duration, c), work.end, c, work.after)
+        runge_kutta_step(time + done, step, start, end, state, contacts, c, work)
+        key_motion(last, work.end, c, work.after)
         key, share, face = first_event(step, work.before, work.after, contacts, c.clearance)
         if key >= 0:
             step *= share
-            runge_kutta_step(time + done, step, start, state, contacts, c, work)
-            key_motion(drive_at(time + done + step, c), work.end, c, work.after)
+            end = drive_at(time + done + step, c)
+            runge_kutta_step(time + done, step, start, end, state, contacts, c, work)
+            key_motion(end, work.end, c, work.after)
             if contacts[SIDE, key] == 0.0:
                 impact_speed[key] = face * work.after[RATE, key]
                 contacts[APPROACH, key] = max(impact_speed[key], c.least_approach)

@@ -117,7 +117,8 @@ def steady_key_forces(
     moment_n_m : turns the scroll about its centre, counter-clockwise as the shaft turns, over
         uniform crank angles from zero, shape (samples,), or one value in (1,)
     ring_force_n : of a balancer on the ring along x, sampled alike
-    revolutions : to be returned, after those in which the motion settles
+    revolutions : to be returned, after those in which the motion settles; only one of those that
+        repeat exactly
 
     Raises
     ------
@@ -135,15 +136,17 @@ def steady_key_forces(
     samples = 2 ** int(np.ceil(np.log2(SAMPLE_RATE_HZ * period)))
     steps = _steps(period / samples, greatest_step_s(coupling))
     turns = _turns(SETTLING_REVOLUTIONS + revolutions, samples, period / samples, steps, coupling)
+    before, *kept_turns = turns[SETTLING_REVOLUTIONS - 1 :]
+    if before is kept_turns[-1]:
+        kept_turns = kept_turns[:1]
     # An interval's end is its sample: the one before the first kept is at crank angle zero.
-    settled = SETTLING_REVOLUTIONS * samples
     kept = [
-        np.ascontiguousarray(np.concatenate(rows)[settled - 1 : -1].T)
-        for rows in zip(*turns, strict=True)
+        np.ascontiguousarray(np.concatenate(rows)[samples - 1 : -1].T)
+        for rows in zip(before, *kept_turns, strict=True)
     ]
     if not all(np.all(np.isfinite(rows)) for rows in kept):
         raise SolverError(f"Oldham keys at {speed_rpm:g} rpm: the integration diverged")
-    return KeyForces(speed_rpm, revolutions, *kept)
+    return KeyForces(speed_rpm, len(kept_turns), *kept)
 
 
 def _turns(

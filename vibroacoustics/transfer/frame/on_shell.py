@@ -73,13 +73,14 @@ class FrameOnShell:
             centre of mass, shape (receiver, motion, frequency), Pa s/m and Pa s/rad
         frequency_hz : shape (frequency,)
         """
-        per_velocity = pressure_per_velocity * (2j * np.pi * frequency_hz)
+        turning = 2j * np.pi * frequency_hz  # velocity per displacement
         omega = 2.0 * np.pi * np.where(frequency_hz > 0.0, frequency_hz, 1.0)
-        modes, rigid = np.split(per_velocity, [self.natural_hz.size], axis=1)
+        modes, rigid = np.split(pressure_per_velocity, [self.natural_hz.size], axis=1)
+        rigid = rigid * turning
         shell = answers(self._squares, omega) / self.modal_mass_kg[:, None]
         parts = answers(self.motions.squares, omega)
         # By reciprocity: motions of the contacts as the receivers drive the shell.
-        moved = times(self.modal_forces.T, modes * shell)
+        moved = times(self.modal_forces.T, modes * (turning * shell))
         moved -= times(self._of_contacts.T, rigid) / omega**2
         forces = np.moveaxis(self._joined(shell, parts, omega, np.moveaxis(moved, 0, 1)), 0, 1)
         through = (self._at_contacts.T @ forces) * parts
@@ -88,7 +89,7 @@ class FrameOnShell:
 
         def of_modes(some: IndexArray) -> ComplexArray:
             moved = times(self.modal_forces, forces[..., some])
-            return np.asarray((modes[..., some] - moved) * shell[:, some])
+            return np.asarray((modes[..., some] * turning[some] - moved) * shell[:, some])
 
         shape = len(forces), len(PARTS), PART_COMPONENTS, frequency_hz.size
         return SoundPerForce(of_loads.reshape(shape), of_modes)
