@@ -8,6 +8,7 @@ Int. J. Numer. Meth. Eng. 62 (2005) 564).
 """
 
 from functools import cache
+from math import factorial
 from typing import Any, Final, NamedTuple
 
 import numba
@@ -18,6 +19,10 @@ from ..arrays import Array, IndexArray
 
 _MIDPOINTS: Final = (8, 12, 16, 24, 32, 40, 48, 64, 80, 96, 128, 160, 192, 256, 384, 512)
 _GAUSS: Final = (8, 12, 16, 20, 24, 28, 32, 40, 48, 64, 80, 96, 128, 160, 192, 256, 384, 512)
+_TERMS: Final = 10
+"""Of Taylor's series from zero: those that follow are below 3e-16 within a quarter turn."""
+_COSINE: Final = tuple(1.0 / factorial(2 * term) for term in range(_TERMS + 1))
+_SINE: Final = tuple(1.0 / factorial(2 * term + 1) for term in range(_TERMS + 1))
 DIGITS: Final = 20.0
 """Of the rules, as a natural logarithm: 2e-9."""
 
@@ -86,10 +91,14 @@ def ring(
     if needed < 1.2 * (first + second):
         rule = min(np.searchsorted(rules.midpoints, needed), rules.midpoints.size - 1)
         points, start = rules.midpoints[rule], rules.starts[rule]
-        for q in range(start, start + points):
-            sine = rules.half_sines[q]
+        waves_at = np.empty((4, points))
+        for q in range(points):  # all angles at once in a processor's vectors
+            sine = rules.half_sines[start + q]
             distance = np.sqrt(squared + 4.0 * product * sine)
-            _add(out, rules.cosines[q], distance, facing + leaning * sine, k, 1.0)
+            wave = _wave(distance, facing + leaning * sine, k, 1.0)
+            waves_at[0, q], waves_at[1, q], waves_at[2, q], waves_at[3, q] = wave
+        for q in range(points):
+            _add(out, rules.cosines[start + q], waves_at[:, q])
         out *= source[0] / (2.0 * points)
         return
     cosines = np.empty(orders)
@@ -108,7 +117,7 @@ def ring(
             sine = np.sin(0.5 * angle) ** 2
             _cosines(1.0 - 2.0 * sine, cosines)
             distance = np.sqrt(squared + 4.0 * product * sine)
-            _add(out, cosines, distance, facing + leaning * sine, k, weight)
+            _add(out, cosines, _wave(distance, facing + leaning * sine, k, weight))
     out *= source[0] / (2.0 * np.pi)
 
 
@@ -121,24 +130,34 @@ def _cosines(cosine: float, cosines: Any) -> None:  # pragma: no cover
         cosines[order] = 2.0 * cosine * cosines[order - 1] - cosines[order - 2]
 
 
-@numba.njit(
-    cache=True,
-    nogil=True,
-    error_model="numpy",
-    inline="always",
-)
-def _add(
-    out: Any, cosines: Any, distance: float, facing: float, k: float, weight: float
-) -> None:  # pragma: no cover
+@numba.njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _wave(distance: float, facing: float, k: float, weight: float) -> Any:  # pragma: no cover
+    """Real and imaginary part of 4 pi G, then of its normal derivative, times a weight."""
     phase = k * distance
+    cosine, sine = _cosine_and_sine(phase)
     strength = weight / distance
-    real, imaginary = strength * np.cos(phase), -strength * np.sin(phase)
+    real, imaginary = strength * cosine, -strength * sine
     slope = -facing / (distance * distance)
-    slope_real = slope * (real - phase * imaginary)
-    slope_imaginary = slope * (imaginary + phase * real)
+    return real, imaginary, slope * (real - phase * imaginary), slope * (imaginary + phase * real)
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _cosine_and_sine(phase: float) -> tuple[float, float]:  # pragma: no cover
+    """By Taylor's series about the nearest half turn, to rounding; without branches and calls,
+    so that many go through a processor's vectors side by side."""
+    half_turns = np.floor(phase / np.pi + 0.5)
+    rest = phase - half_turns * np.pi
+    square = rest * rest
+    cosine = sine = 0.0
+    for term in range(_TERMS, -1, -1):
+        cosine = _COSINE[term] - square * cosine
+        sine = _SINE[term] - square * sine
+    sign = 1.0 - 2.0 * (half_turns - 2.0 * np.floor(0.5 * half_turns))
+    return sign * cosine, sign * rest * sine
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _add(out: Any, cosines: Any, wave: Any) -> None:  # pragma: no cover
     for order in range(cosines.size):
-        cosine = cosines[order]
-        out[0, order] += real * cosine
-        out[1, order] += imaginary * cosine
-        out[2, order] += slope_real * cosine
-        out[3, order] += slope_imaginary * cosine
+        for part in range(4):
+            out[part, order] += wave[part] * cosines[order]
