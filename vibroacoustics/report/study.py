@@ -1,6 +1,7 @@
 """What the report reads from a results dataset: parameters, names, and the speeds it shows."""
 
 import json
+from functools import lru_cache
 from typing import Any, Final
 
 import numpy as np
@@ -18,12 +19,18 @@ FEWEST_OVER_SPEED: Final = 3
 
 def parameters(results: xr.Dataset) -> dict[str, Any]:
     """All parameters of the study, as `Study.parameters` gave them."""
-    return dict(json.loads(results.attrs["parameters"]))
+    return dict(_decoded(results.attrs["parameters"]))
 
 
 def words(results: xr.Dataset) -> dict[str, Any]:
     """What machine and options say of themselves, as the run kept it."""
-    return dict(json.loads(results.attrs["words"]))
+    return dict(_decoded(results.attrs["words"]))
+
+
+@lru_cache(maxsize=4)
+def _decoded(attribute: str) -> dict[str, Any]:
+    """Kept, as a report reads it some thousand times."""
+    return dict(json.loads(attribute))
 
 
 def catalogue_receiver(results: xr.Dataset) -> str:

@@ -13,7 +13,7 @@ from ..machine.source import Case, Source
 from ..mechanics.loads import Loads, Tone, total_torque_n_m
 from .induction_motor.parameters import CapacitorMotor, TurningRotor
 from .induction_motor.supply import on_supply, supply_frequency_hz
-from .induction_motor.torque_lines import TorqueLine, TorqueLines, torque_lines
+from .induction_motor.torque_lines import TorqueLine, TorqueLines, rotor_in_motor, torque_lines
 from .part_loads import about_z, stator_loads
 
 TWICE_LINE: Final = "2 x line"
@@ -88,12 +88,16 @@ def _balance(case: Case, before: Mapping[str, Loads]) -> TorqueLines:
     """Torque balance with the motor on the supply of this speed, at the same flux."""
     if case.supply_frequency_hz is None:
         raise ParameterError("operation.supply_frequency_hz: is missing; the motor needs it")
-    rated, rotor = case.machine.table(CapacitorMotor), case.machine.table(TurningRotor)
+    rated, turning = case.machine.table(CapacitorMotor), case.machine.table(TurningRotor)
     motor = on_supply(rated, case.supply_frequency_hz)
     torque = _load_torque(case, before)
+    inertia, mean = turning.inertia_kg_m2, float(torque[0].real)
+    rotor = case.shared(
+        ("rotor in motor", motor, inertia, mean), lambda: rotor_in_motor(motor, inertia, mean)
+    )
     return case.shared(
-        ("torque lines", motor, rotor, torque.tobytes()),
-        lambda: torque_lines(motor, rotor.inertia_kg_m2, list(torque)),
+        ("torque lines", motor, inertia, torque.tobytes()),
+        lambda: torque_lines(rotor, torque[1:]),
     )
 
 

@@ -112,8 +112,8 @@ class BendingShell:
 
         def sound() -> SoundPerForce:
             gain = amplitude_of_level(self.variation.mobility_change_db)
-            modes = gain * self.pressure_per_velocity(frequency_hz)
-            return frame.sound(np.concatenate([modes, self.rigid(frequency_hz)], 1), frequency_hz)
+            modes, rigid = self.pressure_per_velocity(frequency_hz), self.rigid(frequency_hz)
+            return frame.sound(modes, rigid, frequency_hz, gain)
 
         return self._known(("frame", frequency_hz.tobytes()), sound)
 

@@ -187,7 +187,7 @@ def answers_of_modes(on_shell, frequency_hz):
     """Velocity of modes and rigid motions per force on each mode, (mode, motion, frequency)."""
     count = on_shell.natural_hz.size
     each = np.repeat(np.eye(count + 6)[..., None], frequency_hz.size, axis=-1)
-    of_modes = on_shell.sound(each, frequency_hz).of_modes
+    of_modes = on_shell.sound(each[:, :-6], each[:, -6:], frequency_hz).of_modes
     return of_modes(np.arange(frequency_hz.size)).swapaxes(0, 1)
 
 

@@ -23,7 +23,7 @@ from vibroacoustics.sources.induction_motor.revolving_fields import (
 )
 from vibroacoustics.sources.induction_motor.speed_response import speed_response, two_axis_motor
 from vibroacoustics.sources.induction_motor.supply import on_supply, supply_frequency_hz
-from vibroacoustics.sources.induction_motor.torque_lines import torque_lines
+from vibroacoustics.sources.induction_motor.torque_lines import rotor_in_motor, torque_lines
 
 VALUES = values_of(machine_file("copeland_zp41k3e"))["motor"]
 MOTOR = CapacitorMotor(**VALUES)
@@ -31,6 +31,13 @@ INERTIA = 2.5e-3
 GAS_TORQUE = 10.24
 """Mean of the scroll's gas torque, N m (data/validation/scroll_gas.csv)."""
 ROOT2 = np.sqrt(2.0)
+
+
+def lines_under(motor, inertia_kg_m2, load_order_n_m):
+    """Of a load's mean and its orders, N m."""
+    mean, *ripple = load_order_n_m
+    rotor = rotor_in_motor(motor, inertia_kg_m2, mean)
+    return torque_lines(rotor, np.array(ripple, dtype=complex))
 
 
 def changed(motor=MOTOR, **values) -> CapacitorMotor:
@@ -224,7 +231,7 @@ def test_slow_swing_follows_the_torque_curve(slip):
 def simulated_lines(ripple, inertia, names):
     """Motor torque and roll moment by least squares from the motor simulated in time."""
     axes = two_axis_motor(MOTOR)
-    expected = torque_lines(MOTOR, inertia, [GAS_TORQUE, ripple])
+    expected = lines_under(MOTOR, inertia, [GAS_TORQUE, ripple])
 
     def load(angle):
         return GAS_TORQUE + ripple * np.cos(angle)
@@ -286,7 +293,7 @@ def test_lines_of_the_motor_simulated_in_time(inertia):
 def test_lines_balance():
     """Roll moment = reaction of the motor + reaction of the load = -J dΩ/dt, line by line."""
     ripple = [0.725 + 0.1j, 0.2j, 0.075, 0.052]
-    lines = torque_lines(MOTOR, INERTIA, [GAS_TORQUE, *ripple])
+    lines = lines_under(MOTOR, INERTIA, [GAS_TORQUE, *ripple])
     loads = [*ripple, *[0.0] * (len(lines.line) + len(lines.sidebands))]
     for line, load in zip((*lines.shaft, *lines.line, *lines.sidebands), loads, strict=True):
         assert line.roll_moment_n_m == pytest.approx(load - line.motor_torque_n_m, abs=1e-12)
@@ -295,7 +302,7 @@ def test_lines_balance():
 
 
 def test_twice_line_frequency_is_no_shaft_order():
-    lines = torque_lines(MOTOR, INERTIA, [GAS_TORQUE, 0.725, 0.201])
+    lines = lines_under(MOTOR, INERTIA, [GAS_TORQUE, 0.725, 0.201])
     shaft = lines.speed_rad_per_s / (2.0 * np.pi)
     assert [line.frequency_hz for line in lines.shaft] == pytest.approx([shaft, 2.0 * shaft])
     assert [line.frequency_hz for line in lines.line] == [100.0, 200.0]
@@ -306,7 +313,7 @@ def test_twice_line_frequency_is_no_shaft_order():
 
 
 def test_infinite_inertia_keeps_the_speed():
-    lines = torque_lines(MOTOR, 1e9, [GAS_TORQUE, 0.725])
+    lines = lines_under(MOTOR, 1e9, [GAS_TORQUE, 0.725])
     pulsating = lines.operating_point.pulsating_torque_n_m
     assert lines.line[0].motor_torque_n_m == pytest.approx(pulsating, rel=1e-9)
     assert lines.shaft[0].roll_moment_n_m == pytest.approx(0.725, rel=1e-9)
@@ -316,7 +323,7 @@ def test_infinite_inertia_keeps_the_speed():
 def test_shaft_orders_of_the_rotation_over_crank_angle():
     """Eksergian's equation at constant motor torque: the motor's answer is what it leaves out."""
     load = GAS_TORQUE + 0.725 * np.cos(uniform_crank_angle(64))
-    lines = torque_lines(MOTOR, INERTIA, [GAS_TORQUE, 0.725])
+    lines = lines_under(MOTOR, INERTIA, [GAS_TORQUE, 0.725])
     still = np.zeros(64)
     rotation = steady_rotation(still + INERTIA, still, load, lines.speed_rad_per_s, 0.0)
     roll = -INERTIA * np.fft.rfft(rotation.acceleration_rad_per_s2)[1] / 32.0
@@ -395,7 +402,7 @@ def test_load_beyond_the_motor(load):
     with pytest.raises(
         ParameterError, match=r"torque = .* between synchronous speed and breakdown"
     ):
-        torque_lines(MOTOR, INERTIA, [load, 0.7])
+        lines_under(MOTOR, INERTIA, [load, 0.7])
 
 
 @pytest.mark.parametrize(
@@ -425,7 +432,7 @@ def test_supply_gives_back_the_speed_through_the_torque_curve(speed_rpm, load_n_
     slip = point_at_torque(motor, load_n_m).slip
     assert slip > 0.0
     assert 60.0 * supply / MOTOR.pole_pairs * (1.0 - slip) == pytest.approx(speed_rpm, rel=1e-10)
-    lines = torque_lines(motor, INERTIA, [load_n_m, 1.0])
+    lines = lines_under(motor, INERTIA, [load_n_m, 1.0])
     assert lines.speed_rad_per_s == pytest.approx(2.0 * np.pi * speed_rpm / 60.0, rel=1e-10)
 
 

@@ -1,7 +1,7 @@
 """Torque of a capacitor motor and its load as lines: shaft orders and line frequency kept apart."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -53,16 +53,32 @@ class TorqueLines:
 
 
 @dataclass(frozen=True)
-class _RotorInMotor:
-    """The rotor with all that turns with it, in the field of the motor, at a mean speed."""
+class RotorInMotor:
+    """The rotor with all that turns with it, in the field of the motor, under its mean load.
 
+    Attributes
+    ----------
+    operating_point : of the motor
+    motor : its two-axis equations
+    twice_line_hz : twice the line frequency
+    speed_rad_per_s : mean
+    inertia_kg_m2 : J of all that turns with the shaft
+    """
+
+    operating_point: OperatingPoint
     motor: TwoAxisMotor
+    twice_line_hz: float
     speed_rad_per_s: float
     inertia_kg_m2: float
+    _responses: dict[Hashable, SpeedResponse] = field(default_factory=dict, repr=False)
 
     def response(self, frequency_hz: Array | float) -> SpeedResponse:
+        """Kept, as all ripples have the same frequencies."""
         swing = 2.0 * np.pi * np.asarray(frequency_hz)
-        return speed_response(self.motor, self.speed_rad_per_s, swing)
+        key = swing.shape, swing.tobytes()
+        if key not in self._responses:
+            self._responses[key] = speed_response(self.motor, self.speed_rad_per_s, swing)
+        return self._responses[key]
 
     def lines(
         self,
@@ -80,9 +96,27 @@ class _RotorInMotor:
         return tuple(TorqueLine(name, *row) for name, row in zip(names, rows, strict=True))
 
 
-def torque_lines(
-    motor: CapacitorMotor, inertia_kg_m2: float, load_order_n_m: Sequence[complex]
-) -> TorqueLines:
+def rotor_in_motor(motor: CapacitorMotor, inertia_kg_m2: float, mean_n_m: float) -> RotorInMotor:
+    """The rotor at the speed at which the motor carries a mean load.
+
+    Parameters
+    ----------
+    motor : the motor's circuit
+    inertia_kg_m2 : J of all that turns with the shaft
+    mean_n_m : load torque against the rotation
+
+    Raises
+    ------
+    ParameterError
+        The motor cannot carry the load.
+    """
+    point = point_at_torque(motor, mean_n_m)
+    speed = motor.synchronous_speed_rad_per_s * (1.0 - point.slip)
+    twice_line_hz = 2.0 * motor.line_frequency_hz
+    return RotorInMotor(point, two_axis_motor(motor), twice_line_hz, speed, inertia_kg_m2)
+
+
+def torque_lines(rotor: RotorInMotor, ripple_n_m: ComplexArray) -> TorqueLines:
     """Torque balance of the rotor, linear in the swings of its speed.
 
     The twice-line-frequency torque is no shaft order. A swing of the speed modulates it, which
@@ -91,44 +125,30 @@ def torque_lines(
 
     Parameters
     ----------
-    motor : the motor's circuit
-    inertia_kg_m2 : J of all that turns with the shaft
-    load_order_n_m : load torque against the rotation, mean and complex peak of orders 1, 2, …
-
-    Raises
-    ------
-    ParameterError
-        The motor cannot carry the mean load.
+    rotor : under the mean load
+    ripple_n_m : load torque against the rotation, complex peak of orders 1, 2, …
     """
-    mean, *ripple = load_order_n_m
-    point = point_at_torque(motor, float(np.real(mean)))
-    speed = motor.synchronous_speed_rad_per_s * (1.0 - point.slip)
-    rotor = _RotorInMotor(two_axis_motor(motor), speed, inertia_kg_m2)
-    twice = 2.0 * motor.line_frequency_hz
-    orders = np.arange(1, len(ripple) + 1)
-    names = [f"order {order}" for order in orders]
-    load = np.array(ripple, dtype=complex)
-    shaft = rotor.lines(
-        names, np.asarray(orders * speed / (2.0 * np.pi)), np.zeros_like(load), load
-    )
+    point, speed, twice = rotor.operating_point, rotor.speed_rad_per_s, rotor.twice_line_hz
+    orders = np.arange(1, ripple_n_m.size + 1)
+    names = [f"order {order}" for order in orders.tolist()]
+    frequency = np.asarray(orders * speed / (2.0 * np.pi))
+    shaft = rotor.lines(names, frequency, np.zeros_like(ripple_n_m), ripple_n_m)
     pulse = np.array([point.pulsating_torque_n_m])
     (pulsating,) = rotor.lines(["2 x line"], np.array([twice]), pulse)
     fourth = rotor.response(twice).upper * pulsating.speed_swing_rad_per_s
     (double,) = rotor.lines(["4 x line"], np.array([2.0 * twice]), fourth[None])
-    return TorqueLines(point, speed, shaft, (pulsating, double), _sidebands(rotor, shaft, twice))
+    return TorqueLines(point, speed, shaft, (pulsating, double), _sidebands(rotor, shaft))
 
 
-def _sidebands(
-    rotor: _RotorInMotor, shaft: Sequence[TorqueLine], twice_line_hz: float
-) -> tuple[TorqueLine, ...]:
+def _sidebands(rotor: RotorInMotor, shaft: Sequence[TorqueLine]) -> tuple[TorqueLine, ...]:
     """Twice the line frequency plus and minus those of the shaft's orders, by order."""
     frequency = np.array([line.frequency_hz for line in shaft])
     swing = np.array([line.speed_swing_rad_per_s for line in shaft])
-    response, difference = rotor.response(frequency), twice_line_hz - frequency
+    response, difference = rotor.response(frequency), rotor.twice_line_hz - frequency
     lower = response.lower * swing.conj()
     above = rotor.lines(
         [f"2 x line + {line.name}" for line in shaft],
-        twice_line_hz + frequency,
+        rotor.twice_line_hz + frequency,
         response.upper * swing,
     )
     below = rotor.lines(

@@ -62,21 +62,24 @@ class FrameOnShell:
         """Of what moves with the shell as a rigid body, shape (6, 6), kg and kg m²."""
         return self.machine_mass - self.inner.rigid_mass
 
-    def sound(self, pressure_per_velocity: ComplexArray, frequency_hz: Array) -> SoundPerForce:
+    def sound(
+        self, modes: ComplexArray, rigid: ComplexArray, frequency_hz: Array, gain: float = 1.0
+    ) -> SoundPerForce:
         """Pressure per load on the parts and per force on the shell's modes.
 
         None at frequency zero; without that of the machine as one rigid body.
 
         Parameters
         ----------
-        pressure_per_velocity : of the shell's modes and then its six rigid motions about the
-            centre of mass, shape (receiver, motion, frequency), Pa s/m and Pa s/rad
+        modes : pressure per velocity of the shell's modes, shape (receiver, mode, frequency),
+            Pa s/m
+        rigid : of its six rigid motions about the centre of mass, alike, Pa s/m and Pa s/rad
         frequency_hz : shape (frequency,)
+        gain : of the modes' pressure
         """
         turning = 2j * np.pi * frequency_hz  # velocity per displacement
         omega = 2.0 * np.pi * np.where(frequency_hz > 0.0, frequency_hz, 1.0)
-        modes, rigid = np.split(pressure_per_velocity, [self.natural_hz.size], axis=1)
-        rigid = rigid * turning
+        rigid, turning = rigid * turning, gain * turning
         shell = answers(self._squares, omega) / self.modal_mass_kg[:, None]
         parts = answers(self.motions.squares, omega)
         # By reciprocity: motions of the contacts as the receivers drive the shell.
