@@ -187,7 +187,7 @@ class SoundPath:
             raise ValueError("a random load on a part needs an elastic shell")
         frequency = noise.frequency_hz
         if not noise.density.any():  # keys that do not strike
-            return np.zeros((1, frequency.size))
+            return np.zeros((len(self.rigid(frequency[:1])), frequency.size))
         per_load = self.shell.per_load(frequency)
         per_force = np.einsum("rpcf,pci->rif", per_load, noise.on_parts, optimize=True)
         density = np.einsum(

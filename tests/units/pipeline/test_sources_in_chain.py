@@ -361,6 +361,10 @@ def test_noise_keeps_the_phases_between_its_forces():
     on_parts = np.zeros((len(PARTS), 6, 3))
     on_parts[BEARING_HOUSING, [0, 1, 5], [0, 1, 2]] = 1.0
     noise = Noise(on_parts, frequency, density)
+    silent = SoundPath(lambda at: np.zeros((3, 6, at.size)), SimpleNamespace()).noise_power(
+        Noise(on_parts, frequency, 0.0 * density)
+    )
+    np.testing.assert_array_equal(silent, np.zeros((3, frequency.size)))
     for way, expected in ((1.0j, 2.0), (-1.0j, 0.0)):
         per_load = np.zeros((1, len(PARTS), 6, frequency.size), dtype=complex)
         per_load[0, BEARING_HOUSING, :2] = np.array([1.0, way])[:, None]

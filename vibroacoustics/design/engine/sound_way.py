@@ -69,10 +69,7 @@ class SoundWay:
         for pressure in path.pressure(on_mounts(machine), alone).values():
             other = other + pressure
         noise = [
-            (
-                part.frequency_hz,
-                np.broadcast_to(path.noise_power(part), (self.receivers, part.frequency_hz.size)),
-            )
+            (part.frequency_hz, path.noise_power(part))
             for one in loads.values()
             for part in one.noise
         ]
