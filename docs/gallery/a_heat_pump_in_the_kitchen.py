@@ -49,7 +49,8 @@ with tempfile.TemporaryDirectory() as folder:
 # %%
 # From an acceleration to the table
 # ---------------------------------
-# The response to a motion of the shell, to be convolved with what an accelerometer measured.
+# The response to a motion of the shell, to be convolved with what an accelerometer measured;
+# ``vibroacoustics impulse-responses kitchen.toml`` writes them as WAV.
 responses = va.impulse_responses(study)
 figure, axes = plt.subplots(layout="constrained")
 responses.sel(listener="table", dof="tz").plot(ax=axes, linewidth=0.5)

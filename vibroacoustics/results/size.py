@@ -12,7 +12,9 @@ from ..base.vocabulary import VARIABLES, WEIGHTINGS
 from ..study.study import Study
 
 MOST_BYTES: Final = 2**31
-OF_SOUND: Final = ("pressure_line", "order_level", "level_modelled", "level_total")
+OF_SOUND: Final = (
+    "pressure_line", "order_level", "level_modelled", "level_total", "room_pressure_line",
+)  # fmt: skip
 """What is computed of the motion later, and by far the largest of it."""
 
 
@@ -55,6 +57,7 @@ def result_bytes(study: Study, first: xr.Dataset) -> int:
         "weighting": len(WEIGHTINGS),
         "sound_source": 1 + len(study.sources),
         "line": first.sizes["order"],
+        "listener": 0 if study.room is None else len(study.room.listeners),
     }
     by_speed = [str(name) for name, array in first.data_vars.items() if "speed" in array.dims]
     return sum(_bytes(name, sizes) for name in (*by_speed, *OF_SOUND))

@@ -21,6 +21,7 @@ from vibroacoustics.report.in_room import room_sentence, room_table, seam_senten
 from vibroacoustics.report.page import Page, Part
 from vibroacoustics.report.room_loudness import sones
 from vibroacoustics.report.sections import SECTIONS
+from vibroacoustics.results.size import result_bytes
 from vibroacoustics.sound import loudness
 from vibroacoustics.sound.gain import full_scale_of
 from vibroacoustics.sound.ingredients import ingredients
@@ -75,6 +76,13 @@ def test_what_a_run_would_refuse_is_refused_before():
     room = KITCHEN | {"listeners": {"table": near}}
     with pytest.raises(va.ParameterError, match=r"room\.listeners\.table: stands within"):
         run_cost(study.replace({"room": room}))
+
+
+def test_size_counts_the_lines_at_the_listeners(kitchen):
+    study = va.load_study(TINY)
+    rest = kitchen[["force_order"]]
+    at_listeners = result_bytes(study.replace({"room": KITCHEN}), rest) - result_bytes(study, rest)
+    assert at_listeners == kitchen["room_pressure_line"].nbytes > 0
 
 
 def test_orders_by_waves_are_velocity_times_vectors(kitchen):
