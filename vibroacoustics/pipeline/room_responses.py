@@ -41,7 +41,9 @@ def impulse_responses(study: Study, progress: Progress = no_progress) -> xr.Data
 
     Examples
     --------
-    >>> responses = va.impulse_responses(va.load_study("pipelines/kitchen.toml"))
+    >>> study = va.load_study("pipelines/kitchen.toml")
+    >>> coarse = study.replace({"room.maximum_frequency_hz": 250.0})
+    >>> responses = va.impulse_responses(coarse)
     >>> at_table = responses.sel(listener="table", dof="tz")
     """
     settings = study.room
