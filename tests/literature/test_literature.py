@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from rotor_at_rest import natural_frequencies_hz
 from support import CRANK_ANGLE, PIPELINES, ROOT, balancing, machine_parts, turning, wrench_orders
+from weighting_table import IEC_61672_1_TABLE_3
 
 from vibroacoustics import levels, scoring
 from vibroacoustics.balancers.pendulum import pendulum_mass
@@ -326,18 +327,6 @@ def test_mount_frequencies(thesis_study):
 
 
 # --- levels --------------------------------------------------------------------------------------
-
-IEC_61672_1_TABLE_3 = [  # IEC 61672-1:2013, Table 3: n of 10^(n/10) Hz, A and C weighting, dB
-    (10, -70.4, -14.3), (11, -63.4, -11.2), (12, -56.7, -8.5), (13, -50.5, -6.2),
-    (14, -44.7, -4.4), (15, -39.4, -3.0), (16, -34.6, -2.0), (17, -30.2, -1.3),
-    (18, -26.2, -0.8), (19, -22.5, -0.5), (20, -19.1, -0.3), (21, -16.1, -0.2),
-    (22, -13.4, -0.1), (23, -10.9, 0.0), (24, -8.6, 0.0), (25, -6.6, 0.0),
-    (26, -4.8, 0.0), (27, -3.2, 0.0), (28, -1.9, 0.0), (29, -0.8, 0.0),
-    (30, 0.0, 0.0), (31, 0.6, 0.0), (32, 1.0, -0.1), (33, 1.2, -0.2),
-    (34, 1.3, -0.3), (35, 1.2, -0.5), (36, 1.0, -0.8), (37, 0.5, -1.3),
-    (38, -0.1, -2.0), (39, -1.1, -3.0), (40, -2.5, -4.4), (41, -4.3, -6.2),
-    (42, -6.6, -8.5), (43, -9.3, -11.2),
-]  # fmt: skip
 
 
 def test_weighting_table_is_complete():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from test_literature import IEC_61672_1_TABLE_3
+from weighting_table import IEC_61672_1_TABLE_3
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.levels import (
