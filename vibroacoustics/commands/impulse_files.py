@@ -1,6 +1,6 @@
 """Impulse responses of a room written to files, all at one gain."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from itertools import product
 from pathlib import Path
 from typing import Final
@@ -46,15 +46,9 @@ def write_impulse_responses(
         The folder cannot be written.
     """
     known = [str(name) for name in responses["listener"].values]
-    for name in listeners or ():
-        if name not in known:
-            raise ParameterError(
-                f"listener = {name}: the room has no such one; there are {', '.join(known)}"
-            )
+    check_asked(known, listeners, full_scale)
     highest = float(np.abs(responses).max())
     scale = next_full_scale(highest) if full_scale is None else full_scale
-    if not scale > 0.0:
-        raise ParameterError(f"full scale = {scale:g} Pa: must be above 0")
     written = []
     with files.only_writer(folder) as staged:
         for listener, dof in product(listeners or known, responses["dof"].values):
@@ -64,3 +58,22 @@ def write_impulse_responses(
             written.append(folder / name)
         files.replace_all(staged, folder)
     return written
+
+
+def check_asked(
+    known: Collection[str], listeners: Sequence[str] | None, full_scale: float | None
+) -> None:
+    """Refuse what is known to be wrong before anything is computed.
+
+    Raises
+    ------
+    ParameterError
+        A name is unknown, or the full scale is not above 0.
+    """
+    for name in listeners or ():
+        if name not in known:
+            raise ParameterError(
+                f"listener = {name}: the room has no such one; there are {', '.join(known)}"
+            )
+    if full_scale is not None and not full_scale > 0.0:
+        raise ParameterError(f"full scale = {full_scale:g} Pa: must be above 0")

@@ -96,13 +96,15 @@ def impulse_responses_command(
     from .. import pipeline
     from ..study.loading import load_study
     from . import outputs
-    from .impulse_files import write_impulse_responses
+    from .impulse_files import check_asked, write_impulse_responses
 
     load_plugins(plugin)
     folder = out or Path("reports") / study_file.stem / "impulse_responses"
     study = load_study(study_file)
     outputs.check_folder(folder)
     with outputs.naming(study_file), used_cache(no_cache), progress_on_stderr() as progress:
+        if study.room is not None:
+            check_asked(study.room.listeners, listener, full_scale)
         responses = pipeline.impulse_responses(study, progress)
         written = write_impulse_responses(responses, folder, listener or None, full_scale)
     for path in written:

@@ -72,17 +72,18 @@ def test_files_state_their_gain_and_unit(tmp_path, responses):
 
 
 def test_the_command_writes_and_refuses_in_one_line(tmp_path, study, vectors, monkeypatch):
-    monkeypatch.setattr(in_room, "vectors_of", lambda *_: (vectors, False))
     monkeypatch.setattr("vibroacoustics.study.loading.load_study", lambda _: study)
     out = tmp_path / "responses"
     asked = ("impulse-responses", TINY, "--out", out, "--listener")
+    monkeypatch.setattr(in_room, "vectors_of", lambda *_: pytest.fail("is computed"))
     assert_refused(command_here(*asked, "cook"), "listener = cook", "there are table, doorway")
+    assert_refused(command_here(*asked, "doorway", "--full-scale", -1), "must be above 0")
+    monkeypatch.setattr(in_room, "vectors_of", lambda *_: (vectors, False))
     outcome = command_here(*asked, "doorway", "--full-scale", 1)
     assert outcome.returncode == 0, outcome.stderr
     names = [line.rpartition("/")[2] for line in outcome.stdout.splitlines()]
     assert names == [f"doorway_{dof}_1Pa.wav" for dof in RIGID_BODY_DOFS]
     assert_refused(command_here(*asked, "doorway", "--full-scale", 1e-9), "full scale = 1e-09 Pa")
-    assert_refused(command_here(*asked, "doorway", "--full-scale", -1), "must be above 0")
 
 
 def test_a_study_without_a_room_has_none(tmp_path):
