@@ -125,9 +125,14 @@ def test_few_frequencies_are_solved_and_the_rest_lies_between():
     patterns = [rigid_body(dof) for dof in ("tx", "tz", "ry")]
     side = RevolutionSide(BODIES["flat"], patterns, 1000.0, FLOOR_Z_M)
     points = np.array([[0.9, 0.1, 0.2], [0.3, -0.8, 0.5], [-0.5, 0.5, -0.1], [0.0, 0.0, 1.2]])
-    table_hz = 25.0 * np.arange(1, 41)
-    sampled = side.spectrum(points, table_hz)
+    table_hz, told = 25.0 * np.arange(1, 41), []
+    sampled = side.spectrum(points, table_hz, progress=lambda *of: told.append(of[1:]))
     assert sampled.solved.size < 33
+    steps = [done for done, _ in told]
+    assert steps == sorted(steps)
+    assert len(steps) == sampled.solved.size + 2
+    assert told[-1] == (sampled.solved.size, sampled.solved.size)
+    assert all(done < total for done, total in told[:-1])
     between = np.setdiff1d(np.arange(table_hz.size), sampled.solved)[::9]
     for index in between:
         exact = side.finer_pressures(float(table_hz[index]), points)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from functools import partial
+from threading import Lock
 from typing import Final
 
 import numpy as np
@@ -18,7 +19,7 @@ from .mesh import mesh
 from .over_ground import AtFrequency
 from .profile import Profile, above_floor
 from .radiator import Radiator, WallPressure
-from .sampling import Sampled, sample
+from .sampling import Sampled, first_solved, sample
 
 _ELEMENTS: Final = 20
 """On the meridian, at least."""
@@ -31,6 +32,8 @@ _QUADRATURE: Final = 3e-8
 """Error of the rules that both meshes share, over the largest pressure."""
 _CLOSEST_M: Final = 1e-3
 """To the wall that pressures are asked for."""
+_SOLVED: Final = 3
+"""Times as many as at first are solved in all, about; how many is not known before."""
 _FREQUENCIES: Final = 200
 """Whose wall pressures memory is reckoned with."""
 
@@ -120,19 +123,30 @@ class RevolutionSide:
         addition: Addition | None = None,
     ) -> Sampled:
         """Pressures at points (point, 3) at evenly spaced frequencies, with an addition to them."""
-        delay_s = self.delays_s(points)
+        delay_s, done, lock = self.delays_s(points), list[int](), Lock()
+        expected = min(_SOLVED * first_solved(table_hz).size, table_hz.size)
 
         def at(index: int) -> tuple[ComplexArray, Array]:
             pressure, error = self.pressures(float(table_hz[index]), points)
             return (pressure if addition is None else pressure + addition(index)), error
 
         def solve(indices: IndexArray) -> tuple[ComplexArray, Array]:
-            progress(name, int(indices[0]), table_hz.size)
-            pressure, error = zip(*in_threads([partial(at, int(i)) for i in indices]), strict=True)
+            total = max(expected, len(done) + indices.size)
+
+            def counted(index: int) -> tuple[ComplexArray, Array]:
+                result = at(index)
+                with lock:
+                    done.append(index)
+                    progress(name, min(len(done), total - 1), total)
+                return result
+
+            in_order = in_threads([partial(counted, int(index)) for index in indices])
+            pressure, error = zip(*in_order, strict=True)
             return np.array(pressure), np.array(error)
 
+        progress(name, 0, expected)
         sampled = sample(table_hz, delay_s, solve)
-        progress(name, table_hz.size, table_hz.size)
+        progress(name, len(done), len(done))
         return sampled
 
     def delays_s(self, points: Array) -> Array:
