@@ -192,7 +192,7 @@ def test_a_variable_is_missing(name: str, tmp_path: Path) -> None:
     assert refused_or_made(results.drop_vars("level_total"), tmp_path) == [2, 2]
 
 
-@both
+@both_at_length
 def test_a_coordinate_is_missing(name: str, tmp_path: Path) -> None:
     results = run(name)
     beside = {one for key, names in COORDINATES_OF.items() for one in names if key in results}
@@ -201,7 +201,7 @@ def test_a_coordinate_is_missing(name: str, tmp_path: Path) -> None:
     refused_or_made(results.drop_vars([*set(results.coords) - set(results.dims)]), tmp_path)
 
 
-@both
+@both_at_length
 @pytest.mark.parametrize("step", [5, pytest.param(1, marks=pytest.mark.long)])
 def test_a_variable_or_coordinate_holds_other_things(name: str, step: int) -> None:
     """No numbers, one that is not finite, dims in another order, all of them text or complex.
@@ -247,7 +247,7 @@ def test_all_that_may_be_so_holds_one_value(name: str, value: float, tmp_path: P
 
 
 @laid_out
-@pytest.mark.parametrize("value", [0.0, 1e29])
+@pytest.mark.parametrize("value", [0.0, pytest.param(1e29, marks=pytest.mark.long)])
 @pytest.mark.parametrize("key", ["force_amplitude", "transfer_vector", "natural_frequency"])
 def test_a_variable_holds_one_value(key: str, value: float, tmp_path: Path) -> None:
     refused_or_made(filled(run(), key, np.full((), value, run()[key].dtype)), tmp_path)
@@ -258,7 +258,7 @@ def test_a_speed_is_none(value: float, tmp_path: Path) -> None:
     refused_or_made(filled(run(), "speed", value), tmp_path)
 
 
-@both
+@both_at_length
 def test_a_dimension_is_empty_or_holds_a_label_twice(name: str) -> None:
     results = run(name)
     for dim in results[list(needed_variables(results))].dims:

@@ -69,7 +69,10 @@ def test_green_function_is_that_of_the_image_sources(box, microphone, mirrors):
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("microphone", "mirrors"),
-    [((0.5, 0.1, -0.1), (FLOOR,)), ((0.5, 0.1, -0.1), (FLOOR, WALL))],
+    [
+        pytest.param((0.5, 0.1, -0.1), (FLOOR,), marks=pytest.mark.long),
+        ((0.5, 0.1, -0.1), (FLOOR, WALL)),
+    ],
     ids=["floor", "edge"],
 )
 def test_microphone_on_a_wall_is_one_stronger_source(box, microphone, mirrors):

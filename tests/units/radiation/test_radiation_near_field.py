@@ -162,7 +162,7 @@ def test_sliding_wall_radiates_nothing_without_a_run():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("axis", [0, 2])
+@pytest.mark.parametrize("axis", [pytest.param(0, marks=pytest.mark.long), 2])
 def test_wall_equals_free_field_with_the_mirrored_body(axis):
     """A sphere before a hard wall, and two spheres in free field that move as mirror images.
 
