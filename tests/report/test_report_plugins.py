@@ -54,6 +54,7 @@ register(
     )
 )
 """
+quick = pytest.mark.usefixtures("quick_figures")
 BARE = "from vibroacoustics.base.registry import register\n"
 
 
@@ -120,6 +121,7 @@ def _made_again_is_the_same(folder: Path) -> None:
         )
 
 
+@quick
 @pytest.mark.parametrize(
     ("blocks", "words"),
     [
@@ -139,6 +141,7 @@ def test_section_that_fails_is_named_in_one_line(
     assert "<h2>Provenance</h2>" in page
 
 
+@quick
 @pytest.mark.parametrize(
     ("values", "words"),
     [
@@ -159,6 +162,7 @@ def test_column_that_fails_is_named_in_one_line(
     assert "odd_n" not in files["comparison.csv"].decode()
 
 
+@quick
 def test_what_was_not_kept_is_named(results: xr.Dataset) -> None:
     origin = {"file": "mine.py", "version": "", "sha256": "0"}
     results.attrs["plugins"] = json.dumps({"section odd": origin, "column odd_n": origin})
@@ -167,6 +171,7 @@ def test_what_was_not_kept_is_named(results: xr.Dataset) -> None:
     assert "column odd_n is left out: mine.py is not loaded" in page
 
 
+@quick
 def test_section_that_does_not_apply_is_not_missed(
     results: xr.Dataset, tmp_path: Path, registries: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -181,6 +186,7 @@ def test_section_that_does_not_apply_is_not_missed(
     assert "is left out:" not in render(kept)["report.html"].decode()
 
 
+@quick
 def test_kept_columns_and_sections_outlive_a_second_run(
     results: xr.Dataset, tmp_path: Path, registries: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:

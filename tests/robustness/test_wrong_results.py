@@ -2,7 +2,6 @@
 
 import json
 from collections.abc import Iterator
-from contextlib import ExitStack
 from functools import cache
 from pathlib import Path
 from subprocess import CompletedProcess
@@ -12,8 +11,6 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib.figure import Figure
-from matplotlib.layout_engine import ConstrainedLayoutEngine
 from sources_study import SOURCES_STUDY, run_made_up
 from support import TINY, assert_refused, command_here, made_up_radiation, tiny_run
 
@@ -65,15 +62,10 @@ def _laid_out() -> None:
 
 
 @pytest.fixture(autouse=True)
-def quick_figures(request: pytest.FixtureRequest) -> Iterator[None]:
-    """Figures are painted, but their pixels are not made; laid out where a test says so."""
-    with ExitStack() as stack:
-        stack.enter_context(
-            patch.object(Figure, "savefig", lambda _, content, **__: content.write(b"\x89PNG"))
-        )
-        if "laid_out" not in request.fixturenames:
-            stack.enter_context(patch.object(ConstrainedLayoutEngine, "execute", lambda *_: None))
-        yield
+def quickly_drawn(request: pytest.FixtureRequest) -> None:
+    """Without pixels; laid out where a test says so."""
+    laid_out = "laid_out" in request.fixturenames
+    request.getfixturevalue("without_pixels" if laid_out else "quick_figures")
 
 
 def scored_here(path: Path) -> CompletedProcess[str]:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support import ROOT, TINY, assert_refused, tiny_run
+from support import ROOT, TINY, assert_refused, command_here, tiny_run
 from test_strangers import STRANGERS, command, plugins
 
 from vibroacoustics.results.storage import open_results, write_results
@@ -83,7 +83,7 @@ height_mm = { value = 0.0, source = "a test" }
 [receivers."""
     study = tmp_path / "study.toml"
     study.write_text(text.replace("[receivers.", option, 1))
-    without = command(tmp_path, "run", study)
+    without = command_here("run", study)
     assert_refused(without, "options.weight.radius_inch: unknown key")
     outcome = stranger("run", study, names=("inches",))
     assert_refused(
@@ -103,7 +103,7 @@ def plain_recording(folder: Path) -> Path:
 
 def test_reader_reads_in_the_child(stranger, tmp_path):
     words = ("orders", plain_recording(tmp_path), *ANALYSIS, "--out", tmp_path / "out")
-    assert_refused(command(tmp_path, *words), "format '.plain' is unknown; known are .csv")
+    assert_refused(command_here(*words), "format '.plain' is unknown; known are .csv")
     outcome = stranger(*words, names=("plain_bytes",))
     assert outcome.returncode == 0, outcome.stderr
     results = open_results(tmp_path / "out" / "orders.nc")

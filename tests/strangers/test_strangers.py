@@ -235,7 +235,7 @@ def test_a_kind_of_machine_runs_to_the_report(cache, refused, tmp_path):
     assert "The rotor&#39;s bearings are left out." in page
     again = tmp_path / "again"
     shutil.copytree(tmp_path / "out", again)
-    assert command(cache, "report", again / "results.nc").returncode == 0
+    assert command_here("report", again / "results.nc").returncode == 0
     refused(["run", study, "--out", tmp_path / "no"], "machine.kind = lone-rotor: unknown")
 
 

@@ -1,6 +1,5 @@
 """Each flag of `run`, and what all commands share; radiation is made up."""
 
-import base64
 import json
 import os
 import re
@@ -15,25 +14,18 @@ from support import ROOT, TINY, assert_refused, command_here, made_up_radiation
 from vibroacoustics import pipeline
 from vibroacoustics.pipeline.study import run as run_study
 
-PIXEL = base64.b64decode(
-    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="
-)
 TIME = r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d "
 
 
 @pytest.fixture(autouse=True)
-def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Made-up radiation and figures of one pixel, not laid out."""
+def quick(quick_figures: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Made-up radiation; figures are not looked at."""
     monkeypatch.setattr(
         pipeline,
         "run",
         lambda study, progress: run_study(study, progress, made_up_radiation),
         raising=False,
     )
-    monkeypatch.setattr(
-        "matplotlib.figure.Figure.savefig", lambda _, content, **__: content.write(PIXEL)
-    )
-    monkeypatch.setattr("matplotlib.layout_engine.ConstrainedLayoutEngine.execute", lambda *_: None)
 
 
 def a_study(folder: Path, name: str, *changes: tuple[str, str]) -> Path:

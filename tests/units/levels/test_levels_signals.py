@@ -208,7 +208,7 @@ def test_reference_is_never_guessed():
 
 @pytest.mark.parametrize("weighting", ["A", "C", "Z"])
 @pytest.mark.parametrize("rate", [8000.0, 51_200.0])
-@pytest.mark.parametrize("duration_s", [1.0, 2.0, 6.3])
+@pytest.mark.parametrize("duration_s", [1.0, 2.0, pytest.param(6.3, marks=pytest.mark.long)])
 def test_steady_tone_reads_what_it_is(weighting, rate, duration_s):
     """From 20 Hz up, at any starting phase: within 0.05 dB, the Fast ripple included.
 

@@ -67,7 +67,11 @@ def everything(at):
 @pytest.mark.parametrize("walls", [(), (floor(-0.15),)], ids=["free", "floor"])
 @pytest.mark.parametrize(
     "pattern",
-    [rigid_body("tx"), rigid_body("ry"), Pattern("everything", everything)],
+    [
+        rigid_body("ry"),
+        pytest.param(rigid_body("tx"), marks=pytest.mark.long),
+        Pattern("everything", everything),
+    ],
     ids=lambda pattern: pattern.name,
 )
 def test_equals_the_whole_grid(walls, pattern):
