@@ -1,16 +1,37 @@
 """Runs Python files one after the other, each in its folder; prints what became of them as JSON.
 
-One process for all saves the seconds of imports, and keeps what pages register out of the tests.
+One process for all, commands of pages included, saves the seconds of imports, and keeps what pages
+register out of the tests.
 """
 
 import json
 import os
 import runpy
+import subprocess
 import sys
 import time
 import traceback
 import warnings
+from contextlib import chdir
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from support import command_here
+
+COMMAND = [sys.executable, "-m", "vibroacoustics"]
+run_process = subprocess.run
+
+
+def run_here(words, *, cwd=".", check=False, **rest):
+    """In place of `subprocess.run`: our own commands in this process."""
+    if words[:3] != COMMAND:
+        return run_process(words, cwd=cwd, check=check, **rest)
+    with chdir(cwd):
+        done = command_here(*words[3:])
+    if check:
+        done.check_returncode()
+    return done
 
 
 def outcome(page: Path) -> dict[str, object]:
@@ -37,6 +58,7 @@ def main() -> None:
     pages = [Path(word).resolve() for word in sys.argv[1:]]
     sys.path.insert(0, str(pages[0].parent))
     printed, sys.stdout = sys.stdout, sys.stderr
+    subprocess.run = run_here
     outcomes = {page.name: outcome(page) for page in pages}
     print(json.dumps(outcomes), file=printed)
 

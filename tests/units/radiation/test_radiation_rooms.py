@@ -20,7 +20,7 @@ from vibroacoustics.radiation.rooms import (
 )
 from vibroacoustics.radiation.rooms.cutting import cut, faces
 from vibroacoustics.radiation.rooms.decay import absorption_area_m2, reverberation_time_s, volume_m3
-from vibroacoustics.radiation.rooms.impedance import fitted_branches, random_absorption
+from vibroacoustics.radiation.rooms.impedance import Branches, fitted_branches, random_absorption
 from vibroacoustics.radiation.rooms.materials import MOST_ABSORPTION, OCTAVES_HZ, material
 from vibroacoustics.radiation.rooms.rectangles import rectangles
 from vibroacoustics.radiation.rooms.room import SIDES
@@ -39,6 +39,22 @@ def test_materials_of_the_library_absorb_what_is_published(name):
     fitted = random_absorption(branches.admittance(np.array(OCTAVES_HZ[:5])))
     # What rises steeply is too steep for overlapping octaves.
     assert np.abs(fitted - wanted).max() <= (0.1 if name == "curtain" else 0.06)
+
+
+def test_slopes_of_an_admittance_are_those_of_differences():
+    branches, at, step = fitted_branches(TILES), np.array([63.0, 400.0]), 1e-5
+    parts = [branches.mass, branches.resistance, branches.spring]
+    for part, branch in ((0, 1), (1, 0), (2, 4)):
+        sides = []
+        for share in (np.exp(step), np.exp(-step)):
+            changed = [one.copy() for one in parts]
+            changed[part][branch] *= share
+            sides.append(Branches(*changed).admittance(at))
+        slope = branches.slopes(at)[:, part, branch]
+        # Differences err by step squared, and by 1e-16 of the whole over the step.
+        np.testing.assert_allclose(
+            (sides[0] - sides[1]) / (2.0 * step), slope, rtol=1e-6, atol=1e-10
+        )
 
 
 def test_random_incidence_on_a_real_impedance_has_its_closed_form():

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -23,6 +24,8 @@ THICKER_OILS: Final = (8.0, 4.0, 2.0, 1.4)
 """Viscosities over the machine's, on the way to it where it is not reached at once."""
 SPEED_TOLERANCE: Final = 1e-6
 """Of the mean speed, relative."""
+KEPT_CYCLES: Final = 4
+"""A search asks for those of a design twice: for its forces and for its criteria."""
 
 
 def steady_cycle(
@@ -63,6 +66,7 @@ def _thinned(equations: ShaftEquations, mesh: Array, guess: Array) -> PeriodicSo
     return _solved(equations, mesh, guess)
 
 
+@lru_cache(KEPT_CYCLES)
 def cycle_at_speed(
     machine: HermeticCompressor, speed_rpm: float, steps: int = STEPS
 ) -> tuple[ShaftEquations, PeriodicSolution]:

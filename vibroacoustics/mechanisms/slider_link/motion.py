@@ -1,6 +1,7 @@
 """Slider-link mechanism: the crank's periodic motion and its energy balance."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -21,6 +22,8 @@ from .piston import (
 MAXIMUM_ITERATIONS: Final = 200
 CONVERGED: Final = 1e-12
 """Largest change of velocity and mean torque between iterations, relative."""
+KEPT_CYCLES: Final = 4
+"""A search asks for those of a design twice: for its forces and for its criteria."""
 
 
 @dataclass(frozen=True)
@@ -49,6 +52,7 @@ class SliderLinkCycle:
         return abs(self.work_j["motor"] - taken) / self.work_j["gas"]
 
 
+@lru_cache(KEPT_CYCLES)
 def steady_motion(
     machine: SliderLinkMachine, mean_velocity: float, samples: int = 720
 ) -> SliderLinkCycle:

@@ -5,7 +5,7 @@ overlapping octaves need; walls of the same absorption and another phase shift t
 """
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Final
 
 import numpy as np
@@ -34,10 +34,22 @@ class Branches:
 
     def admittance(self, frequency_hz: Array) -> ComplexArray:
         """rho c u/p of the wall, (frequency,)."""
-        s = 2j * np.pi * np.asarray(frequency_hz, dtype=float)[:, None]
-        branch = 1.0 / (s * self.mass + self.resistance + self.spring / s)
-        total: ComplexArray = branch.sum(axis=1)
+        total: ComplexArray = (1.0 / self._impedances(frequency_hz).sum(axis=1)).sum(axis=1)
         return total
+
+    def slopes(self, frequency_hz: Array) -> ComplexArray:
+        """Change of the admittance with the logarithm of each part, (frequency, part, branch)."""
+        parts = self._impedances(frequency_hz)
+        slopes: ComplexArray = -parts / parts.sum(axis=1, keepdims=True) ** 2
+        return slopes
+
+    def _impedances(self, frequency_hz: Array) -> ComplexArray:
+        """Of mass, resistance and spring, (frequency, part, branch)."""
+        s = 2j * np.pi * np.asarray(frequency_hz, dtype=float)[:, None]
+        parts: ComplexArray = np.stack(
+            np.broadcast_arrays(s * self.mass, self.resistance, self.spring / s), axis=1
+        )
+        return parts
 
 
 def absorption_at_angle(admittance: ComplexArray | Array, cosine: Array) -> Array:
@@ -54,11 +66,16 @@ def random_absorption(admittance: ComplexArray | Array) -> Array:
 
     Kuttruff (2016), equation 2.52 (Paris); Gauss-Legendre quadrature over cos(theta).
     """
-    node, weight = np.polynomial.legendre.leggauss(64)
+    node, weight = _quadrature()
     cosine = (node + 1.0) / 2.0
     share = absorption_at_angle(admittance[..., None], cosine)
     mean: Array = (cosine * weight * share).sum(axis=-1)
     return mean
+
+
+@cache
+def _quadrature() -> tuple[Array, Array]:
+    return np.polynomial.legendre.leggauss(64)
 
 
 def octave_branches(weights: Array) -> Branches:

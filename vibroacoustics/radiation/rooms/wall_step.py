@@ -89,14 +89,18 @@ def stepped_branches(branches: Branches, time_step_s: float) -> Branches:
     wanted = branches.admittance(frequency)
     parts = np.array([branches.mass, branches.resistance, branches.spring])
 
-    def error(logarithm: Array) -> Array:
-        trial = Branches(*(parts * np.exp(logarithm.reshape(parts.shape))))
-        difference = trial.admittance(warped) / wanted - 1.0
-        stay = _STAY * logarithm
-        return np.concatenate([difference.real, difference.imag, stay])
+    def trial(logarithm: Array) -> Branches:
+        return Branches(*(parts * np.exp(logarithm.reshape(parts.shape))))
 
-    fit = least_squares(error, np.zeros(parts.size), method="lm")
-    return Branches(*(parts * np.exp(fit.x.reshape(parts.shape))))
+    def error(logarithm: Array) -> Array:
+        difference = trial(logarithm).admittance(warped) / wanted - 1.0
+        return np.concatenate([difference.real, difference.imag, _STAY * logarithm])
+
+    def slopes(logarithm: Array) -> Array:
+        relative = trial(logarithm).slopes(warped).reshape(len(warped), -1) / wanted[:, None]
+        return np.concatenate([relative.real, relative.imag, _STAY * np.eye(parts.size)])
+
+    return trial(least_squares(error, np.zeros(parts.size), slopes, method="lm").x)
 
 
 @kernel
