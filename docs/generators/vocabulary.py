@@ -84,15 +84,27 @@ def makers_of(name: str) -> list[str]:
     named = [file for file, text in texts.items() if f'"{name}"' in text]
     beside = [file for file in named if "stamp(" in texts[file]]
     below = [file for file in named if not file.startswith(("report", "commands", "plot"))]
-    composed = [file for file, text in texts.items() if is_composed(name, text)]
-    return stamped or beside or below or composed
+    return stamped or beside or below or composers_of(name)
 
 
-def is_composed(name: str, text: str) -> bool:
-    """Whether a text puts a variable's name together: f"stopping_{what}" for stopping_force."""
-    patterns = re.findall(r'f"((?:\w*\{\w+\}\w*)+)"', text)
-    return any(
-        len(re.sub(r"\{\w+\}", "", pattern)) > 5
-        and re.fullmatch(re.sub(r"\{\w+\}", r"\\w+", pattern), name)
-        for pattern in patterns
-    )
+def composers_of(name: str) -> list[str]:
+    """Files that put a variable's name together: f"stopping_{what}" for stopping_force."""
+    return [
+        file
+        for file, patterns in composed_names().items()
+        if any(re.fullmatch(pattern, name) for pattern in patterns)
+    ]
+
+
+@cache
+def composed_names() -> dict[str, list[str]]:
+    """Patterns of the names that every file puts together, of more than five letters."""
+    found = {file: re.findall(r'f"((?:\w*\{\w+\}\w*)+)"', text) for file, text in sources().items()}
+    return {
+        file: [
+            re.sub(r"\{\w+\}", r"\\w+", pattern)
+            for pattern in patterns
+            if len(re.sub(r"\{\w+\}", "", pattern)) > 5
+        ]
+        for file, patterns in found.items()
+    }

@@ -126,8 +126,9 @@ def test_hashes_of_the_files_are_in_the_results(finished):
     assert all(re.fullmatch("[0-9a-f]{64}", own["sha256"]) for own in kept.values())
 
 
-def test_the_report_is_made_again_without_the_files(finished, cache, tmp_path):
-    outcome = command(cache, "report", finished / "results.nc", "--out", tmp_path)
+def test_the_report_is_made_again_without_the_files(finished, tmp_path):
+    """In this process, which knows none of them."""
+    outcome = command_here("report", finished / "results.nc", "--out", tmp_path)
     assert outcome.returncode == 0, outcome.stderr
     assert (tmp_path / "report.html").read_bytes() == (finished / "report.html").read_bytes()
 
