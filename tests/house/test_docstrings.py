@@ -2,6 +2,7 @@
 
 import ast
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,11 @@ from support import ROOT
 
 PACKAGE = ROOT / "vibroacoustics"
 FILES = sorted(PACKAGE.rglob("*.py"))
+
+
+@cache
+def _tree(path: Path) -> ast.Module:
+    return ast.parse(path.read_text(encoding="utf-8"))
 
 
 def _section(docstring: str, title: str) -> list[str] | None:
@@ -35,8 +41,7 @@ def _section(docstring: str, title: str) -> list[str] | None:
 
 def _functions(path: Path):
     """Public functions and methods with their first, implied argument taken off."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    for node in ast.walk(tree):
+    for node in ast.walk(_tree(path)):
         for child in ast.iter_child_nodes(node):
             if isinstance(child, ast.FunctionDef) and not child.name.startswith("_"):
                 arguments = [*child.args.posonlyargs, *child.args.args, *child.args.kwonlyargs]
@@ -57,8 +62,7 @@ def test_docstring_parameters_are_those_of_the_signature(path):
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(PACKAGE)))
 def test_docstring_attributes_are_the_fields(path):
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    for node in ast.walk(tree):
+    for node in ast.walk(_tree(path)):
         if isinstance(node, ast.ClassDef):
             documented = _section(ast.get_docstring(node, clean=True) or "", "Attributes")
             if documented is not None:
@@ -75,7 +79,7 @@ def test_docstring_attributes_are_the_fields(path):
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(PACKAGE)))
 def test_every_module_and_public_function_says_what_it_is(path):
-    tree = ast.parse(path.read_text(encoding="utf-8"))
+    tree = _tree(path)
     assert not tree.body or ast.get_docstring(tree), "module"
     for item in tree.body:
         if isinstance(item, ast.FunctionDef) and not item.name.startswith("_"):

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 import xarray as xr
+from support import command_here
 from test_report import make_results
 
 from vibroacoustics.base.errors import PluginError
@@ -221,11 +222,12 @@ def test_name_of_a_built_in_one_is_refused(
         plugin(tmp_path, f"{BARE}{content}")
 
 
+@quick
 def test_report_takes_a_plugin_that_the_run_did_not_have(
-    results: xr.Dataset, tmp_path: Path
+    results: xr.Dataset, tmp_path: Path, registries: None
 ) -> None:
     storage.write_results(results, tmp_path / "results.nc")
     (tmp_path / "prices.py").write_text(SECTION)
     words = ["report", tmp_path / "results.nc", "--plugin", tmp_path / "prices.py"]
-    subprocess.run([sys.executable, "-m", "vibroacoustics", *words], check=True)
+    command_here(*words).check_returncode()
     assert "What it costs" in (tmp_path / "report.html").read_text()

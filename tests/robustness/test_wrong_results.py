@@ -226,7 +226,8 @@ def test_a_variable_or_coordinate_holds_other_things(name: str, step: int) -> No
 @laid_out
 @pytest.mark.parametrize(
     ("name", "value"),
-    [*(("rigid", value) for value in (np.nan, 0.0, -1.0, 999.0, 1e300)), ("sources", np.nan),
+    [("rigid", np.nan), ("rigid", 0.0), ("rigid", 1e300), ("sources", np.nan),
+     *(pytest.param("rigid", value, marks=pytest.mark.long) for value in (-1.0, 999.0)),
      *(pytest.param("sources", value, marks=pytest.mark.long) for value in (0.0, 999.0, 1e300))],
 )  # fmt: skip
 def test_all_that_may_be_so_holds_one_value(name: str, value: float, tmp_path: Path) -> None:
@@ -331,7 +332,10 @@ def test_a_key_is_missing_or_of_another_type(
 
 
 @both_at_length
-@pytest.mark.parametrize("value", [0, -1, 1e29, 1e300, 10**400])
+@pytest.mark.parametrize(
+    "value",
+    [0, 1e29, 10**400, *(pytest.param(one, marks=pytest.mark.long) for one in (-1, 1e300))],
+)
 def test_every_number_of_the_parameters_is(name: str, value: float, tmp_path: Path) -> None:
     """But the catalogue's speed, at which results with sources must be."""
     results = run(name)
@@ -351,9 +355,9 @@ def test_every_number_of_the_parameters_is(name: str, value: float, tmp_path: Pa
 
 @pytest.mark.parametrize(
     ("key", "new"),
-    [("criteria", GONE), ("criteria", "x"), ("seed", {}),
+    [("criteria", GONE), ("seed", {}),
      *(pytest.param(*case, marks=pytest.mark.long)
-       for case in (("criteria", {}), ("seed", GONE), ("seed", "x")))],
+       for case in (("criteria", {}), ("criteria", "x"), ("seed", GONE), ("seed", "x")))],
 )  # fmt: skip
 def test_scoring_is_no_scoring(key: str, new: object, tmp_path: Path) -> None:
     stored = json.loads(run().attrs["parameters"])
@@ -384,7 +388,7 @@ def test_a_hashed_file_that_netcdf_cannot_read(tmp_path: Path) -> None:
     path = tmp_path / "results.nc"
     write_results(run(), path)
     content = bytearray(hashed.read_checked(path).content)
-    for start in range(0, len(content), len(content) // 20):
+    for start in range(0, len(content), len(content) // 10):
         damaged = content.copy()
         damaged[start : start + 400] = bytes(len(damaged[start : start + 400]))
         path.write_bytes(damaged)

@@ -90,13 +90,19 @@ def test_run_up_fourfold_in_five_seconds():
     assert speed_error(result.motion, speed) < 5e-3
 
 
-def test_orders_of_a_machine_whose_first_is_silent():
+@pytest.mark.parametrize(
+    ("limits_hz", "comb", "times"),
+    [
+        ((18.0, 65.0), {"orders": (4, 8, 12)}, 1.0),
+        pytest.param((70.0, 260.0), {}, 4.0, marks=pytest.mark.long),
+    ],
+    ids=["comb told", "comb unknown"],
+)
+def test_orders_of_a_machine_whose_first_is_silent(limits_hz, comb, times):
     """Orders 4, 8 and 12 alone: four times the speed for one who does not know the machine."""
     signal = sound(run_up, {4: 1.0, 8: 0.7, 12: 0.4}, 0.0)
-    told = tacholess_motion(signal, SAMPLE_RATE_HZ, 18.0, 65.0, orders=(4, 8, 12))
-    assert speed_error(told.motion, run_up) < 5e-3
-    wide = tacholess_motion(signal, SAMPLE_RATE_HZ, 70.0, 260.0)
-    assert speed_error(wide.motion, lambda t: 4.0 * run_up(t)) < 5e-3
+    result = tacholess_motion(signal, SAMPLE_RATE_HZ, *limits_hz, **comb)
+    assert speed_error(result.motion, lambda t: times * run_up(t)) < 5e-3
 
 
 def test_a_line_that_does_not_belong_to_the_shaft():
@@ -263,7 +269,9 @@ def test_any_signal_gives_a_rising_motion_or_one_clear_line(signal):
         assert np.all(motion.frequency_hz(np.linspace(motion.start_s, motion.end_s, 99)) > 0.0)
 
 
-@pytest.mark.parametrize(("speed_hz", "mains_hz"), [(50.03, 50.0), (50.4, None)])
+@pytest.mark.parametrize(
+    ("speed_hz", "mains_hz"), [(50.03, 50.0), pytest.param(50.4, None, marks=pytest.mark.long)]
+)
 def test_a_speed_that_may_be_hum_is_not_sure(speed_hz, mains_hz):
     """A steady comb at the mains frequency could be either; one 0.8 % off is a shaft."""
     signal = sound(lambda t: np.full_like(t, speed_hz), RICH, 10.0)

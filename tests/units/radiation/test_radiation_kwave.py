@@ -80,7 +80,7 @@ def test_microphone_on_a_wall_is_one_stronger_source(box, microphone, mirrors):
     assert np.abs(room_green.green_difference_db(field, expected)).max() < 0.1
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_time_step_does_not_matter(box, monkeypatch):
     """In a uniform medium k-Wave's scheme is exact in time: half the step changes nothing."""
     fields = []

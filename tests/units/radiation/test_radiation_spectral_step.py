@@ -80,7 +80,11 @@ def untouched(shape, several):
 
 
 @pytest.mark.parametrize("several", [False, True], ids=["one-source", "several-sources"])
-@pytest.mark.parametrize("shape", SHAPES, ids=str)
+@pytest.mark.parametrize(
+    "shape",
+    [*SHAPES[:2], *(pytest.param(one, marks=pytest.mark.long) for one in SHAPES[2:])],
+    ids=str,
+)
 @pytest.mark.parametrize(
     "build",
     [fused, scipy_slabs, lambda grid, source: stock(grid, source, np), on_device],

@@ -56,7 +56,7 @@ def dataset_58(values, end="\n", blanks=True, kind=1, ordinate=2, width=13):
 
 
 @pytest.mark.parametrize("blanks", [True, False])
-@pytest.mark.parametrize("end", ["\n", "\r\n"])
+@pytest.mark.parametrize("end", ["\n", pytest.param("\r\n", marks=pytest.mark.long)])
 @pytest.mark.parametrize(("ordinate", "width", "digits"), [(2, 13, 5), (4, 20, 12)])
 def test_uff_with_and_without_trailing_blanks(tmp_path, blanks, end, ordinate, width, digits):
     content = dataset_58(SIGNAL, end, blanks, ordinate=ordinate, width=width)
@@ -128,7 +128,14 @@ def test_calibration_that_the_recorder_wrote(tmp_path):
         read_recording(path, units={"channel 1": "V"})
 
 
-@pytest.mark.parametrize("kind", ["int16", "int32", "uint8", "float32"])
+@pytest.mark.parametrize(
+    "kind",
+    [
+        "int16",
+        "float32",
+        *(pytest.param(one, marks=pytest.mark.long) for one in ("int32", "uint8")),
+    ],
+)
 def test_part_of_a_wav_file(tmp_path, kind):
     stored = np.arange(200).reshape(100, 2).astype(kind)
     wavfile.write(tmp_path / "a.wav", 100, stored)
