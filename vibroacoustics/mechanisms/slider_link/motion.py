@@ -22,8 +22,8 @@ from .piston import (
 MAXIMUM_ITERATIONS: Final = 200
 CONVERGED: Final = 1e-12
 """Largest change of velocity and mean torque between iterations, relative."""
-KEPT_CYCLES: Final = 4
-"""A search asks for those of a design twice: for its forces and for its criteria."""
+KEPT_CYCLES: Final = 16
+"""A search asks for those of a design twice, at each speed: for its forces and its criteria."""
 
 
 @dataclass(frozen=True)
