@@ -33,7 +33,7 @@ from vibroacoustics.report.assumptions import records_table
 from vibroacoustics.report.comparison import comparison, comparison_csv, comparison_tables
 from vibroacoustics.report.extremes import extremes_table
 from vibroacoustics.report.figures.scores import contributions
-from vibroacoustics.report.housing import isolation_sentence, shape_words
+from vibroacoustics.report.housing import grid_error_sentence, isolation_sentence, shape_words
 from vibroacoustics.report.option_verdict import option_verdict, option_verdicts
 from vibroacoustics.report.scores import published_table, scores_csv, wrong_sums
 from vibroacoustics.report.verdict import headline, reasons
@@ -446,6 +446,14 @@ def test_modes_are_named_by_their_energy(results: xr.Dataset) -> None:
     assert "the mounts isolate" in isolation_sentence(results)
     slow = make_results({"none": 1.0}, speeds=(600.0,))
     assert "can meet a resonance" in isolation_sentence(slow)
+
+
+@pytest.mark.parametrize(("share", "shown"), [(0.01, "0.09"), (1e-6, "0.01"), (0.0, "0.01")])
+def test_error_of_the_radiation_is_below_what_is_said(results, share, shown):
+    """20 lg 1.01 = 0.086 dB; an error that is small is not shown as none."""
+    error = share * np.abs(results["transfer_vector"])
+    sentence = grid_error_sentence(results.assign(transfer_vector_error=error))
+    assert f"below {shown} dB in half, below {shown} dB in 95 %" in sentence
 
 
 def test_the_page_is_self_contained(files: dict[str, bytes]) -> None:

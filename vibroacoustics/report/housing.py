@@ -152,12 +152,16 @@ def grid_error_sentence(results: xr.Dataset) -> str:
     if not loud.any():
         return "The transfer vectors are silent."
     error = level_of_amplitude(1.0 + results["transfer_vector_error"].values[loud] / size[loud])
-    typical, worst = float(np.median(error)), float(np.quantile(error, 0.95))
+    half, most = (_hundredth_above(np.quantile(error, share)) for share in (0.5, 0.95))
     return (
-        f"{_HOW_ERROR[_by_elements(results)]}: "
-        f"{rounding.fixed(typical, 2)} dB in the middle, below {rounding.fixed(worst, 2)} dB in "
+        f"{_HOW_ERROR[_by_elements(results)]}: below {half} dB in half, below {most} dB in "
         "95 % of the microphones, motions and frequencies within 20 dB of the loudest microphone."
     )
+
+
+def _hundredth_above(value: float) -> str:
+    """What a value is below of, so that a small error never reads as none."""
+    return rounding.fixed((np.floor(100.0 * value) + 1.0) / 100.0, 2)
 
 
 def _by_elements(results: xr.Dataset) -> bool:
