@@ -10,8 +10,8 @@ import numpy as np
 from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..base.vocabulary import REFERENCE_OPTION
-from ..pipeline.radiating import transfer_vectors
 from ..radiation.given import Radiation
+from ..stages.radiation import transfer_vectors
 from ..study.criterion import CRITERIA
 from ..study.design import Constraint, Design, Objective, Wanted
 from ..study.study import Study

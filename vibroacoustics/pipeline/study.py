@@ -1,32 +1,20 @@
-"""The main job, from the machine to the scores.
-
-study -> moving parts -> orders -> transfer -> radiation -> levels -> scores, one dataset.
-"""
+"""The main job: the stages of a study, each after those that give what it reads."""
 
 import xarray as xr
 
-from .. import scoring
 from ..base.errors import ParameterError
 from ..base.hashing import canonical_json
 from ..base.linear_algebra import one_thread_of_linear_algebra
-from ..base.progress import Progress, no_progress, stage
+from ..base.progress import Progress, no_progress
 from ..base.vocabulary import check, label_coordinates
+from ..measured.floor import on_measured_floor
 from ..radiation.given import Radiation
 from ..results import provenance
 from ..results.words import words
-from ..stopping.labelled import stopping_variables
+from ..stages.chain import Cases, Chain
+from ..stages.radiation import Radiated, transfer_vectors
+from ..stages.stage import advanced, applying
 from ..study.study import Study
-from ..transfer import on_mounts
-from ..transfer.natural_frequencies import natural_variables
-from .calibration import shell_test
-from .floor import on_measured_floor
-from .force_sound import force_radiation, measured_force_sound
-from .in_room import sound_in_room
-from .motion import motion_of
-from .radiating import line_difference, sound_field, transfer_vectors
-from .shell import shell_path
-from .sound import levels_of
-from .structure_borne import structure_borne_sound
 
 
 def run(
@@ -73,31 +61,10 @@ def run(
 
 def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
     study = on_measured_floor(study)
-    motion = motion_of(study, progress)
-    with stage(progress, "modes of the shell"):
-        path = shell_path(study)
-    test = shell_test(study, path)
-    by_force = measured_force_sound(study)
-    if by_force is not None:
-        radiated, was_cached = force_radiation(study, by_force)
-    else:
-        radiated, was_cached = radiation(study, progress, () if path is None else path.modes)
-    results = motion.results.merge(radiated)
-    of_any_case, highest = next(iter(motion.loads.values())), study.radiation.maximum_frequency_hz
-    with stage(progress, "natural frequencies"):
-        results = results.merge(natural_variables(study.machine, path, of_any_case, highest))
-    results = results.merge(sound_field(study, results))
-    results = results.merge(line_difference(study, results))
-    moved = motion.with_results(results)
-    results = results.merge(levels_of(study, moved, path, progress, test, by_force))
-    results = results.merge(structure_borne_sound(study, moved, results))
-    in_room = sound_in_room(study, motion.with_results(results), path, progress)
-    results = results.merge(in_room)
-    if study.operation.stopping:
-        body = on_mounts(study.machine)
-        with stage(progress, "switching off"):
-            results = results.merge(stopping_variables(study, study.machine, body, results, path))
-    results = results.merge(scoring.study_scores(study, results))
-    results.attrs = provenance.radiation_attributes(study, radiated, was_cached)
-    results.attrs["words"] = canonical_json(words(study, motion.loads, results))
+    chain = Chain(study, radiation, progress)
+    for stage in applying(study):
+        chain = advanced(chain, stage)
+    results, radiated = chain.results, chain[Radiated]
+    results.attrs = provenance.radiation_attributes(study, radiated.attributes, radiated.was_cached)
+    results.attrs["words"] = canonical_json(words(study, chain[Cases].loads, results))
     return check(label_coordinates(results))

@@ -25,6 +25,21 @@ def wrench_pressure(results: xr.Dataset, name: str) -> xr.DataArray:
     return _at_orders(results["velocity_order"], results[name], results["order_frequency"])
 
 
+def wrench_pressure_by_dof(results: xr.Dataset) -> xr.DataArray:
+    """Compute the pressure of every wrench at every order by each motion of the housing, Pa.
+
+    Orders beyond the table are silent, as in `wrench_pressure`: its highest frequency is used for
+    theirs.
+
+    Parameters
+    ----------
+    results : with `velocity_order`, `order_frequency` and `transfer_vector`
+    """
+    vectors = results["transfer_vector"]
+    frequency = results["order_frequency"].clip(max=vectors["frequency"].max().item())
+    return results["velocity_order"] * interpolate_transfer_vector(vectors, frequency)
+
+
 def wrench_pressure_by(
     results: xr.Dataset,
     pressure_per_velocity: Callable[[Array], ComplexArray],

@@ -22,7 +22,7 @@ from ..mechanics.scroll_shaft import ScrollShaft
 from ..study.study import Study
 from .bending import bending_shell
 from .contributions import contributions
-from .force_sound import OfReceivers, PressurePerVelocity
+from .force_sound import ForceSound, OfReceivers, PressurePerVelocity
 from .machine import on_mounts
 from .path import ShellPath
 from .sound_path import BendingShell, SoundPath
@@ -177,3 +177,34 @@ def by_case_and_source(
         for s, speed in enumerate(pressure["speed"].values)
         for o, option in enumerate(pressure["option"].values)
     }
+
+
+def wrench_pressure_by_motion(
+    results: xr.Dataset,
+    cases: Mapping[CaseKey, Case],
+    source_of_wrench: Mapping[str, str],
+    sound: ForceSound,
+) -> dict[CaseKey, dict[str, ComplexArray]]:
+    """Compute the measured pressure of wrenches by motion, (receiver, 6, order), Pa.
+
+    Parameters
+    ----------
+    results : with `velocity_order` and `order_frequency` of the cases; of a single option where the
+        cases are those of the published level
+    cases : with their machines
+    source_of_wrench : by the wrench's name
+    sound : measured pressure per force
+    """
+    pressure: dict[CaseKey, dict[str, ComplexArray]] = {}
+    options = results["option"].values.tolist()
+    for key, case in cases.items():
+        option = key[1] if key[1] in options else options[0]
+        of_case = results.sel(speed=key[0], option=option)
+        velocity = of_case["velocity_order"].transpose("source", "dof", "order")
+        vectors = sound.of(on_mounts(case.machine))(of_case["order_frequency"].values)
+        by_source: dict[str, ComplexArray] = {}
+        for name, of_wrench in zip(velocity["source"].values, velocity.values, strict=True):
+            source = source_of_wrench[str(name)]
+            by_source[source] = by_source.get(source, 0.0) + of_wrench * vectors
+        pressure[key] = by_source
+    return pressure

@@ -34,6 +34,26 @@ def wall_points(angle_rad: Array, height_m: Array, radius_m: float) -> tuple[Arr
 
 
 @dataclass(frozen=True)
+class ShellMobilities:
+    """What was measured, each mobility once, repeats averaged.
+
+    Attributes
+    ----------
+    frequency_hz : shape (frequency,)
+    mobility : outward velocity per force, m/(N s), shape (mobility, frequency)
+    response : name of the point on the wall, by mobility
+    reference : name of the point on the wall or of the part's
+    unused : frequency responses of nodes that the study does not name
+    """
+
+    frequency_hz: Array
+    mobility: ComplexArray
+    response: tuple[str, ...]
+    reference: tuple[str, ...]
+    unused: int
+
+
+@dataclass(frozen=True)
 class Wall:
     """Outward velocities of points of the wall.
 

@@ -13,10 +13,10 @@ from ...base.progress import no_progress
 from ...levels.weighting import WEIGHTING
 from ...machine.machine import Machine
 from ...mechanics.loads import Lines, Loads
-from ...pipeline.shell import shell_path
 from ...radiation.given import Radiation
 from ...radiation.pressure import pressure_per_shell_velocity
 from ...radiation.transfer_vectors import pressure_per_velocity
+from ...stages.shell import shell_path
 from ...study.study import Study
 from ...transfer.bending import bending_shell
 from ...transfer.force_sound import PressurePerVelocity
