@@ -8,8 +8,8 @@ from vibroacoustics import pipeline
 from vibroacoustics.base.vocabulary import REFERENCE_OPTION, stamp
 from vibroacoustics.machine.source import Case
 from vibroacoustics.mechanics.loads import Lines, Loads, lines_of
-from vibroacoustics.pipeline.shell import shell_path
 from vibroacoustics.sources.cases import cases_of
+from vibroacoustics.stages.shell import shell_path
 from vibroacoustics.study.study import Study
 from vibroacoustics.transfer.path import ShellPath
 

@@ -56,6 +56,7 @@ listening, tones, loudness and sharpness, `rooms` the sound of a source in a fur
 **Things of your own.**
 `register(thing)` and `load_plugin(path)` take them in: a class derived from `Option`, `Machine`,
 `Source` or `Criterion`, or a `Section` or `Column` of the report, whose content `blocks` make.
+A `Stage` of a run gets the `Chain` with `Cases` and results so far, and returns what is `Given`.
 `Added`, `Case`, `Loads`, `MovingPart`, `Revolution`, `Wrench`, `OldhamRing`, `Slider` are what
 these get and return; `circling`, `constant_rotation` and `wrenches_of_parts` make forces of moving
 masses. A `DesignFigure` of what is seen of designs, each a `Need`, is what they can be judged by. A
@@ -150,6 +151,8 @@ if TYPE_CHECKING:
     from .results.storage import open_results
     from .scoring import score
     from .sources.curves import curves
+    from .stages.chain import Cases, Chain
+    from .stages.stage import Given, Stage
     from .study.criterion import Criterion
     from .study.loading import load_machine, load_study
     from .study.order_analysis import NominalSpeed, OrderAnalysis, SpeedChannel, TacholessSpeed
@@ -158,6 +161,8 @@ if TYPE_CHECKING:
 __all__ = [
     "Added",
     "Case",
+    "Cases",
+    "Chain",
     "Column",
     "Coordinate",
     "Criterion",
@@ -166,6 +171,7 @@ __all__ = [
     "DataSheet",
     "DesignFigure",
     "FigureLimit",
+    "Given",
     "Limit",
     "Loads",
     "Machine",
@@ -190,6 +196,7 @@ __all__ = [
     "SolverError",
     "Source",
     "SpeedChannel",
+    "Stage",
     "StorageError",
     "Study",
     "TacholessSpeed",
@@ -251,6 +258,8 @@ __all__ = [
 _HOME = {
     "Added": "mechanics.added",
     "Case": "machine.source",
+    "Cases": "stages.chain",
+    "Chain": "stages.chain",
     "Column": "report.columns",
     "Coordinate": "base.vocabulary",
     "Criterion": "study.criterion",
@@ -259,6 +268,7 @@ _HOME = {
     "DataSheet": "report.data_sheet.model",
     "DesignFigure": "design.figure",
     "FigureLimit": "results.figure_limit",
+    "Given": "stages.stage",
     "Limit": "results.limit",
     "Loads": "mechanics.loads",
     "Machine": "machine.machine",
@@ -283,6 +293,7 @@ _HOME = {
     "SolverError": "base.errors",
     "Source": "machine.source",
     "SpeedChannel": "study.order_analysis",
+    "Stage": "stages.stage",
     "StorageError": "base.errors",
     "Study": "study.study",
     "TacholessSpeed": "study.order_analysis",

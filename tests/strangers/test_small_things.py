@@ -13,10 +13,14 @@ from vibroacoustics.results.storage import open_results, write_results
 
 ENTRY_POINTS = """[vibroacoustics.sections]
 floor_force = floor_force:SECTION
+vibration_severity = vibration_severity:SECTION
+[vibroacoustics.stages]
+vibration-severity = vibration_severity:VibrationSeverity
 [vibroacoustics.columns]
 force_3x_n = third_force:COLUMN
 [vibroacoustics.variables]
 floor_force = floor_force:FLOOR_FORCE
+vibration_severity = vibration_severity:SEVERITY
 [vibroacoustics.coordinates]
 side = floor_force:SIDE
 [vibroacoustics.units]
@@ -30,7 +34,7 @@ plain-bytes = plain_bytes:READER
 def installed(tmp_path_factory) -> Path:
     """A folder of installed packages: the files, which register nothing, and entry points."""
     folder = tmp_path_factory.mktemp("site")
-    for name in ("floor_force", "third_force", "inches", "plain_bytes"):
+    for name in ("floor_force", "third_force", "inches", "plain_bytes", "vibration_severity"):
         text = (STRANGERS / f"{name}.py").read_text()
         plain = re.sub(r"(?m)^@?vibroacoustics\.register.*\n", "", text)
         (folder / f"{name}.py").write_text(plain)
@@ -69,6 +73,26 @@ def test_section_column_and_variable_are_shown(stranger, results_file, tmp_path)
     assert "Force 3×, N" in page
     csv = (tmp_path / "out" / "comparison.csv").read_text().splitlines()
     assert csv[0].endswith(",force_3x_n")
+
+
+def test_stage_gives_its_variable_and_section(stranger, tmp_path):
+    """Severity of the worst axis by hand; the report is made again without the plug-in."""
+    out = tmp_path / "out"
+    outcome = stranger("run", TINY, "--out", out, names=("vibration_severity",))
+    assert outcome.returncode == 0, outcome.stderr
+    results = open_results(out / "results.nc")
+    severity = results["vibration_severity"].sel(option="none").values
+    along = results["velocity_order"].sel(option="none", dof=["tx", "ty", "tz"]).sum("source")
+    orders = along.transpose("speed", "dof", "order").values
+    for row, speed in enumerate(results["speed"].values):
+        hertz = results["order"].values * speed / 60.0
+        kept = orders[row][:, (hertz >= 10.0) & (hertz <= 1000.0)]
+        worst = np.sqrt(np.sum(np.abs(kept) ** 2, axis=1) / 2.0).max()
+        assert severity[row] == pytest.approx(1e3 * worst, rel=1e-12)
+    again = command_here("report", out / "results.nc", "--out", tmp_path / "again")
+    assert again.returncode == 0, again.stderr
+    for page in (out, tmp_path / "again"):
+        assert "## Vibration severity" in (page / "comparison.md").read_text()
 
 
 def test_unit_is_read_and_told(stranger, tmp_path):

@@ -198,8 +198,8 @@ def register(thing: Thing) -> Thing:
 
     Parameters
     ----------
-    thing : class derived from `Option`, `Machine`, `Source` or `Criterion`, or a `Section`,
-        `Column`, `Variable`, `Coordinate` or `Unit`
+    thing : class derived from `Option`, `Machine`, `Source`, `Stage` or `Criterion`, or a
+        `Section`, `Column`, `Variable`, `Coordinate` or `Unit`
 
     Raises
     ------

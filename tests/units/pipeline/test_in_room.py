@@ -13,7 +13,6 @@ from vibroacoustics.base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_
 from vibroacoustics.base.decibel import energy_sum
 from vibroacoustics.base.errors import SchemaError
 from vibroacoustics.levels import a_weighting
-from vibroacoustics.pipeline import in_room
 from vibroacoustics.pipeline.cost import run_cost
 from vibroacoustics.radiation.rooms import of_study as rooms
 from vibroacoustics.report.html import html
@@ -26,6 +25,7 @@ from vibroacoustics.sound import loudness
 from vibroacoustics.sound.gain import full_scale_of
 from vibroacoustics.sound.ingredients import ingredients
 from vibroacoustics.sound.loudness import loudness_of
+from vibroacoustics.stages import room as room_stage
 
 RHO_C = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S
 PANEL = {
@@ -52,8 +52,8 @@ def run_in_room(study, patch, room=1.0, radiation=made_up_radiation, **changes):
         listeners, highest = settings.listeners, study.radiation.maximum_frequency_hz
         return made_up_vectors(listeners, motions, room, highest_hz=highest), False
 
-    patch.setattr(in_room, "vectors_of", vectors)
-    patch.setattr(in_room, "_map", no_map)
+    patch.setattr(room_stage, "vectors_of", vectors)
+    patch.setattr(room_stage, "_map", no_map)
     return va.run(study.replace({"room": KITCHEN, **changes}), radiation=radiation)
 
 

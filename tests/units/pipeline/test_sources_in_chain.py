@@ -38,7 +38,6 @@ from vibroacoustics.mechanics.loads import (
     total_torque_n_m,
 )
 from vibroacoustics.mechanics.received_sound import NoisePower
-from vibroacoustics.pipeline.sound import DrawnSound
 from vibroacoustics.radiation.pressure import wrench_pressure
 from vibroacoustics.radiation.scene import machine_body
 from vibroacoustics.radiation.transfer_vectors import pressure_per_velocity
@@ -50,6 +49,9 @@ from vibroacoustics.sources.keys import OldhamKeyForces
 from vibroacoustics.sources.oldham_keys.rattle import steady_key_forces
 from vibroacoustics.sources.oldham_keys.spectra import spectral_density
 from vibroacoustics.sources.part_loads import key_torque_n_m
+from vibroacoustics.stages import ensemble, samples
+from vibroacoustics.stages.chain import Cases
+from vibroacoustics.stages.sampled import SampledSound
 from vibroacoustics.study.draws import with_draw
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.sampling import latin_hypercubes
@@ -535,25 +537,26 @@ def run_with_draws(study, monkeypatch, squares):
     gas[1] = 1.0
     by_draw: dict[tuple[float, ...], float] = {}
 
-    def sounds(transmission, axes, cases, given, draws, done):
+    def sounds(chain, draws, done):
         for draw in draws:
             by_draw.setdefault(tuple(draw.values()), squares[len(by_draw) % len(squares)])
         return [
-            DrawnSound(
+            SampledSound(
                 {
                     key: SourceSound(
                         np.tile(square * gas[:, None, None], (1, receivers, bands)),
                         np.tile(square * gas[:, None], (1, receivers)),
                         np.tile(square * gas[:, None], (3, 1, receivers)),
                     )
-                    for key in cases
+                    for key in chain[Cases].cases
                 },
                 {},
             )
             for square in (by_draw[tuple(draw.values())] for draw in draws)
         ]
 
-    monkeypatch.setattr("vibroacoustics.pipeline.sound.sound_of_draws", sounds)
+    for stage in (ensemble, samples):
+        monkeypatch.setattr(stage, "sounds_of", sounds)
     settings = study.uncertainty.model_copy(update={"random_samples": len(squares)})
     return run_made_up(study.model_copy(update={"uncertainty": settings}))
 

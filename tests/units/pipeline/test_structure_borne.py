@@ -8,7 +8,6 @@ from support import ROOT, TINY, command_here, made_up_radiation
 import vibroacoustics as va
 from vibroacoustics.base.decibel import energy_sum
 from vibroacoustics.mechanics.loads import PARTS, Loads, Tone
-from vibroacoustics.pipeline.structure_borne import foot_force
 from vibroacoustics.report.html import html
 from vibroacoustics.report.page import Page, Part
 from vibroacoustics.report.sections import SECTIONS
@@ -16,6 +15,7 @@ from vibroacoustics.report.structure_borne import carrier, way_sentence, ways_ta
 from vibroacoustics.sources.cases import cases_of
 from vibroacoustics.study.selection import at_speeds
 from vibroacoustics.transfer import on_mounts
+from vibroacoustics.transfer.foot_lines import foot_force
 from vibroacoustics.transfer.plate.driven import Plate, near_power
 
 SHEET = {
