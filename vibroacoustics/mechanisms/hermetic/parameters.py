@@ -6,11 +6,7 @@ from pydantic import Field, model_validator
 
 from ...base.parameters import Parameters
 from ...machine.machine import Machine
-from ...mechanics.capabilities import (
-    HEIGHT,
-    BalancePlanes,
-    CrankFrame,
-)
+from ...mechanics.capabilities import HEIGHT, BalancePlanes, CrankFrame
 from ...mechanics.cylinder import CylinderGas
 
 Case = Literal["I", "II", "III"]

@@ -12,10 +12,7 @@ from ...machine.shell_structure import ShellStructure, ShellVariation
 from ...machine.stator_yoke import StatorYoke
 from ...machine.stopping import Stopping
 from ...machine.turning_back import CheckValve, TurningBack
-from ...mechanics.capabilities import (
-    HEIGHT,
-    BalancePlanes,
-)
+from ...mechanics.capabilities import HEIGHT, BalancePlanes
 from ...mechanics.scroll_shaft import ScrollShaft
 from ...sources.air_gap.parameters import AirGap
 from ...sources.induction_motor.parameters import CapacitorMotor, TurningRotor

@@ -4,11 +4,7 @@ from pydantic import Field, model_validator
 
 from ...base.parameters import Parameters
 from ...machine.machine import Machine
-from ...mechanics.capabilities import (
-    HEIGHT,
-    BalancePlanes,
-    CrankFrame,
-)
+from ...mechanics.capabilities import HEIGHT, BalancePlanes, CrankFrame
 from .cylinders import ONE_CYLINDER, CylinderBanks
 
 LENGTH = Field(gt=0.0, le=10.0)
