@@ -35,12 +35,13 @@ docs: $(VENV)/.dev
 	$(BIN)/sphinx-build -W --keep-going --quiet -b html docs docs/_build/html
 	@echo "site: docs/_build/html/index.html"
 
-# Format, lint, types and the import contract.
+# Format, lint, types, the import contracts and circles of imports.
 check: $(VENV)/.dev
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	$(BIN)/python tests/house/acyclic.py vibroacoustics
 
 $(VENV)/.core: requirements.lock pyproject.toml
 	$(PYTHON) -m venv $(VENV)

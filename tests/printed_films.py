@@ -7,7 +7,7 @@ import numpy as np
 from vibroacoustics.base.arrays import Array
 from vibroacoustics.mechanisms.hermetic.film_force import FilmForce
 from vibroacoustics.mechanisms.hermetic.journal_bearing import Values, sommerfeld_angle
-from vibroacoustics.mechanisms.hermetic.machine import JournalBearing
+from vibroacoustics.mechanisms.hermetic.parameters import JournalBearing
 
 
 def long_bearing_force(

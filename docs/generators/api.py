@@ -29,9 +29,13 @@ def directive(head: str, name: str, thing: object) -> str:
     if head == "Modules":
         return f"{name}\n{'~' * len(name)}\n\n.. automodule:: {thing.__name__}\n   :members:\n"
     fields = {*getattr(thing, "__dataclass_fields__", ()), *getattr(thing, "_fields", ())}
+    public = set(vibroacoustics.__all__)
+    homes = [home for home in inspect.getmro(thing) if home is thing or home.__name__ not in public]
     own = [
         member
-        for member, held in vars(thing).items()
+        for home in homes
+        if home.__module__.startswith("vibroacoustics.")
+        for member, held in vars(home).items()
         if isinstance(held, FunctionType | classmethod | property)
         and not member.startswith(("_", "model_"))
         and member not in fields

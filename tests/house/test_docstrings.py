@@ -5,7 +5,6 @@ import re
 from functools import cache
 from pathlib import Path
 
-import pytest
 from support import ROOT
 
 PACKAGE = ROOT / "vibroacoustics"
@@ -52,38 +51,53 @@ def _functions(path: Path):
                 yield child, names
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(PACKAGE)))
-def test_docstring_parameters_are_those_of_the_signature(path):
-    for function, names in _functions(path):
-        documented = _section(ast.get_docstring(function, clean=True) or "", "Parameters")
-        if documented is not None:
-            assert documented == names, function.name
+def _fields(node: ast.ClassDef) -> list[str]:
+    return [
+        item.target.id
+        for item in node.body
+        if isinstance(item, ast.AnnAssign)
+        and isinstance(item.target, ast.Name)
+        and not item.target.id.startswith("_")
+        and "ClassVar" not in ast.dump(item.annotation)
+    ]
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(PACKAGE)))
-def test_docstring_attributes_are_the_fields(path):
-    for node in ast.walk(_tree(path)):
-        if isinstance(node, ast.ClassDef):
-            documented = _section(ast.get_docstring(node, clean=True) or "", "Attributes")
-            if documented is not None:
-                fields = [
-                    item.target.id
-                    for item in node.body
-                    if isinstance(item, ast.AnnAssign)
-                    and isinstance(item.target, ast.Name)
-                    and not item.target.id.startswith("_")
-                    and "ClassVar" not in ast.dump(item.annotation)
-                ]
-                assert documented == fields, node.name
+def test_docstring_parameters_are_those_of_the_signature():
+    faults = [
+        f"{path.relative_to(ROOT)}: {function.name}: {documented}, has {names}"
+        for path in FILES
+        for function, names in _functions(path)
+        if (documented := _section(ast.get_docstring(function, clean=True) or "", "Parameters"))
+        not in (None, names)
+    ]
+    assert not faults, "\n".join(faults)
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(PACKAGE)))
-def test_every_module_and_public_function_says_what_it_is(path):
-    tree = _tree(path)
-    assert not tree.body or ast.get_docstring(tree), "module"
-    for item in tree.body:
-        if isinstance(item, ast.FunctionDef) and not item.name.startswith("_"):
-            assert ast.get_docstring(item), item.name
+def test_docstring_attributes_are_the_fields():
+    faults = [
+        f"{path.relative_to(ROOT)}: {node.name}: {documented}, has {_fields(node)}"
+        for path in FILES
+        for node in ast.walk(_tree(path))
+        if isinstance(node, ast.ClassDef)
+        and (documented := _section(ast.get_docstring(node, clean=True) or "", "Attributes"))
+        not in (None, _fields(node))
+    ]
+    assert not faults, "\n".join(faults)
+
+
+def test_every_module_and_public_function_says_what_it_is():
+    faults = []
+    for path in FILES:
+        tree = _tree(path)
+        if tree.body and not ast.get_docstring(tree):
+            faults.append(f"{path.relative_to(ROOT)}: module")
+        faults += [
+            f"{path.relative_to(ROOT)}: {item.name}"
+            for item in tree.body
+            if isinstance(item, ast.FunctionDef) and not item.name.startswith("_")
+            if not ast.get_docstring(item)
+        ]
+    assert not faults, "\n".join(faults)
 
 
 def test_the_check_sees_a_stale_name():

@@ -31,9 +31,13 @@ def _faults(path: Path, code: str) -> list[str]:
     return faults + ([f"{path}: {path.stem}"] if path.stem.strip("_") in WORDS else [])
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(PACKAGE)))
-def test_no_name_is_an_empty_word(path):
-    assert not _faults(path.relative_to(ROOT), path.read_text(encoding="utf-8"))
+def test_no_name_is_an_empty_word():
+    faults = [
+        fault
+        for path in FILES
+        for fault in _faults(path.relative_to(ROOT), path.read_text(encoding="utf-8"))
+    ]
+    assert not faults, "\n".join(faults)
 
 
 @pytest.mark.parametrize(

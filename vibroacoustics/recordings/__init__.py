@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from .blocks import FileBlocks, LabelledBlocks, open_recording
     from .export import csv_bytes, wav_bytes
     from .function_export import functions_csv, functions_uff
-    from .functions import MeasuredFunction, Node, read_functions
+    from .functions import read_functions
+    from .measured_function import MeasuredFunction, Node
     from .modes import MeasuredModes, read_modes
     from .reading import read_recording
     from .recording import label_recording
@@ -39,9 +40,9 @@ _HOME = {
     "FileBlocks": "blocks",
     "LabelledBlocks": "blocks",
     "open_recording": "blocks",
-    "MeasuredFunction": "functions",
+    "MeasuredFunction": "measured_function",
     "MeasuredModes": "modes",
-    "Node": "functions",
+    "Node": "measured_function",
     "csv_bytes": "export",
     "functions_csv": "function_export",
     "functions_uff": "function_export",

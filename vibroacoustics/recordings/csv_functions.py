@@ -11,7 +11,7 @@ from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError, StorageError, VibroacousticsError
 from .csv_head import Head, read_head
 from .function_units import Units, product, ratio, single
-from .functions import MeasuredFunction, Node
+from .measured_function import MeasuredFunction, Node
 from .text_lines import lines, opened, text
 
 _NODE: Final = r"(\d{1,9})([+-]r?[xyz])?"

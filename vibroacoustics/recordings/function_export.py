@@ -8,7 +8,7 @@ import numpy as np
 from ..base import csv_text
 from ..base.arrays import Array
 from ..base.errors import ParameterError
-from .functions import DIRECTIONS, KINDS, MeasuredFunction, Node
+from .measured_function import DIRECTIONS, KINDS, MeasuredFunction, Node
 from .quantities import quantity
 from .uff_functions import QUANTITY_TYPES
 

@@ -5,6 +5,7 @@ from typing import Any
 
 import xarray as xr
 
+from ..base.errors import ParameterError
 from ..base.hashing import canonical_json
 
 
@@ -32,6 +33,26 @@ def titled(results: xr.Dataset) -> xr.Dataset:
         words["sentences"] = _by_title(words["sentences"], options)
         attrs["words"] = canonical_json(words)
     return results.assign_coords(option=renamed).assign_attrs(attrs)
+
+
+def chosen(results: xr.Dataset, dimension: str, value: Any) -> Any:
+    """A label of a dimension; where none is given, the first; of an option with a title that.
+
+    Raises
+    ------
+    ParameterError
+        The results have no such label.
+    """
+    labels = results[dimension].values.tolist()
+    if dimension == "option" and value not in labels:
+        value = option_titles(results).get(value, value)
+    if value is None:
+        return labels[0]
+    if value not in labels:
+        raise ParameterError(
+            f"{dimension} = {value}: not in these results; there are {', '.join(map(str, labels))}"
+        )
+    return value
 
 
 def _by_title(table: dict[str, Any], options: dict[str, str]) -> dict[str, Any]:

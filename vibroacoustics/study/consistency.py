@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable
 from functools import partial
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import REFERENCE_OPTION
@@ -13,16 +13,14 @@ from ..machine.stopping import Stopping
 from ..machine.turning_back import TurningBack
 from ..mechanics.loads import DISCHARGE_DOME, SUCTION_ANNULUS
 from .scoring import check_given, check_scales
-
-if TYPE_CHECKING:
-    from .study import Study
+from .tables import StudyTables
 
 LEAST_ORDERS: Final = 2
 """Which every result holds."""
 ROUNDING: Final = 1e-9
 
 
-def check_consistent(study: "Study") -> None:
+def check_consistent(study: StudyTables) -> None:
     """Refuse tables that are right alone and contradict each other.
 
     Parameters
@@ -63,14 +61,14 @@ def _raise_all(checks: Iterable[Callable[[], None]]) -> None:
         raise ValueError(*problems)
 
 
-def _check_measured(study: "Study") -> None:
+def _check_measured(study: StudyTables) -> None:
     if study.measured is not None:
         names, speeds = list(study.receivers), study.operation.speed_rpm
         if problems := list(study.measured.problems(names, speeds)):
             raise ValueError(*problems)
 
 
-def _check_catalogue(study: "Study") -> None:
+def _check_catalogue(study: StudyTables) -> None:
     """Refuse a microphone of the overall noise that is none, or stands elsewhere."""
     if study.catalogue_receiver not in study.receivers:
         raise ValueError(
@@ -94,7 +92,7 @@ def _check_catalogue(study: "Study") -> None:
         )
 
 
-def _check_sound_power(study: "Study") -> None:
+def _check_sound_power(study: StudyTables) -> None:
     """Refuse a sound power by ISO 3744 where there is more than a hard floor."""
     surroundings = study.radiation.surroundings
     if study.sound_power and (
@@ -106,7 +104,7 @@ def _check_sound_power(study: "Study") -> None:
         )
 
 
-def _check_room(study: "Study") -> None:
+def _check_room(study: StudyTables) -> None:
     """Refuse a room that does not hold the machine, or beside which other walls stand."""
     if study.room is None:
         return
@@ -135,7 +133,7 @@ def _check_room(study: "Study") -> None:
         raise ValueError(f"room.{error}") from None
 
 
-def _check_orders(study: "Study") -> None:
+def _check_orders(study: StudyTables) -> None:
     """Refuse more orders than the radiation or the crank angles can tell apart."""
     speeds = {*study.operation.speed_rpm, study.catalogue_speed_rpm}
     fastest, slowest = max(speeds), min(speeds)
@@ -155,7 +153,7 @@ def _check_orders(study: "Study") -> None:
         )
 
 
-def _check_sources(study: "Study") -> None:
+def _check_sources(study: StudyTables) -> None:
     """Refuse sources that the machine, or what an option makes of it, cannot have."""
     if "moving_parts" in study.sources:
         raise ValueError("sources.moving_parts: are always there; choose another name")
@@ -200,7 +198,7 @@ def _check_sources(study: "Study") -> None:
     _check_turning_back(study)
 
 
-def _check_turning_back(study: "Study") -> None:
+def _check_turning_back(study: StudyTables) -> None:
     if not study.operation.turning_back:
         return
     if not study.operation.stopping:
@@ -209,12 +207,12 @@ def _check_turning_back(study: "Study") -> None:
         raise ValueError("operation.turning_back: the machine has no table turning_back")
 
 
-def _gas_flows_into(study: "Study") -> list[str]:
+def _gas_flows_into(study: StudyTables) -> list[str]:
     read = {name for one in study.sources.values() for name in one.tables_read(study.machine)}
     return sorted(read & {DISCHARGE_DOME, SUCTION_ANNULUS})
 
 
-def _check_fits(study: "Study", name: str, option: Option) -> None:
+def _check_fits(study: StudyTables, name: str, option: Option) -> None:
     """Refuse an option that the machine has no part for, or that changes what all share."""
     needed = option.needs
     if needed is not None and study.machine.capability(needed) is None:

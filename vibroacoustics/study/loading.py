@@ -112,7 +112,7 @@ def study_of(written: Written) -> Study:
     content["records"] = (*machine_records, *reader.records)
     ranges, held = ranges_of(machine, machine_records, content, machine_reader)
     content.update(ranges=ranges, held_ranges=held)
-    study = validated(Study, content, reader).remember(written)
+    study = validated(Study, content, reader).remember(written, study_of)
     warn_of_contradictions(study)
     return study
 

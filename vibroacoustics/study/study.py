@@ -1,39 +1,38 @@
 """A study: one machine, its operating points, options, microphones and scoring."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from copy import deepcopy
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import model_validator
 
 from ..base.errors import ParameterError
-from ..base.parameters import Parameters
-from ..base.units import orders_below
 from ..base.vocabulary import REFERENCE_OPTION
-from ..machine.machine import AnyMachine
-from ..machine.option import AnyOption, Option
-from ..machine.source import AnySource, CaseKey
-from .baseline import MeasuredSound
+from ..machine.option import Option
+from ..machine.source import CaseKey
 from .consistency import check_consistent
-from .design import Design
-from .evidence import Evidence
-from .operation import Operation
-from .radiation import RadiationSettings
-from .receivers import Receiver
-from .record import ParameterRecord
-from .room import StudyRoom
-from .scoring import Scoring
-from .sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
-from .structure_borne import StructureBorne
-from .titles import Titles
+from .replacing import replaced
+from .tables import StudyTables
 from .toml_files import Written
-from .uncertainty import HeldRange, MeasuredModes, Range, Uncertainty
 
 AT_CATALOGUE_POINT: Final = "none at the catalogue's point"
 """Name of the case without a balancer at the operating point of the overall noise."""
 
 
-class Study(Parameters):
+class AsRead(NamedTuple):
+    """What a study's file says, and what makes a study of that: `loading`, which is above.
+
+    Attributes
+    ----------
+    written : by the file
+    study_of : makes a study of it
+    """
+
+    written: Written
+    study_of: Callable[[Written], "Study"]
+
+
+class Study(StudyTables):
     """One machine, its operating points, options, microphones and scoring: what `run` computes.
 
     From `load_study`; frozen, in SI units, with the unit in the name of each value.
@@ -47,59 +46,7 @@ class Study(Parameters):
     (2900.0,)
     """
 
-    __slots__ = ("_written",)
-
-    title: str = Field(min_length=1)
-    machine: AnyMachine
-    operation: Operation
-    options: dict[str, AnyOption]
-    receivers: dict[str, Receiver] = Field(min_length=1)
-    catalogue_receiver: str = ""
-    """Of the machine's overall noise; the first where the machine's file gives none."""
-    catalogue_point: str | None = None
-    """Operating point of the machine's file at which its overall noise holds; none for the values
-    of the study."""
-    catalogue_machine: AnyMachine | None = None
-    """At that point; none where it is the study's. Filled in by `load_study`."""
-    radiation: RadiationSettings
-    scoring: Scoring
-    given: dict[str, dict[str, float]] = Field(default={})
-    """Values of criteria that are judged, not computed, by option and criterion."""
-    titles: Titles = Titles()
-    """What reports show in place of names."""
-    evidence: Evidence = Evidence()
-    """Published values beside which the report sets the results."""
-    sound_power: SoundPowerSettings | None = None
-    map: MapSettings | None = None
-    directivity: DirectivitySettings | None = None
-    structure_borne: StructureBorne | None = None
-    """Plate under the feet whose sound is computed beside that by air."""
-    room: StudyRoom | None = None
-    """Room into which the machine is put, with listeners."""
-    sources: dict[str, AnySource] = Field(default_factory=dict)
-    """Who drives the machine beside its moving parts."""
-    uncertainty: Uncertainty = Uncertainty()
-    shell_modes: MeasuredModes | None = None
-    """Measured modes of the shell, in place of the computed ones."""
-    ranges: tuple[Range, ...] = ()
-    """Of the machine's values that are drawn at random."""
-    held_ranges: tuple[HeldRange, ...] = ()
-    """Of those that are not, with the reason."""
-    design: Design | None = None
-    """What a sweep or a search varies; a run takes the options as they are given."""
-    measured: MeasuredSound | None = None
-    """What was measured of the machine's sound, in place of its overall noise."""
-    records: tuple[ParameterRecord, ...] = ()
-    coarsened: tuple[str, ...] = ()
-    """What was made coarser for a first look, and the error that is expected."""
-    source_file: str = ""
-
-    @field_validator("options", "receivers")
-    @classmethod
-    def _named(cls, given: dict[str, Any]) -> dict[str, Any]:
-        if not all(name.strip() for name in given):
-            raise ValueError("a name is blank")
-        return given
+    __slots__ = ("_read",)
 
     @model_validator(mode="after")
     def _consistent(self) -> "Study":
@@ -113,27 +60,10 @@ class Study(Parameters):
         name = AT_CATALOGUE_POINT if elsewhere else REFERENCE_OPTION
         return self.catalogue_speed_rpm, name
 
-    @property
-    def catalogue_speed_rpm(self) -> float:
-        """Speed of the machine's overall noise; the first one where its file gives none."""
-        published = self.machine.overall_noise
-        return self.operation.speed_rpm[0] if published is None else published.speed_rpm
-
     def option_of(self, case: CaseKey) -> Option:
         """Option of a case: the reference at the point of the overall noise too."""
         name = REFERENCE_OPTION if case[1] == AT_CATALOGUE_POINT else case[1]
         return self.options[name]
-
-    def highest_order(self, speed_rpm: float) -> int:
-        """The highest shaft order that is taken along at a speed."""
-        if self.operation.maximum_order is not None:
-            return self.operation.maximum_order
-        return orders_below(self.radiation.maximum_frequency_hz, speed_rpm)
-
-    @property
-    def drives_shell(self) -> bool:
-        """Whether a source loads the joints of an elastic shell."""
-        return any(source.drives_shell for source in self.sources.values())
 
     def replace(self, values: Mapping[str, Any]) -> "Study":
         """The study with other values, validated as a study file is validated.
@@ -166,31 +96,29 @@ class Study(Parameters):
             ...
         vibroacoustics.base.errors.ParameterError: ...speed_rpm = 10 rpm: allowed 60 to 60000 rpm
         """
-        from .loading import study_of
-        from .replacing import replaced
-
-        return study_of(replaced(self._as_read(), values))
+        written, study_of = self._as_read()
+        return study_of(replaced(written, values))
 
     def as_written(self) -> dict[str, Any]:
         """What its file says, with those that it extends; numbers as there, in their units."""
-        return deepcopy(self._as_read().content)
+        return deepcopy(self._as_read().written.content)
 
-    def _as_read(self) -> Written:
-        written: Written | None = getattr(self, "_written", None)
-        if written is None:
+    def _as_read(self) -> AsRead:
+        read: AsRead | None = getattr(self, "_read", None)
+        if read is None:
             raise ParameterError("study: was not read by load_study; load it, then replace values")
-        return written
+        return read
 
-    def remember(self, written: Written) -> "Study":
-        """The study itself, which remembers what its file says; copies do not."""
-        object.__setattr__(self, "_written", written)
+    def remember(self, written: Written, study_of: Callable[[Written], "Study"]) -> "Study":
+        """The study itself, which remembers what its file says and who read it; copies do not."""
+        object.__setattr__(self, "_read", AsRead(written, study_of))
         return self
 
     def marked_coarse(self, words: tuple[str, ...]) -> "Study":
         """The study, with what was made coarser in it."""
         marked = self.model_copy(update={"coarsened": words})
-        written: Written | None = getattr(self, "_written", None)
-        return marked if written is None else marked.remember(written)
+        read: AsRead | None = getattr(self, "_read", None)
+        return marked if read is None else marked.remember(*read)
 
     def parameters(self) -> dict[str, Any]:
         """All parameters as plain JSON values."""

@@ -16,7 +16,7 @@ from vibroacoustics.mechanisms.hermetic.journal_bearing import (
     short_bearing_force,
     short_bearing_pressure,
 )
-from vibroacoustics.mechanisms.hermetic.machine import JournalBearing
+from vibroacoustics.mechanisms.hermetic.parameters import JournalBearing
 
 BEARING = JournalBearing(radius_m=8e-3, width_m=6e-3, clearance_m=15e-6, viscosity_pa_s=5e-3)
 SPIN = 312.0

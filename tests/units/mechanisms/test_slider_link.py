@@ -41,8 +41,9 @@ from vibroacoustics.mechanisms.slider_link.crankshaft import (
 )
 from vibroacoustics.mechanisms.slider_link.gas import cylinder_pressure, gas_force, valve_angles
 from vibroacoustics.mechanisms.slider_link.gauss_panels import GaussPanels
-from vibroacoustics.mechanisms.slider_link.machine import JournalBearing, SliderLinkMachine
+from vibroacoustics.mechanisms.slider_link.machine import SliderLinkMachine
 from vibroacoustics.mechanisms.slider_link.motion import SliderLinkCycle, steady_motion
+from vibroacoustics.mechanisms.slider_link.parameters import JournalBearing
 from vibroacoustics.mechanisms.slider_link.piston import (
     SIDES,
     CrankState,

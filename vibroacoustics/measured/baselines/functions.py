@@ -5,7 +5,8 @@ import numpy as np
 from ...base.arrays import Array
 from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
-from ...recordings.functions import MeasuredFunction, read_functions
+from ...recordings.functions import read_functions
+from ...recordings.measured_function import MeasuredFunction
 from ...study.baseline_files import BaselineContent, BaselineFile, BaselineReader
 from ..narrow_spectra import NarrowSpectrum, of_spectra
 

@@ -13,7 +13,7 @@ from ...mechanics.whirl_curves import campbell_curve
 from .cycle import cycle_at_speed, uniform_samples
 from .film_linearisation import damped_modes, linear_film
 from .gas import gas_force_n, piston_area_m2
-from .machine import Case, HermeticCompressor
+from .parameters import Case, HermeticTables
 from .results import BearingCycle, bearing_cycles, motion_of, support_reaction
 from .shaft import ShaftEquations, crankshaft, rotor_matrices
 
@@ -45,7 +45,7 @@ class Solved(NamedTuple):
         return bearing_cycles(self.equations, self.states)
 
 
-def hermetic_curves(machine: HermeticCompressor, speed_rpm: float) -> Iterator[Curve]:
+def hermetic_curves(machine: HermeticTables, speed_rpm: float) -> Iterator[Curve]:
     """Gas and motor, joint forces, films of both bearings in all three cases, Campbell map.
 
     Parameters
@@ -67,13 +67,13 @@ def hermetic_curves(machine: HermeticCompressor, speed_rpm: float) -> Iterator[C
     yield _campbell(machine, bending, speed_rpm)
 
 
-def _solved(machine: HermeticCompressor, case: Case, speed_rpm: float, more: str = "") -> Solved:
+def _solved(machine: HermeticTables, case: Case, speed_rpm: float, more: str = "") -> Solved:
     machine_of_case = machine.model_copy(update={"case": case})
     equations, solution = cycle_at_speed(machine_of_case, speed_rpm, STEPS)
     return Solved(f"case {case}{more}", equations, *uniform_samples(solution, STEPS))
 
 
-def _given(machine: HermeticCompressor, held: Solved, speed_rpm: float) -> Iterator[Curve]:
+def _given(machine: HermeticTables, held: Solved, speed_rpm: float) -> Iterator[Curve]:
     """Figure 5."""
     force = gas_force_n(machine, held.angle)
     pressure = machine.gas.suction_pressure_pa + force / piston_area_m2(machine)
@@ -163,7 +163,7 @@ def _lower_film(bending: Solved) -> Iterator[Curve]:
     )  # fmt: skip
 
 
-def _campbell(machine: HermeticCompressor, bending: Solved, speed_rpm: float) -> Curve:
+def _campbell(machine: HermeticTables, bending: Solved, speed_rpm: float) -> Curve:
     """Frequencies on films linearised about the cycle's mean loads."""
     rotor = with_disc(rotor_matrices(machine), 0, machine.crank.mass_kg, 0.0, 0.0)
     loads = [float(np.linalg.norm(bearing.force_n, axis=-1).mean()) for bearing in bending.bearings]

@@ -12,7 +12,7 @@ from ...base.errors import ParameterError, SolverError
 from ...base.units import shaft_frequency_hz
 from .film_force import FilmForce, positive_film_force
 from .gas import valve_angles
-from .machine import HermeticCompressor
+from .parameters import HermeticTables
 from .periodic_collocation import PeriodicSolution, periodic_solution
 from .shaft import Crankshaft, ShaftEquations, crankshaft
 
@@ -29,7 +29,7 @@ KEPT_CYCLES: Final = 16
 
 
 def steady_cycle(
-    machine: HermeticCompressor,
+    machine: HermeticTables,
     film: FilmForce = positive_film_force,
     steps: int = STEPS,
 ) -> tuple[ShaftEquations, PeriodicSolution]:
@@ -68,7 +68,7 @@ def _thinned(equations: ShaftEquations, mesh: Array, guess: Array) -> PeriodicSo
 
 @lru_cache(KEPT_CYCLES)
 def cycle_at_speed(
-    machine: HermeticCompressor, speed_rpm: float, steps: int = STEPS
+    machine: HermeticTables, speed_rpm: float, steps: int = STEPS
 ) -> tuple[ShaftEquations, PeriodicSolution]:
     """Steady cycle of a mean speed: the motor's synchronous speed is what it takes.
 
@@ -96,7 +96,7 @@ def mean_speed_rad_per_s(solution: PeriodicSolution) -> float:
     return 2.0 * np.pi / float(solution.cycle_integral(1.0 / solution.stages[..., -1]))
 
 
-def _supplied(machine: HermeticCompressor, synchronous_speed: float) -> HermeticCompressor:
+def _supplied(machine: HermeticTables, synchronous_speed: float) -> HermeticTables:
     """The machine on a supply of another frequency, its torque over slip the same."""
     motor = machine.motor.model_copy(update={"synchronous_speed_rad_per_s": synchronous_speed})
     return machine.model_copy(update={"motor": motor})
@@ -137,7 +137,7 @@ def uniform_samples(solution: PeriodicSolution, steps: int = STEPS) -> tuple[Arr
     return solution.mesh[indices], solution.states[indices]
 
 
-def _guess(machine: HermeticCompressor, shaft: Crankshaft) -> Array:
+def _guess(machine: HermeticTables, shaft: Crankshaft) -> Array:
     """Journals a little out of the middle, at the synchronous speed."""
     state = np.zeros(2 * shaft.freedoms + 1)
     for at in shaft.bearing_freedoms:
@@ -146,7 +146,7 @@ def _guess(machine: HermeticCompressor, shaft: Crankshaft) -> Array:
     return state
 
 
-def _size(machine: HermeticCompressor, shaft: Crankshaft) -> Array:
+def _size(machine: HermeticTables, shaft: Crankshaft) -> Array:
     """Magnitude of each state: the clearance, the clearance per radian, the speed."""
     speed, clearance = machine.motor.synchronous_speed_rad_per_s, machine.bearing.clearance_m
     tilt = clearance / machine.shaft.bearing_distance_m
@@ -154,9 +154,7 @@ def _size(machine: HermeticCompressor, shaft: Crankshaft) -> Array:
     return np.concatenate((displacement, speed * displacement, [speed]))
 
 
-def _clearance_kept(
-    machine: HermeticCompressor, shaft: Crankshaft
-) -> Callable[[Array, Array], float]:
+def _clearance_kept(machine: HermeticTables, shaft: Crankshaft) -> Callable[[Array, Array], float]:
     """Fraction of a Newton step that leaves every journal a fifth of its film or more."""
     clearance = machine.bearing.clearance_m
 

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from .journal_bearing import Values, sommerfeld_angle
-from .machine import JournalBearing
+from .parameters import JournalBearing
 
 FilmForce = Callable[[JournalBearing, Values, Values, Values], Values]
 """Force on the journal, N, from its displacement, velocity (..., 2) and spin (...)."""

@@ -11,7 +11,7 @@ from ...base.errors import ParameterError
 from ...mechanics.beam_rotor import RotorMatrices
 from .film_force import COMPLEX_STEP, positive_film_force
 from .journal_bearing import short_bearing_force
-from .machine import JournalBearing
+from .parameters import JournalBearing
 
 DEEPEST: Final = 0.999
 """Eccentricity up to which an equilibrium is sought."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from ...base.constants import STANDARD_GRAVITY_M_PER_S2 as GRAVITY
 from .journal_bearing import Values
-from .machine import HermeticCompressor
+from .parameters import HermeticTables
 from .pin import COORDINATES, PointMotion, RodMotion, crank_point, rod_motion
 
 
@@ -26,9 +26,7 @@ class JointForces:
     wall_on_piston: Values
 
 
-def joint_forces(
-    machine: HermeticCompressor, motion: RodMotion, gas_force_n: Values
-) -> JointForces:
+def joint_forces(machine: HermeticTables, motion: RodMotion, gas_force_n: Values) -> JointForces:
     """Newton-Euler equations of rod and piston (Estupiñan eqs. 18 to 20, signs of appendix A).
 
     Parameters
@@ -72,7 +70,7 @@ class MechanismMotion:
 
 
 def mechanism_motion(
-    machine: HermeticCompressor,
+    machine: HermeticTables,
     coordinates: Values,
     rates: Values,
     second_rates: Values,
@@ -107,7 +105,7 @@ def mechanism_motion(
 
 
 def added_mass(
-    machine: HermeticCompressor, coordinates: Values, rates: Values, gas_force_n: Values
+    machine: HermeticTables, coordinates: Values, rates: Values, gas_force_n: Values
 ) -> tuple[Values, Values]:
     """Mass matrix (..., 5, 5) of the mechanism and its load at zero second rates (..., 5).
 

@@ -7,15 +7,15 @@ from scipy.optimize import brentq
 from ...base.arrays import Array
 from ...mechanics.cylinder_gas import IdealValveCycle
 from ...mechanics.valve_flows import ValvedCylinder
-from .machine import HermeticCompressor
+from .parameters import HermeticTables
 
 
-def piston_area_m2(machine: HermeticCompressor) -> float:
+def piston_area_m2(machine: HermeticTables) -> float:
     """Area of the piston's face."""
     return 0.25 * np.pi * machine.piston.diameter_m**2
 
 
-def dead_centres(machine: HermeticCompressor) -> tuple[float, float]:
+def dead_centres(machine: HermeticTables) -> tuple[float, float]:
     """Crank angles of top and bottom dead centre, where crank and rod are in line, rad.
 
     Top is θ = 0 by Estupiñan eq. 1, whose cylinder has no offset.
@@ -26,21 +26,21 @@ def dead_centres(machine: HermeticCompressor) -> tuple[float, float]:
     return float(np.arcsin(offset / longest)), float(np.pi + np.arcsin(offset / shortest))
 
 
-def piston_place_m(machine: HermeticCompressor, crank_angle: Array) -> Array:
+def piston_place_m(machine: HermeticTables, crank_angle: Array) -> Array:
     """x_B of a crank that turns about a fixed axis."""
     radius, offset = machine.crank.radius_m, machine.piston.cylinder_offset_m
     across = radius * np.sin(crank_angle) - offset
     return np.asarray(radius * np.cos(crank_angle) + np.sqrt(machine.rod.length_m**2 - across**2))
 
 
-def fill(machine: HermeticCompressor, crank_angle: Array) -> Array:
+def fill(machine: HermeticTables, crank_angle: Array) -> Array:
     """Cylinder volume over displaced volume."""
     top, bottom = piston_place_m(machine, np.array(dead_centres(machine)))
     lift = (top - piston_place_m(machine, crank_angle)) / (top - bottom)
     return np.asarray(machine.gas.clearance_ratio + lift)
 
 
-def gas_force_n(machine: HermeticCompressor, crank_angle: Array) -> Array:
+def gas_force_n(machine: HermeticTables, crank_angle: Array) -> Array:
     """Force of the gas on the piston above the suction pressure in the shell, N.
 
     The paper takes the curve of Cho & Moon (2005), which it prints as a figure only.
@@ -56,14 +56,14 @@ def gas_force_n(machine: HermeticCompressor, crank_angle: Array) -> Array:
     return np.asarray((pressure - machine.gas.suction_pressure_pa) * piston_area_m2(machine))
 
 
-def valved_cylinder(machine: HermeticCompressor) -> ValvedCylinder:
+def valved_cylinder(machine: HermeticTables) -> ValvedCylinder:
     """The cylinder as sources of sound take it: the crank turns about a fixed axis."""
     top, bottom = piston_place_m(machine, np.array(dead_centres(machine)))
     displaced = piston_area_m2(machine) * float(top - bottom)
     return ValvedCylinder(displaced, _cycle(machine), lambda angle: fill(machine, angle))
 
 
-def valve_angles(machine: HermeticCompressor) -> tuple[float, float]:
+def valve_angles(machine: HermeticTables) -> tuple[float, float]:
     """Crank angles at which the suction and the discharge valve open, rad: kinks of the force."""
     cycle = _cycle(machine)
     top, bottom = dead_centres(machine)
@@ -73,7 +73,7 @@ def valve_angles(machine: HermeticCompressor) -> tuple[float, float]:
     )
 
 
-def _cycle(machine: HermeticCompressor) -> IdealValveCycle:
+def _cycle(machine: HermeticTables) -> IdealValveCycle:
     gas = machine.gas
     return IdealValveCycle(
         gas.suction_pressure_pa,
@@ -83,14 +83,14 @@ def _cycle(machine: HermeticCompressor) -> IdealValveCycle:
     )
 
 
-def _outwards(machine: HermeticCompressor, crank_angle: Array) -> NDArray[np.bool_]:
+def _outwards(machine: HermeticTables, crank_angle: Array) -> NDArray[np.bool_]:
     """Where the piston moves away from the head."""
     top, bottom = dead_centres(machine)
     since_top = np.mod(crank_angle - top, 2.0 * np.pi)
     return np.asarray((since_top > 0.0) & (since_top < bottom - top))
 
 
-def _angle_of(machine: HermeticCompressor, reached: float, first: float, last: float) -> float:
+def _angle_of(machine: HermeticTables, reached: float, first: float, last: float) -> float:
     """Crank angle of a stroke at a volume over displaced volume."""
     return float(
         brentq(lambda angle: fill(machine, np.array(angle)) - reached, first, last, xtol=1e-14)

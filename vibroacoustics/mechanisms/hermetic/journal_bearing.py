@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ...base.arrays import Array
 from ...base.errors import ParameterError
-from .machine import JournalBearing
+from .parameters import JournalBearing
 
 Values = NDArray[Any]
 """Real values, or complex ones where a derivative is taken by a complex step."""

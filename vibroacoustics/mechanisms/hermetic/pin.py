@@ -10,7 +10,7 @@ import numpy as np
 
 from ...base.errors import ParameterError
 from .journal_bearing import Values
-from .machine import Rod
+from .parameters import Rod
 
 COORDINATES = 5
 

@@ -10,7 +10,7 @@ from ...mechanics.moving_parts import Revolution
 from ...mechanics.rotation import Rotation
 from .cycle import cycle_at_speed, mean_speed_rad_per_s, uniform_samples
 from .housing import housing_wrenches
-from .machine import HermeticCompressor
+from .parameters import HermeticTables
 from .periodic_collocation import PeriodicSolution
 from .results import bearing_cycles, motion_of, support_reaction, works_per_cycle_j
 from .shaft import ShaftEquations
@@ -19,7 +19,7 @@ LEAST_STEPS: Final = 144
 """Against 720 steps the first 20 orders of case III err by 0.02 N and 1 mN m."""
 
 
-def hermetic_revolution(machine: HermeticCompressor, speed_rpm: float, samples: int) -> Revolution:
+def hermetic_revolution(machine: HermeticTables, speed_rpm: float, samples: int) -> Revolution:
     """Steady revolution of piston, rod, crank and rotor under gas and oil films.
 
     Parameters

@@ -20,7 +20,7 @@ from ...mechanics.beam_rotor import (
 from .film_force import COMPLEX_STEP, FilmForce
 from .forces import added_mass, mechanism_motion
 from .gas import gas_force_n
-from .machine import HermeticCompressor
+from .parameters import HermeticTables
 from .pin import COORDINATES
 
 ELEMENTS_TO_LOWER_BEARING: Final = 2
@@ -54,7 +54,7 @@ class Crankshaft:
         return np.array([*range(len(self.free) - 1), self.freedoms])
 
 
-def crankshaft(machine: HermeticCompressor) -> Crankshaft:
+def crankshaft(machine: HermeticTables) -> Crankshaft:
     """The shaft of the machine's case (Estupiñan, Mathematical Modelling)."""
     if machine.case == "III":
         return _flexible(machine)
@@ -64,12 +64,12 @@ def crankshaft(machine: HermeticCompressor) -> Crankshaft:
     return Crankshaft(RotorMatrices(zero, zero, zero), (0,) if freedoms else (), free)
 
 
-def _flexible(machine: HermeticCompressor) -> Crankshaft:
+def _flexible(machine: HermeticTables) -> Crankshaft:
     lower = NODE_FREEDOMS * ELEMENTS_TO_LOWER_BEARING
     return Crankshaft(rotor_matrices(machine), (0, lower), (0, 1, 2, 3, 4))
 
 
-def node_positions_m(machine: HermeticCompressor) -> Array:
+def node_positions_m(machine: HermeticTables) -> Array:
     """Nodes along the shaft from the crank's centre to the middle of the motor rotor, m."""
     lower = machine.shaft.bearing_distance_m
     end = lower + machine.shaft.rotor_distance_m
@@ -77,7 +77,7 @@ def node_positions_m(machine: HermeticCompressor) -> Array:
     return np.concatenate((upper_part, np.linspace(lower, end, ELEMENTS_TO_ROTOR + 1)[1:]))
 
 
-def rotor_matrices(machine: HermeticCompressor) -> RotorMatrices:
+def rotor_matrices(machine: HermeticTables) -> RotorMatrices:
     """Finite-element shaft with the motor rotor and the crank's moments of inertia."""
     shaft, rotor, crank = machine.shaft, machine.rotor, machine.crank
     positions = node_positions_m(machine)
@@ -98,7 +98,7 @@ def rotor_matrices(machine: HermeticCompressor) -> RotorMatrices:
 class ShaftEquations:
     """Slopes over the crank angle of displacements, velocities and shaft speed."""
 
-    machine: HermeticCompressor
+    machine: HermeticTables
     shaft: Crankshaft
     film: FilmForce
 

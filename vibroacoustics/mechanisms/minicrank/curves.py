@@ -12,7 +12,7 @@ from ...mechanics.rotation import uniform_crank_angle
 from .cycle import MiniCrankCycle, input_torque, scroll_load, steady_minicrank_cycle
 from .four_bar import four_bar_motion
 from .links import Links, why_open
-from .machine import MiniCrankMachine
+from .parameters import MiniCrankTables
 from .pin_forces import crank_pin_force, minicrank_pin_force
 
 SOURCE: Final = "Zhao et al. 2013, "
@@ -28,7 +28,7 @@ TORQUES: Final = {
 }
 
 
-def minicrank_curves(machine: MiniCrankMachine, speed_rpm: float) -> Iterator[Curve]:
+def minicrank_curves(machine: MiniCrankTables, speed_rpm: float) -> Iterator[Curve]:
     """Load, input torque with and without errors, speed, and forces of rigid pins.
 
     Parameters
@@ -62,7 +62,7 @@ def minicrank_curves(machine: MiniCrankMachine, speed_rpm: float) -> Iterator[Cu
 
 
 def _loads(
-    machine: MiniCrankMachine, cycle: MiniCrankCycle, speed_rad_per_s: float, angle: CurveAxis
+    machine: MiniCrankTables, cycle: MiniCrankCycle, speed_rad_per_s: float, angle: CurveAxis
 ) -> Iterator[Curve]:
     """Figures 4 and 5."""
     load, links = cycle.load, cycle.links
@@ -87,7 +87,7 @@ def _loads(
 
 
 def _by_error(
-    machine: MiniCrankMachine, speed_rad_per_s: float, angle: CurveAxis
+    machine: MiniCrankTables, speed_rad_per_s: float, angle: CurveAxis
 ) -> Iterator[Curve]:
     """Figure 8: a single rigid mini-crank, errors of the crank that let it turn."""
     ideal = _ideal(machine)
@@ -102,7 +102,7 @@ def _by_error(
         )  # fmt: skip
 
 
-def _ideal(machine: MiniCrankMachine) -> Links:
+def _ideal(machine: MiniCrankTables) -> Links:
     four_bar = machine.four_bar
     return Links(four_bar.crank_m, four_bar.scroll_m, four_bar.crank_m, four_bar.scroll_m)
 
@@ -112,7 +112,7 @@ def _with_error(links: Links, error_m: float) -> Links:
 
 
 def _torque_n_m(
-    machine: MiniCrankMachine, links: Links, speed_rad_per_s: float
+    machine: MiniCrankTables, links: Links, speed_rad_per_s: float
 ) -> Mapping[str, Array]:
     """Input torque of the machine's masses and load on rigid links with one mini-crank."""
     crank_angle = uniform_crank_angle(CRANK_ANGLES)

@@ -14,7 +14,7 @@ from ...mechanics.crankshaft import DrivenRotation, reduced_inertia, steady_rota
 from ...mechanics.rotation import uniform_crank_angle
 from .four_bar import FourBarMotion, four_bar_motion, three_minicranks_motion
 from .links import FourBar, Links
-from .machine import Masses, MiniCrankMachine, ScrollLoads
+from .parameters import Masses, MiniCrankTables, ScrollLoads
 
 SAMPLES: Final = 14400
 """Crank angles a revolution. Errors of 10 µm make a torque peak some 1° wide: 40 samples."""
@@ -110,7 +110,7 @@ class MiniCrankCycle:
 
 
 def steady_minicrank_cycle(
-    machine: MiniCrankMachine, speed_rpm: float, samples: int = SAMPLES
+    machine: MiniCrankTables, speed_rpm: float, samples: int = SAMPLES
 ) -> MiniCrankCycle:
     """Torque ripple of the mechanism's errors and the rotor's speed under it.
 

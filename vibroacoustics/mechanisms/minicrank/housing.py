@@ -6,11 +6,11 @@ from ...mechanics.crankshaft import acceleration_of, planar
 from ...mechanics.moving_parts import Wrench
 from ..oldham_scroll.rotating_set import two_plane_balance
 from .cycle import MiniCrankCycle
-from .machine import MiniCrankMachine
+from .parameters import MiniCrankTables
 from .pin_forces import direction, turning_force
 
 
-def housing_wrenches(machine: MiniCrankMachine, cycle: MiniCrankCycle) -> dict[str, Wrench]:
+def housing_wrenches(machine: MiniCrankTables, cycle: MiniCrankCycle) -> dict[str, Wrench]:
     """-Σ m a and -d/dt of the angular momentum, by source, in the axes of the machine."""
     in_plane = {**_crankshaft(machine, cycle), "minicrank": (0.0, _minicranks(machine, cycle))}
     return {
@@ -18,7 +18,7 @@ def housing_wrenches(machine: MiniCrankMachine, cycle: MiniCrankCycle) -> dict[s
     }
 
 
-def counterweight_moments(machine: MiniCrankMachine) -> tuple[float, float]:
+def counterweight_moments(machine: MiniCrankTables) -> tuple[float, float]:
     """Mass moments m r of the counterweights in the upper and lower plane, kg m.
 
     Zhao et al. 2013, eq. 10, as force, and the same as couple: together they balance crank pin
@@ -29,9 +29,7 @@ def counterweight_moments(machine: MiniCrankMachine) -> tuple[float, float]:
     return two_plane_balance([orbiting], [0.0], planes.upper_height_m, planes.lower_height_m)
 
 
-def _crankshaft(
-    machine: MiniCrankMachine, cycle: MiniCrankCycle
-) -> dict[str, tuple[float, Wrench]]:
+def _crankshaft(machine: MiniCrankTables, cycle: MiniCrankCycle) -> dict[str, tuple[float, Wrench]]:
     """Height and wrench of what turns with the crankshaft and of the scroll on it.
 
     The roll of the turning masses is the rotor's, whose inertia includes them.
@@ -54,7 +52,7 @@ def _crankshaft(
     }
 
 
-def _minicranks(machine: MiniCrankMachine, cycle: MiniCrankCycle) -> Wrench:
+def _minicranks(machine: MiniCrankTables, cycle: MiniCrankCycle) -> Wrench:
     """All mini-cranks; the forces of three add up about the axis of the crankshaft."""
     third, masses = cycle.moved.minicrank_angle, cycle.masses
     turn = acceleration_of(third, cycle.rotation)

@@ -10,7 +10,7 @@ from ...mechanics.rotation import Rotation
 from .cycle import ScrollLoad, weight_moment
 from .four_bar import FourBarMotion
 from .links import Links
-from .machine import Masses
+from .parameters import Masses
 
 
 def minicrank_pin_force(

@@ -6,11 +6,11 @@ from ...mechanics.crankshaft import every
 from ...mechanics.moving_parts import Revolution
 from .cycle import SAMPLES, MiniCrankCycle, steady_minicrank_cycle
 from .housing import housing_wrenches
-from .machine import MiniCrankMachine
+from .parameters import MiniCrankTables
 from .pin_forces import crank_pin_force, minicrank_pin_force
 
 
-def minicrank_revolution(machine: MiniCrankMachine, speed_rpm: float, samples: int) -> Revolution:
+def minicrank_revolution(machine: MiniCrankTables, speed_rpm: float, samples: int) -> Revolution:
     """Steady revolution of crankshaft, scroll and mini-cranks under gas and link errors.
 
     Parameters

@@ -9,10 +9,10 @@ from ...base.units import shaft_frequency_hz
 from ...mechanics.critical_speed import scroll_shaft_rotor
 from ...mechanics.rotation import uniform_crank_angle
 from ...mechanics.whirl_curves import critical_speed_curves
-from .machine import OldhamScroll
+from .parameters import OldhamScrollTables
 
 
-def oldham_scroll_curves(machine: OldhamScroll, speed_rpm: float) -> Iterator[Curve]:
+def oldham_scroll_curves(machine: OldhamScrollTables, speed_rpm: float) -> Iterator[Curve]:
     """Inertia force of the Oldham ring; Campbell map and critical speeds where a shaft is given.
 
     Parameters

@@ -3,12 +3,12 @@
 from ...base.arrays import Array
 from ...mechanics.moving_parts import MovingPart, Revolution, wrenches_of_parts
 from ...mechanics.rotation import constant_rotation
-from .machine import OldhamScroll
+from .parameters import OldhamScrollTables
 from .ring import oldham_ring
 from .rotating_set import rotating_set
 
 
-def scroll_parts(machine: OldhamScroll, crank_angle: Array) -> tuple[MovingPart, ...]:
+def scroll_parts(machine: OldhamScrollTables, crank_angle: Array) -> tuple[MovingPart, ...]:
     """Ring, orbiting scroll, pin, brake and counterweights.
 
     Parameters
@@ -19,7 +19,7 @@ def scroll_parts(machine: OldhamScroll, crank_angle: Array) -> tuple[MovingPart,
     return (*oldham_ring(machine, crank_angle), *rotating_set(machine, crank_angle))
 
 
-def oldham_scroll(machine: OldhamScroll, speed_rpm: float, samples: int) -> Revolution:
+def oldham_scroll(machine: OldhamScrollTables, speed_rpm: float, samples: int) -> Revolution:
     """Force and moment of ring, orbiting scroll, pin, brake and counterweights, by source.
 
     Parameters

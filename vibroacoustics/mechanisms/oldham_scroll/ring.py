@@ -4,10 +4,10 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...mechanics.moving_parts import MovingPart, path
-from .machine import OldhamScroll
+from .parameters import OldhamScrollTables
 
 
-def oldham_ring(machine: OldhamScroll, crank_angle: Array) -> tuple[MovingPart, ...]:
+def oldham_ring(machine: OldhamScrollTables, crank_angle: Array) -> tuple[MovingPart, ...]:
     """Oldham ring on its slots in the housing (thesis eq. 7.3): x = r cos θ.
 
     The stroke amplitude r is the orbit radius. The inertia force is m ω² r once per revolution,

@@ -4,10 +4,10 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...mechanics.moving_parts import MovingPart, circling
-from .machine import OldhamScroll
+from .parameters import OldhamScrollTables
 
 
-def rotating_set(machine: OldhamScroll, crank_angle: Array) -> tuple[MovingPart, ...]:
+def rotating_set(machine: OldhamScrollTables, crank_angle: Array) -> tuple[MovingPart, ...]:
     """Orbiting parts and counterweights (thesis 6.2, eq. 6.1: F = m e ω² each).
 
     The thesis gives no counterweight masses; it states that they equal the inertia of the

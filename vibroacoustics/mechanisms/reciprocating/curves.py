@@ -11,7 +11,7 @@ from ...base.errors import ParameterError
 from ...mechanics.rotation import uniform_crank_angle
 from .cycle import Cycle, steady_cycle
 from .efficiency import efficiency_map, optimum_bore
-from .machine import ReciprocatingMachine
+from .parameters import ReciprocatingTables
 from .slider_crank import design_at_bore, rates_of_momentum
 
 BORE_RATIOS: Final = np.arange(10.0, 18.5) / 13.0
@@ -28,7 +28,7 @@ PAIRS: Final = {
 LOSSES: Final = {"cylinder_wall": "cylinder wall", **{k: v[:-5] for k, v in PAIRS.items()}}
 
 
-def reciprocating_curves(machine: ReciprocatingMachine, speed_rpm: float) -> Iterator[Curve]:
+def reciprocating_curves(machine: ReciprocatingTables, speed_rpm: float) -> Iterator[Curve]:
     """Motion, torques and friction over the crank angle, losses and efficiency over the bore.
 
     All designs have the machine's displacement and length ratio, as in (6) of the paper.
@@ -140,7 +140,7 @@ def _power_w(cycle: Cycle, work_j: Mapping[str, float]) -> Array:
     return np.append(lost, lost.sum()) / cycle.rotation.duration_s
 
 
-def _efficiency(machine: ReciprocatingMachine, speed_rpm: float, bore: CurveAxis) -> Curve:
+def _efficiency(machine: ReciprocatingTables, speed_rpm: float, bore: CurveAxis) -> Curve:
     """Figure 5 (c)."""
     speeds = speed_rpm * SPEED_RATIOS
     return Curve(
@@ -153,7 +153,7 @@ def _efficiency(machine: ReciprocatingMachine, speed_rpm: float, bore: CurveAxis
     )
 
 
-def _best(machine: ReciprocatingMachine, speed_rpm: float) -> Iterator[Curve]:
+def _best(machine: ReciprocatingTables, speed_rpm: float) -> Iterator[Curve]:
     """Figure 6, and the efficiency that belongs to it; nothing where no bore is the best."""
     reference = machine.piston_and_rod
     lowest, highest = reference.bore_m * BORE_RATIOS[[0, -1]]

@@ -21,7 +21,7 @@ from .joints import (
     journal_share,
     load_torques,
 )
-from .machine import CylinderGas, ReciprocatingMachine
+from .parameters import CylinderGas, ReciprocatingTables
 from .slider_crank import (
     Motion,
     SliderCrank,
@@ -125,7 +125,7 @@ def _work_j(torque_n_m: Array) -> float:
 
 
 def steady_cycle(
-    machine: ReciprocatingMachine, bore_m: float, speed_rpm: float, samples: int = SAMPLES
+    machine: ReciprocatingTables, bore_m: float, speed_rpm: float, samples: int = SAMPLES
 ) -> Cycle:
     """Solve the crankshaft's equation of motion (1) with Coulomb friction (4) by iteration.
 

@@ -8,11 +8,11 @@ from scipy.optimize import minimize_scalar
 from ...base.arrays import Array
 from ...base.errors import ParameterError
 from .cycle import SAMPLES, steady_cycle
-from .machine import ReciprocatingMachine
+from .parameters import ReciprocatingTables
 
 
 def efficiency_map(
-    machine: ReciprocatingMachine,
+    machine: ReciprocatingTables,
     speed_rpm: Sequence[float] | Array,
     bore_m: Sequence[float] | Array,
     samples: int = SAMPLES,
@@ -42,7 +42,7 @@ def efficiency_map(
 
 
 def optimum_bore(
-    machine: ReciprocatingMachine,
+    machine: ReciprocatingTables,
     speed_rpm: float,
     lowest_m: float,
     highest_m: float,

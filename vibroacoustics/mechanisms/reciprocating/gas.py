@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from ...base.arrays import Array
 from ...mechanics.cylinder_gas import IdealValveCycle
-from .machine import CylinderGas
+from .parameters import CylinderGas
 
 
 def cylinder_pressure(swept_m3: Array, expanding: NDArray[np.bool_], gas: CylinderGas) -> Array:

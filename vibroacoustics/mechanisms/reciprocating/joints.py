@@ -8,7 +8,7 @@ import numpy as np
 from ...base.arrays import Array
 from ...mechanics.rotation import Rotation
 from .cylinders import CylinderBanks
-from .machine import SlidingPairs
+from .parameters import SlidingPairs
 from .slider_crank import Motion, SliderCrank, rates_of_momentum
 
 

@@ -5,12 +5,12 @@ import numpy as np
 from ...mechanics.crankshaft import every, planar
 from ...mechanics.moving_parts import Revolution, Wrench
 from .cycle import SAMPLES, Cycle, steady_cycle
-from .machine import ReciprocatingMachine
+from .parameters import ReciprocatingTables
 from .slider_crank import housing_wrenches
 
 
 def reciprocating_revolution(
-    machine: ReciprocatingMachine, speed_rpm: float, samples: int
+    machine: ReciprocatingTables, speed_rpm: float, samples: int
 ) -> Revolution:
     """Steady revolution of piston, connecting rod and crankshaft under gas and friction.
 
@@ -36,7 +36,7 @@ def reciprocating_revolution(
     )
 
 
-def housing_wrenches_of(machine: ReciprocatingMachine, cycle: Cycle) -> dict[str, Wrench]:
+def housing_wrenches_of(machine: ReciprocatingTables, cycle: Cycle) -> dict[str, Wrench]:
     """Pistons, rods and crankshaft on the housing, about its centre of mass, by source.
 
     The crankshaft is balanced but for its counterweights.

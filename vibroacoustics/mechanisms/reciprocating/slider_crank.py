@@ -9,7 +9,7 @@ from ...base.errors import ParameterError
 from ...mechanics.crankshaft import acceleration_of, planar
 from ...mechanics.moving_parts import Wrench
 from ...mechanics.rotation import Rotation
-from .machine import PistonAndRod
+from .parameters import PistonAndRod
 
 
 @dataclass(frozen=True)

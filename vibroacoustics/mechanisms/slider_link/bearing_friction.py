@@ -6,7 +6,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.errors import ParameterError
-from .machine import JournalBearing, ThrustBearing
+from .parameters import JournalBearing, ThrustBearing
 
 MOST_STEPS: Final = 60
 """As many halvings come down to the rounding of a double; Newton's steps are about seven."""

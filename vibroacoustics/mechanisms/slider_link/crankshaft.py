@@ -10,7 +10,7 @@ from ...base.constants import STANDARD_GRAVITY_M_PER_S2
 from ...base.errors import SolverError
 from .bearing_friction import journal_friction_moment, thrust_friction_moment
 from .gas import gas_force
-from .machine import SliderLinkMachine
+from .parameters import SliderLinkTables
 from .piston import (
     CrankState,
     PistonContacts,
@@ -49,7 +49,7 @@ class CrankForces:
 
 
 def crank_pin_force(
-    machine: SliderLinkMachine, state: CrankState, contacts: PistonContacts
+    machine: SliderLinkTables, state: CrankState, contacts: PistonContacts
 ) -> Array:
     """Oil film force of the crank pin on the slider (17), shape (2, samples), N.
 
@@ -70,7 +70,7 @@ def crank_pin_force(
 
 
 def bearing_forces(
-    machine: SliderLinkMachine, state: CrankState, crank_pin: Array
+    machine: SliderLinkTables, state: CrankState, crank_pin: Array
 ) -> tuple[Array, Array]:
     """Forces of upper and lower bearing on the crankshaft (27) to (30), shape (2, samples), N.
 
@@ -95,7 +95,7 @@ def bearing_forces(
 
 
 def crank_forces(
-    machine: SliderLinkMachine, state: CrankState, tilting_friction_n_m: Array
+    machine: SliderLinkTables, state: CrankState, tilting_friction_n_m: Array
 ) -> CrankForces:
     """All forces of one motion of the crank.
 
@@ -128,7 +128,7 @@ def crank_forces(
 
 
 def crank_coefficients(
-    machine: SliderLinkMachine, angle: Array, contacts: PistonContacts
+    machine: SliderLinkTables, angle: Array, contacts: PistonContacts
 ) -> tuple[Array, Array, Array, Array]:
     """γ4, γ5, γ6 of (34), kg m² and m, and the factor of the slider's moment on the link.
 
@@ -160,7 +160,7 @@ def crank_coefficients(
 
 
 def crank_acceleration(
-    machine: SliderLinkMachine, state: CrankState, forces: CrankForces, motor_torque_n_m: Array
+    machine: SliderLinkTables, state: CrankState, forces: CrankForces, motor_torque_n_m: Array
 ) -> Array:
     """Angular acceleration of the crank (35), rad/s², with J_z for I_z and M_p for M_s.
 
@@ -183,7 +183,7 @@ def crank_acceleration(
 
 
 def settled(
-    machine: SliderLinkMachine, angle: Array, velocity: Array, motor_torque_n_m: Array
+    machine: SliderLinkTables, angle: Array, velocity: Array, motor_torque_n_m: Array
 ) -> tuple[CrankState, CrankForces]:
     """Acceleration and forces that agree with each other at given angles and velocities.
 

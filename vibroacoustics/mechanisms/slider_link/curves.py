@@ -17,8 +17,8 @@ from .bearing_friction import (
     petroff_coefficient,
 )
 from .gas import cylinder_pressure
-from .machine import JournalBearing, SliderLinkMachine
 from .motion import SliderLinkCycle, steady_motion
+from .parameters import JournalBearing, SliderLinkTables
 from .piston import piston_velocity, slider_velocity
 
 SOURCE: Final = "Dagilis et al. 2006, "
@@ -31,7 +31,7 @@ LAWS: Final[dict[str, Callable[[JournalBearing, Array, Array, float], Array]]] =
 }
 
 
-def slider_link_curves(machine: SliderLinkMachine, speed_rpm: float) -> Iterator[Curve]:
+def slider_link_curves(machine: SliderLinkTables, speed_rpm: float) -> Iterator[Curve]:
     """Pressure, forces on piston and bearings, friction as force, moment, coefficient and power.
 
     Parameters
@@ -72,7 +72,7 @@ def _loads(cycle: SliderLinkCycle, angle: CurveAxis) -> Iterator[Curve]:
 
 
 def _friction(
-    machine: SliderLinkMachine, cycle: SliderLinkCycle, angle: CurveAxis
+    machine: SliderLinkTables, cycle: SliderLinkCycle, angle: CurveAxis
 ) -> Iterator[Curve]:
     moments = np.array([cycle.forces.friction_moments[name] for name in RESISTING])
     yield Curve(
@@ -107,7 +107,7 @@ def _friction(
     )  # fmt: skip
 
 
-def _sliding_friction_n(machine: SliderLinkMachine, cycle: SliderLinkCycle) -> dict[str, Array]:
+def _sliding_friction_n(machine: SliderLinkTables, cycle: SliderLinkCycle) -> dict[str, Array]:
     """Friction forces in their direction: along x on the piston, along y on the link."""
     mechanism, contacts = machine.mechanism, cycle.forces.contacts
     pressed = np.abs(contacts.front) + np.abs(contacts.rear)
@@ -121,18 +121,18 @@ def _sliding_friction_n(machine: SliderLinkMachine, cycle: SliderLinkCycle) -> d
     }
 
 
-def _slider(machine: SliderLinkMachine, cycle: SliderLinkCycle) -> Array:
+def _slider(machine: SliderLinkTables, cycle: SliderLinkCycle) -> Array:
     return slider_velocity(machine.mechanism, cycle.state)
 
 
 def _piston_power_w(
-    machine: SliderLinkMachine, cycle: SliderLinkCycle, sliding: dict[str, Array]
+    machine: SliderLinkTables, cycle: SliderLinkCycle, sliding: dict[str, Array]
 ) -> Array:
     force = np.abs(sliding["oil film of the piston"]) + np.abs(sliding["piston on the cylinder"])
     return np.asarray(force * np.abs(piston_velocity(machine.mechanism, cycle.state)))
 
 
-def _coefficients(machine: SliderLinkMachine, cycle: SliderLinkCycle) -> Array:
+def _coefficients(machine: SliderLinkTables, cycle: SliderLinkCycle) -> Array:
     """Friction coefficient of each journal by each law, shape (journals, laws, samples)."""
     forces = cycle.forces
     loads = (forces.crank_pin, forces.upper_bearing, forces.lower_bearing)

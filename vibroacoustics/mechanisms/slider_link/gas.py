@@ -6,7 +6,7 @@ from ...base.arrays import Array
 from ...mechanics.cylinder import CylinderGas
 from ...mechanics.cylinder_gas import IdealValveCycle
 from ...mechanics.valve_flows import ValvedCylinder
-from .machine import SliderLink
+from .parameters import SliderLink
 
 
 def cylinder_pressure(gas: CylinderGas, angle: Array) -> Array:

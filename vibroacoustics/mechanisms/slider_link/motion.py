@@ -11,7 +11,7 @@ from ...base.errors import ParameterError, SolverError
 from .crankshaft import CrankForces, settled
 from .gas import valve_angles
 from .gauss_panels import GaussPanels
-from .machine import SliderLinkMachine
+from .parameters import SliderLinkTables
 from .piston import (
     CrankState,
     check_not_jammed,
@@ -54,7 +54,7 @@ class SliderLinkCycle:
 
 @lru_cache(KEPT_CYCLES)
 def steady_motion(
-    machine: SliderLinkMachine, mean_velocity: float, samples: int = 720
+    machine: SliderLinkTables, mean_velocity: float, samples: int = 720
 ) -> SliderLinkCycle:
     """Periodic motion of the crank (35) at a given mean velocity.
 
@@ -94,7 +94,7 @@ def steady_motion(
 
 
 def _at(
-    machine: SliderLinkMachine,
+    machine: SliderLinkTables,
     angle: Array,
     velocity: Array,
     mean_torque: float,
@@ -106,7 +106,7 @@ def _at(
 
 
 def _converged(
-    machine: SliderLinkMachine, panels: GaussPanels, mean_velocity: float
+    machine: SliderLinkTables, panels: GaussPanels, mean_velocity: float
 ) -> tuple[float, Array, float]:
     """Mean motor torque, velocity at the nodes and φ̇²/2 at crank angle zero."""
     inertia = machine.masses.crankshaft_inertia_kg_m2
@@ -162,7 +162,7 @@ def _start(panels: GaussPanels, rise: Array, mean_velocity: float) -> float:
 
 
 def _work(
-    machine: SliderLinkMachine,
+    machine: SliderLinkTables,
     panels: GaussPanels,
     state: CrankState,
     forces: CrankForces,

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.errors import ParameterError
-from .machine import SliderLink
+from .parameters import SliderLink
 
 SIDES: Final = np.array(list(product((1.0, -1.0), repeat=3)))
 """Signs of F_GN1, F_GN2 and F_BN (δ3, δ4, δ5) for the eight ways to touch."""

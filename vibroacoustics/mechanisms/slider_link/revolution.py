@@ -7,8 +7,8 @@ from ...base.units import shaft_frequency_hz
 from ...mechanics.crankshaft import every
 from ...mechanics.moving_parts import Revolution
 from ...mechanics.rotation import Rotation
-from .machine import SliderLinkMachine
 from .motion import steady_motion
+from .parameters import SliderLinkTables
 from .unbalance import unbalance
 
 SAMPLES: Final = 360
@@ -23,9 +23,7 @@ FRICTION: Final = {
 """Losses to report, and the works that they are made of."""
 
 
-def slider_link_revolution(
-    machine: SliderLinkMachine, speed_rpm: float, samples: int
-) -> Revolution:
+def slider_link_revolution(machine: SliderLinkTables, speed_rpm: float, samples: int) -> Revolution:
     """Steady revolution of piston, slider and crankshaft under gas, friction and motor.
 
     Parameters

@@ -4,11 +4,11 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...mechanics.moving_parts import Wrench
-from .machine import SliderLinkMachine
+from .parameters import SliderLinkTables
 from .piston import CrankState
 
 
-def unbalance(machine: SliderLinkMachine, state: CrankState) -> dict[str, Wrench]:
+def unbalance(machine: SliderLinkTables, state: CrankState) -> dict[str, Wrench]:
     """Unbalanced forces and moments about the origin O (25), (26), (36) to (40), paper's frame.
 
     By source: -Σ m a and -Σ r x m a of piston, slider and crankshaft. The slider's moment about

@@ -11,7 +11,7 @@ from ...base.units import shaft_frequency_hz
 from .spectra import COMPONENTS, Spectra
 
 if TYPE_CHECKING:
-    from ...recordings.functions import MeasuredFunction
+    from ...recordings.measured_function import MeasuredFunction
 
 TIME: Final = 1
 """Function type of a course over time."""

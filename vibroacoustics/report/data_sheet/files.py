@@ -4,10 +4,10 @@ from collections.abc import Iterator
 
 from ...base import rounding
 from ..blocks import Bullets, Pictures, Text
-from ..figures.data_sheet import sheet_picture
 from ..html import html
 from ..page import Page, Part
 from ..tables import Table, to_csv
+from .figure import sheet_picture
 from .model import DataSheet, SoundPower, Vibration
 
 Row = tuple[str, str, str, str | float, str]

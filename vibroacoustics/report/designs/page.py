@@ -8,7 +8,6 @@ import numpy as np
 import xarray as xr
 
 from ..blocks import Block, Bullets, Details, Pictures, Text
-from ..figures.designs import front_figure, main_effects_figure, parallel_figure
 from ..figures.style import Picture, png
 from ..html import html
 from ..page import Page, Part
@@ -17,6 +16,7 @@ from ..tables import Table, to_text
 from .best import best_tables, limiting, shown
 from .csv import designs_csv
 from .evaluated import Column, Evaluated
+from .figures import front_figure, main_effects_figure, parallel_figure
 from .reading import evaluated, objectives_of, variable_label, variables_of
 
 _PANELS: Final = 4

@@ -9,7 +9,8 @@ from matplotlib.figure import Figure
 
 from ...base.vocabulary import REFERENCE_OPTION
 from ..study import few_speeds, options, speeds
-from .needs import chosen, needs
+from ..titles import chosen
+from .needs import needs
 from .style import MARKERS, Picture, draw, frequency_ticks, legend_below, line_looks, png, wrap
 
 

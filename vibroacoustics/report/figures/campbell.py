@@ -15,7 +15,8 @@ from ..over_speed.avoid import LEVEL, speeds_to_avoid
 from ..over_speed.modes import KINDS, Crossing, Mode, crossings, modes_of
 from ..over_speed.sound_lines import SoundLine, loudest_lines
 from ..study import catalogue_receiver
-from .needs import chosen, needs
+from ..titles import chosen
+from .needs import needs
 from .style import COLOURS, WIDTH_INCH, draw, shade, shortened
 
 LOUD_DB: Final = 10.0

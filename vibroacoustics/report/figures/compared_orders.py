@@ -8,7 +8,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from .needs import chosen, needs
+from ..titles import chosen
+from .needs import needs
 from .style import (
     COLOURS,
     Picture,

@@ -8,7 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..study import options, speeds, words
-from .needs import chosen, needs
+from ..titles import chosen
+from .needs import needs
 from .style import Picture, draw, legend_below, line_looks, png, wrap
 
 

@@ -9,7 +9,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from ..study import parameters
-from .needs import chosen, needs
+from ..titles import chosen
+from .needs import needs
 from .style import (
     WIDTH_INCH,
     Picture,

@@ -19,8 +19,8 @@ from ..over_speed.level_curves import (
     source_curves,
 )
 from ..study import catalogue_receiver
-from ..titles import titled
-from .needs import chosen, needs
+from ..titles import chosen, titled
+from .needs import needs
 from .style import WIDTH_INCH, draw, legend_below, line_looks, shade, shortened, wrap
 
 _FEW_POINTS: Final = 12

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from ...base.errors import ParameterError
 from ...base.vocabulary import VARIABLES
-from ..titles import option_titles, titled
+from ..titles import titled
 
 Maker = TypeVar("Maker", bound=Callable[..., Figure])
 
@@ -39,23 +39,3 @@ def needs(*variables: str, from_: str = "`run`", any_of: bool = False) -> Callab
         return cast(Maker, checked)
 
     return guarded
-
-
-def chosen(results: xr.Dataset, dimension: str, value: Any) -> Any:
-    """A label of a dimension; where none is given, the first; of an option with a title that.
-
-    Raises
-    ------
-    ParameterError
-        The results have no such label.
-    """
-    labels = results[dimension].values.tolist()
-    if dimension == "option" and value not in labels:
-        value = option_titles(results).get(value, value)
-    if value is None:
-        return labels[0]
-    if value not in labels:
-        raise ParameterError(
-            f"{dimension} = {value}: not in these results; there are {', '.join(map(str, labels))}"
-        )
-    return value

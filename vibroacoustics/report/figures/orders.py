@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 from ...base import rounding
 from ...base.arrays import Array
 from ..study import catalogue_receiver, few_speeds, options, speeds
-from .needs import chosen, needs
+from ..titles import chosen
+from .needs import needs
 from .style import COLOURS, MARKERS, Picture, draw, legend_below, logarithmic_ticks, png, wrap
 
 HIGHEST_ORDER: Final = 4

@@ -11,7 +11,8 @@ from ...base.vocabulary import REFERENCE_OPTION
 from ..foot_paths import foot_forces
 from ..paths import at_path_speed, leading, path_speed, path_words
 from ..study import catalogue_receiver
-from .needs import chosen, needs
+from ..titles import chosen
+from .needs import needs
 from .style import COLOURS, Picture, draw, legend_below, numbered_file_name, png, wrap
 
 _WITH, _AGAINST = COLOURS[3], COLOURS[1]

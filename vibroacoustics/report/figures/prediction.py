@@ -8,7 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base.vocabulary import REFERENCE_OPTION
-from .needs import chosen, needs
+from ..titles import chosen
+from .needs import needs
 from .style import COLOURS, Picture, draw, legend_below, numbered_file_name, png, shortened
 
 _RANGE_DB = 80.0

@@ -12,8 +12,9 @@ from ...base import rounding
 from ..comparison import comparison
 from ..kwave_words import computed_by_kwave, kwave_to_hz
 from ..study import catalogue_receiver, few_speeds, has_sources, options, speeds
+from ..titles import chosen
 from .first_order import first_order_marks, mark_first_order
-from .needs import chosen, needs
+from .needs import needs
 from .style import (
     COLOURS,
     Picture,

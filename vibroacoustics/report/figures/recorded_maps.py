@@ -8,8 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..over_speed.level_curves import is_run_up
+from ..titles import chosen
 from .levels_over_speed import levels_over_speed
-from .needs import chosen, needs
+from .needs import needs
 from .speed_maps import MAP_RANGE_DB, speed_frequency_map
 from .style import (
     Picture,

@@ -9,8 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
-from .map_levels import map_level
-from .needs import chosen, needs
+from ..map_levels import map_level
+from ..titles import chosen
+from .needs import needs
 from .orders_over_speed import over_speed_picture
 from .style import (
     COLOURS,

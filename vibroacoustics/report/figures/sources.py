@@ -21,7 +21,8 @@ from ..study import (
     quoted_speed,
     speeds,
 )
-from .needs import chosen, needs
+from ..titles import chosen
+from .needs import needs
 from .style import MARKERS, Picture, draw, frequency_ticks, legend_below, line_looks, png, wrap
 
 QUIETEST_DB: Final = -10.0

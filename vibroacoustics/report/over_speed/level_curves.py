@@ -9,9 +9,9 @@ import xarray as xr
 from ...base.arrays import Array
 from ...base.vocabulary import REFERENCE_OPTION
 from ..bands import quantiles
-from ..figures.needs import chosen
 from ..source_words import source_name
 from ..study import catalogue_receiver, has_draws, options
+from ..titles import chosen
 
 MOST_CURVES: Final = 8
 STEADY_RATIO: Final = 0.02

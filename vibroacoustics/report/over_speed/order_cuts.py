@@ -11,8 +11,8 @@ from ...base.decibel import amplitude_of_level, level_of_amplitude
 from ...base.vocabulary import REFERENCE_OPTION
 from ...levels.weighting import WEIGHTING
 from ...results.order_comparison import channel_orders
-from ..figures.needs import chosen
 from ..study import catalogue_receiver
+from ..titles import chosen
 
 MOST_ORDERS: Final = 8
 """Of a study; a recording has those that were asked for."""

@@ -8,9 +8,9 @@ import xarray as xr
 from ...base.arrays import Array
 from ...base.decibel import level_of_power, power_of_level, sound_pressure_level
 from ...base.vocabulary import REFERENCE_OPTION
-from ..figures.map_levels import map_level
-from ..figures.needs import chosen
+from ..map_levels import map_level
 from ..study import catalogue_receiver
+from ..titles import chosen
 from .level_curves import is_run_up
 
 FINEST_HZ: Final = 5.0

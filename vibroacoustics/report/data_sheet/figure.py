@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..data_sheet.model import SoundPower
-from .style import COLOURS, Picture, draw, legend_below, png
+from ..figures.style import COLOURS, Picture, draw, legend_below, png
+from .model import SoundPower
 
 _RANGE_DB = 50.0
 

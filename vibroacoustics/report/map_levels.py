@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ...base.arrays import Array, ComplexArray
-from ...base.decibel import level_of_amplitude, sound_pressure_level
+from ..base.arrays import Array, ComplexArray
+from ..base.decibel import level_of_amplitude, sound_pressure_level
 
 
 def map_level(peak: Array | ComplexArray, unit: str) -> tuple[Array, str]:

@@ -8,8 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base.arrays import Array, IndexArray
-from ..designs.evaluated import Column, Evaluated
-from .style import COLOURS, draw, legend_below, plain, shortened, wrap
+from ..figures.style import COLOURS, draw, legend_below, plain, shortened, wrap
+from .evaluated import Column, Evaluated
 
 _MOST_POINTS: Final = 20_000
 _MOST_LINES: Final = 200

@@ -1,0 +1,130 @@
+"""Counts by room of words and phrases that the project is leaving.
+
+python tests/house/language.py          # print where they are
+python tests/house/language.py --write  # write the counts down, where none has risen
+"""
+
+import ast
+import io
+import json
+import re
+import sys
+import tokenize
+import tomllib
+from collections import Counter
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from typing import Final, NamedTuple
+
+ROOT: Final = Path(__file__).resolve().parents[2]
+COUNTS: Final = Path(__file__).with_name("language_counts.json")
+LISTS: Final = tomllib.loads(Path(__file__).with_name("language.toml").read_text("utf-8"))
+HOLDS: Final = {entry["word"] for entry in LISTS["holds"]}
+IS: Final = {entry["word"] for entry in LISTS["is"]}
+PHRASES: Final = [re.compile(entry["pattern"], re.MULTILINE) for entry in LISTS["phrase"]]
+PROSE: Final = re.compile(r"[A-Za-z]+\s+[A-Za-z]+")
+"""Strings without two words in a row are keys and formats."""
+
+
+class Fault(NamedTuple):
+    """A word or phrase in a line of a file."""
+
+    path: str
+    line: int
+    what: str
+
+
+def bindings(tree: ast.AST) -> Iterator[tuple[int, str]]:
+    """Line and name of everything that the code names itself."""
+    for node in ast.walk(tree):
+        line = getattr(node, "lineno", 0)
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield line, node.id
+        elif isinstance(node, ast.FunctionDef | ast.ClassDef):
+            yield line, node.name
+        elif isinstance(node, ast.arg):
+            yield line, node.arg
+
+
+def prose(code: str) -> Iterator[tuple[int, str]]:
+    """Line and text of every comment and every string of words."""
+    for token in tokenize.generate_tokens(io.StringIO(code).readline):
+        if token.type == tokenize.COMMENT or (
+            token.type == tokenize.STRING and PROSE.search(token.string)
+        ):
+            yield token.start[0], token.string.strip("#'\" rbf")
+
+
+def faults_of_code(path: str, code: str) -> Iterator[Fault]:
+    """Faults of a Python file."""
+    for line, name in bindings(ast.parse(code)):
+        parts = set(name.strip("_").lower().split("_"))
+        for word in sorted(parts & HOLDS) + [name] * (name in IS):
+            yield Fault(path, line, word)
+    for first, text in prose(code):
+        yield from faults_of_text(path, text, first)
+
+
+def faults_of_text(path: str, text: str, first: int = 1) -> Iterator[Fault]:
+    """Faults of a text that begins at a line."""
+    for number, line in enumerate(text.splitlines(), first):
+        for phrase in PHRASES:
+            yield from (Fault(path, number, match[0]) for match in phrase.finditer(line.strip()))
+
+
+@cache
+def faults() -> tuple[Fault, ...]:
+    """Faults of the package, the pages and the studies."""
+    files = [*ROOT.glob("vibroacoustics/**/*.py"), *ROOT.glob("docs/**/*.md"), ROOT / "README.md"]
+    files += [*ROOT.glob("pipelines/*.toml"), *ROOT.glob("data/machines/*.toml")]
+    built = ("docs/_build/", "docs/examples/", "docs/generated/")
+    found: list[Fault] = []
+    for file in sorted(files):
+        path = file.relative_to(ROOT).as_posix()
+        if not path.startswith(built):
+            reader = faults_of_code if file.suffix == ".py" else faults_of_text
+            found += reader(path, file.read_text(encoding="utf-8"))
+    return tuple(found)
+
+
+def room_of(path: str) -> str:
+    """Room of a file: a folder of the package, or the first folder of the repository."""
+    parts = path.split("/")
+    return "/".join(parts[:2]) if parts[0] == "vibroacoustics" and len(parts) > 2 else parts[0]
+
+
+def counts() -> dict[str, int]:
+    """Number of faults by room."""
+    return dict(sorted(Counter(room_of(fault.path) for fault in faults()).items()))
+
+
+def committed() -> dict[str, int]:
+    """Counts that were written down."""
+    read: dict[str, int] = json.loads(COUNTS.read_text("utf-8"))
+    return read
+
+
+def risen(now: dict[str, int], before: dict[str, int]) -> dict[str, str]:
+    """Rooms with more faults than written down."""
+    return {
+        room: f"{before.get(room, 0)} -> {number}"
+        for room, number in now.items()
+        if number > before.get(room, 0)
+    }
+
+
+def main() -> int:
+    """Print the faults, or write their counts down."""
+    if "--write" not in sys.argv:
+        print("\n".join(f"{fault.path}:{fault.line}: {fault.what}" for fault in faults()))
+        return 0
+    if COUNTS.exists() and (more := risen(counts(), committed())):
+        print(f"not written, more than before: {more}")
+        return 1
+    COUNTS.write_text(json.dumps(counts(), indent=2) + "\n", "utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,44 @@
+"""Words and phrases of the old dialect fall in number, room by room."""
+
+import re
+
+import pytest
+from language import LISTS, committed, counts, faults, faults_of_code, faults_of_text, risen
+
+
+def test_no_room_has_more_of_them_than_written_down():
+    more = risen(counts(), committed())
+    rooms = [f"{fault.path}:{fault.line}: {fault.what}" for fault in faults()] if more else []
+    assert not more, "\n".join(rooms)
+
+
+def test_counts_that_fell_are_written_down():
+    assert counts() == committed(), "run python tests/house/language.py --write"
+
+
+@pytest.mark.parametrize("kind", ["holds", "is"])
+def test_each_word_is_seen_in_its_example(kind):
+    for entry in LISTS[kind]:
+        words = [fault.what for fault in faults_of_code("a.py", f"{entry['example']} = 1")]
+        assert entry["word"] in words, entry
+
+
+def test_each_phrase_is_seen_in_its_example():
+    for entry in LISTS["phrase"]:
+        assert re.search(entry["pattern"], entry["example"]), entry
+        assert list(faults_of_text("a.md", entry["example"])), entry
+
+
+@pytest.mark.parametrize(
+    "code",
+    ["rest_of_path = 1", "def at_speed(x): ...", "bank_of_cylinders = 1", "'unknown option told'",
+     "x.one", "# a bank of cylinders", "cylinder_bank = 1"],
+)  # fmt: skip
+def test_ordinary_words_stay_free(code):
+    assert not list(faults_of_code("a.py", code))
+
+
+def test_docstrings_comments_and_messages_are_read():
+    code = '"""Of a change."""\n# it hangs on that\nerror = f"no file is told {x} here"\n'
+    seen = [(fault.line, fault.what) for fault in faults_of_code("a.py", code)]
+    assert seen == [(1, "Of"), (2, "hangs on"), (3, "is told")]

@@ -1,0 +1,127 @@
+"""A scroll compressor with an Oldham coupling: masses and places of its moving parts."""
+
+from typing import Annotated, Final
+
+from pydantic import Field, model_validator
+
+from ...base.parameters import Held, Parameters
+from ...machine.cavities import DischargeDome, DischargeMuffler, SuctionAnnulus
+from ...machine.frame import Frame
+from ...machine.machine import PART_MASS, Machine
+from ...machine.shell_structure import ShellStructure, ShellVariation
+from ...machine.stator_yoke import StatorYoke
+from ...machine.stopping import Stopping
+from ...machine.turning_back import CheckValve, TurningBack
+from ...mechanics.capabilities import HEIGHT, BalancePlanes
+from ...mechanics.scroll_shaft import ScrollShaft
+from ...sources.air_gap.parameters import AirGap
+from ...sources.induction_motor.parameters import CapacitorMotor, TurningRotor
+from ...sources.oldham_keys.parameters import OldhamKeys
+from ...sources.scroll_gas.parameters import (
+    ScrollGas,
+    ScrollLeakage,
+    ScrollOpening,
+    ScrollWraps,
+    SuctionPockets,
+)
+from ...sources.synchronous_motor.parameters import SynchronousMotor
+
+MOST_INNER_SHARE: Final = 0.95
+"""Of the mass; wall, feet and oil are the rest."""
+STROKES: Final = Held("may be printed or derived: two studies, no range")
+
+
+class Kinematics(Parameters):
+    orbit_radius_m: Annotated[float, STROKES] = Field(ge=1e-4, le=0.05)
+    """Radius of the orbit of the scroll; the Oldham ring's stroke amplitude equals it."""
+
+
+class Ring(Parameters):
+    mass_kg: float = PART_MASS
+    height_m: float = HEIGHT
+
+
+class OrbitingPart(Parameters):
+    """A part whose centre of mass circles the shaft axis, in phase with the crank pin."""
+
+    mass_kg: float = PART_MASS
+    radius_m: float | None = Field(default=None, gt=0.0, le=0.5)
+    """Radius of its circle; the orbit radius where none is given."""
+    height_m: float = HEIGHT
+
+
+class OldhamScrollTables(Machine):
+    """Values of the machine."""
+
+    kinematics: Kinematics
+    oldham: Ring
+    orbiting_scroll: OrbitingPart
+    crank_pin: OrbitingPart
+    brake: OrbitingPart | None = None
+    """Against turning back; none where a valve or nothing does that."""
+    counterweights: BalancePlanes
+    """The mass moments follow from two-plane balance of the orbiting parts."""
+    wraps: ScrollWraps | None = None
+    gas: ScrollGas | None = None
+    opening: ScrollOpening | None = None
+    """Where a pocket opens with inertia."""
+    leakage: ScrollLeakage | None = None
+    """Between the pockets then; none where they are tight."""
+    suction_pockets: SuctionPockets | None = None
+    """Whose pressure then acts on the scrolls; none where it is that of the suction."""
+    keys: OldhamKeys | None = None
+    motor: CapacitorMotor | None = None
+    """At its own line frequency; a study names those of its speeds."""
+    synchronous_motor: SynchronousMotor | None = None
+    """In the other motor's place, on an inverter; a study names one of them."""
+    air_gap: AirGap | None = None
+    """Of either motor."""
+    stator_yoke: StatorYoke | None = None
+    rotor: TurningRotor | None = None
+    structure: ShellStructure | None = None
+    """Of the shell, where it may bend."""
+    variation: ShellVariation | None = None
+    stopping: Stopping | None = None
+    discharge_dome: DischargeDome | None = None
+    """Gas under the top cap; none where it is silent."""
+    suction_annulus: SuctionAnnulus | None = None
+    """Gas around the parts, out of which the pockets fill; none where it is silent."""
+    discharge_muffler: DischargeMuffler | None = None
+    """In the discharge tube; its curves alone need it."""
+    turning_back: TurningBack | None = None
+    """After a stop, where a study asks for it."""
+    check_valve: CheckValve | None = None
+    shaft: ScrollShaft | None = None
+    frame: Frame | None = None
+    """Bodies through which the sources drive the shell; none where they do so as they are."""
+
+    @model_validator(mode="after")
+    def _frame_fits(self) -> "OldhamScrollTables":
+        if self.frame is None:
+            return self
+        if self.shaft is None:
+            raise ValueError("frame: needs the table shaft")
+        inner_kg = self.frame.mass_kg + self.shaft.mass_kg
+        if inner_kg > MOST_INNER_SHARE * self.housing.mass_kg:
+            raise ValueError(
+                f"housing.mass_kg = {self.housing.mass_kg:g} kg: frame, stator and shaft weigh "
+                f"{inner_kg:.4g} kg; {100.0 * MOST_INNER_SHARE:g} % of all is the most in a shell"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _brake_jams(self) -> "OldhamScrollTables":
+        if self.turning_back is not None and self.brake is None:
+            raise ValueError("turning_back: needs the table brake; leave out both or none")
+        return self
+
+    @model_validator(mode="after")
+    def _gas_fits(self) -> "OldhamScrollTables":
+        for name, table in (
+            ("discharge_dome", self.discharge_dome),
+            ("suction_annulus", self.suction_annulus),
+        ):
+            reason = table and table.why_not_in(self.shell)
+            if reason:
+                raise ValueError(f"{name}.{reason}")
+        return self

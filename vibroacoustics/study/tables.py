@@ -1,0 +1,97 @@
+"""Tables of a study, each right alone."""
+
+from typing import Any
+
+from pydantic import Field, field_validator
+
+from ..base.parameters import Parameters
+from ..base.units import orders_below
+from ..machine.machine import AnyMachine
+from ..machine.option import AnyOption
+from ..machine.source import AnySource
+from .baseline import MeasuredSound
+from .design import Design
+from .evidence import Evidence
+from .operation import Operation
+from .radiation import RadiationSettings
+from .receivers import Receiver
+from .record import ParameterRecord
+from .room import StudyRoom
+from .scoring import Scoring
+from .sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
+from .structure_borne import StructureBorne
+from .titles import Titles
+from .uncertainty import HeldRange, MeasuredModes, Range, Uncertainty
+
+
+class StudyTables(Parameters):
+    """Tables of a study, not yet checked against one another."""
+
+    title: str = Field(min_length=1)
+    machine: AnyMachine
+    operation: Operation
+    options: dict[str, AnyOption]
+    receivers: dict[str, Receiver] = Field(min_length=1)
+    catalogue_receiver: str = ""
+    """Of the machine's overall noise; the first where the machine's file gives none."""
+    catalogue_point: str | None = None
+    """Operating point of the machine's file at which its overall noise holds; none for the values
+    of the study."""
+    catalogue_machine: AnyMachine | None = None
+    """At that point; none where it is the study's. Filled in by `load_study`."""
+    radiation: RadiationSettings
+    scoring: Scoring
+    given: dict[str, dict[str, float]] = Field(default={})
+    """Values of criteria that are judged, not computed, by option and criterion."""
+    titles: Titles = Titles()
+    """What reports show in place of names."""
+    evidence: Evidence = Evidence()
+    """Published values beside which the report sets the results."""
+    sound_power: SoundPowerSettings | None = None
+    map: MapSettings | None = None
+    directivity: DirectivitySettings | None = None
+    structure_borne: StructureBorne | None = None
+    """Plate under the feet whose sound is computed beside that by air."""
+    room: StudyRoom | None = None
+    """Room into which the machine is put, with listeners."""
+    sources: dict[str, AnySource] = Field(default_factory=dict)
+    """Who drives the machine beside its moving parts."""
+    uncertainty: Uncertainty = Uncertainty()
+    shell_modes: MeasuredModes | None = None
+    """Measured modes of the shell, in place of the computed ones."""
+    ranges: tuple[Range, ...] = ()
+    """Of the machine's values that are drawn at random."""
+    held_ranges: tuple[HeldRange, ...] = ()
+    """Of those that are not, with the reason."""
+    design: Design | None = None
+    """What a sweep or a search varies; a run takes the options as they are given."""
+    measured: MeasuredSound | None = None
+    """What was measured of the machine's sound, in place of its overall noise."""
+    records: tuple[ParameterRecord, ...] = ()
+    coarsened: tuple[str, ...] = ()
+    """What was made coarser for a first look, and the error that is expected."""
+    source_file: str = ""
+
+    @field_validator("options", "receivers")
+    @classmethod
+    def _named(cls, given: dict[str, Any]) -> dict[str, Any]:
+        if not all(name.strip() for name in given):
+            raise ValueError("a name is blank")
+        return given
+
+    @property
+    def catalogue_speed_rpm(self) -> float:
+        """Speed of the machine's overall noise; the first one where its file gives none."""
+        published = self.machine.overall_noise
+        return self.operation.speed_rpm[0] if published is None else published.speed_rpm
+
+    def highest_order(self, speed_rpm: float) -> int:
+        """The highest shaft order that is taken along at a speed."""
+        if self.operation.maximum_order is not None:
+            return self.operation.maximum_order
+        return orders_below(self.radiation.maximum_frequency_hz, speed_rpm)
+
+    @property
+    def drives_shell(self) -> bool:
+        """Whether a source loads the joints of an elastic shell."""
+        return any(source.drives_shell for source in self.sources.values())
