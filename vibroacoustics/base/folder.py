@@ -101,7 +101,9 @@ class Folder:
 
     def remove_tree(self, name: str) -> None:
         """Remove a folder in this one with all that is in it, as far as that can be."""
-        shutil.rmtree(name, ignore_errors=True, dir_fd=self.descriptor)
+        status = self.status(name)
+        if status is not None and stat.S_ISDIR(status.st_mode):
+            shutil.rmtree(name, ignore_errors=True, dir_fd=self.descriptor)
 
     def status(self, name: str) -> os.stat_result | None:
         """Status of a name, of a link itself; None where there is none below this folder."""
