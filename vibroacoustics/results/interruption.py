@@ -55,13 +55,13 @@ def cleared(clear: Callable[[], object]) -> Iterator[None]:
 @contextmanager
 def cleared_in(folder: Folder, clear: Callable[[Folder], object]) -> Iterator[None]:
     """Call `clear` of a folder in the end; `clear_up` may do so when the folder is closed."""
-    own = folder.duplicate()
+    duplicate = folder.duplicate()
 
     def clear_and_close() -> None:
         try:
-            clear(own)
+            clear(duplicate)
         finally:
-            os.close(own.descriptor)
+            os.close(duplicate.descriptor)
 
     with cleared(clear_and_close):
         yield

@@ -78,7 +78,7 @@ def replacing(path: Path, dataset: str, dataset_sha256: str = "") -> Iterator[St
         made = {name: _hash(staged, name) for name in staged.files() if name != dataset}
         digest = dataset_sha256 or hashed.stored_hash(staged.path / dataset, staged)
         before = _read(folder) or {}
-        beside = any(place.holds_file(dataset) for place in (staged, folder))
+        beside = staged.holds_file(dataset) or folder.holds_file(dataset)
         older = _older(before.get(dataset), made)
         entry = Entry(sha256=str(digest), beside=beside, files=made, older=older)
         after = dict(sorted({**_without(before, made), dataset: entry}.items()))
