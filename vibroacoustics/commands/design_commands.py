@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 SWEEP_NAME: Final = "sweep.nc"
 TABLE_NAME: Final = "sweep.csv"
 DESIGNS_NAME: Final = "designs.nc"
+SWEEP_CHUNKS: Final = "sweep_chunks"
+SEARCH_CHUNKS: Final = "search_chunks"
 
 commands = typer.Typer()
 
@@ -71,7 +73,7 @@ def sweep_command(
     typer.echo(f"plan: {prepared.plan.text}")
     with (
         _evaluating(
-            problem, study_file, folder / "sweep_chunks", workers, scheduler, plugin
+            problem, study_file, folder / SWEEP_CHUNKS, workers, scheduler, plugin
         ) as evaluate,
         progress_on_stderr() as progress,
     ):
@@ -115,7 +117,7 @@ def optimise_command(
     problem, folder = _problem(study_file, out, plugin)
     with (
         _evaluating(
-            problem, study_file, folder / "search_chunks", workers, scheduler, plugin
+            problem, study_file, folder / SEARCH_CHUNKS, workers, scheduler, plugin
         ) as evaluate,
         progress_on_stderr() as progress,
     ):
@@ -133,13 +135,15 @@ def _problem(
 ) -> "tuple[Problem, Path]":
     """What the study asks, and the folder of its results, which can be written."""
     from ..design.problem import Problem
+    from ..design.store.chunks import PLAN_NAME
     from ..study import loading
     from . import outputs
 
     load_plugins(plugin)
     folder = out or Path("reports") / study_file.stem
     study = loading.load_study(study_file)
-    outputs.check_folder(folder)
+    chunks = [f"{name}/{PLAN_NAME}" for name in (SWEEP_CHUNKS, SEARCH_CHUNKS)]
+    outputs.check_folder(folder, (SWEEP_NAME, DESIGNS_NAME, *chunks))
     return Problem(study), folder
 
 
