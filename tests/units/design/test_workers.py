@@ -1,14 +1,13 @@
 """Workers beside this process: the same bits, none lost when they die, and no network unasked."""
 
 import json
-import shutil
-import subprocess
 import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from certificates import certified, needs_openssl
 from design_work import builder
 from support import TINY
 
@@ -111,26 +110,7 @@ def test_scheduler_that_does_not_answer_is_one_line(monkeypatch: pytest.MonkeyPa
         pass
 
 
-def certified(folder: Path) -> dict[str, Path]:
-    """An authority and a certificate that it signed, made by the command openssl."""
-    folder.mkdir()
-    elliptic = ["-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes"]
-    signed = ["-CA", "ca.pem", "-CAkey", "ca_key.pem"]
-    for name, signature in (("ca", []), ("cert", signed)):
-        subprocess.run(
-            ["openssl", "req", "-x509", *elliptic, *signature, "-subj", f"/CN={folder.name} {name}",
-             "-days", "2", "-out", f"{name}.pem", "-keyout", f"{name}_key.pem",
-             "-addext", f"basicConstraints=critical,CA:{str(name == 'ca').upper()}"],
-            cwd=folder, check=True, capture_output=True,
-        )  # fmt: skip
-    return {
-        "tls_ca": folder / "ca.pem",
-        "tls_cert": folder / "cert.pem",
-        "tls_key": folder / "cert_key.pem",
-    }
-
-
-@pytest.mark.skipif(not shutil.which("openssl"), reason="the command openssl makes certificates")
+@needs_openssl
 def test_scheduler_by_tls(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The same bits; certificates of another authority do not open it, nor does a wrong file."""
     from distributed import LocalCluster, Security
