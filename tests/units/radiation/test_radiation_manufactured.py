@@ -120,7 +120,7 @@ WALLED = {
     "L-shaped prism": ((), (-0.06, 0.0, -0.06)),
     "ellipsoid in a corner": ((floor(-0.22), Mirror(1, -1, -0.3)), (0.0, 0.0, 0.0)),
 }
-"""Walls next to the bodies of `SHAPES`, and the middle of their sources; across x a distant wall."""
+"""Near walls of bodies in `SHAPES`, and the middle of their sources; a distant wall is across x."""
 
 
 def with_distant_wall(name, distance_m, rng, frequencies, spacing_m=SPACING_M):
