@@ -96,7 +96,7 @@ def errors(
         for number in range(frequency_hz.size)
     ]
     grids = ERROR * np.abs(estimated).max(axis=0)
-    return true / largest, np.hypot(grids, echo) / largest
+    return true / largest, (grids + echo) / largest
 
 
 def _part(field: Field, frequency_hz: float, imaginary: bool, at: SurfacePoints) -> Array:

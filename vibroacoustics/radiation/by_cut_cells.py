@@ -115,13 +115,10 @@ class ByCutCells:
 
 
 def with_neglected_echo(closed: Radiated, task: Task) -> Array:
-    """Return the estimated error at the microphones, (receiver, pattern, frequency), Pa.
-
-    The grids' error and the echo that they leave out do not depend on each other.
-    """
+    """Return the estimated error at the microphones, (receiver, pattern, frequency), Pa."""
     share = neglected_echo(task.scene, task.patterns, task.table_hz, task.receivers.points)
     largest = np.abs(closed.pressure).max(axis=0)
-    error: Array = np.hypot(closed.error, SAFETY * share * largest)
+    error: Array = closed.error + SAFETY * share * largest
     return error
 
 

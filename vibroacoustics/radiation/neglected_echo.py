@@ -111,7 +111,8 @@ def _patches(scene: Scene, body: Body, patterns: Sequence[Pattern], spacing_m: f
     ]
     keys, rows = [], []
     for whole in surface_in_parts(body, (planes[0], planes[1], planes[2])):
-        part = whole.where([wall.depth_m(whole.position) > _ON_WALL_M for wall in scene.walls])
+        off_walls = [wall.depth_m(whole.position) > _ON_WALL_M for wall in scene.walls]
+        part = whole.where([whole.area > 0.0, *off_walls])
         velocity = [np.einsum("pi,pi->p", one.velocity(part), part.normal) for one in patterns]
         cube = np.floor((part.position - lower) / spacing_m)
         keys.append(np.hstack([cube, np.rint(part.normal)]).astype(np.intp))
