@@ -16,6 +16,7 @@ from vibroacoustics.base.progress import no_progress
 from vibroacoustics.levels import a_weighting
 from vibroacoustics.pipeline import in_room
 from vibroacoustics.pipeline.cost import run_cost
+from vibroacoustics.pipeline.in_room import vectors_of
 from vibroacoustics.radiation.rooms import of_study as rooms
 from vibroacoustics.report.html import html
 from vibroacoustics.report.in_room import (
@@ -96,7 +97,7 @@ def test_a_surface_of_another_absorption_is_a_warning_before_waves(monkeypatch):
     room = KITCHEN | {"walls": {"+x": opening}}
     study = va.load_study(TINY).replace({"room": room})
     with pytest.warns(UserWarning, match=r"room\.walls\.\+x: absorption of waves is 0\.94 instead"):
-        in_room.vectors_of(study, study.room, (), no_progress)
+        vectors_of(study, study.room, (), no_progress)  # `in_room.vectors_of` is made up here
 
 
 def test_what_a_run_would_refuse_is_refused_before():
