@@ -69,9 +69,9 @@ def _shares(
     shortest = SPEED_OF_SOUND_M_PER_S / (_POINTS_PER_WAVE * frequency_hz.max())
     spacing = np.clip(shortest, np.sqrt(area / _MOST_POINTS), np.sqrt(area / _FEWEST_POINTS))
     surface = _patches(scene, body, patterns, spacing)
-    inside = _patches(scene, body, (), spacing * np.sqrt(_POINTS_PER_MONOPOLE))
+    coarse = _patches(scene, body, (), spacing * np.sqrt(_POINTS_PER_MONOPOLE))
     volume = float(np.einsum("fi,fi->", body.triangles[:, 0], body.area_vectors()) / 3.0)
-    monopoles = inside.position - _DEPTH * volume / area * inside.normal
+    monopoles = coarse.position - _DEPTH * volume / area * coarse.normal
     others = [wall for wall in scene.walls if wall not in scene.near_walls]
     near = _Slopes(surface, monopoles, (*scene.near_walls, *others), len(scene.near_walls))
     highest = SPEED_OF_SOUND_M_PER_S / (_POINTS_PER_WAVE * spacing)
@@ -110,9 +110,9 @@ def _patches(scene: Scene, body: Body, patterns: Sequence[Pattern], spacing_m: f
         for low, high in zip(lower, upper, strict=True)
     ]
     keys, rows = [], []
-    for whole in surface_in_parts(body, (planes[0], planes[1], planes[2])):
-        off_walls = [wall.depth_m(whole.position) > _ON_WALL_M for wall in scene.walls]
-        part = whole.where([whole.area > 0.0, *off_walls])
+    for points in surface_in_parts(body, (planes[0], planes[1], planes[2])):
+        off_walls = [wall.depth_m(points.position) > _ON_WALL_M for wall in scene.walls]
+        part = points.where([points.area > 0.0, *off_walls])
         velocity = [np.einsum("pi,pi->p", one.velocity(part), part.normal) for one in patterns]
         cube = np.floor((part.position - lower) / spacing_m)
         keys.append(np.hstack([cube, np.rint(part.normal)]).astype(np.intp))
