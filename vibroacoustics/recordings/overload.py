@@ -107,7 +107,8 @@ def _clipped_ends(samples: Samples, low: float, high: float) -> list[float]:
     groups = [group for group in groups if _LEAST_RUN <= _times(samples, group) <= most]
     if not groups:
         return []  # as of nearly all signals; what follows takes longer
-    values = np.unique(samples[:: -(-samples.size // PIECE)]).astype(float)
+    start = max(0, (samples.size - PIECE) // 2)
+    values = np.unique(samples[start : start + PIECE]).astype(float)
     found = [
         end for group in groups if _is_clipped(samples, group, values, spread) for end in group
     ]
