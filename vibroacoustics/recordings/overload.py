@@ -147,7 +147,7 @@ def _is_clipped(samples: Samples, ends: list[float], values: Samples, spread: fl
 
 def _away(samples: Samples, ends: list[float]) -> Samples:
     """Distance from the nearest of the extremes."""
-    return np.min([np.abs(samples - end) for end in ends], axis=0)
+    return np.asarray(np.min([np.abs(samples - end) for end in ends], axis=0))
 
 
 def _step(away: Samples, alike: float) -> float:

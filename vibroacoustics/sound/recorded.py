@@ -104,7 +104,9 @@ def narrow_bands(pressure_pa: Array, sample_rate_hz: float) -> NarrowBands:
         lines = np.abs(np.fft.rfft(window * pressure[start : start + length])) ** 2
         segments[row] = 2.0 * lines / (length * share[row])
     return NarrowBands(
-        np.fft.rfftfreq(length, 1.0 / sample_rate_hz), segments, share / np.sum(window**2)
+        np.fft.rfftfreq(length, 1.0 / sample_rate_hz).astype(float),
+        segments,
+        share / np.sum(window**2),
     )
 
 
@@ -162,7 +164,7 @@ def _course(bands: NarrowBands, peak: int, first: int, last: int) -> tuple[float
         bands.frequency_hz, critical_band(float(bands.frequency_hz[peak]))
     )
     stands_out = power > STANDS_OUT * (last - first) * np.median(segments[:, lower:upper], axis=1)
-    loudest = float(np.max(power[stands_out])) if stands_out.any() else float(np.max(power))
+    loudest = float(np.max(power[stands_out], initial=0.0))
     if np.min(power) >= PAUSE * loudest:
         sounds = np.ones(power.size, dtype=bool)
         level = float(bands.mean_square[first:last].sum())
