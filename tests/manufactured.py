@@ -15,6 +15,7 @@ from vibroacoustics.radiation.bodies import Body
 from vibroacoustics.radiation.exact import wavenumber
 from vibroacoustics.radiation.machine_side import ERROR, MachineSide, near_fields
 from vibroacoustics.radiation.mirrors import Mirror, images
+from vibroacoustics.radiation.neglected_echo import SAFETY, neglected_echo
 from vibroacoustics.radiation.patterns import Pattern
 from vibroacoustics.radiation.scene import Scene
 from vibroacoustics.radiation.surface_points import SurfacePoints
@@ -88,7 +89,14 @@ def errors(
         for values in (radiated.pressure, radiated.correction)
     )
     true = np.abs(simulated - exact).max(axis=0)
-    return true / largest, ERROR * np.abs(estimated).max(axis=0) / largest
+    share = SAFETY * neglected_echo(scene, patterns, frequency_hz, points)
+    share *= np.abs(radiated.pressure).max(axis=0)
+    echo = [
+        np.hypot(share[:, 2 * number, number], share[:, 2 * number + 1, number]).max()
+        for number in range(frequency_hz.size)
+    ]
+    grids = ERROR * np.abs(estimated).max(axis=0)
+    return true / largest, (grids + echo) / largest
 
 
 def _part(field: Field, frequency_hz: float, imaginary: bool, at: SurfacePoints) -> Array:

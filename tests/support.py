@@ -31,6 +31,7 @@ from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.patterns import Pattern
 from vibroacoustics.radiation.surface_points import SurfacePoints, surface_points
 from vibroacoustics.radiation.symmetry import signs
+from vibroacoustics.results import hashed
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.study import Study
 
@@ -154,6 +155,12 @@ PEAK_MEMORY = """
             return 1024 * int(status.split("VmHWM:")[1].split()[0])
 """.strip()
 """For the script of a child: `peak()` in bytes."""
+
+
+def append_hash(path: Path) -> None:
+    """Make the hash of a file's content its last line."""
+    with path.open("r+b") as file:
+        hashed.append_hash(file)
 
 
 def in_child(script: str) -> list[str]:

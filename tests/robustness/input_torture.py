@@ -23,14 +23,13 @@ from torture import Trial, child, ended
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from mutated_studies import PATHS, make_tree, write_changed
-from support import TINY, made_up_radiation, tiny_run
+from support import TINY, append_hash, made_up_radiation, tiny_run
 
 from vibroacoustics import pipeline, report, scoring
 from vibroacoustics.base.csv_text import FORMULA_STARTS
 from vibroacoustics.base.errors import LONGEST_LINE, SchemaError, VibroacousticsError
 from vibroacoustics.commands import outputs
 from vibroacoustics.recordings.reading import read_recording
-from vibroacoustics.results import hashed
 from vibroacoustics.results.complete import check_run
 from vibroacoustics.results.limits_file import read_limits
 from vibroacoustics.study.loading import load_study
@@ -194,13 +193,13 @@ def _deep(path: Path, chance: random.Random) -> None:
 def _claim(path: Path, chance: random.Random) -> None:
     with h5py.File(path, "w") as file:
         file.create_dataset("force", (2_000_000_000,), "f8", chunks=(1_000_000,))
-    hashed.append_hash(path)
+    append_hash(path)
 
 
 def _loop(path: Path, chance: random.Random) -> None:
     with h5py.File(path, "w") as file:
         file.create_group("a")["b"] = file["/"]
-    hashed.append_hash(path)
+    append_hash(path)
 
 
 def _machine(path: Path) -> None:

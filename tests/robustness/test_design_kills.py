@@ -1,13 +1,17 @@
 """A search of designs that is killed goes on to the same bits, here and with workers."""
 
+import json
 import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
 from random import Random
 
+import psutil
 import pytest
+from certificates import certified, needs_openssl
 from design_studies import LEFT, WEIGHT
 from support import ROOT, TINY
 
@@ -78,8 +82,65 @@ def test_search_killed_at_random(
     assert killed_and_gone_on(study, tmp_path, seed) == undisturbed
 
 
-def test_two_workers_equal_serial(study: Path, undisturbed: bytes, tmp_path: Path) -> None:
-    assert designs_of(study, tmp_path, "--workers", "2") == undisturbed
+def test_two_workers_equal_serial_without_a_network(
+    study: Path, undisturbed: bytes, tmp_path: Path
+) -> None:
+    """A worker is killed after 3 and after 6 generations; no process has a socket with a name."""
+    search = subprocess.Popen(command(study, tmp_path, "--workers", "2"), stdout=subprocess.DEVNULL)
+    deaths, most_workers = 0, 0
+    while search.poll() is None:
+        with suppress(psutil.NoSuchProcess):
+            parent = psutil.Process(search.pid)
+            children = parent.children(recursive=True)
+            for process in (parent, *children):
+                assert not [one for one in process.net_connections("all") if one.laddr]
+            workers = [one for one in children if "spawn_main" in " ".join(one.cmdline())]
+            most_workers = max(most_workers, len(workers))
+            chunks = len(list(tmp_path.glob("search_chunks/chunk_*")))
+            if workers and deaths < 2 and chunks >= 3 * (deaths + 1):
+                workers[0].kill()
+                deaths += 1
+        time.sleep(0.05)
+    assert (search.returncode, deaths, most_workers) == (0, 2, 2)
+    assert (tmp_path / "designs.csv").read_bytes() == undisturbed
+
+
+@needs_openssl
+def test_scheduler_by_tls_equals_serial(study: Path, undisturbed: bytes, tmp_path: Path) -> None:
+    """With the commands that docs/designs.md names; without TLS the scheduler does not answer."""
+    files = certified(tmp_path / "certificates")
+    dask = str(Path(sys.executable).with_name("dask"))
+    ours = [
+        word for name, path in files.items() for word in (f"--{name.replace('_', '-')}", str(path))
+    ]
+    theirs = [word.replace("--tls-ca", "--tls-ca-file") for word in ours]
+    local = ["--host", "127.0.0.1", "--no-dashboard", "--dashboard-address", "127.0.0.1:0"]
+    listing = tmp_path / "scheduler.json"
+    processes = [
+        subprocess.Popen(
+            [dask, role, *theirs, *local, "--scheduler-file", str(listing), *options],
+            stderr=subprocess.DEVNULL,
+        )
+        for role, options in (
+            ("scheduler", ["--protocol", "tls", "--port", "0"]),
+            ("worker", ["--nthreads", "1", "--no-nanny"]),
+        )
+    ]
+    try:
+        while not listing.exists():
+            time.sleep(0.1)
+        address = json.loads(listing.read_text())["address"]
+        out = tmp_path / "out"
+        assert designs_of(study, out, "--scheduler", address, *ours) == undisturbed
+        insecure = address.replace("tls:", "tcp:"), "--insecure"
+        words = command(study, tmp_path / "refused", "--scheduler", *insecure)
+        refused = subprocess.run(words, capture_output=True, text=True, check=False)
+        assert refused.returncode == 2
+        assert "no connection" in refused.stderr.splitlines()[-1]
+    finally:
+        for process in processes:
+            process.kill()
+            process.wait()
 
 
 def test_folder_of_another_study_is_refused(study: Path, tmp_path: Path) -> None:

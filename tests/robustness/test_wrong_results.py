@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from sources_study import SOURCES_STUDY, run_made_up
-from support import TINY, assert_refused, command_here, made_up_radiation, tiny_run
+from support import TINY, append_hash, assert_refused, command_here, made_up_radiation, tiny_run
 
 from vibroacoustics import pipeline, report
 from vibroacoustics.base.errors import SchemaError
@@ -393,7 +393,7 @@ def test_a_hashed_file_that_netcdf_cannot_read(places: int, tmp_path: Path) -> N
         damaged = content.copy()
         damaged[start : start + 400] = bytes(len(damaged[start : start + 400]))
         path.write_bytes(damaged)
-        hashed.append_hash(path)
+        append_hash(path)
         outcome = scored_here(path)
         if outcome.returncode:
             assert_refused(outcome, "results.nc")

@@ -32,6 +32,7 @@ import numpy as np
 import xarray as xr
 
 from vibroacoustics.base.errors import StorageError
+from vibroacoustics.base.folder import Folder
 from vibroacoustics.commands.signals import ended_by_signals
 from vibroacoustics.results import cache, manifest, storage
 from vibroacoustics.results.files import write
@@ -40,7 +41,9 @@ KINDS: Final = ("lost", "wrong", "traceback", "left")
 NAMES: Final = ("report.html", "comparison.csv", "figures/a.png")
 FAILED: Final = 70
 """Exit code of a child whose error is no `StorageError`."""
-INTERRUPTED: Final = ("files.py", "lock.py", "interruption.py", "manifest.py", "contextlib.py")
+INTERRUPTED: Final = (
+    "contextlib.py", "files.py", "folder.py", "interruption.py", "lock.py", "manifest.py",
+)  # fmt: skip
 """Files of code in which signals fall at every step."""
 Trial = Callable[[Path, random.Random], list[str]]
 """From an empty folder to what went wrong, each word one of `KINDS` or followed by its reason."""
@@ -55,9 +58,9 @@ def dataset(number: int) -> xr.Dataset:
 def write_run(folder: Path, number: int) -> None:
     """A run: results and files of theirs, one of which only every second run has."""
     with manifest.replacing(folder, "results.nc") as staged:
-        storage.stage_results(dataset(number), staged / "results.nc")
+        storage.stage_results(dataset(number), staged, "results.nc")
         for name in NAMES[: 2 + number % 2]:
-            write(staged / name, f"{name} of {number}\n".encode() * 50)
+            write(staged, name, f"{name} of {number}\n".encode() * 50)
 
 
 def seen(folder: Path) -> list[str]:
@@ -120,13 +123,13 @@ def slow_down() -> None:
     """A disk that takes its time with each file, so that half of all blows fall there."""
     replace, remove = os.replace, manifest._remove
 
-    def slow(source: Path, target: Path) -> None:
-        replace(source, target)
+    def slow(source: str, target: str, **folders: int) -> None:
+        replace(source, target, **folders)
         time.sleep(0.01)
 
-    def late(path: Path) -> None:
+    def late(folder: Folder, name: str) -> None:
         time.sleep(0.01)
-        remove(path)
+        remove(folder, name)
 
     os.replace, manifest._remove = slow, late
 
@@ -291,7 +294,8 @@ def compute_together(folder: Path, chance: random.Random) -> list[str]:
     time.sleep(chance.uniform(0.0, 0.06))
     os.kill(workers[0], signal.SIGKILL)
     codes = [ended(worker) for worker in workers]
-    cache.tidy(cache.folder())
+    with cache.opened() as opened:
+        cache.tidy(opened)
     bad = [f"lost: code {code}" for code in codes[1:] if code]
     result, _ = storage.cached("kind", {"a": 2}, compute)
     return [*bad, *([] if result.equals(dataset(2)) else ["wrong: cache"]), *left(folder)]

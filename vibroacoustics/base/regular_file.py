@@ -6,20 +6,27 @@ A pipe waits for ever and a device has no end; neither holds a study, a table or
 import errno
 import os
 import stat
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
 
+def _without_waiting(path: str, flags: int) -> int:
+    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0))
+
+
 @contextmanager
-def opened(path: Path, maximum_bytes: int) -> Iterator[BinaryIO]:
+def opened(
+    path: Path, maximum_bytes: int, opener: Callable[[str, int], int] = _without_waiting
+) -> Iterator[BinaryIO]:
     """Open a regular file of a limited size for reading.
 
     Parameters
     ----------
     path : file
     maximum_bytes : its largest size
+    opener : returns a descriptor from path and flags
 
     Raises
     ------
@@ -28,7 +35,7 @@ def opened(path: Path, maximum_bytes: int) -> Iterator[BinaryIO]:
     ValueError
         The name cannot be that of a file.
     """
-    with open(path, "rb", opener=_without_waiting) as file:
+    with open(path, "rb", opener=opener) as file:
         status = os.fstat(file.fileno())
         if not stat.S_ISREG(status.st_mode):
             raise OSError(errno.EINVAL, "no regular file", str(path))
@@ -55,7 +62,3 @@ def read_text(path: Path, maximum_bytes: int) -> str:
         It is no UTF-8.
     """
     return read_bytes(path, maximum_bytes).decode("utf-8-sig")
-
-
-def _without_waiting(path: str, flags: int) -> int:
-    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0))

@@ -15,21 +15,20 @@ def lines(clear: bool, limit_gb: float | None) -> Iterator[str]:
     StorageError
         The folder cannot be written.
     """
-    folder = cache.folder()
+    path = cache.folder()
     removed: list[cache.Entry] = []
-    with naming(folder):
-        if limit_gb is not None:
-            cache.set_limit(folder, round(1e9 * limit_gb))
-        if clear or limit_gb is not None:
+    if limit_gb is not None or (clear and path.exists()):
+        with cache.opened() as folder, naming(path):
+            if limit_gb is not None:
+                cache.set_limit(folder, round(1e9 * limit_gb))
             removed = cache.clear(folder) if clear else cache.tidy(folder)
     if removed:
         yield f"removed {len(removed)} results, {_megabytes(removed)}"
-    left = cache.entries(folder)
+    left, limit = cache.contents()
     for entry in left:
         used = datetime.fromtimestamp(entry.used_s).isoformat(" ", "minutes")
-        yield f"{used}  {entry.size_bytes / 1e6:9.1f} MB  {entry.path.name}"
-    limit = cache.limit_bytes(folder)
-    yield f"{folder}: {len(left)} results, {_megabytes(left)} of at most {limit / 1e6:g} MB"
+        yield f"{used}  {entry.size_bytes / 1e6:9.1f} MB  {entry.name}"
+    yield f"{path}: {len(left)} results, {_megabytes(left)} of at most {limit / 1e6:g} MB"
 
 
 def _megabytes(entries: list[cache.Entry]) -> str:

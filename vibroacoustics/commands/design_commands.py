@@ -1,7 +1,8 @@
 """Commands for designs. Heavy imports wait until they are needed."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
@@ -16,10 +17,15 @@ if TYPE_CHECKING:
 
     from ..design.evaluation import Evaluate
     from ..design.problem import Problem
+    from ..design.workers.spread import ParallelMap
+
+    Opener = Callable[[], AbstractContextManager[ParallelMap]]
 
 SWEEP_NAME: Final = "sweep.nc"
 TABLE_NAME: Final = "sweep.csv"
 DESIGNS_NAME: Final = "designs.nc"
+SWEEP_CHUNKS: Final = "sweep_chunks"
+SEARCH_CHUNKS: Final = "search_chunks"
 
 commands = typer.Typer()
 
@@ -35,7 +41,27 @@ Workers = Annotated[
 ]
 Scheduler = Annotated[
     str | None,
-    typer.Option(metavar="ADDRESS", help="Running scheduler of dask.distributed, for its workers."),
+    typer.Option(
+        metavar="tls://HOST:PORT", help="Running scheduler of dask.distributed, for its workers."
+    ),
+]
+TlsCa = Annotated[
+    Path | None,
+    typer.Option(metavar="FILE.pem", help="Certificate of the scheduler's own authority."),
+]
+TlsCert = Annotated[
+    Path | None,
+    typer.Option(metavar="FILE.pem", help="Your certificate, signed by this authority."),
+]
+TlsKey = Annotated[
+    Path | None, typer.Option(metavar="FILE.pem", help="Private key of your certificate.")
+]
+Insecure = Annotated[
+    bool,
+    typer.Option(
+        "--insecure",
+        help="Use a scheduler without TLS: whoever reaches it may run code as its users.",
+    ),
 ]
 
 
@@ -45,6 +71,10 @@ def sweep_command(
     out: Out = None,
     workers: Workers = 0,
     scheduler: Scheduler = None,
+    tls_ca: TlsCa = None,
+    tls_cert: TlsCert = None,
+    tls_key: TlsKey = None,
+    insecure: Insecure = False,
     plugin: Plugins = None,
     longest: Annotated[
         float,
@@ -66,13 +96,12 @@ def sweep_command(
     from .printing import printer
 
     prints = printer(pdf, paper)
+    opened = _opener(workers, scheduler, tls_ca, tls_cert, tls_key, insecure)
     problem, folder = _problem(study_file, out, plugin)
     prepared = prepare(problem, 3600.0 * longest)
     typer.echo(f"plan: {prepared.plan.text}")
     with (
-        _evaluating(
-            problem, study_file, folder / "sweep_chunks", workers, scheduler, plugin
-        ) as evaluate,
+        _evaluating(problem, study_file, folder / SWEEP_CHUNKS, opened, plugin) as evaluate,
         progress_on_stderr() as progress,
     ):
         results = swept(prepared, progress, evaluate)
@@ -98,6 +127,10 @@ def optimise_command(
     out: Out = None,
     workers: Workers = 0,
     scheduler: Scheduler = None,
+    tls_ca: TlsCa = None,
+    tls_cert: TlsCert = None,
+    tls_key: TlsKey = None,
+    insecure: Insecure = False,
     plugin: Plugins = None,
     pdf: Pdf = False,
     paper: Paper = None,
@@ -112,11 +145,10 @@ def optimise_command(
     from .printing import printer
 
     prints = printer(pdf, paper)
+    opened = _opener(workers, scheduler, tls_ca, tls_cert, tls_key, insecure)
     problem, folder = _problem(study_file, out, plugin)
     with (
-        _evaluating(
-            problem, study_file, folder / "search_chunks", workers, scheduler, plugin
-        ) as evaluate,
+        _evaluating(problem, study_file, folder / SEARCH_CHUNKS, opened, plugin) as evaluate,
         progress_on_stderr() as progress,
     ):
         search = searched_designs(problem, evaluate, progress)
@@ -133,13 +165,15 @@ def _problem(
 ) -> "tuple[Problem, Path]":
     """What the study asks, and the folder of its results, which can be written."""
     from ..design.problem import Problem
+    from ..design.store.chunks import PLAN_NAME
     from ..study import loading
     from . import outputs
 
     load_plugins(plugin)
     folder = out or Path("reports") / study_file.stem
     study = loading.load_study(study_file)
-    outputs.check_folder(folder)
+    chunks = [f"{name}/{PLAN_NAME}" for name in (SWEEP_CHUNKS, SEARCH_CHUNKS)]
+    outputs.check_folder(folder, (SWEEP_NAME, DESIGNS_NAME, *chunks))
     return Problem(study), folder
 
 
@@ -154,27 +188,49 @@ def _report(
     return report.render_designs(search) | {name: text.encode() for name, text in texts.items()}
 
 
+def _opener(
+    workers: int,
+    scheduler: str | None,
+    tls_ca: Path | None,
+    tls_cert: Path | None,
+    tls_key: Path | None,
+    insecure: bool,
+) -> "Opener | None":
+    """What opens the workers that are asked for; None where this process computes."""
+    from ..base.errors import ParameterError
+    from ..design.workers.scheduler import SchedulerAccess, opened_scheduler
+    from ..design.workers.spread import local_workers
+
+    if scheduler is not None:
+        if workers:
+            raise ParameterError("--workers contradicts --scheduler: remove one of both")
+        access = SchedulerAccess(scheduler, tls_ca, tls_cert, tls_key, insecure)
+        return partial(opened_scheduler, access)
+    if tls_ca or tls_cert or tls_key or insecure:
+        raise ParameterError("--tls-ca, --tls-cert, --tls-key, --insecure: need --scheduler")
+    return partial(local_workers, workers) if workers else None
+
+
 @contextmanager
 def _evaluating(
     problem: "Problem",
     study_file: Path,
     store_folder: Path,
-    workers: int,
-    scheduler: str | None,
+    opened: "Opener | None",
     plugins: list[Path] | None,
 ) -> "Iterator[Evaluate]":
-    """What evaluates designs: looked up in the store, else computed here or by workers."""
+    """Evaluate designs: looked up in the store, else computed here or by workers."""
     from ..design.evaluation import evaluating
     from ..design.store.chunks import Stored, opened_store
-    from ..design.workers.cluster import in_pieces, opened_workers, spread
+    from ..design.workers.spread import in_pieces, spread
     from ..design.workers.study_task import evaluate_task, study_plan, study_task
 
     given, piece = plugins or [], problem.piece
     with opened_store(store_folder, study_plan(problem.study, given)) as store:
-        if not workers and scheduler is None:
+        if opened is None:
             yield Stored(in_pieces(evaluating(problem), piece), store)
             return
         counts = len(problem.design.objectives), len(problem.design.constraints)
         task = study_task(study_file, problem.study, given)
-        with opened_workers(workers, scheduler) as client:
-            yield Stored(spread(client, evaluate_task, task, piece, counts), store)
+        with opened() as parallel_map:
+            yield Stored(spread(parallel_map, evaluate_task, task, piece, counts), store)

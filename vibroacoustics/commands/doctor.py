@@ -62,9 +62,11 @@ def _recordings() -> Iterator[str]:
 
 
 def _cache() -> str:
-    folder = cache.folder()
-    files = cache.entries(folder)
-    size, limit = sum(file.size_bytes for file in files), cache.limit_bytes(folder)
+    try:
+        files, limit = cache.contents()
+    except StorageError as error:
+        return f"not used: {error}"
+    folder, size = cache.folder(), sum(file.size_bytes for file in files)
     return f"{folder}, {len(files)} results, {size / 1e6:.1f} MB of at most {limit / 1e6:g} MB"
 
 

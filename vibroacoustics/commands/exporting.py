@@ -141,6 +141,6 @@ def export_forces(results: xr.Dataset, path: str | Path, option: str = REFERENCE
 def _written(file: Path, content: bytes) -> Path:
     """Write a file, whole or not at all."""
     with files.only_writer(file.parent) as staged:
-        files.write(staged / file.name, content)
-        files.replace_all(staged, file.parent)
+        files.write(staged, file.name, content)
+        files.replace_all(staged)
     return file

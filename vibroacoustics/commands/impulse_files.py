@@ -54,9 +54,9 @@ def write_impulse_responses(
         for listener, dof in product(listeners or known, responses["dof"].values):
             sound = at_gain(responses.sel(listener=listener, dof=dof).values, scale)
             name = f"{file_name(listener)}_{dof}_{scale:g}Pa.wav"
-            files.write(staged / name, wav_bytes(sound, SAMPLE_RATE_HZ, scale, UNITS[dof[0]]))
+            files.write(staged, name, wav_bytes(sound, SAMPLE_RATE_HZ, scale, UNITS[dof[0]]))
             written.append(folder / name)
-        files.replace_all(staged, folder)
+        files.replace_all(staged)
     return written
 
 

@@ -80,11 +80,11 @@ def listen(
         for sound in _sounds(results, cases, duration_s, calibration_db):
             name = f"{sound.name}_{full_scale:g}Pa.{file_format}"
             samples = at_gain(sound.pressure_pa, full_scale)
-            files.write(staged / name, FORMATS[file_format](samples, SAMPLE_RATE_HZ, full_scale))
+            files.write(staged, name, FORMATS[file_format](samples, SAMPLE_RATE_HZ, full_scale))
             written.append(Path(folder) / name)
         if len(set(written)) < len(written):
             raise ParameterError("options: two of them have the same name of a file; write one")
-        files.replace_all(staged, Path(folder))
+        files.replace_all(staged)
     return written
 
 

@@ -10,6 +10,9 @@ from pathlib import Path
 from typing import Any, Final, TextIO
 
 from ..base.errors import StorageError, VibroacousticsError
+from ..base.folder import Folder, opened_folder
+
+_MAXIMUM_BYTES: Final = 1_000_000_000
 
 _LOG: Final[ContextVar[TextIO | None]] = ContextVar("_LOG", default=None)
 
@@ -27,7 +30,8 @@ def logged(path: Path | None) -> Iterator[None]:
         yield
         return
     try:
-        file = path.open("a", encoding="utf-8", buffering=1)
+        with opened_folder(path.parent) as folder:
+            file = _appending(folder, path.name)
     except OSError as error:
         raise StorageError(f"{path}: cannot be written: {error.strerror}") from None
     with file:
@@ -40,6 +44,14 @@ def logged(path: Path | None) -> Iterator[None]:
             raise
         finally:
             _LOG.reset(token)
+
+
+def _appending(folder: Folder, name: str) -> TextIO:
+    """Open a log; one with several hard links is replaced by a copy."""
+    status = folder.status(name)
+    if status is not None and status.st_nlink > 1:
+        folder.write(name, folder.read_bytes(name, _MAXIMUM_BYTES))
+    return open(name, "a", encoding="utf-8", buffering=1, opener=folder.open)
 
 
 def note(line: str) -> None:

@@ -1,7 +1,7 @@
 """What a run leaves on disk: the dataset, the report, its tables and figures."""
 
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
@@ -10,11 +10,13 @@ import xarray as xr
 
 from .. import report
 from ..base.errors import ParameterError, SchemaError, StorageError
+from ..base.folder import Folder, opened_folder
 from ..report.figures import Picture
 from ..results import manifest, storage
 from ..results.complete import check_run
 from ..results.figure_limits import CheckedFigure, Compared
-from ..results.files import write
+from ..results.files import LOCK_NAME, STAGING_NAME, write
+from ..results.files import naming as writing
 from ..results.provenance import RECORDING_SCHEMA_VERSION, SCHEMA_VERSION
 from .printing import Printer
 
@@ -41,6 +43,7 @@ REPORT_FILES: Final = (
     "figures/*.svg",
 )
 """What a report may consist of."""
+RUN_FILES: Final = (manifest.MANIFEST_NAME, RESULTS_NAME, *REPORT_FILES)
 
 
 def open_run(path: str | Path) -> tuple[xr.Dataset, str]:
@@ -97,24 +100,34 @@ def _open_of_this_version(path: str | Path) -> tuple[xr.Dataset, str]:
     return results, digest
 
 
-def check_folder(folder: str | Path) -> None:
+def check_folder(folder: str | Path, files: Iterable[str] = ()) -> None:
     """Refuse a folder that cannot be written, before anything is computed.
+
+    Parameters
+    ----------
+    folder : of the results
+    files : names of what will be written in it
 
     Raises
     ------
     StorageError
-        It lies under a file or in a folder without write permission, or its name is no UTF-8,
-        which netCDF cannot write.
+        It lies under a file or in a folder without write permission, a name of a file is that of a
+        link, pipe, socket or device, or the folder's name is no UTF-8, which netCDF cannot write.
     """
     try:
         str(folder).encode()
     except UnicodeEncodeError:
         raise StorageError(f"{str(folder)!a}: cannot be written: the name is no UTF-8") from None
     existing = Path(folder).absolute()
-    while not existing.exists():
+    while not os.path.lexists(existing):
         existing = existing.parent
     if not existing.is_dir() or not os.access(existing, os.W_OK):
         raise StorageError(f"{folder}: cannot be written: {existing} is no writable folder")
+    if existing == Path(folder).absolute():
+        with writing(Path(folder)), opened_folder(existing) as present:
+            present.check_folder(STAGING_NAME)
+            for name in (LOCK_NAME, *files):
+                present.check_file(name)
 
 
 def write_report(results: xr.Dataset, folder: str | Path) -> Path:
@@ -145,7 +158,7 @@ def write_report(results: xr.Dataset, folder: str | Path) -> Path:
     """
     kept = report.keep(results)
     with manifest.replacing(Path(folder), RESULTS_NAME) as staged:
-        digest = storage.stage_results(kept, staged / RESULTS_NAME)
+        digest = storage.stage_results(kept, staged, RESULTS_NAME)
         _stage(report.render(kept, digest), staged)
     return Path(folder) / REPORT_NAME
 
@@ -238,11 +251,11 @@ def write_analysis(
         **{f"{picture.name}.{picture.ending}": picture.png for picture in figures(results)},
     }
     with manifest.replacing(Path(folder), name) as staged:
-        storage.stage_results(results, staged / name)
+        storage.stage_results(results, staged, name)
         _stage(files, staged)
     return Path(folder) / name
 
 
-def _stage(files: Mapping[str, bytes], staged: Path) -> None:
+def _stage(files: Mapping[str, bytes], staged: Folder) -> None:
     for name, content in files.items():
-        write(staged / name, content)
+        write(staged, name, content)

@@ -2,6 +2,7 @@
 
 import xarray as xr
 
+from ..base import rounding
 from ..base.errors import ParameterError
 from ..report.tables import Table, to_text
 from ..report.tones import TONE_HEAD, tone_row
@@ -10,6 +11,7 @@ from ..sound.recorded import narrow_bands, recorded_spectrum
 from ..sound.tonality import Tone, tones
 
 MOST_TONES = 20
+_COURSE_HEAD = ("time, %", "swing, dB")
 _PROMINENT = {(True, True): "both", (True, False): "noise", (False, True): "bands"}
 
 
@@ -39,10 +41,10 @@ def _of_channel(channel: xr.DataArray, sample_rate_hz: float) -> str:
     name = str(channel["channel"].item())
     bands = narrow_bands(channel.values, sample_rate_hz)
     judged = [tone for tone in tones(recorded_spectrum(bands)) if tone.noise_ratio_db > 0.0]
-    rows = tuple((*tone_row(tone), _which(tone)) for tone in judged[:MOST_TONES])
+    rows = tuple((*tone_row(tone), *_course(tone), _which(tone)) for tone in judged[:MOST_TONES])
     caption = f"{name}: {len(judged)} tones above the noise of their critical band"
     text = (
-        to_text(Table(caption, (*TONE_HEAD, "prominent"), rows, frozenset({0, 5})))
+        to_text(Table(caption, (*TONE_HEAD, *_COURSE_HEAD, "prominent"), rows, frozenset({0, 7})))
         if rows
         else f"{name}: no tone stands above the noise of its critical band\n"
     )
@@ -52,6 +54,11 @@ def _of_channel(channel: xr.DataArray, sample_rate_hz: float) -> str:
     return (
         f"{text}loudness {loud.loudness_sone:.3g} sone, sharpness {loud.sharpness_acum:.2f} acum\n"
     )
+
+
+def _course(tone: Tone) -> tuple[str, str]:
+    """Share of the time that a tone sounds, and how its level swings meanwhile."""
+    return f"{100.0 * tone.share:.0f}", rounding.fixed(tone.swing_db)
 
 
 def _which(tone: Tone) -> str:

@@ -93,7 +93,7 @@ def _studies(files: Sequence[Path], out: Path | None, coarse: bool) -> "list[tup
         if folder in [other for _, other in studies]:
             raise ParameterError(f"{file}: two studies would write to {folder}; run one by one")
         study = load_study(file)
-        outputs.check_folder(folder)
+        outputs.check_folder(folder, outputs.RUN_FILES)
         if coarse:
             study = coarser(study)
             if not study.coarsened:

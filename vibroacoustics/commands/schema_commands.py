@@ -27,11 +27,11 @@ def new_command(
     files |= {f"{starter.SCHEMAS_NAME}/{name}": text for name, text in _schemas().items()}
     with only_writer(folder) as staged:
         for name in files:
-            if (folder / name).exists():
+            if staged.target.status(name) is not None:
                 raise StorageError(f"{folder / name}: is there already; nothing is written")
         for name, content in files.items():
-            write(staged / name, content)
-        replace_all(staged, folder)
+            write(staged, name, content)
+        replace_all(staged)
     study = folder / starter.STUDY_NAME
     for name in files:
         typer.echo(f"written: {folder / name}")
@@ -50,8 +50,8 @@ def schema_command(
     schemas = _schemas() | _sheet_schema()
     with only_writer(out) as staged:
         for name, content in schemas.items():
-            write(staged / name, content)
-        replace_all(staged, out)
+            write(staged, name, content)
+        replace_all(staged)
     for name in ("study.json", "machine.json"):
         typer.echo(f"#:schema {out / name}")
 

@@ -33,7 +33,7 @@ def score_command(
 
     load_plugins(plugin)
     folder = out or results_file.parent / "scored"
-    outputs.check_folder(folder)
+    outputs.check_folder(folder, outputs.RUN_FILES)
     results, _ = outputs.open_run(results_file)
     messages.warn(manifest.mixed(results_file.parent))
     settings = loading.load_study(scoring_of).scoring if scoring_of else None

@@ -45,6 +45,6 @@ def write_data_sheet(sheet: "DataSheet", folder: str | Path) -> Path:
     }
     with only_writer(Path(folder)) as staged:
         for file, content in files.items():
-            write(staged / file, content)
-        replace_all(staged, Path(folder))
+            write(staged, file, content)
+        replace_all(staged)
     return Path(folder) / f"{name}.html"

@@ -4,14 +4,16 @@ import csv
 import io
 from math import isfinite
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import xarray as xr
 
+from ..base.regular_file import read_text
 from ..study.study import Study
 from .outputs import REPORT_NAME, RESULTS_NAME
 
-_ROWS = ("comparison", "scores")
+_MAXIMUM_BYTES: Final = 100_000_000
+_ROWS: Final = ("comparison", "scores")
 
 
 def summary(study: Study, results: xr.Dataset, folder: Path, seconds: float) -> dict[str, Any]:
@@ -33,7 +35,7 @@ def summary(study: Study, results: xr.Dataset, folder: Path, seconds: float) -> 
         "seconds": round(seconds, 1),
         "draws": int(results.sizes.get("draw", 0)),
         "coarsened": list(study.coarsened),
-        **{name: _rows((folder / f"{name}.csv").read_text(encoding="utf-8")) for name in _ROWS},
+        **{name: _rows(read_text(folder / f"{name}.csv", _MAXIMUM_BYTES)) for name in _ROWS},
     }
 
 

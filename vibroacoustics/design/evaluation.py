@@ -2,11 +2,14 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..base.arrays import Array
-from .problem import Problem
+
+if TYPE_CHECKING:
+    from .problem import Problem
 
 
 @dataclass(frozen=True)
@@ -44,7 +47,7 @@ def joined(parts: list[Evaluation]) -> Evaluation:
     )
 
 
-def evaluating(problem: Problem) -> Evaluate:
+def evaluating(problem: "Problem") -> Evaluate:
     """The evaluation of designs in SI in this process."""
 
     def evaluate(designs: Array) -> Evaluation:

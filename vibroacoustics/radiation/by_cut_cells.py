@@ -24,6 +24,7 @@ from .machine_side import (
 )
 from .near_field import NearField
 from .near_memory import check_memory
+from .neglected_echo import SAFETY, neglected_echo
 from .room_green import check_receiver
 from .room_greens import room_greens
 from .task import Microphones, Task
@@ -89,7 +90,7 @@ class ByCutCells:
         check_grids_agree(closed, task.settings)
         vectors: Vectors = {
             "transfer_vector": closed.pressure,
-            "transfer_vector_error": closed.error,
+            "transfer_vector_error": with_neglected_echo(closed, task),
         }
         if side.in_room is not None:
             correction = closed.correction[task.kwave_rows, :, task.kwave_table]
@@ -108,8 +109,17 @@ class ByCutCells:
             "near_field_spacing_m": grid.spacing_m,
             "near_field_time_step_s": grid.time_step_s,
             "near_field_extrapolation": f"from {COARSENING:g} times the spacing, second order",
-            "neglected": "echoes of absorbing or distant walls, scattered again by the shell",
+            "neglected": "echoes of absorbing or distant walls, scattered again by the shell "
+            "(in the estimated error)",
         }
+
+
+def with_neglected_echo(closed: Radiated, task: Task) -> Array:
+    """Return the estimated error at the microphones, (receiver, pattern, frequency), Pa."""
+    share = neglected_echo(task.scene, task.patterns, task.table_hz, task.receivers.points)
+    largest = np.abs(closed.pressure).max(axis=0)
+    error: Array = closed.error + SAFETY * share * largest
+    return error
 
 
 def _check_receivers(task: Task, near: list[NearField]) -> None:

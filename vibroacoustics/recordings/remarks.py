@@ -7,6 +7,10 @@ from typing import Any, Final
 
 _NEVER_OVERLOADED: Final = ("rpm", "rad/s", "rad", "1")
 """Units of channels that stay at one value, or jump from one to another."""
+_MAY_BE_PULSES: Final = "V"
+"""Unit of tachos and switches, which are at one extreme or the other for most of the time."""
+_LEAST_BETWEEN: Final = 0.5
+"""Share of the samples between the extremes; pulses have fewer."""
 
 
 class RecordingWarning(UserWarning):
@@ -30,6 +34,8 @@ def overload_lines(header: Mapping[str, Any], units: Iterable[str]) -> list[str]
     lines = []
     for name, unit, overload in zip(header["names"], units, header["overloads"], strict=True):
         if overload is None or str(unit) in _NEVER_OVERLOADED:
+            continue
+        if str(unit) == _MAY_BE_PULSES and overload["between"] < _LEAST_BETWEEN:
             continue
         time_s = (header["first_sample"] + overload["first"]) / header["sample_rate_hz"]
         lines.append(

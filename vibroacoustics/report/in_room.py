@@ -2,6 +2,7 @@
 
 from typing import Final
 
+import numpy as np
 import xarray as xr
 
 from ..base import rounding
@@ -112,6 +113,32 @@ def seam_sentence(results: xr.Dataset) -> str:
         "where single third octaves may be 5 dB off (assumed). "
         f"From that mean single listeners differ by more at {', '.join(alone) or none}."
     )
+
+
+def absorption(results: xr.Dataset) -> list[Table]:
+    """Return requested and computed absorption by octave; results of earlier versions have none.
+
+    Surfaces that are alike have one row.
+    """
+    if "room_wall_absorption" not in results:
+        return []
+    rows: dict[tuple[str, ...], list[str]] = {}
+    for surface in results["room_surface"].values:
+        at = results.sel(room_surface=surface)
+        cells = zip(
+            at["room_wall_absorption_requested"].values,
+            at["room_wall_absorption"].values,
+            strict=True,
+        )
+        row = tuple(f"{one:.2f} → {_absorption(in_waves)}" for one, in_waves in cells)
+        rows.setdefault(row, []).append(str(surface).partition(".")[2])
+    head = ("Surfaces", *(f"{octave:g} Hz" for octave in results["room_octave"].values))
+    caption = "Absorption at random incidence by octave: requested → in the waves"
+    return [Table(caption, head, tuple((", ".join(names), *row) for row, names in rows.items()))]
+
+
+def _absorption(ratio: float) -> str:
+    return rounding.NOTHING if np.isnan(ratio) else f"{ratio:.2f}"
 
 
 def power_sentence(results: xr.Dataset) -> str:

@@ -1,24 +1,31 @@
 """The folder of the cache: what is in it, how large it may get, and what the dead left in it."""
 
 import os
-import shutil
-from contextlib import suppress
+import stat
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager, suppress
+from fnmatch import fnmatch
 from pathlib import Path
 from typing import Final, NamedTuple
 
 import platformdirs
 
+from ..base.errors import StorageError
+from ..base.folder import Folder, make_folder, opened_folder
+from .files import naming, replace_all, staging, write
 from .hashed import hash_path
-from .lock import is_held, taken
+from .lock import is_held, locked, taken
 
 DEFAULT_LIMIT_BYTES: Final = 2_000_000_000
 LIMIT_NAME: Final = "limit_bytes"
+_MAXIMUM_LIMIT_BYTES: Final = 100
+_LEFTOVERS: Final = ("*.nc.lock", ".*.nc*", "*.nc.sha256")
 
 
 class Entry(NamedTuple):
     """A cached result: file, size, and when it was last used, in seconds since 1970."""
 
-    path: Path
+    name: str
     size_bytes: int
     used_s: float
 
@@ -28,47 +35,96 @@ def folder() -> Path:
     return Path(platformdirs.user_cache_dir("vibroacoustics"))
 
 
-def lock_of(path: Path) -> Path:
+@contextmanager
+def opened() -> Iterator[Folder]:
+    """Open the folder of the cache, which no other user can write; it is made where it is missing.
+
+    Raises
+    ------
+    StorageError
+        It cannot be made or opened, belongs to another user or is writable by all.
+    """
+    path = folder()
+    with ExitStack() as stack:
+        with naming(path):
+            make_folder(path, 0o700)
+            at = stack.enter_context(opened_folder(path))
+            _make_private(at)
+        yield at
+
+
+def _make_private(at: Folder) -> None:
+    """Refuse a folder that others may have written to; take the rights of its group away."""
+    status = os.fstat(at.descriptor)
+    if status.st_uid != os.geteuid():
+        raise StorageError(f"{at.path}: belongs to another user: set XDG_CACHE_HOME, or remove it")
+    if status.st_mode & stat.S_IWOTH:
+        raise StorageError(f"{at.path}: is writable by all users: remove it")
+    if status.st_mode & stat.S_IWGRP:
+        os.fchmod(at.descriptor, 0o700)
+
+
+def contents() -> tuple[list[Entry], int]:
+    """What is cached, and how large the cache may get, bytes; the folder is not made.
+
+    Raises
+    ------
+    StorageError
+        The folder is not used.
+    """
+    if not os.path.exists(folder()):
+        return [], DEFAULT_LIMIT_BYTES
+    with opened() as at:
+        return entries(at), limit_bytes(at)
+
+
+def lock_of(name: str) -> str:
     """Lock of an entry."""
-    return path.with_name(f"{path.name}.lock")
+    return f"{name}.lock"
 
 
-def staging_of(path: Path) -> Path:
+def staging_of(name: str) -> str:
     """Hidden folder to write an entry to; who holds its lock owns it."""
-    return path.with_name(f".{path.name}.writing")
+    return f".{name}.writing"
 
 
-def mark_used(path: Path) -> None:
-    """Note that an entry is used now, where that can be noted."""
-    with suppress(OSError):
-        os.utime(path)
+def mark_used(at: Folder, name: str) -> None:
+    """Note that an entry is used now, where that can be noted and changes no other file."""
+    status = at.status(name)
+    if status is not None and status.st_nlink == 1:
+        with suppress(OSError):
+            os.utime(name, dir_fd=at.descriptor, follow_symlinks=False)
 
 
-def entries(at: Path) -> list[Entry]:
+def entries(at: Folder) -> list[Entry]:
     """What is cached, the least recently used first."""
     listed = []
-    for path in at.glob("*.nc"):
-        with suppress(FileNotFoundError):  # another process takes it away
-            status = path.stat()
-            listed.append(Entry(path, status.st_size, status.st_mtime))
+    for name in os.listdir(at.descriptor):
+        status = at.status(name)  # none where another process takes it away
+        if name.endswith(".nc") and status is not None and stat.S_ISREG(status.st_mode):
+            listed.append(Entry(name, status.st_size, status.st_mtime))
     return sorted(listed, key=lambda entry: entry.used_s)
 
 
-def limit_bytes(at: Path) -> int:
+def limit_bytes(at: Folder) -> int:
     """How large the cache may get: as set, else 2 GB."""
     try:
-        return max(int((at / LIMIT_NAME).read_text()), 0)
-    except (OSError, ValueError):
+        return max(int(at.read_bytes(LIMIT_NAME, _MAXIMUM_LIMIT_BYTES)), 0)
+    except (OSError, StorageError, ValueError):
         return DEFAULT_LIMIT_BYTES
 
 
-def set_limit(at: Path, limit: int) -> None:
+def set_limit(at: Folder, limit: int) -> None:
     """Set how large the cache may get, bytes, from now on."""
-    at.mkdir(parents=True, exist_ok=True)
-    (at / LIMIT_NAME).write_text(f"{limit}\n")
+    with (
+        locked(at, lock_of(LIMIT_NAME), f"cache {LIMIT_NAME}"),
+        staging(at, staging_of(LIMIT_NAME)) as staged,
+    ):
+        write(staged, LIMIT_NAME, f"{limit}\n".encode())
+        replace_all(staged)
 
 
-def tidy(at: Path) -> list[Entry]:
+def tidy(at: Folder) -> list[Entry]:
     """Remove what the dead left, and the least recently used entries above the limit.
 
     Returns
@@ -79,37 +135,47 @@ def tidy(at: Path) -> list[Entry]:
     return _shrink(at, limit_bytes(at))
 
 
-def clear(at: Path) -> list[Entry]:
+def clear(at: Folder) -> list[Entry]:
     """Remove every entry and what the dead left; returns the entries."""
     _remove_leftovers(at)
     return _shrink(at, 0)
 
 
-def _shrink(at: Path, limit: int) -> list[Entry]:
+def _shrink(at: Folder, limit: int) -> list[Entry]:
     present = entries(at)
     size = sum(entry.size_bytes for entry in present)
     removed = []
     for entry in present:
         if size <= limit:
             break
-        entry.path.unlink(missing_ok=True)
-        hash_path(entry.path).unlink(missing_ok=True)
+        at.remove(entry.name)
+        at.remove(_hash_of(entry.name))
         size -= entry.size_bytes
         removed.append(entry)
     return removed
 
 
-def _remove_leftovers(at: Path) -> None:
+def _remove_leftovers(at: Folder) -> None:
     """Locks, hidden files and hashes without an entry, of processes that are gone."""
-    for path in [*at.glob("*.nc.lock"), *at.glob(".*.nc*"), *at.glob("*.nc.sha256")]:
-        entry = path.with_name(path.name.removeprefix(".").partition(".nc")[0] + ".nc")
+    for name in os.listdir(at.descriptor):
+        if not any(fnmatch(name, pattern) for pattern in _LEFTOVERS):
+            continue
+        entry = name.removeprefix(".").partition(".nc")[0] + ".nc"
         lock = lock_of(entry)
-        if path == lock and is_held(lock):
+        if name == lock and is_held(at, lock):
             continue
-        if path == hash_path(entry) and entry.exists():
+        if name == _hash_of(entry) and at.holds_file(entry):
             continue
-        with taken(lock) as held:
-            if held and path.is_dir():
-                shutil.rmtree(path, ignore_errors=True)
-            elif held and path != lock:
-                path.unlink(missing_ok=True)
+        with taken(at, lock) as held:
+            if held and name != lock:
+                _remove_any(at, name)
+
+
+def _remove_any(at: Folder, name: str) -> None:
+    at.remove_tree(name)
+    with suppress(IsADirectoryError):  # not all in it could be removed
+        at.remove(name)
+
+
+def _hash_of(name: str) -> str:
+    return hash_path(Path(name)).name

@@ -1,27 +1,40 @@
 """Files that appear whole or not at all, several of them together.
 
 They are written to a hidden folder, synced, and moved to their names; until then, what was there
-before stays as it is. A folder has one writer at a time.
+before stays as it is. A folder has one writer at a time. Nothing outside the folder is changed.
 """
 
 import os
-import shutil
 from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Final
 
 from ..base.errors import StorageError
-from .interruption import cleared, uninterrupted
+from ..base.folder import Folder, make_folder, missing_folders, opened_folder
+from .interruption import cleared, cleared_in, uninterrupted
 from .lock import locked
 
 STAGING_NAME: Final = ".writing"
 LOCK_NAME: Final = ".lock"
 
 
+@dataclass(frozen=True)
+class Staging(Folder):
+    """A hidden folder to write to.
+
+    Attributes
+    ----------
+    target : where `replace_all` moves the files
+    """
+
+    target: Folder
+
+
 @contextmanager
-def only_writer(folder: Path) -> Iterator[Path]:
+def only_writer(path: Path) -> Iterator[Staging]:
     """Be the only writer of a folder, with an empty hidden folder in it to write to.
 
     A folder that was made for it goes again on failure.
@@ -31,13 +44,13 @@ def only_writer(folder: Path) -> Iterator[Path]:
     StorageError
         The folder cannot be written.
     """
-    made = [path for path in (folder, *folder.parents) if not path.exists()]
     with ExitStack() as stack:
-        stack.enter_context(cleared(partial(_remove_empty, made)))
-        with naming(folder):
-            folder.mkdir(parents=True, exist_ok=True)
-            stack.enter_context(locked(folder / LOCK_NAME, str(folder)))
-        with staging(folder / STAGING_NAME) as staged:
+        stack.enter_context(cleared(partial(_remove_empty, missing_folders(path))))
+        with naming(path):
+            make_folder(path)
+            folder = stack.enter_context(opened_folder(path))
+            stack.enter_context(locked(folder, LOCK_NAME, str(path)))
+        with staging(folder, STAGING_NAME) as staged:
             yield staged
 
 
@@ -48,63 +61,79 @@ def _remove_empty(folders: Iterable[Path]) -> None:
 
 
 @contextmanager
-def staging(staged: Path) -> Iterator[Path]:
-    """An empty folder, which is gone in the end; its lock is held."""
-    remove = partial(shutil.rmtree, staged, ignore_errors=True)
-    remove()  # of a writer that was killed
-    with cleared(remove):
-        with naming(staged.parent):
-            staged.mkdir()
-        yield staged
+def staging(target: Folder, name: str) -> Iterator[Staging]:
+    """An empty folder in another, which is gone in the end; its lock is held.
+
+    Nobody else can write in it, so that a library may write there by name.
+
+    Raises
+    ------
+    StorageError
+        It cannot be made, or its name is taken.
+    """
+    target.check_folder(name)
+    target.remove_tree(name)  # of a writer that was killed
+    if target.status(name) is not None:
+        raise StorageError(f"{target.path / name}: is of another user's run: remove it")
+    with cleared_in(target, partial(_remove_tree, name)), ExitStack() as stack:
+        with naming(target.path):
+            os.mkdir(name, 0o700, dir_fd=target.descriptor)
+            folder = stack.enter_context(target.below(name))
+        yield Staging(folder.path, folder.descriptor, target)
 
 
-def write(path: Path, content: bytes) -> None:
-    """Write a file and carry it to the disk, into a folder that is made for it.
+def _remove_tree(name: str, folder: Folder) -> None:
+    folder.remove_tree(name)
+
+
+def write(staged: Folder, name: str, content: bytes) -> None:
+    """Write a file and carry it to the disk; folders on the way to it are made.
 
     Raises
     ------
     StorageError
         It cannot be written.
     """
-    with naming(path):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(content)
-        sync(path)
+    with naming(staged.path / name):
+        staged.write(name, content)
 
 
-def files_in(folder: Path) -> list[str]:
-    """Names of all files below a folder, `/` between the parts."""
-    return sorted(p.relative_to(folder).as_posix() for p in folder.rglob("*") if p.is_file())
-
-
-def replace_all(staged: Path, folder: Path, first: str = "") -> None:
+def replace_all(staged: Staging, first: str = "") -> None:
     """Move all that was written to its names; no signal comes between.
 
     Parameters
     ----------
     staged : where it was written, each file synced
-    folder : where it goes
     first : the file that goes first
 
     Raises
     ------
     StorageError
-        A name is taken by a folder, which is seen before any file is replaced, or the disk fails.
+        A name is taken by a folder, link, pipe, socket or device, which is seen before any file
+        is replaced, or the disk fails.
     """
-    names = sorted(files_in(staged), key=lambda name: name != first)
+    names = sorted(map(PurePosixPath, staged.files()), key=lambda name: str(name) != first)
     for name in names:
-        if (folder / name).is_dir():
-            raise StorageError(f"{folder / name}: cannot be written: a folder has this name")
-    for parent in {(folder / name).parent for name in names}:
-        with naming(parent):
-            parent.mkdir(exist_ok=True)
-    with uninterrupted():
-        for name in names:
-            with naming(folder / name):
-                os.replace(staged / name, folder / name)
-        for parent in {(folder / name).parent for name in names}:
-            with naming(parent):
-                sync(parent)
+        staged.target.check_file(str(name))
+    with ExitStack() as stack:
+        folders = {}
+        for parent in {name.parent for name in names}:
+            with naming(staged.target.path / parent):
+                source = stack.enter_context(staged.below(parent))
+                target = stack.enter_context(staged.target.below(parent, make=True))
+                folders[parent] = source, target
+        with uninterrupted():
+            for name in names:
+                source, target = folders[name.parent]
+                with naming(target.path / name.name):
+                    _move(name.name, source, target)
+            for _, target in folders.values():
+                with naming(target.path):
+                    target.sync()
+
+
+def _move(name: str, source: Folder, target: Folder) -> None:
+    os.replace(name, name, src_dir_fd=source.descriptor, dst_dir_fd=target.descriptor)
 
 
 @contextmanager
@@ -115,12 +144,3 @@ def naming(path: Path) -> Iterator[None]:
     except OSError as error:
         name = Path(*(part for part in path.parts if part != STAGING_NAME))
         raise StorageError(f"{name}: cannot be written: {error.strerror or error}") from None
-
-
-def sync(path: Path) -> None:
-    """Carry a file, or the names in a folder, to the disk."""
-    descriptor = os.open(path, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)

@@ -7,12 +7,14 @@ rewrites the file in place loses or breaks it, and that is seen.
 import hashlib
 import os
 import re
+from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import Final, NamedTuple
+from typing import BinaryIO, Final, NamedTuple
 
 from ..base.errors import StorageError
+from ..base.folder import Folder
 from ..base.hashing import sha256
-from ..base.regular_file import opened, read_bytes
+from ..base.regular_file import opened
 
 _LINE: Final = re.compile(rb"\nvibroacoustics sha256 ([0-9a-f]{64})\n")
 _MAXIMUM_HASH_BYTES: Final = 4096
@@ -28,25 +30,31 @@ class Checked(NamedTuple):
     sha256: str
 
 
-def append_hash(path: Path) -> str:
-    """Hash of a file's content, which becomes its last line."""
-    with path.open("r+b") as file:
-        digest = hashlib.file_digest(file, "sha256").hexdigest()
-        file.seek(0, os.SEEK_END)
-        file.write(f"\nvibroacoustics sha256 {digest}\n".encode())
+def append_hash(file: BinaryIO) -> str:
+    """Hash of an open file's content, which becomes its last line."""
+    digest = hashlib.file_digest(file, "sha256").hexdigest()  # type: ignore[arg-type]
+    file.seek(0, os.SEEK_END)
+    file.write(f"\nvibroacoustics sha256 {digest}\n".encode())
     return digest
 
 
-def read_checked(path: Path) -> Checked:
+def read_checked(path: Path, folder: Folder | None = None) -> Checked:
     """Content of a file that fits its hash.
+
+    Parameters
+    ----------
+    path : of the file
+    folder : holds it, where no link to another may be followed
 
     Raises
     ------
     StorageError
         The file is missing, has no hash, or does not match it.
     """
-    beside = hash_beside(path)  # before the content: who replaces that takes this away afterwards
-    body, end = _read(path)
+    beside = hash_beside(
+        path, folder
+    )  # before the content: who replaces that takes this away afterwards
+    body, end = _read(path, folder)
     line = _LINE.fullmatch(end)
     stored = line[1].decode() if line else beside
     if stored is None:
@@ -58,27 +66,32 @@ def read_checked(path: Path) -> Checked:
     return Checked(body, stored)
 
 
-def stored_hash(path: Path) -> str | None:
+def stored_hash(path: Path, folder: Folder | None = None) -> str | None:
     """Hash that stands in a file or, of earlier versions, beside it; None where there is none."""
     try:
-        with opened(path, MAXIMUM_RESULTS_BYTES) as file:
+        with _opened(path, folder, MAXIMUM_RESULTS_BYTES) as file:
             file.seek(-min(_LENGTH, os.fstat(file.fileno()).st_size), os.SEEK_END)
             line = _LINE.fullmatch(file.read())
-    except OSError:
+    except (OSError, StorageError):
         return None
-    return line[1].decode() if line else hash_beside(path)
+    return line[1].decode() if line else hash_beside(path, folder)
 
 
-def hash_beside(path: Path) -> str | None:
+def hash_beside(path: Path, folder: Folder | None = None) -> str | None:
     """Hash in `NAME.sha256`, as earlier versions wrote it; None where there is none."""
     try:
-        return (
-            read_bytes(hash_path(path), _MAXIMUM_HASH_BYTES)
-            .split(b" ")[0]
-            .decode("ascii", "replace")
-        )
-    except OSError:
+        with _opened(hash_path(path), folder, _MAXIMUM_HASH_BYTES) as file:
+            return file.read().split(b" ")[0].decode("ascii", "replace")
+    except (OSError, StorageError):
         return None
+
+
+def _opened(
+    path: Path, folder: Folder | None, maximum_bytes: int
+) -> AbstractContextManager[BinaryIO]:
+    if folder is None:
+        return opened(path, maximum_bytes)
+    return folder.opened(str(path.relative_to(folder.path)), maximum_bytes)
 
 
 def hash_path(path: Path) -> Path:
@@ -86,10 +99,10 @@ def hash_path(path: Path) -> Path:
     return path.with_name(path.name + ".sha256")
 
 
-def _read(path: Path) -> tuple[bytes, bytes]:
+def _read(path: Path, folder: Folder | None) -> tuple[bytes, bytes]:
     """Content and what may be its last line, apart."""
     try:
-        with opened(path, MAXIMUM_RESULTS_BYTES) as file:
+        with _opened(path, folder, MAXIMUM_RESULTS_BYTES) as file:
             body = file.read(max(os.fstat(file.fileno()).st_size - _LENGTH, 0))
             return body, file.read()
     except FileNotFoundError:

@@ -1,10 +1,13 @@
 """Short steps that a signal must not cut in two, and what must be cleared up after one."""
 
+import os
 import signal
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import Final
+
+from ..base.folder import Folder
 
 _HELD_BACK: Final = (signal.SIGINT, signal.SIGTERM, signal.SIGALRM)
 
@@ -47,6 +50,21 @@ def cleared(clear: Callable[[], object]) -> Iterator[None]:
         with uninterrupted():
             del _CLEARING[key]
             clear()
+
+
+@contextmanager
+def cleared_in(folder: Folder, clear: Callable[[Folder], object]) -> Iterator[None]:
+    """Call `clear` of a folder in the end; `clear_up` may do so when the folder is closed."""
+    duplicate = folder.duplicate()
+
+    def clear_and_close() -> None:
+        try:
+            clear(duplicate)
+        finally:
+            os.close(duplicate.descriptor)
+
+    with cleared(clear_and_close):
+        yield
 
 
 def clear_up() -> None:

@@ -15,82 +15,87 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from datetime import datetime
 from functools import partial
-from pathlib import Path
 from typing import Final
 
-from .interruption import cleared, uninterrupted
+from ..base.errors import StorageError
+from ..base.folder import Folder
+from .interruption import cleared_in, uninterrupted
 
 PATIENCE_S: Final = 0.3
 """A wait that is shorter is not worth a line."""
 _PAUSE_S: Final = 0.02
+_MAXIMUM_BYTES: Final = 4096
 _NO_LOCKS: Final = (errno.ENOLCK, errno.ENOTSUP, errno.EOPNOTSUPP, errno.ENOSYS)
 """Of file systems without locks. There, each file still appears whole or not at all."""
 
 
 @contextmanager
-def locked(path: Path, what: str) -> Iterator[None]:
+def locked(folder: Folder, name: str, what: str) -> Iterator[None]:
     """Hold a lock; another's is waited for, and named in one warning.
 
     Parameters
     ----------
-    path : file of the lock, in a folder that exists
+    folder : of the lock
+    name : of its file
     what : what is locked, in words for who waits
 
     Raises
     ------
+    StorageError
+        The name is taken by something else.
     OSError
         The file cannot be made.
     """
     begin, announced = time.monotonic(), False
     while True:
-        with taken(path) as held:
+        with taken(folder, name) as held:
             if held:
                 yield
                 return
         if not announced and time.monotonic() - begin > PATIENCE_S:
-            warnings.warn(f"{what}: waiting for {holder(path)}", stacklevel=3)
+            warnings.warn(f"{what}: waiting for {holder(folder, name)}", stacklevel=3)
             announced = True
         time.sleep(_PAUSE_S)
 
 
 @contextmanager
-def taken(path: Path) -> Iterator[bool]:
+def taken(folder: Folder, name: str) -> Iterator[bool]:
     """Hold a lock where no other holds it; whether it is held."""
     descriptors: list[int] = []
-    with cleared(partial(_release, path, descriptors)):
-        _acquire(path, descriptors)
+    with cleared_in(folder, partial(_release, name, descriptors)):
+        _acquire(folder, name, descriptors)
         yield bool(descriptors)
 
 
-def _acquire(path: Path, descriptors: list[int]) -> None:
+def _acquire(folder: Folder, name: str, descriptors: list[int]) -> None:
     """Add the descriptor of the lock, but while another holds it."""
     with uninterrupted():
         while True:
-            descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+            descriptor = folder.open(name, os.O_RDWR | os.O_CREAT)
             if not _take(descriptor):
                 os.close(descriptor)
                 return
-            if _is_at(path, descriptor):
+            if _is_only(folder, name, descriptor):
                 break
-            os.close(descriptor)  # who held it has taken the file away meanwhile
+            os.close(descriptor)
         descriptors.append(descriptor)
         with suppress(OSError):  # a full disk: who waits then learns less
             os.truncate(descriptor, 0)
             os.write(descriptor, json.dumps(_this_process()).encode())
 
 
-def _release(path: Path, descriptors: list[int]) -> None:
+def _release(name: str, descriptors: list[int], folder: Folder) -> None:
     """Take the file away, then give the lock back."""
     while descriptors:
-        path.unlink(missing_ok=True)
+        folder.remove(name)
         os.close(descriptors.pop())
 
 
-def is_held(path: Path) -> bool:
+def is_held(folder: Folder, name: str) -> bool:
     """Whether some process holds the lock now; never makes a file."""
     try:
-        descriptor = os.open(path, os.O_RDONLY)
-    except OSError:
+        descriptor = folder.open(name, os.O_RDONLY)
+    except (OSError, StorageError):
         return False
     try:
         return not _take(descriptor)
@@ -98,12 +103,12 @@ def is_held(path: Path) -> bool:
         os.close(descriptor)
 
 
-def holder(path: Path) -> str:
+def holder(folder: Folder, name: str) -> str:
     """Who holds the lock, in words."""
     try:
-        by = json.loads(path.read_bytes())
+        by = json.loads(folder.read_bytes(name, _MAXIMUM_BYTES))
         return f"process {by['process']} on {by['host']}, since {by['since']}"
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, StorageError, ValueError, KeyError, TypeError):
         return "another process"
 
 
@@ -118,11 +123,14 @@ def _take(descriptor: int) -> bool:
     return True
 
 
-def _is_at(path: Path, descriptor: int) -> bool:
-    try:
-        return os.path.samestat(path.stat(), os.fstat(descriptor))
-    except FileNotFoundError:
-        return False
+def _is_only(folder: Folder, name: str, descriptor: int) -> bool:
+    """Whether an open file is that of the name, and of no other; other links to it are cut off."""
+    status = folder.status(name)
+    if status is None or not os.path.samestat(status, os.fstat(descriptor)):
+        return False  # who held it has taken the file away meanwhile
+    if status.st_nlink > 1:
+        folder.remove(name)
+    return status.st_nlink == 1
 
 
 def _this_process() -> dict[str, object]:

@@ -5,15 +5,17 @@ older run is seen.
 """
 
 from collections.abc import Container, Iterator
-from contextlib import contextmanager, suppress
-from pathlib import Path, PurePosixPath
+from contextlib import ExitStack, contextmanager, suppress
+from pathlib import Path
 from typing import Annotated, Final
 
 from pydantic import AfterValidator, BaseModel, TypeAdapter
 
+from ..base.errors import StorageError
+from ..base.folder import Folder, leads_out, opened_folder
 from ..base.hashing import sha256
 from . import hashed
-from .files import LOCK_NAME, files_in, only_writer, replace_all, write
+from .files import LOCK_NAME, Staging, only_writer, replace_all, write
 from .interruption import uninterrupted
 from .lock import is_held
 
@@ -22,8 +24,7 @@ _MAXIMUM_BYTES: Final = 10_000_000
 
 
 def _below(name: str) -> str:
-    path = PurePosixPath(name)
-    if path.is_absolute() or ".." in path.parts or "\0" in name:
+    if leads_out(name):
         raise ValueError("leads out of the folder")
     return name
 
@@ -54,15 +55,15 @@ _MANIFEST: Final = TypeAdapter(Manifest)
 
 
 @contextmanager
-def replacing(folder: Path, dataset: str, dataset_sha256: str = "") -> Iterator[Path]:
-    """A hidden folder to write a dataset and its files to; in the end they go to `folder`.
+def replacing(path: Path, dataset: str, dataset_sha256: str = "") -> Iterator[Staging]:
+    """A hidden folder to write a dataset and its files to; in the end they go to `path`.
 
     They replace those of an older run together; of what that run wrote besides, the files that
     nobody has changed are removed.
 
     Parameters
     ----------
-    folder : where everything goes
+    path : folder where everything goes
     dataset : name of the dataset
     dataset_sha256 : its hash, where it is not written along
 
@@ -71,23 +72,24 @@ def replacing(folder: Path, dataset: str, dataset_sha256: str = "") -> Iterator[
     StorageError
         The folder cannot be written; what was there before then stays.
     """
-    with only_writer(folder) as staged:
+    with only_writer(path) as staged:
         yield staged
-        made = {name: _hash(staged / name) for name in files_in(staged) if name != dataset}
-        digest = dataset_sha256 or hashed.stored_hash(staged / dataset)
+        folder = staged.target
+        made = {name: _hash(staged, name) for name in staged.files() if name != dataset}
+        digest = dataset_sha256 or hashed.stored_hash(staged.path / dataset, staged)
         before = _read(folder) or {}
-        beside = any((at / dataset).is_file() for at in (staged, folder))
+        beside = staged.holds_file(dataset) or folder.holds_file(dataset)
         older = _older(before.get(dataset), made)
         entry = Entry(sha256=str(digest), beside=beside, files=made, older=older)
         after = dict(sorted({**_without(before, made), dataset: entry}.items()))
-        write(staged / MANIFEST_NAME, _MANIFEST.dump_json(after, indent=1) + b"\n")
+        write(staged, MANIFEST_NAME, _MANIFEST.dump_json(after, indent=1) + b"\n")
         with uninterrupted():
-            replace_all(staged, folder, first=MANIFEST_NAME)  # killed from here on: it is seen
+            replace_all(staged, first=MANIFEST_NAME)  # killed from here on: it is seen
             if not dataset_sha256:
-                _remove(hashed.hash_path(folder / dataset))  # earlier versions'
+                _remove(folder, hashed.hash_path(Path(dataset)).name)  # earlier versions'
             for name, digest in older.items():
-                if _hash(folder / name) == digest:
-                    _remove(folder / name)
+                if _hash(folder, name) == digest:
+                    _remove(folder, name)
 
 
 def _older(before: Entry | None, made: Container[str]) -> dict[str, str]:
@@ -96,9 +98,9 @@ def _older(before: Entry | None, made: Container[str]) -> dict[str, str]:
     return {name: digest for name, digest in known.items() if name not in made}
 
 
-def _remove(path: Path) -> None:
-    with suppress(OSError):
-        path.unlink(missing_ok=True)
+def _remove(folder: Folder, name: str) -> None:
+    with suppress(OSError, StorageError):
+        folder.remove(name)
 
 
 def _without(manifest: Manifest, names: Container[str]) -> Manifest:
@@ -114,53 +116,64 @@ def _without(manifest: Manifest, names: Container[str]) -> Manifest:
     }
 
 
-def mixed(folder: Path) -> list[str]:
+def mixed(path: Path) -> list[str]:
     """What in a folder is not of the results that it should be of, a line each.
 
     Nothing while a process writes there, or where no `files.json` is.
     """
-    if is_held(folder / LOCK_NAME):
-        return []
-    manifest = _read(folder)
-    if manifest is None:
-        return [f"{folder / MANIFEST_NAME}: is damaged"]
-    return [line for dataset in manifest for line in _mixed(folder, dataset, manifest[dataset])]
+    with ExitStack() as stack:
+        try:
+            folder = stack.enter_context(opened_folder(path))
+        except OSError:
+            return []
+        if is_held(folder, LOCK_NAME):
+            return []
+        manifest = _read(folder)
+        if manifest is None:
+            return [f"{path / MANIFEST_NAME}: is damaged"]
+        return [line for dataset in manifest for line in _mixed(folder, dataset, manifest[dataset])]
 
 
-def listed(folder: Path) -> set[str]:
+def listed(path: Path) -> set[str]:
     """Names of all files that `files.json` lists, its datasets too."""
-    manifest = _read(folder) or {}
+    try:
+        with opened_folder(path) as folder:
+            manifest = _read(folder) or {}
+    except OSError:
+        return set()
     return {*manifest, *(name for entry in manifest.values() for name in entry.files)}
 
 
-def _mixed(folder: Path, dataset: str, entry: Entry) -> Iterator[str]:
-    path = folder / dataset
-    if path.is_file() and hashed.stored_hash(path) != entry.sha256:
+def _mixed(folder: Folder, dataset: str, entry: Entry) -> Iterator[str]:
+    path = folder.path / dataset
+    is_there = folder.holds_file(dataset)
+    if is_there and hashed.stored_hash(path, folder) != entry.sha256:
         yield f"{path}: is not what the files beside it were made of"
-    elif entry.beside and not path.is_file():
+    elif entry.beside and not is_there:
         yield f"{path}: is missing"
     for name, digest in entry.files.items():
-        if (there := _hash(folder / name)) != digest:
-            state = f"is not that of {dataset}" if there else "is missing"
-            yield f"{folder / name}: {state}"
+        if _hash(folder, name) != digest:
+            state = f"is not that of {dataset}" if folder.holds_file(name) else "is missing"
+            yield f"{folder.path / name}: {state}"
     for name, digest in entry.older.items():
-        if _hash(folder / name) == digest:
-            yield f"{folder / name}: is of older results than {dataset}"
+        if _hash(folder, name) == digest:
+            yield f"{folder.path / name}: is of older results than {dataset}"
 
 
-def _hash(path: Path) -> str:
+def _hash(folder: Folder, name: str) -> str:
     """Hash of a regular file; empty where there is none."""
-    return sha256(path.read_bytes()) if path.is_file() else ""
-
-
-def _read(folder: Path) -> Manifest | None:
-    """What `files.json` says; nothing where there is none, None where it is damaged."""
-    path = folder / MANIFEST_NAME
-    if not path.exists():
-        return {}
     try:
-        if not path.is_file() or path.stat().st_size > _MAXIMUM_BYTES:
-            return None
-        return _MANIFEST.validate_json(path.read_bytes())
-    except (OSError, ValueError):
+        with folder.opened(name, hashed.MAXIMUM_RESULTS_BYTES) as file:
+            return sha256(file.read())
+    except (OSError, StorageError):
+        return ""
+
+
+def _read(folder: Folder) -> Manifest | None:
+    """What `files.json` says; nothing where there is none, None where it is damaged."""
+    try:
+        return _MANIFEST.validate_json(folder.read_bytes(MANIFEST_NAME, _MAXIMUM_BYTES))
+    except FileNotFoundError:
+        return {}
+    except (OSError, StorageError, ValueError):
         return None

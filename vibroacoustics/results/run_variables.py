@@ -46,6 +46,7 @@ TOGETHER: Final = (
     ("room_level", "room_source_level", "room_band_level", "room_sound_power_level",
      "room_gain_waves", "room_gain_diffuse", "room_gain_difference", "room_place_gain",
      "room_place_gain_above", "room_absorption_area", "room_map_level"),
+    ("room_wall_absorption", "room_wall_absorption_requested"),
     ("room_level_low", "room_level_middle", "room_level_high"),
     ("room_pressure_line", "room_noise_band_level"),
     ("room_plate_level", "room_plate_level_low", "room_plate_level_high", "room_level_both_ways"),

@@ -4,6 +4,7 @@ A netCDF file that is killed while it is written opens cleanly with variables mi
 written beside its name, gets its hash as the last line, and then takes its name in one step.
 """
 
+import os
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
@@ -14,9 +15,10 @@ from typing import Any, Final
 import xarray as xr
 
 from ..base.errors import StorageError
+from ..base.folder import Folder
 from ..base.hashing import canonical_json, sha256
 from . import cache, hashed
-from .files import naming, only_writer, replace_all, staging, sync
+from .files import Staging, naming, only_writer, replace_all, staging
 from .lock import locked
 from .netcdf import from_bytes, write_netcdf
 
@@ -36,13 +38,13 @@ def write_results(results: xr.Dataset, path: str | Path) -> Path:
     """
     path = Path(path)
     with only_writer(path.parent) as staged:
-        stage_results(results, staged / path.name)
-        replace_all(staged, path.parent)
-        hashed.hash_path(path).unlink(missing_ok=True)  # of an earlier version
+        stage_results(results, staged, path.name)
+        replace_all(staged)
+        staged.target.remove(hashed.hash_path(path).name)  # of an earlier version
     return path
 
 
-def stage_results(results: xr.Dataset, path: Path) -> str:
+def stage_results(results: xr.Dataset, staged: Staging, name: str) -> str:
     """Write a dataset into a hidden folder; returns its hash.
 
     Raises
@@ -50,10 +52,12 @@ def stage_results(results: xr.Dataset, path: Path) -> str:
     StorageError
         It cannot be written.
     """
-    with naming(path):
-        write_netcdf(results, path)
-        digest = hashed.append_hash(path)
-        sync(path)
+    with naming(staged.path / name):
+        write_netcdf(results, staged.library_path(name))
+        with open(name, "r+b", opener=staged.open) as file:
+            digest = hashed.append_hash(file)
+            file.flush()
+            os.fsync(file.fileno())
     return digest
 
 
@@ -83,6 +87,12 @@ def open_with_hash(path: str | Path) -> tuple[xr.Dataset, str]:
     path = Path(path)
     content, digest = hashed.read_checked(path)
     return from_bytes(content, path), digest
+
+
+def results_in(folder: Folder, name: str) -> xr.Dataset:
+    """`open_results` of a file of a folder, which is no link to another."""
+    path = folder.path / name
+    return from_bytes(hashed.read_checked(path, folder).content, path)
 
 
 @contextmanager
@@ -115,61 +125,75 @@ def cached(
     """
     if not _CACHE_IS_USED.get():
         return compute(), False
-    path = _entry(kind, material)
-    if (result := _known(path)) is not None:
-        return result, True
+    name = _entry(kind, material)
     with ExitStack() as stack:
-        can_be_written = _locked_entry(stack, path)
-        if (result := _known(path)) is not None:
+        try:
+            folder = stack.enter_context(cache.opened())
+        except StorageError as error:
+            _warn(error)
+            return compute(), False
+        if (result := _known(folder, name)) is not None:
+            return result, True
+        can_be_written = _locked_entry(stack, folder, name)
+        if (result := _known(folder, name)) is not None:
             return result, True
         result = compute()
         if can_be_written:
-            _keep(result, path)
+            _keep(result, folder, name)
     return result, False
 
 
 def is_cached(kind: str, material: Mapping[str, Any]) -> bool:
     """Whether `cached` would find a result, if it is whole."""
-    return _CACHE_IS_USED.get() and _entry(kind, material).exists()
+    if not _CACHE_IS_USED.get() or not cache.folder().exists():
+        return False
+    try:
+        with cache.opened() as folder:
+            return folder.holds_file(_entry(kind, material))
+    except StorageError:
+        return False
 
 
-def _entry(kind: str, material: Mapping[str, Any]) -> Path:
-    return cache.folder() / f"{kind}-{sha256(canonical_json(material).encode())[:32]}.nc"
+def _entry(kind: str, material: Mapping[str, Any]) -> str:
+    return f"{kind}-{sha256(canonical_json(material).encode())[:32]}.nc"
 
 
-def _known(path: Path) -> xr.Dataset | None:
+def _known(folder: Folder, name: str) -> xr.Dataset | None:
     """The cached result, where it is there and whole."""
     try:
-        result = open_results(path)
+        result = results_in(folder, name)
     except StorageError:
         return None
-    cache.mark_used(path)
+    cache.mark_used(folder, name)
     return result
 
 
-def _locked_entry(stack: ExitStack, path: Path) -> bool:
+def _locked_entry(stack: ExitStack, folder: Folder, name: str) -> bool:
     """Hold the lock of an entry; False where the cache cannot be written."""
-    what = f"cache {path.name}: computed by another (--no-cache does not wait)"
+    what = f"cache {name}: computed by another (--no-cache does not wait)"
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        stack.enter_context(locked(cache.lock_of(path), what))
-    except OSError as error:
-        _warn(f"{error.strerror}")
+        with naming(folder.path):
+            stack.enter_context(locked(folder, cache.lock_of(name), what))
+    except StorageError as error:
+        _warn(error)
         return False
     return True
 
 
-def _keep(result: xr.Dataset, path: Path) -> None:
+def _keep(result: xr.Dataset, folder: Folder, name: str) -> None:
     try:
-        with staging(cache.staging_of(path)) as staged:
-            stage_results(result, staged / path.name)
-            replace_all(staged, path.parent)
-            hashed.hash_path(path).unlink(missing_ok=True)
-        cache.tidy(path.parent)
-    except (StorageError, OSError) as error:
-        _warn(str(error).rpartition("cannot be written: ")[2])
+        with staging(folder, cache.staging_of(name)) as staged:
+            stage_results(result, staged, name)
+            replace_all(staged)
+            folder.remove(hashed.hash_path(Path(name)).name)
+        with naming(folder.path):
+            cache.tidy(folder)
+    except StorageError as error:
+        _warn(error)
 
 
-def _warn(reason: str) -> None:
-    text = f"cache {cache.folder()}: cannot be written: {reason}; the run goes on without it"
-    warnings.warn(text, stacklevel=4)
+def _warn(error: StorageError) -> None:
+    """One warning, however many entries cannot be written for the same reason."""
+    _, failure, reason = str(error).rpartition("cannot be written: ")
+    words = f"{cache.folder()}: {failure}{reason}" if failure else str(error)
+    warnings.warn(f"cache {words}; the run goes on without it", stacklevel=4)

@@ -82,7 +82,7 @@ def recorded_loudness(bands: NarrowBands) -> Loudness:
         As `loudness_of`.
     """
     audible = bands.frequency_hz > 0.0
-    square = bands.mean_square[audible] @ filter_gain(bands.frequency_hz[audible])
+    square = bands.even_mean_square[audible] @ filter_gain(bands.frequency_hz[audible])
     (one,) = loudness_of_thirds(square[None])
     return one
 

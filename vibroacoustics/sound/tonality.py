@@ -34,12 +34,16 @@ class TonalSpectrum:
     frequency_hz, mean_square : of the tones, shape (tone,), Pa²
     noise : mean square of the noise between two frequencies, without the tones, Pa²
     name : of the tones
+    share, swing_db : of the time that each tone sounds, and how its level swings meanwhile, shape
+        (tone,); computed tones are steady
     """
 
     frequency_hz: Array
     mean_square: Array
     noise: Callable[[float, float], float]
     name: tuple[str, ...]
+    share: Array
+    swing_db: Array
 
     def of_tones(self, band: Edges) -> float:
         """Mean square of all tones in a band, Pa²."""
@@ -61,6 +65,8 @@ class Tone:
     level_db : with the weaker lines that belong to it, dB re 20 µPa
     noise_ratio_db : tone-to-noise ratio; infinite without noise
     prominence_db : prominence ratio; infinite without sound in the neighbouring bands
+    share : of the time that the strongest line sounds; the levels are those meanwhile
+    swing_db : level of the strongest line exceeded for 10 % of that time over that for 90 %
     """
 
     name: str
@@ -68,6 +74,8 @@ class Tone:
     level_db: float
     noise_ratio_db: float
     prominence_db: float
+    share: float = 1.0
+    swing_db: float = 0.0
 
     @property
     def audible(self) -> bool:
@@ -105,9 +113,9 @@ def tonal_spectrum(parts: Ingredients) -> TonalSpectrum:
         return float(square @ np.clip(inner, 0.0, None) / (2.0 * np.log(HALF_BAND)))
 
     lines = parts.lines
-    return TonalSpectrum(
-        lines.frequency_hz, 0.5 * np.abs(lines.pressure_pa) ** 2, noise, lines.name
-    )
+    squares = 0.5 * np.abs(lines.pressure_pa) ** 2
+    steady = np.ones_like(squares), np.zeros_like(squares)
+    return TonalSpectrum(lines.frequency_hz, squares, noise, lines.name, *steady)
 
 
 def tone_to_noise_db(tone: float, noise: float) -> float:
@@ -174,4 +182,6 @@ def _judged(spectrum: TonalSpectrum, number: int, square: float) -> Tone:
         float(mean_square_level(square, REFERENCE_PRESSURE_PA)),
         tone_to_noise_db(square, spectrum.noise(*middle)),
         prominence_ratio_db(*sums),
+        float(spectrum.share[number]),
+        float(spectrum.swing_db[number]),
     )

@@ -29,6 +29,7 @@ from ..radiation.rooms import of_study as rooms
 from ..radiation.rooms import room_vectors
 from ..radiation.rooms.cost import room_cost
 from ..radiation.rooms.plane import plane_gains
+from ..radiation.rooms.wall_absorption import wall_absorption, warn_of_absorption
 from ..results import storage
 from ..results.storage import is_cached
 from ..sound.room_ways import ways_of
@@ -100,6 +101,7 @@ def vectors_of(
     study: Study, settings: StudyRoom, motions: Sequence[SurfaceMotion], progress: Progress
 ) -> tuple[xr.Dataset, bool]:
     """Pressure per velocity at the listeners and on the hemisphere; from the cache if there."""
+    warn_of_absorption(rooms.room_of(settings), settings.maximum_frequency_hz)
     return storage.cached(
         _CACHE,
         rooms.room_key(study, settings, motions),
@@ -152,14 +154,15 @@ def _by_plate(settings: StudyRoom, vectors: xr.Dataset, results: xr.Dataset) -> 
 
 
 def _of_the_room(settings: StudyRoom) -> xr.Dataset:
-    """Its absorption, and what its listeners accept."""
+    """Its absorption, that of its surfaces, and what its listeners accept."""
+    surfaces = wall_absorption(rooms.room_of(settings), settings.maximum_frequency_hz)
     octaves, area = rooms.absorption_by_octave(settings)
     limits = settings.limits.levels
     arrays = {"room_absorption_area": stamp("room_absorption_area", area, {"room_octave": octaves})}
     if limits:
         coords = {"room_limit_time": list(limits)}
         arrays["room_limit"] = stamp("room_limit", list(limits.values()), coords)
-    return check(xr.Dataset(arrays))
+    return check(xr.Dataset(arrays).merge(surfaces))
 
 
 def _map(study: Study, settings: StudyRoom, air: AirInRoom, progress: Progress) -> xr.Dataset:

@@ -1,38 +1,36 @@
-"""Workers beside this process: the same bits, and none lost when they die."""
+"""Workers beside this process: the same bits, none lost when they die, and no network unasked."""
 
 import json
-import os
-import signal
-import threading
-import time
-from random import Random
+import sys
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from certificates import certified, needs_openssl
+from design_work import builder
+from support import TINY
 
-from vibroacoustics.base.arrays import Array
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.design.evaluation import Evaluate, Evaluation
-from vibroacoustics.design.workers import cluster
-from vibroacoustics.design.workers.cluster import in_pieces, opened_workers, spread
+from vibroacoustics.commands import cli
+from vibroacoustics.design.evaluation import Evaluation
+from vibroacoustics.design.workers import scheduler
+from vibroacoustics.design.workers.scheduler import SchedulerAccess, opened_scheduler
+from vibroacoustics.design.workers.spread import in_pieces, local_workers, spread
 
-TASK = json.dumps({"pause_s": 0.02}).encode()
-LONG_TASK = json.dumps({"pause_s": 0.6}).encode()
+PIECE = 8
 DESIGNS = np.random.default_rng(2).normal(size=(400, 3))
+OBJECTIVES, CONSTRAINTS = 2, 1
 
 
-def builder(task: bytes) -> Evaluate:
-    """Values whose last bits depend on how they are summed; some designs fail."""
-    said = json.loads(task)
+def task_of(folder: Path, deaths: dict[int, int]) -> bytes:
+    """Task whose pieces kill their workers: pieces by number, and how often."""
+    first = {str(DESIGNS[number * PIECE, 0]): times for number, times in deaths.items()}
+    return json.dumps({"folder": str(folder), "deaths": first}).encode()
 
-    def evaluate(designs: Array) -> Evaluation:
-        time.sleep(said["pause_s"])
-        objectives = np.sin(designs @ np.array([[1.0, 2.0], [0.1, 7.0], [3.0, 0.3]]))
-        objectives[designs[:, 0] > 2.0] = np.nan
-        reasons = tuple("too far" if one > 2.0 else "" for one in designs[:, 0])
-        return Evaluation(objectives, designs[:, :1], reasons)
 
-    return evaluate
+def spread_over(parallel_map: Any, task: bytes) -> Evaluation:
+    return spread(parallel_map, builder, task, PIECE, (OBJECTIVES, CONSTRAINTS))(DESIGNS)
 
 
 def same(first: Evaluation, second: Evaluation) -> None:
@@ -42,50 +40,109 @@ def same(first: Evaluation, second: Evaluation) -> None:
     assert first.failures == second.failures
 
 
-def killed(task: bytes, seed: int, times: int) -> tuple[Evaluation, int]:
-    """Evaluated while a worker is killed at random moments, and how often one was."""
-    random, deaths = Random(seed), 0
-    with opened_workers(2) as client:
-        done = threading.Event()
-
-        def kill() -> None:
-            nonlocal deaths
-            while deaths < times:
-                if done.wait(random.uniform(0.05, 0.6)):
-                    return
-                alive = [one.pid for one in client.cluster.workers.values() if one.pid]
-                if alive:
-                    os.kill(random.choice(alive), signal.SIGKILL)
-                    deaths += 1
-
-        killer = threading.Thread(target=kill)
-        killer.start()
-        evaluation = spread(client, builder, task, 8, (2, 1))(DESIGNS)
-        done.set()
-        killer.join()
-    return evaluation, deaths
-
-
-def test_two_workers_equal_serial_and_one_may_die() -> None:
-    """50 pieces; a worker is killed while they are evaluated."""
-    serial = in_pieces(builder(TASK), 8)(DESIGNS)
+def test_two_workers_equal_serial_though_some_are_killed(tmp_path: Path) -> None:
+    """Of 50 pieces one kills its worker once, and one as often as it is tried."""
+    serial = in_pieces(builder(task_of(tmp_path, {})), PIECE)(DESIGNS)
     assert "too far" in serial.failures
-    evaluation, deaths = killed(TASK, seed=1, times=1)
-    assert deaths == 1
-    same(evaluation, serial)
+    with local_workers(2) as parallel_map:
+        same(spread_over(parallel_map, task_of(tmp_path, {7: 1})), serial)
+        evaluation = spread_over(parallel_map, task_of(tmp_path, {30: 9}))
+    lost = slice(30 * PIECE, 31 * PIECE)
+    assert set(evaluation.failures[lost]) == {"its workers ended: SIGKILL"}
+    assert np.isnan(evaluation.objectives[lost]).all()
+    kept = np.delete(np.arange(400), np.arange(lost.start, lost.stop))
+    assert evaluation.objectives[kept].tobytes() == serial.objectives[kept].tobytes()
 
 
-@pytest.mark.long
-def test_workers_killed_at_ten_moments() -> None:
-    evaluation, deaths = killed(LONG_TASK, seed=2, times=10)
-    assert deaths == 10
-    same(evaluation, in_pieces(builder(TASK), 8)(DESIGNS))
+TLS = {"tls_ca": Path("ca.pem"), "tls_cert": Path("cert.pem"), "tls_key": Path("key.pem")}
+LINES = {
+    "--tls-ca, --tls-cert, --tls-key missing: give": ("tcp://h:1", {}),
+    "--tls-ca, --tls-cert, --tls-key missing: give --tls": ("tls://h:1", {}),
+    "--tls-key missing: give --tls-ca": ("tls://h:1", {**TLS, "tls_key": None}),
+    "--insecure contradicts --tls-ca": ("tls://h:1", {**TLS, "insecure": True}),
+    "--insecure contradicts tls://": ("tls://h:1", {"insecure": True}),
+    "must begin with tls:// where TLS is used": ("tcp://h:1", TLS),
+    "--tls-ca ca.pem: is not a file": ("tls://h:1", TLS),
+}
+
+
+@pytest.mark.parametrize("line", LINES)
+def test_access_without_tls_or_with_contradictions_is_refused(line: str) -> None:
+    address, options = LINES[line]
+    with pytest.raises(ParameterError, match=line):
+        SchedulerAccess(address, **options)
+
+
+@pytest.mark.parametrize("command", ["optimise", "sweep"])
+@pytest.mark.parametrize(
+    ("options", "line"),
+    [
+        (["--scheduler", "tcp://127.0.0.1:9"], "--scheduler tcp://127.0.0.1:9: --tls-ca, "),
+        (["--insecure"], "--tls-ca, --tls-cert, --tls-key, --insecure: need --scheduler"),
+        (["--workers", "2", "--scheduler", "a", "--insecure"], "--workers contradicts --scheduler"),
+    ],
+)
+def test_commands_refuse_in_one_line(
+    command: str,
+    options: list[str],
+    line: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    out = tmp_path / "out"
+    words = ["vibroacoustics", command, str(TINY), "--out", str(out), *options]
+    monkeypatch.setattr(sys, "argv", words)
+    with pytest.raises(SystemExit) as ended:
+        cli.main()
+    errors = capsys.readouterr().err
+    assert (ended.value.code, errors.count("\n")) == (2, 1)
+    assert errors.startswith(f"error: {line}")
+    assert not out.exists()
 
 
 def test_scheduler_that_does_not_answer_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cluster, "_CONNECTION_S", 0.5)
+    monkeypatch.setattr(scheduler, "_CONNECTION_S", 0.5)
     with (
-        pytest.raises(ParameterError, match=r"scheduler tcp://127\.0\.0\.1:9: does not answer"),
-        opened_workers(1, "tcp://127.0.0.1:9"),
+        pytest.raises(ParameterError, match=r"scheduler tcp://127\.0\.0\.1:9: no connection"),
+        opened_scheduler(SchedulerAccess("tcp://127.0.0.1:9", insecure=True)),
+    ):
+        pass
+
+
+@needs_openssl
+def test_scheduler_by_tls(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same bits; certificates of another authority do not open it, nor does a wrong file."""
+    from distributed import LocalCluster, Security
+
+    good, other = certified(tmp_path / "good"), certified(tmp_path / "other")
+    roles = {
+        f"tls_{role}_{part}": str(good[f"tls_{part}"])
+        for role in ("scheduler", "worker", "client")
+        for part in ("cert", "key")
+    }
+    security = Security(require_encryption=True, tls_ca_file=str(good["tls_ca"]), **roles)
+    task = task_of(tmp_path, {})
+    serial = in_pieces(builder(task), PIECE)(DESIGNS)
+    with LocalCluster(
+        n_workers=1, threads_per_worker=1, processes=False, protocol="tls", security=security,
+        host="127.0.0.1", dashboard_address=None,
+    ) as cluster:  # fmt: skip
+        address = cluster.scheduler_address
+        assert address.startswith("tls://127.0.0.1")
+        with opened_scheduler(SchedulerAccess(address, **good)) as parallel_map:
+            same(spread_over(parallel_map, task), serial)
+        monkeypatch.setattr(scheduler, "_CONNECTION_S", 1.0)
+        wrong = [other, {**other, "tls_ca": good["tls_ca"]}, {**good, "tls_ca": other["tls_ca"]}]
+        for files in wrong:
+            with (
+                pytest.raises(ParameterError, match=f"scheduler {address}: no connection"),
+                opened_scheduler(SchedulerAccess(address, **files)),
+            ):
+                pass
+    swapped = {**good, "tls_cert": good["tls_key"]}
+    with (
+        pytest.raises(ParameterError, match="--tls-key: cannot be used"),
+        opened_scheduler(SchedulerAccess(address, **swapped)),
     ):
         pass

@@ -12,11 +12,19 @@ import vibroacoustics as va
 from vibroacoustics.base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from vibroacoustics.base.decibel import energy_sum
 from vibroacoustics.base.errors import SchemaError
+from vibroacoustics.base.progress import no_progress
 from vibroacoustics.levels import a_weighting
 from vibroacoustics.pipeline.cost import run_cost
+from vibroacoustics.pipeline.in_room import vectors_of
 from vibroacoustics.radiation.rooms import of_study as rooms
 from vibroacoustics.report.html import html
-from vibroacoustics.report.in_room import room_sentence, room_table, seam_sentence, seam_table
+from vibroacoustics.report.in_room import (
+    absorption,
+    room_sentence,
+    room_table,
+    seam_sentence,
+    seam_table,
+)
 from vibroacoustics.report.page import Page, Part
 from vibroacoustics.report.room_loudness import sones
 from vibroacoustics.report.sections import SECTIONS
@@ -67,6 +75,29 @@ def test_without_a_room_nothing_is_computed():
     results = va.run(va.load_study(TINY), radiation=made_up_radiation)
     assert not [name for name in results.data_vars if str(name).startswith("room_")]
     assert not SECTIONS["in-room"].applies(results)
+
+
+def test_surfaces_have_their_absorption_in_results_and_report(kitchen):
+    requested = kitchen["room_wall_absorption_requested"]
+    waves = kitchen["room_wall_absorption"]
+    difference = np.abs(waves - requested).where(kitchen["room_octave"] <= HIGHEST_HZ)
+    assert difference.max() < 0.01
+    (table,) = absorption(kitchen)
+    surfaces = [name for row in table.rows for name in row[0].split(", ")]
+    assert sorted(surfaces) == sorted(
+        str(name).partition(".")[2] for name in kitchen["room_surface"].values
+    )
+    assert {cell.split(" → ")[1] for row in table.rows for cell in row[-2:]} == {"–"}
+    assert absorption(kitchen.drop_vars("room_wall_absorption")) == []
+
+
+def test_a_surface_of_another_absorption_is_a_warning_before_waves(monkeypatch):
+    monkeypatch.setattr(in_room.storage, "cached", lambda *_: (xr.Dataset(), True))
+    opening = {"absorption_ratio": [1.0] * 6}
+    room = KITCHEN | {"walls": {"+x": opening}}
+    study = va.load_study(TINY).replace({"room": room})
+    with pytest.warns(UserWarning, match=r"room\.walls\.\+x: absorption of waves is 0\.94 instead"):
+        vectors_of(study, study.room, (), no_progress)  # `in_room.vectors_of` is made up here
 
 
 def test_what_a_run_would_refuse_is_refused_before():

@@ -8,6 +8,9 @@ from radiation_parts import floor
 from vibroacoustics.radiation.arrays import Array
 from vibroacoustics.radiation.bodies import Body, block, checked_mesh, cylinder, sphere
 from vibroacoustics.radiation.mirrors import Mirror
+from vibroacoustics.radiation.neglected_echo import neglected_echo
+from vibroacoustics.radiation.patterns import rigid_body
+from vibroacoustics.radiation.scene import Scene
 
 SPACING_M = 0.02
 AROUND = np.array([[0.9, 0.3, 0.2], [-0.4, 0.8, 0.5], [0.2, -0.7, 0.9], [0.1, 0.2, 1.1]])
@@ -108,3 +111,64 @@ def test_the_estimate_covers_the_error_of_any_field():
     assert max(true) < 0.02
     assert np.mean(ratio >= 1.0) >= 0.95, np.sort(ratio)[:6]
     assert np.median(ratio) <= 5.0
+
+
+WALLED = {
+    "sphere": ((), (0.0, 0.0, 0.0)),
+    "domed cylinder on the floor": ((floor(-0.16),), (0.0, 0.0, 0.0)),
+    "box": ((), (0.0, 0.0, 0.0)),
+    "L-shaped prism": ((), (-0.06, 0.0, -0.06)),
+    "ellipsoid in a corner": ((floor(-0.22), Mirror(1, -1, -0.3)), (0.0, 0.0, 0.0)),
+}
+"""Near walls of bodies in `SHAPES`, and the middle of their sources; a distant wall is across x."""
+
+
+def with_distant_wall(name, distance_m, rng, frequencies, spacing_m=SPACING_M):
+    """True and estimated errors, (frequency,), of three monopoles anywhere."""
+    body, (walls, middle) = SHAPES[name][0], WALLED[name]
+    wall = Mirror(0, -1, body.bounds()[0][0] - distance_m)
+    sources = np.array(middle) + rng.uniform(-0.03, 0.03, (3, 3))
+    field = Field(sources, rng.uniform(-1.0, 1.0, 3), (*walls, wall))
+    frequency_hz = np.sort(rng.uniform(50.0, 1000.0, frequencies))
+    return errors(body, field, frequency_hz, spacing_m, AROUND)
+
+
+@pytest.mark.slow
+def test_the_estimate_covers_the_echo_of_a_distant_wall():
+    true, estimated = with_distant_wall("box", 0.55, np.random.default_rng(5), 2, 0.03)
+    ratio = estimated / true
+    assert np.all(ratio >= 0.8), ratio
+    assert np.median(ratio) <= 4.0, ratio
+
+
+@pytest.mark.long
+def test_the_estimate_covers_the_echo_of_any_distant_wall():
+    """60 cases: five shapes, four distances, three frequencies."""
+    rng = np.random.default_rng(31)
+    found = [
+        with_distant_wall(name, distance_m, rng, 3)
+        for name in WALLED
+        for distance_m in (0.55, 0.7, 1.0, 2.0)
+    ]
+    true, estimated = np.transpose(found, (1, 0, 2)).reshape(2, -1)
+    ratio = estimated / true
+    assert np.mean(ratio >= 1.0) >= 0.95, np.sort(ratio)[:6]
+    assert np.median(ratio) <= 3.0
+
+
+def test_the_estimated_echo_falls_with_distance_and_needs_a_distant_wall():
+    """A cabinet's is that of its outline."""
+    patterns, hertz = [rigid_body(dof) for dof in ("tx", "tz")], np.array([200.0, 600.0])
+    machine, panel = sphere(0.12), block(np.array([0.2, -0.3, -0.3]), np.array([0.22, 0.3, 0.3]))
+
+    def share(distance_m, panels=(), reflection=1.0):
+        wall = Mirror(0, -1, -0.12 - distance_m, reflection)
+        return neglected_echo(Scene(machine, panels, (wall,)), patterns, hertz, AROUND)
+
+    assert not np.any(share(0.4))
+    assert np.all(share(0.4, reflection=0.7) > 0.0)
+    far, farther = share(1.0).max(axis=0), share(4.0).max(axis=0)
+    assert np.all((farther > 0.0) & (farther < 0.5 * far))
+    in_cabinet = share(1.0, (panel,))
+    assert in_cabinet.shape == (4, 2, 2)
+    np.testing.assert_array_equal(in_cabinet[:, 0], in_cabinet[:, 1])

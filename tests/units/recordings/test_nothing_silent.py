@@ -1,5 +1,8 @@
 """What a file says of its values counts, and what is wrong with them is told."""
 
+import warnings
+from pathlib import Path
+
 import h5py
 import netCDF4
 import numpy as np
@@ -17,6 +20,7 @@ TIME_S = np.arange(2000) / RATE_HZ
 TONE = np.sin(2.0 * np.pi * 37.3 * TIME_S)
 PACKING = {"scale_factor": 1.0 / 20000.0, "add_offset": 0.25}
 FILL = -32768
+MOTOR = Path(__file__).parents[3] / "data/recordings/electric_motor_vibration.uff"
 
 
 def stored_tone(gap=None):
@@ -131,19 +135,87 @@ def test_clipped_floats(tmp_path):
 
 
 RANDOM = np.random.default_rng(3).standard_normal(20000)
-SQUARE = np.where(np.arange(20000) % 20 < 3, 5.0, 0.0)
-CLEAN = {
+SAMPLE = np.arange(51200)
+PHASES = np.random.default_rng(5).uniform(0.0, 2.0 * np.pi, 12)
+OVER_DB = [0.5, 1.0, 3.0, 4.0, 6.0, 12.0, 20.0, 40.0]
+
+
+def at_full_scale(signal):
+    return signal / np.max(np.abs(signal))
+
+
+def orders(cycles_a_sample):
+    lines = (
+        np.sin(2.0 * np.pi * order * cycles_a_sample * SAMPLE + phase) / order
+        for order, phase in enumerate(PHASES, 1)
+    )
+    return at_full_scale(sum(lines))
+
+
+def low_noise(share_of_rate):
+    spectrum = np.fft.rfft(np.random.default_rng(6).standard_normal(SAMPLE.size))
+    spectrum[int(share_of_rate * SAMPLE.size) :] = 0.0
+    return at_full_scale(np.fft.irfft(spectrum))
+
+
+LOUD = {
+    "a tone": np.sin(2.0 * np.pi * 997.3 / 51200.0 * SAMPLE + 0.3),
+    "a tone of whole samples a period": np.sin(2.0 * np.pi * SAMPLE / 48.0),
+    "a tone of whole samples a period between them": np.sin(2.0 * np.pi * (SAMPLE + 0.5) / 32.0),
+    "orders": orders(48.3 / 51200.0),
+    "orders of whole samples a revolution": orders(1.0 / 1024.0),
+    "noise": low_noise(0.04),
+}
+
+
+@pytest.mark.parametrize("over_db", OVER_DB)
+@pytest.mark.parametrize("signal", LOUD.values(), ids=LOUD)
+def test_every_overload_is_found(signal, over_db):
+    loud = 10.0 ** (over_db / 20.0) * signal
+    clipped = np.clip(loud, -1.0, 1.0)
+    at = np.flatnonzero(np.abs(loud) >= 1.0)
+    for stored in (clipped, (20.0 * clipped).astype("f4"), 1e-3 * np.round(30000.0 * clipped)):
+        found = overload(stored)
+        assert found is not None
+        full = np.flatnonzero(np.abs(stored) == np.max(np.abs(stored)))
+        assert (found.samples, found.first) == (full.size, full[0])
+        assert set(at) <= set(full)
+
+
+RATIOS = [(p, q) for q in range(2, 13) for p in range(1, q // 2 + 1) if np.gcd(p, q) == 1]
+SHIFTS = [0.0, 0.25, 0.3]
+RATIONAL = {
+    f"a tone of {p}/{q} of the rate, {shift}": np.sin(2.0 * np.pi * (p * SAMPLE / q + shift))
+    for p, q in RATIOS
+    for shift in (*SHIFTS, 1.0 / (4.0 * q))
+    if np.ptp(np.sin(2.0 * np.pi * (p * np.arange(q) / q + shift))) > 1e-9
+}
+SLOW = 2.0 * np.pi * 1.7 * TIME_S
+PULSE = np.hanning(40)
+CLEAN = RATIONAL | {
     "a tone": TONE,
     "a tone of whole samples a period": np.sin(2.0 * np.pi * np.arange(2000) / 40.0),
+    "a tone near an eighth of the rate": np.sin(2.0 * np.pi * (1.0 / 8.0 + 1e-9) * SAMPLE),
     "a tone in coarse steps": np.round(TONE * 20.0),
-    "a slow tone in coarse steps": np.round(np.sin(2.0 * np.pi * 1.7 * TIME_S) * 50.0),
+    "a slow tone in coarse steps": np.round(np.sin(SLOW) * 50.0),
+    "a slow tone in three steps": np.round(np.sin(SLOW) * 1.4),
+    "a flat peak in coarse steps": np.round((np.sin(SLOW) + np.sin(3.0 * SLOW) / 9.0) * 50.0),
+    "a slow tone of three digits": np.array([float(f"{value:.3g}") for value in np.sin(SLOW)]),
+    "orders": orders(48.3 / 51200.0),
+    "orders of whole samples a revolution": orders(1.0 / 1024.0),
     "noise": RANDOM,
     "noise in coarse steps": np.round(RANDOM * 3.0),
-    "pulses": SQUARE,
-    "pulses below zero": SQUARE - 2.0,
+    "an idle channel": np.where(RANDOM > 1.0, 0.1, 0.2),
+    "an idle channel in three steps": np.round(RANDOM * 0.4),
+    "blows of a hammer": np.convolve(SAMPLE % 9999 == 5000, PULSE, "same") - 0.003,
     "silence before": np.concatenate([np.zeros(500), TONE**2]),
+    "one value and a glitch": np.where(SAMPLE == 7, 3.5, 3.0),
     "a constant": np.full(100, 3.0),
 }
+
+
+def test_clean_signals_are_many():
+    assert len(CLEAN) >= 60
 
 
 @pytest.mark.parametrize("signal", CLEAN.values(), ids=CLEAN)
@@ -153,12 +225,41 @@ def test_what_is_no_overload(signal):
 
 @pytest.mark.parametrize("share", [0.999, 0.95, 0.5])
 def test_clipped_noise_is_an_overload(share):
-    level = np.quantile(np.abs(RANDOM), share)
     smooth = np.convolve(RANDOM, np.ones(8) / 8.0, "same")  # a recorder's filter
     level = np.quantile(np.abs(smooth), share)
     found = overload(np.clip(smooth, -level, level))
     assert found is not None
     assert found.samples == np.count_nonzero(np.abs(smooth) >= level)
+
+
+def test_a_signal_clipped_on_one_side():
+    found = overload(np.clip(TONE, -2.0, 0.9))
+    assert found is not None
+    assert found.samples == np.count_nonzero(TONE >= 0.9)
+
+
+@pytest.mark.parametrize(
+    ("unit", "reported"),
+    [("Pa", True), ("m/s²", True), ("m/s", True), ("N", True)]
+    + [(unit, False) for unit in ("V", "1", "rpm", "°")],
+)
+def test_pulses_are_told_from_overloads_by_unit(tmp_path, unit, reported):
+    square = np.clip(100.0 * TONE, -1.0, 1.0)
+    scipy.io.savemat(tmp_path / "a.mat", {"one": square, "fs": RATE_HZ})
+    with warnings.catch_warnings(record=True) as all_:
+        warnings.simplefilter("always")
+        read_recording(tmp_path / "a.mat", units={"one": unit})
+    assert [warning.category for warning in all_] == [RecordingWarning] * reported
+
+
+def test_a_clipped_voltage_is_reported(tmp_path):
+    scipy.io.savemat(tmp_path / "a.mat", {"one": np.clip(TONE, -0.9, 0.9), "fs": RATE_HZ})
+    with pytest.warns(RecordingWarning, match="full scale"):
+        read_recording(tmp_path / "a.mat", units={"one": "V"})
+
+
+def test_a_real_recording_is_not_overloaded():
+    read_recording(MOTOR)  # a warning would be an error
 
 
 # --- gaps in the time ----------------------------------------------------------------------------

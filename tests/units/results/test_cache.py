@@ -1,14 +1,18 @@
 """The cache is a help and never a condition: full, read-only, locked or damaged, a run goes on."""
 
 import os
+import stat
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
+from support import assert_refused, command_here
 from test_lock import hold
 
+from vibroacoustics.base.folder import Folder
 from vibroacoustics.results import cache, storage
 
 RESULTS = xr.Dataset(
@@ -20,6 +24,12 @@ RESULTS = xr.Dataset(
 def folder(tmp_path, monkeypatch) -> Path:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     return cache.folder()
+
+
+@pytest.fixture
+def opened(folder) -> Iterator[Folder]:
+    with cache.opened() as at:
+        yield at
 
 
 def compute() -> xr.Dataset:
@@ -120,20 +130,20 @@ def test_no_lock_can_be_made_but_the_result_is_there(folder, monkeypatch):
     """As in a folder that may only be read."""
     keep(1)
 
-    def refuse(*_):
+    def refuse(*_, **__):
         raise PermissionError(13, "Permission denied")
 
-    def read_only(path, flags, *rest, opened=os.open):
-        return refuse() if flags & os.O_CREAT else opened(path, flags, *rest)
+    def read_only(path, flags, *rest, opened=os.open, **options):
+        return refuse() if flags & os.O_CREAT else opened(path, flags, *rest, **options)
 
-    monkeypatch.setattr("vibroacoustics.results.lock.os.open", read_only)
+    monkeypatch.setattr(os, "open", read_only)
     monkeypatch.setattr(os, "utime", refuse)
     assert storage.cached("kind", {"a": 1}, never)[1]
 
 
 def test_what_is_there_is_read_although_another_holds_the_lock(folder):
     path = keep(1)
-    process = hold(cache.lock_of(path), 60)
+    process = hold(folder / cache.lock_of(path.name), 60)
     try:
         assert storage.cached("kind", {"a": 1}, never)[1]
     finally:
@@ -144,7 +154,7 @@ def test_what_is_there_is_read_although_another_holds_the_lock(folder):
 def test_who_computes_the_same_is_waited_for_and_named(folder):
     path = keep(1)
     path.unlink()
-    process = hold(cache.lock_of(path), 1.5)
+    process = hold(folder / cache.lock_of(path.name), 1.5)
     with pytest.warns(UserWarning, match=rf"--no-cache.*waiting for process {process.pid} on"):
         assert storage.cached("kind", {"a": 1}, compute)[1] is False
     process.wait()
@@ -153,41 +163,40 @@ def test_who_computes_the_same_is_waited_for_and_named(folder):
 # --- size and leftovers --------------------------------------------------------------------------
 
 
-def test_least_recently_used_go_first(folder):
+def test_least_recently_used_go_first(opened):
     oldest, middle, newest = (keep(n, age_s=100.0 * (3 - n)) for n in range(3))
-    assert [entry.path for entry in cache.entries(folder)] == [oldest, middle, newest]
+    names = [path.name for path in (oldest, middle, newest)]
+    assert [entry.name for entry in cache.entries(opened)] == names
     storage.cached("kind", {"a": 0}, never)  # used again
-    cache.set_limit(folder, 2 * oldest.stat().st_size + 10)
-    assert [entry.path for entry in cache.tidy(folder)] == [middle]
-    assert {entry.path for entry in cache.entries(folder)} == {oldest, newest}
+    cache.set_limit(opened, 2 * oldest.stat().st_size + 10)
+    assert [entry.name for entry in cache.tidy(opened)] == [middle.name]
+    assert {entry.name for entry in cache.entries(opened)} == {oldest.name, newest.name}
 
 
-def test_limit_is_kept_by_every_entry_that_comes(folder):
+def test_limit_is_kept_by_every_entry_that_comes(opened):
     first = keep(0, age_s=100.0)
-    cache.set_limit(folder, round(2.5 * first.stat().st_size))
+    cache.set_limit(opened, round(2.5 * first.stat().st_size))
     for n in range(1, 4):
         keep(n, age_s=50.0 - n)
-    sizes = [entry.size_bytes for entry in cache.entries(folder)]
+    sizes = [entry.size_bytes for entry in cache.entries(opened)]
     assert len(sizes) == 2
-    assert sum(sizes) <= cache.limit_bytes(folder)
+    assert sum(sizes) <= cache.limit_bytes(opened)
     assert not first.exists()
 
 
-def test_an_entry_above_the_limit_is_not_kept(folder):
-    folder.mkdir()
-    cache.set_limit(folder, 10)
+def test_an_entry_above_the_limit_is_not_kept(opened):
+    cache.set_limit(opened, 10)
     assert storage.cached("kind", {"a": 1}, compute) == (RESULTS, False)
-    assert not cache.entries(folder)
+    assert not cache.entries(opened)
 
 
 @pytest.mark.parametrize("text", ["", "many", "-5"])
-def test_limit_that_is_no_size(folder, text):
-    folder.mkdir()
+def test_limit_that_is_no_size(folder, opened, text):
     (folder / cache.LIMIT_NAME).write_text(text)
-    assert cache.limit_bytes(folder) in (0, cache.DEFAULT_LIMIT_BYTES)
+    assert cache.limit_bytes(opened) in (0, cache.DEFAULT_LIMIT_BYTES)
 
 
-def test_leftovers_of_the_dead_go_and_the_living_stay(folder):
+def test_leftovers_of_the_dead_go_and_the_living_stay(folder, opened):
     keep(1)
     (folder / "kind-dead.nc.lock").write_text("")
     (folder / ".kind-dead.nc.writing").mkdir()
@@ -197,11 +206,63 @@ def test_leftovers_of_the_dead_go_and_the_living_stay(folder):
     (folder / ".kind-busy.nc.writing").mkdir()
     process = hold(folder / "kind-busy.nc.lock", 60)
     try:
-        cache.tidy(folder)
+        cache.tidy(opened)
         names = {path.name for path in folder.iterdir() if path.suffix != ".nc"}
         assert names == {".kind-busy.nc.writing", "kind-busy.nc.lock"}
-        assert len(cache.clear(folder)) == 1
+        assert len(cache.clear(opened)) == 1
         assert {path.name for path in folder.iterdir()} == names
     finally:
         process.kill()
         process.wait()
+
+
+# --- who else can write it -----------------------------------------------------------------------
+
+
+def test_folders_are_made_for_their_owner_alone(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "a" / "b"))
+    keep(1)
+    made = [tmp_path / "a", tmp_path / "a" / "b", cache.folder()]
+    assert [stat.S_IMODE(path.stat().st_mode) for path in made] == [0o700] * 3
+
+
+@pytest.mark.parametrize("mode", [0o775, 0o770, 0o2720])
+def test_a_folder_that_the_group_can_write_becomes_private(folder, mode):
+    folder.mkdir()
+    folder.chmod(mode)
+    keep(1)
+    assert stat.S_IMODE(folder.stat().st_mode) == 0o700
+
+
+def test_a_folder_that_others_can_only_read_stays(folder):
+    folder.mkdir(0o755)
+    keep(1)
+    assert stat.S_IMODE(folder.stat().st_mode) == 0o755
+
+
+def test_a_folder_that_all_can_write_is_not_used(folder):
+    folder.mkdir()
+    folder.chmod(0o1777)
+    not_used("is writable by all users: remove it")
+
+
+def test_a_folder_of_another_user_is_not_used(folder, monkeypatch):
+    keep(1)
+    other = os.geteuid() + 1
+    monkeypatch.setattr(os, "geteuid", lambda: other)
+    not_used("belongs to another user: set XDG_CACHE_HOME, or remove it")
+
+
+def not_used(reason: str) -> None:
+    """One warning, whatever is asked of it; nothing in it is read, made or changed."""
+    before = sorted(cache.folder().iterdir())
+    words = f"cache {cache.folder()}: {reason}; the run goes on without it"
+    with pytest.warns(UserWarning, match=f"^{words}$") as warned:
+        assert storage.cached("kind", {"a": 1}, compute) == (RESULTS, False)
+    assert len(warned) == 1
+    assert not storage.is_cached("kind", {"a": 1})
+    assert sorted(cache.folder().iterdir()) == before
+    outcome = command_here("cache", "--clear")
+    assert_refused(outcome, str(cache.folder()), reason)
+    assert f"cache: not used: {cache.folder()}: {reason}" in command_here("doctor").stdout
+    assert sorted(cache.folder().iterdir()) == before

@@ -4,10 +4,11 @@ import h5py
 import numpy as np
 import pytest
 import xarray as xr
+from support import append_hash
 
 from vibroacoustics.base.errors import StorageError
 from vibroacoustics.recordings.readers.hdf5 import MAXIMUM_DATASETS, datasets
-from vibroacoustics.results.hashed import append_hash, read_checked
+from vibroacoustics.results.hashed import read_checked
 from vibroacoustics.results.netcdf import from_bytes, write_netcdf
 
 

@@ -5,18 +5,22 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
+from vibroacoustics.base.folder import Folder, opened_folder
 from vibroacoustics.results import lock
 from vibroacoustics.results.interruption import uninterrupted
 
 HOLD = """
 import sys, time
 from pathlib import Path
+from vibroacoustics.base.folder import opened_folder
 from vibroacoustics.results.lock import locked
-with locked(Path(sys.argv[1]), "it"):
+path = Path(sys.argv[1])
+with opened_folder(path.parent) as folder, locked(folder, path.name, "it"):
     print("held", flush=True)
     time.sleep(float(sys.argv[2]))
 """
@@ -32,41 +36,45 @@ def hold(path: Path, seconds: float) -> subprocess.Popen[bytes]:
     return process
 
 
-def test_the_file_is_there_while_the_lock_is_held(tmp_path):
-    path = tmp_path / "a.lock"
-    with lock.locked(path, "it"):
-        assert lock.is_held(path)
-        assert f"process {os.getpid()} on " in lock.holder(path)
-        with lock.taken(path) as held:
+@pytest.fixture
+def folder(tmp_path) -> Iterator[Folder]:
+    with opened_folder(tmp_path) as opened:
+        yield opened
+
+
+def test_the_file_is_there_while_the_lock_is_held(folder, tmp_path):
+    with lock.locked(folder, "a.lock", "it"):
+        assert lock.is_held(folder, "a.lock")
+        assert f"process {os.getpid()} on " in lock.holder(folder, "a.lock")
+        with lock.taken(folder, "a.lock") as held:
             assert not held
-    assert not path.exists()
-    assert not lock.is_held(path)
+    assert not list(tmp_path.iterdir())
+    assert not lock.is_held(folder, "a.lock")
 
 
-def test_the_second_waits_and_says_for_whom(tmp_path):
+def test_the_second_waits_and_says_for_whom(folder, tmp_path):
     path = tmp_path / "a.lock"
     process = hold(path, 1.5)
     begin = time.monotonic()
     with pytest.warns(UserWarning, match=rf"^it: waiting for process {process.pid} on .*, since 2"):
-        take(path)
+        take(folder)
     assert time.monotonic() - begin > 0.5
     assert process.wait(timeout=20) == 0
     assert not path.exists()
 
 
-def take(path: Path) -> None:
-    with lock.locked(path, "it"):
-        assert lock.is_held(path)
+def take(folder: Folder) -> None:
+    with lock.locked(folder, "a.lock", "it"):
+        assert lock.is_held(folder, "a.lock")
 
 
-def test_lock_of_the_dead_is_taken_over_in_silence(tmp_path):
+def test_lock_of_the_dead_is_taken_over_in_silence(folder, tmp_path):
     path = tmp_path / "a.lock"
     process = hold(path, 60)
     os.kill(process.pid, signal.SIGKILL)
     process.wait()
     assert path.exists()
-    with lock.locked(path, "it"):
-        assert lock.is_held(path)
+    take(folder)
     assert not path.exists()
 
 
@@ -75,10 +83,11 @@ def test_never_two_at_once(tmp_path):
     script = """
 import sys, time
 from pathlib import Path
+from vibroacoustics.base.folder import opened_folder
 from vibroacoustics.results.lock import locked
 number = Path(sys.argv[1])
 for _ in range(30):
-    with locked(number.with_suffix(".lock"), "it"):
+    with opened_folder(number.parent) as folder, locked(folder, "number.lock", "it"):
         before = int(number.read_text())
         time.sleep(0.001)
         number.write_text(str(before + 1))
@@ -92,9 +101,18 @@ for _ in range(30):
     assert [path.name for path in tmp_path.iterdir()] == ["number"]
 
 
-def test_holder_that_cannot_be_read(tmp_path):
+def test_holder_that_cannot_be_read(folder, tmp_path):
     (tmp_path / "a.lock").write_bytes(b"\xff{")
-    assert lock.holder(tmp_path / "a.lock") == "another process"
+    assert lock.holder(folder, "a.lock") == "another process"
+
+
+def test_a_lock_that_is_held_keeps_its_links(folder, tmp_path):
+    """As a backup of hard links makes one: nobody else gets the lock for it."""
+    with lock.locked(folder, "a.lock", "it"):
+        (tmp_path / "copy").hardlink_to(tmp_path / "a.lock")
+        with lock.taken(folder, "a.lock") as held:
+            assert not held
+    assert [path.name for path in tmp_path.iterdir()] == ["copy"]
 
 
 def test_a_signal_waits_for_the_step(monkeypatch):

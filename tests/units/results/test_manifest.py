@@ -8,6 +8,7 @@ import pytest
 import xarray as xr
 
 from vibroacoustics.base.errors import StorageError
+from vibroacoustics.base.folder import opened_folder
 from vibroacoustics.results import lock, manifest, storage
 from vibroacoustics.results.files import write
 
@@ -19,9 +20,9 @@ def results(title: str) -> xr.Dataset:
 def make(folder: Path, title: str, *names: str, dataset: str = "results.nc") -> None:
     """A run that writes these files."""
     with manifest.replacing(folder, dataset) as staged:
-        storage.stage_results(results(title), staged / dataset)
+        storage.stage_results(results(title), staged, dataset)
         for name in names:
-            write(staged / name, f"{name} of {title}".encode())
+            write(staged, name, f"{name} of {title}".encode())
 
 
 def names(folder: Path) -> set[str]:
@@ -70,11 +71,11 @@ def test_killed_between_two_files_is_seen(tmp_path, monkeypatch, killed_at, has_
         (tmp_path / "files.json").unlink()
     moved, replace = [], os.replace
 
-    def kill(source, target):
+    def kill(source, target, **folders):
         if len(moved) == killed_at:
             raise KeyboardInterrupt
         moved.append(target)
-        replace(source, target)
+        replace(source, target, **folders)
 
     with monkeypatch.context() as patch:
         patch.setattr(os, "replace", kill)
@@ -92,7 +93,7 @@ def test_nothing_is_replaced_where_one_file_fails(tmp_path):
     with pytest.raises(TypeError):
         make(tmp_path, "second", "a.csv", None)
     (tmp_path / "b.csv").mkdir()
-    with pytest.raises(StorageError, match=r"b\.csv: cannot be written: a folder has this name"):
+    with pytest.raises(StorageError, match=r"b\.csv: is a folder, no regular file: remove it"):
         make(tmp_path, "second", "a.csv", "b.csv")
     assert {name: (tmp_path / name).read_bytes() for name in names(tmp_path)} == before
 
@@ -115,7 +116,7 @@ def test_a_file_is_of_the_results_that_wrote_it_last(tmp_path):
 
 def test_files_of_results_elsewhere(tmp_path):
     with manifest.replacing(tmp_path, "results.nc", "0" * 64) as staged:
-        write(staged / "a.csv", b"a")
+        write(staged, "a.csv", b"a")
     assert manifest.mixed(tmp_path) == []
     storage.write_results(results("other"), tmp_path / "results.nc")
     assert len(manifest.mixed(tmp_path)) == 1
@@ -141,14 +142,14 @@ def test_a_damaged_list_is_named_and_made_again(tmp_path, content):
 def test_a_folder_that_is_written_now_is_not_judged(tmp_path):
     make(tmp_path, "run", "a.csv")
     (tmp_path / "a.csv").unlink()
-    with lock.locked(tmp_path / ".lock", "it"):
+    with opened_folder(tmp_path) as folder, lock.locked(folder, ".lock", "it"):
         assert manifest.mixed(tmp_path) == []
     assert len(manifest.mixed(tmp_path)) == 1
 
 
 def test_results_elsewhere_whose_name_is_no_utf_8(tmp_path):
     with manifest.replacing(tmp_path, os.fsdecode(b"caf\xe9.nc"), "0" * 64) as staged:
-        write(staged / "a.csv", b"a")
+        write(staged, "a.csv", b"a")
     assert manifest.mixed(tmp_path) == []
     assert "a.csv" in manifest.listed(tmp_path)
 
@@ -157,7 +158,7 @@ def test_killed_before_what_an_older_run_wrote_is_removed(tmp_path, monkeypatch)
     """It is named, and the next run removes it; what the user has changed since stays."""
     make(tmp_path, "first", "a.csv", "b.csv", "c.csv")
 
-    def kill(path: Path) -> None:
+    def kill(*_: object) -> None:
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patch:
@@ -177,7 +178,7 @@ def test_killed_before_what_an_older_run_wrote_is_removed(tmp_path, monkeypatch)
 def test_what_other_results_have_written_since_stays(tmp_path, monkeypatch):
     make(tmp_path, "first", "a.csv", "b.csv")
     with monkeypatch.context() as patch:
-        patch.setattr(manifest, "_remove", lambda path: None)
+        patch.setattr(manifest, "_remove", lambda *_: None)
         make(tmp_path, "second", "a.csv")
     make(tmp_path, "first", "b.csv", dataset="other.nc")
     make(tmp_path, "third", "a.csv")

@@ -10,7 +10,7 @@ import netCDF4
 import numpy as np
 import pytest
 import xarray as xr
-from support import in_child
+from support import append_hash, in_child
 
 from vibroacoustics.base.errors import StorageError
 from vibroacoustics.base.hashing import sha256
@@ -197,7 +197,7 @@ def test_missing_file_and_folder(tmp_path):
 def test_file_of_another_kind(tmp_path, content):
     path = tmp_path / "results.nc"
     path.write_bytes(content)
-    hashed.append_hash(path)
+    append_hash(path)
     with pytest.raises(StorageError, match="no result file"):
         storage.open_results(path)
 
@@ -215,7 +215,7 @@ def assert_only_the_old(results: xr.Dataset, folder: Path) -> None:
 def test_failure_leaves_the_old_results_and_nothing_else(results, tmp_path, monkeypatch, step):
     path = storage.write_results(results, tmp_path / "results.nc")
 
-    def fail(*_):
+    def fail(*_, **__):
         raise OSError(28, "No space left on device")
 
     with monkeypatch.context() as patch:
@@ -269,7 +269,7 @@ def test_full_disk_leaves_the_old_results_and_nothing_else(results, tmp_path, mo
 def test_interrupt_leaves_the_old_results_and_nothing_else(results, tmp_path, monkeypatch):
     path = storage.write_results(results, tmp_path / "results.nc")
 
-    def interrupt(*_):
+    def interrupt(*_, **__):
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patch:
@@ -287,10 +287,11 @@ def test_what_takes_the_name_is_synced_and_whole(results, tmp_path, monkeypatch)
         synced.append(os.fstat(descriptor).st_size)
         fsync(descriptor)
 
-    def watch_replace(temporary, target):
-        assert synced == [Path(temporary).stat().st_size]
-        assert hashed.stored_hash(Path(temporary)) is not None
-        replace(temporary, target)
+    def watch_replace(name, target, **folders):
+        temporary = tmp_path / ".writing" / name
+        assert synced == [temporary.stat().st_size]
+        assert hashed.stored_hash(temporary) is not None
+        replace(name, target, **folders)
 
     monkeypatch.setattr(os, "fsync", watch_sync)
     monkeypatch.setattr(os, "replace", watch_replace)

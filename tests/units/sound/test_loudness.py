@@ -101,6 +101,18 @@ def test_recorded_and_computed_sound_are_as_loud():
     assert recorded.sharpness_acum == pytest.approx(computed.sharpness_acum, rel=1e-3)
 
 
+@pytest.mark.parametrize("first_s", [0.0, 2.0])
+def test_the_ends_of_a_recording_weigh_like_its_middle(first_s):
+    """A second of a tone in four is 6 dB below the steady tone; its fade takes 50 ms at most."""
+    time = np.arange(4 * 48000) / 48000.0
+    peak = np.sqrt(2.0 * REFERENCE) * 10.0**3.0
+    pressure = peak * np.sin(2.0 * np.pi * 1000.0 * time)
+    pressure[(time < first_s) | (time >= first_s + 1.0)] = 0.0
+    bands = narrow_bands(pressure, 48000.0)
+    square = bands.even_mean_square.sum() * time[-1]
+    assert square == pytest.approx(0.5 * peak**2, rel=0.05)
+
+
 def test_filters_let_white_noise_through_as_wide_as_their_band():
     hertz = np.arange(0.5, 20000.0)
     width = CENTRES_HZ * (10.0**0.05 - 10.0**-0.05)

@@ -19,9 +19,9 @@ def white(frequencies, levels, density_db):
     square = REFERENCE * 10.0 ** (np.array(levels) / 10.0)
     density = REFERENCE * 10.0 ** (density_db / 10.0)
     names = tuple(f"{one:g}" for one in frequencies)
-    return TonalSpectrum(
-        np.array(frequencies, dtype=float), square, lambda low, high: density * (high - low), names
-    )
+    steady = np.ones_like(square), np.zeros_like(square)
+    hertz = np.array(frequencies, dtype=float)
+    return TonalSpectrum(hertz, square, lambda low, high: density * (high - low), names, *steady)
 
 
 def recorded(frequencies, levels, density_db, seconds=12.0):
@@ -142,6 +142,61 @@ def test_recorded_tones_agree_with_the_formulas(density):
         assert tone.level_db == pytest.approx(other.level_db, abs=0.1)
         assert tone.noise_ratio_db == pytest.approx(other.noise_ratio_db, abs=0.5)
         assert tone.prominence_db == pytest.approx(other.prominence_db, abs=0.5)
+
+
+def part_of_time(hertz, level, first, last, seconds=3.0, density=20.0):
+    """A tone that sounds from one share of the recording to another, in noise."""
+    noise = recorded([], [], density, seconds)
+    tone = recorded([hertz], [level], -200.0, seconds)
+    tone[: round(first * tone.size)] = 0.0
+    tone[round(last * tone.size) :] = 0.0
+    (found, *_) = tones(recorded_spectrum(narrow_bands(noise + tone, RATE)))
+    return found
+
+
+@pytest.mark.parametrize("density", [20.0, pytest.param(-20.0, marks=pytest.mark.long)])
+@pytest.mark.parametrize("level", [60.0, 80.0, 94.0])
+@pytest.mark.parametrize("hertz", [100.0, 315.0, 1000.3, 4000.0])
+def test_a_tone_that_starts_within_the_recording(hertz, level, density):
+    """Its share is counted in segments, an eighth of a third of the recording apart."""
+    tone = part_of_time(hertz, level, 1.0 / 3.0, 1.0, density=density)
+    assert tone.frequency_hz == pytest.approx(hertz, abs=1.0)
+    assert tone.level_db == pytest.approx(level, abs=0.3)
+    assert tone.share == pytest.approx(2.0 / 3.0, abs=1.0 / 24.0)
+    assert tone.swing_db < 1.0
+
+
+@pytest.mark.parametrize(("first", "last"), [(0.0, 0.25), (0.45, 0.6), (0.75, 1.0)])
+def test_a_tone_that_sounds_for_a_short_time(first, last):
+    """A third of the segment's window has 97 % of its power: half of a segment is 1.2 dB off."""
+    tone = part_of_time(500.0, 80.0, first, last)
+    assert tone.level_db == pytest.approx(80.0, abs=1.2)
+    assert tone.share == pytest.approx(last - first, abs=1.0 / 24.0)
+
+
+def test_a_steady_tone_sounds_all_the_time():
+    tone = part_of_time(1000.3, 94.0, 0.0, 1.0, density=-20.0)
+    assert tone.level_db == pytest.approx(94.0, abs=0.02)
+    assert tone.share == 1.0
+    assert tone.swing_db < 0.1
+
+
+def test_a_level_that_swings():
+    """By a sine of 4 dB to either side: 10 to 90 % of the time are 2 · 4 · sin 72° dB apart."""
+    seconds, swing_db = 24.0, 4.0
+    tone = recorded([1000.0], [80.0], 0.0, seconds)
+    course_db = swing_db * np.sin(2.0 * np.pi * np.arange(tone.size) / tone.size)
+    (found, *_) = tones(recorded_spectrum(narrow_bands(tone * 10.0 ** (course_db / 20.0), RATE)))
+    assert found.swing_db == pytest.approx(2.0 * swing_db * np.sin(np.radians(72.0)), abs=0.8)
+
+
+def test_a_slam_is_no_tone():
+    """The steady tone is listed, not the second of noise that is 10 dB louder in its lines."""
+    pressure = recorded([500.0], [60.0], 20.0)
+    pressure[5 * 48000 : 6 * 48000] += recorded([], [], 66.0, 1.0)
+    found = tones(recorded_spectrum(narrow_bands(pressure, RATE)))
+    (tone,) = (one for one in found if one.name == "500.0 Hz")
+    assert tone.level_db == pytest.approx(60.0, abs=3.0)
 
 
 @pytest.mark.long

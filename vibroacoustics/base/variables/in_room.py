@@ -11,6 +11,7 @@ _SEAM: Final = ("listener", "seam_band")
 for _coordinate in (
     Coordinate("seam_band", ("seam_band",), "Hz", "third octave around the change of method"),
     Coordinate("room_octave", ("room_octave",), "Hz", "octave of the room's absorption"),
+    Coordinate("room_surface", ("room_surface",), "", "wall, furniture or patch of a room"),
     Coordinate("room_limit_time", ("room_limit_time",), "", "time of day of a limit"),
     Coordinate("room_map_x", ("room_map_x",), "m", "along the room, from its corner"),
     Coordinate("room_map_y", ("room_map_y",), "m", "across the room, from its corner"),
@@ -119,6 +120,18 @@ for _thing in (
         "sound power at the machine's place over that in the open, taken above the waves",
     ),
     Variable("room_absorption_area", ("room_octave",), "m2", "equivalent absorption area"),
+    Variable(
+        "room_wall_absorption",
+        ("room_surface", "room_octave"),
+        "1",
+        "random-incidence absorption of a surface in the computed waves",
+    ),
+    Variable(
+        "room_wall_absorption_requested",
+        ("room_surface", "room_octave"),
+        "1",
+        "random-incidence absorption of a surface in the study",
+    ),
     Variable("room_limit", ("room_limit_time",), "dB", "A-weighted level that listeners accept"),
     Variable(
         "room_map_gain",

@@ -7,7 +7,7 @@ there: it is evaluated again, so that a run goes on from wherever it was ended.
 import json
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Final
 
@@ -16,11 +16,11 @@ import xarray as xr
 
 from ...base.arrays import Array
 from ...base.errors import StorageError
+from ...base.folder import Folder, make_folder, opened_folder
 from ...base.hashing import canonical_json
-from ...base.regular_file import read_bytes
 from ...results.files import LOCK_NAME, STAGING_NAME, naming, replace_all, staging, write
 from ...results.lock import locked
-from ...results.storage import open_results, stage_results
+from ...results.storage import results_in, stage_results
 from ..evaluation import Evaluate, Evaluation
 
 PLAN_NAME: Final = "plan.json"
@@ -30,16 +30,17 @@ _MAXIMUM_PLAN_BYTES: Final = 10_000_000
 class ChunkStore:
     """Chunks in a folder that this process alone writes; made by `opened_store`."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Folder) -> None:
         self._folder = folder
 
     def get(self, number: int, designs: Array) -> Evaluation | None:
         """A chunk, where it is there, undamaged, and of just these designs."""
-        path = self._path(number)
-        if not path.exists():
+        name = _name(number)
+        self._folder.check_file(name)
+        if not self._folder.holds_file(name):
             return None
         try:
-            chunk = open_results(path)
+            chunk = results_in(self._folder, name)
         except StorageError as error:
             warnings.warn(f"{error}; its designs are evaluated again", stacklevel=2)
             return None
@@ -67,21 +68,22 @@ class ChunkStore:
             },
             attrs={"failures": json.dumps(evaluation.failures)},
         )
-        with staging(self._folder / STAGING_NAME) as staged:
-            stage_results(chunk, staged / self._path(number).name)
-            replace_all(staged, self._folder)
+        with staging(self._folder, STAGING_NAME) as staged:
+            stage_results(chunk, staged, _name(number))
+            replace_all(staged)
 
-    def _path(self, number: int) -> Path:
-        return self._folder / f"chunk_{number:08d}.nc"
+
+def _name(number: int) -> str:
+    return f"chunk_{number:08d}.nc"
 
 
 @contextmanager
-def opened_store(folder: Path, plan: dict[str, object]) -> Iterator[ChunkStore]:
+def opened_store(path: Path, plan: dict[str, object]) -> Iterator[ChunkStore]:
     """Chunks of a plan in a folder, which has one writer at a time.
 
     Parameters
     ----------
-    folder : is made where it is not there
+    path : of the folder, in that of the results; both are made where they are missing
     plan : what shapes the designs and their evaluation, as JSON values
 
     Raises
@@ -89,27 +91,30 @@ def opened_store(folder: Path, plan: dict[str, object]) -> Iterator[ChunkStore]:
     StorageError
         The folder holds designs of another plan, or cannot be written.
     """
-    with naming(folder):
-        folder.mkdir(parents=True, exist_ok=True)
-    with locked(folder / LOCK_NAME, str(folder)):
-        _same_plan(folder / PLAN_NAME, canonical_json(plan).encode())
+    with ExitStack() as stack:
+        with naming(path):
+            make_folder(path.parent)
+            results = stack.enter_context(opened_folder(path.parent))
+            folder = stack.enter_context(results.below(path.name, make=True))
+            stack.enter_context(locked(folder, LOCK_NAME, str(path)))
+        _same_plan(folder, canonical_json(plan).encode())
         yield ChunkStore(folder)
 
 
-def _same_plan(path: Path, plan: bytes) -> None:
+def _same_plan(folder: Folder, plan: bytes) -> None:
     """Write the plan, or see that it is the one that is there."""
     try:
-        present = read_bytes(path, _MAXIMUM_PLAN_BYTES)
+        present = folder.read_bytes(PLAN_NAME, _MAXIMUM_PLAN_BYTES)
     except FileNotFoundError:
-        with staging(path.parent / STAGING_NAME) as staged:
-            write(staged / path.name, plan)
-            replace_all(staged, path.parent)
+        with staging(folder, STAGING_NAME) as staged:
+            write(staged, PLAN_NAME, plan)
+            replace_all(staged)
         return
     except OSError as error:
-        raise StorageError(f"{path}: cannot be read: {error.strerror}") from None
+        raise StorageError(f"{folder.path / PLAN_NAME}: cannot be read: {error.strerror}") from None
     if present != plan:
         raise StorageError(
-            f"{path.parent}: holds designs of another study, version or plan: "
+            f"{folder.path}: holds designs of another study, version or plan: "
             "choose another folder with --out, or remove this one"
         )
 

@@ -6,6 +6,7 @@ from ...base.registry import register
 from ..blocks import Block, Details, Pictures, Text
 from ..figures.in_room import room_pictures
 from ..in_room import (
+    absorption,
     has_room,
     listeners,
     loudest_listener,
@@ -30,6 +31,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         Text(seam_sentence(results)),
         Pictures(room_pictures(results, loudest)),
         Details("Both methods at every listener", (seam_table(results),)),
+        *(Details("Absorption of walls and furniture", (table,)) for table in absorption(results)),
         Text(
             "Waves to the seam, above it direct sound and the diffuse field of the power that the "
             "machine sends out on a hard floor in the open. What no source explains is taken as "

@@ -1,0 +1,342 @@
+"""Processes of this machine that apply a function to many items: a pool that survives its workers.
+
+Every worker is started afresh (spawn) and shares one unnamed pair of sockets with this process.
+Nothing listens: there is no port, file or name that another process could open. A worker ends with
+this process, however that ends.
+"""
+
+import multiprocessing
+import os
+import pickle
+import signal
+import threading
+import traceback
+from collections.abc import Callable, Generator, Iterable, Iterator
+from contextlib import closing, contextmanager, suppress
+from dataclasses import dataclass
+from multiprocessing import connection, resource_tracker
+from typing import Any, Final, Generic, NoReturn, Self, TypeVar
+
+from .errors import SolverError
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+
+_SPAWN: Final = multiprocessing.get_context("spawn")
+_READY, _BEGUN, _DONE, _FAILED = range(4)
+"""Kinds of messages of a worker."""
+_MOST_DEATHS: Final = 2
+"""Workers that end at an item before it is given up."""
+_FURTHER_IDLE_DEATHS: Final = 3
+"""Workers, beyond the number of the pool, that may end without an item between two results."""
+_AHEAD: Final = 4
+"""Items per worker that may be finished before the one whose result is due."""
+_END_S: Final = 5.0
+"""A worker without an item may take this long to end."""
+
+
+class ProcessPool:
+    """Processes that apply a function of a module to items, one item each at a time.
+
+    A worker that is killed is replaced and its item is given to another one. Processes start when
+    items need them, and end with the context. An item's function runs with SIGINT blocked, so that
+    Ctrl-C reaches this process alone. A pool does one map at a time; its workers have no pools.
+
+    Parameters
+    ----------
+    number : of processes, at least 1
+
+    Examples
+    --------
+    A script needs the usual guard `if __name__ == "__main__":`.
+
+    >>> with ProcessPool(2) as pool:  # doctest: +SKIP
+    ...     list(pool.in_order(math.sqrt, [1.0, 4.0]))
+    [1.0, 2.0]
+    """
+
+    def __init__(self, number: int) -> None:
+        self._number = number
+        self._workers: list[_Worker] = []
+        self._idle_deaths = 0
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._end(self._workers)
+
+    def in_order(
+        self,
+        function: Callable[[Item], Result],
+        items: Iterable[Item],
+        on_loss: Callable[[Item, str], Result] | None = None,
+    ) -> Iterator[Result]:
+        """Apply a function; the results are in the order of the items.
+
+        Memory holds a few items and results per worker: `items` may be a long generator.
+
+        Parameters
+        ----------
+        function : of a module, not a lambda; functools.partial of one is allowed
+        items : anything that pickle takes
+        on_loss : result of an item that ended two workers, from the item and how the second one
+            ended; an error by default
+
+        Raises
+        ------
+        SolverError
+            An item ended two workers, or workers end without an item.
+        Exception
+            The first error of the function; items in work are ended.
+        """
+        results: dict[int, Result] = {}
+        due = 0
+        with closing(self._finished(function, items, on_loss, _AHEAD * self._number)) as finished:
+            for index, result in finished:
+                results[index] = result
+                while due in results:
+                    yield results.pop(due)
+                    due += 1
+
+    def as_completed(
+        self,
+        function: Callable[[Item], Result],
+        items: Iterable[Item],
+        on_loss: Callable[[Item, str], Result] | None = None,
+    ) -> Iterator[tuple[int, Result]]:
+        """Apply a function like `in_order`; gives index and result of an item when it is finished.
+
+        Parameters
+        ----------
+        function, items, on_loss : as for `in_order`
+        """
+        return self._finished(function, items, on_loss, None)
+
+    def _finished(
+        self,
+        function: Callable[[Item], Result],
+        items: Iterable[Item],
+        on_loss: Callable[[Item, str], Result] | None,
+        ahead: int | None,
+    ) -> Generator[tuple[int, Result], None, None]:
+        if self._busy():
+            raise RuntimeError("a pool of processes does one map at a time")
+        tasks = _Tasks(items, self._number, ahead)
+        results: list[tuple[int, Result]] = []
+        try:
+            while True:
+                tasks.fill()
+                self._give(function, tasks)  # before the results are used: no worker waits
+                yield from results
+                if not tasks.unfinished:
+                    return
+                results = list(self._receive(tasks, on_loss or _refuse))
+        finally:
+            self._end(self._busy())
+
+    def _busy(self) -> list["_Worker"]:
+        return [worker for worker in self._workers if worker.task]
+
+    def _give(self, function: Callable[[Item], Result], tasks: "_Tasks[Item]") -> None:
+        """Give waiting tasks to idle workers; start workers where there are fewer than tasks."""
+        given = {worker.task for worker in self._workers}
+        waiting = [task for task in tasks.unfinished.values() if task not in given]
+        idle = [worker for worker in self._workers if worker.ready and not worker.task]
+        for worker, task in zip(idle, waiting, strict=False):
+            worker.take(function, task)
+        while len(self._workers) < len(tasks.unfinished):
+            self._workers.append(_Worker())
+
+    def _receive(
+        self, tasks: "_Tasks[Item]", on_loss: Callable[[Item, str], Result]
+    ) -> Iterator[tuple[int, Result]]:
+        """Wait for messages of workers; gives what they finished."""
+        workers = {worker.connection: worker for worker in self._workers}
+        for source in connection.wait(list(workers)):
+            worker = workers[source]  # type: ignore[index]
+            task = worker.task
+            try:
+                kind, content = worker.receive()
+            except (EOFError, OSError):
+                reason = self._dead(worker)
+                if task is not None and task.deaths == _MOST_DEATHS:
+                    yield tasks.finish(task), on_loss(task.item, reason)
+                continue
+            if kind == _FAILED:
+                raise content
+            if kind == _DONE and task is not None:
+                self._idle_deaths = 0
+                yield tasks.finish(task), content
+
+    def _dead(self, worker: "_Worker") -> str:
+        """Remove a worker that ended by itself; gives how."""
+        self._end([worker])
+        if worker.task and worker.begun:
+            worker.task.deaths += 1
+            return worker.reason
+        self._idle_deaths += 1
+        if self._idle_deaths > self._number + _FURTHER_IDLE_DEATHS:
+            raise SolverError(f"worker processes end before they begin to work: {worker.reason}")
+        return worker.reason
+
+    def _end(self, workers: list["_Worker"]) -> None:
+        workers = list(workers)
+        for worker in workers:
+            worker.close()
+        for worker in workers:
+            worker.join()
+            self._workers.remove(worker)
+
+
+@dataclass(eq=False)
+class _Task(Generic[Item]):
+    """An item in work, and how many workers ended at it."""
+
+    index: int
+    item: Item
+    deaths: int = 0
+
+
+class _Tasks(Generic[Item]):
+    """Unfinished tasks: at most as many as there are workers, so that memory is bounded.
+
+    Parameters
+    ----------
+    items : are taken when workers are free for them
+    number : of workers
+    ahead : largest difference of the indices of two unfinished tasks; None: any
+    """
+
+    def __init__(self, items: Iterable[Item], number: int, ahead: int | None) -> None:
+        self._tasks = (_Task(index, item) for index, item in enumerate(items))
+        self._number, self._ahead = number, ahead
+        self._taken = 0
+        self.unfinished: dict[int, _Task[Item]] = {}
+
+    def fill(self) -> None:
+        """Take items until there is a task for every worker."""
+        while len(self.unfinished) < self._number and not self._far_ahead():
+            task = next(self._tasks, None)
+            if task is None:
+                return
+            self.unfinished[task.index] = task
+            self._taken += 1
+
+    def finish(self, task: _Task[Item]) -> int:
+        """Forget a task; gives its index."""
+        del self.unfinished[task.index]
+        return task.index
+
+    def _far_ahead(self) -> bool:
+        first = min(self.unfinished, default=self._taken)
+        return self._ahead is not None and self._taken - first >= self._ahead
+
+
+class _Worker:
+    """A process, and this end of the pipe that leads to it."""
+
+    def __init__(self) -> None:
+        try:
+            self.connection, far_end = _SPAWN.Pipe()
+            self._process = _SPAWN.Process(target=_serve, args=(far_end,), daemon=True)
+            with _interrupts_blocked(), far_end:  # closed here: else its end would go unnoticed
+                self._process.start()
+        except OSError as error:
+            raise SolverError(f"a worker process cannot start: {error.strerror}") from None
+        self.ready = self.begun = False
+        self.task: _Task[Any] | None = None
+        self.reason = ""
+
+    def take(self, function: Callable[[Item], Result], task: _Task[Item]) -> None:
+        """Send a task."""
+        content = pickle.dumps((function, task.item))
+        self.task, self.begun = task, False
+        with suppress(OSError):  # it is dead, which `receive` reports
+            self.connection.send_bytes(content)
+
+    def receive(self) -> tuple[int, Any]:
+        """Receive a message and note what it says about the worker.
+
+        Raises
+        ------
+        EOFError, OSError
+            The worker is dead.
+        """
+        kind, content = self.connection.recv()
+        self.ready, self.begun = True, kind == _BEGUN
+        if kind in (_DONE, _FAILED):
+            self.task = None
+        return kind, content
+
+    def close(self) -> None:
+        """Kill the process if it is at work; let it end otherwise."""
+        if self.task or not self.ready:
+            self._process.kill()
+        self.connection.close()
+
+    def join(self) -> None:
+        """Wait for the end of the process, which `close` began."""
+        self._process.join(_END_S)
+        self._process.kill()
+        self._process.join()
+        code = self._process.exitcode or 0
+        self.reason = signal.Signals(-code).name if code < 0 else f"exit code {code}"
+        self._process.close()
+
+
+def _serve(pipe: "connection.Connection[Any, Any]") -> None:
+    """Answer items in a worker until the other end of the pipe is closed."""
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+    with suppress(EOFError, OSError):
+        pipe.send((_READY, None))
+        while True:
+            content = pipe.recv_bytes()
+            pipe.send((_BEGUN, None))
+            pipe.send_bytes(_answer(content))
+
+
+def _end_with_parent() -> None:
+    """End this worker when its parent has ended, in the middle of an item too."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+    os._exit(1)
+
+
+def _answer(content: bytes) -> bytes:
+    """Apply the function to the item of a message; gives the result or the error as a message."""
+    try:
+        function, item = pickle.loads(content)  # noqa: S301 - of the process that started this one
+        return pickle.dumps((_DONE, function(item)))
+    except BaseException as error:
+        error.add_note(f"In a worker process:\n{traceback.format_exc()}")
+        return pickle.dumps((_FAILED, _portable(error)))
+
+
+def _portable(error: BaseException) -> BaseException:
+    """Give the error, or its text where it cannot be pickled."""
+    try:
+        pickle.loads(pickle.dumps(error))  # noqa: S301 - made one line before
+    except Exception:
+        return SolverError(f"{type(error).__name__}: {error}")
+    return error
+
+
+def _refuse(_: object, reason: str) -> NoReturn:
+    """Report an item that ended two workers."""
+    raise SolverError(
+        f"two worker processes ended at the same item ({reason}): "
+        "if memory ran out, use fewer workers"
+    )
+
+
+@contextmanager
+def _interrupts_blocked() -> Iterator[None]:
+    """Block SIGINT, so that a process that is started here never gets it."""
+    resource_tracker.ensure_running()  # starts with the first process otherwise, and unblocks it
+    blocked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, blocked)

@@ -1,0 +1,121 @@
+"""Workers of a running scheduler of dask.distributed, which are reached over the network by TLS.
+
+A scheduler runs whatever functions its clients send, and clients unpickle what workers answer:
+whoever can speak with it has the rights of all of them. So TLS with certificates of both sides is
+the rule, and its absence must be asked for.
+"""
+
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+from ...base.arrays import Array
+from ...base.errors import ParameterError
+from ..evaluation import Evaluation
+from .spread import ParallelMap
+
+_CONNECTION_S: Final = 10.0
+_TLS: Final = "--tls-ca, --tls-cert and --tls-key"
+
+
+@dataclass(frozen=True)
+class SchedulerAccess:
+    """A running scheduler and how it is reached; contradictions are refused.
+
+    Attributes
+    ----------
+    address : such as tls://host:8786; tcp://host:8786 without TLS
+    tls_ca : certificate of the authority that signed those of scheduler and workers, PEM
+    tls_cert : certificate of this client, PEM
+    tls_key : private key of this client, PEM
+    insecure : TLS is not used
+    """
+
+    address: str
+    tls_ca: Path | None = None
+    tls_cert: Path | None = None
+    tls_key: Path | None = None
+    insecure: bool = False
+
+    def __post_init__(self) -> None:
+        head = f"--scheduler {self.address}"
+        files = {"--tls-ca": self.tls_ca, "--tls-cert": self.tls_cert, "--tls-key": self.tls_key}
+        missing = [option for option, path in files.items() if path is None]
+        if self.insecure and len(missing) < len(files):
+            raise ParameterError(f"{head}: --insecure contradicts {_TLS}: remove one of both")
+        if self.insecure and self.address.startswith("tls:"):
+            raise ParameterError(f"{head}: --insecure contradicts tls://: give {_TLS} instead")
+        if not self.insecure and missing:
+            raise ParameterError(
+                f"{head}: {', '.join(missing)} missing: give {_TLS}, or --insecure in a network "
+                "whose every user may run code as you"
+            )
+        if not self.insecure and not self.address.startswith("tls://"):
+            raise ParameterError(f"{head}: must begin with tls:// where TLS is used")
+        for option, path in files.items():
+            if path is not None and not path.is_file():
+                raise ParameterError(f"{option} {path}: is not a file")
+
+
+@contextmanager
+def opened_scheduler(access: SchedulerAccess) -> Iterator[ParallelMap]:
+    """Connect with a running scheduler; gives the map of its workers.
+
+    Raises
+    ------
+    ParameterError
+        distributed is not installed, the TLS files cannot be used, or nothing answers.
+    """
+    try:
+        import dask
+        import distributed
+    except ImportError:
+        raise ParameterError(
+            "--scheduler: needs distributed: pip install 'vibroacoustics[scheduler]'"
+        ) from None
+    library: Any = distributed  # untyped in parts
+    with dask.config.set({"distributed.comm.timeouts.connect": f"{_CONNECTION_S:g}s"}):
+        security = None if access.insecure else _security(library, access)
+        try:
+            client = library.Client(access.address, timeout=_CONNECTION_S, security=security)
+        except (OSError, ValueError) as error:
+            reason = str(error).splitlines()[0]
+            raise ParameterError(f"scheduler {access.address}: no connection: {reason}") from None
+        with client:
+            yield _map_of(client)
+
+
+def _security(library: Any, access: SchedulerAccess) -> Any:
+    """Settings of TLS, whose files have been read once."""
+    security = library.Security(
+        require_encryption=True,
+        tls_ca_file=str(access.tls_ca),
+        tls_client_cert=str(access.tls_cert),
+        tls_client_key=str(access.tls_key),
+    )
+    try:
+        security.get_connection_args("client")
+    except OSError as error:
+        raise ParameterError(f"{_TLS}: cannot be used: {error}") from None
+    return security
+
+
+def _map_of(client: Any) -> ParallelMap:
+    """Map whose items the workers of a client's scheduler compute."""
+    from distributed import KilledWorker
+
+    def parallel_map(
+        function: Callable[[Array], Evaluation],
+        items: Iterable[Array],
+        on_loss: Callable[[Array, str], Evaluation],
+    ) -> Iterator[Evaluation]:
+        futures = [(client.submit(function, item, pure=False), item) for item in items]
+        for future, item in futures:
+            try:
+                yield future.result()
+            except KilledWorker as error:
+                yield on_loss(item, f"{error.allowed_failures + 1} in turn")
+
+    return parallel_map

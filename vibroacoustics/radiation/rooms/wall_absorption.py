@@ -1,0 +1,87 @@
+"""Absorption of a room's surfaces: what is requested and what its waves are computed with."""
+
+import warnings
+from collections.abc import Iterator
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from ...base.vocabulary import stamp
+from ..arrays import Array
+from .impedance import fitted_absorption
+from .materials import HARD, MOST_ABSORPTION, OCTAVES_HZ, WAVE_OCTAVES, Material
+from .room import SIDES, Room
+
+MOST_DIFFERENCE: Final = 0.03
+"""Largest difference from the requested absorption without a warning."""
+
+
+class AbsorptionWarning(UserWarning):
+    """Waves meet a surface of another absorption than the requested one."""
+
+
+def wall_absorption(room: Room, highest_hz: float) -> xr.Dataset:
+    """Return requested and computed absorption of every surface, by octave.
+
+    Parameters
+    ----------
+    room : with its walls, furniture and patches
+    highest_hz : highest frequency of the waves
+
+    Returns
+    -------
+    `room_wall_absorption` and `room_wall_absorption_requested` (room_surface, room_octave); the
+    former is not a number in octaves above the waves
+    """
+    surfaces = dict(_surfaces(room))
+    coords = {"room_surface": list(surfaces), "room_octave": list(OCTAVES_HZ)}
+    values = {
+        "room_wall_absorption": [computed(one, highest_hz) for one in surfaces.values()],
+        "room_wall_absorption_requested": [one.absorption for one in surfaces.values()],
+    }
+    return xr.Dataset({name: stamp(name, np.array(rows), coords) for name, rows in values.items()})
+
+
+def computed(material: Material, highest_hz: float) -> Array:
+    """Return the absorption of a material in the waves, by octave; not a number above them."""
+    absorption = np.full(len(OCTAVES_HZ), np.nan)
+    absorption[:WAVE_OCTAVES] = 0.0 if material.hard else fitted_absorption(material)
+    return np.where(np.array(OCTAVES_HZ) <= highest_hz, absorption, np.nan)
+
+
+def warn_of_absorption(room: Room, highest_hz: float) -> None:
+    """Warn of surfaces whose computed absorption differs from the requested one.
+
+    Parameters
+    ----------
+    room : with its walls, furniture and patches
+    highest_hz : highest frequency of the waves
+    """
+    surfaces: dict[Material, list[str]] = {}
+    for name, material in _surfaces(room):
+        surfaces.setdefault(material, []).append(f"room.{name}")
+    for material, names in surfaces.items():
+        absorption = computed(material, highest_hz)
+        octaves = [
+            f"{value:.2f} instead of {requested:g} at {octave:g} Hz"
+            for octave, value, requested in zip(
+                OCTAVES_HZ, absorption, material.absorption, strict=True
+            )
+            if abs(value - requested) > MOST_DIFFERENCE
+        ]
+        if octaves:
+            most = f"; a locally reacting wall absorbs at most {MOST_ABSORPTION:g}"
+            clipped = most if material.clipped_octaves_hz else ""
+            warnings.warn(
+                f"{', '.join(names)}: absorption of waves is {', '.join(octaves)}{clipped}",
+                AbsorptionWarning,
+                stacklevel=3,
+            )
+
+
+def _surfaces(room: Room) -> Iterator[tuple[str, Material]]:
+    """Surfaces by their key below `room` in a study."""
+    yield from ((f"walls.{side}", room.walls.get(side, HARD)) for side in SIDES)
+    yield from ((f"furniture.{one.name}", one.material) for one in room.blocks)
+    yield from ((f"patches.{one.name}", one.material) for one in room.patches)
