@@ -51,7 +51,8 @@ class SoundInRoom(Stage):
     name = "room"
     reads = (Cases, ShellPath, "velocity_order", "level_total", "structure_borne_power")
     gives = (
-        "room_absorption_area", "room_limit", "room_level", "room_level_low",
+        "room_absorption_area", "room_wall_absorption", "room_wall_absorption_requested", "room_limit",
+        "room_level", "room_level_low",
         "room_level_middle", "room_level_high", "room_level_both_ways", "room_source_level",
         "room_band_level", "room_noise_band_level", "room_pressure_line",
         "room_sound_power_level", "room_plate_level", "room_plate_level_low",
