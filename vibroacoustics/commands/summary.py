@@ -8,6 +8,7 @@ from typing import Any
 
 import xarray as xr
 
+from ..report.kwave_words import kwave_difference_db, receiver_methods
 from ..study.study import Study
 from .outputs import REPORT_NAME, RESULTS_NAME
 
@@ -33,6 +34,11 @@ def summary(study: Study, results: xr.Dataset, folder: Path, seconds: float) -> 
         "seconds": round(seconds, 1),
         "draws": int(results.sizes.get("draw", 0)),
         "coarsened": list(study.coarsened),
+        "kwave_difference_db": kwave_difference_db(results),
+        "receivers": {
+            name: {"method": method, "reason": reason}
+            for name, (method, reason) in receiver_methods(results).items()
+        },
         **{name: _rows((folder / f"{name}.csv").read_text(encoding="utf-8")) for name in _ROWS},
     }
 
