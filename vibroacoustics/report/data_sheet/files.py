@@ -86,14 +86,14 @@ def _bands(power: SoundPower) -> Table:
 
 def _tones(sheet: DataSheet) -> tuple[Text | Table, ...]:
     judged = "ECMA-418-1, by tone-to-noise or prominence ratio, at the microphones of the sheet"
-    silent = sheet.tones_not_judged
+    count = sheet.tones_not_judged
     others = (
-        f"{silent} audible tone{'' if silent == 1 else 's'} without noise in the critical band "
-        f"{'is' if silent == 1 else 'are'} not judged."
+        f"{count} audible tone{'' if count == 1 else 's'} without noise in the critical band "
+        f"{'is' if count == 1 else 'are'} not judged."
     )
-    not_judged = (Text(others),) if silent else ()
+    not_judged = (Text(others),) if count else ()
     if not sheet.tones:
-        which = "No tone is prominent" if not silent else "No other tone is prominent"
+        which = "No tone is prominent" if not count else "No other tone is prominent"
         return *not_judged, Text(f"{which} ({judged}).")
     rows = tuple(
         (
