@@ -11,6 +11,7 @@ from ..base.units import shaft_frequency_hz
 from ..machine.source import CaseKey
 from ..measured.sound_functions import read_force_sound
 from ..radiation.given import given_radiation
+from ..radiation.receiver_methods import MEASURED, with_methods
 from ..study.study import Study
 from ..transfer import on_mounts
 from ..transfer.force_sound import ForceSound
@@ -61,7 +62,8 @@ def measured_force_sound(study: Study) -> ForceSound | None:
 def force_radiation(study: Study, sound: ForceSound) -> tuple[xr.Dataset, bool]:
     """Transfer vectors of the machine as given, for tables and figures."""
     vectors = sound(sound.frequency_hz)
-    return given_radiation(vectors, sound.frequency_hz)(study, no_progress, ())
+    given, was_cached = given_radiation(vectors, sound.frequency_hz)(study, no_progress, ())
+    return with_methods(given, dict.fromkeys(study.receivers, MEASURED)), was_cached
 
 
 def wrench_pressure_by_case(

@@ -11,8 +11,17 @@ from ..base.vocabulary import check, label_coordinates
 from ..levels import sound_field as levels
 from ..levels.insertion_loss import airborne_factor
 from ..machine.shell import Shell
+from ..radiation import SurfaceMotion
 from ..radiation.given import Radiation
 from ..radiation.pressure import pressure_on_map, pressure_on_surface, wrench_pressure
+from ..radiation.receiver_methods import (
+    GIVEN,
+    MEASURED,
+    ReceiverMethod,
+    receiver_methods,
+    with_methods,
+)
+from ..radiation.transfer_vectors import kwave_names
 from ..results import provenance, storage
 from ..study.radiation import RadiationSettings
 from ..study.receivers import Receiver
@@ -24,13 +33,13 @@ _Inputs = tuple[
     Mapping[str, Receiver],
     RadiationSettings,
     radiation.SoundField,
-    Sequence[radiation.SurfaceMotion],
+    Sequence[SurfaceMotion],
     tuple[str, ...],
 ]
 
 
 def transfer_vectors(
-    study: Study, progress: Progress, motions: Sequence[radiation.SurfaceMotion] = ()
+    study: Study, progress: Progress, motions: Sequence[SurfaceMotion] = ()
 ) -> tuple[xr.Dataset, bool]:
     """Pressure per velocity of the housing and of the motions; from the cache if it is there."""
     inputs = inputs_of(study, motions)
@@ -41,13 +50,34 @@ def transfer_vectors(
     )
 
 
-def inputs_of(study: Study, motions: Sequence[radiation.SurfaceMotion]) -> _Inputs:
+def inputs_of(study: Study, motions: Sequence[SurfaceMotion]) -> _Inputs:
     """What the transfer vectors of a study follow from."""
     sound_field = radiation.SoundField.of_study(study)
     at_all = study.radiation.kwave_receivers == "all"
     by_kwave = tuple(study.receivers) if at_all else (study.catalogue_receiver,)
     shell, settings = study.machine.shell, study.radiation
     return shell, study.receivers, settings, sound_field, motions, by_kwave
+
+
+def methods_of(study: Study) -> dict[str, ReceiverMethod]:
+    """Method of each microphone and why it is not k-Wave, from the study alone."""
+    if study.measured is not None and study.measured.sound is not None:
+        return dict.fromkeys(study.receivers, MEASURED)
+    _, receivers, settings, *_, by_kwave = inputs_of(study, ())
+    return receiver_methods(receivers, settings, kwave_names(receivers, settings, by_kwave))
+
+
+def radiated_by(
+    radiation: Radiation,
+    study: Study,
+    progress: Progress,
+    motions: Sequence[SurfaceMotion],
+) -> tuple[xr.Dataset, bool]:
+    """Transfer vectors with the method of each microphone, and whether they were cached."""
+    radiated, was_cached = radiation(study, progress, motions)
+    if "radiation_method" not in radiated.coords:
+        radiated = with_methods(radiated, dict.fromkeys(study.receivers, GIVEN))
+    return radiated, was_cached
 
 
 def radiate(
@@ -80,7 +110,7 @@ def radiate(
     try:
         path = shell_path(study)
         motions = () if path is None else path.modes
-        radiated, was_cached = radiation(study, progress, motions)
+        radiated, was_cached = radiated_by(radiation, study, progress, motions)
     except ParameterError as error:
         raise ParameterError(f"{study.source_file}: {error}") from None
     if study.sound_power is not None:

@@ -23,7 +23,7 @@ from .floor import on_measured_floor
 from .force_sound import force_radiation, measured_force_sound
 from .in_room import sound_in_room
 from .motion import motion_of
-from .radiating import line_difference, sound_field, transfer_vectors
+from .radiating import line_difference, radiated_by, sound_field, transfer_vectors
 from .shell import shell_path
 from .sound import levels_of
 from .structure_borne import structure_borne_sound
@@ -81,7 +81,8 @@ def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
     if by_force is not None:
         radiated, was_cached = force_radiation(study, by_force)
     else:
-        radiated, was_cached = radiation(study, progress, () if path is None else path.modes)
+        modes = () if path is None else path.modes
+        radiated, was_cached = radiated_by(radiation, study, progress, modes)
     results = motion.results.merge(radiated)
     of_any_case, highest = next(iter(motion.loads.values())), study.radiation.maximum_frequency_hz
     with stage(progress, "natural frequencies"):
