@@ -70,7 +70,6 @@ y_mm = 0.0
 height_mm = 410.0
 
 [radiation]
-room_solver = "closed-form"
 maximum_frequency_hz = 400.0
 frequency_step_hz = 10.0
 """)

@@ -94,30 +94,62 @@ def test_remainder_is_that_of_the_published_level(tiny: xr.Dataset) -> None:
     assert "ISO 3744 asks for ten" in power.determined
 
 
-def test_k_is_what_95_percent_of_the_draws_stay_below(tiny: xr.Dataset) -> None:
+def _sampled(tiny: xr.Dataset, spread_db: np.ndarray, weight: np.ndarray) -> xr.Dataset:
+    """The results with samples of the level that differ from the nominal one by a spread."""
+    coords = {"draw": np.arange(1, spread_db.size + 1)}
+    by_receiver = {name: tiny[name].values for name in ("speed", "option", "receiver")}
+    modelled = tiny["level_modelled"].sel(weighting="A").transpose("speed", "option", "receiver")
+    levels = {
+        "level_total_by_draw": tiny["level_total"].values,
+        "level_modelled_by_draw": modelled.values,
+    }
+    by_draw = {
+        name: stamp(name, level[None] + spread_db[:, None, None, None], coords | by_receiver)
+        for name, level in levels.items()
+    }
+    of_both = {"prior": ["flat", "near"], **coords}
+    return tiny.assign(
+        **by_draw, draw_weight=stamp("draw_weight", np.tile(weight, (2, 1)), of_both)
+    )
+
+
+def test_level_is_the_median_and_k_what_95_percent_of_the_samples_stay_below(
+    tiny: xr.Dataset,
+) -> None:
+    """Samples weighted to 4 dB below the nominal values, as a published level weights them."""
     given = va.data_sheet(tiny, "none").sound_power
     assert given.uncertainty_k_db is None
     assert given.declared is None
-    count, deviation_db = 4000, 1.2
-    spread = deviation_db * np.random.default_rng(2).standard_normal(count)
-    coords = {"draw": np.arange(1, count + 1)}
-    level = tiny["level_total"].values[None] + spread[:, None, None, None]
-    by_receiver = {name: tiny[name].values for name in ("speed", "option", "receiver")}
-    drawn = tiny.assign(
-        level_total_by_draw=stamp("level_total_by_draw", level, coords | by_receiver),
-        draw_weight=stamp(
-            "draw_weight",
-            np.full((2, count), 1.0 / count),
-            {"prior": ["flat", "near"], **coords},
-        ),
-    )
+    count, deviation_db, below_db = 8000, 1.2, 4.0
+    random = np.random.default_rng(2).standard_normal(count)
+    # Half of the samples are at the nominal values and count nothing.
+    spread = np.where(np.arange(count) % 2, deviation_db * random - below_db, 0.0)
+    weight = np.where(np.arange(count) % 2, 2.0 / count, 0.0)
+    drawn = _sampled(tiny, spread, weight)
     power = va.data_sheet(drawn, "none").sound_power
+    error_db = 4.0 * 1.2533 * deviation_db / np.sqrt(count / 2)  # of a median, four deviations
+    assert power.level_dba == pytest.approx(given.level_dba - below_db, abs=error_db)
+    assert power.modelled_dba == pytest.approx(given.modelled_dba - below_db, abs=error_db)
+    assert power.nominal_dba == given.nominal_dba == given.level_dba
+    assert f"which give {given.nominal_dba:.1f} dB" in power.uncertainty_words
     assert power.uncertainty_k_db == pytest.approx(1.645 * deviation_db, abs=0.1)
     assert power.declared is not None
     level_db, k_db = power.declared
     exact = power.level_dba + power.uncertainty_k_db
     assert exact <= level_db + k_db < exact + 1.0
     assert f"L_WA = {level_db} dB, K_WA = {k_db} dB" in headline(va.data_sheet(drawn, "none"))
+
+
+def test_k_is_never_zero(tiny: xr.Dataset) -> None:
+    """At least 1 dB where samples differ a little; not known where they do not."""
+    weight = np.full(100, 0.01)
+    same = va.data_sheet(_sampled(tiny, np.zeros(100), weight), "none")
+    assert same.sound_power.uncertainty_k_db is None
+    assert "K_WA not known" in headline(same)
+    level = va.data_sheet(tiny, "none").sound_power.level_dba
+    shift = np.floor(level) + 0.6 - level  # 0.6 dB above a whole decibel rounds up
+    little = va.data_sheet(_sampled(tiny, shift + np.linspace(-0.2, 0.2, 100), weight), "none")
+    assert little.sound_power.declared == (np.floor(level) + 1, 1)
 
 
 def test_displacement_of_the_feet_is_the_force_over_the_stiffness(tiny: xr.Dataset) -> None:
@@ -243,3 +275,15 @@ def test_tones_that_stand_out_are_stated_at_their_microphone(results: xr.Dataset
     assert tone.level_db >= level.sel(weighting="Z").item() - 1e-6
     page = data_sheet_html(va.data_sheet(quiet, "none", microphones=["p1", "p2"])).decode()
     assert "Prominent tones (ECMA-418-1" in page
+
+
+def test_tones_without_noise_are_not_judged(results: xr.Dataset) -> None:
+    """Without noise every tone would stand out infinitely far."""
+    bare = results.drop_vars("baseline_band_level")
+    for name in ("remainder_band_level", "noise_band_level"):
+        bare[name] = bare[name] * 0.0 - 300.0
+    sheet = va.data_sheet(bare, "none", microphones=["p1", "p2"])
+    assert sheet.tones == ()
+    assert sheet.tones_not_judged > 1
+    page = data_sheet_html(sheet).decode()
+    assert f"{sheet.tones_not_judged} audible tones without noise in the critical band" in page

@@ -9,6 +9,7 @@ from typing import Any, Final
 import xarray as xr
 
 from ..base.regular_file import read_text
+from ..report.kwave_words import kwave_difference_db, receiver_methods
 from ..study.study import Study
 from .outputs import REPORT_NAME, RESULTS_NAME
 
@@ -35,6 +36,11 @@ def summary(study: Study, results: xr.Dataset, folder: Path, seconds: float) -> 
         "seconds": round(seconds, 1),
         "draws": int(results.sizes.get("draw", 0)),
         "coarsened": list(study.coarsened),
+        "kwave_difference_db": kwave_difference_db(results),
+        "receivers": {
+            name: {"method": method, "reason": reason}
+            for name, (method, reason) in receiver_methods(results).items()
+        },
         **{name: _rows(read_text(folder / f"{name}.csv", _MAXIMUM_BYTES)) for name in _ROWS},
     }
 

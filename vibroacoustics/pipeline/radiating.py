@@ -8,7 +8,7 @@ from ..base.vocabulary import check, label_coordinates
 from ..levels import sound_field as levels
 from ..radiation.given import Radiation
 from ..results import provenance
-from ..stages.radiation import transfer_vectors
+from ..stages.radiation import radiated_by, transfer_vectors
 from ..stages.shell import shell_path
 from ..study.study import Study
 
@@ -43,7 +43,7 @@ def radiate(
     try:
         path = shell_path(study)
         motions = () if path is None else path.modes
-        radiated, was_cached = radiation(study, progress, motions)
+        radiated, was_cached = radiated_by(radiation, study, progress, motions)
     except ParameterError as error:
         raise ParameterError(f"{study.source_file}: {error}") from None
     if study.sound_power is not None:

@@ -1,6 +1,7 @@
 """Transfer vectors with k-Wave's room at the microphones and frequencies where it is asked for."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from typing import Final
 
 import numpy as np
 
@@ -8,15 +9,19 @@ from .arrays import Array, ComplexArray
 from .box import Box, BoxField
 from .exact import box_green
 from .kwave import kwave_version
+from .receiver_methods import closed_form, machine_side
 from .room_green import green_difference_db
 from .task import Task
 
+_SILENT: Final = 1e-5
+"""Share of the loudest motion's pressure below which k-Wave's error, some 1e-4 of it, is larger."""
 Vectors = dict[str, Array | ComplexArray]
 
 
-def solver(machine_side: str, room_side: str, task: Task) -> str:
+def solver(task: Task) -> str:
     """What computes, in words."""
-    return f"{machine_side}, {f'k-wave-python {kwave_version()}' if task.kwave else room_side}"
+    room = f"k-wave-python {kwave_version()}" if task.kwave else closed_form(task.settings)
+    return f"{machine_side(task.settings)}, {room}"
 
 
 def closed_greens(box: Box, task: Task) -> Iterator[BoxField]:
@@ -31,6 +36,9 @@ def with_kwave(
 ) -> Vectors:
     """Transfer vectors in which k-Wave's take the place of those with the closed form.
 
+    A motion that the closed form has silent at a microphone, as by symmetry, stays silent: k-Wave's
+    grid is not symmetric, and its error would sound in its place.
+
     Parameters
     ----------
     task : says at which microphones and frequencies
@@ -40,8 +48,10 @@ def with_kwave(
     """
     rows, table = task.kwave_rows, task.kwave_table
     joined = {name: values.copy() for name, values in closed.items()}
+    size = np.abs(closed["transfer_vector"][rows, :, table])
+    silent = size <= _SILENT * size.max(axis=1, keepdims=True)
     for name, values in kwave.items():
-        joined[name][rows, :, table] = values
+        joined[name][rows, :, table] = np.where(silent, joined[name][rows, :, table], values)
     difference = np.full((len(task.positions), task.tabulated), np.nan)
     difference[rows, table] = difference_db
     return {

@@ -1,6 +1,5 @@
 """Transfer vectors by cut cells: any body, any surroundings."""
 
-import json
 from collections.abc import Sequence
 from functools import partial
 from typing import Any, Final
@@ -25,8 +24,7 @@ from .machine_side import (
 from .near_field import NearField
 from .near_memory import check_memory
 from .neglected_echo import SAFETY, neglected_echo
-from .room_green import check_receiver
-from .room_greens import room_greens
+from .room_greens import check_receivers, room_greens
 from .task import Microphones, Task
 from .thin_walls import check_walls
 
@@ -103,8 +101,7 @@ class ByCutCells:
         """What the result says about its solution."""
         grid = self.near[0].grid
         return {
-            "solver": solver("cut cells", self._task.scene.room, self._task),
-            "receiver_solvers": json.dumps(self._task.solvers(self._task.scene.room)),
+            "solver": solver(self._task),
             "near_field_cells": " x ".join(map(str, grid.shape)),
             "near_field_spacing_m": grid.spacing_m,
             "near_field_time_step_s": grid.time_step_s,
@@ -124,12 +121,9 @@ def with_neglected_echo(closed: Radiated, task: Task) -> Array:
 
 def _check_receivers(task: Task, near: list[NearField]) -> None:
     """Refuse what cannot be computed before anything is computed."""
-    walls, settings = task.scene.walls, task.settings
+    check_receivers(near[0].box, task)
     for name, position in task.positions.items():
-        if name in task.kwave:
-            frequencies = task.kwave_table.stop
-            check_receiver(name, position, near[0].box, settings.room_spacing_m, walls, frequencies)
-        if not outside(near, walls, position[None, :])[0]:
+        if not outside(near, task.scene.walls, position[None, :])[0]:
             raise ParameterError(
                 f"receivers.{name}: stands behind a wall or within "
                 f"{1e3 * near[-1].margin_m:.0f} mm of the machine or its cabinet"

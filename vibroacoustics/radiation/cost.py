@@ -8,7 +8,6 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from ..base.threads import in_threads, processors
-from ..study.radiation import KWAVE_LIMIT_HZ
 from . import kwave, near_memory, room_green
 from .box import Box
 from .by_cut_cells import ByCutCells
@@ -19,6 +18,7 @@ from .revolution.method import ByRevolution
 from .revolution.receivers import join_box
 from .revolution.sampling import first_solved
 from .revolution.side import memory_bytes
+from .room_greens import room_spacing_m
 from .room_grid import RoomGrid, room_grid
 from .task import Task
 
@@ -66,7 +66,7 @@ def processor_time_s(work: Callable[[], object]) -> float:
 def cost_of(method: ByRevolution | ByCutCells, task: Task) -> list[Cost]:
     """Cost of the machine side and of each k-Wave run."""
     if isinstance(method, ByRevolution):
-        box = join_box(method.side, task.settings.room_spacing_m) if task.kwave else None
+        box = join_box(method.side, task.resolving_spacing_m) if task.kwave else None
         costs = [_boundary_elements(method, task)]
     else:
         box, costs = method.near[0].box if task.kwave else None, [_cut_cells(method.near, task)]
@@ -130,10 +130,8 @@ def _step_s(step: Callable[[], None]) -> float:
 
 
 def _kwave(name: str, box: Box, task: Task) -> Cost:
-    settings = task.settings
-    grid = room_grid(task.positions[name], box, settings.room_spacing_m, task.scene.walls)
-    highest_hz = min(settings.maximum_frequency_hz, KWAVE_LIMIT_HZ)
-    steps = room_green.steps_of(grid, box, highest_hz)[1]
+    grid = room_grid(task.positions[name], box, room_spacing_m(box, task), task.scene.walls)
+    steps = room_green.steps_of(grid, box, task.kwave_highest_hz)[1]
     total_s = steps * _kwave_step_s(grid)
     x, y, z = grid.shape
     how = f"{steps} steps on {x}×{y}×{z} nodes, {_STEPS} of them measured"

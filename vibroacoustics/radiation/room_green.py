@@ -36,7 +36,7 @@ _STOCK_VALUES_PER_NODE: Final = 60
 _PROGRESS_STEPS: Final = 20
 _SETTLING_S: Final = 5e-4
 """Recording time after the pulse has passed the furthest point of the box."""
-_CLEAR_NODES: Final = STENCIL_NODES // 2
+CLEAR_NODES: Final = STENCIL_NODES // 2
 """Nodes between microphone and box: with the source inside a stencil, errors reach 1 dB."""
 _LARGEST_DIFFERENCE_DB: Final = 6.0
 _DEEPEST_NULL: Final = amplitude_of_level(-30.0)
@@ -163,16 +163,22 @@ def check_receiver(
                 f"receivers.{name}: the microphone lies behind the wall at "
                 f"{'xyz'[mirror.axis]} = {mirror.position_m:.4g} m"
             )
-    outside = np.maximum(np.maximum(box.lower - microphone, microphone - box.upper), 0.0)
+    outside = clearance_m(box, microphone)
     grid = room_grid(microphone, box, largest_spacing_m, mirrors)
-    if np.all(outside < _CLEAR_NODES * grid.spacing_m):
-        distance, least = float(np.max(outside)), _CLEAR_NODES * float(grid.spacing_m.max())
+    if np.all(outside < CLEAR_NODES * grid.spacing_m):
+        distance, least = float(np.max(outside)), CLEAR_NODES * float(grid.spacing_m.max())
         raise ParameterError(
             f"receivers.{name}: the microphone must stand at least {least:.3g} m off the box "
             f"around the shell ({box.lower.round(3).tolist()} to {box.upper.round(3).tolist()} m), "
             f"got {distance:.3g} m; a smaller radiation.room_spacing_mm lets it stand closer"
         )
     _check_memory(name, grid, box, frequencies)
+
+
+def clearance_m(box: Box, microphone: Array) -> Array:
+    """Distance of a microphone from the box along each axis, (3,), m; 0 beside it."""
+    outside: Array = np.maximum(np.maximum(box.lower - microphone, microphone - box.upper), 0.0)
+    return outside
 
 
 def _check_memory(name: str, grid: RoomGrid, box: Box, frequencies: int) -> None:

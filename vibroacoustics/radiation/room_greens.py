@@ -1,18 +1,19 @@
-"""k-Wave's Green's functions of all microphones, several at a time."""
+"""k-Wave's Green's functions of all microphones, several at a time; the spacing of their grids."""
 
 from functools import partial
 from typing import Final
 
 from ..base.progress import Progress
 from ..base.threads import in_threads, processors
-from ..study.radiation import KWAVE_LIMIT_HZ
 from . import device, room_grid
 from .arrays import Array
 from .box import Box, BoxField
-from .room_green import kwave_green, memory_bytes
+from .room_green import CLEAR_NODES, check_receiver, clearance_m, kwave_green, memory_bytes
 from .task import Task
 
 _SHARE_OF_MEMORY: Final = 0.7
+_SMALLEST_SPACING_M: Final = 0.005
+"""Of an automatic grid, as of one that a study may give."""
 
 
 def room_greens(box: Box, task: Task, progress: Progress) -> list[BoxField]:
@@ -24,12 +25,11 @@ def room_greens(box: Box, task: Task, progress: Progress) -> list[BoxField]:
         See `kwave_green`.
     """
     device.warn_of_device()
-    settings, walls = task.settings, task.scene.walls
+    walls = task.scene.walls
     workers = _workers(box, task)
     threads = max(1, processors() // workers)
     frequency_hz = task.table_hz[task.kwave_table]
-    highest_hz = min(settings.maximum_frequency_hz, KWAVE_LIMIT_HZ)
-    arguments = (frequency_hz, highest_hz, settings.room_spacing_m, walls)
+    arguments = (frequency_hz, task.kwave_highest_hz, room_spacing_m(box, task), walls)
     return in_threads(
         [
             partial(kwave_green, box, position, *arguments, name, progress, threads)
@@ -39,17 +39,42 @@ def room_greens(box: Box, task: Task, progress: Progress) -> list[BoxField]:
     )
 
 
+def room_spacing_m(box: Box, task: Task) -> float:
+    """Largest node spacing of k-Wave's grids, m: the study's, or automatic.
+
+    The automatic one resolves the highest frequency, and the microphone nearest to the box stands
+    as many nodes off it as the stencil between them needs.
+    """
+    resolving_m = task.resolving_spacing_m
+    if task.settings.room_spacing_m is not None:
+        return resolving_m
+    clear_m = min(float(clearance_m(box, at).max()) for at in _positions(task).values())
+    return min(resolving_m, max(clear_m / (CLEAR_NODES + 1), _SMALLEST_SPACING_M))
+
+
+def check_receivers(box: Box, task: Task) -> None:
+    """Check positions and memory of all k-Wave runs, before any run.
+
+    Raises
+    ------
+    ParameterError
+        See `kwave_green`.
+    """
+    for name, position in _positions(task).items():
+        spacing_m = room_spacing_m(box, task)
+        check_receiver(name, position, box, spacing_m, task.scene.walls, task.kwave_table.stop)
+
+
 def _positions(task: Task) -> dict[str, Array]:
     return {name: position for name, position in task.positions.items() if name in task.kwave}
 
 
 def _workers(box: Box, task: Task) -> int:
     """How many k-Wave runs the processors and the memory of what they run on carry at a time."""
+    spacing_m, walls = room_spacing_m(box, task), task.scene.walls
     largest = max(
         memory_bytes(
-            room_grid.room_grid(position, box, task.settings.room_spacing_m, task.scene.walls),
-            box,
-            task.kwave_table.stop,
+            room_grid.room_grid(position, box, spacing_m, walls), box, task.kwave_table.stop
         )
         for position in _positions(task).values()
     )

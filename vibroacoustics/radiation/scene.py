@@ -49,11 +49,6 @@ class Scene:
     """What takes the place of the hard floor on the way to the microphones."""
 
     @property
-    def room(self) -> str:
-        """How sound travels on where k-Wave does not compute it, in words."""
-        return "image sources" if self.outdoors is None else "spherical waves over ground"
-
-    @property
     def upright_walls(self) -> tuple[Mirror, ...]:
         """Those but the floor."""
         return tuple(wall for wall in self.walls if wall.axis != 2)

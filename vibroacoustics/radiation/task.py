@@ -2,13 +2,20 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Final
 
 import numpy as np
 
+from ..base.constants import SPEED_OF_SOUND_M_PER_S
 from ..study.radiation import KWAVE_LIMIT_HZ, RadiationSettings
 from .arrays import Array
 from .patterns import Pattern
 from .scene import Scene
+
+_NODES_PER_WAVE: Final = 4.0
+"""Of an automatic k-Wave grid at its highest frequency; a study may take 3.5."""
+_LARGEST_SPACING_M: Final = 0.06
+"""Of an automatic grid: a coarser one saves little, as most of its nodes are absorbing layers."""
 
 
 @dataclass(frozen=True)
@@ -68,10 +75,16 @@ class Task:
         """Those that k-Wave computes."""
         return Microphones(self.receivers.points[self.kwave_rows], self.kwave_table)
 
-    def solvers(self, other: str) -> dict[str, str]:
-        """What computes each of the microphones; `other` where it is not k-Wave."""
-        highest = self.kwave_table.stop
-        kwave = "k-Wave"
-        if highest < self.tabulated:
-            kwave += f" to {self.table_hz[highest - 1]:g} Hz, {other} above"
-        return {name: kwave if name in self.kwave else other for name in self.positions}
+    @property
+    def kwave_highest_hz(self) -> float:
+        """Highest frequency that k-Wave's grids must resolve."""
+        return min(self.settings.maximum_frequency_hz, KWAVE_LIMIT_HZ)
+
+    @property
+    def resolving_spacing_m(self) -> float:
+        """Largest spacing that resolves the wave: the study's, or automatic."""
+        given_m = self.settings.room_spacing_m
+        if given_m is not None:
+            return given_m
+        shortest_m = SPEED_OF_SOUND_M_PER_S / self.kwave_highest_hz
+        return min(shortest_m / _NODES_PER_WAVE, _LARGEST_SPACING_M)

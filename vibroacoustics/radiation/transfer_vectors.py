@@ -26,6 +26,7 @@ from .device import engine_name
 from .interpolation import Interpolant, interpolant
 from .kwave import kwave_version
 from .patterns import SurfaceMotion, rigid_body, surface_motion
+from .receiver_methods import receiver_methods, with_methods
 from .revolution.method import ByRevolution, by_revolution
 from .scene import file_patterns, machine_body, position_m, scene
 from .sound_field import NO_SOUND_FIELD, SoundField, field_parts, labelled_fields
@@ -63,7 +64,8 @@ def transfer_vectors(
         closed-form Green's function; `green_difference` (receiver, frequency), the level difference
         of the two Green's functions where it is largest on the box, dB, not a number where k-Wave
         did not run. What the sound field asks for besides, with the closed-form Green's function.
-        The attribute `receiver_solvers` says what computed each microphone.
+        The coordinates `radiation_method` and `radiation_method_reason` (receiver) name what
+        computes each microphone, and why not k-Wave.
 
     Raises
     ------
@@ -81,6 +83,7 @@ def transfer_vectors(
     names = [pattern.name for pattern in task.patterns[len(RIGID_BODY_DOFS) :]]
     dataset = _labelled(vectors, task.positions, task.table_hz, names)
     dataset = dataset.merge(labelled_fields(parts, elsewhere, frequency_hz, surroundings))
+    dataset = with_methods(dataset, receiver_methods(receivers, settings, task.kwave))
     return check(dataset).assign_attrs(
         room_solver=settings.room_solver,
         surroundings=settings.surroundings.model_dump_json(),

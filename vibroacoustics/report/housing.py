@@ -10,7 +10,7 @@ from ..base import rounding
 from ..base.arrays import Array
 from ..base.decibel import level_of_amplitude
 from . import labels
-from .kwave_words import kwave_to_hz
+from .kwave_words import receiver_methods
 from .study import first_order_hz, options, parameters, speeds
 from .tables import Table
 
@@ -119,17 +119,17 @@ def isolation_sentence(results: xr.Dataset) -> str:
 def receivers_table(results: xr.Dataset) -> Table:
     """Where the microphones stand."""
     receivers = parameters(results)["receivers"]
-    to_hz = kwave_to_hz(results)
+    methods = receiver_methods(results)
     rows = tuple(
         (
             str(name),
             *(rounding.fixed(receivers[str(name)][key], 3) for key in ("x_m", "y_m", "height_m")),
-            f"{to_hz[str(name)]:g}" if str(name) in to_hz else "–",
+            *methods.get(str(name), ("–", "–")),
         )
         for name in results["receiver"].values
     )
-    head = ("Microphone", "x, m", "y, m", "Height above the floor, m", "k-Wave to, Hz")
-    return Table("Microphones; x and y from the shaft", head, rows)
+    head = ("Microphone", "x, m", "y, m", "Height above the floor, m", "Method", "Why not k-Wave")
+    return Table("Microphones; x and y from the shaft", head, rows, frozenset({0, 4, 5}))
 
 
 def line_difference_sentence(results: xr.Dataset) -> str:

@@ -17,9 +17,10 @@ _STRONG: Final = 1e-3
 
 def kwave_sentence(results: xr.Dataset) -> str:
     """Where k-Wave computed the room, and the difference of the two methods there."""
-    by_kwave = computed_by_kwave(results) if "green_difference" in results else None
-    if by_kwave is None or not by_kwave.size:
-        return "The Green's functions are the closed form of image sources; k-Wave did not run."
+    by_kwave = computed_by_kwave(results)
+    if not by_kwave.size:
+        reasons = sorted({reason for _, reason in receiver_methods(results).values()} - {""})
+        return f"k-Wave did not run: {'; '.join(reasons) or 'the results name no reason'}."
     gap = abs(by_kwave)
     worst = gap.where(gap == gap.max(), drop=True).isel(receiver=0, frequency=0)
     frequency = by_kwave["frequency"].values
@@ -41,16 +42,53 @@ def kwave_sentence(results: xr.Dataset) -> str:
     return f"{words}."
 
 
+def kwave_line(results: xr.Dataset) -> str:
+    """Microphones of k-Wave and its largest difference from the closed form, in one short line."""
+    to_hz = kwave_to_hz(results)
+    if not to_hz:
+        return kwave_sentence(results)
+    where = ", ".join(f"{name} to {highest:g} Hz" for name, highest in to_hz.items())
+    difference = rounding.fixed(kwave_difference_db(results) or 0.0, 3)
+    return f"k-Wave at {where}: pressure within {difference} dB of the closed form."
+
+
+def kwave_difference_db(results: xr.Dataset) -> float | None:
+    """Largest level difference of pressure per velocity, k-Wave against closed form, dB.
+
+    That of the Green's functions where the pressures of the closed form are not in the results;
+    None where k-Wave did not run.
+    """
+    by_kwave = computed_by_kwave(results)
+    if not by_kwave.size:
+        return None
+    differences = method_difference_db(results)
+    largest = by_kwave.values if differences is None else differences
+    return float(np.nanmax(np.abs(largest)))
+
+
+def receiver_methods(results: xr.Dataset) -> dict[str, tuple[str, str]]:
+    """Method and reason why it is not k-Wave of each microphone; empty in older results."""
+    if "radiation_method" not in results.coords:
+        return {}
+    names = ("receiver", "radiation_method", "radiation_method_reason")
+    columns = (map(str, results[name].values) for name in names)
+    return {name: (method, reason) for name, method, reason in zip(*columns, strict=True)}
+
+
 def computed_by_kwave(results: xr.Dataset) -> xr.DataArray:
-    """`green_difference` at the microphones and frequencies that k-Wave computed."""
+    """`green_difference` at the microphones and frequencies that k-Wave computed; else empty."""
+    if "green_difference" not in results:
+        return xr.DataArray(
+            np.empty((0, 0)),
+            coords={"receiver": [], "frequency": []},
+            dims=("receiver", "frequency"),
+        )
     gap = results["green_difference"].transpose("receiver", "frequency")
     return gap.dropna("receiver", how="all").dropna("frequency", how="all")
 
 
 def kwave_to_hz(results: xr.Dataset) -> dict[str, float]:
     """Highest frequency that k-Wave computed, of each microphone where it did."""
-    if "green_difference" not in results:
-        return {}
     by_kwave = computed_by_kwave(results)
     return {
         str(name): float(by_kwave["frequency"].values[np.isfinite(gap)].max())

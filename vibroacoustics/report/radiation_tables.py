@@ -9,7 +9,7 @@ from ..base import rounding
 from ..base.arrays import Array
 from ..base.decibel import level_of_amplitude
 from .figures.unit_levels import names, silent_dofs, unit_level_db
-from .kwave_words import kwave_sentence, kwave_to_hz
+from .kwave_words import kwave_line
 from .tables import Table, to_text
 
 TABLE_FREQUENCIES_HZ: Final = (50.0, 100.0, 250.0, 500.0, 1000.0, 2000.0)
@@ -25,12 +25,12 @@ def radiation_text(radiated: xr.Dataset) -> str:
     tables = [_level_table(radiated, nearest, head)]
     if "unit_sound_power_level" in radiated:
         tables.append(_power_table(radiated["unit_sound_power_level"], nearest, head))
-    return "\n".join([*map(to_text, tables), *filter(None, [kwave_text(radiated)])])
+    return "\n".join([*map(to_text, tables), kwave_text(radiated)])
 
 
 def kwave_text(results: xr.Dataset) -> str:
-    """What k-Wave computed, for the terminal; nothing where it did not run."""
-    return f"{kwave_sentence(results)}\n" if kwave_to_hz(results) else ""
+    """What k-Wave computed and its difference from the closed form, a line for the terminal."""
+    return f"{kwave_line(results)}\n"
 
 
 def _level_table(radiated: xr.Dataset, nearest: list[int], head: tuple[str, ...]) -> Table:

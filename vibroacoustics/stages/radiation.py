@@ -11,9 +11,17 @@ from .. import radiation
 from ..base.progress import Progress
 from ..base.registry import register
 from ..machine.shell import Shell
+from ..radiation import SurfaceMotion
 from ..radiation.cost import cost_of
 from ..radiation.given import Radiation, given_radiation
-from ..radiation.transfer_vectors import frequencies_hz, method_of, task_of
+from ..radiation.receiver_methods import (
+    GIVEN,
+    MEASURED,
+    ReceiverMethod,
+    receiver_methods,
+    with_methods,
+)
+from ..radiation.transfer_vectors import frequencies_hz, kwave_names, method_of, task_of
 from ..results import storage
 from ..results.storage import is_cached
 from ..study.radiation import RadiationSettings
@@ -30,13 +38,13 @@ _Inputs = tuple[
     Mapping[str, Receiver],
     RadiationSettings,
     radiation.SoundField,
-    Sequence[radiation.SurfaceMotion],
+    Sequence[SurfaceMotion],
     tuple[str, ...],
 ]
 
 
 def transfer_vectors(
-    study: Study, progress: Progress, motions: Sequence[radiation.SurfaceMotion] = ()
+    study: Study, progress: Progress, motions: Sequence[SurfaceMotion] = ()
 ) -> tuple[xr.Dataset, bool]:
     """Compute pressure per velocity of housing and wall motions, or read it from the cache."""
     inputs = inputs_of(study, motions)
@@ -47,7 +55,7 @@ def transfer_vectors(
     )
 
 
-def inputs_of(study: Study, motions: Sequence[radiation.SurfaceMotion]) -> _Inputs:
+def inputs_of(study: Study, motions: Sequence[SurfaceMotion]) -> _Inputs:
     """What the transfer vectors of a study follow from."""
     sound_field = radiation.SoundField.of_study(study)
     at_all = study.radiation.kwave_receivers == "all"
@@ -86,7 +94,7 @@ class HousingRadiation(Stage):
         path, measured = chain.get(ShellPath), chain.get(ForceSound)
         source = chain.radiation if measured is None else _of_forces(measured)
         modes = () if path is None else path.modes
-        vectors, was_cached = source(chain.study, chain.progress, modes)
+        vectors, was_cached = radiated_by(source, chain.study, chain.progress, modes)
         return Given(vectors, (Radiated(vectors.attrs, was_cached),))
 
     def tried(self, chain: Chain, study: Study) -> Trial:
@@ -102,9 +110,38 @@ class HousingRadiation(Stage):
         return Trial(advanced(replace(chain, radiation=_silence(study, path)), self), costs)
 
 
+def methods_of(study: Study) -> dict[str, ReceiverMethod]:
+    """Return the method of each microphone and why it is not k-Wave, from the study alone."""
+    if study.measured is not None and study.measured.sound is not None:
+        return dict.fromkeys(study.receivers, MEASURED)
+    _, receivers, settings, *_, by_kwave = inputs_of(study, ())
+    return receiver_methods(receivers, settings, kwave_names(receivers, settings, by_kwave))
+
+
+def radiated_by(
+    radiation: Radiation,
+    study: Study,
+    progress: Progress,
+    motions: Sequence[SurfaceMotion],
+) -> tuple[xr.Dataset, bool]:
+    """Return transfer vectors with the method of each microphone, and whether they were cached."""
+    radiated, was_cached = radiation(study, progress, motions)
+    if "radiation_method" not in radiated.coords:
+        radiated = with_methods(radiated, dict.fromkeys(study.receivers, GIVEN))
+    return radiated, was_cached
+
+
 def _of_forces(sound: ForceSound) -> Radiation:
     """Transfer vectors of the nominal machine from measured forces, for tables and figures."""
-    return given_radiation(sound(sound.frequency_hz), sound.frequency_hz)
+    given = given_radiation(sound(sound.frequency_hz), sound.frequency_hz)
+
+    def measured(
+        study: Study, progress: Progress, motions: Sequence[SurfaceMotion]
+    ) -> tuple[xr.Dataset, bool]:
+        vectors, was_cached = given(study, progress, motions)
+        return with_methods(vectors, dict.fromkeys(study.receivers, MEASURED)), was_cached
+
+    return measured
 
 
 def _silence(study: Study, path: ShellPath | None) -> Radiation:

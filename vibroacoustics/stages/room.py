@@ -51,14 +51,13 @@ class SoundInRoom(Stage):
     name = "room"
     reads = (Cases, ShellPath, "velocity_order", "level_total", "structure_borne_power")
     gives = (
-        "room_absorption_area", "room_wall_absorption", "room_wall_absorption_requested", "room_limit",
-        "room_level", "room_level_low",
-        "room_level_middle", "room_level_high", "room_level_both_ways", "room_source_level",
-        "room_band_level", "room_noise_band_level", "room_pressure_line",
-        "room_sound_power_level", "room_plate_level", "room_plate_level_low",
-        "room_plate_level_high", "room_plate_line_level", "room_gain_waves", "room_gain_diffuse",
-        "room_gain_difference", "room_place_gain", "room_place_gain_above", "room_map_level",
-        "room_map_gain",
+        "room_absorption_area", "room_wall_absorption", "room_wall_absorption_requested",
+        "room_limit", "room_level", "room_level_low", "room_level_middle", "room_level_high",
+        "room_level_both_ways", "room_source_level", "room_band_level", "room_noise_band_level",
+        "room_pressure_line", "room_sound_power_level", "room_plate_level",
+        "room_plate_level_low", "room_plate_level_high", "room_plate_line_level",
+        "room_gain_waves", "room_gain_diffuse", "room_gain_difference", "room_place_gain",
+        "room_place_gain_above", "room_map_level", "room_map_gain",
     )  # fmt: skip
 
     def applies(self, study: Study) -> bool:

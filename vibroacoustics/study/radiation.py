@@ -11,6 +11,10 @@ from .surroundings import Surroundings
 
 KWAVE_LIMIT_HZ: Final = 4000.0
 """Highest frequency at which k-Wave computes the room."""
+_NODES_PER_WAVE: Final = 3.5
+"""Fewest nodes of the k-Wave grid in a wavelength."""
+_CELLS_PER_WAVE: Final = 8.0
+"""Fewest cells of the cut-cell grid in a wavelength."""
 
 
 class RadiationSettings(Parameters):
@@ -27,8 +31,9 @@ class RadiationSettings(Parameters):
     """Where k-Wave computes the room: at the microphone of the catalogue's noise, or at all."""
     near_field_spacing_m: float = Field(default=0.006, ge=0.002, le=0.05)
     """Cell size of the finer cut-cell grid around the body; the coarser one has 1.5 times it."""
-    room_spacing_m: float = Field(default=0.024, ge=0.005, le=0.1)
-    """Largest node spacing of the k-Wave grid; it shrinks to fit the walls."""
+    room_spacing_m: float | None = Field(default=None, ge=0.005, le=0.1)
+    """Largest node spacing of the k-Wave grid; it shrinks to fit the walls. Without it automatic:
+    the largest that resolves the wave and that the microphone's distance allows."""
     maximum_frequency_hz: float = Field(default=4000.0, ge=50.0, le=10000.0)
     frequency_step_hz: float = Field(default=25.0, ge=1.0, le=100.0)
     """Spacing of the frequencies at which the transfer vectors are tabulated."""
@@ -64,18 +69,18 @@ class RadiationSettings(Parameters):
 
     @model_validator(mode="after")
     def _grids_resolve_the_wave(self) -> "RadiationSettings":
-        for name, nodes, highest_hz in (
-            ("near_field_spacing_m", 8.0, self.maximum_frequency_hz),
-            ("room_spacing_m", 3.5, min(self.maximum_frequency_hz, KWAVE_LIMIT_HZ)),
+        near_m = None if self.revolution else self.near_field_spacing_m
+        room_m = self.room_spacing_m if self.room_solver == "k-wave" else None
+        kwave_hz = min(self.maximum_frequency_hz, KWAVE_LIMIT_HZ)
+        for name, spacing_m, nodes, highest_hz in (
+            ("near_field_spacing_mm", near_m, _CELLS_PER_WAVE, self.maximum_frequency_hz),
+            ("room_spacing_mm", room_m, _NODES_PER_WAVE, kwave_hz),
         ):
-            if name == "near_field_spacing_m" and self.revolution:
-                continue
-            largest = SPEED_OF_SOUND_M_PER_S / highest_hz / nodes
-            if getattr(self, name) > largest:
+            largest_m = SPEED_OF_SOUND_M_PER_S / highest_hz / nodes
+            if spacing_m is not None and spacing_m > largest_m:
                 raise ValueError(
-                    f"{name.removesuffix('_m')}_mm = {1e3 * getattr(self, name):g} mm: fewer than "
-                    f"{nodes:g} nodes per wavelength at {highest_hz:g} Hz; allowed up to "
-                    f"{1e3 * largest:.4g} mm"
+                    f"{name} = {1e3 * spacing_m:g} mm: fewer than {nodes:g} nodes per wavelength "
+                    f"at {highest_hz:g} Hz; allowed up to {1e3 * largest_m:.4g} mm"
                 )
         return self
 

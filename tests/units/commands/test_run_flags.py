@@ -50,6 +50,13 @@ def test_several_studies_as_json(tmp_path: Path) -> None:
         assert by_option["none"]["change_1x_db"] == 0.0
         assert by_option["counterweight-half"]["force_1x_n"] < by_option["none"]["force_1x_n"]
         assert {row["rank_topsis"] for row in one["scores"]} == {1.0, 2.0}
+        assert one["kwave_difference_db"] is None
+        assert one["receivers"] == {
+            "front_1m": {
+                "method": "given transfer vectors",
+                "reason": "transfer vectors are given to the run",
+            }
+        }
 
 
 def test_all_studies_are_read_before_the_first_runs(tmp_path: Path) -> None:

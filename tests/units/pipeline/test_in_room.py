@@ -15,7 +15,6 @@ from vibroacoustics.base.errors import SchemaError
 from vibroacoustics.base.progress import no_progress
 from vibroacoustics.levels import a_weighting
 from vibroacoustics.pipeline.cost import run_cost
-from vibroacoustics.pipeline.in_room import vectors_of
 from vibroacoustics.radiation.rooms import of_study as rooms
 from vibroacoustics.report.html import html
 from vibroacoustics.report.in_room import (
@@ -34,6 +33,7 @@ from vibroacoustics.sound.gain import full_scale_of
 from vibroacoustics.sound.ingredients import ingredients
 from vibroacoustics.sound.loudness import loudness_of
 from vibroacoustics.stages import room as room_stage
+from vibroacoustics.stages.room import vectors_of
 
 RHO_C = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S
 PANEL = {
@@ -92,12 +92,12 @@ def test_surfaces_have_their_absorption_in_results_and_report(kitchen):
 
 
 def test_a_surface_of_another_absorption_is_a_warning_before_waves(monkeypatch):
-    monkeypatch.setattr(in_room.storage, "cached", lambda *_: (xr.Dataset(), True))
+    monkeypatch.setattr(room_stage.storage, "cached", lambda *_: (xr.Dataset(), True))
     opening = {"absorption_ratio": [1.0] * 6}
     room = KITCHEN | {"walls": {"+x": opening}}
     study = va.load_study(TINY).replace({"room": room})
     with pytest.warns(UserWarning, match=r"room\.walls\.\+x: absorption of waves is 0\.94 instead"):
-        vectors_of(study, study.room, (), no_progress)  # `in_room.vectors_of` is made up here
+        vectors_of(study, study.room, (), no_progress)  # the stage has made-up vectors here
 
 
 def test_what_a_run_would_refuse_is_refused_before():

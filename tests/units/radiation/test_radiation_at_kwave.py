@@ -19,7 +19,7 @@ RECEIVERS = {
     "front": Receiver(x_m=0.1, y_m=0.9, height_m=0.25),
 }
 SEAM_HZ = 600.0
-OTHER = {"revolution": "boundary elements", "cut-cells": "image sources"}
+MACHINE_SIDE = {"revolution": "boundary elements", "cut-cells": "cut cells"}
 
 
 @pytest.fixture(params=["revolution", "cut-cells"], scope="module")
@@ -30,17 +30,21 @@ def both(request):
         maximum_frequency_hz=1000.0, frequency_step_hz=100.0,
     )  # fmt: skip
     with pytest.MonkeyPatch.context() as patch:
-        for module in ("task", "room_greens"):
+        for module in ("task", "receiver_methods"):
             patch.setattr(f"vibroacoustics.radiation.{module}.KWAVE_LIMIT_HZ", SEAM_HZ)
         yield transfer_vectors(SHELL, RECEIVERS, settings, kwave_receivers=["side"]), request.param
 
 
 def test_says_what_computed_which_microphone(both):
     vectors, method = both
-    assert json.loads(vectors.attrs["receiver_solvers"]) == {
-        "side": f"k-Wave to 600 Hz, {OTHER[method]} above",
-        "front": OTHER[method],
+    methods = dict(zip(vectors["receiver"].values, vectors["radiation_method"].values, strict=True))
+    assert methods == {
+        "side": f"{MACHINE_SIDE[method]}, k-Wave to 600 Hz, image sources above",
+        "front": f"{MACHINE_SIDE[method]}, image sources",
     }
+    above, other = vectors["radiation_method_reason"].values
+    assert above == "above, the grid of k-Wave would be too large"
+    assert other == 'k-Wave computes side (kwave_receivers = "catalogue")'
     assert "k-wave-python" in vectors.attrs["solver"]
     assert vectors.attrs["room_engine"]
 
@@ -57,6 +61,17 @@ def test_k_wave_is_where_it_is_asked_for(both):
         frequency=slice(0.0, SEAM_HZ)
     )
     assert np.all(loud["transfer_vector"] != loud["transfer_vector_closed_form"])
+
+
+def test_motion_that_is_silent_by_symmetry_stays_silent(both):
+    """A body of revolution that turns about its axis moves no air."""
+    vectors, _ = both
+    turning = vectors.sel(receiver="side", dof="rz")
+    loudest = np.abs(vectors.sel(receiver="side")["transfer_vector"]).max("dof")
+    assert np.all(np.abs(turning["transfer_vector"]) <= 1e-5 * loudest)
+    np.testing.assert_array_equal(
+        turning["transfer_vector"], turning["transfer_vector_closed_form"]
+    )
 
 
 def test_seam_and_difference_are_within_a_tenth_of_a_decibel(both):

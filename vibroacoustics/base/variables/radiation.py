@@ -12,6 +12,18 @@ for _thing in (
     Coordinate(
         "distance", ("receiver",), "m", "distance of the microphone from the centre of mass"
     ),
+    Coordinate(
+        "radiation_method",
+        ("receiver",),
+        "",
+        "method of the sound pressure at the microphone: machine side, room side",
+    ),
+    Coordinate(
+        "radiation_method_reason",
+        ("receiver",),
+        "",
+        "why k-Wave does not compute the microphone or some frequencies; empty where it does",
+    ),
     Coordinate("frequency", ("frequency",), "Hz", "frequency"),
     Coordinate("pattern", ("pattern",), "", "surface velocity given by a file"),
     Variable(

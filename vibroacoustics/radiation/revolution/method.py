@@ -1,6 +1,5 @@
 """Transfer vectors by boundary elements on the meridian: bodies of revolution, floor or none."""
 
-import json
 from collections.abc import Sequence
 from typing import Any, Final
 
@@ -12,8 +11,7 @@ from ...base.progress import Progress
 from ...machine.shell import Shell
 from ..arrays import Array, ComplexArray
 from ..at_kwave import Vectors, closed_greens, differences_db, solver, with_kwave
-from ..room_green import check_receiver
-from ..room_greens import room_greens
+from ..room_greens import check_receivers, room_greens
 from ..task import Microphones, Task
 from .over_ground import over_ground
 from .profile import shell_profile
@@ -51,7 +49,7 @@ class ByRevolution:
         closed = by_name(side.spectrum(points, table_hz, _NAME, progress, over_ground))
         if not task.kwave:
             return closed
-        box = join_box(side, task.settings.room_spacing_m)
+        box = join_box(side, task.resolving_spacing_m)
         greens, expected = room_greens(box, task, progress), list(closed_greens(box, task))
         asked = task.kwave_microphones
         table_hz = task.frequency_hz[asked.frequencies]
@@ -83,19 +81,12 @@ class ByRevolution:
             return None
         return lambda index: self.side.added(float(frequency_hz[index]), by_wall)
 
-    @property
-    def _solver(self) -> str:
-        """What computes a microphone without k-Wave."""
-        scene = self._task.scene
-        return _NAME if scene.outdoors is None else f"{_NAME}, {scene.room}"
-
     def attributes(self) -> dict[str, Any]:
         """What the result says about its solution."""
         side = self.side
         fine, coarse = (radiator.mesh for radiator in side.radiators)
         return {
-            "solver": solver(_NAME, self._task.scene.room, self._task),
-            "receiver_solvers": json.dumps(self._task.solvers(self._solver)),
+            "solver": solver(self._task),
             "boundary_elements": f"{len(fine.lengths)}, coarser {len(coarse.lengths)}",
             "boundary_element_longest_m": float(fine.lengths.max()),
             "boundary_element_shortest_m": float(fine.lengths.min()),
@@ -124,17 +115,9 @@ def by_revolution(shell: Shell, task: Task) -> ByRevolution:
 
 def _check_receivers(side: RevolutionSide, task: Task) -> None:
     """Refuse what cannot be computed before anything is computed."""
-    box = join_box(side, task.settings.room_spacing_m)
+    if task.kwave:
+        check_receivers(join_box(side, task.resolving_spacing_m), task)
     for name, position in task.positions.items():
-        if name in task.kwave:
-            check_receiver(
-                name,
-                position,
-                box,
-                task.settings.room_spacing_m,
-                task.scene.walls,
-                task.kwave_table.stop,
-            )
         if not side.clear(position[None, :])[0]:
             raise ParameterError(
                 f"receivers.{name}: stands under the floor or on the wall of the machine"

@@ -86,21 +86,28 @@ def _bands(power: SoundPower) -> Table:
 
 def _tones(sheet: DataSheet) -> tuple[Text | Table, ...]:
     judged = "ECMA-418-1, by tone-to-noise or prominence ratio, at the microphones of the sheet"
+    count = sheet.tones_not_judged
+    others = (
+        f"{count} audible tone{'' if count == 1 else 's'} without noise in the critical band "
+        f"{'is' if count == 1 else 'are'} not judged."
+    )
+    not_judged = (Text(others),) if count else ()
     if not sheet.tones:
-        return (Text(f"No tone is prominent ({judged})."),)
+        which = "No tone is prominent" if not count else "No other tone is prominent"
+        return *not_judged, Text(f"{which} ({judged}).")
     rows = tuple(
         (
             one.name,
             rounding.significant(one.frequency_hz, 4),
             one.microphone,
             rounding.fixed(one.level_db),
-            _shown(one.tone_to_noise_db),
+            rounding.fixed(one.tone_to_noise_db),
             _shown(one.prominence_db),
         )
         for one in sheet.tones
     )
     head = ("Tone", "Hz", "Microphone", "Lp, dB", "tone to noise, dB", "prominence, dB")
-    return (Table(f"Prominent tones ({judged})", head, rows, frozenset({0, 2})),)
+    return *not_judged, Table(f"Prominent tones ({judged})", head, rows, frozenset({0, 2}))
 
 
 def _vibration(sheet: DataSheet) -> Table:
@@ -151,7 +158,7 @@ def _rows(sheet: DataSheet) -> Iterator[Row]:
     for part, facts in (("operating", sheet.operating), ("mounting", sheet.mounting)):
         for one in facts:
             yield part, one.name, "", one.value, one.unit
-    for name in ("level_dba", "modelled_dba", "uncertainty_k_db"):
+    for name in ("level_dba", "modelled_dba", "nominal_dba", "uncertainty_k_db"):
         yield "sound power", "A-weighted", name, _cell(getattr(power, name)), "dB"
     for band in power.bands:
         for name in ("modelled_db", "rest_db", "total_db"):

@@ -42,11 +42,13 @@ class SoundPower(_Part):
     determined: str
     """How, in words."""
     level_dba: Level
-    """L_WA of model and rest."""
+    """L_WA of model and rest: median of the weighted samples; nominal without samples."""
     modelled_dba: Level
-    """L_WA of the model alone."""
+    """L_WA of the model alone, the median likewise."""
+    nominal_dba: Level
+    """L_WA of the nominal values, from which the bands are."""
     uncertainty_k_db: Level
-    """K of ISO 4871; null where nothing was drawn."""
+    """K of ISO 4871; null without samples, or where these do not differ."""
     uncertainty_words: str
     """Where K comes from."""
     model_range_hz: tuple[float, float]
@@ -58,12 +60,15 @@ class SoundPower(_Part):
 
     @property
     def declared(self) -> tuple[int, int] | None:
-        """L_WA and K in whole decibels whose sum is not below that of the exact ones (ISO 4871)."""
+        """L_WA and K in whole decibels whose sum is not below that of the exact ones (ISO 4871).
+
+        K is at least 1 dB.
+        """
         if self.level_dba is None or self.uncertainty_k_db is None:
             return None
         level = round(self.level_dba)
         limit = self.level_dba + self.uncertainty_k_db
-        return level, max(-int(-limit // 1) - level, 0)
+        return level, max(-int(-limit // 1) - level, 1)
 
 
 class Tone(_Part):
@@ -74,8 +79,7 @@ class Tone(_Part):
     microphone: str
     level_db: float
     """Sound pressure level there, re 20 µPa."""
-    tone_to_noise_db: Level
-    """Null without noise in its critical band."""
+    tone_to_noise_db: float
     prominence_db: Level
     """Prominence ratio; null without sound in the neighbouring bands."""
 
@@ -113,7 +117,9 @@ class DataSheet(_Part):
     mounting: tuple[Fact, ...]
     sound_power: SoundPower
     tones: tuple[Tone, ...]
-    """Prominent ones at any microphone, rising in frequency; none is that statement."""
+    """Prominent ones at any microphone, rising in frequency."""
+    tones_not_judged: int
+    """Audible tones in whose critical band there is no noise at any microphone."""
     vibration: tuple[Vibration, ...]
     vibration_words: str
     """What the motion holds."""

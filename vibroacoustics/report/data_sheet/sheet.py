@@ -58,6 +58,7 @@ def data_sheet(
     surface = surfaces_m2(results, chosen)
     case = results.sel(option=option, speed=speed, receiver=chosen)
     study = parameters(results)
+    tones, not_judged = prominent_tones(results, option, speed, chosen)
     return DataSheet(
         title=study["title"],
         machine=study["machine"]["name"],
@@ -66,7 +67,8 @@ def data_sheet(
         operating=operating(case),
         mounting=mounting(case),
         sound_power=sound_power(case, surface, study["radiation"]["surroundings"]["floor"]),
-        tones=prominent_tones(results, option, speed, chosen),
+        tones=tones,
+        tones_not_judged=not_judged,
         vibration=vibration(case, offsets_m(results, points_m or {})),
         vibration_words=WORDS,
         leaves_out=tuple(words(results)["leaves_out"]),

@@ -5,6 +5,7 @@ from typing import Final, Literal
 import numpy as np
 import xarray as xr
 
+from ...base import rounding
 from ...base.arrays import Array
 from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.decibel import SILENCE_DB, level_of_power, power_of_level
@@ -19,6 +20,8 @@ from .model import BandPower, SoundPower
 
 SHARE_OF_DRAWS: Final = 0.95
 """Of machines below L_WA + K (ISO 4871)."""
+_LEAST_K_DB: Final = 0.05
+"""Of samples whose levels differ; less is no uncertainty that could be declared."""
 Rest = Literal["baseline", "remainder", "none"]
 _DUST: Final = 1e-9
 """Of a band's energy: less is rounding, where the rest is what a total has beside the model."""
@@ -88,9 +91,8 @@ def sound_power(case: xr.Dataset, surface_m2: Array, floor: bool) -> SoundPower:
     shown = [_level(each @ surface_m2 / surface_m2.size) for each in (modelled, rest, total)]
     names = tuple(str(name) for name in np.atleast_1d(case["receiver"].values))
     kind, measured = _kind_of_rest(case)
-    level = float(power_db(case["level_total"].values, surface_m2))
-    alone = float(power_db(case["level_modelled"].sel(weighting="A").values, surface_m2))
-    k_db, k_words = _uncertainty(case, surface_m2, level)
+    nominal = float(power_db(case["level_total"].values, surface_m2))
+    level, alone, k_db = _levels(case, surface_m2, nominal)
     edges = [band for band in BANDS if band.nominal_hz in case["band"].values]
     return SoundPower(
         microphones=names,
@@ -98,8 +100,9 @@ def sound_power(case: xr.Dataset, surface_m2: Array, floor: bool) -> SoundPower:
         determined=_determined(len(names), floor),
         level_dba=level,
         modelled_dba=alone if alone > LEVEL_FLOOR_DB else None,
+        nominal_dba=nominal,
         uncertainty_k_db=k_db,
-        uncertainty_words=k_words,
+        uncertainty_words=_uncertainty_words(case, nominal, k_db),
         model_range_hz=(edges[0].lower_hz, edges[-1].upper_hz) if edges else (0.0, 0.0),
         rest=kind,
         rest_words=_REST[kind].format(measured),
@@ -151,22 +154,46 @@ def _kind_of_rest(case: xr.Dataset) -> tuple[Rest, str]:
     return ("baseline", ", ".join(names)) if names else (beside, "")
 
 
-def _uncertainty(case: xr.Dataset, surface_m2: Array, level: float) -> tuple[float | None, str]:
+def _levels(
+    case: xr.Dataset, surface_m2: Array, nominal: float
+) -> tuple[float, float, float | None]:
+    """L_WA, that of the model alone, and K: median and 95 % quantile of the weighted samples, dB.
+
+    Without samples the nominal levels and no K; no K either where the samples do not differ.
+    """
+    if not has_draws(case):
+        modelled = case["level_modelled"].sel(weighting="A").values
+        return nominal, float(power_db(modelled, surface_m2)), None
+    weight = case["draw_weight"].values[0]
+    by_sample = np.stack(
+        [
+            power_db(case[name].transpose("draw", "receiver").values, surface_m2)
+            for name in ("level_total_by_draw", "level_modelled_by_draw")
+        ],
+        axis=-1,
+    )
+    (level, alone), (limit, _) = weighted_quantiles(by_sample, weight, (0.5, SHARE_OF_DRAWS))
+    k_db = float(limit - level)
+    return float(level), float(alone), k_db if k_db > _LEAST_K_DB else None
+
+
+def _uncertainty_words(case: xr.Dataset, nominal: float, k_db: float | None) -> str:
     if not has_draws(case):
         why = not_drawn_sentence(case)
-        return None, "nothing was drawn: K is not known" + (f". {why[:-1]}" if why else "")
-    by_draw = case["level_total_by_draw"].transpose("draw", "receiver").values
+        return "nothing was sampled: K is not known" + (f". {why[:-1]}" if why else "")
     weight = case["draw_weight"].values[0]
-    drawn = power_db(by_draw, surface_m2)
-    highest = float(weighted_quantiles(drawn, weight, (SHARE_OF_DRAWS,))[0])
     none = overall_noise(case) is None and "baseline_band_level" not in case
-    how = "which count alike" if none else "weighed by the published level or the baseline"
-    words = (
-        f"K = the {SHARE_OF_DRAWS:.0%} quantile of L_WA over {np.count_nonzero(weight)} draws of "
-        f"the unknown values, {how}, less L_WA; the "
-        "scatter of measuring (ISO 3744: 1.5 dB) is not in it"
+    how = "equally weighted" if none else "weighted by the published level or the baseline"
+    k_words = (
+        f"K is the {SHARE_OF_DRAWS:.0%} quantile less L_WA"
+        if k_db is not None
+        else "K is not known: the samples do not differ"
     )
-    return max(highest - level, 0.0), words
+    return (
+        f"L_WA is the median of {np.count_nonzero(weight)} samples of the uncertain parameters, "
+        f"{how}; {k_words}, without the scatter of measuring (ISO 3744: 1.5 dB). Bands and tones "
+        f"are those of the nominal values, which give {rounding.fixed(nominal)} dB"
+    )
 
 
 def _determined(count: int, floor: bool) -> str:
