@@ -110,7 +110,7 @@ def pulses_of(
     )
     if edge is None:
         edge = "rising" if are_two_states else _steeper(blocks, levels)
-    pulses = _followed(blocks, samples, edge, levels)
+    pulses = _followed(blocks, samples, edge, levels, not are_two_states)
     if pulses.size == 0:
         raise ParameterError(
             f"tacho: no {edge} edge in {samples} samples; the signal goes from "
@@ -139,9 +139,7 @@ def _steeper(blocks: Blocks, levels: _Levels) -> Edge:
     return "falling" if is_steeper else "rising"
 
 
-def _followed(
-    blocks: Blocks, samples: int, edge: Edge, levels: _Levels
-) -> Array:
+def _followed(blocks: Blocks, samples: int, edge: Edge, levels: _Levels, has_lobes: bool) -> Array:
     """Pulses in samples, with a threshold that follows their height where that changes."""
     pulses, swings, _ = _found(blocks, edge, levels, None)
     if not (levels.middle_follows or levels.band_follows):
@@ -154,7 +152,8 @@ def _followed(
         if is_even and not end_is_silent(pulses, samples):
             return pulses
         before = pulses
-        pulses, swings = continued(before, *_found(blocks, edge, levels, heights)[:2])
+        found, swings, _ = _found(blocks, edge, levels, heights)
+        pulses, swings = continued(before, found, swings, has_lobes)
         if pulses.size == before.size:
             return before if is_even else pulses
     return pulses

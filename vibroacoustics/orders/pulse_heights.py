@@ -14,10 +14,10 @@ _NEIGHBOURS: Final = 5
 """Pulses over which the running median of heights and intervals is taken: two spikes are left out."""
 _BEYOND: Final = 0.5
 """Height that is expected beyond the first and last pulse, over theirs."""
-_BEFORE: Final = 0.6
-_BEHIND: Final = 0.36
-"""Least swings before and behind a further pulse, over those of its neighbours; behind the last
-pulse of an inductive pickup there is only its second lobe."""
+_LEAST_SWING: Final = 0.6
+"""Before and behind a further pulse, over that of its neighbours."""
+_SECOND_LOBE: Final = 0.6
+"""Of that behind the last pulse of an inductive pickup, which has half its swing there."""
 _INTERVALS: Final = (0.6, 3.6)
 """Of a further pulse over that of its neighbours: a tooth or two may be left out."""
 _SILENT: Final = 2.5
@@ -49,7 +49,11 @@ class Heights:
         """Height at samples from a first one; half of the last one an interval beyond the pulses."""
         before, behind = self.sample[1] - self.sample[0], self.sample[-1] - self.sample[-2]
         ends = np.array([1.0, 0.5])
-        sample = [self.sample[0] - before * ends, self.sample, self.sample[-1] + behind * ends[::-1]]
+        sample = [
+            self.sample[0] - before * ends,
+            self.sample,
+            self.sample[-1] + behind * ends[::-1],
+        ]
         ends = np.array([_BEYOND, 1.0])
         height = [self.height[0] * ends, self.height, self.height[-1] * ends[::-1]]
         number = np.arange(first, first + samples, dtype=np.float64)
@@ -70,7 +74,7 @@ def heights_of(pulses: Array, swings: Array) -> Heights | None:
     return Heights(pulses, height / height.max())
 
 
-def continued(known: Array, pulses: Array, swings: Array) -> tuple[Array, Array]:
+def continued(known: Array, pulses: Array, swings: Array, has_lobes: bool) -> tuple[Array, Array]:
     """Pulses between the known ones, and those beyond that go on as evenly, with their swings.
 
     A pulse goes on while swings and interval are near those of the pulses before it: noise at
@@ -80,18 +84,20 @@ def continued(known: Array, pulses: Array, swings: Array) -> tuple[Array, Array]
     ----------
     known : pulses of the round before, in samples
     pulses, swings : of this round, as in `heights_of`
+    has_lobes : whether the pulses go to both sides of a rest
     """
+    behind = _LEAST_SWING * (_SECOND_LOBE if has_lobes else 1.0)
     inner = np.flatnonzero((pulses >= known[0] - 0.5) & (pulses <= known[-1] + 0.5))
     if inner.size < _NEIGHBOURS:
         return pulses[inner], np.append(swings[inner], 0.0)
     interval = np.diff(pulses)
-    last = _reach(interval, swings, int(inner[-1]))
+    last = _reach(interval, swings, int(inner[-1]), behind)
     end = pulses.size - 1
-    first = end - _reach(interval[::-1], swings[::-1], end - int(inner[0]))
+    first = end - _reach(interval[::-1], swings[::-1], end - int(inner[0]), behind)
     return pulses[first : last + 1], swings[first : last + 2]
 
 
-def _reach(interval: Array, swings: Array, start: int) -> int:
+def _reach(interval: Array, swings: Array, start: int, behind: float) -> int:
     """Last pulse up to which the train goes on, from one at which it does.
 
     Parameters
@@ -99,6 +105,7 @@ def _reach(interval: Array, swings: Array, start: int) -> int:
     interval : between neighbours, shape (pulse - 1,)
     swings : as in `heights_of`
     start : pulse, with some before it
+    behind : least swing behind a further pulse, over that of its neighbours
     """
     least, most = _INTERVALS
     for number in range(start, interval.size):
@@ -106,8 +113,8 @@ def _reach(interval: Array, swings: Array, start: int) -> int:
         usual = np.median(swings[first + 1 : number + 1])
         ratio = interval[number] / np.median(interval[first:number])
         # The swing before a first pulse of noise is still that of the last pulse.
-        is_as_high = swings[number + 1] > _BEFORE * usual and swings[number + 2] > _BEHIND * usual
-        if not (least < ratio < most and is_as_high):
+        is_high = swings[number + 1] > _LEAST_SWING * usual and swings[number + 2] > behind * usual
+        if not (least < ratio < most and is_high):
             return number
     return int(interval.size)
 
@@ -126,7 +133,9 @@ def silent_parts(time: Array, start: float, end: float) -> list[tuple[float, flo
     parts = []
     for number in np.flatnonzero(interval > _SILENT * np.median(inner)):
         low = max(number - 1 - _LONGEST_OF, 0)
-        beside = np.concatenate([inner[low : max(number - 1, 0)], inner[number : number + _LONGEST_OF]])
+        beside = np.concatenate(
+            [inner[low : max(number - 1, 0)], inner[number : number + _LONGEST_OF]]
+        )
         if beside.size == 0 or interval[number] > _SILENT * beside.max():
             parts.append((float(at[number]), float(at[number + 1])))
     return parts

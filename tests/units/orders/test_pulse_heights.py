@@ -75,9 +75,7 @@ def test_edge_and_threshold_of_the_user_hold():
     np.testing.assert_allclose(at_zero, pickup.zero_s, atol=0.02 / RATE_HZ)
     falling = pulse_times(pickup.volts, RATE_HZ, "falling", threshold=0.1)
     assert falling.size == pickup.zero_s.size
-    np.testing.assert_allclose(
-        np.interp(falling, pickup.time_s, pickup.volts), 0.1, atol=0.01
-    )
+    np.testing.assert_allclose(np.interp(falling, pickup.time_s, pickup.volts), 0.1, atol=0.01)
     before = (pickup.zero_s - falling) * np.interp(falling, pickup.time_s, pickup.speed_hz)
     assert np.all((before > 0.0) & (before < 0.5 * LOBE))
     rising = pulse_times(pickup.volts, RATE_HZ, "rising", threshold=0.1)

@@ -301,7 +301,6 @@ def test_start_that_every_segment_repeats_is_no_gap(tmp_path):
     assert read_recording(tmp_path / "a.tdms").sizes["time"] == 300
 
 
-
 @pytest.mark.parametrize(
     ("word", "unit"), [("Volts", "V"), ("Pascal", "Pa"), ("newtons", "N"), ("Amps", "A")]
 )

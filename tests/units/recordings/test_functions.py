@@ -281,7 +281,8 @@ def test_a_line_within_the_values_of_a_text_loses_no_other_function(tmp_path):
     file, lines, marks = three_functions(tmp_path, FORMS["58"])
     at = marks[0] + 16
     file.write_bytes(b"".join([*lines[:at], lines[marks[0]], *lines[at:]]))
-    with pytest.raises(va.StorageError, match="function 1, .*truncated"), pytest.warns(
-        RecordingWarning, match=r"after dataset number 1 \(58\) there is a line -1"
+    with (
+        pytest.raises(va.StorageError, match="function 1, .*truncated"),
+        pytest.warns(RecordingWarning, match=r"after dataset number 1 \(58\) there is a line -1"),
     ):
         va.read_functions(file)
