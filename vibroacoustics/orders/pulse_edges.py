@@ -121,7 +121,7 @@ def pulses_of(
 
 
 class _Levels(NamedTuple):
-    """Threshold and band around it at full height, the level at rest, and what follows the height."""
+    """Threshold and band around it at full height, the level at rest, what follows the height."""
 
     rest: float
     middle: float
@@ -162,7 +162,7 @@ def _followed(blocks: Blocks, samples: int, edge: Edge, levels: _Levels, has_lob
 def _found(
     blocks: Blocks, edge: Edge, levels: _Levels, heights: Heights | None
 ) -> tuple[Array, Array, Array]:
-    """Crossings in samples, swing of the signal before, between and behind them, samples of an edge.
+    """Crossings in samples, swings before, between and behind them, samples that each edge takes.
 
     Parameters
     ----------
@@ -195,8 +195,8 @@ def _crossings(
     sign : 1 or -1
     middles : threshold of each sample, or one of all
     halves : of the band about it, likewise
-    state : the sample before, over its threshold, not a number at the start; 1 where the signal has been below the
-        lower level since the last crossing; the last crossing of the middle; highest and lowest
+    state : the sample before, over its threshold, not a number at the start; 1 where the signal has
+        been below the lower level since the last crossing; the last crossing of the middle; highest and lowest
         sample since the last pulse; last sample below the lower level. It is changed
 
     Returns

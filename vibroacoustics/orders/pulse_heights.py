@@ -11,7 +11,7 @@ from ..base.arrays import Array
 EVEN_HEIGHT: Final = 0.8
 """Least height over the largest one, above which the threshold stays as it is."""
 _NEIGHBOURS: Final = 5
-"""Pulses over which the running median of heights and intervals is taken: two spikes are left out."""
+"""Pulses over which the median of heights and intervals is taken: two spikes are left out."""
 _BEYOND: Final = 0.5
 """Height that is expected beyond the first and last pulse, over theirs."""
 _LEAST_SWING: Final = 0.6
@@ -46,7 +46,7 @@ class Heights:
         return float(self.height.min())
 
     def at(self, first: int, samples: int) -> Array:
-        """Height at samples from a first one; half of the last one an interval beyond the pulses."""
+        """Height at samples from a first one; half of the last one beyond the pulses."""
         before, behind = self.sample[1] - self.sample[0], self.sample[-1] - self.sample[-2]
         ends = np.array([1.0, 0.5])
         sample = [
@@ -57,7 +57,7 @@ class Heights:
         ends = np.array([_BEYOND, 1.0])
         height = [self.height[0] * ends, self.height, self.height[-1] * ends[::-1]]
         number = np.arange(first, first + samples, dtype=np.float64)
-        return np.interp(number, np.concatenate(sample), np.concatenate(height))
+        return np.asarray(np.interp(number, np.concatenate(sample), np.concatenate(height)))
 
 
 def heights_of(pulses: Array, swings: Array) -> Heights | None:

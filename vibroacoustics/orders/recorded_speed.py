@@ -42,7 +42,7 @@ class StandstillWarning(UserWarning):
 
 
 class PulseWarning(UserWarning):
-    """Pulses of a tacho are not what is stated of them, too quick, uneven, or missing in a part."""
+    """Pulses of a tacho are not as stated, too quick, uneven, or missing in a part."""
 
 
 @dataclass(frozen=True)
@@ -174,9 +174,10 @@ def _from_pulses(recording: RecordingBlocks, speed: SpeedChannel) -> RecordedSpe
     for note in (*([too_quick] if too_quick else ()), *tracked.notes, *silence):
         warnings.warn(f"tacho {speed.channel}: {note}", PulseWarning, stacklevel=2)
     number = speed.pulses_per_revolution
+    edge = "falling edge, " if found.edge == "falling" else ""
     source = (
         f"tacho {speed.channel}, {number} pulse{'s' if number > 1 else ''} a revolution, "
-        f"{'falling edge, ' if found.edge == 'falling' else ''}jitter {100.0 * tracked.jitter:.2g} % of a period"
+        f"{edge}jitter {100.0 * tracked.jitter:.2g} % of a period"
     )
     return RecordedSpeed(
         tracked.motion,

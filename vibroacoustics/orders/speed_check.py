@@ -39,7 +39,7 @@ _UNSURE: Final = 0.5
 """Confidence of a shaft that turns as fast as the mains, since hum has its lines, or whose lowest
 orders vanish for a while."""
 _LONGEST_LOSS: Final = 4
-"""Frames in a row without the lowest orders: the length of one, as they overlap by three quarters."""
+"""Frames in a row without the lowest orders: the length of one, as frames overlap."""
 _LOST: Final = 8.0
 """Evidence that is lost with a factor e of time in which the orders do not stand out."""
 
@@ -151,9 +151,9 @@ def _hypotheses(unrolled: Unrolled) -> list[_Hypothesis]:
     for number, (scale, evidence) in enumerate(pairs):
         share = unrolled.followed(scale) if number < _LOOKED_INTO else 1.0
         lost = _LOST * np.log(min(1.0, max(share, 0.01) / MOSTLY))
-        if evidence > 0.0:  # a course that leaps from one multiple to another has lines in part
-            evidence = evidence * _share(unrolled.low_lines(scale))
-        listed.append(_Hypothesis(course, float(scale), float(evidence + lost)))
+        # A course that leaps from one multiple of the speed to another has its lines for a time.
+        present = _share(unrolled.low_lines(scale)) if evidence > 0.0 else 1.0
+        listed.append(_Hypothesis(course, float(scale), float(present * evidence + lost)))
     return sorted(listed, key=lambda one: -one.evidence)
 
 

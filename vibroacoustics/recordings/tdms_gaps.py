@@ -1,6 +1,7 @@
 """Gaps in the time of a TDMS file, from the start times that its segments state."""
 
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, Final
 
@@ -68,7 +69,7 @@ def gap_lines(
 
 def _line(starts: Sequence[Start], interval_s: float, part: tuple[int, int]) -> str:
     gaps = []
-    for (before, before_s), (sample, start_s) in zip(starts, starts[1:], strict=False):
+    for (before, before_s), (sample, start_s) in pairwise(starts):
         recorded_s = (sample - before) * interval_s
         gap_s = start_s - before_s - recorded_s
         is_gap = abs(gap_s) > _SAMPLES * interval_s + _CLOCK * recorded_s

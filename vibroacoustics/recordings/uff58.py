@@ -124,7 +124,9 @@ def datasets(file: BinaryIO) -> Datasets:
     StorageError
         There is no dataset, or the last one is not closed: the file is truncated.
     """
-    functions, kinds, remarks, is_open = [], [], [], False
+    functions: list[Header] = []
+    kinds: list[int] = []
+    remarks, is_open = [], False
     file.seek(0)
     while is_open or _goes_on_to_mark(file):
         kind = next((line for line in _lines(file) if line.strip()), b"")

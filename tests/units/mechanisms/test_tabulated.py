@@ -321,13 +321,14 @@ def test_a_machine_without_shaft_axes_is_refused_with_the_lines_to_add(tmp_path)
         'stroke = "x", shaft = "z" with the directions of this machine, each x, y, z, -x, -y or -z'
     )
     half = '\n[shaft_axes]\nshaft = "z"\n'
-    with pytest.raises(ParameterError, match="shaft_axes.stroke: is missing"):
+    with pytest.raises(ParameterError, match=r"shaft_axes\.stroke: is missing"):
         load_machine(table_machine(tmp_path, "f.csv", more=half))
 
 
 LYING = ROOT / "pipelines" / "reciprocating_table.toml"
 TWO = {
-    "options.softer-mounts": None, "options.counterweight-half": None, "operation.speed_rpm": [800.0, 1200.0]
+    "options.softer-mounts": None, "options.counterweight-half": None,
+    "operation.speed_rpm": [800.0, 1200.0],
 }  # fmt: skip
 
 
@@ -351,7 +352,7 @@ def levels(machine: str | None = None):
 
 
 def test_exported_forces_of_a_lying_shaft_bring_its_axes(tmp_path):
-    """Levels with and without a counterweight are the same; on an upright shaft 1 dB off or more."""
+    """Levels with and without a counterweight are the same; 1 dB off for an upright shaft."""
     results, expected = levels()
     file = va.export_forces(results, tmp_path / "forces.csv")
     remarks = [line[2:] for line in file.read_text().splitlines() if line.startswith("# ")]

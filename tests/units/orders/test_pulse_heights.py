@@ -112,7 +112,7 @@ def test_a_stop_is_analysed_to_the_last_revolution():
     assert results["block_speed"].values[-1] < 60.0 * np.sqrt(10.0**2 + 2.0 * 8.0 * (40.0 / 6.0))
 
 
-# --- parts without pulses --------------------------------------------------------------------------
+# --- parts without pulses ------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -141,7 +141,7 @@ def test_parts_without_pulses():
     assert silent_parts(teeth[teeth % 60 < 58] / 1000.0, 0.0, 0.6) == []
 
 
-# --- jitter ----------------------------------------------------------------------------------------
+# --- jitter --------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -237,7 +237,7 @@ def test_tdms_without_a_waveform(tmp_path):
 
 
 def segments_with_pauses(path, pauses_s, stated=(True, True, True)):
-    """Three segments of 1000 samples of two channels, each after a pause; the start time of each."""
+    """Three segments of 1000 samples of two channels, each after a pause; start times."""
     begin, start_s = np.datetime64("2026-03-01T10:00:00.000000"), 0.0
     with TdmsWriter(str(path)) as writer:
         for pause_s, says in zip(pauses_s, stated, strict=True):

@@ -239,7 +239,7 @@ def test_a_damaged_file_is_read_or_refused(tmp_path, name, form):
             va.read_functions(file)
 
 
-# --- lines -1 that are not in pairs -----------------------------------------------------------------
+# --- lines -1 that are not in pairs --------------------------------------------------------------
 
 
 def three_functions(folder, form):
@@ -282,7 +282,7 @@ def test_a_line_within_the_values_of_a_text_loses_no_other_function(tmp_path):
     at = marks[0] + 16
     file.write_bytes(b"".join([*lines[:at], lines[marks[0]], *lines[at:]]))
     with (
-        pytest.raises(va.StorageError, match="function 1, .*truncated"),
+        pytest.raises(va.StorageError, match=r"function 1, .*truncated"),
         pytest.warns(RecordingWarning, match=r"after dataset number 1 \(58\) there is a line -1"),
     ):
         va.read_functions(file)

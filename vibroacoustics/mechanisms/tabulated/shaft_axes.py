@@ -16,8 +16,8 @@ class ShaftAxes(Parameters):
     """Where the shaft is: crank angle counts from the stroke, positive about the shaft."""
 
     lines_to_add: ClassVar[str] = (
-        'add the lines [shaft_axes], stroke = "x", shaft = "z" with the directions of this machine, '
-        "each x, y, z, -x, -y or -z"
+        'add the lines [shaft_axes], stroke = "x", shaft = "z" with the directions of this '
+        "machine, each x, y, z, -x, -y or -z"
     )
     stroke: Axis
     shaft: Axis

@@ -105,7 +105,7 @@ def _stated_rate_hz(file: Any, name: str, channel: Any) -> float:
                 check_rate(rate)
                 return rate
     raise ParameterError(
-        f"channel {name!r}: has no {INCREMENT} and no property such as SampleFrequency: "
+        f"channel {name!r}: has no wf_increment and no property such as SampleFrequency: "
         "give sample_rate_hz"
     )
 
