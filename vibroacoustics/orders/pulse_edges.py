@@ -132,7 +132,7 @@ class _Levels(NamedTuple):
 
 def _steeper(blocks: Blocks, levels: _Levels) -> Edge:
     """The edge that takes less time."""
-    rising, falling = (_found(blocks, edge, levels, None)[2] for edge in ("rising", "falling"))
+    rising, falling = (_detected(blocks, edge, levels, None)[2] for edge in ("rising", "falling"))
     if rising.size == 0 or falling.size == 0:
         return "rising" if rising.size else "falling"
     is_steeper = float(np.median(falling)) < _STEEPER * float(np.median(rising))
@@ -141,7 +141,7 @@ def _steeper(blocks: Blocks, levels: _Levels) -> Edge:
 
 def _followed(blocks: Blocks, samples: int, edge: Edge, levels: _Levels, has_lobes: bool) -> Array:
     """Pulses in samples, with a threshold that follows their height where that changes."""
-    pulses, swings, _ = _found(blocks, edge, levels, None)
+    pulses, swings, _ = _detected(blocks, edge, levels, None)
     if not (levels.middle_follows or levels.band_follows):
         return pulses
     for _ in range(_ROUNDS):
@@ -152,14 +152,14 @@ def _followed(blocks: Blocks, samples: int, edge: Edge, levels: _Levels, has_lob
         if is_even and not end_is_silent(pulses, samples):
             return pulses
         before = pulses
-        found, swings, _ = _found(blocks, edge, levels, heights)
-        pulses, swings = continued(before, found, swings, has_lobes)
+        crossings, swings, _ = _detected(blocks, edge, levels, heights)
+        pulses, swings = continued(before, crossings, swings, has_lobes)
         if pulses.size == before.size:
             return before if is_even else pulses
     return pulses
 
 
-def _found(
+def _detected(
     blocks: Blocks, edge: Edge, levels: _Levels, heights: Heights | None
 ) -> tuple[Array, Array, Array]:
     """Crossings in samples, swings before, between and behind them, samples that each edge takes.
@@ -170,15 +170,15 @@ def _found(
     heights : relative, which the levels follow; None where they are 1
     """
     sign = 1.0 if edge == "rising" else -1.0
-    state, first, found = np.array([np.nan, 0.0, 0.0, -np.inf, np.inf, 0.0]), 0, []
+    state, first, parts = np.array([np.nan, 0.0, 0.0, -np.inf, np.inf, 0.0]), 0, []
     for block in blocks():
         height = np.ones(1) if heights is None else heights.at(first, block.size)
         middle = levels.rest + (levels.middle - levels.rest) * height
         half = 0.5 * levels.band * (height if levels.band_follows else np.ones(height.size))
         middle = middle if levels.middle_follows else np.full(height.size, levels.middle)
-        found.append(_crossings(block, first, sign, sign * middle, half, state))
+        parts.append(_crossings(block, first, sign, sign * middle, half, state))
         first += block.size
-    crossings, swings, lengths = (np.concatenate(parts) for parts in zip(*found, strict=True))
+    crossings, swings, lengths = (np.concatenate(each) for each in zip(*parts, strict=True))
     return crossings, np.append(swings, state[3] - state[4]), lengths
 
 
@@ -196,8 +196,8 @@ def _crossings(
     middles : threshold of each sample, or one of all
     halves : of the band about it, likewise
     state : the sample before, over its threshold, not a number at the start; 1 where the signal has
-        been below the lower level since the last crossing; the last crossing of the middle; highest and lowest
-        sample since the last pulse; last sample below the lower level. It is changed
+        been below the lower level since the last crossing; the last crossing of the middle; highest
+        and lowest sample since the last pulse; last sample below the lower level. It is changed
 
     Returns
     -------

@@ -162,19 +162,19 @@ def _from_pulses(recording: RecordingBlocks, speed: SpeedChannel) -> RecordedSpe
         blocks = _blocks(recording, _channel(recording, speed.index_channel))
         index = pulses_of(blocks, recording.samples, rate_hz).time_s
         angle_zero = f"pulse of {speed.index_channel}"
-    found = pulses_of(
+    pulses = pulses_of(
         _blocks(recording, speed.channel), recording.samples, rate_hz, speed.edge, speed.threshold
     )
-    too_quick = sampling_note(found.time_s, rate_hz)
+    too_quick = sampling_note(pulses.time_s, rate_hz)
     try:
-        tracked = tacho_motion(found.time_s, speed.pulses_per_revolution, index)
+        tracked = tacho_motion(pulses.time_s, speed.pulses_per_revolution, index)
     except ParameterError as error:
         raise ParameterError(f"{error}; {too_quick}" if too_quick else str(error)) from None
-    silence = _silence(found.time_s, (recording.samples - 1) / rate_hz)
+    silence = _silence(pulses.time_s, (recording.samples - 1) / rate_hz)
     for note in (*([too_quick] if too_quick else ()), *tracked.notes, *silence):
         warnings.warn(f"tacho {speed.channel}: {note}", PulseWarning, stacklevel=2)
     number = speed.pulses_per_revolution
-    edge = "falling edge, " if found.edge == "falling" else ""
+    edge = "falling edge, " if pulses.edge == "falling" else ""
     source = (
         f"tacho {speed.channel}, {number} pulse{'s' if number > 1 else ''} a revolution, "
         f"{edge}jitter {100.0 * tracked.jitter:.2g} % of a period"

@@ -31,8 +31,8 @@ def read(request: Request) -> Recorded:
         The file is truncated or too large.
     """
     with request.path.open("rb") as file:
-        found = datasets(file)
-        responses = _time_responses(found)
+        contents = datasets(file)
+        responses = _time_responses(contents)
         names = numbered([header.name or "channel" for header in responses])
         chosen = request.chosen(names)
         names, responses = [names[c] for c in chosen], [responses[c] for c in chosen]
@@ -47,19 +47,19 @@ def read(request: Request) -> Recorded:
         start_time=responses[0].start_time,
         first_sample=first,
         total_samples=responses[0].points,
-        remarks=found.remarks,
+        remarks=contents.remarks,
     )
 
 
-def _time_responses(found: Datasets) -> list[Header]:
-    responses = [header for header in found.functions if header.function_type == TIME_RESPONSE]
-    types = sorted({header.function_type for header in found.functions})
+def _time_responses(contents: Datasets) -> list[Header]:
+    responses = [header for header in contents.functions if header.function_type == TIME_RESPONSE]
+    types = sorted({header.function_type for header in contents.functions})
     if types and not responses:
         raise ParameterError(
             f"holds no time response (function type 1), only functions of type {types}"
         )
     if not responses:
-        kinds = ", ".join(map(str, sorted(set(found.kinds)))) or "none"
+        kinds = ", ".join(map(str, sorted(set(contents.kinds)))) or "none"
         raise ParameterError(f"holds no time response (dataset 58); its datasets: {kinds}")
     if any(header.ordinate_type not in (SINGLE, DOUBLE) for header in responses):
         raise ParameterError("holds a complex time response: no real numbers")
