@@ -101,4 +101,10 @@ def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
     results = results.merge(scoring.study_scores(study, results))
     results.attrs = provenance.radiation_attributes(study, radiated, was_cached)
     results.attrs["words"] = canonical_json(words(study, motion.loads, results))
+    results.attrs["crank_frames"] = canonical_json(
+        {
+            name: option.applied_to(study.machine).crank_frame._asdict()
+            for name, option in study.options.items()
+        }
+    )
     return check(label_coordinates(results))
