@@ -30,6 +30,8 @@ class Parameters(BaseModel):
     model_config = ConfigDict(
         frozen=True, strict=True, extra="forbid", allow_inf_nan=False, validate_default=True
     )
+    lines_to_add: ClassVar[str] = ""
+    """What a refusal says of a missing table, where its required keys alone do not say enough."""
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,9 @@ from ..base.errors import ParameterError
 from ..study.order_analysis import (
     BAND_METHODS,
     DEFAULT_COMB,
+    EDGES,
     BandMethod,
+    Edge,
     NominalSpeed,
     OrderAnalysis,
     SpeedChannel,
@@ -59,27 +61,43 @@ def speed_source(
     tacholess: tuple[float, float] | None,
     comb: str | None = None,
     mains_hz: float | None = None,
+    threshold: float | None = None,
+    edge: str | None = None,
 ) -> SpeedSource:
     """Where the speed of a recording comes from.
 
     Raises
     ------
     ParameterError
-        From nowhere or from two places.
+        From nowhere or from two places, or an option belongs to another source.
     """
     given = [rpm is not None, tacholess is not None, speed is not None and tacholess is None]
     if sum(given) != 1:
         raise ParameterError(
             "speed: give one of --speed CHANNEL, --rpm NUMBER and --tacholess LOWEST HIGHEST"
         )
-    if (index is not None or pulses != 1) and (rpm is not None or tacholess is not None):
-        raise ParameterError("--index, --pulses: belong to a tacho, --speed CHANNEL")
+    of_a_tacho = pulses != 1 or any(one is not None for one in (index, threshold, edge))
+    if of_a_tacho and (rpm is not None or tacholess is not None):
+        raise ParameterError(
+            "--index, --pulses, --threshold, --edge: belong to a tacho, --speed CHANNEL"
+        )
     if (comb is not None or mains_hz is not None) and tacholess is None:
         raise ParameterError("--comb, --mains: belong to --tacholess LOWEST HIGHEST")
     if tacholess is not None:
         orders = DEFAULT_COMB if comb is None else order_numbers(comb, "--comb")
         return TacholessSpeed(speed, *tacholess, orders, mains_hz)
-    return SpeedChannel(str(speed), pulses, index) if rpm is None else NominalSpeed(rpm)
+    if rpm is not None:
+        return NominalSpeed(rpm)
+    return SpeedChannel(str(speed), pulses, index, threshold, _edge(edge))
+
+
+def _edge(text: str | None) -> Edge | None:
+    for edge in EDGES:
+        if text == edge:
+            return edge
+    if text is not None:
+        raise ParameterError(f"--edge {text!r}: must be one of {', '.join(EDGES)}")
+    return None
 
 
 def order_numbers(text: str, option: str = "--orders") -> tuple[float, ...]:

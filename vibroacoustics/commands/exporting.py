@@ -108,6 +108,8 @@ def export_functions(
 def export_forces(results: xr.Dataset, path: str | Path, option: str = REFERENCE_OPTION) -> Path:
     """Write the forces of a run by order as CSV, as a machine of `kind = "table"` reads them.
 
+    Remarks at the top of the file hold the lines `[shaft_axes]` that the machine file needs.
+
     Parameters
     ----------
     results : of `run`

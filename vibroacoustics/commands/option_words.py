@@ -21,6 +21,7 @@ _ARGUMENTS: Final = {
     "maximum_order": "--maximum-order",
     "speed_step_rpm": "--speed-step",
     "pulses_per_revolution": "--pulses",
+    "threshold": "--threshold",
     "minimum_rpm": "--tacholess, lowest",
     "maximum_rpm": "highest",
     "speed_rpm": "--rpm",

@@ -25,6 +25,14 @@ Pulses = Annotated[int, typer.Option(help="Pulses of the tacho per revolution.")
 Index = Annotated[
     str | None, typer.Option(help="Channel with one pulse a revolution: crank angle zero.")
 ]
+Threshold = Annotated[
+    float | None,
+    typer.Option(help="Level of the tacho that marks the angle, in its unit; default: follows it."),
+]
+Edge = Annotated[
+    str | None,
+    typer.Option("--edge", help="Edge of the tacho's pulses: rising or falling; default: auto."),
+]
 Rpm = Annotated[float | None, typer.Option(help="Nominal speed, instead of a channel.")]
 Tacholess = Annotated[
     tuple[float, float] | None,
@@ -69,6 +77,8 @@ def orders_command(
     speed: Speed = None,
     pulses: Pulses = 1,
     index: Index = None,
+    threshold: Threshold = None,
+    edge: Edge = None,
     rpm: Rpm = None,
     tacholess: Tacholess = None,
     comb: Comb = None,
@@ -98,7 +108,9 @@ def orders_command(
     from . import arguments, checking, outputs, reading
     from .printing import printer
 
-    source = arguments.speed_source(speed, pulses, index, rpm, tacholess, comb, mains)
+    source = arguments.speed_source(
+        speed, pulses, index, rpm, tacholess, comb, mains, threshold, edge
+    )
     settings = arguments.order_analysis(
         source, orders, maximum_order, resolution, speed_step, with_map, bands
     )
@@ -130,6 +142,8 @@ def track_command(
     speed: Speed = None,
     pulses: Pulses = 1,
     index: Index = None,
+    threshold: Threshold = None,
+    edge: Edge = None,
     rpm: Rpm = None,
     tacholess: Tacholess = None,
     comb: Comb = None,
@@ -149,7 +163,9 @@ def track_command(
     from .. import pipeline, report
     from . import arguments, outputs, reading, recorded_outputs
 
-    source = arguments.speed_source(speed, pulses, index, rpm, tacholess, comb, mains)
+    source = arguments.speed_source(
+        speed, pulses, index, rpm, tacholess, comb, mains, threshold, edge
+    )
     numbers = arguments.order_numbers(orders)
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
@@ -169,6 +185,8 @@ def map_command(
     speed: Speed = None,
     pulses: Pulses = 1,
     index: Index = None,
+    threshold: Threshold = None,
+    edge: Edge = None,
     rpm: Rpm = None,
     tacholess: Tacholess = None,
     comb: Comb = None,
@@ -190,7 +208,9 @@ def map_command(
     from .. import pipeline
     from . import arguments, outputs, reading, recorded_outputs
 
-    source = arguments.speed_source(speed, pulses, index, rpm, tacholess, comb, mains)
+    source = arguments.speed_source(
+        speed, pulses, index, rpm, tacholess, comb, mains, threshold, edge
+    )
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
     recording = reading.Reading(

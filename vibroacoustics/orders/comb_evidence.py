@@ -5,6 +5,7 @@ from typing import Final
 
 import numpy as np
 import scipy  # loads its subpackages when they are needed
+from numpy.typing import NDArray
 from scipy import fft
 from scipy.ndimage import maximum_filter1d, median_filter
 
@@ -224,6 +225,19 @@ def _fitted(lines: Lines, orders: Array, speeds: Array) -> Array:
     return np.asarray(speeds + np.nan_to_num(change))
 
 
+def are_in_place(lines: Lines, frequency: Array) -> NDArray[np.bool_]:
+    """Whether there is a clear line at each frequency, of its shape.
+
+    Parameters
+    ----------
+    lines : of a spectrum
+    frequency : in the unit of the lines' frequency
+    """
+    if lines.frequency.size == 0:
+        return np.zeros(frequency.shape, dtype=bool)
+    return np.asarray(np.abs(nearest_line(lines, frequency)[1]) <= tolerance(lines, frequency))
+
+
 def lines_in_place(lines: Lines, orders: Array) -> tuple[int, int, float]:
     """Orders at which there is a clear line, orders that there can be, mean width of the lines.
 
@@ -240,8 +254,8 @@ def lines_in_place(lines: Lines, orders: Array) -> tuple[int, int, float]:
     covered = orders[orders < lines.highest]
     if lines.frequency.size == 0:
         return 0, covered.size, np.nan
-    nearest, distance = nearest_line(lines, covered)
-    near = np.abs(distance) <= tolerance(lines, covered)
+    nearest = nearest_line(lines, covered)[0]
+    near = are_in_place(lines, covered)
     width = np.nan
     if near.any():  # a speed that is not followed widens the high orders most
         width = np.average(lines.width[nearest[near]], weights=covered[near]) / STEADY_WIDTH

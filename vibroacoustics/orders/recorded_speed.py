@@ -14,8 +14,9 @@ from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import NO_ANGLE_ZERO
 from ..study.order_analysis import NominalSpeed, SpeedChannel, SpeedSource, TacholessSpeed
 from .crank_motion import CrankMotion, constant_speed
-from .pulse_edges import pulse_times_of
+from .pulse_edges import pulses_of
 from .pulse_faults import PulseFault
+from .pulse_heights import silent_parts
 from .pulse_pattern import sampling_note
 from .rpm_channel import rpm_motion_of
 from .speed_check import MOSTLY, WIDE_LINE
@@ -28,6 +29,9 @@ LEAST_CONFIDENCE: Final = 0.8
 MOST_SPEED_SAMPLES: Final = 2**26
 """Of a channel in which the speed is looked for: half a GiB, 22 min at 51.2 kHz."""
 
+_PARTS: Final = 3
+"""Parts without pulses that are listed."""
+
 
 class UncertainSpeedWarning(UserWarning):
     """The speed that a signal gives need not be that of the shaft."""
@@ -38,7 +42,7 @@ class StandstillWarning(UserWarning):
 
 
 class PulseWarning(UserWarning):
-    """Pulses of a tacho are not what is stated of them, or too quick for the sample rate."""
+    """Pulses of a tacho are not as stated, too quick, uneven, or missing in a part."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +84,8 @@ def recorded_speed(recording: RecordingBlocks, speed: SpeedSource) -> RecordedSp
     StandstillWarning
         The shaft stands at the begin or the end: that part is left out.
     PulseWarning
-        Teeth are left out, pulses unequally spaced, or too quick for the sample rate.
+        Teeth are left out, pulses unequally spaced or too quick for the sample rate, their jitter
+        is above 5 % of a period, or a part of the recording has none.
     """
     rate_hz = recording.sample_rate_hz
     if isinstance(speed, NominalSpeed):
@@ -154,29 +159,45 @@ def _from_pulses(recording: RecordingBlocks, speed: SpeedChannel) -> RecordedSpe
     index, rate_hz = None, recording.sample_rate_hz
     angle_zero = f"pulse of {speed.channel}" if speed.pulses_per_revolution == 1 else NO_ANGLE_ZERO
     if speed.index_channel is not None:
-        index = _pulse_times(recording, _channel(recording, speed.index_channel))
+        blocks = _blocks(recording, _channel(recording, speed.index_channel))
+        index = pulses_of(blocks, recording.samples, rate_hz).time_s
         angle_zero = f"pulse of {speed.index_channel}"
-    pulses = _pulse_times(recording, speed.channel)
-    too_quick = sampling_note(pulses, rate_hz)
+    pulses = pulses_of(
+        _blocks(recording, speed.channel), recording.samples, rate_hz, speed.edge, speed.threshold
+    )
+    too_quick = sampling_note(pulses.time_s, rate_hz)
     try:
-        tracked = tacho_motion(pulses, speed.pulses_per_revolution, index)
+        tracked = tacho_motion(pulses.time_s, speed.pulses_per_revolution, index)
     except ParameterError as error:
         raise ParameterError(f"{error}; {too_quick}" if too_quick else str(error)) from None
-    for note in (*((too_quick,) if too_quick else ()), *tracked.notes):
+    silence = _silence(pulses.time_s, (recording.samples - 1) / rate_hz)
+    for note in (*([too_quick] if too_quick else ()), *tracked.notes, *silence):
         warnings.warn(f"tacho {speed.channel}: {note}", PulseWarning, stacklevel=2)
     number = speed.pulses_per_revolution
+    edge = "falling edge, " if pulses.edge == "falling" else ""
     source = (
         f"tacho {speed.channel}, {number} pulse{'s' if number > 1 else ''} a revolution, "
-        f"jitter {100.0 * tracked.jitter:.2g} % of a period"
+        f"{edge}jitter {100.0 * tracked.jitter:.2g} % of a period"
     )
     return RecordedSpeed(
-        tracked.motion, source, angle_zero, tracked.faults, {"jitter": tracked.jitter}
+        tracked.motion,
+        "; ".join([source, *silence]),
+        angle_zero,
+        tracked.faults,
+        {"jitter": tracked.jitter},
     )
 
 
-def _pulse_times(recording: RecordingBlocks, name: str) -> Array:
-    blocks = _blocks(recording, name)
-    return pulse_times_of(blocks, recording.samples, recording.sample_rate_hz)
+def _silence(pulse_times_s: Array, end_s: float) -> list[str]:
+    """A sentence on the parts of the recording without pulses, none where there are none."""
+    parts = [f"{a:.4g} to {b:.4g} s" for a, b in silent_parts(pulse_times_s, 0.0, end_s)]
+    if not parts:
+        return []
+    more = f" and {len(parts) - _PARTS} more" if len(parts) > _PARTS else ""
+    return [
+        f"no pulses from {', '.join(parts[:_PARTS])}{more}: before the first and behind the last "
+        "pulse nothing is analysed, between pulses the angle is interpolated"
+    ]
 
 
 def _blocks(recording: RecordingBlocks, name: str) -> Callable[[], Iterator[Array]]:

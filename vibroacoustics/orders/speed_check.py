@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
 from .comb_evidence import best_speeds, lines_in_place, sharpness
@@ -34,8 +35,11 @@ _CAUTION: Final = 2.0
 """Evidence that counts as a factor e of odds: the teeth are not independent of each other."""
 _LOOKED_INTO: Final = 2
 """Scales of a course of which it is known how long their orders stand out."""
-_HUM: Final = 0.5
-"""How sure a shaft is that turns as fast as the mains: hum has its lines."""
+_UNSURE: Final = 0.5
+"""Confidence of a shaft that turns as fast as the mains, since hum has its lines, or whose lowest
+orders vanish for a while."""
+_LONGEST_LOSS: Final = 4
+"""Frames in a row without the lowest orders: the length of one, as frames overlap."""
 _LOST: Final = 8.0
 """Evidence that is lost with a factor e of time in which the orders do not stand out."""
 
@@ -147,8 +151,21 @@ def _hypotheses(unrolled: Unrolled) -> list[_Hypothesis]:
     for number, (scale, evidence) in enumerate(pairs):
         share = unrolled.followed(scale) if number < _LOOKED_INTO else 1.0
         lost = _LOST * np.log(min(1.0, max(share, 0.01) / MOSTLY))
-        listed.append(_Hypothesis(course, float(scale), float(evidence + lost)))
+        # A course that leaps from one multiple of the speed to another has its lines for a time.
+        present = _share(unrolled.low_lines(scale)) if evidence > 0.0 else 1.0
+        listed.append(_Hypothesis(course, float(scale), float(present * evidence + lost)))
     return sorted(listed, key=lambda one: -one.evidence)
+
+
+def _share(stands_out: NDArray[np.bool_]) -> float:
+    """Share of the time in which lines stand out, shape (order, frame); none without lines."""
+    return float(stands_out.mean()) if stands_out.size else 0.0
+
+
+def _longest_loss(stands_out: NDArray[np.bool_]) -> int:
+    """Most frames in a row in which no line stands out, shape (order, frame)."""
+    present = np.flatnonzero(np.concatenate([[True], stands_out.any(axis=0), [True]]))
+    return int(np.max(np.diff(present))) - 1
 
 
 def _apart(course: Course, other: Course) -> float:
@@ -168,9 +185,10 @@ def _check(best: Unrolled, worth: float, rivals: list[_Hypothesis]) -> SpeedChec
     followed = best.followed()
     known = min(1.0, followed / MOSTLY) * min(1.0, in_place / (_LEAST_IN_PLACE * max(orders, 1)))
     known *= min(1.0, _SHARP_LINE / width) ** 4 if in_place else 0.0
+    known *= _UNSURE if _longest_loss(best.low_lines()) > _LONGEST_LOSS else 1.0
     time_s = best.course.time_s
     mains_hz = mains_of(best.course.curve(time_s))
-    known *= 1.0 if mains_hz is None else _HUM
+    known *= 1.0 if mains_hz is None else _UNSURE
     return SpeedCheck(
         confidence=float(known / (1.0 + odds.sum())),
         rival_hz=float(np.mean(distinct[0].scaled().curve(time_s))) if distinct else None,

@@ -1,6 +1,7 @@
 """Crank motion from tacho pulses."""
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from scipy.interpolate import PPoly
@@ -11,6 +12,9 @@ from .crank_motion import CrankMotion, from_curve
 from .pulse_faults import PulseFault, number_pulses
 from .pulse_pattern import pulse_notes
 from .smoothing import smooth_curve
+
+MOST_JITTER: Final = 0.05
+"""Of the pulses in periods, without a note."""
 
 
 @dataclass(frozen=True)
@@ -23,7 +27,7 @@ class TachoResult:
     jitter: float
     """Standard deviation of the pulses about the motion, in pulse periods."""
     notes: tuple[str, ...] = ()
-    """What the pulses say of the wheel: teeth left out, unequal pitches."""
+    """What the pulses say of the wheel: teeth left out, unequal pitches, much jitter."""
 
 
 def tacho_motion(
@@ -62,7 +66,17 @@ def tacho_motion(
         motion = _from_index(motion, index_times_s, pitch_rad)
     notes, are_teeth = pulse_notes(pulses, pulses_per_revolution)
     faults = [fault for fault in pulses.faults if not (are_teeth and fault.kind == "missing")]
-    return TachoResult(motion, tuple(faults), smooth.scatter / pitch_rad, notes)
+    jitter = smooth.scatter / pitch_rad
+    if jitter > MOST_JITTER:
+        notes = (*notes, _jitter_note(jitter))
+    return TachoResult(motion, tuple(faults), jitter, notes)
+
+
+def _jitter_note(jitter: float) -> str:
+    return (
+        f"the jitter of the pulses is {100.0 * jitter:.2g} % of a period, more than "
+        f"{100.0 * MOST_JITTER:g} %: higher orders read too low; check channel, edge and threshold"
+    )
 
 
 def _from_index(motion: CrankMotion, index_times_s: Array, pitch_rad: float) -> CrankMotion:

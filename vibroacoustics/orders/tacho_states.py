@@ -65,8 +65,28 @@ class TachoStates:
             extremes[parts] = extreme(extremes[parts], extreme.reduceat(block, starts))
         self._some.append(block[-first % self._every :: self._every].copy())
 
-    def levels(self) -> tuple[float, float]:
-        """Low and high state, after all samples have been added.
+    def levels(self) -> tuple[float, float, bool]:
+        """Low and high level, after all samples have been added, and whether they are two states.
+
+        A signal with pulses to both sides of a rest has no two states: its levels are its extremes.
+
+        Raises
+        ------
+        ParameterError
+            The signal is constant.
+        """
+        bottom, top = self.extremes()
+        some = np.concatenate(self._some)
+        above = some >= 0.5 * (bottom + top)
+        if above.all() or not above.any():
+            return (bottom, top, True) if self._every > 1 else (self.lowest, self.highest, True)
+        low, high = float(np.median(some[~above])), float(np.median(some[above]))
+        if high - low > _TWO_STATES * (top - bottom):
+            return low, high, True
+        return bottom, top, False
+
+    def extremes(self) -> tuple[float, float]:
+        """Lowest and highest level but for spikes.
 
         Raises
         ------
@@ -78,11 +98,8 @@ class TachoStates:
         nth = min(_EXTREME_BLOCK, self._bottom.size)
         bottom = float(np.sort(self._bottom)[nth - 1])
         top = float(np.sort(self._top)[-nth])
-        some = np.concatenate(self._some)
-        above = some >= 0.5 * (bottom + top)
-        if top <= bottom:
-            return self.lowest, self.highest
-        if above.all() or not above.any():
-            return (bottom, top) if self._every > 1 else (self.lowest, self.highest)
-        low, high = float(np.median(some[~above])), float(np.median(some[above]))
-        return (low, high) if high - low > _TWO_STATES * (top - bottom) else (bottom, top)
+        return (bottom, top) if top > bottom else (self.lowest, self.highest)
+
+    def rest(self) -> float:
+        """Median of the samples, about which the height of pulses changes."""
+        return float(np.median(np.concatenate(self._some)))

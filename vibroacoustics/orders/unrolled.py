@@ -5,11 +5,12 @@ from functools import cached_property
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import fft
 from scipy.interpolate import CubicSpline, PPoly
 
 from ..base.arrays import Array
-from .comb_evidence import Lines, clear_lines
+from .comb_evidence import Lines, are_in_place, clear_lines
 from .smoothing import smooth_curve
 from .speed_comb import comb_scores, frame_levels, refine
 from .speed_courses import MOST_LEVEL, Course, Search
@@ -28,6 +29,10 @@ _FRAME_REVOLUTIONS: Final = 24
 _SPAN: Final = 0.006
 """Relative distance over which a course is refined."""
 _TRIALS: Final = 25
+_LOW_ORDERS: Final = 3
+_BEST_ORDERS: Final = 2
+_CLEAR_LEVEL: Final = 1.9
+"""Of a line in a frame, ln of power over floor less its mean in noise: 10 dB over the floor."""
 _STANDS_OUT: Final = 0.5
 """Share of their usual score, in ln of power over floor, that orders have when followed."""
 
@@ -100,6 +105,23 @@ class Unrolled:
             np.minimum(levels, MOST_LEVEL), self.search.orders, np.array([scale * bins])
         )[:, 0]
         return float(np.mean(score > _STANDS_OUT * np.median(score)))
+
+    def low_lines(self, scale: float = 1.0) -> NDArray[np.bool_]:
+        """Whether the lowest orders that have a clear line stand out, shape (order, frame).
+
+        Of the three lowest the two that stand out most often: a weak one may be lost in noise.
+
+        Parameters
+        ----------
+        scale : of the speed, over that of the course
+        """
+        levels, _, bins = self._frames
+        order = scale * self.search.orders
+        at = np.rint(bins * order[are_in_place(self.lines, order)][:_LOW_ORDERS]).astype(int)
+        at = at[at < levels.shape[1] - 1]
+        level = np.maximum.reduce([levels[:, at + step] for step in (-1, 0, 1)])
+        stands_out = np.asarray(level.T > _CLEAR_LEVEL)
+        return stands_out[np.argsort(-stands_out.mean(axis=1))[:_BEST_ORDERS]]
 
     def polished(self, revolutions: int = _FRAME_REVOLUTIONS) -> Course:
         """The course after refining it in frames.

@@ -67,4 +67,9 @@ def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
     results, radiated = chain.results, chain[Radiated]
     results.attrs = provenance.radiation_attributes(study, radiated.attributes, radiated.was_cached)
     results.attrs["words"] = canonical_json(words(study, chain[Cases].loads, results))
+    frames = {
+        name: option.applied_to(study.machine).crank_frame._asdict()
+        for name, option in study.options.items()
+    }
+    results.attrs["crank_frames"] = canonical_json(frames)
     return check(label_coordinates(results))

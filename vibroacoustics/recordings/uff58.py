@@ -16,7 +16,10 @@ SINGLE, DOUBLE, SINGLE_COMPLEX, DOUBLE_COMPLEX = 2, 4, 5, 6
 """Ordinate data types, record 7, field 1: real; 5 and 6 are complex."""
 EVEN_SPACING: Final = 1
 """Abscissa spacing, record 7, field 3."""
+_FUNCTION: Final = 58
 _MARK: Final = re.compile(rb" {4}-1\s*")
+_NUMBER: Final = re.compile(rb" {0,5}\d{1,6}(b.*)?\s*", re.DOTALL)
+"""Line with the number of a dataset."""
 _IEEE: Final = 2
 """Floating point format, record 1, field 4 of a dataset 58b."""
 _BYTE_ORDERS: Final = {1: "<", 2: ">"}
@@ -94,31 +97,68 @@ class Header:
         return len(self.widths)
 
 
-def headers(file: BinaryIO) -> tuple[list[Header], list[int]]:
-    """Headers of the datasets 58, and the numbers of all datasets.
+@dataclass(frozen=True)
+class Datasets:
+    """Datasets of a universal file.
+
+    Attributes
+    ----------
+    functions : headers of the datasets 58
+    kinds : numbers of all datasets
+    remarks : a line for each -1 that is missing or too many
+    """
+
+    functions: list[Header]
+    kinds: list[int]
+    remarks: list[str]
+
+
+def datasets(file: BinaryIO) -> Datasets:
+    """Datasets of a universal file, each between two lines -1.
+
+    The number of a dataset follows the -1 that opens it, so that a -1 too many or a missing one is
+    recognised.
 
     Raises
     ------
     StorageError
-        There is no dataset, or one is not closed: the file is truncated.
+        There is no dataset, or the last one is not closed: the file is truncated.
     """
-    functions, kinds = [], []
+    functions: list[Header] = []
+    kinds: list[int] = []
+    remarks, is_open = [], False
     file.seek(0)
-    for line in _lines(file):
-        if not _MARK.fullmatch(line):
+    while is_open or _goes_on_to_mark(file):
+        kind = next((line for line in _lines(file) if line.strip()), b"")
+        is_open = _MARK.fullmatch(kind) is not None
+        if is_open or not kind:
+            remarks.append(_orphan(kinds))
             continue
-        kind = next(_lines(file), b"")
-        if not kind.strip():
-            break
         kinds.append(_integer(kind[:6], "dataset"))
-        if kinds[-1] == 58:
+        if kinds[-1] == _FUNCTION:
             functions.append(_header(file, kind))
             _skip_values(file, functions[-1], kind)
         if not _goes_on_to_mark(file):
             raise StorageError(f"its last dataset, {kinds[-1]}, has no end: truncated")
+        is_open = _number_follows(file)
+        if is_open:
+            remarks.append(_orphan(kinds))
     if not kinds:
         raise StorageError("is no universal file: it holds no dataset")
-    return functions, kinds
+    return Datasets(functions, kinds, remarks)
+
+
+def _orphan(kinds: list[int]) -> str:
+    where = f"after dataset number {len(kinds)} ({kinds[-1]})" if kinds else "before all datasets"
+    return f"{where} there is a line -1 without its pair: a function may be missing"
+
+
+def _number_follows(file: BinaryIO) -> bool:
+    """Whether the next line is the number of a dataset, which stays to be read."""
+    here = file.tell()
+    line = file.readline(LONGEST_LINE)
+    file.seek(here)
+    return _NUMBER.fullmatch(line) is not None
 
 
 def _lines(file: BinaryIO) -> Iterator[bytes]:

@@ -12,7 +12,8 @@ from .function_units import Units, checked, product, ratio
 from .measured_function import DIRECTIONS, KINDS, MeasuredFunction, Node
 from .quantities import quantity
 from .recorded import check_size
-from .uff58 import Header, headers
+from .remarks import remark
+from .uff58 import Header, datasets
 from .uff58_values import ordinates
 
 QUANTITY_TYPES: Final = {
@@ -34,14 +35,15 @@ def read_uff(path: Path, units: Mapping[str, str]) -> list[MeasuredFunction]:
     """Functions of a universal file; see `read_functions`."""
     kinds = {number: kind for kind, number in KINDS.items()}
     with path.open("rb") as file:
-        all_headers, _ = headers(file)
-        wanted = [header for header in all_headers if header.function_type in kinds]
+        contents = datasets(file)
+        wanted = [header for header in contents.functions if header.function_type in kinds]
         if not wanted:
-            types = sorted({header.function_type for header in all_headers})
+            types = sorted({header.function_type for header in contents.functions})
             raise ParameterError(
                 f"holds no function of type {', '.join(map(str, kinds))} (dataset 58), only {types}"
             )
         check_size(1, sum(header.numbers for header in wanted))
+        remark(path, contents.remarks)
         return [
             _function(file, header, kinds[header.function_type], units, number)
             for number, header in enumerate(wanted, 1)

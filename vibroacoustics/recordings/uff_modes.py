@@ -7,6 +7,7 @@ import numpy as np
 
 from ..base.errors import ParameterError, StorageError
 from .recorded import Request, Samples, check_size
+from .uff58 import datasets
 
 NORMAL_MODE: Final = 2
 """Analysis type in record 6, field 2."""
@@ -30,10 +31,13 @@ def read(request: Request) -> tuple[dict[str, Any], list[Samples]]:
         There is no normal mode or no node, a mode is complex or states no modal mass, or the modes
         differ in their nodes.
     StorageError
-        A shape is cut short, or the file claims too much.
+        A shape is cut short, the file claims too much, or its lines -1 are not in pairs.
     """
     import pyuff
 
+    with request.path.open("rb") as opened:
+        for line in datasets(opened).remarks:  # which pyuff takes for the begin of a dataset
+            raise StorageError(f"{line}; add or remove it")
     file = pyuff.UFF(str(request.path))
     kinds = [int(kind) for kind in file.get_set_types()]
     modes = [

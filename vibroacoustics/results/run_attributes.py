@@ -13,6 +13,8 @@ Level = Annotated[float, Field(ge=-LARGEST_LEVEL_DB, le=LARGEST_LEVEL_DB)]
 Number = Annotated[float, Field(ge=-LARGEST, le=LARGEST)]
 Positive = Annotated[float, Field(gt=1.0 / LARGEST, le=LARGEST)]
 
+Vector = Annotated[list[Number], Field(min_length=3, max_length=3)]
+
 
 class Part(BaseModel):
     """A JSON object with these keys at least."""
@@ -235,6 +237,12 @@ class Words(Part):
     sentences: dict[str, list[str]]
 
 
+class Frame(Part):
+    stroke: Vector
+    shaft: Vector
+    origin_m: Vector
+
+
 class Plugin(Part):
     file: str
 
@@ -243,5 +251,6 @@ JSON_ATTRIBUTES: dict[str, Any] = {
     "plugins": dict[str, Plugin],
     "package_versions": dict[str, str],
     "radiation": dict[str, Any],
+    "crank_frames": dict[str, Frame],
 }
 """Further attributes, where they are there."""

@@ -1,5 +1,6 @@
 """How a recording's orders are to be found."""
 
+import math
 from dataclasses import dataclass
 from typing import Final, Literal, get_args
 
@@ -9,6 +10,9 @@ BandMethod = Literal["sums", "filters"]
 """Third octaves as sums of the lines within a band, or through the filters of IEC 61260-1."""
 DEFAULT_COMB: Final = tuple(float(order) for order in range(1, 11))
 """Orders of a machine of which nothing is known."""
+Edge = Literal["rising", "falling"]
+"""Edge of a tacho's pulses that marks the angle."""
+EDGES: Final[tuple[Edge, ...]] = get_args(Edge)
 BAND_METHODS: Final[tuple[BandMethod, ...]] = get_args(BandMethod)
 
 
@@ -21,6 +25,15 @@ class SpeedChannel:
     channel : of the tacho, or of the speed with the unit rpm
     pulses_per_revolution : of the tacho
     index_channel : with one pulse a revolution, at which the crank angle is zero
+    threshold : level of the tacho that marks the angle, in its unit; None: from its pulses, whose
+        height it follows
+    edge : of the tacho's pulses, `rising` or `falling`; None: the rising one, but of pulses to both
+        sides of a rest the steeper one
+
+    Raises
+    ------
+    ParameterError
+        The threshold is not finite, or there is no such edge.
 
     Examples
     --------
@@ -32,6 +45,14 @@ class SpeedChannel:
     pulses_per_revolution: int = 1
     index_channel: str | None = None
     """A channel with one pulse a revolution, at which the crank angle is zero."""
+    threshold: float | None = None
+    edge: Edge | None = None
+
+    def __post_init__(self) -> None:
+        if self.threshold is not None and not math.isfinite(self.threshold):
+            raise ParameterError(f"threshold = {self.threshold:g}: must be a finite number")
+        if self.edge is not None and self.edge not in EDGES:
+            raise ParameterError(f"edge = {self.edge!r}: must be one of {', '.join(EDGES)}")
 
 
 @dataclass(frozen=True)

@@ -127,6 +127,9 @@ def _asked(
     """A line for a missing value, or for each that a missing table needs."""
     models = _models_at(model, inner)
     fields = models[0].model_fields if len(models) == 1 and _is_table(model, inner) else {}
+    lines_to_add = getattr(models[0], "lines_to_add", "") if fields else ""
+    if lines_to_add:
+        return [f"{reader.file_and_key((*table, *inner))}: is missing; {lines_to_add}"]
     needed = [name for name, field in fields.items() if field.is_required()]
     if needed:
         return [line for name in needed for line in _asked(model, (*inner, name), reader, table)]

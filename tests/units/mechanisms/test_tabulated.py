@@ -1,5 +1,6 @@
 """A machine by a table of its forces: equal to the machine they come from; bad tables in a line."""
 
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import vibroacoustics as va
 from vibroacoustics import pipeline
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.mechanisms.tabulated.csv_layout import forces_csv
+from vibroacoustics.mechanisms.tabulated.shaft_axes import ShaftAxes, axes_lines
 from vibroacoustics.mechanisms.tabulated.spectra import Spectra, orders_of, over_revolution
 from vibroacoustics.orders.spectrum import order_spectrum_at_speed
 from vibroacoustics.report.assumptions import not_modelled
@@ -25,7 +27,10 @@ ORDERS = (
 )
 
 
-def table_machine(folder: Path, name: str, more: str = "", forces: str = "") -> Path:
+AXES = '\n[shaft_axes]\nstroke = "x"\nshaft = "z"\n'
+
+
+def table_machine(folder: Path, name: str, more: str = AXES, forces: str = "") -> Path:
     """A machine file in place of the Copeland's mechanism, beside a table of forces."""
     text = COPELAND.read_text()
     keep = ("housing", "counterweights", "mounts", "shell", "overall_noise", "remainder")
@@ -86,7 +91,7 @@ def test_table_of_the_scroll_gives_what_the_scroll_gives(scroll, tmp_path, layou
         (tmp_path / name).write_bytes(forces_csv(expected))
     else:
         (tmp_path / name).write_text(by_angle(expected))
-    file = table_machine(tmp_path, name, ring_tables(study.machine))
+    file = table_machine(tmp_path, name, AXES + ring_tables(study.machine))
     table = study.replace({"machine.file": str(file), "machine.override": None})
     found = pipeline.run(table, radiation=made_up_radiation)
     series = set() if layout == "by angle" else {"force", "moment"}
@@ -305,3 +310,75 @@ def test_example_study_goes_to_its_results_with_another_file_as_redesign():
     assert np.all(weighed < 0.8 * given)
     assert results["foot"].values.tolist() == [f"foot_{number}" for number in range(1, 6)]
     assert any("known from 5 to 500 Hz" in text for text in not_modelled(results))
+
+
+def test_a_machine_without_shaft_axes_is_refused_with_the_lines_to_add(tmp_path):
+    (tmp_path / "f.csv").write_text(ANGLES + small_table())
+    with pytest.raises(ParameterError) as refusal:
+        load_machine(table_machine(tmp_path, "f.csv", more=""))
+    assert str(refusal.value) == (
+        f"{tmp_path / 'machine.toml'}: shaft_axes: is missing; add the lines [shaft_axes], "
+        'stroke = "x", shaft = "z" with the directions of this machine, each x, y, z, -x, -y or -z'
+    )
+    half = '\n[shaft_axes]\nshaft = "z"\n'
+    with pytest.raises(ParameterError, match=r"shaft_axes\.stroke: is missing"):
+        load_machine(table_machine(tmp_path, "f.csv", more=half))
+
+
+LYING = ROOT / "pipelines" / "reciprocating_table.toml"
+TWO = {
+    "options.softer-mounts": None, "options.counterweight-half": None,
+    "operation.speed_rpm": [800.0, 1200.0],
+}  # fmt: skip
+
+
+def read_again(folder: Path, forces: Path, axes: str) -> Path:
+    """The example's machine with another table of forces and other axes."""
+    example = ROOT / "data" / "machines" / "reciprocating_table.toml"
+    text = example.read_text().replace("../tables/reciprocating_forces.csv", str(forces))
+    text = text.replace('"../tables', f'"{example.parent.parent / "tables"}')
+    before, behind = text.split("[shaft_axes]\n")
+    file = folder / "again.toml"
+    file.write_text(f"{before}{axes}\n{behind[behind.index('[sliding_mass]') :]}")
+    return file
+
+
+def levels(machine: str | None = None):
+    study = load_study(LYING).replace(TWO)
+    if machine is not None:
+        study = study.replace({"machine.file": machine})
+    results = pipeline.run(study, radiation=made_up_radiation)
+    return results, results["level_modelled"].sel(weighting="A").values
+
+
+def test_exported_forces_of_a_lying_shaft_bring_its_axes(tmp_path):
+    """Levels with and without a counterweight are the same; 1 dB off for an upright shaft."""
+    results, expected = levels()
+    file = va.export_forces(results, tmp_path / "forces.csv")
+    remarks = [line[2:] for line in file.read_text().splitlines() if line.startswith("# ")]
+    axes = "\n".join(remarks[remarks.index("[shaft_axes]") :])
+    assert axes.startswith('[shaft_axes]\nstroke = "z"\nshaft = "y"\nz_m = { value = -0.06, ')
+    found = levels(str(read_again(tmp_path, file, axes)))[1]
+    np.testing.assert_allclose(found, expected, atol=0.01)
+    upright = '[shaft_axes]\nstroke = "x"\nshaft = "z"'
+    assert np.abs(levels(str(read_again(tmp_path, file, upright)))[1] - expected).max() > 1.0
+
+
+@pytest.mark.parametrize("stroke", ["x", "-x", "y", "-z"])
+@pytest.mark.parametrize("shaft", ["z", "-z", "-y"])
+def test_axes_are_written_as_they_are_read(stroke, shaft):
+    if stroke[-1] == shaft[-1]:
+        with pytest.raises(ValueError, match="must be across the shaft"):
+            ShaftAxes(stroke=stroke, shaft=shaft)
+        return
+    axes = ShaftAxes(stroke=stroke, shaft=shaft, x_m=0.1)
+    table = tomllib.loads("\n".join(axes_lines(axes.frame._asdict(), "a test")))["shaft_axes"]
+    assert table == {
+        "stroke": stroke, "shaft": shaft, "x_m": {"value": 0.1, "source": "a test"}
+    }  # fmt: skip
+
+
+def test_axes_along_no_axis_are_a_remark():
+    frame = ShaftAxes(stroke="x", shaft="z").frame._replace(stroke=(0.8, 0.6, 0.0))
+    (remark,) = axes_lines(frame._asdict(), "a test")
+    assert remark.startswith("# stroke or shaft is not along an axis")

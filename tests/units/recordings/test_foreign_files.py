@@ -236,6 +236,71 @@ def test_tdms_without_a_waveform(tmp_path):
     np.testing.assert_array_equal(samples(part), SIGNAL[100:200])
 
 
+def segments_with_pauses(path, pauses_s, stated=(True, True, True)):
+    """Three segments of 1000 samples of two channels, each after a pause; start times."""
+    begin, start_s = np.datetime64("2026-03-01T10:00:00.000000"), 0.0
+    with TdmsWriter(str(path)) as writer:
+        for pause_s, says in zip(pauses_s, stated, strict=True):
+            start_s += pause_s
+            properties = {"wf_increment": 1.0 / RATE_HZ, "unit_string": "Pa"}
+            if says:
+                microseconds = np.timedelta64(round(1e6 * start_s), "us")
+                properties["wf_start_time"] = begin + microseconds
+            writer.write_segment(
+                [
+                    ChannelObject("run", name, np.arange(1000.0), properties=properties)
+                    for name in ("a", "b")
+                ]
+            )
+            start_s += 1000.0 / RATE_HZ
+    return path
+
+
+def test_gap_between_segments_of_tdms_is_reported(tmp_path):
+    path = segments_with_pauses(tmp_path / "a.tdms", [0.0, 0.25, 0.0])
+    line = rf"1 gap in the time .* of 0\.25 s at {1000.0 / RATE_HZ:.9g} s: the samples on both"
+    with pytest.warns(RecordingWarning, match=line) as told:
+        found = read_recording(path)
+    assert len(told) == 1
+    assert "1 gap in the time" in found.attrs["reading_remarks"]
+    assert found.sizes["time"] == 3000
+    with pytest.warns(RecordingWarning, match=line):
+        open_recording(path)
+    read_recording(path, from_s=1001.0 / RATE_HZ)  # warns of nothing
+
+
+@pytest.mark.parametrize("pauses_s", [[0.0, 0.1, 3.0], [0.0, -0.05, -0.05]])
+def test_every_gap_of_tdms_counts(tmp_path, pauses_s):
+    path = segments_with_pauses(tmp_path / "a.tdms", pauses_s)
+    with pytest.warns(RecordingWarning, match=f"2 gaps in the time .* of {pauses_s[1]:g} s"):
+        read_recording(path)
+
+
+@pytest.mark.parametrize(
+    ("pauses_s", "stated"),
+    [
+        ([0.0, 0.0, 0.0], (True, True, True)),
+        ([0.0, 0.0, 0.0], (True, False, True)),
+        ([0.0, 0.5, 0.5], (True, False, False)),
+        ([0.0, 0.0, 1.2 / 2000.0], (True, True, True)),
+    ],
+)
+def test_tdms_without_a_stated_gap_warns_of_nothing(tmp_path, pauses_s, stated):
+    """Segments one after the other, without a start of their own, or off by a sample."""
+    read_recording(segments_with_pauses(tmp_path / "a.tdms", pauses_s, stated))
+
+
+def test_start_that_every_segment_repeats_is_no_gap(tmp_path):
+    start = np.datetime64("2026-03-01T10:00:00")
+    properties = {"wf_increment": 1e-3, "unit_string": "Pa", "wf_start_time": start}
+    with TdmsWriter(str(tmp_path / "a.tdms")) as writer:
+        for _ in range(3):
+            writer.write_segment(
+                [ChannelObject("run", "a", np.arange(100.0), properties=properties)]
+            )
+    assert read_recording(tmp_path / "a.tdms").sizes["time"] == 300
+
+
 @pytest.mark.parametrize(
     ("word", "unit"), [("Volts", "V"), ("Pascal", "Pa"), ("newtons", "N"), ("Amps", "A")]
 )

@@ -8,6 +8,7 @@ import pytest
 import pyuff
 
 import vibroacoustics as va
+from vibroacoustics.recordings.remarks import RecordingWarning
 
 FREQUENCY = 2.5 * np.arange(1, 42)
 RNG = np.random.default_rng(5)
@@ -236,3 +237,52 @@ def test_a_damaged_file_is_read_or_refused(tmp_path, name, form):
         file.write_bytes(damaged)
         with suppress(va.VibroacousticsError):
             va.read_functions(file)
+
+
+# --- lines -1 that are not in pairs --------------------------------------------------------------
+
+
+def three_functions(folder, form):
+    """A file of three functions as its lines, with the numbers of the lines -1."""
+    three = [replace(ONE, response=va.Node(number, "-z")) for number in (11, 12, 13)]
+    file = va.export_functions(three, folder / "three.uff", **form)
+    lines = file.read_bytes().splitlines(keepends=True)
+    return file, lines, [at for at, line in enumerate(lines) if line.strip() == b"-1"]
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("where", ["before all", "between", "at the end", "blank line behind"])
+def test_a_line_too_many_loses_no_function_and_is_reported(tmp_path, form, where):
+    file, lines, marks = three_functions(tmp_path, FORMS[form])
+    at = {"before all": marks[0], "at the end": len(lines)}.get(where, marks[2])
+    extra = [lines[marks[0]], b"\n"] if where == "blank line behind" else [lines[marks[0]]]
+    file.write_bytes(b"".join([*lines[:at], *extra, *lines[at:]]))
+    with pytest.warns(RecordingWarning, match="a line -1 without its pair") as told:
+        found = va.read_functions(file)
+    assert [function.response.number for function in found] == [11, 12, 13]
+    number = {"before all": "before all datasets", "at the end": r"after dataset number 3 (58)"}
+    assert number.get(where, "after dataset number 1 (58)") in str(told[0].message)
+    assert len(told) == 1
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("missing", [1, 2, 3, 4])
+def test_a_missing_line_loses_no_function_and_is_reported(tmp_path, form, missing):
+    """The end of a dataset, or the begin of the next one."""
+    file, lines, marks = three_functions(tmp_path, FORMS[form])
+    at = marks[missing]
+    file.write_bytes(b"".join([*lines[:at], *lines[at + 1 :]]))
+    with pytest.warns(RecordingWarning, match="a line -1 without its pair"):
+        found = va.read_functions(file)
+    assert [function.response.number for function in found] == [11, 12, 13]
+
+
+def test_a_line_within_the_values_of_a_text_loses_no_other_function(tmp_path):
+    file, lines, marks = three_functions(tmp_path, FORMS["58"])
+    at = marks[0] + 16
+    file.write_bytes(b"".join([*lines[:at], lines[marks[0]], *lines[at:]]))
+    with (
+        pytest.raises(va.StorageError, match=r"function 1, .*truncated"),
+        pytest.warns(RecordingWarning, match=r"after dataset number 1 \(58\) there is a line -1"),
+    ):
+        va.read_functions(file)

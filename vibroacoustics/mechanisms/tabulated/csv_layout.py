@@ -1,5 +1,6 @@
 """Forces over crank angle or by order from a CSV file, and back."""
 
+import json
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Final
@@ -12,6 +13,7 @@ from ...base.column_file import Columns, column_names, read_columns
 from ...base.csv_text import csv_bytes
 from ...base.errors import ParameterError
 from ...base.vocabulary import REFERENCE_OPTION
+from .shaft_axes import axes_lines
 from .spectra import COMPONENTS, SMALLEST_STEPS, Spectra, orders_of
 
 VALUES: Final = tuple(f"{name}_{'n' if name[0] == 'f' else 'n_m'}" for name in COMPONENTS)
@@ -138,7 +140,8 @@ def _of_orders(columns: Columns, rows: list[int]) -> ComplexArray:
 def forces_csv(results: xr.Dataset, option: str = REFERENCE_OPTION) -> bytes:
     """Orders of force and moment of a run's results, as a table by order.
 
-    Sources that make no force under the option are left out.
+    Remarks above it hold the table `[shaft_axes]` that the machine file needs. Sources that make no
+    force under the option are left out.
 
     Parameters
     ----------
@@ -151,13 +154,23 @@ def forces_csv(results: xr.Dataset, option: str = REFERENCE_OPTION) -> bytes:
         for name in ("force_order", "moment_order")
     )
     peaks = np.concatenate([force.values, moment.values], axis=-1)
-    return orders_csv(
+    table = orders_csv(
         (float(speed), int(order), str(source), peaks[s, n, k])
         for s, speed in enumerate(force["speed"].values)
         for n, source in enumerate(force["source"].values)
         if np.any(peaks[:, n])
         for k, order in enumerate(force["order"].values)
     )
+    return _axes_remarks(results, option).encode() + table
+
+
+def _axes_remarks(results: xr.Dataset, option: str) -> str:
+    """Remarks with the axes of the shaft for a machine file; empty where the results lack them."""
+    frames = json.loads(results.attrs.get("crank_frames", "{}"))
+    if option not in frames:
+        return ""
+    lines = axes_lines(frames[option], "derived: by vibroacoustics.export_forces")
+    return "".join(f"# {line}\n" for line in ["For the machine file:", *lines])
 
 
 def orders_csv(rows: Iterable[tuple[float, int, str, ComplexArray]]) -> bytes:

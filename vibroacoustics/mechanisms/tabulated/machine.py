@@ -1,6 +1,6 @@
 """A machine described by a table of its forces, with what options may work on."""
 
-from typing import ClassVar, Final, Literal
+from typing import ClassVar, Final
 
 from pydantic import Field, model_validator
 
@@ -18,10 +18,9 @@ from ...mechanics.capabilities import (
 from ...mechanics.moving_parts import Revolution, Wrench
 from ...mechanics.rotation import constant_rotation
 from .forces import Forces
+from .shaft_axes import ShaftAxes
 from .spectra import over_revolution
 
-Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
-_UNIT: Final = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 STROKE = Field(gt=0.0, le=1.0)
 
 
@@ -44,34 +43,6 @@ class Ring(Parameters):
     height_m: float = HEIGHT
 
 
-class ShaftAxes(Parameters):
-    """Where the shaft is: crank angle counts from the stroke, positive about the shaft."""
-
-    stroke: Axis = "x"
-    shaft: Axis = "z"
-    x_m: float = Field(default=0.0, ge=-2.0, le=2.0)
-    y_m: float = Field(default=0.0, ge=-2.0, le=2.0)
-    z_m: float = Field(default=0.0, ge=-2.0, le=2.0)
-    """A point of the shaft, from the centre of mass at rest."""
-
-    @model_validator(mode="after")
-    def _across(self) -> "ShaftAxes":
-        if self.stroke[-1] == self.shaft[-1]:
-            raise ValueError(f"stroke = {self.stroke}: must be across the shaft, {self.shaft}")
-        return self
-
-    @property
-    def frame(self) -> CrankFrame:
-        """Axes of stroke and shaft."""
-        shaft, stroke = _vector(self.shaft), _vector(self.stroke)
-        across = (
-            shaft[1] * stroke[2] - shaft[2] * stroke[1],
-            shaft[2] * stroke[0] - shaft[0] * stroke[2],
-            shaft[0] * stroke[1] - shaft[1] * stroke[0],
-        )
-        return CrankFrame(stroke, across, shaft, (self.x_m, self.y_m, self.z_m))
-
-
 @register
 class TabulatedMachine(Machine):
     """Force and moment come from a file; the shaft turns at constant speed."""
@@ -82,8 +53,7 @@ class TabulatedMachine(Machine):
         "shaft_axes", "sliding_mass", "oldham", "counterweights",
     }  # fmt: skip
     forces: Forces
-    shaft_axes: ShaftAxes | None = None
-    """Stroke along x, shaft along z through the centre of mass where there are none."""
+    shaft_axes: ShaftAxes
     sliding_mass: SlidingMass | None = None
     """For options that balance it."""
     oldham: Ring | None = None
@@ -100,7 +70,7 @@ class TabulatedMachine(Machine):
     @property
     def crank_frame(self) -> CrankFrame:
         """Axes of stroke and shaft."""
-        return (self.shaft_axes or UPRIGHT_AXES).frame
+        return self.shaft_axes.frame
 
     @property
     def capabilities(self) -> tuple[Capability, ...]:
@@ -142,13 +112,6 @@ class TabulatedMachine(Machine):
         return _LEAVES_OUT
 
 
-def _vector(axis: Axis) -> tuple[float, float, float]:
-    x, y, z = _UNIT[axis[-1]]
-    sign = -1.0 if axis[0] == "-" else 1.0
-    return sign * x, sign * y, sign * z
-
-
-UPRIGHT_AXES: Final = ShaftAxes()
 _LEAVES_OUT: Final = (
     "Forces and moments are those of a table: what makes them is not modelled, nor what would "
     "change them but speed. Between the table's speeds each complex order is linear in the speed "

@@ -21,11 +21,11 @@ OFF_ORDER: Final = 1e-3
 
 def holds_spectra(path: Path) -> bool:
     """Whether a universal file has no course over time; also false where it cannot be read."""
-    from ...recordings.uff58 import headers
+    from ...recordings.uff58 import datasets
 
     try:
         with path.open("rb") as file:
-            every, _ = headers(file)
+            every = datasets(file).functions
     except (OSError, ParameterError, StorageError):
         return False
     return bool(every) and all(header.function_type != TIME for header in every)

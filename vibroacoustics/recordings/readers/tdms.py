@@ -8,8 +8,8 @@ from ..named_arrays import is_rate
 from ..reader import Reader
 from ..recorded import Recorded, Request, check_rate, check_size, listed
 
-INCREMENT, START, UNIT = "wf_increment", "wf_start_time", "unit_string"
-"""Waveform properties of a channel: sampling interval in s, start, unit."""
+UNIT = "unit_string"
+"""Property of a channel."""
 
 
 def read(request: Request) -> Recorded:
@@ -23,6 +23,8 @@ def read(request: Request) -> Recorded:
         The file is truncated or too large.
     """
     from nptdms import TdmsFile
+
+    from ..tdms_gaps import START, gap_lines
 
     with TdmsFile.open(request.path) as file:
         _check_whole(file)
@@ -48,6 +50,12 @@ def read(request: Request) -> Recorded:
             start_time=str(channels[0].properties.get(START, "")),
             first_sample=first,
             total_samples=total,
+            remarks=gap_lines(
+                request.path,
+                [channel.path for channel in channels],
+                1.0 / rate,
+                (first, last) if request.samples is None else (0, total),
+            ),
         )
 
 
@@ -77,6 +85,8 @@ def _check_alike(file: Any, names: list[str], channels: list[Any], request: Requ
 
 def _rate_hz(file: Any, name: str, channel: Any) -> float:
     """Rate from the waveform's increment, or from a property of channel, group or file."""
+    from ..tdms_gaps import INCREMENT
+
     increment = channel.properties.get(INCREMENT)
     if increment is None:
         return _stated_rate_hz(file, name, channel)
@@ -95,7 +105,7 @@ def _stated_rate_hz(file: Any, name: str, channel: Any) -> float:
                 check_rate(rate)
                 return rate
     raise ParameterError(
-        f"channel {name!r}: has no {INCREMENT} and no property such as SampleFrequency: "
+        f"channel {name!r}: has no wf_increment and no property such as SampleFrequency: "
         "give sample_rate_hz"
     )
 

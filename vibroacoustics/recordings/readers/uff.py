@@ -8,7 +8,7 @@ from ...base.registry import register
 from ..reader import Reader
 from ..recorded import Recorded, Request, Samples, check_rate, check_size, listed, numbered
 from ..time_axis import even_part
-from ..uff58 import DOUBLE, SINGLE, Header, headers
+from ..uff58 import DOUBLE, SINGLE, Datasets, Header, datasets
 from ..uff58_values import values
 
 TIME_RESPONSE: Final = 1
@@ -31,7 +31,8 @@ def read(request: Request) -> Recorded:
         The file is truncated or too large.
     """
     with request.path.open("rb") as file:
-        responses = _time_responses(*headers(file))
+        contents = datasets(file)
+        responses = _time_responses(contents)
         names = numbered([header.name or "channel" for header in responses])
         chosen = request.chosen(names)
         names, responses = [names[c] for c in chosen], [responses[c] for c in chosen]
@@ -46,19 +47,20 @@ def read(request: Request) -> Recorded:
         start_time=responses[0].start_time,
         first_sample=first,
         total_samples=responses[0].points,
+        remarks=contents.remarks,
     )
 
 
-def _time_responses(headers_58: Sequence[Header], kinds: Sequence[int]) -> list[Header]:
-    responses = [header for header in headers_58 if header.function_type == TIME_RESPONSE]
-    types = sorted({header.function_type for header in headers_58})
+def _time_responses(contents: Datasets) -> list[Header]:
+    responses = [header for header in contents.functions if header.function_type == TIME_RESPONSE]
+    types = sorted({header.function_type for header in contents.functions})
     if types and not responses:
         raise ParameterError(
             f"holds no time response (function type 1), only functions of type {types}"
         )
     if not responses:
-        datasets = ", ".join(map(str, sorted(set(kinds)))) or "none"
-        raise ParameterError(f"holds no time response (dataset 58); its datasets: {datasets}")
+        kinds = ", ".join(map(str, sorted(set(contents.kinds)))) or "none"
+        raise ParameterError(f"holds no time response (dataset 58); its datasets: {kinds}")
     if any(header.ordinate_type not in (SINGLE, DOUBLE) for header in responses):
         raise ParameterError("holds a complex time response: no real numbers")
     return responses
