@@ -28,6 +28,14 @@ class Cases:
     cases : by speed and option, without time series
     loads : by speed and option, then by source, without wrenches, which the results hold
     source_of_wrench : source by the wrench's name
+
+    Examples
+    --------
+    A stage reads them by their type, as `chain[va.Cases]`:
+
+    >>> nothing = va.Cases(cases={}, loads={}, source_of_wrench={})
+    >>> list(nothing.loads)
+    []
     """
 
     cases: dict[CaseKey, Case]
@@ -46,6 +54,13 @@ class Chain:
     progress : called with the advance of long work
     results : all variables so far
     products : what is not stored, by its type
+
+    Examples
+    --------
+    >>> study = va.load_study("pipelines/copeland_thesis.toml")
+    >>> chain = va.Chain(study, radiation=va.given_radiation([[[1.0, 1.0]] * 6], [25.0, 2500.0]))
+    >>> chain.having(va.Cases({}, {}, {}))[va.Cases].cases
+    {}
     """
 
     study: Study
@@ -75,8 +90,8 @@ class Chain:
 
         Parameters
         ----------
-        products : each takes the place of one of its type
         results : in place of those so far
+        products : each takes the place of one of its type
         """
         further = {type(product): product for product in products}
         kept = self.results if results is None else results

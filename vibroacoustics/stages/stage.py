@@ -25,6 +25,12 @@ class Given:
     ----------
     results : variables of the vocabulary
     products : typed things that are not stored
+
+    Examples
+    --------
+    >>> level = va.stamp("level_remainder", 55.9)
+    >>> list(va.Given(level.to_dataset()).results)
+    ['level_remainder']
     """
 
     results: xr.Dataset = field(default_factory=xr.Dataset)
@@ -137,8 +143,8 @@ def _before(stage: Stage, stages: Iterable[Stage], givers: Mapping[str | type, s
     """Names of the stages that give what one reads."""
     read = {givers[thing] for thing in stage.reads if thing in givers}
     if EVERYTHING in stage.reads:
-        own = set(stage.gives)
-        read |= {one.name for one in stages if not own & set(one.reads)}
+        gives = set(stage.gives)
+        read |= {other.name for other in stages if not gives & set(other.reads)}
     return read - {stage.name}
 
 
