@@ -32,6 +32,7 @@ from ..results import storage
 from ..sources.cases import sources_of
 from ..study.room import StudyRoom
 from ..study.study import Study
+from ..transfer.observers import Observers
 from ..transfer.path import ShellPath
 from ..transfer.received import Transmission, by_case_and_source
 from .motion import Motion
@@ -146,8 +147,7 @@ def _transmission(
     wrenches = wrench_pressure_by(motion.results, rigid, study.radiation.maximum_frequency_hz)
     return Transmission(
         study,
-        rigid,
-        None if shell is None else rooms.of_modes(pressure),
+        Observers(rigid, None if shell is None else rooms.of_modes(pressure)),
         shell,
         by_case_and_source(wrenches, motion.source_of_wrench),
     )

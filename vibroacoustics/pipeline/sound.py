@@ -36,6 +36,7 @@ from ..study.sampling import Draw
 from ..study.selection import at_speeds
 from ..study.study import Study
 from ..transfer.force_sound import ForceSound
+from ..transfer.observers import Observers
 from ..transfer.path import ShellPath
 from ..transfer.received import BySource, Transmission, by_case_and_source
 from ..transfer.study_path import projection_errors
@@ -229,7 +230,7 @@ def sound_of_draws(
     study = transmission.study
 
     def sound_of(draw: Draw) -> DrawnSound:
-        drawn = drawn_cases(cases, study, draw, transmission.rigid)
+        drawn = drawn_cases(cases, study, draw, transmission.microphones.rigid)
         pressure = {**transmission.wrench_pressure, **drawn.wrench_pressure}
         received = replace(transmission, wrench_pressure=pressure).received(
             drawn.cases, drawn.loads
@@ -276,13 +277,15 @@ def transmission_of(
             for each in (catalogue, motion)
             for key, of_case in wrench_pressure_by_case(each, by_force).items()
         }
-        return Transmission(study, by_force, None, None, pressure)
+        return Transmission(study, Observers(by_force), None, pressure)
     results, vectors = motion.results, motion.results["transfer_vector"]
     at_catalogue = catalogue.with_results(catalogue.results.assign(transfer_vector=vectors))
     return Transmission(
         study,
-        pressure_per_velocity(vectors),
-        None if shell is None else pressure_per_shell_velocity(results),
+        Observers(
+            pressure_per_velocity(vectors),
+            None if shell is None else pressure_per_shell_velocity(results),
+        ),
         shell,
         {**_at_its_case(_of_wrenches(at_catalogue), catalogue), **_of_wrenches(motion)},
     )

@@ -14,10 +14,11 @@ from ..levels.structure_borne import (
     weight_of,
 )
 from ..machine.source import Case
-from ..mechanics.loads import Loads, lines_of
+from ..mechanics.loads import Loads, lines_of, summed
 from ..study.structure_borne import StructureBorne
 from ..study.study import Study
 from ..transfer import on_mounts
+from ..transfer.foot_figures import foot_force
 from ..transfer.machine import MachineOnMounts
 from ..transfer.plate.driven import Plate, input_power, likeness, near_power, wave_power
 from ..transfer.plate.spread import level_range, modal_overlap, relative_variance
@@ -47,7 +48,7 @@ def structure_borne_sound(study: Study, motion: Motion, levels: xr.Dataset) -> x
         for o, option in enumerate(study.options):
             case, loads = motion.cases[speed, option], motion.loads[speed, option]
             at = motion.results.sel(speed=speed, option=option)
-            force = foot_force(case, loads, at["foot_force_order"], names)
+            force = force_at_lines(case, loads, at["foot_force_order"], names)
             row = np.nan_to_num(frequency_hz[s])
             _of_case(settings, on_mounts(case.machine), force, row, sound, (s, o))
     away_m = np.array([one.distance_m for one in study.receivers.values()])
@@ -61,7 +62,7 @@ def structure_borne_sound(study: Study, motion: Motion, levels: xr.Dataset) -> x
     )
 
 
-def foot_force(
+def force_at_lines(
     case: Case, loads: Mapping[str, Loads], of_wrenches: xr.DataArray, names: list[str]
 ) -> ComplexArray:
     """Force of each foot on the floor at the lines, of all sources, shape (line, foot, axis), N.
@@ -75,13 +76,10 @@ def foot_force(
     """
     orders = sum(name.startswith("order ") for name in names)
     lines = lines_of(loads, case.shaft_frequency_hz, orders - 1)
-    load = sum(lines.rigid.values()) + np.zeros((6, len(lines.names)), dtype=complex)
-    on_shell = sum(lines.on_shell.values()) + np.zeros_like(load)
-    response = on_mounts(case.machine).response(load.T, lines.frequency_hz, on_shell.T)
-    known = response.foot_force.copy()
-    summed = of_wrenches.sum("source").transpose("order", "foot", "axis").values
-    held = min(len(summed), orders)
-    known[:held] += summed[:held]
+    known = foot_force(on_mounts(case.machine), summed(lines.loads.values()), lines.frequency_hz)
+    wrenches = of_wrenches.sum("source").transpose("order", "foot", "axis").values
+    held = min(len(wrenches), orders)
+    known[:held] += wrenches[:held]
     force = np.zeros((len(names), *known.shape[1:]), dtype=complex)
     force[[names.index(name) for name in lines.names]] = known
     return force

@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Final
 
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import REFERENCE_OPTION
+from ..machine.cavities import SPACES
 from ..machine.frame import Frame
 from ..machine.option import Option
 from ..machine.shell_structure import ShellStructure, ShellVariation
 from ..machine.stopping import Stopping
 from ..machine.turning_back import TurningBack
-from ..mechanics.loads import DISCHARGE_DOME, SUCTION_ANNULUS
 from .scoring import check_given, check_scales
 
 if TYPE_CHECKING:
@@ -211,7 +211,7 @@ def _check_turning_back(study: "Study") -> None:
 
 def _gas_flows_into(study: "Study") -> list[str]:
     read = {name for one in study.sources.values() for name in one.tables_read(study.machine)}
-    return sorted(read & {DISCHARGE_DOME, SUCTION_ANNULUS})
+    return sorted(read & set(SPACES))
 
 
 def _check_fits(study: "Study", name: str, option: Option) -> None:

@@ -8,24 +8,18 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import ComplexArray
-from ..base.parameters import Parameters
-from ..machine.cavities import DischargeDome, SuctionAnnulus
-from ..machine.frame import Frame
 from ..machine.machine import Machine
-from ..machine.shell_structure import ShellStructure, ShellVariation
 from ..machine.source import Case, CaseKey, Shared
-from ..machine.stator_yoke import StatorYoke
 from ..mechanics.contributions import Contributions
 from ..mechanics.loads import Lines, Loads, lines_of
 from ..mechanics.received_sound import NoisePower, ReceivedSound
-from ..mechanics.scroll_shaft import ScrollShaft
 from ..study.study import Study
-from .bending import bending_shell
+from .bending import BendingShell, bending_shell
 from .contributions import contributions
-from .force_sound import OfReceivers, PressurePerVelocity
+from .load_path import LoadPath
 from .machine import on_mounts
+from .observers import Observers
 from .path import ShellPath
-from .sound_path import BendingShell, SoundPath
 
 BySource = Mapping[str, ComplexArray]
 
@@ -37,15 +31,14 @@ class Transmission:
     Attributes
     ----------
     study : options, highest frequency and order
-    rigid : pressure per velocity of the rigid motions
-    modes : of the shell's modes; none where no source drives it
+    microphones : pressure per velocity of the rigid motions and, where a source drives it, of the
+        shell's modes
     shell : its modes and joints; none where no source drives it
     wrench_pressure : of the wrenches over crank angle, by case and source, (receiver, order), Pa
     """
 
     study: Study
-    rigid: PressurePerVelocity
-    modes: PressurePerVelocity | None
+    microphones: Observers
     shell: ShellPath | None
     wrench_pressure: Mapping[CaseKey, BySource]
 
@@ -54,8 +47,7 @@ class Transmission:
         rows = list(receivers)
         return replace(
             self,
-            rigid=_to(self.rigid, rows),
-            modes=None if self.modes is None else _to(self.modes, rows),
+            microphones=self.microphones.to(rows),
             wrench_pressure={
                 key: {source: pressure[rows] for source, pressure in by_source.items()}
                 for key, by_source in self.wrench_pressure.items()
@@ -76,8 +68,7 @@ class Transmission:
         """
         known, sound = Shared(), {}
         for key, case in cases.items():
-            machine = case.machine
-            path = known(_path_tables(machine), partial(self._sound_path, machine))
+            path = self._path(known, case.machine, loads[key])
             received = self._of_case(case, loads[key], self.wrench_pressure[key], path)
             sound[key] = received.behind(self.study.option_of(key).insertion_loss())
         return sound
@@ -97,36 +88,40 @@ class Transmission:
         """
         known = Shared()
         for key, case in cases.items():
-            machine = case.machine
-            path = known(_path_tables(machine), partial(self._sound_path, machine))
+            path = self._path(known, case.machine, loads[key])
             orders = self._orders(case, next(iter(of_wrenches[key].values())))
             lines = self._lines(case, loads[key], orders)
             wrenches = {name: values[..., :orders] for name, values in of_wrenches[key].items()}
-            split = contributions(path, on_mounts(machine), lines, loads[key], wrenches)
+            split = contributions(path, self.microphones, lines, loads[key], wrenches)
             yield key, split.behind(self.study.option_of(key).insertion_loss())
 
-    def _sound_path(self, machine: Machine) -> SoundPath:
-        return SoundPath(self.rigid, self._bending_shell(machine))
+    def _path(self, known: Shared, machine: Machine, loads: Mapping[str, Loads]) -> LoadPath:
+        """Path of a machine, shared by machines that differ in no table that its ports read."""
+        read = dict.fromkeys(
+            table for load in loads.values() for port in load.ports for table in port.tables
+        )
+        tables = tuple(machine.table(each) for each in read if machine.has_table(each))
+        body = on_mounts(machine)
+        shell = known(tables, partial(self._bending_shell, machine))
+        return known((body, tables), lambda: LoadPath(body, shell))
 
     def _bending_shell(self, machine: Machine) -> BendingShell | None:
-        if self.shell is None or self.modes is None:
-            return None
-        return bending_shell(machine, self.shell, self.modes, self.rigid)
+        return None if self.shell is None else bending_shell(machine, self.shell)
 
     def _of_case(
-        self, case: Case, loads: Mapping[str, Loads], of_wrenches: BySource, path: SoundPath
+        self, case: Case, loads: Mapping[str, Loads], of_wrenches: BySource, path: LoadPath
     ) -> ReceivedSound:
         first = next(iter(of_wrenches.values()))
         receivers, orders = len(first), self._orders(case, first)
         lines = self._lines(case, loads, orders)
         pressure = np.zeros((len(loads), receivers, lines.frequency_hz.size), dtype=complex)
-        for number, of_source in enumerate(path.pressure(on_mounts(case.machine), lines).values()):
+        for number, of_source in enumerate(path.by_source(self.microphones, lines).values()):
             pressure[number] += of_source
         for number, source in enumerate(loads):
             if source in of_wrenches:
                 pressure[number, :, :orders] += of_wrenches[source][:, :orders]
         noise = [
-            NoisePower(number, part.frequency_hz, path.noise_power(part))
+            NoisePower(number, part.frequency_hz, path.noise_power(self.microphones, part))
             for number, load in enumerate(loads.values())
             for part in load.noise
         ]
@@ -142,19 +137,6 @@ class Transmission:
         if self.study.drives_shell:
             highest = max(highest, case.maximum_order)
         return lines_of(loads, case.shaft_frequency_hz, highest)
-
-
-def _to(pressure: PressurePerVelocity, rows: list[int]) -> PressurePerVelocity:
-    if isinstance(pressure, OfReceivers):
-        return pressure.to(rows)
-    return lambda frequency_hz: pressure(frequency_hz)[rows]
-
-
-def _path_tables(machine: Machine) -> tuple[Parameters, ...]:
-    """What tells the paths of two machines apart."""
-    tables = (ShellStructure, ShellVariation, Frame, ScrollShaft, StatorYoke, DischargeDome,
-              SuctionAnnulus)  # fmt: skip
-    return (machine.housing, *(machine.table(each) for each in tables if machine.has_table(each)))
 
 
 def by_case_and_source(

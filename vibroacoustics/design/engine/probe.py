@@ -9,6 +9,7 @@ from ...base.arrays import Array, ComplexArray, IndexArray
 from ...base.progress import no_progress
 from ...machine.source import Case
 from ...mechanics.loads import Lines, Loads, lines_of
+from ...mechanics.ports import BodyPort
 from ...orders.spectrum import order_spectra
 from ...sources.cases import cases_of, loaded_cases
 from ...study.study import Study
@@ -95,13 +96,13 @@ def _of_case(
 ) -> dict[str, ComplexArray]:
     held = study.highest_order(case.speed_rpm)
     wrench = _wrench(case, loads, held)
-    bodies = len(on_mounts(case.machine).isolation.bodies)
-    load = np.zeros((lines.frequency_hz.size, bodies, 6), dtype=complex)
-    for on_mechanism in lines.rigid.values():
-        load[:, -1] += on_mechanism.T
-    for on_shell in lines.on_shell.values():
-        load[:, 0] += on_shell.T
-    load[: held + 1, -1] += wrench
+    body = on_mounts(case.machine)
+    load = np.zeros((lines.frequency_hz.size, len(body.isolation.bodies), 6), dtype=complex)
+    for of_source in lines.loads.values():
+        for port, amplitudes in of_source.items():
+            if isinstance(port, BodyPort):
+                load[:, body.row(port)] += amplitudes.T
+    load[: held + 1, body.row(body.mechanism_port)] += wrench
     other, noise = way.besides_rigid(case.machine, lines, loads)
     loss = study.options[option].insertion_loss()
     factor: Array = np.ones(lines.frequency_hz.size)

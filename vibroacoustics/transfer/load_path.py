@@ -1,0 +1,122 @@
+"""From the loads of all sources in one case to what is observed of the machine."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..base.arrays import Array, ComplexArray, IndexArray
+from ..machine.source import Shared
+from ..mechanics.loads import Lines, Noise, PortLoads
+from ..mechanics.ports import BodyPort, Port
+from .bending import BendingShell
+from .force_sound import of_body
+from .machine import MachineOnMounts
+from .observers import Observers
+
+
+@dataclass(frozen=True)
+class LoadPath:
+    """Paths from ports to observers, with one set of values; responses are kept.
+
+    Attributes
+    ----------
+    body : the machine on its mounts
+    shell : the elastic shell; none where it is rigid, and loads in it are not observed
+    """
+
+    body: MachineOnMounts
+    shell: BendingShell | None = None
+    _known: Shared = field(default_factory=Shared, repr=False)
+
+    def response(
+        self,
+        observers: Observers,
+        ports: Sequence[Port],
+        frequency_hz: Array,
+        lines: IndexArray | None = None,
+    ) -> ComplexArray:
+        """Observed quantity per load, shape (observer, component of the ports, line).
+
+        Parameters
+        ----------
+        observers : of the machine
+        ports : where it is loaded
+        frequency_hz : shape (frequency,)
+        lines : indices of frequencies that are loaded; all where they are not given
+
+        Raises
+        ------
+        ParameterError
+            The machine has no such port.
+        """
+        at = np.arange(frequency_hz.size) if lines is None else lines
+        each = [self._of_port(observers, port, frequency_hz, at) for port in ports]
+        return np.concatenate(each, axis=1)
+
+    def _of_port(
+        self, observers: Observers, port: Port, frequency_hz: Array, lines: IndexArray
+    ) -> ComplexArray:
+        if isinstance(port, BodyPort):
+            of_motions = self.rigid(observers, frequency_hz), self.velocity(port, frequency_hz)
+            key = observers, port, frequency_hz.tobytes()
+            every = self._known(key, lambda: np.einsum("omf,mcf->ocf", *of_motions))
+            return np.asarray(every[..., lines])
+        if self.shell is None or observers.modes is None:
+            observed = len(observers.rigid(frequency_hz[:1]))
+            return np.zeros((observed, len(port.components), lines.size), dtype=complex)
+        return self.shell.response(observers, port, frequency_hz, lines)
+
+    def rigid(self, observers: Observers, frequency_hz: Array) -> ComplexArray:
+        """Observed quantity per velocity of the body on the feet, (observer, 6, frequency)."""
+        key = "rigid", observers, frequency_hz.tobytes()
+        return self._known(key, lambda: of_body(observers.rigid, self.body)(frequency_hz))
+
+    def velocity(self, port: BodyPort, frequency_hz: Array) -> ComplexArray:
+        """Velocity of the body on the feet per load on a body, (motion, component, frequency)."""
+
+        def per_load() -> ComplexArray:
+            loads = np.zeros((6, frequency_hz.size, 6), dtype=complex)
+            loads[:] = np.eye(6)[:, None]
+            return np.moveaxis(self.body.response(loads, frequency_hz, port).velocity, -1, 0)
+
+        return self._known((port, frequency_hz.tobytes()), per_load)
+
+    def observed(self, observers: Observers, loads: PortLoads, frequency_hz: Array) -> ComplexArray:
+        """Observe loads together, complex peaks, shape (observer or 1 where none acts, line).
+
+        Parameters
+        ----------
+        observers : of the machine
+        loads : by port, shape (component, line)
+        frequency_hz : shape (line,)
+        """
+        total = np.zeros((1, frequency_hz.size), dtype=complex)
+        for port, amplitudes in loads.items():
+            lines = np.flatnonzero(amplitudes.any(axis=0))
+            if lines.size:
+                response = self._of_port(observers, port, frequency_hz, lines)
+                part = np.zeros((len(response), frequency_hz.size), dtype=complex)
+                part[:, lines] = np.einsum("ocf,cf->of", response, amplitudes[:, lines])
+                total = total + part
+        return total
+
+    def by_source(self, observers: Observers, lines: Lines) -> Mapping[str, ComplexArray]:
+        """Observe the lines of each source, without its wrenches over crank angle."""
+        return {
+            source: self.observed(observers, loads, lines.frequency_hz)
+            for source, loads in lines.loads.items()
+        }
+
+    def noise_power(self, observers: Observers, noise: Noise) -> Array:
+        """Mean square of what a random load makes, (observer, frequency), such as Pa²."""
+        frequency = noise.frequency_hz
+        if not noise.density.any():  # keys that do not strike
+            return np.zeros((len(observers.rigid(frequency[:1])), frequency.size))
+        per_load = self.response(observers, [*noise.loads], frequency)
+        loads = np.concatenate([*noise.loads.values()])
+        per_force = np.einsum("ocf,ci->oif", per_load, loads, optimize=True)
+        density = np.einsum(
+            "oif,ijf,ojf->of", per_force.conj(), noise.density, per_force, optimize=True
+        ).real
+        return np.asarray(density * (frequency[1] - frequency[0]))
