@@ -59,7 +59,7 @@ listening, tones, loudness and sharpness, `rooms` the sound of a source in a fur
 `Added`, `Case`, `Loads`, `MovingPart`, `Revolution`, `Wrench`, `OldhamRing`, `Slider` are what
 these get and return; `circling`, `constant_rotation` and `wrenches_of_parts` make forces of moving
 masses. Loads act at a `Port`: `HOUSING`, `BLOCK`, the parts `FIXED_SCROLL`, `BEARING_HOUSING`,
-`ORBITING_SCROLL`, `LOWER_BEARING` and `STATOR`, the `STATOR_YOKE`, a `gas_port(...)`; a `Tone` is a
+`ORBITING_SCROLL`, `LOWER_BEARING` and `STATOR`, the `STATOR_YOKE`, a `GasPort`; a `Tone` is a
 line that is no order, `Noise` a random load. A `DesignFigure` of what is seen of designs, each a
 `Need`, is what they can be judged by. A `Curve` over each `CurveAxis` shows what goes on inside. A
 `Variable`, `Coordinate` or `Unit` joins the vocabulary; `stamp` labels an array as a variable,
@@ -98,7 +98,7 @@ if TYPE_CHECKING:
     from .design.figure import DesignFigure
     from .design.optimising import optimise
     from .design.sweep import sweep
-    from .machine.cavities import gas_port
+    from .machine.cavities import GasPort
     from .machine.frame import (
         BEARING_HOUSING,
         FIXED_SCROLL,
@@ -188,6 +188,7 @@ __all__ = [
     "DataSheet",
     "DesignFigure",
     "FigureLimit",
+    "GasPort",
     "Limit",
     "Loads",
     "Machine",
@@ -236,7 +237,6 @@ __all__ = [
     "export_forces",
     "export_functions",
     "export_recording",
-    "gas_port",
     "given_radiation",
     "impulse_responses",
     "inverted_forces",
@@ -275,7 +275,7 @@ __all__ = [
 ]
 
 _HOME = {
-    "gas_port": "machine.cavities",
+    "GasPort": "machine.cavities",
     "STATOR_YOKE": "machine.stator_yoke",
     "STATOR": "machine.frame",
     "LOWER_BEARING": "machine.frame",

@@ -121,19 +121,6 @@ class DischargeMuffler(Parameters):
     """Inner."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class GasPort(Port):
-    """A space of gas in the shell, fed by a volume flow, m³/s.
-
-    Attributes
-    ----------
-    density_kg_per_m3, sound_speed_m_per_s : of the gas there
-    """
-
-    density_kg_per_m3: float
-    sound_speed_m_per_s: float
-
-
 SPACES: Final[Mapping[str, type[Parameters]]] = {
     "discharge_dome": DischargeDome,
     "suction_annulus": SuctionAnnulus,
@@ -141,12 +128,22 @@ SPACES: Final[Mapping[str, type[Parameters]]] = {
 """Spaces of gas that sources may feed, by the name of the machine's table."""
 
 
-def gas_port(space: str, density_kg_per_m3: float, sound_speed_m_per_s: float) -> GasPort:
-    """Make the port of a space of gas, one of `SPACES`, with the state of its gas."""
-    return GasPort(
-        space,
-        ("flow",),
-        (SPACES[space], *SHELL_TABLES),
-        density_kg_per_m3=density_kg_per_m3,
-        sound_speed_m_per_s=sound_speed_m_per_s,
-    )
+@dataclass(frozen=True, kw_only=True)
+class GasPort(Port):
+    """A space of gas in the shell, one of `SPACES`, fed by a volume flow, m³/s.
+
+    Attributes
+    ----------
+    density_kg_per_m3, sound_speed_m_per_s : of the gas there
+
+    Examples
+    --------
+    >>> port = va.GasPort("discharge_dome", density_kg_per_m3=112.0, sound_speed_m_per_s=178.0)
+    >>> port.components
+    ('flow',)
+    """
+
+    components: tuple[str, ...] = ("flow",)
+    tables: tuple[type[Parameters], ...] = (*SPACES.values(), *SHELL_TABLES)
+    density_kg_per_m3: float
+    sound_speed_m_per_s: float

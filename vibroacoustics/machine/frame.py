@@ -12,7 +12,7 @@ from pydantic import Field
 
 from ..base.arrays import Array
 from ..base.parameters import Parameters
-from ..mechanics.ports import WRENCH, Port
+from ..mechanics.ports import Port
 from ..mechanics.scroll_shaft import ScrollShaft
 from .housing import Housing
 from .shell_structure import Joint, ShellStructure, ShellVariation
@@ -116,6 +116,10 @@ class Frame(Parameters):
         return float(sum(getattr(self, part.name).mass_kg for part in PARTS))
 
 
+SHELL_TABLES: Final = (Housing, ShellStructure, ShellVariation, Frame, ScrollShaft)
+"""Tables that the response of every port in the elastic shell reads."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Part(Port):
     """A part in the elastic shell, loaded by a wrench about the machine's centre of mass at rest.
@@ -126,19 +130,18 @@ class Part(Port):
     handed_on : components of the load that it hands on so
     """
 
+    tables: tuple[type[Parameters], ...] = SHELL_TABLES
     joint: str
     handed_on: tuple[str, ...] = ("fx", "fy", "fz", "mz")
 
 
-SHELL_TABLES: Final = (Housing, ShellStructure, ShellVariation, Frame, ScrollShaft)
-"""Tables that the response of every port in the elastic shell reads."""
-FIXED_SCROLL: Final = Part("fixed_scroll", WRENCH, SHELL_TABLES, joint="fixed_scroll")
-BEARING_HOUSING: Final = Part("bearing_housing", WRENCH, SHELL_TABLES, joint="bearing_housing")
+FIXED_SCROLL: Final = Part("fixed_scroll", joint="fixed_scroll")
+BEARING_HOUSING: Final = Part("bearing_housing", joint="bearing_housing")
 ORBITING_SCROLL: Final = Part(
-    "orbiting_scroll", WRENCH, SHELL_TABLES, joint="bearing_housing", handed_on=("fx", "fy", "fz")
+    "orbiting_scroll", joint="bearing_housing", handed_on=("fx", "fy", "fz")
 )
 """Acts through pin and main bearing; what turns it presses the keys, which are a source."""
-LOWER_BEARING: Final = Part("lower_bearing", WRENCH, SHELL_TABLES, joint="stator")
-STATOR: Final = Part("stator", WRENCH, SHELL_TABLES, joint="stator")
+LOWER_BEARING: Final = Part("lower_bearing", joint="stator")
+STATOR: Final = Part("stator", joint="stator")
 PARTS: Final = (FIXED_SCROLL, BEARING_HOUSING, ORBITING_SCROLL, LOWER_BEARING, STATOR)
 """Parts in the shell that sources load, in the order of the frame's bodies."""

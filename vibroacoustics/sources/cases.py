@@ -13,6 +13,7 @@ from ..machine.source import Case, CaseKey, Source
 from ..mechanics.added import Added
 from ..mechanics.loads import Loads
 from ..mechanics.moving_parts import Revolution
+from ..mechanics.ports import BodyPort
 from ..study.study import Study
 from .moving_parts import MovingParts
 
@@ -91,9 +92,20 @@ def _loaded(study: Study, case: Case) -> tuple[Case, dict[str, Loads]]:
             if case.supply_frequency_hz is None:
                 case = _on_supply(case, source.supply_frequency_hz(case, dict(loads)))
             loads[name] = source.loads(case, dict(loads))
+            _check_ports(source, loads[name])
         except ParameterError as error:
             raise ParameterError(f"sources.{name}: {error}") from None
     return case, loads
+
+
+def _check_ports(source: Source, loads: Loads) -> None:
+    """Refuse loads in an elastic shell, of which the study does not know."""
+    for port in loads.ports:
+        if not isinstance(port, BodyPort) and not source.drives_shell:
+            raise ParameterError(
+                f"loads the port {port.name} in the elastic shell; its class needs "
+                "drives_shell = True"
+            )
 
 
 def _on_supply(case: Case, frequency_hz: float | None) -> Case:

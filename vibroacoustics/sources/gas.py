@@ -9,13 +9,7 @@ from ..base.arrays import Array, ComplexArray
 from ..base.curves import Curve
 from ..base.parameters import Parameters
 from ..base.registry import register
-from ..machine.cavities import (
-    SPACES,
-    DischargeDome,
-    DischargeMuffler,
-    SuctionAnnulus,
-    gas_port,
-)
+from ..machine.cavities import SPACES, DischargeDome, DischargeMuffler, GasPort, SuctionAnnulus
 from ..machine.frame import Frame
 from ..machine.machine import Machine
 from ..machine.source import Case, Shared, Source
@@ -122,14 +116,18 @@ def _flows(case: Case, cycle: ScrollGasCycle, highest: int) -> dict[Port, Comple
     if machine.has_table(DischargeDome):
         rho, sound = machine.table(ScrollGas).discharge_state
         flow = order_spectrum(cycle.port_flow_kg_per_s, highest) / rho
-        flows[gas_port("discharge_dome", rho, sound)] = flow[None]
+        flows[_port("discharge_dome", rho, sound)] = flow[None]
     if machine.has_table(SuctionAnnulus):
         _, rho, sound = _suction_state(machine, SuctionAnnulus)
         filling = suction_gas(machine, SuctionAnnulus, case.shared, case.speed_rpm)
         wraps = machine.table(ScrollWraps)
         flow = order_spectrum(filling.over_crank_angle(wraps, cycle.crank_angle), highest)
-        flows[gas_port("suction_annulus", rho, sound)] = -flow[None] / rho
+        flows[_port("suction_annulus", rho, sound)] = -flow[None] / rho
     return flows
+
+
+def _port(space: str, density: float, sound_speed: float) -> GasPort:
+    return GasPort(space, density_kg_per_m3=density, sound_speed_m_per_s=sound_speed)
 
 
 def suction_gas(

@@ -77,10 +77,16 @@ class BendingShell:
         ParameterError
             The machine has no such port.
         """
+        key = observers, port, frequency_hz.tobytes(), lines.tobytes()
+        return self._known(key, lambda: self._response(observers, port, frequency_hz, lines))
+
+    def _response(
+        self, observers: Observers, port: Port, frequency_hz: Array, lines: IndexArray
+    ) -> ComplexArray:
         if isinstance(port, Part):
             return np.asarray(self._parts(observers, frequency_hz)[:, rows_of(port)][..., lines])
-        key = observers, port, frequency_hz.tobytes(), lines.tobytes()
-        return self._known(key, lambda: self._of_port(observers, port, frequency_hz, lines))
+        forces, frame = self.modal_forces(port, frequency_hz[lines]), self.frame_under(port)
+        return self.of_modal_forces(observers, forces, frequency_hz, lines, frame)
 
     def modal_forces(self, port: Port, frequency_hz: Array) -> ComplexArray:
         """Generalised force of each mode per load on gas or yoke, (mode, component, frequency).
@@ -97,34 +103,39 @@ class BendingShell:
             return self.yoke.forces(frequency_hz)
         raise ParameterError(f"port {port.name}: the machine has none")
 
-    def through_frame(self, port: Port) -> FrameOnShell | None:
+    def frame_under(self, port: Port) -> FrameOnShell | None:
         """The frame, where it answers a port's load; it leaves the fitted yoke as it is."""
         return None if port == STATOR_YOKE else self.frame
 
-    def _of_port(
-        self, observers: Observers, port: Port, frequency_hz: Array, lines: IndexArray
-    ) -> ComplexArray:
-        forces = self.modal_forces(port, frequency_hz[lines])
-        if self.through_frame(port):
-            return self.of_modal_forces(observers, forces, frequency_hz, lines)
-        return self._of_modes(observers, forces, frequency_hz[lines])
-
     def of_modal_forces(
-        self, observers: Observers, forces: ComplexArray, frequency_hz: Array, lines: IndexArray
+        self,
+        observers: Observers,
+        forces: Array | ComplexArray,
+        frequency_hz: Array,
+        lines: IndexArray,
+        frame: FrameOnShell | None,
     ) -> ComplexArray:
         """Observed quantity of forces on the modes, shape (observer, load, line).
 
         Parameters
         ----------
         observers : with the modes
-        forces : at the lines, shape (mode, load, line)
+        forces : at the lines, shape (mode, load, line or 1)
         frequency_hz : shape (frequency,)
         lines : indices of the loaded ones
+        frame : that answers the forces
         """
-        if self.frame is None:
-            return self._of_modes(observers, forces, frequency_hz[lines])
-        of_modes = self._through(self.frame, observers, frequency_hz).of_modes(lines)
-        return np.asarray(np.einsum("omf,mlf->olf", of_modes, forces))
+        if frame is not None:
+            of_modes = self._through(frame, observers, frequency_hz).of_modes(lines)
+            return np.asarray(np.einsum("omf,mlf->olf", of_modes, forces))
+        return pressure_per_load(
+            self.path,
+            observers.of_modes(frequency_hz[lines]),
+            frequency_hz[lines],
+            self.loss_factor_ratio,
+            self.variation,
+            forces,
+        )
 
     def _parts(self, observers: Observers, frequency_hz: Array) -> ComplexArray:
         """Per load on the parts, shape (observer, part times component, frequency)."""
@@ -133,7 +144,8 @@ class BendingShell:
 
     def _of_all_parts(self, observers: Observers, frequency_hz: Array) -> ComplexArray:
         if self.frame is None:
-            return self._of_modes(observers, self.path.forces_of_parts(), frequency_hz)
+            forces, every = self.path.forces_of_parts(), np.arange(frequency_hz.size)
+            return self.of_modal_forces(observers, forces, frequency_hz, every, None)
         names = np.round(frequency_hz, _SAME_DECIMALS).tolist()
         keys, known = [(observers, name) for name in names], self._of_parts
         new = [number for number, key in enumerate(keys) if key not in known]
@@ -149,29 +161,13 @@ class BendingShell:
         self, frame: FrameOnShell, observers: Observers, frequency_hz: Array
     ) -> SoundPerForce:
         """Observe shell and frame together; kept, as gas and parts drive the same."""
-        assert observers.modes is not None  # noqa: S101 - the path asks for no others
-        modes = observers.modes
 
         def sound() -> SoundPerForce:
             gain = amplitude_of_level(self.variation.mobility_change_db)
-            at = modes(frequency_hz), observers.rigid(frequency_hz)
+            at = observers.of_modes(frequency_hz), observers.rigid(frequency_hz)
             return frame.sound(*at, frequency_hz, gain)
 
         return self._known(("frame", observers, frequency_hz.tobytes()), sound)
-
-    def _of_modes(
-        self, observers: Observers, forces: Array | ComplexArray, frequency_hz: Array
-    ) -> ComplexArray:
-        """Observe generalised forces without a frame, as `pressure_per_load`."""
-        assert observers.modes is not None  # noqa: S101 - the path asks for no others
-        return pressure_per_load(
-            self.path,
-            observers.modes(frequency_hz),
-            frequency_hz,
-            self.loss_factor_ratio,
-            self.variation,
-            forces,
-        )
 
 
 def bending_shell(machine: Machine, path: ShellPath) -> BendingShell:

@@ -11,7 +11,7 @@ from ..mechanics.loads import Lines, Loads, Noise, PortLoads, summed
 from ..mechanics.ports import HOUSING, BodyPort, Port
 from .load_path import LoadPath
 from .observers import Observers
-from .radiating_motions import by_motion, motion_names
+from .radiating_motions import by_motion
 
 Paths = dict[PathName, ComplexArray]
 """Pressure at the lines by path, (receiver, line)."""
@@ -71,7 +71,8 @@ def _by_motion(
     in_shell = summed(_in_shell(loads) for loads in lines.loads.values())
     of_shell = by_motion(path.shell, microphones, in_shell, lines.frequency_hz)
     modes, as_body = of_shell[:-6], of_shell[-6:]
-    return (*RIGID_BODY_DOFS, *motion_names(path.shell)), np.concatenate([rigid + as_body, modes])
+    names_of_modes = [mode.name for mode in path.shell.path.modes]
+    return (*RIGID_BODY_DOFS, *names_of_modes), np.concatenate([rigid + as_body, modes])
 
 
 def _in_shell(loads: PortLoads) -> PortLoads:
@@ -95,6 +96,8 @@ def _of_source(
             paths[PathName(source, HOUSING.name, motion)] = values
     for port, load in lines.loads[source].items():
         loaded = np.flatnonzero(load.any(axis=0))
+        if not loaded.size:
+            continue
         for way, rows, response in _ways(path, microphones, port, lines.frequency_hz, loaded):
             name = PathName(source, *way)
             at = paths.setdefault(
@@ -113,8 +116,7 @@ def _ways(
     """
     components = np.array(port.components)
     if isinstance(port, BodyPort):
-        rigid = path.rigid(microphones, frequency_hz)[..., lines]
-        velocity = path.velocity(port, frequency_hz)[..., lines]
+        rigid, velocity = path.by_motion(microphones, port, frequency_hz[lines])
         every = np.arange(components.size)
         for row, motion in enumerate(RIGID_BODY_DOFS):
             yield (HOUSING.name, motion), every, rigid[:, row, None] * velocity[row]

@@ -58,29 +58,29 @@ class LoadPath:
         self, observers: Observers, port: Port, frequency_hz: Array, lines: IndexArray
     ) -> ComplexArray:
         if isinstance(port, BodyPort):
-            of_motions = self.rigid(observers, frequency_hz), self.velocity(port, frequency_hz)
             key = observers, port, frequency_hz.tobytes()
-            every = self._known(key, lambda: np.einsum("omf,mcf->ocf", *of_motions))
+            every = self._known(key, lambda: self._of_body(observers, port, frequency_hz))
             return np.asarray(every[..., lines])
         if self.shell is None or observers.modes is None:
             observed = len(observers.rigid(frequency_hz[:1]))
             return np.zeros((observed, len(port.components), lines.size), dtype=complex)
         return self.shell.response(observers, port, frequency_hz, lines)
 
-    def rigid(self, observers: Observers, frequency_hz: Array) -> ComplexArray:
-        """Observed quantity per velocity of the body on the feet, (observer, 6, frequency)."""
-        key = "rigid", observers, frequency_hz.tobytes()
-        return self._known(key, lambda: of_body(observers.rigid, self.body)(frequency_hz))
+    def _of_body(self, observers: Observers, port: BodyPort, frequency_hz: Array) -> ComplexArray:
+        return np.asarray(np.einsum("omf,mcf->ocf", *self.by_motion(observers, port, frequency_hz)))
 
-    def velocity(self, port: BodyPort, frequency_hz: Array) -> ComplexArray:
-        """Velocity of the body on the feet per load on a body, (motion, component, frequency)."""
+    def by_motion(
+        self, observers: Observers, port: BodyPort, frequency_hz: Array
+    ) -> tuple[ComplexArray, ComplexArray]:
+        """Observed quantity per velocity of the body on the feet, and its velocity per load.
 
-        def per_load() -> ComplexArray:
-            loads = np.zeros((6, frequency_hz.size, 6), dtype=complex)
-            loads[:] = np.eye(6)[:, None]
-            return np.moveaxis(self.body.response(loads, frequency_hz, port).velocity, -1, 0)
-
-        return self._known((port, frequency_hz.tobytes()), per_load)
+        Returns
+        -------
+        shapes (observer, motion, frequency) and (motion, component, frequency)
+        """
+        loads = np.broadcast_to(np.eye(6, dtype=complex)[:, None], (6, frequency_hz.size, 6))
+        velocity = self.body.response(loads, frequency_hz, port).velocity
+        return of_body(observers.rigid, self.body)(frequency_hz), np.moveaxis(velocity, -1, 0)
 
     def observed(self, observers: Observers, loads: PortLoads, frequency_hz: Array) -> ComplexArray:
         """Observe loads together, complex peaks, shape (observer or 1 where none acts, line).

@@ -26,6 +26,12 @@ class Observers:
     rigid: PressurePerVelocity
     modes: PressurePerVelocity | None = None
 
+    def of_modes(self, frequency_hz: Array) -> ComplexArray:
+        """Evaluate `modes`, which must be there."""
+        if self.modes is None:
+            raise ValueError("loads in the shell are not observed")
+        return self.modes(frequency_hz)
+
     def to(self, rows: Sequence[int]) -> "Observers":
         """Select some of the observers, the dimension kept."""
         return Observers(

@@ -12,11 +12,6 @@ from .observers import Observers
 from .shell_modes import velocity_per_force
 
 
-def motion_names(shell: BendingShell) -> list[str]:
-    """Name the modes of a shell, in their order."""
-    return [mode.name for mode in shell.path.modes]
-
-
 def by_motion(
     shell: BendingShell, observers: Observers, loads: PortLoads, frequency_hz: Array
 ) -> ComplexArray:
@@ -36,9 +31,7 @@ def by_motion(
     complex peaks, shape (mode and then rigid motion, receiver, line), Pa
     """
     gain = amplitude_of_level(shell.variation.mobility_change_db)
-    per_velocity = [observers.rigid(frequency_hz)]
-    if observers.modes is not None:
-        per_velocity.insert(0, gain * observers.modes(frequency_hz))
+    per_velocity = [gain * observers.of_modes(frequency_hz), observers.rigid(frequency_hz)]
     velocity = velocities(shell, loads, frequency_hz)
     return np.moveaxis(np.concatenate(per_velocity, axis=1) * velocity, 0, 1)
 
@@ -53,7 +46,7 @@ def velocities(shell: BendingShell, loads: PortLoads, frequency_hz: Array) -> Co
             on_parts[rows_of(port)] = amplitudes
         else:
             forces = shell.modal_forces(port, frequency_hz)
-            on_modes = joined if shell.through_frame(port) else beside
+            on_modes = joined if shell.frame_under(port) else beside
             on_modes += np.einsum("mcf,cf->mf", forces, amplitudes)
     if shell.frame is None:
         beside += shell.path.forces_of_parts()[..., 0] @ on_parts

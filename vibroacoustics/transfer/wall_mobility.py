@@ -90,7 +90,8 @@ def wall_mobility(
         if isinstance(reference, int):
             driven = np.repeat(wall.modes[reference][:, None, None], lines.size, axis=2)
             forces = driven.astype(complex)
-            columns.append(shell.of_modal_forces(points, forces, frequency_hz, lines)[:, 0])
+            frame = shell.frame
+            columns.append(shell.of_modal_forces(points, forces, frequency_hz, lines, frame)[:, 0])
         else:
             part, axis = parts[reference[0]], parts[reference[0]].components.index(reference[1])
             columns.append(shell.response(points, part, frequency_hz, lines)[:, axis])

@@ -6,16 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...base.arrays import Array, ComplexArray, IndexArray
-from ...machine.frame import (
-    BEARING_HOUSING,
-    FIXED_SCROLL,
-    LOWER_BEARING,
-    PARTS,
-    STATOR,
-    Frame,
-    Part,
-)
+from ...machine.frame import BEARING_HOUSING, FIXED_SCROLL, LOWER_BEARING, PARTS, STATOR, Frame
 from ...machine.shell_structure import Joint, ShellStructure
+from ...mechanics.ports import Port
 from ..shell_modes.loads import weld_angles
 
 
@@ -32,7 +25,7 @@ class Contacts:
     """
 
     joints: tuple[Joint, ...]
-    parts: tuple[Part, ...]
+    parts: tuple[Port, ...]
     radius_m: float
     stiffness: ComplexArray
 
@@ -58,7 +51,7 @@ def contacts_of(frame: Frame, structure: ShellStructure, radius_m: float) -> Con
     radius_m : of the wall
     """
     given = frame.contacts
-    every: Sequence[tuple[Part, Joint, float]] = (
+    every: Sequence[tuple[Port, Joint, float]] = (
         (BEARING_HOUSING, structure.bearing_housing, given.weld_n_per_m),
         (LOWER_BEARING, frame.legs, given.leg_n_per_m),
         (FIXED_SCROLL, structure.fixed_scroll, given.seal_n_per_m),
