@@ -134,6 +134,7 @@ class GasPort(Port):
 
     Attributes
     ----------
+    components, tables : as of `Port`
     density_kg_per_m3, sound_speed_m_per_s : of the gas there
 
     Examples

@@ -126,8 +126,14 @@ class Part(Port):
 
     Attributes
     ----------
+    tables : of every port in the shell
     joint : of the shell, to which the part hands its load on in a machine without a frame
     handed_on : components of the load that it hands on so
+
+    Examples
+    --------
+    >>> va.STATOR.name, va.STATOR.handed_on
+    ('stator', ('fx', 'fy', 'fz', 'mz'))
     """
 
     tables: tuple[type[Parameters], ...] = SHELL_TABLES

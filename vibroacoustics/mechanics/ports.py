@@ -32,7 +32,15 @@ class Port:
 
 @dataclass(frozen=True)
 class BodyPort(Port):
-    """A rigid body of the machine on its mounts, loaded by a wrench about its centre of mass."""
+    """A rigid body of the machine on its mounts, loaded by a wrench about its centre of mass.
+
+    Examples
+    --------
+    >>> up = np.zeros((6, 2), complex)
+    >>> up[2, 1] = 3.0  # N, along z, once a revolution
+    >>> [port.name for port in va.Loads(lines={va.BLOCK: up}).ports]
+    ['block']
+    """
 
 
 HOUSING: Final = BodyPort("housing")
