@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Any, Final, TypeVar
 
 import numpy as np
@@ -131,7 +132,7 @@ class Lines:
     ----------
     names : of the lines
     frequency_hz : shape (line,)
-    loads : by source and port without what `wrenches` give, shape (component, line)
+    loads : by source and port, shape (component, line)
     """
 
     names: tuple[str, ...]
@@ -139,7 +140,12 @@ class Lines:
     loads: Mapping[str, PortLoads]
 
 
-def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int) -> Lines:
+def lines_of(
+    loads: Mapping[str, Loads],
+    shaft_hz: float,
+    highest: int,
+    wrenches: Mapping[str, PortLoads] = MappingProxyType({}),
+) -> Lines:
     """Lay the loads of all sources on one axis of lines; every tone is a line of its own.
 
     Parameters
@@ -147,6 +153,7 @@ def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int) -> Lines
     loads : by source
     shaft_hz : frequency of the first order
     highest : order
+    wrenches : spectra of the wrenches over crank angle by source and port, (component, order)
     """
     tones = [(source, tone) for source, given in loads.items() for tone in given.tones]
     orders = highest + 1
@@ -159,9 +166,9 @@ def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int) -> Lines
 
     for source, given in loads.items():
         laid[source] = {}
-        for port, amplitudes in given.lines.items():
+        for port, amplitudes in (*wrenches.get(source, {}).items(), *given.lines.items()):
             held = amplitudes[:, :orders]
-            at_lines(source, port)[:, : held.shape[1]] = held
+            at_lines(source, port)[:, : held.shape[1]] += held
     for number, (source, tone) in enumerate(tones, orders):
         for port, amplitudes in tone.loads.items():
             at_lines(source, port)[:, number] = amplitudes

@@ -9,11 +9,8 @@ from ..base.progress import Progress
 from ..base.vocabulary import WEIGHTINGS
 from ..levels.axes import LevelAxes
 from ..levels.contributions import contribution_variables
-from ..radiation.transfer_vectors import interpolate_transfer_vector
 from ..study.study import Study
-from ..transfer.force_sound import ForceSound
-from ..transfer.received import Transmission, by_case_and_source
-from .force_sound import wrench_pressure_by_motion
+from ..transfer.received import Transmission
 from .motion import Motion
 
 MOST_SPEEDS: Final = 3
@@ -32,43 +29,25 @@ def contributions_of(
     axes: LevelAxes,
     levels: xr.Dataset,
     progress: Progress,
-    by_force: ForceSound | None = None,
 ) -> xr.Dataset:
     """What comes by which path; no draws, as the values as given tell the paths.
 
     Parameters
     ----------
     transmission : from loads to sound
-    motion : its results hold the transfer vectors
+    motion : cases and loads
     axes : of the levels
     levels : with `order_level`
     progress : called with the number of cases that are done
-    by_force : measured pressure per force, in place of the transfer vectors
     """
     speeds = chosen_speeds(transmission.study)
     cases = {key: case for key, case in motion.cases.items() if key[0] in speeds}
-    if by_force is None:
-        by_motion = _pressure_by_motion(motion.results.sel(speed=speeds))
-        of_wrenches = by_case_and_source(by_motion, motion.source_of_wrench)
-    else:
-        of_wrenches = wrench_pressure_by_motion(motion, by_force)
     split = {}
     progress("sound by path", 0, len(cases))
-    for key, of_case in transmission.contributions(cases, motion.loads, of_wrenches):
+    for key, of_case in transmission.contributions(cases, motion.loads):
         split[key] = of_case
         progress("sound by path", len(split), len(cases))
     return contribution_variables(axes, split, loudest_orders(levels))
-
-
-def _pressure_by_motion(results: xr.Dataset) -> xr.DataArray:
-    """Pressure of every wrench at every order by the six motions of the housing, as dof.
-
-    Orders beyond the table are silent, as in `radiation.pressure`: its highest frequency stands
-    for theirs.
-    """
-    vectors = results["transfer_vector"]
-    frequency = results["order_frequency"].clip(max=vectors["frequency"].max().item())
-    return results["velocity_order"] * interpolate_transfer_vector(vectors, frequency)
 
 
 def chosen_speeds(study: Study) -> list[float]:

@@ -1,20 +1,15 @@
 """A study whose radiation and room are measured: sound pressure by force."""
 
-from collections.abc import Mapping
-
 import xarray as xr
 
-from ..base.arrays import ComplexArray
 from ..base.errors import ParameterError
 from ..base.progress import no_progress
 from ..base.units import shaft_frequency_hz
-from ..machine.source import CaseKey
 from ..measured.sound_functions import read_force_sound
 from ..radiation.given import given_radiation
 from ..study.study import Study
 from ..transfer import on_mounts
 from ..transfer.force_sound import ForceSound
-from .motion import Motion
 
 _WRENCH = ("source", "dof", "order")
 
@@ -62,39 +57,3 @@ def force_radiation(study: Study, sound: ForceSound) -> tuple[xr.Dataset, bool]:
     """Transfer vectors of the machine as given, for tables and figures."""
     vectors = sound(sound.frequency_hz)
     return given_radiation(vectors, sound.frequency_hz)(study, no_progress, ())
-
-
-def wrench_pressure_by_case(
-    motion: Motion, sound: ForceSound
-) -> dict[CaseKey, Mapping[str, ComplexArray]]:
-    """Pressure of the wrenches over crank angle of every case, by source, (receiver, order).
-
-    Parameters
-    ----------
-    motion : with its results, cases and names of sources
-    sound : of forces
-    """
-    by_motion = wrench_pressure_by_motion(motion, sound)
-    return {
-        key: {source: one.sum(axis=1) for source, one in by_source.items()}
-        for key, by_source in by_motion.items()
-    }
-
-
-def wrench_pressure_by_motion(
-    motion: Motion, sound: ForceSound
-) -> dict[CaseKey, Mapping[str, ComplexArray]]:
-    """The same by motion of the housing, shape (receiver, 6, order)."""
-    pressure: dict[CaseKey, Mapping[str, ComplexArray]] = {}
-    options = motion.results["option"].values.tolist()
-    for key, case in motion.cases.items():
-        option = key[1] if key[1] in options else options[0]
-        at = motion.results.sel(speed=key[0], option=option)
-        velocity = at["velocity_order"].transpose(*_WRENCH)
-        vectors = sound.of(on_mounts(case.machine))(at["order_frequency"].values)
-        by_source: dict[str, ComplexArray] = {}
-        for name, one in zip(velocity["source"].values, velocity.values, strict=True):
-            source = motion.source_of_wrench[str(name)]
-            by_source[source] = by_source.get(source, 0.0) + one * vectors
-        pressure[key] = by_source
-    return pressure

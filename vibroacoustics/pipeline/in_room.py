@@ -24,7 +24,6 @@ from ..levels.room_seam import seam_variables, shown_bands
 from ..machine.shell import Shell
 from ..machine.source import CaseKey
 from ..radiation.patterns import SurfaceMotion
-from ..radiation.pressure import wrench_pressure_by
 from ..radiation.rooms import of_study as rooms
 from ..radiation.rooms import room_vectors
 from ..radiation.rooms.plane import plane_gains
@@ -34,7 +33,7 @@ from ..study.room import StudyRoom
 from ..study.study import Study
 from ..transfer.observers import Observers
 from ..transfer.path import ShellPath
-from ..transfer.received import Transmission, by_case_and_source
+from ..transfer.received import Transmission
 from .motion import Motion
 
 
@@ -144,12 +143,11 @@ def _transmission(
 ) -> Transmission:
     """The way of the sound to the listeners and to the positions on the hemisphere."""
     rigid = rooms.of_rigid(pressure)
-    wrenches = wrench_pressure_by(motion.results, rigid, study.radiation.maximum_frequency_hz)
     return Transmission(
         study,
         Observers(rigid, None if shell is None else rooms.of_modes(pressure)),
         shell,
-        by_case_and_source(wrenches, motion.source_of_wrench),
+        motion.wrenches,
     )
 
 

@@ -7,11 +7,11 @@ import xarray as xr
 
 from ..base.progress import Progress
 from ..machine.source import Case, CaseKey
-from ..mechanics.loads import Loads
+from ..mechanics.loads import Loads, PortLoads
 from ..orders.labelled import order_variables
 from ..results.size import check_size
 from ..results.speed_blocks import TIME_SERIES, blocks, gathered
-from ..sources.cases import cases_of, loaded_cases, sources_of_wrenches, without_time_series
+from ..sources.cases import cases_of, loaded_cases, without_time_series, wrench_lines
 from ..sources.labelled import force_variables, supply_variable
 from ..study.selection import at_speeds
 from ..study.study import Study
@@ -28,21 +28,21 @@ class Motion:
     results : forces, orders, motion, reported figures
     cases : every speed with every option
     loads : of all sources in each case, without their wrenches, which are in the results
-    source_of_wrench : by the wrench's name
+    wrenches : lines of these by case and source
     """
 
     results: xr.Dataset
     cases: dict[CaseKey, Case] = field(default_factory=dict)
     loads: dict[CaseKey, dict[str, Loads]] = field(default_factory=dict)
-    source_of_wrench: dict[str, str] = field(default_factory=dict)
+    wrenches: dict[CaseKey, dict[str, PortLoads]] = field(default_factory=dict)
 
     def with_results(self, results: xr.Dataset) -> "Motion":
         """The same motion with further results."""
         return replace(self, results=results)
 
-    def keep(self, key: CaseKey, case: Case, loads: Mapping[str, Loads]) -> None:
-        """Keep a case and its loads, without their time series."""
-        self.source_of_wrench.update(sources_of_wrenches(loads))
+    def keep(self, key: CaseKey, case: Case, loads: Mapping[str, Loads], highest: int) -> None:
+        """Keep a case and its loads, without their time series, up to the highest order."""
+        self.wrenches[key] = wrench_lines(case, loads, highest)
         self.cases[key], self.loads[key] = without_time_series(case, loads)
 
 
@@ -73,5 +73,5 @@ def _blocks(study: Study, progress: Progress, motion: Motion) -> Iterator[xr.Dat
             check_size(study, part, progress)
         yield part
         for key, case in cases.items():
-            motion.keep(key, case, loads[key])
+            motion.keep(key, case, loads[key], study.highest_order(case.speed_rpm))
         done += len(cases)

@@ -28,7 +28,7 @@ from ..levels.remainder import (
 )
 from ..machine.source import Case, CaseKey
 from ..mechanics.received_sound import ReceivedSound
-from ..radiation.pressure import pressure_per_shell_velocity, wrench_pressure
+from ..radiation.pressure import pressure_per_shell_velocity
 from ..radiation.transfer_vectors import pressure_per_velocity
 from ..sources.cases import sources_of
 from ..study.draws import batches_of_draws
@@ -38,7 +38,7 @@ from ..study.study import Study
 from ..transfer.force_sound import ForceSound
 from ..transfer.observers import Observers
 from ..transfer.path import ShellPath
-from ..transfer.received import BySource, Transmission, by_case_and_source
+from ..transfer.received import Transmission
 from ..transfer.study_path import projection_errors
 from ..uncertainty.bank import Bank, bank_of
 from ..uncertainty.drawn import drawn_cases
@@ -47,7 +47,6 @@ from ..uncertainty.first_order import first_order_by_draw, unknown_first_order
 from ..uncertainty.share_variables import change_shares, level_shares
 from .calibration import ShellTest
 from .contributions import contributions_of
-from .force_sound import wrench_pressure_by_case
 from .motion import Motion, motion_of
 
 Sound = dict[CaseKey, SourceSound]
@@ -109,7 +108,7 @@ def levels_of(
     measured = baseline_variables(study, axes, points, sound)
     levels = level_variables(axes, sound, lines["pressure_line"], frequency, left, rest, measured)
     levels = levels.merge(lines).merge(measured).merge(noise)
-    levels = levels.merge(contributions_of(transmission, motion, axes, levels, progress, by_force))
+    levels = levels.merge(contributions_of(transmission, motion, axes, levels, progress))
     if not study.ranges:
         return levels
     bank, of_shell = _bank(transmission, axes, points, cases, sound, progress, test)
@@ -230,11 +229,9 @@ def sound_of_draws(
     study = transmission.study
 
     def sound_of(draw: Draw) -> DrawnSound:
-        drawn = drawn_cases(cases, study, draw, transmission.microphones.rigid)
-        pressure = {**transmission.wrench_pressure, **drawn.wrench_pressure}
-        received = replace(transmission, wrench_pressure=pressure).received(
-            drawn.cases, drawn.loads
-        )
+        drawn = drawn_cases(cases, study, draw)
+        wrenches = {**transmission.wrenches, **drawn.wrenches}
+        received = replace(transmission, wrenches=wrenches).received(drawn.cases, drawn.loads)
         return DrawnSound(_by_source(study, axes, received), drawn.first_order)
 
     unknown = DrawnSound({key: given[key].unknown for key in cases}, unknown_first_order(cases))
@@ -251,7 +248,8 @@ def at_catalogue_speed(study: Study, motion: Motion) -> Motion:
     reference = {REFERENCE_OPTION: study.options[REFERENCE_OPTION]}
     motion = motion_of(at_speeds(there, key[:1], reference), no_progress)
     (case,), (loads,) = motion.cases.values(), motion.loads.values()
-    return replace(motion, cases={key: case}, loads={key: loads})
+    (wrenches,) = motion.wrenches.values()
+    return replace(motion, cases={key: case}, loads={key: loads}, wrenches={key: wrenches})
 
 
 def transmission_of(
@@ -271,33 +269,11 @@ def transmission_of(
     shell : its elastic modes; none where no source drives it
     by_force : measured pressure per force, in place of the transfer vectors
     """
+    wrenches = {**catalogue.wrenches, **motion.wrenches}
     if by_force is not None:
-        pressure = {
-            key: of_case
-            for each in (catalogue, motion)
-            for key, of_case in wrench_pressure_by_case(each, by_force).items()
-        }
-        return Transmission(study, Observers(by_force), None, pressure)
-    results, vectors = motion.results, motion.results["transfer_vector"]
-    at_catalogue = catalogue.with_results(catalogue.results.assign(transfer_vector=vectors))
-    return Transmission(
-        study,
-        Observers(
-            pressure_per_velocity(vectors),
-            None if shell is None else pressure_per_shell_velocity(results),
-        ),
-        shell,
-        {**_at_its_case(_of_wrenches(at_catalogue), catalogue), **_of_wrenches(motion)},
+        return Transmission(study, Observers(by_force), None, wrenches)
+    microphones = Observers(
+        pressure_per_velocity(motion.results["transfer_vector"]),
+        None if shell is None else pressure_per_shell_velocity(motion.results),
     )
-
-
-def _at_its_case(
-    pressure: Mapping[CaseKey, BySource], catalogue: Motion
-) -> dict[CaseKey, BySource]:
-    """Pressure of the only case of the published level, by its key; as it is where it has none."""
-    return dict(zip(catalogue.cases, pressure.values(), strict=True)) if catalogue.cases else {}
-
-
-def _of_wrenches(motion: Motion) -> dict[CaseKey, BySource]:
-    pressure = wrench_pressure(motion.results, "transfer_vector")
-    return by_case_and_source(pressure, motion.source_of_wrench)
+    return Transmission(study, microphones, shell, wrenches)

@@ -14,7 +14,7 @@ from ..levels.structure_borne import (
     weight_of,
 )
 from ..machine.source import Case
-from ..mechanics.loads import Loads, lines_of, summed
+from ..mechanics.loads import Loads, PortLoads, lines_of, summed
 from ..study.structure_borne import StructureBorne
 from ..study.study import Study
 from ..transfer import on_mounts
@@ -47,8 +47,7 @@ def structure_borne_sound(study: Study, motion: Motion, levels: xr.Dataset) -> x
     for s, speed in enumerate(study.operation.speed_rpm):
         for o, option in enumerate(study.options):
             case, loads = motion.cases[speed, option], motion.loads[speed, option]
-            at = motion.results.sel(speed=speed, option=option)
-            force = force_at_lines(case, loads, at["foot_force_order"], names)
+            force = force_at_lines(case, loads, motion.wrenches[speed, option], names)
             row = np.nan_to_num(frequency_hz[s])
             _of_case(settings, on_mounts(case.machine), force, row, sound, (s, o))
     away_m = np.array([one.distance_m for one in study.receivers.values()])
@@ -63,7 +62,10 @@ def structure_borne_sound(study: Study, motion: Motion, levels: xr.Dataset) -> x
 
 
 def force_at_lines(
-    case: Case, loads: Mapping[str, Loads], of_wrenches: xr.DataArray, names: list[str]
+    case: Case,
+    loads: Mapping[str, Loads],
+    wrenches: Mapping[str, PortLoads],
+    names: list[str],
 ) -> ComplexArray:
     """Force of each foot on the floor at the lines, of all sources, shape (line, foot, axis), N.
 
@@ -71,15 +73,12 @@ def force_at_lines(
     ----------
     case : speed and option
     loads : of all sources in it
-    of_wrenches : forces by the wrenches over crank angle, (source, foot, axis, order)
+    wrenches : lines of the wrenches over crank angle by source
     names : of the lines
     """
     orders = sum(name.startswith("order ") for name in names)
-    lines = lines_of(loads, case.shaft_frequency_hz, orders - 1)
+    lines = lines_of(loads, case.shaft_frequency_hz, orders - 1, wrenches)
     known = foot_force(on_mounts(case.machine), summed(lines.loads.values()), lines.frequency_hz)
-    wrenches = of_wrenches.sum("source").transpose("order", "foot", "axis").values
-    held = min(len(wrenches), orders)
-    known[:held] += wrenches[:held]
     force = np.zeros((len(names), *known.shape[1:]), dtype=complex)
     force[[names.index(name) for name in lines.names]] = known
     return force

@@ -22,9 +22,8 @@ def contributions(
     microphones: Observers,
     lines: Lines,
     loads: Mapping[str, Loads],
-    of_wrenches: Mapping[str, ComplexArray],
 ) -> Contributions:
-    """Sound of one case by path; the sum over the paths is `LoadPath.by_source` and the wrenches'.
+    """Sound of one case by path; the sum over the paths is `LoadPath.by_source`.
 
     Parameters
     ----------
@@ -32,12 +31,10 @@ def contributions(
     microphones : the receivers
     lines : of all sources
     loads : by source; of them the noise
-    of_wrenches : pressure of the wrenches over crank angle by source, at orders from zero and by
-        the housing's motion, shape (receiver, 6, order), Pa
     """
     pressure: Paths = {}
     for source in loads:
-        by_path = _of_source(path, microphones, lines, source, of_wrenches.get(source))
+        by_path = _of_source(path, microphones, lines, source)
         pressure |= {name: values for name, values in by_path.items() if values.any()}
     noise = [
         (per_force, part)
@@ -84,16 +81,8 @@ def _of_source(
     microphones: Observers,
     lines: Lines,
     source: str,
-    of_wrench: ComplexArray | None,
 ) -> Paths:
     paths: Paths = {}
-    if of_wrench is not None:
-        shape = len(of_wrench), lines.frequency_hz.size
-        held = min(of_wrench.shape[-1], shape[-1])
-        for row, motion in enumerate(RIGID_BODY_DOFS):
-            values = np.zeros(shape, dtype=complex)
-            values[:, :held] = of_wrench[:, row, :held]
-            paths[PathName(source, HOUSING.name, motion)] = values
     for port, load in lines.loads[source].items():
         loaded = np.flatnonzero(load.any(axis=0))
         if not loaded.size:
