@@ -10,7 +10,7 @@ import numpy as np
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
 from .moving_parts import Wrench
-from .ports import Port
+from .ports import BodyPort, Port
 
 A = TypeVar("A", Array, ComplexArray)
 PortLoads = Mapping[Port, ComplexArray]
@@ -178,6 +178,11 @@ def lines_of(
         *(f"{source}: {tone.name}" for source, tone in tones),
     )
     return Lines(names, np.array(frequency), laid)
+
+
+def in_shell(loads: PortLoads) -> PortLoads:
+    """Select the loads that act in the elastic shell, not on a rigid body."""
+    return {port: load for port, load in loads.items() if not isinstance(port, BodyPort)}
 
 
 def summed(loads: Iterable[Mapping[Port, A]]) -> dict[Port, A]:

@@ -11,8 +11,6 @@ from ..study.study import Study
 from ..transfer import on_mounts
 from ..transfer.force_sound import ForceSound
 
-_WRENCH = ("source", "dof", "order")
-
 
 def measured_force_sound(study: Study) -> ForceSound | None:
     """Measured pressure per force; none where the study names none.

@@ -84,7 +84,9 @@ class BendingShell:
         self, observers: Observers, port: Port, frequency_hz: Array, lines: IndexArray
     ) -> ComplexArray:
         if isinstance(port, Part):
-            return np.asarray(self._parts(observers, frequency_hz)[:, rows_of(port)][..., lines])
+            key = "parts", observers, frequency_hz.tobytes()
+            parts = self._known(key, lambda: self._of_all_parts(observers, frequency_hz))
+            return np.asarray(parts[:, rows_of(port)][..., lines])
         forces, frame = self.modal_forces(port, frequency_hz[lines]), self.frame_under(port)
         return self.of_modal_forces(observers, forces, frequency_hz, lines, frame)
 
@@ -137,12 +139,8 @@ class BendingShell:
             forces,
         )
 
-    def _parts(self, observers: Observers, frequency_hz: Array) -> ComplexArray:
-        """Per load on the parts, shape (observer, part times component, frequency)."""
-        key = "parts", observers, frequency_hz.tobytes()
-        return self._known(key, lambda: self._of_all_parts(observers, frequency_hz))
-
     def _of_all_parts(self, observers: Observers, frequency_hz: Array) -> ComplexArray:
+        """Per load on the parts, shape (observer, part times component, frequency)."""
         if self.frame is None:
             forces, every = self.path.forces_of_parts(), np.arange(frequency_hz.size)
             return self.of_modal_forces(observers, forces, frequency_hz, every, None)

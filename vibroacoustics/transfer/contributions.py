@@ -7,7 +7,7 @@ import numpy as np
 from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.vocabulary import RIGID_BODY_DOFS
 from ..mechanics.contributions import Contributions, NoiseContribution, PathName
-from ..mechanics.loads import Lines, Loads, Noise, PortLoads, summed
+from ..mechanics.loads import Lines, Loads, Noise, in_shell, summed
 from ..mechanics.ports import HOUSING, BodyPort, Port
 from .load_path import LoadPath
 from .observers import Observers
@@ -23,7 +23,7 @@ def contributions(
     lines: Lines,
     loads: Mapping[str, Loads],
 ) -> Contributions:
-    """Sound of one case by path; the sum over the paths is `LoadPath.by_source`.
+    """Sound of one case by path; the sum over the paths is `LoadPath.observed`.
 
     Parameters
     ----------
@@ -65,15 +65,11 @@ def _by_motion(
     rigid = np.array([pressure[row].sum(axis=0) for row in rows])
     if path.shell is None:
         return RIGID_BODY_DOFS, rigid
-    in_shell = summed(_in_shell(loads) for loads in lines.loads.values())
-    of_shell = by_motion(path.shell, microphones, in_shell, lines.frequency_hz)
+    loads = summed(in_shell(each) for each in lines.loads.values())
+    of_shell = by_motion(path.shell, microphones, loads, lines.frequency_hz)
     modes, as_body = of_shell[:-6], of_shell[-6:]
     names_of_modes = [mode.name for mode in path.shell.path.modes]
     return (*RIGID_BODY_DOFS, *names_of_modes), np.concatenate([rigid + as_body, modes])
-
-
-def _in_shell(loads: PortLoads) -> PortLoads:
-    return {port: load for port, load in loads.items() if not isinstance(port, BodyPort)}
 
 
 def _of_source(

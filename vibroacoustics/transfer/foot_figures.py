@@ -27,13 +27,6 @@ def foot_force(body: MachineOnMounts, loads: PortLoads, frequency_hz: Array) -> 
     return np.asarray(force.T.reshape(frequency_hz.size, -1, 3))
 
 
-def largest_foot_force_n(body: MachineOnMounts, tone: Tone) -> float:
-    """Largest force into a foot by a tone's loads on the rigid bodies, peak, N."""
-    loads = {port: load[:, None] for port, load in tone.loads.items()}
-    force = foot_force(body, loads, np.array([tone.frequency_hz]))
-    return float(np.max(np.linalg.norm(np.abs(force), axis=-1)))
-
-
 def with_foot_figures(machine: Machine, loads: Mapping[str, Loads]) -> dict[str, Loads]:
     """Loads by source with the figures of the largest foot force of their tones.
 
@@ -44,12 +37,13 @@ def with_foot_figures(machine: Machine, loads: Mapping[str, Loads]) -> dict[str,
     """
     body = on_mounts(machine)
 
+    def largest_n(tone: Tone) -> float:
+        by_port = {port: load[:, None] for port, load in tone.loads.items()}
+        force = foot_force(body, by_port, np.array([tone.frequency_hz]))
+        return float(np.max(np.linalg.norm(np.abs(force), axis=-1)))
+
     def figures(load: Loads) -> dict[str, float]:
-        return {
-            tone.figure: largest_foot_force_n(body, tone)
-            for tone in load.tones
-            if tone.figure is not None
-        }
+        return {tone.figure: largest_n(tone) for tone in load.tones if tone.figure is not None}
 
     return {
         name: replace(load, figures={**load.figures, **figures(load)})

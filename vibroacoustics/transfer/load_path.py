@@ -1,13 +1,13 @@
 """From the loads of all sources in one case to what is observed of the machine."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray, IndexArray
 from ..machine.source import Shared
-from ..mechanics.loads import Lines, Noise, PortLoads
+from ..mechanics.loads import Noise, PortLoads
 from ..mechanics.ports import BodyPort, Port
 from .bending import BendingShell
 from .force_sound import of_body
@@ -59,15 +59,16 @@ class LoadPath:
     ) -> ComplexArray:
         if isinstance(port, BodyPort):
             key = observers, port, frequency_hz.tobytes()
-            every = self._known(key, lambda: self._of_body(observers, port, frequency_hz))
-            return np.asarray(every[..., lines])
+
+            def every() -> ComplexArray:
+                by_motion = self.by_motion(observers, port, frequency_hz)
+                return np.asarray(np.einsum("omf,mcf->ocf", *by_motion))
+
+            return np.asarray(self._known(key, every)[..., lines])
         if self.shell is None or observers.modes is None:
             observed = len(observers.rigid(frequency_hz[:1]))
             return np.zeros((observed, len(port.components), lines.size), dtype=complex)
         return self.shell.response(observers, port, frequency_hz, lines)
-
-    def _of_body(self, observers: Observers, port: BodyPort, frequency_hz: Array) -> ComplexArray:
-        return np.asarray(np.einsum("omf,mcf->ocf", *self.by_motion(observers, port, frequency_hz)))
 
     def by_motion(
         self, observers: Observers, port: BodyPort, frequency_hz: Array
@@ -100,13 +101,6 @@ class LoadPath:
                 part[:, lines] = np.einsum("ocf,cf->of", response, amplitudes[:, lines])
                 total = total + part
         return total
-
-    def by_source(self, observers: Observers, lines: Lines) -> Mapping[str, ComplexArray]:
-        """Observe the lines of each source, without its wrenches over crank angle."""
-        return {
-            source: self.observed(observers, loads, lines.frequency_hz)
-            for source, loads in lines.loads.items()
-        }
 
     def noise_power(self, observers: Observers, noise: Noise) -> Array:
         """Mean square of what a random load makes, (observer, frequency), such as Pa²."""

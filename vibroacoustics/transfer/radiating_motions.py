@@ -17,7 +17,7 @@ def by_motion(
 ) -> ComplexArray:
     """Pressure of all loads in the shell by radiating motion.
 
-    The sum over the motions is that of `LoadPath.by_source` over the sources.
+    The sum over the motions is `LoadPath.observed`.
 
     Parameters
     ----------

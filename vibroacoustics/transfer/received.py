@@ -12,7 +12,7 @@ from ..mechanics.contributions import Contributions
 from ..mechanics.loads import Lines, Loads, PortLoads, lines_of
 from ..mechanics.received_sound import NoisePower, ReceivedSound
 from ..study.study import Study
-from .bending import BendingShell, bending_shell
+from .bending import bending_shell
 from .contributions import contributions
 from .load_path import LoadPath
 from .machine import on_mounts
@@ -86,17 +86,16 @@ class Transmission:
         )
         tables = tuple(machine.table(each) for each in read if machine.has_table(each))
         body = on_mounts(machine)
-        shell = known(tables, partial(self._bending_shell, machine))
+        shell = None
+        if self.shell is not None:
+            shell = known(tables, partial(bending_shell, machine, self.shell))
         return known((body, tables), lambda: LoadPath(body, shell))
-
-    def _bending_shell(self, machine: Machine) -> BendingShell | None:
-        return None if self.shell is None else bending_shell(machine, self.shell)
 
     def _of_case(self, lines: Lines, loads: Mapping[str, Loads], path: LoadPath) -> ReceivedSound:
         receivers = len(self.microphones.rigid(lines.frequency_hz[:1]))
         pressure = np.zeros((len(loads), receivers, lines.frequency_hz.size), dtype=complex)
-        for number, of_source in enumerate(path.by_source(self.microphones, lines).values()):
-            pressure[number] += of_source
+        for number, load in enumerate(lines.loads.values()):
+            pressure[number] += path.observed(self.microphones, load, lines.frequency_hz)
         noise = [
             NoisePower(number, part.frequency_hz, path.noise_power(self.microphones, part))
             for number, load in enumerate(loads.values())

@@ -88,10 +88,9 @@ def wall_mobility(
     columns = []
     for reference in references:
         if isinstance(reference, int):
-            driven = np.repeat(wall.modes[reference][:, None, None], lines.size, axis=2)
-            forces = driven.astype(complex)
-            frame = shell.frame
-            columns.append(shell.of_modal_forces(points, forces, frequency_hz, lines, frame)[:, 0])
+            forces = np.repeat(wall.modes[reference][:, None, None], lines.size, axis=2)
+            driven_by = points, forces, frequency_hz, lines, shell.frame
+            columns.append(shell.of_modal_forces(*driven_by)[:, 0])
         else:
             part, axis = parts[reference[0]], parts[reference[0]].components.index(reference[1])
             columns.append(shell.response(points, part, frequency_hz, lines)[:, axis])

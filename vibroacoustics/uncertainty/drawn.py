@@ -71,7 +71,7 @@ def drawn_cases(cases: Mapping[CaseKey, Case], study: Study, draw: Draw) -> Draw
             if case.revolution.wrenches:
                 highest = study.highest_order(case.speed_rpm)
                 drawn.wrenches[key] = wrench_lines(case, loads, highest)
-                drawn.first_order[key] = first_order(case, loads)
+                drawn.first_order[key] = first_order(case, drawn.wrenches[key])
             drawn.cases[key], drawn.loads[key] = without_time_series(case, loads)
     return drawn
 

@@ -12,8 +12,7 @@ from ...base.hashing import canonical_json, sha256
 from ...base.progress import no_progress
 from ...levels.weighting import WEIGHTING
 from ...machine.machine import Machine
-from ...mechanics.loads import Lines, Loads
-from ...mechanics.ports import BodyPort
+from ...mechanics.loads import Lines, Loads, in_shell
 from ...pipeline.shell import shell_path
 from ...radiation.given import Radiation
 from ...radiation.pressure import pressure_per_shell_velocity
@@ -65,8 +64,7 @@ class SoundWay:
         shell = None if self.shell is None else bending_shell(machine, self.shell)
         path = LoadPath(on_mounts(machine), shell)
         for load in lines.loads.values():
-            alone = {port: each for port, each in load.items() if not isinstance(port, BodyPort)}
-            other = other + path.observed(self.microphones, alone, lines.frequency_hz)
+            other = other + path.observed(self.microphones, in_shell(load), lines.frequency_hz)
         noise = [
             (part.frequency_hz, path.noise_power(self.microphones, part))
             for one in loads.values()
