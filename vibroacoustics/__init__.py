@@ -59,10 +59,13 @@ listening, tones, loudness and sharpness, `rooms` the sound of a source in a fur
 A `Stage` of a run gets the `Chain` with `Cases` and results so far, and returns what is `Given`.
 `Added`, `Case`, `Loads`, `MovingPart`, `Revolution`, `Wrench`, `OldhamRing`, `Slider` are what
 these get and return; `circling`, `constant_rotation` and `wrenches_of_parts` make forces of moving
-masses. A `DesignFigure` of what is seen of designs, each a `Need`, is what they can be judged by. A
-`Curve` over each `CurveAxis` shows what goes on inside. A `Variable`, `Coordinate` or
-`Unit` joins the vocabulary; `stamp` labels an array as a variable, `check` tests a dataset. A
-`Reader` reads a format of recordings: it gets a `Request` and gives `Recorded`.
+masses. Loads act at a `Port`: `HOUSING`, `BLOCK`, the parts `FIXED_SCROLL`, `BEARING_HOUSING`,
+`ORBITING_SCROLL`, `LOWER_BEARING` and `STATOR`, the `STATOR_YOKE`, a `GasPort`; a `Tone` is a
+line that is no order, `Noise` a random load. A `DesignFigure` of what is seen of designs, each a
+`Need`, is what they can be judged by. A `Curve` over each `CurveAxis` shows what goes on inside. A
+`Variable`, `Coordinate` or `Unit` joins the vocabulary; `stamp` labels an array as a variable,
+`check` tests a dataset. A `Reader` reads a format of recordings: it gets a `Request` and gives
+`Recorded`.
 
 **Errors.** All derive from `VibroacousticsError`, each message is one line: `ParameterError`,
 `SolverError`, `StorageError`, `SchemaError`, `PluginError`.
@@ -96,16 +99,26 @@ if TYPE_CHECKING:
     from .design.figure import DesignFigure
     from .design.optimising import optimise
     from .design.sweep import sweep
+    from .machine.cavities import GasPort
+    from .machine.frame import (
+        BEARING_HOUSING,
+        FIXED_SCROLL,
+        LOWER_BEARING,
+        ORBITING_SCROLL,
+        STATOR,
+    )
     from .machine.machine import Machine
     from .machine.option import Option
     from .machine.source import Case, Source
+    from .machine.stator_yoke import STATOR_YOKE
+    from .machine.suspension import BLOCK
     from .measured.blocked_forces import blocked_forces
     from .measured.change import changed_response
     from .measured.inversion import inverted_forces
     from .measured.prediction import predict
     from .mechanics.added import Added
     from .mechanics.capabilities import OldhamRing, Slider
-    from .mechanics.loads import Loads
+    from .mechanics.loads import Loads, Noise, Tone
     from .mechanics.moving_parts import (
         MovingPart,
         Revolution,
@@ -113,6 +126,7 @@ if TYPE_CHECKING:
         circling,
         wrenches_of_parts,
     )
+    from .mechanics.ports import HOUSING, Port
     from .mechanics.rotation import constant_rotation
     from .pipeline import (
         MeasurementSurface,
@@ -159,6 +173,14 @@ if TYPE_CHECKING:
     from .study.study import Study
 
 __all__ = [
+    "BEARING_HOUSING",
+    "BLOCK",
+    "FIXED_SCROLL",
+    "HOUSING",
+    "LOWER_BEARING",
+    "ORBITING_SCROLL",
+    "STATOR",
+    "STATOR_YOKE",
     "Added",
     "Case",
     "Cases",
@@ -171,6 +193,7 @@ __all__ = [
     "DataSheet",
     "DesignFigure",
     "FigureLimit",
+    "GasPort",
     "Given",
     "Limit",
     "Loads",
@@ -180,12 +203,14 @@ __all__ = [
     "MovingPart",
     "Need",
     "Node",
+    "Noise",
     "NominalSpeed",
     "OldhamRing",
     "Option",
     "OrderAnalysis",
     "ParameterError",
     "PluginError",
+    "Port",
     "Reader",
     "Recorded",
     "Request",
@@ -200,6 +225,7 @@ __all__ = [
     "StorageError",
     "Study",
     "TacholessSpeed",
+    "Tone",
     "Unit",
     "Variable",
     "VibroacousticsError",
@@ -256,6 +282,18 @@ __all__ = [
 ]
 
 _HOME = {
+    "GasPort": "machine.cavities",
+    "STATOR_YOKE": "machine.stator_yoke",
+    "STATOR": "machine.frame",
+    "LOWER_BEARING": "machine.frame",
+    "ORBITING_SCROLL": "machine.frame",
+    "BEARING_HOUSING": "machine.frame",
+    "FIXED_SCROLL": "machine.frame",
+    "Noise": "mechanics.loads",
+    "Tone": "mechanics.loads",
+    "BLOCK": "machine.suspension",
+    "HOUSING": "mechanics.ports",
+    "Port": "mechanics.ports",
     "Added": "mechanics.added",
     "Case": "machine.source",
     "Cases": "stages.chain",

@@ -9,7 +9,7 @@ import xarray as xr
 from ..base.errors import PluginError
 from ..base.progress import Progress, no_progress
 from ..machine.source import Case, CaseKey
-from ..mechanics.loads import Loads
+from ..mechanics.loads import Loads, PortLoads
 from ..radiation.given import Radiation
 from ..study.sampling import Draw
 from ..study.study import Study
@@ -27,20 +27,20 @@ class Cases:
     ----------
     cases : by speed and option, without time series
     loads : by speed and option, then by source, without wrenches, which the results hold
-    source_of_wrench : source by the wrench's name
+    wrenches : lines of the wrenches over crank angle, by speed and option, then by source
 
     Examples
     --------
     A stage reads them by their type, as `chain[va.Cases]`:
 
-    >>> nothing = va.Cases(cases={}, loads={}, source_of_wrench={})
+    >>> nothing = va.Cases(cases={}, loads={}, wrenches={})
     >>> list(nothing.loads)
     []
     """
 
     cases: dict[CaseKey, Case]
     loads: dict[CaseKey, dict[str, Loads]]
-    source_of_wrench: dict[str, str]
+    wrenches: dict[CaseKey, dict[str, PortLoads]]
 
 
 @dataclass(frozen=True)
@@ -109,8 +109,8 @@ class Chain:
         ParameterError, SolverError
             A machine cannot run so, an option cannot be built, or a source cannot act.
         """
-        nominal, path = self[Cases], self[Transmission]
-        of = drawn_cases(nominal.cases, self.study, sample, path.rigid)
-        pressure = {**path.wrench_pressure, **of.wrench_pressure}
-        sampled = Cases(of.cases, of.loads, nominal.source_of_wrench)
-        return self.having(sampled, replace(path, wrench_pressure=pressure), of)
+        path = self[Transmission]
+        of = drawn_cases(self[Cases].cases, self.study, sample)
+        wrenches = {**path.wrenches, **of.wrenches}
+        sampled = Cases(of.cases, of.loads, of.wrenches)
+        return self.having(sampled, replace(path, wrenches=wrenches), of)

@@ -15,7 +15,7 @@ from ..orders.labelled import order_variables
 from ..radiation.cost import about, processor_time_s
 from ..results.size import check_size
 from ..results.speed_blocks import TIME_SERIES, blocks, gathered
-from ..sources.cases import cases_of, loaded_cases, sources_of_wrenches, without_time_series
+from ..sources.cases import cases_of, loaded_cases, without_time_series, wrench_lines
 from ..sources.labelled import force_variables, supply_variable
 from ..study.selection import at_speeds
 from ..study.study import Study
@@ -109,12 +109,11 @@ def _blocks(study: Study, progress: Progress, kept: Cases) -> Iterator[xr.Datase
             check_size(study, part, progress)
         yield part
         for key, case in cases.items():
-            _keep(kept, key, case, loads[key])
+            _keep(kept, key, case, loads[key], study.highest_order(case.speed_rpm))
         done += len(cases)
 
 
-def _keep(kept: Cases, key: CaseKey, case: Case, loads: Mapping[str, Loads]) -> None:
-    """Keep a case and its loads without their time series."""
-    bare, of_case = without_time_series(case, loads)
-    kept.cases[key], kept.loads[key] = bare, of_case
-    kept.source_of_wrench.update(sources_of_wrenches(loads))
+def _keep(kept: Cases, key: CaseKey, case: Case, loads: Mapping[str, Loads], highest: int) -> None:
+    """Keep a case and its loads without their time series, wrenches up to the highest order."""
+    kept.wrenches[key] = wrench_lines(case, loads, highest)
+    kept.cases[key], kept.loads[key] = without_time_series(case, loads)

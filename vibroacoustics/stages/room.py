@@ -24,7 +24,6 @@ from ..levels.room_rest import rest_in_bands
 from ..levels.room_seam import seam_variables
 from ..machine.source import CaseKey
 from ..radiation.patterns import SurfaceMotion
-from ..radiation.pressure import wrench_pressure_by
 from ..radiation.rooms import of_study as rooms
 from ..radiation.rooms import room_vectors
 from ..radiation.rooms.cost import room_cost
@@ -36,8 +35,9 @@ from ..sound.room_ways import ways_of
 from ..sources.cases import sources_of
 from ..study.room import StudyRoom
 from ..study.study import Study
+from ..transfer.observers import Observers
 from ..transfer.path import ShellPath
-from ..transfer.received import Transmission, by_case_and_source
+from ..transfer.received import Transmission
 from .chain import Cases, Chain
 from .stage import Given, Stage, Trial
 
@@ -121,13 +121,11 @@ def vectors_of(
 def _transmission(chain: Chain, pressure: rooms.PressureAt) -> Transmission:
     """Paths of the sound to the listeners and to the positions on the hemisphere."""
     study, shell, rigid = chain.study, chain.get(ShellPath), rooms.of_rigid(pressure)
-    wrenches = wrench_pressure_by(chain.results, rigid, study.radiation.maximum_frequency_hz)
     return Transmission(
         study,
-        rigid,
-        None if shell is None else rooms.of_modes(pressure),
+        Observers(rigid, None if shell is None else rooms.of_modes(pressure)),
         shell,
-        by_case_and_source(wrenches, chain[Cases].source_of_wrench),
+        chain[Cases].wrenches,
     )
 
 

@@ -13,7 +13,7 @@ from ..levels.structure_borne import (
 from ..study.structure_borne import StructureBorne
 from ..study.study import Study
 from ..transfer import on_mounts
-from ..transfer.foot_lines import foot_force
+from ..transfer.foot_lines import force_at_lines
 from ..transfer.plate.under_feet import plate_power
 from .chain import Cases, Chain
 from .stage import Given, Stage
@@ -24,7 +24,7 @@ class StructureBorneSound(Stage):
     """Sound of the plate under the feet."""
 
     name = "structure-borne"
-    reads = (Cases, "pressure_line", "foot_force_order", "level_total")
+    reads = (Cases, "pressure_line", "level_total")
     gives = (
         "structure_borne_input_power", "structure_borne_power", "structure_borne_level",
         "structure_borne_level_low", "structure_borne_level_high", "structure_borne_line_level",
@@ -62,8 +62,8 @@ def _plate_sound(chain: Chain, settings: StructureBorne, frequency_hz: Array) ->
     for s, speed in enumerate(study.operation.speed_rpm):
         for o, option in enumerate(study.options):
             case = of.cases[speed, option]
-            by_wrenches = results["foot_force_order"].sel(speed=speed, option=option)
-            force = foot_force(case, of.loads[speed, option], by_wrenches, names)
+            wrenches = of.wrenches[speed, option]
+            force = force_at_lines(case, of.loads[speed, option], wrenches, names)
             hertz = np.nan_to_num(frequency_hz[s])
             power[:, s, o] = plate_power(settings, on_mounts(case.machine), force, hertz)
     return PlateSound(*power)

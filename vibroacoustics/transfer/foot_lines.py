@@ -3,16 +3,19 @@
 from collections.abc import Mapping
 
 import numpy as np
-import xarray as xr
 
 from ..base.arrays import ComplexArray
 from ..machine.source import Case
-from ..mechanics.loads import Loads, lines_of
+from ..mechanics.loads import Loads, PortLoads, lines_of, summed
+from .foot_figures import foot_force
 from .machine import on_mounts
 
 
-def foot_force(
-    case: Case, loads: Mapping[str, Loads], of_wrenches: xr.DataArray, names: list[str]
+def force_at_lines(
+    case: Case,
+    loads: Mapping[str, Loads],
+    wrenches: Mapping[str, PortLoads],
+    names: list[str],
 ) -> ComplexArray:
     """Compute the force of each foot on the floor at the lines, all sources, (line, foot, axis), N.
 
@@ -20,18 +23,12 @@ def foot_force(
     ----------
     case : speed and option
     loads : of all sources in it
-    of_wrenches : forces by the wrenches over crank angle, (source, foot, axis, order)
+    wrenches : lines of the wrenches over crank angle by source
     names : of the lines
     """
     orders = sum(name.startswith("order ") for name in names)
-    lines = lines_of(loads, case.shaft_frequency_hz, orders - 1)
-    load = sum(lines.rigid.values()) + np.zeros((6, len(lines.names)), dtype=complex)
-    on_shell = sum(lines.on_shell.values()) + np.zeros_like(load)
-    response = on_mounts(case.machine).response(load.T, lines.frequency_hz, on_shell.T)
-    known = response.foot_force.copy()
-    summed = of_wrenches.sum("source").transpose("order", "foot", "axis").values
-    held = min(len(summed), orders)
-    known[:held] += summed[:held]
+    lines = lines_of(loads, case.shaft_frequency_hz, orders - 1, wrenches)
+    known = foot_force(on_mounts(case.machine), summed(lines.loads.values()), lines.frequency_hz)
     force = np.zeros((len(names), *known.shape[1:]), dtype=complex)
     force[[names.index(name) for name in lines.names]] = known
     return force
