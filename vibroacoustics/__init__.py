@@ -59,13 +59,18 @@ listening, tones, loudness and sharpness, `rooms` the sound of a source in a fur
 A `Stage` of a run gets the `Chain` with `Cases` and results so far, and returns what is `Given`.
 `Added`, `Case`, `Loads`, `MovingPart`, `Revolution`, `Wrench`, `OldhamRing`, `Slider` are what
 these get and return; `circling`, `constant_rotation` and `wrenches_of_parts` make forces of moving
-masses. A `DesignFigure` of what is seen of designs, each a `Need`, is what they can be judged by. A
+masses. Further results of an option are a `RingForce`, a `FurtherRing` and an `InsertionLoss`. A
+machine has a `Rotation`, a `CrankFrame`, tables of `Parameters`, and for options each `Capability`,
+such as a slider with `BalancePlanes`; `Held` marks values that are not sampled. A `FileTable` takes
+values from a data file, by `read_columns` from CSV.
+A `DesignFigure` of what is seen of designs, each a `Need`, is what they can be judged by. A
 `Curve` over each `CurveAxis` shows what goes on inside. A `Variable`, `Coordinate` or
 `Unit` joins the vocabulary; `stamp` labels an array as a variable, `check` tests a dataset. A
 `Reader` reads a format of recordings: it gets a `Request` and gives `Recorded`.
 
 **Errors.** All derive from `VibroacousticsError`, each message is one line: `ParameterError`,
-`SolverError`, `StorageError`, `SchemaError`, `PluginError`.
+`SolverError`, `StorageError`, `SchemaError`, `PluginError`. Doubtful recordings are a
+`RecordingWarning`, doubtful pulses of a tacho a `PulseWarning`.
 """
 
 from importlib import import_module
@@ -75,6 +80,7 @@ from .base.lazy import imported
 
 if TYPE_CHECKING:
     from . import levels, orders, plot, sound
+    from .base.column_file import read_columns
     from .base.curves import Curve, CurveAxis
     from .base.errors import (
         ParameterError,
@@ -84,6 +90,8 @@ if TYPE_CHECKING:
         StorageError,
         VibroacousticsError,
     )
+    from .base.file_table import FileTable
+    from .base.parameters import Held, Parameters
     from .base.plugin_file import load_plugin
     from .base.registry import register
     from .base.units import Unit
@@ -103,8 +111,8 @@ if TYPE_CHECKING:
     from .measured.change import changed_response
     from .measured.inversion import inverted_forces
     from .measured.prediction import predict
-    from .mechanics.added import Added
-    from .mechanics.capabilities import OldhamRing, Slider
+    from .mechanics.added import Added, FurtherRing, InsertionLoss, RingForce
+    from .mechanics.capabilities import BalancePlanes, Capability, CrankFrame, OldhamRing, Slider
     from .mechanics.loads import Loads
     from .mechanics.moving_parts import (
         MovingPart,
@@ -113,7 +121,8 @@ if TYPE_CHECKING:
         circling,
         wrenches_of_parts,
     )
-    from .mechanics.rotation import constant_rotation
+    from .mechanics.rotation import Rotation, constant_rotation
+    from .orders.recorded_speed import PulseWarning
     from .pipeline import (
         MeasurementSurface,
         analyse_orders,
@@ -137,6 +146,7 @@ if TYPE_CHECKING:
     )
     from .recordings.reader import Reader
     from .recordings.recorded import Recorded, Request
+    from .recordings.remarks import RecordingWarning
     from .report import blocks
     from .report.columns import Column
     from .report.data_sheet.model import DataSheet
@@ -160,18 +170,25 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Added",
+    "BalancePlanes",
+    "Capability",
     "Case",
     "Cases",
     "Chain",
     "Column",
     "Coordinate",
+    "CrankFrame",
     "Criterion",
     "Curve",
     "CurveAxis",
     "DataSheet",
     "DesignFigure",
     "FigureLimit",
+    "FileTable",
+    "FurtherRing",
     "Given",
+    "Held",
+    "InsertionLoss",
     "Limit",
     "Loads",
     "Machine",
@@ -185,11 +202,16 @@ __all__ = [
     "Option",
     "OrderAnalysis",
     "ParameterError",
+    "Parameters",
     "PluginError",
+    "PulseWarning",
     "Reader",
     "Recorded",
+    "RecordingWarning",
     "Request",
     "Revolution",
+    "RingForce",
+    "Rotation",
     "SchemaError",
     "Section",
     "Slider",
@@ -235,6 +257,7 @@ __all__ = [
     "plot",
     "predict",
     "radiate",
+    "read_columns",
     "read_figure_limits",
     "read_functions",
     "read_limits",
@@ -257,18 +280,25 @@ __all__ = [
 
 _HOME = {
     "Added": "mechanics.added",
+    "BalancePlanes": "mechanics.capabilities",
+    "Capability": "mechanics.capabilities",
     "Case": "machine.source",
     "Cases": "stages.chain",
     "Chain": "stages.chain",
     "Column": "report.columns",
     "Coordinate": "base.vocabulary",
+    "CrankFrame": "mechanics.capabilities",
     "Criterion": "study.criterion",
     "Curve": "base.curves",
     "CurveAxis": "base.curves",
     "DataSheet": "report.data_sheet.model",
     "DesignFigure": "design.figure",
     "FigureLimit": "results.figure_limit",
+    "FileTable": "base.file_table",
+    "FurtherRing": "mechanics.added",
     "Given": "stages.stage",
+    "Held": "base.parameters",
+    "InsertionLoss": "mechanics.added",
     "Limit": "results.limit",
     "Loads": "mechanics.loads",
     "Machine": "machine.machine",
@@ -280,13 +310,18 @@ _HOME = {
     "NominalSpeed": "study.order_analysis",
     "OldhamRing": "mechanics.capabilities",
     "Option": "machine.option",
+    "Parameters": "base.parameters",
+    "PulseWarning": "orders.recorded_speed",
     "Reader": "recordings.reader",
     "Recorded": "recordings.recorded",
+    "RecordingWarning": "recordings.remarks",
     "Request": "recordings.recorded",
     "OrderAnalysis": "study.order_analysis",
     "ParameterError": "base.errors",
     "PluginError": "base.errors",
     "Revolution": "mechanics.moving_parts",
+    "RingForce": "mechanics.added",
+    "Rotation": "mechanics.rotation",
     "SchemaError": "base.errors",
     "Section": "report.sections",
     "Slider": "mechanics.capabilities",
@@ -328,6 +363,7 @@ _HOME = {
     "optimise": "design.optimising",
     "predict": "measured.prediction",
     "radiate": "pipeline",
+    "read_columns": "base.column_file",
     "read_functions": "recordings",
     "read_figure_limits": "results.limits_file",
     "read_limits": "results.limits_file",

@@ -5,8 +5,7 @@ from typing import ClassVar
 from pydantic import Field
 
 import vibroacoustics
-from vibroacoustics import Added, Machine, Revolution
-from vibroacoustics.mechanics.moving_parts import circling
+from vibroacoustics import Added, Machine, Revolution, circling
 
 
 @vibroacoustics.register

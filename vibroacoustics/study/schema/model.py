@@ -4,7 +4,7 @@ from typing import Any, Final
 
 from pydantic.json_schema import GenerateJsonSchema
 
-from ...machine.file_table import FileTable
+from ...base.file_table import FileTable
 from .units import Schema, keys_of
 
 _OBJECT: Final = ("properties", "additionalProperties")
