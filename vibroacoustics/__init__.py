@@ -9,7 +9,8 @@
 `given_radiation(...)` makes measured transfer vectors what `run` takes.
 `score(results)` scores and ranks the options again.
 `sweep(study, {...})` computes every design of a grid or a sample of values;
-`optimise(study)` searches for the best designs of its table `[design]`.
+`optimise(study)` searches for the best designs of its table `[design]`, which is a `Problem` for
+searches of your own.
 `write_report(results, folder)` writes the report with tables and figures.
 `data_sheet(results, option)` makes the data sheet of an option, a `DataSheet`, predicted;
 `write_data_sheet(sheet, folder)` writes it as page, CSV and JSON.
@@ -103,6 +104,7 @@ if TYPE_CHECKING:
     from .design.engine.seen import Need
     from .design.figure import DesignFigure
     from .design.optimising import optimise
+    from .design.problem import Problem
     from .design.sweep import sweep
     from .machine.machine import Machine
     from .machine.option import Option
@@ -204,6 +206,7 @@ __all__ = [
     "ParameterError",
     "Parameters",
     "PluginError",
+    "Problem",
     "PulseWarning",
     "Reader",
     "Recorded",
@@ -319,6 +322,7 @@ _HOME = {
     "OrderAnalysis": "study.order_analysis",
     "ParameterError": "base.errors",
     "PluginError": "base.errors",
+    "Problem": "design.problem",
     "Revolution": "mechanics.moving_parts",
     "RingForce": "mechanics.added",
     "Rotation": "mechanics.rotation",

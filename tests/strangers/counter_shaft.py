@@ -1,4 +1,4 @@
-"""A stranger's balancer: a second shaft with one weight that turns against the first."""
+"""A third party's balancer: a second shaft with one weight that turns against the first."""
 
 from typing import ClassVar
 

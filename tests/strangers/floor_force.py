@@ -1,4 +1,4 @@
-"""A stranger's variable over a coordinate of its own, and the section that shows it."""
+"""A third party's variable over a coordinate of its own, and the section that shows it."""
 
 import vibroacoustics
 from vibroacoustics import Coordinate, Section, Variable, blocks, check, stamp

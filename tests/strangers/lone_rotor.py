@@ -1,4 +1,4 @@
-"""A stranger's kind of machine: a rotor with an unbalance, and nothing else that moves."""
+"""A third party's kind of machine: a rotor with an unbalance, and nothing else that moves."""
 
 from typing import ClassVar
 

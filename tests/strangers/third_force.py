@@ -1,4 +1,4 @@
-"""A stranger's column of the comparison: the force at three times the speed."""
+"""A third party's column of the comparison: the force at three times the speed."""
 
 import vibroacoustics
 from vibroacoustics import Column
