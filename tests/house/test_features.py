@@ -142,11 +142,12 @@ FEATURES = {
     "designs judged, in Python": "va.Problem.evaluate",
     "plug-in in a notebook": "va.load_plugin",
 }
-BUILT = ("_build", "generated", "examples")
+BUILT = {"_build", "generated", "examples"}
 PAGES = [
     ROOT / "README.md",
-    *(page for page in sorted((ROOT / "docs").rglob("*.md")) if not {*BUILT} & {*page.parts}),
-]
+    *(page for page in sorted((ROOT / "docs").rglob("*.md"))
+      if BUILT.isdisjoint(page.relative_to(ROOT).parts)),
+]  # fmt: skip
 SCRIPTS = [
     *(file for folder in ("gallery", "figures") for file in (ROOT / "docs" / folder).glob("*.py")),
     *(file for file in (ROOT / "tests" / "strangers").glob("*.py") if file.stem[:5] != "test_"),
