@@ -28,6 +28,18 @@ class Cases:
     cases : by speed and option, without time series
     loads : by speed and option, then by source, without wrenches, which the results hold
     source_of_wrench : source by the wrench's name
+
+    Examples
+    --------
+    A stage reads the loads of a speed and an option:
+
+    >>> class GasTorque(va.Stage):
+    ...     name = "gas-torque"
+    ...     reads = (va.Cases,)
+    ...     def run(self, chain):
+    ...         by_source = chain[va.Cases].loads[2900.0, "none"]
+    ...         print(by_source["gas"].shaft_torque_n_m)
+    ...         return va.Given()
     """
 
     cases: dict[CaseKey, Case]
@@ -46,6 +58,17 @@ class Chain:
     progress : called with the advance of long work
     results : all variables so far
     products : what is not stored, by its type
+
+    Examples
+    --------
+    >>> study = va.load_study("pipelines/copeland_thesis.toml")
+    >>> frequency = np.arange(25.0, 2501.0, 25.0)
+    >>> vectors = 1e-4j * frequency * np.ones((len(study.receivers), 6, 1))  # made up
+    >>> chain = va.Chain(study, va.given_radiation(vectors, frequency))
+    >>> chain.get(va.Cases) is None
+    True
+    >>> chain.having(va.Cases({}, {}, {}))[va.Cases].loads
+    {}
     """
 
     study: Study

@@ -25,6 +25,13 @@ class Given:
     ----------
     results : variables of the vocabulary
     products : typed things that are not stored
+
+    Examples
+    --------
+    >>> level = va.stamp("level_total", [[[54.2]]],
+    ...                  {"speed": [2900.0], "option": ["none"], "receiver": ["front_1m"]})
+    >>> list(va.Given(level.to_dataset()).results)
+    ['level_total']
     """
 
     results: xr.Dataset = field(default_factory=xr.Dataset)
