@@ -27,14 +27,20 @@ side = floor_force:SIDE
 inch = inches:INCH
 [vibroacoustics.readers]
 plain-bytes = plain_bytes:READER
+process = reading_process:READER
 """
+
+
+MODULES = (
+    "floor_force", "third_force", "inches", "plain_bytes", "reading_process", "vibration_severity",
+)  # fmt: skip
 
 
 @pytest.fixture(scope="module")
 def installed(tmp_path_factory) -> Path:
     """A folder of installed packages: the files, which register nothing, and entry points."""
     folder = tmp_path_factory.mktemp("site")
-    for name in ("floor_force", "third_force", "inches", "plain_bytes", "vibration_severity"):
+    for name in MODULES:
         text = (STRANGERS / f"{name}.py").read_text()
         plain = re.sub(r"(?m)^@?vibroacoustics\.register.*\n", "", text)
         (folder / f"{name}.py").write_text(plain)
@@ -119,32 +125,35 @@ ANALYSIS = ("--rpm", "3000", "--maximum-order", "5")
 
 
 def plain_recording(folder: Path) -> Path:
-    """A sine of 50 Hz and 0.5 V, in the stranger's format."""
+    """Sines of 50 Hz of 0.5 V at the front and 0.25 V at the rear, in the plug-in's format."""
     sine = 64.0 * np.sin(2.0 * np.pi * 50.0 * np.arange(4000) / 1000.0 + 0.1)
-    (folder / "sine.plain").write_bytes(np.round(sine).astype(np.int8).tobytes())
+    stored = np.round(np.stack([sine, 0.5 * sine], axis=1)).astype(np.int8)
+    (folder / "sine.plain").write_bytes(stored.tobytes())
     return folder / "sine.plain"
 
 
-def test_reader_reads_in_the_child(stranger, tmp_path):
+def test_reader_gives_the_requested_channels(stranger, tmp_path):
+    """Within half a step of 1/128 V on a peak of 0.25 V: 1.6 %."""
     words = ("orders", plain_recording(tmp_path), *ANALYSIS, "--out", tmp_path / "out")
     assert_refused(command_here(*words), "format '.plain' is unknown; known are .csv")
-    outcome = stranger(*words, names=("plain_bytes",))
+    outcome = stranger(*words, "--channels", "rear", names=("plain_bytes",))
     assert outcome.returncode == 0, outcome.stderr
     results = open_results(tmp_path / "out" / "orders.nc")
-    assert results["channel"].values.tolist() == ["plain"]
+    assert results["channel"].values.tolist() == ["rear"]
     first = results["channel_order_rms"].sel(order=1).item()
-    assert first == pytest.approx(0.5 / np.sqrt(2.0), rel=1e-2)
+    assert first == pytest.approx(0.25 / np.sqrt(2.0), rel=0.016)
     origin = json.loads(results.attrs["plugins"])["reader plain-bytes"]
     assert origin["file"] == "plain_bytes.py"
 
 
 def test_missing_package_of_a_reader_is_named(stranger, tmp_path):
-    (tmp_path / "bad.plain").write_bytes(bytes(100))
-    outcome = stranger("orders", tmp_path / "bad.plain", "--rpm", "3000", names=("plain_bytes",))
-    assert_refused(outcome, "needs no_such_module: pip install plain-bytes-of-pip")
+    file = tmp_path / "bad.process"
+    file.write_bytes(bytes(100))
+    outcome = stranger("orders", file, "--rpm", "3000", names=("reading_process",))
+    assert_refused(outcome, "needs no_such_module: pip install process-of-pip")
 
 
 def test_doctor_lists_an_installed_reader(installed, tmp_path):
     outcome = command(tmp_path, "doctor", path=installed)
-    needs = "recordings: plain bytes: needs plain-bytes-of-pip: pip install plain-bytes-of-pip"
+    needs = "recordings: reading process: needs process-of-pip: pip install process-of-pip"
     assert needs in outcome.stdout

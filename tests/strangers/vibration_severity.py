@@ -3,9 +3,7 @@
 import numpy as np
 
 import vibroacoustics
-from vibroacoustics import Chain, Given, Stage, Variable, stamp
-from vibroacoustics.report.sections import Section
-from vibroacoustics.report.tables import Table
+from vibroacoustics import Chain, Given, Section, Stage, Variable, blocks, stamp
 
 LOWEST_HZ, HIGHEST_HZ = 10.0, 1000.0
 SEVERITY = Variable(
@@ -32,7 +30,7 @@ class VibrationSeverity(Stage):
         return Given(stamp("vibration_severity", severity.values, coords).to_dataset())
 
 
-def blocks(results):
+def content(results):
     """One row a speed and option."""
     severity = results["vibration_severity"]
     rows = tuple(
@@ -40,7 +38,7 @@ def blocks(results):
         for speed in severity["speed"].values
         for option in severity["option"].values
     )
-    return [Table(severity.attrs["long_name"], ("Speed, rpm", "Option", "mm/s"), rows)]
+    return [blocks.Table(severity.attrs["long_name"], ("Speed, rpm", "Option", "mm/s"), rows)]
 
 
 def applies(results):
@@ -48,5 +46,5 @@ def applies(results):
     return "vibration_severity" in results
 
 
-SECTION = Section("vibration_severity", "Vibration severity", blocks, applies, position=46.0)
+SECTION = Section("vibration_severity", "Vibration severity", content, applies, position=46.0)
 vibroacoustics.register(SECTION)

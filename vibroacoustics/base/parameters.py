@@ -24,7 +24,14 @@ class Parameters(BaseModel):
     """A frozen, strictly validated set of parameters in SI units.
 
     Unknown keys, wrong types, NaN and infinity are refused. Field names carry the SI unit;
-    files may use any unit that `vibroacoustics.base.units` knows, as the suffix of the key.
+    files may use any unit of the same quantity, as the suffix of the key.
+
+    Examples
+    --------
+    >>> class Wheel(va.Parameters):
+    ...     mass_kg: float
+    >>> Wheel(mass_kg=0.3)
+    Wheel(mass_kg=0.3)
     """
 
     model_config = ConfigDict(
@@ -36,11 +43,19 @@ class Parameters(BaseModel):
 
 @dataclass(frozen=True)
 class Held:
-    """Annotation of a value that is not drawn from its range.
+    """Annotation of a value that is never sampled from its range.
 
     Attributes
     ----------
     reason : why not, after "it" or "they"
+
+    Examples
+    --------
+    >>> from typing import Annotated
+    >>> class Hood(va.Parameters):
+    ...     thickness_m: Annotated[float, va.Held("needs a radiation of its own")]
+    >>> Hood(thickness_m=0.002).thickness_m
+    0.002
     """
 
     reason: str

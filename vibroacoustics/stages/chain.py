@@ -31,11 +31,15 @@ class Cases:
 
     Examples
     --------
-    A stage reads them by their type, as `chain[va.Cases]`:
+    A stage reads the loads of a speed and an option:
 
-    >>> nothing = va.Cases(cases={}, loads={}, wrenches={})
-    >>> list(nothing.loads)
-    []
+    >>> class GasTorque(va.Stage):
+    ...     name = "gas-torque"
+    ...     reads = (va.Cases,)
+    ...     def run(self, chain):
+    ...         by_source = chain[va.Cases].loads[2900.0, "none"]
+    ...         print(by_source["gas"].shaft_torque_n_m)
+    ...         return va.Given()
     """
 
     cases: dict[CaseKey, Case]
@@ -58,8 +62,12 @@ class Chain:
     Examples
     --------
     >>> study = va.load_study("pipelines/copeland_thesis.toml")
-    >>> chain = va.Chain(study, radiation=va.given_radiation([[[1.0, 1.0]] * 6], [25.0, 2500.0]))
-    >>> chain.having(va.Cases({}, {}, {}))[va.Cases].cases
+    >>> frequency = np.arange(25.0, 2501.0, 25.0)
+    >>> vectors = 1e-4j * frequency * np.ones((len(study.receivers), 6, 1))  # made up
+    >>> chain = va.Chain(study, va.given_radiation(vectors, frequency))
+    >>> chain.get(va.Cases) is None
+    True
+    >>> chain.having(va.Cases({}, {}, {}))[va.Cases].loads
     {}
     """
 

@@ -28,9 +28,10 @@ class Given:
 
     Examples
     --------
-    >>> level = va.stamp("level_remainder", 55.9)
+    >>> level = va.stamp("level_total", [[[54.2]]],
+    ...                  {"speed": [2900.0], "option": ["none"], "receiver": ["front_1m"]})
     >>> list(va.Given(level.to_dataset()).results)
-    ['level_remainder']
+    ['level_total']
     """
 
     results: xr.Dataset = field(default_factory=xr.Dataset)

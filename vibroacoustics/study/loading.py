@@ -13,6 +13,7 @@ from .baseline import BaselineSettings
 from .baseline_files import read_baseline
 from .draws import warn_of_contradictions
 from .evidence_files import take_evidence
+from .file_names import resolve_file_names
 from .given_values import take_given
 from .kinds import validate_kinds
 from .machine_file import (
@@ -89,6 +90,9 @@ def study_of(written: Written) -> Study:
             reader.problems.append(f"{path}: {name}: unknown key")
     given, evidence = take_given(content, reader), take_evidence(content, reader)
     content = reader.to_si(content, ())
+    for name in _WITH_DATA_FILES:
+        if isinstance(content.get(name), dict):
+            resolve_file_names(content[name], reader, (name,))
     _read_measured(content, reader)
     plate = _plate(content, reader)
     if plate is not None:
@@ -145,6 +149,8 @@ _FILLED_IN: Final = (
     "titles",
 )  # fmt: skip
 """Here, not by a file."""
+_WITH_DATA_FILES: Final = ("options", "shell_modes", "sources")
+"""Tables in which every `file`, at any depth, is the name of a data file."""
 
 
 def _machine_table(content: dict[str, Any], reader: Reader) -> tuple[Path, Any, list[str]]:
@@ -220,8 +226,7 @@ def _plate(content: Mapping[str, Any], reader: Reader) -> StructureBorne | None:
 
 def _resolve_file_names(content: Mapping[str, Any], reader: Reader) -> None:
     """Make names of files relative to the file that gives them."""
-    for keys in (("shell_modes", "file"), ("radiation", "body", "file")):
-        _resolve(content, keys, reader)
+    _resolve(content, ("radiation", "body", "file"), reader)
     for name in ("floor", "sound", "shell"):
         _resolve_list(content, ("measured", name, "frequency_responses"), reader)
     patterns = _table_at(content, ("radiation", "body", "patterns"))

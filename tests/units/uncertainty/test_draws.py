@@ -113,6 +113,7 @@ def test_values_of_measured_modes_do_not_change_with_the_wall(tmp_path):
     held = {item.name: item.reason for item in measured.held_ranges}
     assert "measured" in held["structure.thickness_m"]
     assert "structure.bearing_housing.welds" not in held
+    assert Path(measured.shell_modes.file).is_relative_to(tmp_path)
 
 
 OF_EVERY_KIND = ("mayekawa_wbhe", "mayekawa_banks", "dagilis_slider_link", "estupinan_hermetic",
