@@ -4,76 +4,20 @@
 """
 
 import inspect
-import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from contextvars import ContextVar
 from functools import wraps
 from pathlib import Path
 from traceback import walk_tb
 from types import FunctionType
-from typing import Any, Final, NamedTuple
+from typing import Any, Final
 
-from .errors import ParameterError, PluginError, StorageError
-from .fitting import misfit, result_hint
+from .errors import ParameterError, StorageError
+from .fault import FaultError, Place, cut
+from .fitting import attribute_hints, misfit, result_hint
 
-MOST_WORDS: Final = 300
-"""Characters of a plug-in's own words that are shown."""
 REFUSALS: Final = (ParameterError, StorageError)
 """With which a plug-in refuses a value or a file of the user; they are no fault of its own."""
-
-
-class Place(NamedTuple):
-    """Whose code runs.
-
-    Attributes
-    ----------
-    noun, name : of the thing, as its registry calls it
-    file : name of the file that holds it
-    thing : class or object
-    """
-
-    noun: str
-    name: str
-    file: str
-    thing: object = None
-
-
-class FaultError(PluginError):
-    """A plug-in's thing failed; the line names it, its file and the line of code.
-
-    Attributes
-    ----------
-    noun, name : of the thing
-    reason : file, line and words, without noun and name
-    """
-
-    noun = name = reason = ""
-
-    @classmethod
-    def at(cls, place: Place, line: int | None, words: str) -> "FaultError":
-        """Return the fault of a thing at a line of its file."""
-        where = place.file if line is None else f"{place.file}, line {line}"
-        reason = f"{where}: {cut(words)}"
-        fault = cls(f"{place.noun} {place.name}: {reason}")
-        fault.noun, fault.name, fault.reason = place.noun, place.name, reason
-        return fault
-
-    def with_hint(self, hint: str) -> "FaultError":
-        """Return the same fault with what the user can do about it."""
-        fault = type(self)(f"{self}; {hint}")
-        fault.noun, fault.name, fault.reason = self.noun, self.name, self.reason
-        return fault
-
-
-class LeftOutWarning(UserWarning):
-    """Something of a plug-in is left out, as it failed."""
-
-
-def cut(words: str) -> str:
-    """Return a plug-in's words in one line of at most 300 characters."""
-    line = " ".join(words[: 10 * MOST_WORDS].split())
-    return line if len(line) <= MOST_WORDS else f"{line[: MOST_WORDS - 2]} …"
 
 
 @contextmanager
@@ -112,8 +56,9 @@ def fenced(thing: Any, base: type, place: Place) -> None:
     Raises
     ------
     PluginError
-        The thing has no method where it needs one.
+        The thing has no method where it needs one, or an attribute of the wrong type.
     """
+    _check_attributes(thing, base, place)
     if not isinstance(thing, type):
         for name, function in vars(thing).items():
             if callable(function):
@@ -130,10 +75,15 @@ def fenced(thing: Any, base: type, place: Place) -> None:
         elif isinstance(own, property) and own.fget is not None:
             setattr(thing, name, property(_guarded(own.fget, base, name, place)))
         elif isinstance(verb, FunctionType) and not callable(own):
-            raise PluginError(
-                f"{place.file}: {place.noun} {place.name}: {name} = {cut(repr(own))}: "
-                "must be a method"
-            )
+            raise FaultError.at(place, _first_line(thing), f"{name} is no method")
+
+
+def _check_attributes(thing: Any, base: type, place: Place) -> None:
+    """Refuse attributes that are not of the types that the base declares."""
+    for name, hint in attribute_hints(base).items():
+        reason = misfit(getattr(thing, name, None), hint)
+        if reason:
+            raise FaultError.at(place, _first_line(thing), f"{name} is {reason}")
 
 
 def _guarded(
@@ -158,39 +108,10 @@ def _guarded(
     return guarded
 
 
-def leave_out(fault: FaultError, what: str = "") -> None:
-    """Tell that something is left out, by a warning and to all that collect.
-
-    Parameters
-    ----------
-    fault : why
-    what : is left out; the fault's thing where it is empty
-    """
-    line = f"{what or f'{fault.noun} {fault.name}'} is left out: {fault.reason}"
-    for lines in _COLLECTING.get():
-        if line not in lines:
-            lines.append(line)
-    warnings.warn(line, LeftOutWarning, stacklevel=2)
-
-
-@contextmanager
-def collected() -> Iterator[list[str]]:
-    """Collect a line on everything that is left out."""
-    lines: list[str] = []
-    token = _COLLECTING.set((*_COLLECTING.get(), lines))
-    try:
-        yield lines
-    finally:
-        _COLLECTING.reset(token)
-
-
-_COLLECTING: Final[ContextVar[Sequence[list[str]]]] = ContextVar("_COLLECTING", default=())
-
-
 def _words(error: BaseException) -> str:
     """Return the kind of an error and its text, which may fail itself."""
     try:
-        return f"{type(error).__name__}: {error}"
+        return f"{type(error).__name__}: {error}".removesuffix(": ")
     except Exception:
         return type(error).__name__
 

@@ -1,11 +1,11 @@
 """Whether what a third party's code returns is of the type that is asked for, and finite."""
 
 import dataclasses
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache
 from numbers import Real
 from types import NoneType, UnionType
-from typing import Annotated, Any, Final, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, ClassVar, Final, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
@@ -24,6 +24,19 @@ def result_hint(base: type, name: str) -> Any:
         return get_type_hints(function).get("return", Any)
     except (NameError, KeyError, IndexError):
         return Any
+
+
+@cache
+def attribute_hints(base: type) -> dict[str, Any]:
+    """Return the types of the attributes that a class declares, but not of functions in them."""
+    try:
+        hints = get_type_hints(base)
+    except NameError:
+        return {}
+    own = {name: hints[name] for name in vars(base).get("__annotations__", {})}
+    if not dataclasses.is_dataclass(base):
+        own = {name: get_args(one)[0] for name, one in own.items() if get_origin(one) is ClassVar}
+    return {name: one for name, one in own.items() if get_origin(one) is not Callable}
 
 
 def misfit(value: Any, hint: Any, place: str = "") -> str:

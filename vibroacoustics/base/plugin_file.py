@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import Final
 
 from .errors import PluginError, VibroacousticsError
-from .fence import Place, fence
+from .fault import Place
+from .fence import fence
 from .regular_file import opened
 
 MAXIMUM_BYTES: Final = 10_000_000

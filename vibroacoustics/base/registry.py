@@ -16,7 +16,8 @@ from pkgutil import iter_modules
 from typing import Any, Final, Generic, NamedTuple, TypeVar
 
 from .errors import ParameterError, PluginError
-from .fence import FaultError, Place, fence, fenced, leave_out
+from .fault import FaultError, Place, leave_out
+from .fence import fence, fenced
 from .hashing import sha256
 
 Thing = TypeVar("Thing")

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 
 from ..base.errors import VibroacousticsError
-from ..base.fence import collected
+from ..base.fault import collected
 from . import (
     check_commands,
     comparison_commands,

@@ -125,6 +125,8 @@ def _run(study: "Study", folder: Path, progress: Progress, silent: bool) -> dict
     if not silent:
         typer.echo(report.comparison_text(results))
         typer.echo(report.kwave_text(results), nl=False)
+        for line in study.left_out:
+            typer.echo(line)
         for words in study.coarsened:
             typer.echo(f"coarse: {words}")
         typer.echo(f"report: {written}")

@@ -5,7 +5,7 @@ from functools import partial
 import xarray as xr
 
 from ..base.errors import ParameterError
-from ..base.fence import collected
+from ..base.fault import collected
 from ..base.hashing import canonical_json
 from ..base.linear_algebra import one_thread_of_linear_algebra
 from ..base.progress import Progress, no_progress

@@ -19,7 +19,7 @@ from typing import Any, BinaryIO, Final
 import numpy as np
 
 from ..base.errors import ParameterError, StorageError, VibroacousticsError
-from ..base.fence import FaultError
+from ..base.fault import FaultError
 from ..base.plugin_file import load_plugin
 from . import uff_modes
 from .overload import overloads

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError, PluginError, StorageError
-from ..base.fence import FaultError
+from ..base.fault import FaultError
 from .child import MAXIMUM_CPU_S
 from .recorded import TooLargeError
 

@@ -4,7 +4,7 @@ import json
 
 import xarray as xr
 
-from ..base.fence import collected
+from ..base.fault import collected
 from ..base.hashing import canonical_json
 from ..base.registry import plugins
 from .blocked_forces import (

@@ -10,7 +10,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.errors import SchemaError
-from ..base.fence import collected
+from ..base.fault import collected
 from ..base.vocabulary import stamp
 from ..results.complete import read_attribute
 from ..results.run_attributes import Part

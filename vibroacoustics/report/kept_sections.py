@@ -6,7 +6,7 @@ from typing import Any, Final
 import xarray as xr
 
 from ..base.errors import SchemaError
-from ..base.fence import collected
+from ..base.fault import collected
 from ..results.complete import read_attribute
 from ..results.run_attributes import Part
 from . import left_out

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import xarray as xr
 
-from ..base.fence import collected
+from ..base.fault import collected
 from .blocks import Block, pictures
 from .columns import COLUMNS
 from .figures.style import Picture, file_name

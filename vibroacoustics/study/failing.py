@@ -5,7 +5,7 @@ from copy import deepcopy
 from typing import Any, TypeVar
 
 from ..base.errors import ParameterError
-from ..base.fence import FaultError, leave_out
+from ..base.fault import FaultError, leave_out
 from ..base.vocabulary import REFERENCE_OPTION
 from ..machine.option import OPTIONS
 from ..machine.source import SOURCES

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from ..base.errors import ParameterError
-from ..base.fence import FaultError, collected
+from ..base.fault import FaultError, collected
 from ..machine.machine import Machine
 from ..machine.option import OPTIONS
 from ..machine.source import SOURCES

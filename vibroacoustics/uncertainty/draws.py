@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.errors import ParameterError, SolverError
-from ..base.fence import FaultError
+from ..base.fault import FaultError
 from ..base.linear_algebra import one_thread_of_linear_algebra
 from ..base.threads import processors
 from ..base.vocabulary import check, stamp
