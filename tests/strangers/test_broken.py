@@ -9,7 +9,9 @@ from pathlib import Path
 from typing import NamedTuple
 from unittest.mock import patch
 
+import numpy as np
 import pytest
+import xarray as xr
 from support import ROOT, TINY, assert_refused, command_here, made_up_radiation
 from test_strangers import STRANGERS, rotor_study
 
@@ -22,6 +24,8 @@ from vibroacoustics.machine.source import SOURCES
 from vibroacoustics.recordings.child import answer
 from vibroacoustics.recordings.recorded import Request
 from vibroacoustics.results.storage import open_results
+from vibroacoustics.scoring import values
+from vibroacoustics.study.loading import load_study
 from vibroacoustics.uncertainty.draws import of_every_draw
 
 IMPORTS = "import sys\nimport numpy as np\nimport vibroacoustics as va\n"
@@ -295,6 +299,43 @@ def test_source_fails_when_the_study_is_read(tmp_path, method, said):
     file, study = tmp_path / "odd.py", study_with_source(tmp_path)
     file.write_text(IMPORTS + SOURCE.format(body="return va.Loads()") + method)
     refused(["run", study, "--plugin", file], f"kind of source odd: odd.py, {said}", "--without")
+
+
+AT_LOAD = {
+    "applied_to": ("def applied_to(self, machine):\n        1 / 0", "line 11: ZeroDivisionError"),
+    "applied_to gives": (
+        "def applied_to(self, machine):\n        pass",
+        "line 10: applied_to ",
+    ),
+    "validator": ("def model_post_init(self, context):\n        sys.exit()", "line 11: SystemExit"),
+}
+
+
+@pytest.mark.parametrize(("method", "said"), AT_LOAD.values(), ids=AT_LOAD)
+def test_option_that_fails_when_the_study_is_read_is_left_out(forgotten, tmp_path, method, said):
+    """The study remembers it, also with other values."""
+    file, study_file = tmp_path / "odd.py", tmp_path / "study.toml"
+    file.write_text(IMPORTS + OPTION.format(name="odd", body="return good") + f"    {method}\n")
+    load_plugin(file)
+    text = TINY.read_text().replace("../../data", str(ROOT / "data"))
+    text = text.replace("[receivers.", '[options.mine]\nkind = "odd"\n\n[receivers.', 1)
+    study_file.write_text(text)
+    with pytest.warns(UserWarning, match=f"option mine is left out: odd.py, {said}"):
+        study = load_study(study_file)
+    assert list(study.options) == ["none", "counterweight-half"]
+    (line,) = study.replace({"title": "Other"}).left_out
+    assert said in line
+
+
+@pytest.mark.parametrize("counting", [True, False])
+def test_criterion_may_be_no_number_in_a_draw_that_does_not_count(counting):
+    drawn = xr.DataArray([[1.0, 2.0], [np.nan, 3.0]], dims=("draw", "option"))
+    counts = np.array([True, counting])
+    if counting:
+        with pytest.raises(ParameterError, match="odd_n: by draw has values that are not finite"):
+            values._of_draws("odd_n", drawn, counts)
+    else:
+        assert values._of_draws("odd_n", drawn, counts).shape == (2, 2)
 
 
 @pytest.mark.usefixtures("quick_figures")

@@ -6,7 +6,6 @@ from typing import Any, TypeVar
 
 from ..base.errors import ParameterError
 from ..base.fault import FaultError, leave_out
-from ..base.vocabulary import REFERENCE_OPTION
 from ..machine.option import OPTIONS
 from ..machine.source import SOURCES
 from .criterion import CRITERIA
@@ -22,7 +21,7 @@ def surviving(study: Study, job: Callable[[Study], Result]) -> Result:
     Raises
     ------
     FaultError
-        Something else of a plug-in failed, or every study needs the option.
+        Something else of a plug-in failed.
     """
     while True:
         try:
@@ -45,7 +44,7 @@ def without_failing(written: Written, fault: FaultError) -> Written:
     Raises
     ------
     FaultError
-        Something else of a plug-in failed, or every study needs the option.
+        Something else of a plug-in failed.
     """
     content = deepcopy(written.content)
     if fault.noun == CRITERIA.noun and fault.name in _table(content, "scoring", "criteria"):
@@ -86,7 +85,7 @@ def _failing(fault: FaultError, options: dict[str, Any], sources: dict[str, Any]
     options, sources : kinds by name
     """
     failing = _of_kind(fault, OPTIONS.noun, options)
-    if not failing or REFERENCE_OPTION in failing:
+    if not failing:
         raise _hinted(fault, _of_kind(fault, SOURCES.noun, sources))
     for name in failing:
         leave_out(fault, f"option {name}")

@@ -107,8 +107,16 @@ def test_strangers_criterion_of_a_built_in_name_is_refused(stranger: Path) -> No
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ('.max("speed")', "", r"criterion force_2x_n is left out: .*: has dims .*, must have \('option',\)"),
-        ("force_amplitude", "loudness", r"criterion force_2x_n is left out: .*, line \d+: KeyError: .*loudness"),
+        (
+            '.max("speed")',
+            "",
+            r"is left out: .*: has dims .*, must have \('option',\)",
+        ),
+        (
+            "force_amplitude",
+            "loudness",
+            r"is left out: .*, line \d+: KeyError: .*loudness",
+        ),
         ('.max("speed")', '.max("speed") * float("nan")', "no finite value for the option none"),
     ],
 )
