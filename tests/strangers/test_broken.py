@@ -220,7 +220,7 @@ def test_the_run_ends_well_but_not_complete(ran):
 @pytest.mark.parametrize("one", LEFT_OUT, ids=lambda one: f"{one.noun} {one.name}")
 def test_is_left_out_and_named_in_one_line(ran, one):
     what = f"option my-{one.name}" if one.noun == "kind of option" else f"{one.noun} {one.name}"
-    start = f"warning: {what} is left out: "
+    start = f"warning: {what} is omitted: "
     (line,) = [line for line in ran.errors.splitlines() if line.startswith(start)]
     file = ran.results.parents[1] / f"{one.noun.split()[-1]}_{one.name.replace('-', '_')}.py"
     where, number, words = re.fullmatch(r"(\S+\.py), line (\d+): (.*)", line[len(start) :]).groups()
@@ -320,7 +320,7 @@ def test_option_that_fails_when_the_study_is_read_is_left_out(forgotten, tmp_pat
     text = TINY.read_text().replace("../../data", str(ROOT / "data"))
     text = text.replace("[receivers.", '[options.mine]\nkind = "odd"\n\n[receivers.', 1)
     study_file.write_text(text)
-    with pytest.warns(UserWarning, match=f"option mine is left out: odd.py, {said}"):
+    with pytest.warns(UserWarning, match=f"option mine is omitted: odd.py, {said}"):
         study = load_study(study_file)
     assert list(study.options) == ["none", "counterweight-half"]
     (line,) = study.replace({"title": "Other"}).left_out
@@ -347,8 +347,8 @@ def test_run_goes_on_without_a_source(tmp_path, monkeypatch):
     assert outcome.returncode == 0, outcome.stderr
     page = (tmp_path / "comparison.md").read_text()
     first = page.partition("\n## ")[2].partition("\n## ")[0]
-    assert "source mine is left out: as asked for by --without" in first
-    assert "source mine is left out" in outcome.stdout
+    assert "source mine is omitted: as asked for by --without" in first
+    assert "source mine is omitted" in outcome.stdout
 
 
 def test_a_source_that_is_not_there_cannot_be_left_out(tmp_path):

@@ -1,4 +1,4 @@
-"""Faults of third parties' code, and what is left out of a run because of them."""
+"""Faults of third parties' code, and what a run omits because of them."""
 
 import warnings
 from collections.abc import Iterator, Sequence
@@ -56,7 +56,7 @@ class FaultError(PluginError):
 
 
 class LeftOutWarning(UserWarning):
-    """Something of a plug-in is left out, as it failed."""
+    """Something of a plug-in is omitted because it failed."""
 
 
 def cut(words: str) -> str:
@@ -66,14 +66,14 @@ def cut(words: str) -> str:
 
 
 def leave_out(fault: FaultError, what: str = "") -> None:
-    """Tell that something is left out: to all that collect, and once by a warning.
+    """Tell that something is omitted: to all that collect, and once by a warning.
 
     Parameters
     ----------
     fault : why
-    what : is left out; the fault's thing where it is empty
+    what : is omitted; the fault's thing where it is empty
     """
-    line = f"{what or f'{fault.noun} {fault.name}'} is left out: {fault.reason}"
+    line = f"{what or f'{fault.noun} {fault.name}'} is omitted: {fault.reason}"
     collecting = _COLLECTING.get()
     is_known = bool(collecting) and line in collecting[0]
     for lines in collecting:
@@ -85,7 +85,7 @@ def leave_out(fault: FaultError, what: str = "") -> None:
 
 @contextmanager
 def collected() -> Iterator[list[str]]:
-    """Collect a line on everything that is left out."""
+    """Collect a line on everything that is omitted."""
     lines: list[str] = []
     token = _COLLECTING.set((*_COLLECTING.get(), lines))
     try:

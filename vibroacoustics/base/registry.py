@@ -120,7 +120,7 @@ class Registry(Generic[Thing]):
 
     @contextmanager
     def spared(self) -> Iterator[None]:
-        """Leave out, in one line, a thing of this registry that fails."""
+        """Omit a thing of this registry that fails, and say so in one line."""
         try:
             yield
         except FaultError as fault:
@@ -209,7 +209,7 @@ class Registry(Generic[Thing]):
             self._add_installed(point)
 
     def _add_installed(self, point: metadata.EntryPoint) -> None:
-        """Take in what an installed package brings; leave out what cannot be loaded."""
+        """Take in what an installed package brings, except what cannot be loaded."""
         try:
             with fence(Place(self.noun, point.name, f"{point.module.rpartition('.')[2]}.py")):
                 thing = point.load()

@@ -46,7 +46,7 @@ Verbose = Annotated[
 ]
 Without = Annotated[
     list[str] | None,
-    typer.Option(metavar="NAME", help="Source of the studies that is left out; may be repeated."),
+    typer.Option(metavar="NAME", help="Source of the studies that is omitted; may be repeated."),
 ]
 Log = Annotated[
     Path | None,

@@ -18,10 +18,10 @@ def with_lines(
     Parameters
     ----------
     results : of a run
-    lines : on what is left out now
+    lines : on what is omitted now
     registries : of sections and columns
     """
-    loaded = [f"{one.noun} {name} is left out:" for one in registries for name in one.origins()]
+    loaded = [f"{one.noun} {name} is omitted:" for one in registries for name in one.origins()]
     older = [line for line in lines_of(results) if not line.startswith(tuple(loaded))]
     return keep_lines(results, [*older, *lines])
 

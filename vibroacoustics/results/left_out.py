@@ -1,4 +1,4 @@
-"""Lines on what of plug-ins is left out of results, as these keep them."""
+"""Lines on what of plug-ins is omitted of results, as these keep them."""
 
 from collections.abc import Iterable
 from typing import Final
@@ -12,7 +12,7 @@ ATTRIBUTE: Final = "left_out"
 
 
 def lines_of(results: xr.Dataset) -> list[str]:
-    """Return a line on everything that is left out.
+    """Return a line on everything that is omitted.
 
     Raises
     ------

@@ -95,7 +95,7 @@ def _failing(fault: FaultError, options: dict[str, Any], sources: dict[str, Any]
 def _hinted(fault: FaultError, names: Iterable[str]) -> FaultError:
     """Return the fault of a source with how to run on without it."""
     words = " ".join(f"--without {name}" for name in names)
-    return fault.with_hint(f"run with {words} leaves it out") if words else fault
+    return fault.with_hint(f"run with {words} omits it") if words else fault
 
 
 def _of_kind(fault: FaultError, noun: str, kinds: dict[str, Any]) -> list[str]:

@@ -41,7 +41,7 @@ def load_study(path: str | Path, without: Collection[str] = ()) -> Study:
     ----------
     path : TOML file. Keys carry their unit; a value is a number or
         `{ value, source, range }`. `extends` names a study whose values it takes over.
-    without : names of sources that are left out
+    without : names of sources that are omitted
 
     Raises
     ------
@@ -57,7 +57,7 @@ def load_study(path: str | Path, without: Collection[str] = ()) -> Study:
     written = read_with_base(Path(path))
     for name in without:
         written = without_source(written, name)
-    lines = [f"source {name} is left out: as asked for by --without" for name in without]
+    lines = [f"source {name} is omitted: as asked for by --without" for name in without]
     return study_of(written).leaving_out(lines)
 
 

@@ -110,12 +110,12 @@ def test_strangers_criterion_of_a_built_in_name_is_refused(stranger: Path) -> No
         (
             '.max("speed")',
             "",
-            r"is left out: .*: has dims .*, must have \('option',\)",
+            r"is omitted: .*: has dims .*, must have \('option',\)",
         ),
         (
             "force_amplitude",
             "loudness",
-            r"is left out: .*, line \d+: KeyError: .*loudness",
+            r"is omitted: .*, line \d+: KeyError: .*loudness",
         ),
         ('.max("speed")', '.max("speed") * float("nan")', "no finite value for the option none"),
     ],

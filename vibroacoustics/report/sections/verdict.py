@@ -24,7 +24,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
 
 
 def left_out_words(results: xr.Dataset) -> list[Block]:
-    """Say what is left out, as it failed or was not wanted; nothing where nothing is."""
+    """Say what is omitted, as it failed or was not wanted; nothing where nothing is."""
     lines = lines_of(results)
     return [Text("This report is not complete:"), Bullets(tuple(lines))] if lines else []
 
