@@ -3,7 +3,7 @@
 import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, TypeVar
+from typing import Any, ClassVar, Final, TypeVar
 
 from pydantic import (
     BaseModel,
@@ -18,6 +18,8 @@ from pydantic_core import CoreSchema
 
 from .errors import ParameterError
 from .registry import Registry
+
+FURTHER: Final = "further kinds come with --plugin FILE.py"
 
 
 class Parameters(BaseModel):
@@ -132,5 +134,5 @@ def split_kind(
     if kind is None:
         raise ParameterError(f"kind is missing; allowed {', '.join(registry)}")
     if not isinstance(kind, str) or kind not in registry:
-        raise ParameterError(f"kind = {kind}: {registry.unknown(str(kind))}")
+        raise ParameterError(f"kind = {kind}: {registry.unknown(str(kind))}; {FURTHER}")
     return registry[kind], values

@@ -2,6 +2,7 @@
 
 import time
 from dataclasses import dataclass
+from functools import partial
 from typing import Final
 
 from ..base.errors import ParameterError
@@ -10,7 +11,8 @@ from ..radiation.cost import Cost, about
 from ..results.size import result_bytes
 from ..stages.chain import Chain
 from ..stages.radiation import Radiated, transfer_vectors
-from ..stages.stage import applying
+from ..stages.stage import STAGES, applying
+from ..study.failing import surviving
 from ..study.selection import at_speeds
 from ..study.study import Study
 
@@ -59,7 +61,7 @@ def run_cost(study: Study, progress: Progress = no_progress) -> RunCost:
         The machine cannot run, the result is too large, or memory does not suffice.
     """
     try:
-        return _run_cost(study, progress)
+        return surviving(study, partial(_run_cost, progress=progress))
     except ParameterError as error:
         raise ParameterError(f"{study.source_file}: {error}") from None
 
@@ -70,8 +72,9 @@ def _run_cost(study: Study, progress: Progress) -> RunCost:
     chain = Chain(first, transfer_vectors)
     for stage in applying(study):
         progress(f"cost of {stage.name}", 0, 1)
-        chain, of_stage = stage.tried(chain, study)
-        costs += of_stage
+        with STAGES.spared():
+            chain, of_stage = stage.tried(chain, study)
+            costs += of_stage
     costs.append(Cost("report", *_REPORT_S, "not measured: as that of the package's studies"))
     size = result_bytes(study, chain.results)
     return RunCost(tuple(costs), size, chain[Radiated].was_cached)

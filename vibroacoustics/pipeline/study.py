@@ -1,8 +1,11 @@
 """The main job: the stages of a study, each after those that give what it reads."""
 
+from functools import partial
+
 import xarray as xr
 
 from ..base.errors import ParameterError
+from ..base.fault import collected
 from ..base.hashing import canonical_json
 from ..base.linear_algebra import one_thread_of_linear_algebra
 from ..base.progress import Progress, no_progress
@@ -10,10 +13,12 @@ from ..base.vocabulary import check, label_coordinates
 from ..measured.floor import on_measured_floor
 from ..radiation.given import Radiation
 from ..results import provenance
+from ..results.left_out import keep_lines
 from ..results.words import words
 from ..stages.chain import Cases, Chain
 from ..stages.radiation import Radiated, transfer_vectors
-from ..stages.stage import advanced, applying
+from ..stages.stage import STAGES, advanced, applying
+from ..study.failing import surviving
 from ..study.study import Study
 
 
@@ -53,8 +58,9 @@ def run(
     """
     try:
         # What is large runs in threads of its own; two of linear algebra would wait in busy loops.
-        with one_thread_of_linear_algebra():
-            return _run(study, progress, radiation)
+        with one_thread_of_linear_algebra(), collected() as lines:
+            results = surviving(study, partial(_run, progress=progress, radiation=radiation))
+            return keep_lines(results, (*study.left_out, *lines))
     except ParameterError as error:
         raise ParameterError(f"{study.source_file}: {error}") from None
 
@@ -63,7 +69,8 @@ def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
     study = on_measured_floor(study)
     chain = Chain(study, radiation, progress)
     for stage in applying(study):
-        chain = advanced(chain, stage)
+        with STAGES.spared():
+            chain = advanced(chain, stage)
     results, radiated = chain.results, chain[Radiated]
     results.attrs = provenance.radiation_attributes(study, radiated.attributes, radiated.was_cached)
     results.attrs["words"] = canonical_json(words(study, chain[Cases].loads, results))

@@ -11,8 +11,9 @@ from ..base.arrays import ComplexArray
 from ..base.errors import ParameterError
 from ..base.progress import Progress
 from ..base.vocabulary import REFERENCE_OPTION
-from ..machine.machine import Machine
-from ..machine.source import Case, CaseKey, Source
+from ..machine.machine import MACHINES, Machine
+from ..machine.option import OPTIONS
+from ..machine.source import SOURCES, Case, CaseKey, Source
 from ..mechanics.added import Added
 from ..mechanics.loads import Loads, PortLoads
 from ..mechanics.moving_parts import Revolution, Wrench
@@ -20,6 +21,7 @@ from ..mechanics.ports import BodyPort
 from ..orders.spectrum import order_spectra
 from ..study.study import Study
 from .moving_parts import MovingParts
+from .shapes import check_added, check_loads, check_revolution
 
 MOVING_PARTS: Final = "moving_parts"
 """Name of the source that every study has."""
@@ -49,10 +51,22 @@ def _revolution(
     """Steady revolution with an option, the reference's where it has one, and what it adds."""
     samples = study.operation.crank_angle_samples
     try:
-        steady = machine.revolution(speed_rpm, samples) if shared is None else shared.revolution
-        return steady, study.options[name].added(machine, steady)
+        steady = _turning(machine, speed_rpm, samples) if shared is None else shared.revolution
+        option = study.options[name]
+        with OPTIONS.fenced(option.kind, ParameterError):
+            added = option.added(machine, steady)
+            check_added(added, samples)
+        return steady, added
     except ParameterError as error:
         raise ParameterError(f"options.{name}: {error}") from None
+
+
+def _turning(machine: Machine, speed_rpm: float, samples: int) -> Revolution:
+    """Steady revolution of a machine, its shapes checked."""
+    with MACHINES.fenced(machine.kind, ParameterError):
+        revolution = machine.revolution(speed_rpm, samples)
+        check_revolution(revolution, samples)
+    return revolution
 
 
 def sources_of(study: Study) -> dict[str, Source]:
@@ -95,7 +109,9 @@ def _loaded(study: Study, case: Case) -> tuple[Case, dict[str, Loads]]:
         try:
             if case.supply_frequency_hz is None:
                 case = _on_supply(case, source.supply_frequency_hz(case, dict(loads)))
-            loads[name] = source.loads(case, dict(loads))
+            with SOURCES.fenced(source.kind, ParameterError):
+                loads[name] = source.loads(case, dict(loads))
+                check_loads(loads[name], case.revolution.rotation.crank_angle.size)
             _check_ports(source, loads[name])
         except ParameterError as error:
             raise ParameterError(f"sources.{name}: {error}") from None

@@ -9,7 +9,9 @@ import xarray as xr
 
 from ..base.errors import PluginError
 from ..base.registry import Registry
+from ..base.vocabulary import check
 from ..radiation.cost import Cost, about
+from ..results.run_variables import check_numbers
 from ..study.study import Study
 from .chain import Chain
 
@@ -105,7 +107,13 @@ STAGES: Final[Registry[type[Stage]]] = Registry(
 
 def applying(study: Study) -> list[Stage]:
     """Return the stages that a study asks for, in their order."""
-    return ordered(stage for stage in (kind() for kind in STAGES.values()) if stage.applies(study))
+    stages = []
+    for name, kind in STAGES.items():
+        with STAGES.spared(), STAGES.fenced(name):
+            stage = kind()
+            if stage.applies(study):
+                stages.append(stage)
+    return ordered(stages)
 
 
 def ordered(stages: Iterable[Stage]) -> list[Stage]:
@@ -160,12 +168,27 @@ def advanced(chain: Chain, stage: Stage) -> Chain:
     ------
     PluginError
         The stage gives what it does not name.
+    FaultError
+        The stage of a plug-in failed.
     """
+    with STAGES.fenced(stage.name):
+        return _advanced(chain, stage)
+
+
+def _advanced(chain: Chain, stage: Stage) -> Chain:
     given = stage.run(chain)
+    if STAGES.origin(stage.name):
+        _check_variables(given.results)
     names = {str(name) for name in given.results.data_vars} | {type(one) for one in given.products}
     for thing in names - set(stage.gives):
         raise PluginError(f"stage {stage.name}: gives {_word(thing)}, which it does not name")
     return chain.having(*given.products, results=chain.results.merge(given.results))
+
+
+def _check_variables(given: xr.Dataset) -> None:
+    """Refuse what a stage of a plug-in may not give: other dims or units, no finite numbers."""
+    for array in check(given).data_vars.values():
+        check_numbers(array)
 
 
 def timed(chain: Chain, stage: Stage, study: Study, task: str) -> Trial:

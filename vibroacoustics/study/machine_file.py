@@ -59,7 +59,8 @@ def read_machine(
     in_si = reader.to_si(content, ())
     resolve_file_names(in_si, reader)
     model, values = of_kind(MACHINES, in_si, f"{path}: machine")
-    return validated(model, values, reader), reader
+    with MACHINES.fenced(model.kind, ParameterError):
+        return validated(model, values, reader), reader
 
 
 def operating_points(path: Path) -> tuple[str, ...]:
