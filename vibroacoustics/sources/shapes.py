@@ -39,7 +39,7 @@ def check_added(added: Added, samples: int) -> None:
 
 
 def check_loads(loads: Loads, samples: int) -> None:
-    """Refuse wrenches that are not over the crank angles, or loads that are not of a port's components by order.
+    """Refuse wrenches not over the crank angles, and lines not of a port's components.
 
     Raises
     ------
