@@ -6,19 +6,13 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import vibroacoustics as va
-from vibroacoustics.machine.frame import Frame
+from vibroacoustics.machine.frame import PARTS, Frame
 from vibroacoustics.machine.machine import Machine
-from vibroacoustics.mechanics.loads import (
-    BEARING_HOUSING,
-    FIXED_SCROLL,
-    LOWER_BEARING,
-    ORBITING_SCROLL,
-    PARTS,
-)
 from vibroacoustics.transfer.frame import frame_on_shell
 from vibroacoustics.transfer.path import ShellPath
 from vibroacoustics.transfer.study_path import computed_shell_path
 
+FIXED_SCROLL, BEARING_HOUSING, ORBITING_SCROLL, LOWER_BEARING, _ = range(len(PARTS))
 ROOT = Path(__file__).resolve().parents[1]
 FREQUENCY = np.arange(20.0, 4000.0, 8.0)
 ELSEWHERE = {

@@ -1,69 +1,59 @@
-"""A study's chain, open to draws of one's own: no weights, all cases."""
+"""A study's chain, open to samples of one's own: no weights, all cases."""
 
 from dataclasses import dataclass, replace
 
 import numpy as np
-import pytest
 
-from vibroacoustics import pipeline
 from vibroacoustics.levels.axes import LevelAxes
 from vibroacoustics.levels.remainder import over_published, remaining_by_draw
-from vibroacoustics.pipeline import sound
+from vibroacoustics.stages.chain import Cases, Chain
+from vibroacoustics.stages.levels import NominalSound
+from vibroacoustics.stages.paths import with_published
+from vibroacoustics.stages.radiation import transfer_vectors
+from vibroacoustics.stages.sampled import sounds_of
+from vibroacoustics.stages.stage import advanced, applying
 from vibroacoustics.study.draws import batches_of_draws
-from vibroacoustics.study.study import Study
-
-
-class _ReachedError(Exception):
-    """The chain has come to its draws."""
 
 
 @dataclass(frozen=True)
 class DrawnChain:
-    """What a run has computed before it draws.
+    """What a run has computed before it samples: the chain with its nominal sound."""
 
-    Attributes
-    ----------
-    study : whose ranges are drawn
-    transmission, cases, given : as of `sound_of_draws`
-    axes : of the levels
-    """
-
-    study: Study
-    transmission: object
-    axes: LevelAxes
-    cases: dict
-    given: dict
+    chain: Chain
 
     @classmethod
     def of(cls, study, radiation=None):
-        """The chain of a study with its draws still to come."""
-        reached = []
+        """The chain of a study with its samples still to come."""
+        chain = Chain(study, radiation or transfer_vectors)
+        stages = [stage.name for stage in applying(study)]
+        for stage in applying(study)[: stages.index("levels") + 1]:
+            chain = advanced(chain, stage)
+        return cls(with_published(chain))
 
-        def stop(*arguments):
-            transmission, axes, _, cases, given, *_ = arguments
-            reached.extend([transmission, axes, cases, given])
-            raise _ReachedError
+    @property
+    def study(self):
+        """Whose ranges are sampled."""
+        return self.chain.study
 
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(sound, "_bank", stop)
-            with pytest.raises(_ReachedError):
-                pipeline.run(study, **({} if radiation is None else {"radiation": radiation}))
-        return cls(study, *reached)
+    @property
+    def axes(self) -> LevelAxes:
+        """Axes of the levels."""
+        return self.chain[NominalSound].axes
 
     def hypercube(self, count):
-        """As many draws of all ranges, less those that contradict themselves."""
+        """As many samples of all ranges, less those that contradict themselves."""
         settings = self.study.uncertainty.model_copy(update={"random_samples": count})
         return next(batches_of_draws(self.study.model_copy(update={"uncertainty": settings})))
 
     def modelled_db(self, draws):
-        """What is modelled over the published level at its point, shape (draw,)."""
+        """What is modelled over the published level at its point, shape (sample,)."""
         key = self.study.catalogue_case
         sounds = self._sounds(draws, [key])
         return over_published(self.study, self.axes, sounds)
 
     def mean_squares(self, draws):
-        """Modelled mean squares and the remainder's factors, each (draw, speed, option)."""
-        sounds = self._sounds(draws, list(self.cases))
+        """Modelled mean squares and the remainder's factors, each (sample, speed, option)."""
+        sounds = self._sounds(draws, list(self.chain[Cases].cases))
         receiver = list(self.axes.receivers).index(self.study.catalogue_receiver)
         part = [self.axes.gathered(one, "part")[:, :, 0].sum(axis=2) for one in sounds]
         one = np.ones(len(draws))
@@ -71,12 +61,12 @@ class DrawnChain:
         return np.array(part)[..., receiver], factor
 
     def _sounds(self, draws, keys):
-        cases, given = ({key: of[key] for key in keys} for of in (self.cases, self.given))
-        transmission = replace(self.transmission, study=self.study)
-        drawn = sound.sound_of_draws(
-            transmission, self.axes, cases, given, draws, lambda number: None
+        of, nominal = self.chain[Cases], self.chain[NominalSound]
+        chain = self.chain.having(
+            replace(of, cases={key: of.cases[key] for key in keys}),
+            replace(nominal, sound={key: nominal.sound[key] for key in keys}),
         )
-        return [one.sound for one in drawn]
+        return [sampled.sound for sampled in sounds_of(chain, draws, lambda number: None)]
 
 
 def of_few_ranges(study, names):

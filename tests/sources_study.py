@@ -6,10 +6,11 @@ from support import ROOT, made_up_transfer_vectors
 
 from vibroacoustics import pipeline
 from vibroacoustics.base.vocabulary import REFERENCE_OPTION, stamp
+from vibroacoustics.machine.frame import PARTS
 from vibroacoustics.machine.source import Case
 from vibroacoustics.mechanics.loads import Lines, Loads, lines_of
-from vibroacoustics.pipeline.shell import shell_path
 from vibroacoustics.sources.cases import cases_of
+from vibroacoustics.stages.shell import shell_path
 from vibroacoustics.study.study import Study
 from vibroacoustics.transfer.path import ShellPath
 
@@ -51,6 +52,12 @@ def case_of(study: Study, option: str = REFERENCE_OPTION) -> Case:
 def all_lines(case: Case, loads: dict[str, Loads]) -> Lines:
     """The lines of all sources up to the highest frequency."""
     return lines_of(loads, case.shaft_frequency_hz, case.maximum_order)
+
+
+def on_parts(loads):
+    """Loads on all parts by part, those on none as zeros; other ports left out."""
+    shape = next(load.shape for port, load in loads.items() if port in PARTS)
+    return {part: loads.get(part, np.zeros(shape)) for part in PARTS}
 
 
 def with_tables(study: Study, **tables: dict[str, object]) -> Study:

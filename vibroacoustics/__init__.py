@@ -9,7 +9,8 @@
 `given_radiation(...)` makes measured transfer vectors what `run` takes.
 `score(results)` scores and ranks the options again.
 `sweep(study, {...})` computes every design of a grid or a sample of values;
-`optimise(study)` searches for the best designs of its table `[design]`.
+`optimise(study)` searches for the best designs of its table `[design]`, which is a `Problem` for
+searches of your own.
 `write_report(results, folder)` writes the report with tables and figures.
 `data_sheet(results, option)` makes the data sheet of an option, a `DataSheet`, predicted;
 `write_data_sheet(sheet, folder)` writes it as page, CSV and JSON.
@@ -56,15 +57,24 @@ listening, tones, loudness and sharpness, `rooms` the sound of a source in a fur
 **Things of your own.**
 `register(thing)` and `load_plugin(path)` take them in: a class derived from `Option`, `Machine`,
 `Source` or `Criterion`, or a `Section` or `Column` of the report, whose content `blocks` make.
+A `Stage` of a run gets the `Chain` with `Cases` and results so far, and returns what is `Given`.
 `Added`, `Case`, `Loads`, `MovingPart`, `Revolution`, `Wrench`, `OldhamRing`, `Slider` are what
 these get and return; `circling`, `constant_rotation` and `wrenches_of_parts` make forces of moving
-masses. A `DesignFigure` of what is seen of designs, each a `Need`, is what they can be judged by. A
-`Curve` over each `CurveAxis` shows what goes on inside. A `Variable`, `Coordinate` or
-`Unit` joins the vocabulary; `stamp` labels an array as a variable, `check` tests a dataset. A
-`Reader` reads a format of recordings: it gets a `Request` and gives `Recorded`.
+masses. Further results of an option are a `RingForce`, a `FurtherRing` and an `InsertionLoss`. A
+machine has a `Rotation`, a `CrankFrame`, tables of `Parameters`, and for options each `Capability`,
+such as a slider with `BalancePlanes`; `Held` marks values that are not sampled. A `FileTable` takes
+values from a data file, by `read_columns` from CSV.
+Loads act at a `Port`: `HOUSING`, `BLOCK`, the parts `FIXED_SCROLL`, `BEARING_HOUSING`,
+`ORBITING_SCROLL`, `LOWER_BEARING` and `STATOR`, the `STATOR_YOKE`, a `GasPort`; a `Tone` is a
+line that is no order, `Noise` a random load. A `DesignFigure` of what is seen of designs, each a
+`Need`, is what they can be judged by. A `Curve` over each `CurveAxis` shows what goes on inside. A
+`Variable`, `Coordinate` or `Unit` joins the vocabulary; `stamp` labels an array as a variable,
+`check` tests a dataset. A `Reader` reads a format of recordings: it gets a `Request` and gives
+`Recorded`.
 
 **Errors.** All derive from `VibroacousticsError`, each message is one line: `ParameterError`,
-`SolverError`, `StorageError`, `SchemaError`, `PluginError`.
+`SolverError`, `StorageError`, `SchemaError`, `PluginError`. Doubtful recordings are a
+`RecordingWarning`, doubtful pulses of a tacho a `PulseWarning`.
 """
 
 from importlib import import_module
@@ -74,6 +84,7 @@ from .base.lazy import imported
 
 if TYPE_CHECKING:
     from . import levels, orders, plot, sound
+    from .base.column_file import read_columns
     from .base.curves import Curve, CurveAxis
     from .base.errors import (
         ParameterError,
@@ -83,6 +94,8 @@ if TYPE_CHECKING:
         StorageError,
         VibroacousticsError,
     )
+    from .base.file_table import FileTable
+    from .base.parameters import Held, Parameters
     from .base.plugin_file import load_plugin
     from .base.registry import register
     from .base.units import Unit
@@ -94,17 +107,28 @@ if TYPE_CHECKING:
     from .design.engine.seen import Need
     from .design.figure import DesignFigure
     from .design.optimising import optimise
+    from .design.problem import Problem
     from .design.sweep import sweep
+    from .machine.cavities import GasPort
+    from .machine.frame import (
+        BEARING_HOUSING,
+        FIXED_SCROLL,
+        LOWER_BEARING,
+        ORBITING_SCROLL,
+        STATOR,
+    )
     from .machine.machine import Machine
     from .machine.option import Option
     from .machine.source import Case, Source
+    from .machine.stator_yoke import STATOR_YOKE
+    from .machine.suspension import BLOCK
     from .measured.blocked_forces import blocked_forces
     from .measured.change import changed_response
     from .measured.inversion import inverted_forces
     from .measured.prediction import predict
-    from .mechanics.added import Added
-    from .mechanics.capabilities import OldhamRing, Slider
-    from .mechanics.loads import Loads
+    from .mechanics.added import Added, FurtherRing, InsertionLoss, RingForce
+    from .mechanics.capabilities import BalancePlanes, Capability, CrankFrame, OldhamRing, Slider
+    from .mechanics.loads import Loads, Noise, Tone
     from .mechanics.moving_parts import (
         MovingPart,
         Revolution,
@@ -112,7 +136,9 @@ if TYPE_CHECKING:
         circling,
         wrenches_of_parts,
     )
-    from .mechanics.rotation import constant_rotation
+    from .mechanics.ports import HOUSING, Port
+    from .mechanics.rotation import Rotation, constant_rotation
+    from .orders.recorded_speed import PulseWarning
     from .pipeline import (
         MeasurementSurface,
         analyse_orders,
@@ -136,6 +162,7 @@ if TYPE_CHECKING:
     )
     from .recordings.reader import Reader
     from .recordings.recorded import Recorded, Request
+    from .recordings.remarks import RecordingWarning
     from .report import blocks
     from .report.columns import Column
     from .report.data_sheet.model import DataSheet
@@ -150,22 +177,43 @@ if TYPE_CHECKING:
     from .results.storage import open_results
     from .scoring import score
     from .sources.curves import curves
+    from .stages.chain import Cases, Chain
+    from .stages.stage import Given, Stage
     from .study.criterion import Criterion
     from .study.loading import load_machine, load_study
     from .study.order_analysis import NominalSpeed, OrderAnalysis, SpeedChannel, TacholessSpeed
     from .study.study import Study
 
 __all__ = [
+    "BEARING_HOUSING",
+    "BLOCK",
+    "FIXED_SCROLL",
+    "HOUSING",
+    "LOWER_BEARING",
+    "ORBITING_SCROLL",
+    "STATOR",
+    "STATOR_YOKE",
     "Added",
+    "BalancePlanes",
+    "Capability",
     "Case",
+    "Cases",
+    "Chain",
     "Column",
     "Coordinate",
+    "CrankFrame",
     "Criterion",
     "Curve",
     "CurveAxis",
     "DataSheet",
     "DesignFigure",
     "FigureLimit",
+    "FileTable",
+    "FurtherRing",
+    "GasPort",
+    "Given",
+    "Held",
+    "InsertionLoss",
     "Limit",
     "Loads",
     "Machine",
@@ -174,25 +222,35 @@ __all__ = [
     "MovingPart",
     "Need",
     "Node",
+    "Noise",
     "NominalSpeed",
     "OldhamRing",
     "Option",
     "OrderAnalysis",
     "ParameterError",
+    "Parameters",
     "PluginError",
+    "Port",
+    "Problem",
+    "PulseWarning",
     "Reader",
     "Recorded",
+    "RecordingWarning",
     "Request",
     "Revolution",
+    "RingForce",
+    "Rotation",
     "SchemaError",
     "Section",
     "Slider",
     "SolverError",
     "Source",
     "SpeedChannel",
+    "Stage",
     "StorageError",
     "Study",
     "TacholessSpeed",
+    "Tone",
     "Unit",
     "Variable",
     "VibroacousticsError",
@@ -228,6 +286,7 @@ __all__ = [
     "plot",
     "predict",
     "radiate",
+    "read_columns",
     "read_figure_limits",
     "read_functions",
     "read_limits",
@@ -249,16 +308,38 @@ __all__ = [
 ]
 
 _HOME = {
+    "GasPort": "machine.cavities",
+    "STATOR_YOKE": "machine.stator_yoke",
+    "STATOR": "machine.frame",
+    "LOWER_BEARING": "machine.frame",
+    "ORBITING_SCROLL": "machine.frame",
+    "BEARING_HOUSING": "machine.frame",
+    "FIXED_SCROLL": "machine.frame",
+    "Noise": "mechanics.loads",
+    "Tone": "mechanics.loads",
+    "BLOCK": "machine.suspension",
+    "HOUSING": "mechanics.ports",
+    "Port": "mechanics.ports",
     "Added": "mechanics.added",
+    "BalancePlanes": "mechanics.capabilities",
+    "Capability": "mechanics.capabilities",
     "Case": "machine.source",
+    "Cases": "stages.chain",
+    "Chain": "stages.chain",
     "Column": "report.columns",
     "Coordinate": "base.vocabulary",
+    "CrankFrame": "mechanics.capabilities",
     "Criterion": "study.criterion",
     "Curve": "base.curves",
     "CurveAxis": "base.curves",
     "DataSheet": "report.data_sheet.model",
     "DesignFigure": "design.figure",
     "FigureLimit": "results.figure_limit",
+    "FileTable": "base.file_table",
+    "FurtherRing": "mechanics.added",
+    "Given": "stages.stage",
+    "Held": "base.parameters",
+    "InsertionLoss": "mechanics.added",
     "Limit": "results.limit",
     "Loads": "mechanics.loads",
     "Machine": "machine.machine",
@@ -270,19 +351,26 @@ _HOME = {
     "NominalSpeed": "study.order_analysis",
     "OldhamRing": "mechanics.capabilities",
     "Option": "machine.option",
+    "Parameters": "base.parameters",
+    "PulseWarning": "orders.recorded_speed",
     "Reader": "recordings.reader",
     "Recorded": "recordings.recorded",
+    "RecordingWarning": "recordings.remarks",
     "Request": "recordings.recorded",
     "OrderAnalysis": "study.order_analysis",
     "ParameterError": "base.errors",
     "PluginError": "base.errors",
+    "Problem": "design.problem",
     "Revolution": "mechanics.moving_parts",
+    "RingForce": "mechanics.added",
+    "Rotation": "mechanics.rotation",
     "SchemaError": "base.errors",
     "Section": "report.sections",
     "Slider": "mechanics.capabilities",
     "SolverError": "base.errors",
     "Source": "machine.source",
     "SpeedChannel": "study.order_analysis",
+    "Stage": "stages.stage",
     "StorageError": "base.errors",
     "Study": "study.study",
     "TacholessSpeed": "study.order_analysis",
@@ -317,6 +405,7 @@ _HOME = {
     "optimise": "design.optimising",
     "predict": "measured.prediction",
     "radiate": "pipeline",
+    "read_columns": "base.column_file",
     "read_functions": "recordings",
     "read_figure_limits": "results.limits_file",
     "read_limits": "results.limits_file",

@@ -23,6 +23,7 @@ def followed() -> dict[str, object]:
 def test_every_tutorial_has_complete_code(followed):
     assert set(followed["files"]) == {
         "add_a_balancer", "add_a_criterion", "add_a_machine", "add_a_section", "add_a_source",
+        "add_a_stage",
     }  # fmt: skip
     for page, files in followed["files"].items():
         assert files, page
@@ -39,6 +40,10 @@ def test_balancer_source_and_criterion_are_in_the_results(followed):
 def test_section_and_column_are_in_the_report(followed):
     assert "What the floor gets" in followed["report"]
     assert "Force 3×, N" in followed["report"]
+
+
+def test_stage_is_in_the_report(followed):
+    assert "Vibration severity" in followed["report"]
 
 
 def test_machine_makes_its_force(followed):

@@ -127,8 +127,8 @@ def _made_again_is_the_same(folder: Path) -> None:
     ("blocks", "words"),
     [
         ("lambda results: [Text(results['nothing'].item())]", "KeyError"),
-        ("lambda results: ['plain text']", "ValidationError"),
-        ("lambda results: [Text(3)]", "ValidationError"),
+        ("lambda results: ['plain text']", "blocks returns a str, must be"),
+        ("lambda results: [Text(3)]", "blocks returns a int in words"),
     ],
 )
 def test_section_that_fails_is_named_in_one_line(
@@ -137,8 +137,9 @@ def test_section_that_fails_is_named_in_one_line(
     imports = "from vibroacoustics.report.blocks import Text\n"
     section = "from vibroacoustics.report.sections import Section\n"
     plugin(tmp_path, f"{BARE}{imports}{section}register(Section('odd', 'Odd', {blocks}))\n")
-    page = render(results)["report.html"].decode()
-    assert f"section odd is left out: {words}" in page
+    with pytest.warns(UserWarning, match=f"section odd is omitted: mine.py, line 4: {words}"):
+        page = render(results)["report.html"].decode()
+    assert page.count(f"section odd is omitted: mine.py, line 4: {words}") == 2  # first screen
     assert "<h2>Provenance</h2>" in page
 
 
@@ -155,11 +156,11 @@ def test_column_that_fails_is_named_in_one_line(
 ) -> None:
     column = "from vibroacoustics.report.columns import Column\n"
     plugin(tmp_path, f"{BARE}{column}register(Column('odd_n', {values}, 'Odd'))\n")
-    files = render(results)
-    (line,) = [
-        line for line in files["comparison.md"].decode().splitlines() if "is left out:" in line
-    ]
-    assert words in line
+    with pytest.warns(UserWarning, match="column odd_n is omitted"):
+        files = render(results)
+    lines = [line for line in files["comparison.md"].decode().splitlines() if "is omitted:" in line]
+    assert len(lines) == 2  # on the first screen, and with the comparison
+    assert all(words in line for line in lines)
     assert "odd_n" not in files["comparison.csv"].decode()
 
 

@@ -1,12 +1,11 @@
-"""A stranger's balancer: a second shaft with one weight that turns against the first."""
+"""A third party's balancer: a second shaft with one weight that turns against the first."""
 
 from typing import ClassVar
 
 from pydantic import Field
 
 import vibroacoustics
-from vibroacoustics import Added, Machine, Revolution
-from vibroacoustics.mechanics.moving_parts import circling
+from vibroacoustics import Added, Machine, Revolution, circling
 
 
 @vibroacoustics.register

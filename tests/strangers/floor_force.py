@@ -1,9 +1,7 @@
-"""A stranger's variable over a coordinate of its own, and the section that shows it."""
+"""A third party's variable over a coordinate of its own, and the section that shows it."""
 
 import vibroacoustics
-from vibroacoustics import Coordinate, Variable, check, stamp
-from vibroacoustics.report.sections import Section
-from vibroacoustics.report.tables import Table
+from vibroacoustics import Coordinate, Section, Variable, blocks, check, stamp
 
 SIDE = Coordinate("side", ("side",), "", "side of the machine")
 FLOOR_FORCE = Variable("floor_force", ("option", "side"), "N", "largest force of a side's feet")
@@ -21,14 +19,14 @@ def with_floor_force(results):
     return check(results.assign(floor_force=array))
 
 
-def blocks(results):
+def content(results):
     """One row an option."""
     force = with_floor_force(results)["floor_force"]
     rows = tuple(
         (str(own["option"].item()), *(f"{value:.3g}" for value in own.values)) for own in force
     )
-    return [Table(force.attrs["long_name"], ("Option", "Left, N", "Right, N"), rows)]
+    return [blocks.Table(force.attrs["long_name"], ("Option", "Left, N", "Right, N"), rows)]
 
 
-SECTION = Section("floor_force", "What the floor gets", blocks, position=45.0)
+SECTION = Section("floor_force", "What the floor gets", content, position=45.0)
 vibroacoustics.register(SECTION)

@@ -1,4 +1,4 @@
-"""A stranger's source: a table of force along x over crank angle, taken from elsewhere."""
+"""A third party's source: a table of force along x over crank angle, taken from elsewhere."""
 
 from typing import ClassVar
 

@@ -1,4 +1,4 @@
-"""A stranger's unit of length."""
+"""A third party's unit of length."""
 
 import vibroacoustics
 

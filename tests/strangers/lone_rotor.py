@@ -1,13 +1,11 @@
-"""A stranger's kind of machine: a rotor with an unbalance, and nothing else that moves."""
+"""A third party's kind of machine: a rotor with an unbalance, and nothing else that moves."""
 
 from typing import ClassVar
 
 from pydantic import Field
 
 import vibroacoustics
-from vibroacoustics import Revolution
-from vibroacoustics.mechanics.moving_parts import circling, wrenches_of_parts
-from vibroacoustics.mechanics.rotation import constant_rotation
+from vibroacoustics import Revolution, circling, constant_rotation, wrenches_of_parts
 
 
 @vibroacoustics.register

@@ -1,21 +1,26 @@
-"""A stranger's reader: one channel of bytes at 1 kHz, volts at 128 a volt."""
-
-import sys
+"""A third party's reader: two channels of signed bytes in turn, 128 a volt, at 1 kHz."""
 
 import numpy as np
 
 import vibroacoustics
 from vibroacoustics import Reader, Recorded, Request
 
+NAMES = ("front", "rear")
+LIMITS_V = (-1.0, 127.0 / 128.0)
+
 
 def read(request: Request) -> Recorded:
-    """The bytes as they are; tells which process reads, and whether that has labelled arrays."""
-    stored = np.frombuffer(request.path.read_bytes(), dtype=np.int8)
-    if not stored[0]:
-        import no_such_module  # noqa: F401
-    name = "plain" if "xarray" not in sys.modules else "in the process of the user"
-    return Recorded([name], ["V"], [stored / 128.0], request.sample_rate_hz or 1000.0)
+    """The requested channels in volts."""
+    stored = np.fromfile(request.path, dtype=np.int8).reshape(-1, len(NAMES))
+    columns = request.chosen(NAMES)
+    return Recorded(
+        names=[NAMES[column] for column in columns],
+        units=["V" for _ in columns],
+        samples=[stored[:, column] / 128.0 for column in columns],
+        sample_rate_hz=request.sample_rate_hz or 1000.0,
+        limits=[LIMITS_V for _ in columns],
+    )
 
 
-READER = Reader("plain-bytes", (".plain",), "plain bytes", read, package="plain-bytes-of-pip")
+READER = Reader("plain-bytes", (".plain",), "plain bytes", read)
 vibroacoustics.register(READER)

@@ -1,4 +1,4 @@
-"""A stranger's criterion: the largest force on the housing at twice the speed."""
+"""A third party's criterion: the largest force on the housing at twice the speed."""
 
 import vibroacoustics
 

@@ -13,24 +13,34 @@ from vibroacoustics.results.storage import open_results, write_results
 
 ENTRY_POINTS = """[vibroacoustics.sections]
 floor_force = floor_force:SECTION
+vibration_severity = vibration_severity:SECTION
+[vibroacoustics.stages]
+vibration-severity = vibration_severity:VibrationSeverity
 [vibroacoustics.columns]
 force_3x_n = third_force:COLUMN
 [vibroacoustics.variables]
 floor_force = floor_force:FLOOR_FORCE
+vibration_severity = vibration_severity:SEVERITY
 [vibroacoustics.coordinates]
 side = floor_force:SIDE
 [vibroacoustics.units]
 inch = inches:INCH
 [vibroacoustics.readers]
 plain-bytes = plain_bytes:READER
+process = reading_process:READER
 """
+
+
+MODULES = (
+    "floor_force", "third_force", "inches", "plain_bytes", "reading_process", "vibration_severity",
+)  # fmt: skip
 
 
 @pytest.fixture(scope="module")
 def installed(tmp_path_factory) -> Path:
     """A folder of installed packages: the files, which register nothing, and entry points."""
     folder = tmp_path_factory.mktemp("site")
-    for name in ("floor_force", "third_force", "inches", "plain_bytes"):
+    for name in MODULES:
         text = (STRANGERS / f"{name}.py").read_text()
         plain = re.sub(r"(?m)^@?vibroacoustics\.register.*\n", "", text)
         (folder / f"{name}.py").write_text(plain)
@@ -71,6 +81,26 @@ def test_section_column_and_variable_are_shown(stranger, results_file, tmp_path)
     assert csv[0].endswith(",force_3x_n")
 
 
+def test_stage_gives_its_variable_and_section(stranger, tmp_path):
+    """Severity of the worst axis by hand; the report is made again without the plug-in."""
+    out = tmp_path / "out"
+    outcome = stranger("run", TINY, "--out", out, names=("vibration_severity",))
+    assert outcome.returncode == 0, outcome.stderr
+    results = open_results(out / "results.nc")
+    severity = results["vibration_severity"].sel(option="none").values
+    along = results["velocity_order"].sel(option="none", dof=["tx", "ty", "tz"]).sum("source")
+    orders = along.transpose("speed", "dof", "order").values
+    for row, speed in enumerate(results["speed"].values):
+        hertz = results["order"].values * speed / 60.0
+        kept = orders[row][:, (hertz >= 10.0) & (hertz <= 1000.0)]
+        worst = np.sqrt(np.sum(np.abs(kept) ** 2, axis=1) / 2.0).max()
+        assert severity[row] == pytest.approx(1e3 * worst, rel=1e-12)
+    again = command_here("report", out / "results.nc", "--out", tmp_path / "again")
+    assert again.returncode == 0, again.stderr
+    for page in (out, tmp_path / "again"):
+        assert "## Vibration severity" in (page / "comparison.md").read_text()
+
+
 def test_unit_is_read_and_told(stranger, tmp_path):
     text = TINY.read_text().replace("../../data", str(ROOT / "data"))
     option = """[options.weight]
@@ -95,32 +125,35 @@ ANALYSIS = ("--rpm", "3000", "--maximum-order", "5")
 
 
 def plain_recording(folder: Path) -> Path:
-    """A sine of 50 Hz and 0.5 V, in the stranger's format."""
+    """Sines of 50 Hz of 0.5 V at the front and 0.25 V at the rear, in the plug-in's format."""
     sine = 64.0 * np.sin(2.0 * np.pi * 50.0 * np.arange(4000) / 1000.0 + 0.1)
-    (folder / "sine.plain").write_bytes(np.round(sine).astype(np.int8).tobytes())
+    stored = np.round(np.stack([sine, 0.5 * sine], axis=1)).astype(np.int8)
+    (folder / "sine.plain").write_bytes(stored.tobytes())
     return folder / "sine.plain"
 
 
-def test_reader_reads_in_the_child(stranger, tmp_path):
+def test_reader_gives_the_requested_channels(stranger, tmp_path):
+    """Within half a step of 1/128 V on a peak of 0.25 V: 1.6 %."""
     words = ("orders", plain_recording(tmp_path), *ANALYSIS, "--out", tmp_path / "out")
     assert_refused(command_here(*words), "format '.plain' is unknown; known are .csv")
-    outcome = stranger(*words, names=("plain_bytes",))
+    outcome = stranger(*words, "--channels", "rear", names=("plain_bytes",))
     assert outcome.returncode == 0, outcome.stderr
     results = open_results(tmp_path / "out" / "orders.nc")
-    assert results["channel"].values.tolist() == ["plain"]
+    assert results["channel"].values.tolist() == ["rear"]
     first = results["channel_order_rms"].sel(order=1).item()
-    assert first == pytest.approx(0.5 / np.sqrt(2.0), rel=1e-2)
+    assert first == pytest.approx(0.25 / np.sqrt(2.0), rel=0.016)
     origin = json.loads(results.attrs["plugins"])["reader plain-bytes"]
     assert origin["file"] == "plain_bytes.py"
 
 
 def test_missing_package_of_a_reader_is_named(stranger, tmp_path):
-    (tmp_path / "bad.plain").write_bytes(bytes(100))
-    outcome = stranger("orders", tmp_path / "bad.plain", "--rpm", "3000", names=("plain_bytes",))
-    assert_refused(outcome, "needs no_such_module: pip install plain-bytes-of-pip")
+    file = tmp_path / "bad.process"
+    file.write_bytes(bytes(100))
+    outcome = stranger("orders", file, "--rpm", "3000", names=("reading_process",))
+    assert_refused(outcome, "needs no_such_module: pip install process-of-pip")
 
 
 def test_doctor_lists_an_installed_reader(installed, tmp_path):
     outcome = command(tmp_path, "doctor", path=installed)
-    needs = "recordings: plain bytes: needs plain-bytes-of-pip: pip install plain-bytes-of-pip"
+    needs = "recordings: reading process: needs process-of-pip: pip install process-of-pip"
     assert needs in outcome.stdout

@@ -13,7 +13,10 @@ import pytest
 from support import ROOT, TINY, assert_refused, command_here
 
 from vibroacoustics.base import registry
+from vibroacoustics.base.constants import REFERENCE_PRESSURE_PA
+from vibroacoustics.radiation.transfer_vectors import pressure_per_velocity
 from vibroacoustics.results.storage import open_results
+from vibroacoustics.study.loading import load_study
 
 STRANGERS = ROOT / "tests" / "strangers"
 OPTION = """
@@ -31,12 +34,17 @@ SOURCE = """
 kind = "force-table"
 force_n = [1000.0, 0.0, -1000.0, 0.0]
 
+[sources.rumble]
+kind = "rumble"
+force_n = 20.0
+
 [radiation]
 """
 ENTRY_POINTS = """[vibroacoustics.options]
 counter-shaft = counter_shaft:CounterShaft
 [vibroacoustics.sources]
 force-table = force_table:ForceTable
+rumble = rumble:Rumble
 [vibroacoustics.criteria]
 force_2x_n = second_order:SecondForce
 [vibroacoustics.machines]
@@ -81,7 +89,7 @@ def study(tmp_path_factory) -> Path:
 @pytest.fixture(scope="module")
 def finished(study, cache, tmp_path_factory) -> Path:
     out = tmp_path_factory.mktemp("out")
-    named = plugins("counter_shaft", "second_order", "force_table")
+    named = plugins("counter_shaft", "second_order", "force_table", "rumble")
     outcome = command(cache, "run", study, "--out", out, *named)
     assert outcome.returncode == 0, outcome.stderr
     return out
@@ -120,6 +128,28 @@ def test_source_is_in_force_level_and_report(finished):
     assert "Largest force of the table" in page
 
 
+def test_noise_on_the_rigid_machine_is_that_of_one_mass_on_its_mounts(finished):
+    """S |p v/F|² over each third octave, v/F = jω/(4 k (1 + jη) - ω² m), in level and share."""
+    results = open_results(finished / "results.nc")
+    machine = load_study(TINY).machine
+    frequency = np.arange(0.5, 1000.0)
+    omega, mounts = 2.0 * np.pi * frequency, machine.mounts
+    held = 4.0 * mounts.vertical_stiffness_n_per_m * (1.0 + 1j * mounts.loss_factor_ratio)
+    velocity = 1j * omega / (held - omega**2 * machine.housing.mass_kg)
+    pressure = pressure_per_velocity(results["transfer_vector"])(frequency)[:, 2] * velocity
+    density = 20.0**2 / 1000.0
+    levels = results["source_band_level"].sel(sound_source="rumble", option="none", speed=2900.0)
+    assert levels.sizes["band"] > 10
+    for index, band in enumerate(levels["band"].values):
+        middle = 10.0 ** (0.1 * np.round(10.0 * np.log10(band)))
+        within = np.abs(np.log10(frequency / middle)) < 0.05
+        expected = density * np.sum(np.abs(pressure[:, within]) ** 2, axis=1)
+        found = REFERENCE_PRESSURE_PA**2 * 10.0 ** (levels.isel(band=index).values / 10.0)
+        assert found == pytest.approx(expected, rel=1e-6), band
+    ways = results["path"].sel(path=results["path_source"] == "rumble").values.tolist()
+    assert "rumble: housing tz" in ways
+
+
 def test_hashes_of_the_files_are_in_the_results(finished):
     kept = json.loads(open_results(finished / "results.nc").attrs["plugins"])
     assert kept["kind of option counter-shaft"]["file"] == "counter_shaft.py"
@@ -156,9 +186,9 @@ def refused(monkeypatch):
 def test_without_the_files_the_study_is_refused(study, refused, tmp_path):
     run = ["run", study, "--out", tmp_path]
     refused(run, "options.counter-shaft.kind = counter-shaft: unknown", "allowed")
-    named = plugins("counter_shaft", "force_table")
+    named = plugins("counter_shaft", "force_table", "rumble")
     refused([*run, *named], "force_2x_n", "unknown")
-    named = plugins("counter_shaft", "second_order")
+    named = plugins("counter_shaft", "second_order", "rumble")
     refused([*run, *named], "sources.table.kind = force-table: unknown; allowed")
     assert not any(tmp_path.iterdir())
 
@@ -166,7 +196,7 @@ def test_without_the_files_the_study_is_refused(study, refused, tmp_path):
 def test_refusal_names_key_unit_and_bounds(study, refused, tmp_path):
     wrong = tmp_path / "wrong.toml"
     wrong.write_text(study.read_text().replace("mass_g = { value = 10.0", "mass_g = { value = 2e3"))
-    named = plugins("counter_shaft", "second_order", "force_table")
+    named = plugins("counter_shaft", "second_order", "force_table", "rumble")
     run = ["run", wrong, "--out", tmp_path / "out", *named]
     refused(run, "options.counter-shaft.mass_g = 2000.0 g", "above 0 to 1000 g")
 

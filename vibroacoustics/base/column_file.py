@@ -44,12 +44,12 @@ def column_names(path: Path) -> tuple[str, ...]:
 
 
 def read_columns(
-    path: Path,
+    path: str | Path,
     numbers: Sequence[str],
     optional: Sequence[str] = (),
     texts: Sequence[str] = (),
 ) -> Columns:
-    """Columns of a CSV file by their SI names; lines that begin with # are remarks.
+    """Read columns of a CSV file by their SI names; lines that begin with # are remarks.
 
     A column may be in any unit of its quantity, as its name says: `fx_n`, `speed_rpm`.
 
@@ -60,11 +60,23 @@ def read_columns(
     optional : SI names of columns that it may have
     texts : names of columns of words that it may have
 
+    Returns
+    -------
+    `numbers`, arrays in SI by SI name, and `texts`; `refusal(row, words)` makes the error of a row
+
     Raises
     ------
     ParameterError
         It cannot be read, lacks a column, has an unknown one, or a cell is no finite number.
+
+    Examples
+    --------
+    >>> _ = open("stiffness.csv", "w").write("frequency_hz,stiffness_n_per_mm\\n100,50\\n")
+    >>> columns = va.read_columns("stiffness.csv", ["frequency_hz", "stiffness_n_per_m"])
+    >>> columns.numbers["stiffness_n_per_m"].tolist()  # N/m
+    [50000.0]
     """
+    path = Path(path)
     lines, rows = _rows(path)
     head = [_plain(cell) for cell in rows[0]]
     fields = {si_key(name)[0]: at for at, name in enumerate(head)}

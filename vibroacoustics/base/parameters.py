@@ -3,7 +3,7 @@
 import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, TypeVar
+from typing import Any, ClassVar, Final, TypeVar
 
 from pydantic import (
     BaseModel,
@@ -19,12 +19,21 @@ from pydantic_core import CoreSchema
 from .errors import ParameterError
 from .registry import Registry
 
+FURTHER: Final = "further kinds come with --plugin FILE.py"
+
 
 class Parameters(BaseModel):
     """A frozen, strictly validated set of parameters in SI units.
 
     Unknown keys, wrong types, NaN and infinity are refused. Field names carry the SI unit;
-    files may use any unit that `vibroacoustics.base.units` knows, as the suffix of the key.
+    files may use any unit of the same quantity, as the suffix of the key.
+
+    Examples
+    --------
+    >>> class Wheel(va.Parameters):
+    ...     mass_kg: float
+    >>> Wheel(mass_kg=0.3)
+    Wheel(mass_kg=0.3)
     """
 
     model_config = ConfigDict(
@@ -36,11 +45,19 @@ class Parameters(BaseModel):
 
 @dataclass(frozen=True)
 class Held:
-    """Annotation of a value that is not drawn from its range.
+    """Annotation of a value that is never sampled from its range.
 
     Attributes
     ----------
     reason : why not, after "it" or "they"
+
+    Examples
+    --------
+    >>> from typing import Annotated
+    >>> class Hood(va.Parameters):
+    ...     thickness_m: Annotated[float, va.Held("needs a radiation of its own")]
+    >>> Hood(thickness_m=0.002).thickness_m
+    0.002
     """
 
     reason: str
@@ -117,5 +134,5 @@ def split_kind(
     if kind is None:
         raise ParameterError(f"kind is missing; allowed {', '.join(registry)}")
     if not isinstance(kind, str) or kind not in registry:
-        raise ParameterError(f"kind = {kind}: {registry.unknown(str(kind))}")
+        raise ParameterError(f"kind = {kind}: {registry.unknown(str(kind))}; {FURTHER}")
     return registry[kind], values

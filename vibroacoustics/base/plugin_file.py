@@ -6,6 +6,8 @@ from pathlib import Path
 from typing import Final
 
 from .errors import PluginError, VibroacousticsError
+from .fault import Place
+from .fence import fence
 from .regular_file import opened
 
 MAXIMUM_BYTES: Final = 10_000_000
@@ -49,14 +51,12 @@ def load_plugin(path: str | Path) -> None:
     module = module_from_spec(spec)
     sys.modules[name] = module  # its classes are looked up there
     try:
-        spec.loader.exec_module(module)
+        with fence(Place("plug-in", str(path), file.name), (VibroacousticsError,)):
+            spec.loader.exec_module(module)
         _FILES[name] = file
-    except VibroacousticsError:
+    except BaseException:
         del sys.modules[name]
         raise
-    except Exception as error:
-        del sys.modules[name]
-        raise PluginError(f"{path}: {type(error).__name__}: {error}") from None
 
 
 def _check(file: Path, given: str | Path) -> None:

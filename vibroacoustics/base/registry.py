@@ -8,6 +8,7 @@ study's file says so.
 
 import sys
 from collections.abc import Iterable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from difflib import get_close_matches
 from importlib import import_module, metadata
 from pathlib import Path
@@ -15,6 +16,8 @@ from pkgutil import iter_modules
 from typing import Any, Final, Generic, NamedTuple, TypeVar
 
 from .errors import ParameterError, PluginError
+from .fault import FaultError, Place, leave_out
+from .fence import fence, fenced
 from .hashing import sha256
 
 Thing = TypeVar("Thing")
@@ -59,6 +62,7 @@ class Registry(Generic[Thing]):
         self._group = group
         self._things: dict[str, Thing] = {}
         self._origins: dict[str, Origin] = {}
+        self._faults: dict[str, FaultError] = {}
         self._filled = False
         _REGISTRIES.append(self)
 
@@ -101,6 +105,29 @@ class Registry(Generic[Thing]):
         self._fill()
         return self._things.get(name)
 
+    def fenced(self, name: str, *passing: type[Exception]) -> AbstractContextManager[None]:
+        """Return the fence around work on a thing; none around work on a built-in one.
+
+        Parameters
+        ----------
+        name : of the thing
+        passing : errors that stay what they are
+        """
+        origin = self.origin(name)
+        if origin is None:
+            return nullcontext()
+        return fence(Place(self.noun, name, origin.file, self._things[name]), passing)
+
+    @contextmanager
+    def spared(self) -> Iterator[None]:
+        """Omit a thing of this registry that fails, and say so in one line."""
+        try:
+            yield
+        except FaultError as fault:
+            if fault.noun != self.noun:
+                raise
+            leave_out(fault)
+
     def meant(self, name: str, further: Iterable[str] = ()) -> str:
         """`, did you mean …?` of the name that comes closest; empty where none is close."""
         close = get_close_matches(name, [*self, *further], n=1)
@@ -113,7 +140,14 @@ class Registry(Generic[Thing]):
         ----------
         name : the unknown one
         further : names that are allowed beside those of the registry
+
+        Raises
+        ------
+        FaultError
+            The thing is installed, but cannot be loaded.
         """
+        if name in self._faults:
+            raise self._faults[name]
         allowed = [*self, *sorted(further)]
         return f"unknown{self.meant(name, allowed) or ';'} allowed {', '.join(allowed)}"
 
@@ -148,6 +182,8 @@ class Registry(Generic[Thing]):
             whose = "is built in" if other is None else f"is given by {other.file} already"
             prefix = "" if origin is None else f"{origin.file}: "
             raise PluginError(f"{prefix}{self.noun} {name}: {whose}; choose another name")
+        if origin is not None:
+            fenced(thing, self.base, Place(self.noun, name, origin.file, thing))
         self._things[name] = thing
         if origin is not None:
             self._origins[name] = origin
@@ -173,24 +209,20 @@ class Registry(Generic[Thing]):
             self._add_installed(point)
 
     def _add_installed(self, point: metadata.EntryPoint) -> None:
-        thing = _loaded(point)
-        if not self.accepts(thing):
-            raise PluginError(f"{point.value}: is no {self.noun}")
-        module = sys.modules[point.module]
-        version = point.dist.version if point.dist else ""
-        self.add(thing, origin_of(vars(module), version))
+        """Take in what an installed package brings, except what cannot be loaded."""
+        try:
+            with fence(Place(self.noun, point.name, f"{point.module.rpartition('.')[2]}.py")):
+                thing = point.load()
+                if not self.accepts(thing):
+                    raise PluginError(f"{point.value}: is no {self.noun}")
+                version = point.dist.version if point.dist else ""
+                self.add(thing, origin_of(vars(sys.modules[point.module]), version))
+        except FaultError as fault:
+            self._faults[point.name] = fault
+            leave_out(fault)
 
 
 _REGISTRIES: Final[list[Registry[Any]]] = []
-
-
-def _loaded(point: metadata.EntryPoint) -> Any:
-    try:
-        return point.load()
-    except PluginError:
-        raise
-    except Exception as error:
-        raise PluginError(f"{point.value}: cannot be loaded: {error!r}") from None
 
 
 def register(thing: Thing) -> Thing:
@@ -198,8 +230,8 @@ def register(thing: Thing) -> Thing:
 
     Parameters
     ----------
-    thing : class derived from `Option`, `Machine`, `Source` or `Criterion`, or a `Section`,
-        `Column`, `Variable`, `Coordinate` or `Unit`
+    thing : class derived from `Option`, `Machine`, `Source`, `Stage` or `Criterion`, or a
+        `Section`, `Column`, `Variable`, `Coordinate` or `Unit`
 
     Raises
     ------

@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from ..base.fault import collected
 from .options import Plugins, load_plugins
 from .progress import progress_on_stderr
 
@@ -25,18 +26,20 @@ def check_command(
     from ..study.study_or_machine import load_study_or_machine
     from . import cost_lines
 
-    load_plugins(plugin)
-    checked = load_study_or_machine(file)
-    if not isinstance(checked, Study):
-        _print(cost_lines.machine_lines(checked))
-    else:
-        from ..pipeline.cost import run_cost
+    with collected() as left_out:
+        load_plugins(plugin)
+        checked = load_study_or_machine(file)
+        if not isinstance(checked, Study):
+            _print(cost_lines.machine_lines(checked))
+        else:
+            from ..pipeline.cost import run_cost
 
-        _print(cost_lines.study_lines(checked))
-        with progress_on_stderr() as progress:
-            cost = run_cost(checked, progress)
-        _print(cost_lines.cost_lines(cost))
-    typer.echo(f"{file}: nothing is wrong")
+            _print(cost_lines.study_lines(checked))
+            with progress_on_stderr() as progress:
+                cost = run_cost(checked, progress)
+            _print(cost_lines.cost_lines(cost))
+    what = "nothing else is wrong" if left_out else "nothing is wrong"
+    typer.echo(f"{file}: {what}")
 
 
 def _print(lines: Iterable[str]) -> None:

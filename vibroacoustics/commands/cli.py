@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 
 from ..base.errors import VibroacousticsError
+from ..base.fault import collected
 from . import (
     check_commands,
     comparison_commands,
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from ..study.study import Study
 
 INPUT_ERROR = 2
+NOT_COMPLETE = 3
 COLLECTIONS: Final = (100_000, 10, 10)
 """Thresholds of the collector of cyclic garbage: imports and figures make next to none of it, and
 at the usual 700 it takes a tenth of a run's time."""
@@ -86,8 +88,8 @@ def main() -> None:
     """Run the command line; input errors are lines on stderr and exit code 2."""
     gc.set_threshold(*COLLECTIONS)
     try:
-        with messages.warnings_in_one_line():
-            app()
+        with messages.warnings_in_one_line(), collected() as left_out:
+            _run(left_out)
     except VibroacousticsError as error:
         for line in messages.lines_of(error):
             print(line, file=sys.stderr)
@@ -95,6 +97,16 @@ def main() -> None:
     except MemoryError as error:
         print(f"error: not enough memory: {error}", file=sys.stderr)
         sys.exit(INPUT_ERROR)
+
+
+def _run(left_out: list[str]) -> None:
+    """Run a command; one that ends well, but without what failed in a plug-in, exits with 3."""
+    try:
+        app()
+    except SystemExit as ended:
+        if left_out and not ended.code:
+            sys.exit(NOT_COMPLETE)
+        raise
 
 
 @app.command("radiation")

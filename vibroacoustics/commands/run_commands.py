@@ -44,6 +44,10 @@ Quiet = Annotated[
 Verbose = Annotated[
     bool, typer.Option("--verbose", help="A line for every stage, however short, on stderr.")
 ]
+Without = Annotated[
+    list[str] | None,
+    typer.Option(metavar="NAME", help="Source of the studies that is omitted; may be repeated."),
+]
 Log = Annotated[
     Path | None,
     typer.Option(metavar="FILE", help="Append stages, warnings and errors with their times."),
@@ -61,11 +65,12 @@ def run_command(
     quiet: Quiet = False,
     verbose: Verbose = False,
     log: Log = None,
+    without: Without = None,
 ) -> None:
     """Run studies and write results.nc, report.html, tables and figures of each."""
     with messages.logged(log):
         load_plugins(plugin)
-        studies = _studies(study_files, out, coarse)
+        studies = _studies(study_files, out, coarse, without or ())
         summaries = []
         with used_cache(no_cache), progress_on_stderr(quiet, verbose) as progress:
             for number, (study, folder) in enumerate(studies):
@@ -80,7 +85,9 @@ def run_command(
         typer.echo(json.dumps({"studies": summaries}, indent=1))
 
 
-def _studies(files: Sequence[Path], out: Path | None, coarse: bool) -> "list[tuple[Study, Path]]":
+def _studies(
+    files: Sequence[Path], out: Path | None, coarse: bool, without: Sequence[str]
+) -> "list[tuple[Study, Path]]":
     """Studies with the folders of their results; all are read before the first one runs."""
     from ..study.coarse import coarse as coarser
     from ..study.loading import load_study
@@ -92,7 +99,7 @@ def _studies(files: Sequence[Path], out: Path | None, coarse: bool) -> "list[tup
         folder = inner or Path("reports") / file.stem
         if folder in [other for _, other in studies]:
             raise ParameterError(f"{file}: two studies would write to {folder}; run one by one")
-        study = load_study(file)
+        study = load_study(file, without)
         outputs.check_folder(folder, outputs.RUN_FILES)
         if coarse:
             study = coarser(study)
@@ -118,6 +125,8 @@ def _run(study: "Study", folder: Path, progress: Progress, silent: bool) -> dict
     if not silent:
         typer.echo(report.comparison_text(results))
         typer.echo(report.kwave_text(results), nl=False)
+        for line in study.left_out:
+            typer.echo(line)
         for words in study.coarsened:
             typer.echo(f"coarse: {words}")
         typer.echo(f"report: {written}")

@@ -3,8 +3,8 @@
 import xarray as xr
 
 from ..base.progress import Progress, no_progress
-from ..pipeline.radiating import transfer_vectors
 from ..radiation.given import Radiation
+from ..stages.radiation import transfer_vectors
 from ..study.study import Study
 from .evaluation import Evaluate, evaluating
 from .explaining import explained

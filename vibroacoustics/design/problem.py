@@ -10,8 +10,8 @@ import numpy as np
 from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..base.vocabulary import REFERENCE_OPTION
-from ..pipeline.radiating import transfer_vectors
 from ..radiation.given import Radiation
+from ..stages.radiation import transfer_vectors
 from ..study.criterion import CRITERIA
 from ..study.design import Constraint, Design, Objective, Wanted
 from ..study.study import Study
@@ -61,6 +61,19 @@ class Problem:
     ------
     ParameterError
         The table names what the study does not have.
+
+    Examples
+    --------
+    >>> study = va.load_study("pipelines/copeland_thesis.toml").replace({"design": {
+    ...     "option": ["counterweight-half"],
+    ...     "variables": {"options.counterweight-half.share_ratio": {"range": [0.0, 1.0]}},
+    ...     "objectives": {"foot": {"figure": "foot_force_n", "order": 1}},
+    ... }})
+    >>> frequency = np.arange(25.0, 2501.0, 25.0)
+    >>> vectors = 1e-4j * frequency * np.ones((len(study.receivers), 6, 1))  # made up
+    >>> problem = va.Problem(study, va.given_radiation(vectors, frequency))
+    >>> problem.evaluate(np.array([[0.0], [0.5]])).objectives.shape  # (design, objective), N
+    (2, 1)
     """
 
     def __init__(self, study: Study, radiation: Radiation = transfer_vectors) -> None:

@@ -11,8 +11,8 @@ from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..base.progress import Progress, no_progress
 from ..base.vocabulary import REFERENCE_OPTION
-from ..pipeline.radiating import transfer_vectors
 from ..radiation.given import Radiation
+from ..stages.radiation import transfer_vectors
 from ..study.study import Study
 from .dataset import labelled
 from .evaluation import Evaluate, Evaluation, evaluating

@@ -3,12 +3,16 @@
 A machine without such a table leaves the sound of that gas out.
 """
 
+from collections.abc import Mapping
+from dataclasses import dataclass
 from math import pi
 from typing import Annotated, Final
 
 from pydantic import Field, model_validator
 
 from ..base.parameters import Held, Parameters
+from ..mechanics.ports import Port
+from .frame import SHELL_TABLES
 from .shell import Shell
 
 SHAPE: Final = Held("bound a space of gas: another one makes other modes of it")
@@ -115,3 +119,32 @@ class DischargeMuffler(Parameters):
     length_m: float = Field(ge=1e-3, le=5.0)
     diameter_m: float = Field(ge=2e-3, le=1.0)
     """Inner."""
+
+
+SPACES: Final[Mapping[str, type[Parameters]]] = {
+    "discharge_dome": DischargeDome,
+    "suction_annulus": SuctionAnnulus,
+}
+"""Spaces of gas that sources may feed, by the name of the machine's table."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class GasPort(Port):
+    """A space of gas in the shell, one of `SPACES`, fed by a volume flow, m³/s.
+
+    Attributes
+    ----------
+    components, tables : as of `Port`
+    density_kg_per_m3, sound_speed_m_per_s : of the gas there
+
+    Examples
+    --------
+    >>> port = va.GasPort("discharge_dome", density_kg_per_m3=112.0, sound_speed_m_per_s=178.0)
+    >>> port.components
+    ('flow',)
+    """
+
+    components: tuple[str, ...] = ("flow",)
+    tables: tuple[type[Parameters], ...] = (*SPACES.values(), *SHELL_TABLES)
+    density_kg_per_m3: float
+    sound_speed_m_per_s: float

@@ -9,8 +9,8 @@ from pydantic import Field, model_validator
 
 from ..base.arrays import Array, ComplexArray
 from ..base.column_file import Columns, column_names, read_columns
+from ..base.file_table import FileTable
 from ..base.parameters import Parameters
-from .file_table import FileTable
 
 MOBILITY: Final = ("frequency_hz", "vertical_mobility_m_per_ns", "vertical_phase_rad")
 RECEPTANCE: Final = ("frequency_hz", "vertical_receptance_m_per_n", "vertical_phase_rad")
@@ -64,7 +64,7 @@ class FloorMobility(FileTable):
         return self
 
     @classmethod
-    def read(cls, path: Path, given: dict[str, Any]) -> dict[str, Any]:
+    def read(cls, path: Path, table: dict[str, Any]) -> dict[str, Any]:
         """Columns as of `docs/mounts.md`: a mobility or a receptance, for all feet or by foot."""
         columns = _read(path)
         numbers = columns.numbers

@@ -3,15 +3,19 @@
 A machine without this table hands the loads of its sources on to the shell's joints as they are.
 """
 
+from dataclasses import dataclass
 from math import pi
-from typing import Literal
+from typing import Final, Literal
 
 import numpy as np
 from pydantic import Field
 
 from ..base.arrays import Array
 from ..base.parameters import Parameters
-from .shell_structure import Joint
+from ..mechanics.ports import Port
+from ..mechanics.scroll_shaft import ScrollShaft
+from .housing import Housing
+from .shell_structure import Joint, ShellStructure, ShellVariation
 
 HEIGHT = Field(ge=-2.0, le=2.0)
 RADIUS = Field(gt=0.0, le=1.0)
@@ -109,5 +113,41 @@ class Frame(Parameters):
     @property
     def mass_kg(self) -> float:
         """Of all bodies."""
-        parts = (self.fixed_scroll, self.bearing_housing, self.orbiting_scroll)
-        return sum(part.mass_kg for part in (*parts, self.lower_bearing, self.stator))
+        return float(sum(getattr(self, part.name).mass_kg for part in PARTS))
+
+
+SHELL_TABLES: Final = (Housing, ShellStructure, ShellVariation, Frame, ScrollShaft)
+"""Tables that the response of every port in the elastic shell reads."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Part(Port):
+    """A part in the elastic shell, loaded by a wrench about the machine's centre of mass at rest.
+
+    Attributes
+    ----------
+    tables : of every port in the shell
+    joint : of the shell, to which the part hands its load on in a machine without a frame
+    handed_on : components of the load that it hands on so
+
+    Examples
+    --------
+    >>> va.STATOR.name, va.STATOR.handed_on
+    ('stator', ('fx', 'fy', 'fz', 'mz'))
+    """
+
+    tables: tuple[type[Parameters], ...] = SHELL_TABLES
+    joint: str
+    handed_on: tuple[str, ...] = ("fx", "fy", "fz", "mz")
+
+
+FIXED_SCROLL: Final = Part("fixed_scroll", joint="fixed_scroll")
+BEARING_HOUSING: Final = Part("bearing_housing", joint="bearing_housing")
+ORBITING_SCROLL: Final = Part(
+    "orbiting_scroll", joint="bearing_housing", handed_on=("fx", "fy", "fz")
+)
+"""Acts through pin and main bearing; what turns it presses the keys, which are a source."""
+LOWER_BEARING: Final = Part("lower_bearing", joint="stator")
+STATOR: Final = Part("stator", joint="stator")
+PARTS: Final = (FIXED_SCROLL, BEARING_HOUSING, ORBITING_SCROLL, LOWER_BEARING, STATOR)
+"""Parts in the shell that sources load, in the order of the frame's bodies."""

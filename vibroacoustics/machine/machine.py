@@ -15,6 +15,7 @@ from ..base.parameters import AnyOf, KindOfParameters, Parameters
 from ..base.registry import Registry
 from ..mechanics.capabilities import UPRIGHT, Capability, CrankFrame
 from ..mechanics.moving_parts import MovingPart, Revolution
+from ..mechanics.ports import HOUSING, BodyPort
 from .balance_quality import BalanceQuality
 from .derived import INERTIAS, Derived
 from .feet import FOOT_NAMES, Feet, values_not_read
@@ -27,7 +28,7 @@ from .mounts import Mounts
 from .overall_noise import OverallNoise
 from .remainder import OF_THE_REMAINDER, Remainder
 from .shell import Shell
-from .suspension import Suspension
+from .suspension import BLOCK, Suspension
 
 PART_MASS = Field(gt=0.0, le=100.0)
 
@@ -163,6 +164,11 @@ class Machine(KindOfParameters):
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
         """What the model of this kind leaves out, a sentence or two each."""
         return ()
+
+    @property
+    def mechanism_port(self) -> BodyPort:
+        """The body with the mechanism, on which moving parts and motor act."""
+        return HOUSING if self.suspension is None else BLOCK
 
     @property
     def unread(self) -> frozenset[str]:

@@ -8,7 +8,7 @@ from pydantic import model_validator
 
 from ..base.arrays import Array, ComplexArray
 from ..base.column_file import read_columns
-from .file_table import FileTable
+from ..base.file_table import FileTable
 
 LARGEST_LOSS: Final = 10.0
 
@@ -34,7 +34,7 @@ class MountStiffness(FileTable):
         return self
 
     @classmethod
-    def read(cls, path: Path, given: dict[str, Any]) -> dict[str, Any]:
+    def read(cls, path: Path, table: dict[str, Any]) -> dict[str, Any]:
         """Columns `frequency_hz, lateral_n_per_mm, vertical_n_per_mm, loss_factor`."""
         names = ("frequency_hz", "lateral_n_per_m", "vertical_n_per_m", "loss_factor")
         columns = read_columns(path, names)

@@ -9,8 +9,6 @@ from ..base.parameters import Held, Parameters
 
 JOINTS: Final = ("bearing_housing", "fixed_scroll", "stator")
 """Inner parts that are fixed to the wall."""
-BEARING_HOUSING, FIXED_SCROLL, STATOR = range(3)
-"""Their indices."""
 
 
 class Joint(Parameters):

@@ -1,8 +1,12 @@
 """The stator's yoke as a ring in the shell, on which magnetic forces bend it."""
 
+from typing import Final
+
 from pydantic import Field, model_validator
 
 from ..base.parameters import Parameters
+from ..mechanics.ports import Port
+from .frame import SHELL_TABLES
 
 RADIUS = Field(gt=0.0, le=1.0)
 
@@ -40,3 +44,13 @@ class StatorYoke(Parameters):
                 f"inner radius is {1e3 * (self.mean_radius_m - 0.5 * self.thickness_m):g} mm"
             )
         return self
+
+
+YOKE_ORDERS: Final = (0, 2, 3, 4, 5, 6)
+"""Waves around the stator's yoke that press on the wall; one wave is a force on the stator."""
+STATOR_YOKE: Final = Port(
+    "stator_yoke",
+    tuple(f"wave {order}" for order in YOKE_ORDERS for _ in ("cos", "sin")),
+    (StatorYoke, *SHELL_TABLES),
+)
+"""Line load outwards on the yoke's middle, N/m, parts with cos nθ and sin nθ of `YOKE_ORDERS`."""

@@ -1,10 +1,16 @@
 """The springs inside the shell that carry the block with mechanism and motor."""
 
+from typing import Final
+
 from pydantic import Field, model_validator
 
 from ..base.parameters import Parameters
+from ..mechanics.ports import BodyPort
 from .housing import Housing
 from .mounts import Mounts
+
+BLOCK: Final = BodyPort("block")
+"""The block on springs with the mechanism; the shell around it is the port `HOUSING`."""
 
 
 class DischargeTube(Parameters):

@@ -1,7 +1,6 @@
 """Hammer tests of a shell: mobilities between the points that a study names."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -10,31 +9,12 @@ from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.errors import ParameterError
 from ..recordings import MeasuredFunction, Node
 from ..study.measured_shell import Hit, MeasuredShell
+from ..transfer.wall_mobility import ShellMobilities
 from .grouped import by_key, read_all, unsigned
 from .library import SAME_FREQUENCY
 
 LEAST_LINES: Final = 3
 """That make a peak."""
-
-
-@dataclass(frozen=True)
-class ShellMobilities:
-    """What was measured, each mobility once, repeats averaged.
-
-    Attributes
-    ----------
-    frequency_hz : shape (frequency,)
-    mobility : outward velocity per force, m/(N s), shape (mobility, frequency)
-    response : name of the point on the wall, by mobility
-    reference : name of the point on the wall or of the part's
-    unused : frequency responses of nodes that the study does not name
-    """
-
-    frequency_hz: Array
-    mobility: ComplexArray
-    response: tuple[str, ...]
-    reference: tuple[str, ...]
-    unused: int
 
 
 def read_shell_mobilities(settings: MeasuredShell, highest_hz: float) -> ShellMobilities:

@@ -6,16 +6,57 @@ import numpy as np
 
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
+from ..base.units import shaft_frequency_hz
 from ..recordings import MeasuredFunction, Node
 from ..study.measured_sound_path import ForcePoint, MeasuredSoundPath
+from ..study.study import Study
 from ..transfer.force_sound import ForceSound
-from ..transfer.machine import MachineOnMounts
+from ..transfer.machine import MachineOnMounts, on_mounts
 from .grouped import Key, by_key, read_all, unsigned
 from .inversion import rigid_wrench
 
 LEAST_SPAN = 1e-3
 """Least over largest singular value of hits that span all six motions, in lengths of 0.1 m."""
 _LENGTH_M = 0.1
+
+
+def force_sound_of(study: Study) -> ForceSound:
+    """Read the measured pressure per force that a study names.
+
+    Raises
+    ------
+    ParameterError
+        The files do not fit, or the study asks for what they cannot tell.
+    StorageError
+        A file cannot be read.
+    """
+    settings = None if study.measured is None else study.measured.sound
+    if settings is None:
+        raise ParameterError("measured.sound: the study has no such table")
+    fields = ("sound_power", "map", "directivity")
+    asked = [name for name in fields if getattr(study, name) is not None]
+    asked += ["operation.stopping"] * study.operation.stopping
+    asked += ["sources that drive an elastic shell"] * study.drives_shell
+    if asked:
+        raise ParameterError(
+            f"measured.sound: tells the sound of forces at the microphones alone; leave out "
+            f"{asked[0]}"
+        )
+    given = on_mounts(study.machine)
+    for name, option in study.options.items():
+        if not settings.is_at_feet and on_mounts(option.applied_to(study.machine)) != given:
+            raise ParameterError(
+                f"measured.sound: options.{name}: stands otherwise than the machine that was hit; "
+                "hit the floor under the feet, or leave the option out"
+            )
+    sound = read_force_sound(settings, list(study.receivers), given)
+    lowest = shaft_frequency_hz(min(study.operation.speed_rpm))
+    if sound.frequency_hz[0] > lowest:
+        raise ParameterError(
+            f"measured.sound: begins at {sound.frequency_hz[0]:g} Hz, above the first order, "
+            f"{lowest:g} Hz"
+        )
+    return sound
 
 
 def read_force_sound(

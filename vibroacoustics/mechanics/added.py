@@ -20,6 +20,13 @@ class RingForce:
     from_housing : whether the housing takes the reaction, as of a layer between the two; else what
         hangs there does, by its change of momentum
     inertial : whether its part in phase with the stroke grows as the speed squared
+
+    Examples
+    --------
+    >>> angle = va.constant_rotation(3000.0, 64).crank_angle
+    >>> force = va.RingForce(12.0 * np.cos(angle))  # N
+    >>> va.Added(figures={"added_mass_kg": 0.0}, on_ring=force).on_ring.from_housing
+    False
     """
 
     force_n: Array
@@ -36,6 +43,12 @@ class FurtherRing:
     mass_kg : mass
     stroke_m : amplitude of its stroke
     height_m : from the centre of mass at rest
+
+    Examples
+    --------
+    >>> ring = va.FurtherRing(mass_kg=0.073, stroke_m=0.00675, height_m=0.11)
+    >>> va.Added(figures={"added_mass_kg": ring.mass_kg}, rings=(ring,)).rings[0].stroke_m
+    0.00675
     """
 
     mass_kg: float
@@ -70,12 +83,18 @@ class Added:
 
 @dataclass(frozen=True)
 class InsertionLoss:
-    """What a hood, jacket or damping sheet takes off the sound, by third octave.
+    """Insertion loss of a hood, jacket or damping sheet for airborne sound, by third octave.
 
     Attributes
     ----------
     band_hz : nominal middle of the bands, shape (band,)
     loss_db : shape (band,)
+
+    Examples
+    --------
+    >>> loss = va.InsertionLoss(np.array([500.0, 1000.0]), np.array([6.0, 10.0]))
+    >>> loss.at(np.array([480.0, 990.0, 4000.0])).tolist()
+    [6.0, 10.0, 0.0]
     """
 
     band_hz: Array

@@ -11,7 +11,14 @@ HEIGHT = Field(ge=-2.0, le=2.0)
 
 
 class BalancePlanes(Parameters):
-    """Two balance planes on the shaft and the radius at which weights sit there."""
+    """Two balance planes on the shaft and the radius at which weights sit there.
+
+    Examples
+    --------
+    >>> planes = va.BalancePlanes(upper_height_m=0.1, lower_height_m=-0.1, radius_m=0.03)
+    >>> planes.upper_height_m - planes.lower_height_m
+    0.2
+    """
 
     upper_height_m: float = HEIGHT
     lower_height_m: float = HEIGHT
@@ -31,6 +38,14 @@ class CrankFrame(NamedTuple):
     """Axes of a mechanism: stroke, a quarter turn of the crank later, shaft; right-handed.
 
     Each is a unit vector x, y, z of the machine.
+
+    Examples
+    --------
+    >>> lying = va.CrankFrame(stroke=(0.0, 0.0, 1.0), across=(1.0, 0.0, 0.0), shaft=(0.0, 1.0, 0.0))
+    >>> angle = va.constant_rotation(3000.0, 4).crank_angle
+    >>> weight = va.circling("weight", 0.1, 0.02, 0.0, angle, lying)
+    >>> weight.position_m[:, 0].tolist()  # at crank angle zero along the stroke
+    [0.0, 0.0, 0.02]
     """
 
     stroke: tuple[float, float, float] = (1.0, 0.0, 0.0)
@@ -45,7 +60,18 @@ UPRIGHT: Final = CrankFrame()
 
 
 class Capability:
-    """Something of a machine that an option can work on; a kind of machine may bring more."""
+    """Part of a machine that an option can work on; a kind of machine may define its own.
+
+    Examples
+    --------
+    >>> class Pulley(va.Capability):
+    ...     words = "a pulley on the shaft"
+    >>> machine = va.load_machine("data/machines/mayekawa_wbhe.toml")
+    >>> machine.require(Pulley)
+    Traceback (most recent call last):
+        ...
+    vibroacoustics.base.errors.ParameterError: needs a pulley on the shaft; ... reciprocating
+    """
 
     words: ClassVar[str]
     """What it is, as a refusal names it."""

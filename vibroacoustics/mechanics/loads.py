@@ -1,101 +1,100 @@
-"""What a source does to the machine: on the rigid machine and on the parts in its shell."""
+"""Loads of a source: amplitudes at ports by line, and noise at ports."""
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
-from typing import Final
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any, Final, TypeVar
 
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
+from ..base.errors import ParameterError
 from .moving_parts import Wrench
+from .ports import BodyPort, Port
 
-PARTS: Final = ("fixed_scroll", "bearing_housing", "orbiting_scroll", "lower_bearing", "stator")
-"""Parts in the shell that sources load."""
-FIXED_SCROLL, BEARING_HOUSING, ORBITING_SCROLL, LOWER_BEARING, STATOR = range(len(PARTS))
-"""Their indices."""
-PART_COMPONENTS: Final = 6
-"""Force along x, y, z and moment about the centre of mass at rest, which lies on the axis."""
-YOKE_ORDERS: Final = (0, 2, 3, 4, 5, 6)
-"""Waves around the stator's yoke that press on the wall; one wave is a force on the stator."""
+A = TypeVar("A", Array, ComplexArray)
+PortLoads = Mapping[Port, ComplexArray]
+"""Loads by port, (component, ...): complex peaks in the units of the port's components."""
+_FORMER: Final = {
+    "rigid": "housing",
+    "on_shell": "housing",
+    "on_parts": "fixed_scroll, bearing_housing, orbiting_scroll, lower_bearing, stator",
+    "on_yoke": "stator_yoke",
+    "flows": "discharge_dome, suction_annulus",
+}
+"""Ports of the arguments by which version 0.2 named them."""
 
 
-DISCHARGE_DOME: Final = "discharge_dome"
-SUCTION_ANNULUS: Final = "suction_annulus"
-"""Spaces of gas in the shell that a source may feed, as the machine's tables are named."""
+class _OnPorts:
+    """Refuses arguments that were names of ports."""
 
-
-@dataclass(frozen=True)
-class GasFlow:
-    """Volume flow into a space of gas in the shell.
-
-    Attributes
-    ----------
-    into : name of the machine's table
-    density_kg_per_m3, sound_speed_m_per_s : of the gas there
-    volume_flow : complex peaks by order, or at lines, shape (order,), m³/s
-    """
-
-    into: str
-    density_kg_per_m3: float
-    sound_speed_m_per_s: float
-    volume_flow: ComplexArray
+    def __new__(cls, *_: Any, **given: Any) -> Any:
+        for name in given:
+            if name in _FORMER:
+                raise ParameterError(
+                    f"{cls.__name__}({name}=...): give the load by its port: {_FORMER[name]}"
+                )
+        return super().__new__(cls)
 
 
 @dataclass(frozen=True)
-class Tone:
+class Tone(_OnPorts):
     """A line that is no order of the shaft.
 
     Attributes
     ----------
     name : what makes it
     frequency_hz : above zero
-    rigid : force and moment on the rigid machine about its centre of mass, complex peaks, shape
-        (6,), N and N m
-    on_parts : on the parts in the shell, shape (part, component), N and N m
+    loads : by port, shape (component,)
     figure : name of the reported figure of the largest force that it makes in a foot; none for none
-    on_yoke : see `Loads`, shape (order around, 2), N/m
+
+    Examples
+    --------
+    >>> hum = va.Tone("hum", 100.0, {va.HOUSING: np.array([0, 0, 2.0, 0, 0, 0], complex)})
+    >>> hum.frequency_hz
+    100.0
     """
 
     name: str
     frequency_hz: float
-    rigid: ComplexArray
-    on_parts: ComplexArray
+    loads: PortLoads
     figure: str | None = None
-    on_yoke: ComplexArray | None = None
 
 
 @dataclass(frozen=True)
-class Noise:
-    """What does not repeat with the revolution.
+class Noise(_OnPorts):
+    """Random loads: what does not repeat with the revolution.
 
     Attributes
     ----------
-    on_parts : load on the parts per unit of each random force, shape (part, component, force)
-    frequency_hz : shape (line,)
-    density : of the random forces, shape (force, force, line), N²/Hz, N² m/Hz and N² m²/Hz
+    loads : load on each port per unit of each random force, shape (component, force)
+    frequency_hz : evenly spaced, shape (line,)
+    density : one-sided spectral density of the random forces, shape (force, force, line), such as
+        N²/Hz
+
+    Examples
+    --------
+    >>> up = np.eye(6)[:, 2:3]  # one force, along z
+    >>> rumble = va.Noise({va.HOUSING: up}, np.arange(0.0, 1000.0, 5.0), np.ones((1, 1, 200)))
+    >>> [port.name for port in rumble.loads]
+    ['housing']
     """
 
-    on_parts: Array
+    loads: Mapping[Port, Array]
     frequency_hz: Array
     density: ComplexArray
 
 
 @dataclass(frozen=True)
-class Loads:
+class Loads(_OnPorts):
     """Loads of one source in one case; what a source does not do is left out.
 
     Attributes
     ----------
-    wrenches : on the rigid machine over uniform crank angles, by what makes them
-    rigid : further wrench on it by order from zero, complex peaks, shape (6, order), N and N m
-    on_shell : wrench by order on the shell round a suspended block, about the shell's centre of
-        mass, as `rigid`, which then is on the block
-    on_parts : on the parts in the shell by order, shape (part, component, order), N and N m
-    on_yoke : line load outwards on the middle of the stator's yoke by order, parts with cos nθ and
-        sin nθ of YOKE_ORDERS, complex peaks, shape (order around, 2, order), N/m
+    wrenches : over uniform crank angles on the body with the mechanism, by what makes them
+    lines : by port at orders from zero, shape (component, order)
     tones : lines that are no orders
     noise : random loads
-    flows : into spaces of gas by order; what the machine has no table of is silent
     shaft_torque_n_m : that the shaft needs, mean and complex peaks by order, shape (order,)
     figures : to report, by name; the unit is the suffix of the name
 
@@ -109,15 +108,20 @@ class Loads:
     """
 
     wrenches: Mapping[str, Wrench] = field(default_factory=dict)
-    rigid: ComplexArray | None = None
-    on_shell: ComplexArray | None = None
-    on_parts: ComplexArray | None = None
-    on_yoke: ComplexArray | None = None
+    lines: PortLoads = field(default_factory=dict)
     tones: tuple[Tone, ...] = ()
     noise: tuple[Noise, ...] = ()
-    flows: tuple[GasFlow, ...] = ()
     shaft_torque_n_m: ComplexArray | None = None
     figures: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def ports(self) -> Iterator[Port]:
+        """Ports of lines, tones and noise."""
+        yield from self.lines
+        for tone in self.tones:
+            yield from tone.loads
+        for noise in self.noise:
+            yield from noise.loads
 
 
 @dataclass(frozen=True)
@@ -128,23 +132,20 @@ class Lines:
     ----------
     names : of the lines
     frequency_hz : shape (line,)
-    rigid : wrench on the rigid machine by source but for what `wrenches` give, shape (6, line)
-    on_parts : on the parts in the shell by source, shape (part, component, line)
-    flows : into spaces of gas by source, at the lines
-    on_yoke : around the stator's yoke, by source that loads it, shape (order around, 2, line), N/m
-    on_shell : wrench on the shell round a suspended block, of the sources that have one
+    loads : by source and port, shape (component, line)
     """
 
     names: tuple[str, ...]
     frequency_hz: Array
-    rigid: Mapping[str, ComplexArray]
-    on_parts: Mapping[str, ComplexArray]
-    flows: Mapping[str, tuple[GasFlow, ...]] = field(default_factory=dict)
-    on_yoke: Mapping[str, ComplexArray] = field(default_factory=dict)
-    on_shell: Mapping[str, ComplexArray] = field(default_factory=dict)
+    loads: Mapping[str, PortLoads]
 
 
-def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int) -> Lines:
+def lines_of(
+    loads: Mapping[str, Loads],
+    shaft_hz: float,
+    highest: int,
+    wrenches: Mapping[str, PortLoads] = MappingProxyType({}),
+) -> Lines:
     """Lay the loads of all sources on one axis of lines; every tone is a line of its own.
 
     Parameters
@@ -152,69 +153,45 @@ def lines_of(loads: Mapping[str, Loads], shaft_hz: float, highest: int) -> Lines
     loads : by source
     shaft_hz : frequency of the first order
     highest : order
+    wrenches : spectra of the wrenches over crank angle by source and port, (component, order)
     """
     tones = [(source, tone) for source, given in loads.items() for tone in given.tones]
-    orders, count = highest + 1, highest + 1 + len(tones)
-    rigid, on_parts, flows = {}, {}, {}
-    end = orders
+    orders = highest + 1
+    count = orders + len(tones)
+    laid: dict[str, dict[Port, ComplexArray]] = {}
+
+    def at_lines(source: str, port: Port) -> ComplexArray:
+        still = np.zeros((len(port.components), count), dtype=complex)
+        return laid[source].setdefault(port, still)
+
     for source, given in loads.items():
-        wrench = np.zeros((6, count), dtype=complex)
-        parts = np.zeros((len(PARTS), PART_COMPONENTS, count), dtype=complex)
-        if given.rigid is not None:
-            held = min(orders, given.rigid.shape[-1])
-            wrench[:, :held] = given.rigid[:, :held]
-        if given.on_parts is not None:
-            held = min(orders, given.on_parts.shape[-1])
-            parts[..., :held] = given.on_parts[..., :held]
-        begin, end = end, end + len(given.tones)
-        if given.tones:
-            wrench[:, begin:end] = np.stack([tone.rigid for tone in given.tones], axis=-1)
-            parts[..., begin:end] = np.stack([tone.on_parts for tone in given.tones], axis=-1)
-        rigid[source], on_parts[source] = wrench, parts
-        flows[source] = tuple(_at_lines(flow, orders, count) for flow in given.flows)
+        laid[source] = {}
+        for port, amplitudes in (*wrenches.get(source, {}).items(), *given.lines.items()):
+            held = amplitudes[:, :orders]
+            at_lines(source, port)[:, : held.shape[1]] += held
+    for number, (source, tone) in enumerate(tones, orders):
+        for port, amplitudes in tone.loads.items():
+            at_lines(source, port)[:, number] = amplitudes
     frequency = [*(shaft_hz * np.arange(orders)), *(tone.frequency_hz for _, tone in tones)]
     names = (
         *(f"order {order}" for order in range(orders)),
         *(f"{source}: {tone.name}" for source, tone in tones),
     )
-    around, shells = _on_yoke(loads, orders), _on_shells(loads, orders, count)
-    return Lines(names, np.array(frequency), rigid, on_parts, flows, around, shells)
+    return Lines(names, np.array(frequency), laid)
 
 
-def _at_lines(flow: GasFlow, orders: int, count: int) -> GasFlow:
-    lines = np.zeros(count, dtype=complex)
-    held = min(orders, flow.volume_flow.size)
-    lines[:held] = flow.volume_flow[:held]
-    return replace(flow, volume_flow=lines)
+def in_shell(loads: PortLoads) -> PortLoads:
+    """Select the loads that act in the elastic shell, not on a rigid body."""
+    return {port: load for port, load in loads.items() if not isinstance(port, BodyPort)}
 
 
-def _on_yoke(loads: Mapping[str, Loads], orders: int) -> dict[str, ComplexArray]:
-    """Loads around the yoke of the sources that have some, orders first, then all tones."""
-    tones = [(source, tone) for source, given in loads.items() for tone in given.tones]
-    around: dict[str, ComplexArray] = {}
-    for source, given in loads.items():
-        if given.on_yoke is None and all(tone.on_yoke is None for tone in given.tones):
-            continue
-        of_source = np.zeros((len(YOKE_ORDERS), 2, orders + len(tones)), dtype=complex)
-        if given.on_yoke is not None:
-            held = min(orders, given.on_yoke.shape[-1])
-            of_source[..., :held] = given.on_yoke[..., :held]
-        for number, (maker, tone) in enumerate(tones, orders):
-            if maker == source and tone.on_yoke is not None:
-                of_source[..., number] = tone.on_yoke
-        around[source] = of_source
-    return around
-
-
-def _on_shells(loads: Mapping[str, Loads], orders: int, count: int) -> dict[str, ComplexArray]:
-    """Wrenches on the shell on the axis of all lines, (6, line)."""
-    wrenches: dict[str, ComplexArray] = {}
-    for source, given in loads.items():
-        if given.on_shell is not None:
-            held = min(orders, given.on_shell.shape[-1])
-            wrenches[source] = np.zeros((6, count), dtype=complex)
-            wrenches[source][:, :held] = given.on_shell[:, :held]
-    return wrenches
+def summed(loads: Iterable[Mapping[Port, A]]) -> dict[Port, A]:
+    """Sum loads port by port."""
+    total: dict[Port, A] = {}
+    for by_port in loads:
+        for port, amplitudes in by_port.items():
+            total[port] = total[port] + amplitudes if port in total else amplitudes
+    return total
 
 
 def total_torque_n_m(loads: Iterable[Loads], highest: int) -> ComplexArray:

@@ -16,6 +16,14 @@ class Rotation:
     ----------
     speed_rad_per_s : shape (samples,)
     acceleration_rad_per_s2 : shape (samples,)
+
+    Examples
+    --------
+    >>> angle = va.constant_rotation(3000.0, 64).crank_angle
+    >>> speed = 314.0 + 5.0 * np.cos(angle)  # rad/s over crank angle
+    >>> rotation = va.Rotation(speed, -5.0 * np.sin(angle) * speed)  # dω/dt = ω dω/dθ
+    >>> round(rotation.fluctuation_ratio, 3)
+    0.032
     """
 
     speed_rad_per_s: Array

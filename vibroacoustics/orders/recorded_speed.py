@@ -42,7 +42,13 @@ class StandstillWarning(UserWarning):
 
 
 class PulseWarning(UserWarning):
-    """Pulses of a tacho are not as stated, too quick, uneven, or missing in a part."""
+    """Warning of pulses of a tacho: other than stated, too quick, uneven, or missing in a part.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> warnings.simplefilter("error", va.PulseWarning)  # refuse such recordings
+    """
 
 
 @dataclass(frozen=True)

@@ -67,8 +67,8 @@ def tacho_motion(
     notes, are_teeth = pulse_notes(pulses, pulses_per_revolution)
     faults = [fault for fault in pulses.faults if not (are_teeth and fault.kind == "missing")]
     jitter = smooth.scatter / pitch_rad
-    if jitter > MOST_JITTER:
-        notes = (*notes, _jitter_note(jitter))
+    if jitter > MOST_JITTER and not notes:  # teeth or spacing that are noted make jitter too
+        notes = (_jitter_note(jitter),)
     return TachoResult(motion, tuple(faults), jitter, notes)
 
 

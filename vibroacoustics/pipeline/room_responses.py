@@ -3,18 +3,14 @@
 import numpy as np
 import xarray as xr
 
-from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..base.progress import Progress, no_progress
 from ..base.vocabulary import RIGID_BODY_DOFS, check, stamp
-from ..radiation.rooms import DiffuseRoom
-from ..radiation.rooms import of_study as rooms
-from ..radiation.rooms.arrivals import arrivals
 from ..sound.rendering import SAMPLE_RATE_HZ
-from ..sound.room_responses import WaysOfRoom, room_responses
-from ..study.room import StudyRoom
+from ..sound.room_responses import room_responses
+from ..sound.room_ways import response_ways
+from ..stages import room
 from ..study.study import Study
-from . import in_room
 
 
 def impulse_responses(study: Study, progress: Progress = no_progress) -> xr.DataArray:
@@ -49,8 +45,8 @@ def impulse_responses(study: Study, progress: Progress = no_progress) -> xr.Data
     settings = study.room
     if settings is None:
         raise ParameterError("room: the study has none; impulse responses are those of a room")
-    vectors, _ = in_room.vectors_of(study, settings, (), progress)
-    responses = room_responses(_ways(study, settings, vectors))
+    vectors, _ = room.vectors_of(study, settings, (), progress)
+    responses = room_responses(response_ways(settings, study.machine.shell, vectors))
     coords = {
         "listener": list(settings.listeners),
         "dof": list(RIGID_BODY_DOFS),
@@ -58,28 +54,3 @@ def impulse_responses(study: Study, progress: Progress = no_progress) -> xr.Data
     }
     labelled = stamp("room_impulse_response", responses, coords)
     return check(xr.Dataset({"room_impulse_response": labelled}))["room_impulse_response"]
-
-
-def _ways(study: Study, settings: StudyRoom, vectors: xr.Dataset) -> WaysOfRoom:
-    shell, pressure = study.machine.shell, rooms.pressure_at_places(vectors)
-    both = in_room.ways_of(settings, shell, vectors, pressure)
-    first = arrivals(settings, rooms.machine_middle_m(settings, shell))
-    diffuse = DiffuseRoom.of(rooms.room_of(settings))
-    reach_m = float(np.hypot(shell.radius_m, shell.floor_clearance_m + shell.height_m))
-
-    def direct_per_power(frequency_hz: Array) -> Array:
-        return np.asarray(both.gain(frequency_hz) * first.per_power[:, None])
-
-    def decay_s(frequency_hz: Array) -> Array:
-        return np.asarray(diffuse.reverberation_time_s(frequency_hz), dtype=np.float64)
-
-    return WaysOfRoom(
-        pressure=rooms.of_rigid(pressure),
-        ways=both.ways,
-        direct_per_power=direct_per_power,
-        distance_m=np.asarray(first.distance_m, dtype=np.float64),
-        nearest_m=both.ways.radius_m - reach_m,
-        decay_s=decay_s,
-        record_s=float(vectors.attrs["room_record_s"]),
-        highest_hz=float(vectors["frequency"].values[-1]),
-    )

@@ -1,32 +1,25 @@
-"""The main job, from the machine to the scores.
+"""The main job: the stages of a study, each after those that give what it reads."""
 
-study -> moving parts -> orders -> transfer -> radiation -> levels -> scores, one dataset.
-"""
+from functools import partial
 
 import xarray as xr
 
-from .. import scoring
 from ..base.errors import ParameterError
+from ..base.fault import collected
 from ..base.hashing import canonical_json
 from ..base.linear_algebra import one_thread_of_linear_algebra
-from ..base.progress import Progress, no_progress, stage
+from ..base.progress import Progress, no_progress
 from ..base.vocabulary import check, label_coordinates
+from ..measured.floor import on_measured_floor
 from ..radiation.given import Radiation
 from ..results import provenance
+from ..results.left_out import keep_lines
 from ..results.words import words
-from ..stopping.labelled import stopping_variables
+from ..stages.chain import Cases, Chain
+from ..stages.radiation import Radiated, transfer_vectors
+from ..stages.stage import STAGES, advanced, applying
+from ..study.failing import surviving
 from ..study.study import Study
-from ..transfer import on_mounts
-from ..transfer.natural_frequencies import natural_variables
-from .calibration import shell_test
-from .floor import on_measured_floor
-from .force_sound import force_radiation, measured_force_sound
-from .in_room import sound_in_room
-from .motion import motion_of
-from .radiating import line_difference, radiated_by, sound_field, transfer_vectors
-from .shell import shell_path
-from .sound import levels_of
-from .structure_borne import structure_borne_sound
 
 
 def run(
@@ -65,46 +58,25 @@ def run(
     """
     try:
         # What is large runs in threads of its own; two of linear algebra would wait in busy loops.
-        with one_thread_of_linear_algebra():
-            return _run(study, progress, radiation)
+        with one_thread_of_linear_algebra(), collected() as lines:
+            results = surviving(study, partial(_run, progress=progress, radiation=radiation))
+            return keep_lines(results, (*study.left_out, *lines))
     except ParameterError as error:
         raise ParameterError(f"{study.source_file}: {error}") from None
 
 
 def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
     study = on_measured_floor(study)
-    motion = motion_of(study, progress)
-    with stage(progress, "modes of the shell"):
-        path = shell_path(study)
-    test = shell_test(study, path)
-    by_force = measured_force_sound(study)
-    if by_force is not None:
-        radiated, was_cached = force_radiation(study, by_force)
-    else:
-        modes = () if path is None else path.modes
-        radiated, was_cached = radiated_by(radiation, study, progress, modes)
-    results = motion.results.merge(radiated)
-    of_any_case, highest = next(iter(motion.loads.values())), study.radiation.maximum_frequency_hz
-    with stage(progress, "natural frequencies"):
-        results = results.merge(natural_variables(study.machine, path, of_any_case, highest))
-    results = results.merge(sound_field(study, results))
-    results = results.merge(line_difference(study, results))
-    moved = motion.with_results(results)
-    results = results.merge(levels_of(study, moved, path, progress, test, by_force))
-    results = results.merge(structure_borne_sound(study, moved, results))
-    in_room = sound_in_room(study, motion.with_results(results), path, progress)
-    results = results.merge(in_room)
-    if study.operation.stopping:
-        body = on_mounts(study.machine)
-        with stage(progress, "switching off"):
-            results = results.merge(stopping_variables(study, study.machine, body, results, path))
-    results = results.merge(scoring.study_scores(study, results))
-    results.attrs = provenance.radiation_attributes(study, radiated, was_cached)
-    results.attrs["words"] = canonical_json(words(study, motion.loads, results))
-    results.attrs["crank_frames"] = canonical_json(
-        {
-            name: option.applied_to(study.machine).crank_frame._asdict()
-            for name, option in study.options.items()
-        }
-    )
+    chain = Chain(study, radiation, progress)
+    for stage in applying(study):
+        with STAGES.spared():
+            chain = advanced(chain, stage)
+    results, radiated = chain.results, chain[Radiated]
+    results.attrs = provenance.radiation_attributes(study, radiated.attributes, radiated.was_cached)
+    results.attrs["words"] = canonical_json(words(study, chain[Cases].loads, results))
+    frames = {
+        name: option.applied_to(study.machine).crank_frame._asdict()
+        for name, option in study.options.items()
+    }
+    results.attrs["crank_frames"] = canonical_json(frames)
     return check(label_coordinates(results))

@@ -43,6 +43,7 @@ def neglected_echo(
 
     Parameters
     ----------
+    scene : body, walls and surroundings
     patterns : surface velocities of the machine
     frequency_hz : shape (frequency,)
     points : microphones, (point, 3), m

@@ -1,10 +1,7 @@
 """Sound pressure of a moving housing: velocity at the lines times transfer vectors."""
 
-from collections.abc import Callable
-
 import xarray as xr
 
-from ..base.arrays import Array, ComplexArray
 from .interpolation import Interpolant
 from .transfer_vectors import interpolate_transfer_vector, pressure_per_velocity
 
@@ -23,30 +20,6 @@ def wrench_pressure(results: xr.Dataset, name: str) -> xr.DataArray:
     name : of the transfer vectors
     """
     return _at_orders(results["velocity_order"], results[name], results["order_frequency"])
-
-
-def wrench_pressure_by(
-    results: xr.Dataset,
-    pressure_per_velocity: Callable[[Array], ComplexArray],
-    highest_hz: float,
-) -> xr.DataArray:
-    """`wrench_pressure` by a function of frequencies, Pa.
-
-    Parameters
-    ----------
-    results : with `velocity_order` and `order_frequency`
-    pressure_per_velocity : to (receiver, dof, frequency)
-    highest_hz : of that function; orders beyond are silent
-    """
-    frequency = results["order_frequency"].clip(max=highest_hz)
-    values = pressure_per_velocity(frequency.values.ravel())
-    vectors = xr.DataArray(
-        values.reshape(*values.shape[:2], *frequency.shape),
-        dims=("receiver", "dof", *frequency.dims),
-        coords={**frequency.coords, "dof": results["velocity_order"]["dof"]},
-    )
-    pressure: xr.DataArray = xr.dot(results["velocity_order"], vectors, dim="dof")
-    return pressure
 
 
 def pressure_on_surface(velocity: xr.DataArray, results: xr.Dataset) -> xr.DataArray:

@@ -19,10 +19,11 @@ from typing import Any, BinaryIO, Final
 import numpy as np
 
 from ..base.errors import ParameterError, StorageError, VibroacousticsError
+from ..base.fault import FaultError
 from ..base.plugin_file import load_plugin
 from . import uff_modes
 from .overload import overloads
-from .reader import Reader, needed, readers_by_suffix
+from .reader import READERS, Reader, needed, readers_by_suffix
 from .recorded import MAXIMUM_READING_BYTES, MINIMUM_SAMPLES, Recorded, Request, check_size
 
 MAXIMUM_CPU_S: Final = 600
@@ -47,7 +48,7 @@ def answer(
         header, rows = (uff_modes.read if request.modes else _recording)(request)
         digest = _digest(request.path) if hashed else ""
     except VibroacousticsError as error:
-        return {"error": type(error).__name__, "message": str(error)}, ()
+        return _told(request, error), ()
     except MemoryError:
         return _refusal(
             f"needs more than the {MAXIMUM_READING_BYTES / 2**30:g} GiB of memory that reading "
@@ -73,7 +74,13 @@ def _reader(request: Request) -> Reader:
 
 def _recording(request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
     """Header and channels of a recording."""
-    recording = cut(_reader(request).read(request), request)
+    reader = _reader(request)
+    with READERS.fenced(reader.name, ParameterError, StorageError):
+        return _handed_over(reader.read(request), request)
+
+
+def _handed_over(read: Recorded, request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
+    recording = cut(read, request)
     _check(recording, MINIMUM_SAMPLES if request.samples is None else 0)
     header = {
         "names": list(recording.names),
@@ -106,6 +113,14 @@ def cut(recording: Recorded, request: Request) -> Recorded:
         first, last = request.part(total, recording.sample_rate_hz)
     samples = recording.samples if request.wants_all else [s[first:last] for s in recording.samples]
     return replace(recording, samples=samples, first_sample=first, total_samples=total)
+
+
+def _told(request: Request, error: VibroacousticsError) -> dict[str, Any]:
+    """What the user shall see of an error; of a plug-in that misses a module, what to install."""
+    missing = error.__cause__
+    if isinstance(error, FaultError) and isinstance(missing, ModuleNotFoundError):
+        return _refusal(needed(_reader(request), str(missing.name)))
+    return {"error": type(error).__name__, "message": str(error)}
 
 
 def _refusal(message: str) -> dict[str, Any]:

@@ -13,11 +13,13 @@ import numpy as np
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError, PluginError, StorageError
+from ..base.fault import FaultError
 from .child import MAXIMUM_CPU_S
 from .recorded import TooLargeError
 
 _ERRORS: Final = {
-    error.__name__: error for error in (ParameterError, PluginError, StorageError, TooLargeError)
+    error.__name__: error
+    for error in (ParameterError, PluginError, FaultError, StorageError, TooLargeError)
 }
 
 

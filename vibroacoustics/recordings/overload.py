@@ -109,10 +109,10 @@ def _clipped_ends(samples: Samples, low: float, high: float) -> list[float]:
         return []  # as of nearly all signals; what follows takes longer
     start = max(0, (samples.size - PIECE) // 2)
     values = np.unique(samples[start : start + PIECE]).astype(float)
-    found = [
+    clipped = [
         end for group in groups if _is_clipped(samples, group, values, spread) for end in group
     ]
-    return found if values.size >= _MANY_VALUES or len(found) == 2 else []
+    return clipped if values.size >= _MANY_VALUES or len(clipped) == 2 else []
 
 
 def _times(samples: Samples, ends: list[float]) -> int:

@@ -14,7 +14,13 @@ _LEAST_BETWEEN: Final = 0.5
 
 
 class RecordingWarning(UserWarning):
-    """A recording was read, but its file holds something that its user must know."""
+    """Warning that the file of a recording holds something that the user must know.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> warnings.simplefilter("error", va.RecordingWarning)  # refuse such recordings
+    """
 
 
 def remark(path: Path, lines: Iterable[str]) -> None:

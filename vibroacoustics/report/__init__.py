@@ -4,6 +4,7 @@ import json
 
 import xarray as xr
 
+from ..base.fault import collected
 from ..base.hashing import canonical_json
 from ..base.registry import plugins
 from .blocked_forces import (
@@ -13,6 +14,7 @@ from .blocked_forces import (
     blocked_text,
     validation_csv,
 )
+from .columns import COLUMNS
 from .compared.limits import broken_lines, figure_limits_csv
 from .compared.order_rows import comparison_of_orders_csv, comparison_of_orders_text
 from .compared.page import comparison_html
@@ -35,6 +37,7 @@ from .kept_columns import keep_columns
 from .kept_columns import kept as kept_columns
 from .kept_sections import keep_sections
 from .kept_sections import kept as kept_sections
+from .left_out import with_lines
 from .limit_tables import limits_csv, limits_text
 from .map_page import speed_map_html
 from .markdown import markdown
@@ -53,6 +56,7 @@ from .prediction import prediction_csv, prediction_markdown, prediction_text
 from .radiation_figures import radiation_figures
 from .radiation_tables import kwave_text, radiation_text
 from .scores import scores_csv
+from .sections import SECTIONS
 from .source_tables import sources_csv
 from .study import has_sources, over_speed
 from .tracked_tables import tracked_csv, tracked_text
@@ -136,7 +140,9 @@ def keep(results: xr.Dataset) -> xr.Dataset:
 
     The report can then be made again without them.
     """
-    kept = keep_sections(keep_columns(results))
+    with collected() as lines:
+        kept = keep_sections(keep_columns(results))
+    kept = with_lines(kept, lines, (SECTIONS, COLUMNS))
     known = json.loads(kept.attrs.get("plugins") or "{}")
     return kept.assign_attrs(plugins=canonical_json({**known, **plugins()}))
 

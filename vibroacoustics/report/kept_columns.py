@@ -10,6 +10,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.errors import SchemaError
+from ..base.fault import collected
 from ..base.vocabulary import stamp
 from ..results.complete import read_attribute
 from ..results.run_attributes import Part
@@ -37,12 +38,10 @@ def columns_of(results: xr.Dataset) -> ColumnsOf:
         if column.name not in strangers and column.applies(results)
     ]
     names = frozenset(column.name for column in columns)
-    lines = []
-    for name in strangers:
-        try:
-            columns += _checked(COLUMNS[name], results, names)
-        except Exception as error:
-            lines.append(left_out.failure(f"column {name}", error))
+    with collected() as lines:
+        for name in strangers:
+            with COLUMNS.spared(), COLUMNS.fenced(name):
+                columns += _checked(COLUMNS[name], results, names)
     columns += [column for column in kept(results) if column.name not in COLUMNS]
     absent = left_out.missing(results, "column", ATTRIBUTE)
     lines += [line for name, line in absent.items() if name not in COLUMNS]
@@ -78,7 +77,10 @@ def _checked(column: Column, results: xr.Dataset, names: frozenset[str]) -> list
         return []
     if column.change_of and column.change_of not in names:
         raise ValueError(f"change_of = {column.change_of}: no such column")
-    _texts(column, _values(column, few_speeds(results)), results)
+    shown = _values(column, few_speeds(results))
+    if not np.isfinite(shown.values).all():
+        raise ValueError("values are not finite")
+    _texts(column, shown, results)
     return [column]
 
 

@@ -6,6 +6,7 @@ from typing import Any, Final
 import xarray as xr
 
 from ..base.errors import SchemaError
+from ..base.fault import collected
 from ..results.complete import read_attribute
 from ..results.run_attributes import Part
 from . import left_out
@@ -54,13 +55,13 @@ def keep_sections(results: xr.Dataset) -> xr.Dataset:
 
 def _guarded(section: Section, results: xr.Dataset) -> list[Section]:
     """A stranger's section with its blocks, or with a line that says how it failed."""
-    try:
+    blocks: tuple[Block, ...] = ()
+    with collected() as lines, SECTIONS.spared(), SECTIONS.fenced(section.name):
         if not section.applies(results):
             return []
         blocks = from_json(to_json(section.blocks(results)))
-    except Exception as error:
-        blocks = (Text(left_out.failure(f"section {section.name}", error), "note"),)
-    return [_fixed(section.name, section.title, blocks, section.position)]
+    notes = tuple(Text(line, "note") for line in lines)
+    return [_fixed(section.name, section.title, notes or blocks, section.position)]
 
 
 class KeptSection(Part):

@@ -1,16 +1,29 @@
-"""What a report says of a stranger's section or column that it cannot show."""
+"""What a report says of the things of plug-ins that it cannot show."""
 
 import json
+from collections.abc import Sequence
+from typing import Any
 
 import xarray as xr
 
-_LONGEST = 200
+from ..base.registry import Registry
+from ..results.left_out import keep_lines, lines_of
 
 
-def failure(what: str, error: Exception) -> str:
-    """One line: it failed, and how."""
-    reason = " ".join(f"{type(error).__name__}: {error}".split())
-    return f"{what} is left out: {reason[:_LONGEST]}"
+def with_lines(
+    results: xr.Dataset, lines: Sequence[str], registries: Sequence[Registry[Any]]
+) -> xr.Dataset:
+    """Return the results with the present lines on things that are loaded, in place of older ones.
+
+    Parameters
+    ----------
+    results : of a run
+    lines : on what is omitted now
+    registries : of sections and columns
+    """
+    loaded = [f"{one.noun} {name} is omitted:" for one in registries for name in one.origins()]
+    older = [line for line in lines_of(results) if not line.startswith(tuple(loaded))]
+    return keep_lines(results, [*older, *lines])
 
 
 def missing(results: xr.Dataset, noun: str, attribute: str) -> dict[str, str]:

@@ -4,9 +4,14 @@ from typing import NamedTuple
 
 import xarray as xr
 
+from ..base.fault import collected
 from .blocks import Block, pictures
+from .columns import COLUMNS
 from .figures.style import Picture, file_name
+from .kept_columns import columns_of
 from .kept_sections import sections_of
+from .left_out import with_lines
+from .sections import SECTIONS
 from .study import parameters
 from .titles import titled
 
@@ -44,9 +49,13 @@ class Page(NamedTuple):
 def page_of(results: xr.Dataset) -> Page:
     """The page of a finished run."""
     results = titled(results)
+    with collected() as lines:
+        sections = sections_of(results)
+        columns_of(results)
+    results = with_lines(results, lines, (SECTIONS, COLUMNS))
     parts = tuple(
         Part(section.name, section.title, tuple(section.blocks(results)), section.folded)
-        for section in sections_of(results)
+        for section in sections
     )
     of_study = parameters(results)
     return Page(of_study["title"], of_study["machine"]["name"], results.attrs["created_utc"], parts)

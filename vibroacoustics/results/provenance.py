@@ -10,8 +10,6 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, Final
 
-import xarray as xr
-
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.errors import VibroacousticsError
 from ..base.hashing import canonical_json, sha256
@@ -50,20 +48,22 @@ def attributes(study: Study) -> dict[str, Any]:
     }
 
 
-def radiation_attributes(study: Study, radiated: xr.Dataset, was_cached: bool) -> dict[str, Any]:
+def radiation_attributes(
+    study: Study, radiated: Mapping[str, Any], was_cached: bool
+) -> dict[str, Any]:
     """The same, and where the transfer vectors come from.
 
     Parameters
     ----------
     study : of the result
-    radiated : the transfer vectors
+    radiated : attributes of the transfer vectors
     was_cached : whether they were read, not computed
     """
     return {
         **attributes(study),
         "reference_pressure_pa": REFERENCE_PRESSURE_PA,
         "transfer_vectors": "from the cache" if was_cached else "computed in this run",
-        "radiation": canonical_json(radiated.attrs),
+        "radiation": canonical_json(dict(radiated)),
     }
 
 

@@ -252,5 +252,6 @@ JSON_ATTRIBUTES: dict[str, Any] = {
     "package_versions": dict[str, str],
     "radiation": dict[str, Any],
     "crank_frames": dict[str, Frame],
+    "left_out": list[str],
 }
 """Further attributes, where they are there."""

@@ -131,7 +131,7 @@ def check_variables(results: xr.Dataset) -> None:
         _check_coordinate(coordinate)
     for variable in known.data_vars.values():
         _check_dimensions(known, variable)
-        _check_numbers(variable)
+        check_numbers(variable)
     for name in ONLY_DRAWS_THAT_COUNT & known.keys():
         _check_finite(known[name].isel(draw=known["draw_weight"].values[0] > 0.0))
     _check_labels(known)
@@ -156,7 +156,7 @@ def _check_coordinate(array: xr.DataArray) -> None:
             f"coordinate {array.name} holds no {'numbers' if known.units else 'text'}"
         )
     if known.units:
-        _check_numbers(array)
+        check_numbers(array)
     if array.dims == (array.name,) and np.unique(array.values).size < array.size:
         raise SchemaError(f"coordinate {array.name} holds a label twice")
 
@@ -171,7 +171,7 @@ def _check_dimensions(results: xr.Dataset, array: xr.DataArray) -> None:
             raise SchemaError(f"{name}: attribute {attribute} is missing or no text")
 
 
-def _check_numbers(array: xr.DataArray) -> None:
+def check_numbers(array: xr.DataArray) -> None:
     if array.dtype.kind not in "iufc":
         raise SchemaError(f"{array.name} holds no numbers")
     if array.name not in EMPTY_WHERE_NONE | ONLY_DRAWS_THAT_COUNT:

@@ -4,7 +4,10 @@ import json
 
 import xarray as xr
 
+from ..base.fault import collected
 from ..base.hashing import canonical_json, sha256
+from ..results.left_out import keep_lines, lines_of
+from ..study.criterion import CRITERIA
 from ..study.scoring import Scoring
 from .scores import score
 
@@ -22,7 +25,8 @@ def scored_again(results: xr.Dataset, settings: Scoring | None) -> xr.Dataset:
     ParameterError
         As `score`.
     """
-    scores = score(results, settings)
+    with collected() as lines:
+        scores = score(results, settings)
     kept = results.drop_vars([name for name in scores.variables if name not in scores.indexes])
     kept = kept.drop_dims([dim for dim in scores.dims if dim in kept.dims and dim != "option"])
     again = kept.merge(scores)
@@ -31,4 +35,5 @@ def scored_again(results: xr.Dataset, settings: Scoring | None) -> xr.Dataset:
         parameters["scoring"] = settings.model_dump(mode="json")
         text = canonical_json(parameters)
         again.attrs |= {"parameters": text, "parameters_sha256": sha256(text.encode())}
-    return again
+    older = [line for line in lines_of(results) if not line.startswith(f"{CRITERIA.noun} ")]
+    return keep_lines(again, [*older, *lines])

@@ -42,10 +42,13 @@ def scored_criteria(results: xr.Dataset, settings: Scoring) -> list[Scored]:
     known = _given_names(results)
     computed = [name for name in CRITERIA if name in settings.criteria and name not in known]
     given = sorted(set(settings.criteria) - set(computed))
-    every = [
-        *(_computed(name, results) for name in computed),
-        *(_given(name, settings.criteria[name], results) for name in given),
-    ]
+    every = []
+    for name in computed:
+        with CRITERIA.spared(), CRITERIA.fenced(name):
+            every.append(_computed(name, results))
+    every += [_given(name, settings.criteria[name], results) for name in given]
+    if not sum(settings.criteria[one.name].weight for one in every) > 0.0:
+        raise ParameterError("scoring.criteria: none with a weight above 0 has values")
     return [one._replace(label=settings.criteria[one.name].title or one.label) for one in every]
 
 
@@ -61,13 +64,20 @@ def _computed(name: str, results: xr.Dataset) -> Scored:
         raise ParameterError(f"criterion {name}: has no finite value for the option {option}")
     scored = _worded(name, criterion.label, criterion.unit, values)
     drawn = criterion.by_draw(results) if "draw_weight" in results else None
-    return scored if drawn is None else scored._replace(by_draw=_of_draws(name, drawn))
+    if drawn is None:
+        return scored
+    counts = results["draw_weight"].values[0] > 0.0
+    return scored._replace(by_draw=_of_draws(name, drawn, counts))
 
 
-def _of_draws(name: str, drawn: xr.DataArray) -> Array:
+def _of_draws(name: str, drawn: xr.DataArray, counts: Array) -> Array:
+    """Values in each draw, (draw, option); finite in those that count, whose weight is not 0."""
     if set(drawn.dims) != {"draw", "option"}:
         raise ParameterError(f"criterion {name}: by draw has dims {drawn.dims}")
-    return np.asarray(drawn.transpose("draw", "option").values)
+    values = np.asarray(drawn.transpose("draw", "option").values)
+    if not np.isfinite(values[counts]).all():
+        raise ParameterError(f"criterion {name}: by draw has values that are not finite")
+    return values
 
 
 def _given(name: str, scale: CriterionScale, results: xr.Dataset) -> Scored:

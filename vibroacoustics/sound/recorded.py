@@ -64,8 +64,8 @@ class NarrowBands:
     @property
     def mean_square(self) -> Array:
         """Mean over the segments that are within the recording, shape (line,), Pa²."""
-        inside = self.share >= self.share.max() * (1.0 - 1e-6)
-        return np.asarray(self.segments[inside].mean(axis=0, dtype=float))
+        is_full = self.share >= self.share.max() * (1.0 - 1e-6)
+        return np.asarray(self.segments[is_full].mean(axis=0, dtype=float))
 
     @property
     def even_mean_square(self) -> Array:

@@ -1,20 +1,27 @@
 """Speeds and options as cases: revolutions, what options add, loads of the sources."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from itertools import product
 from typing import Final
 
+import numpy as np
+
+from ..base.arrays import ComplexArray
 from ..base.errors import ParameterError
 from ..base.progress import Progress
 from ..base.vocabulary import REFERENCE_OPTION
-from ..machine.machine import Machine
-from ..machine.source import Case, CaseKey, Source
+from ..machine.machine import MACHINES, Machine
+from ..machine.option import OPTIONS
+from ..machine.source import SOURCES, Case, CaseKey, Source
 from ..mechanics.added import Added
-from ..mechanics.loads import Loads
-from ..mechanics.moving_parts import Revolution
+from ..mechanics.loads import Loads, PortLoads
+from ..mechanics.moving_parts import Revolution, Wrench
+from ..mechanics.ports import BodyPort
+from ..orders.spectrum import order_spectra
 from ..study.study import Study
 from .moving_parts import MovingParts
+from .shapes import check_added, check_loads, check_revolution
 
 MOVING_PARTS: Final = "moving_parts"
 """Name of the source that every study has."""
@@ -44,10 +51,22 @@ def _revolution(
     """Steady revolution with an option, the reference's where it has one, and what it adds."""
     samples = study.operation.crank_angle_samples
     try:
-        steady = machine.revolution(speed_rpm, samples) if shared is None else shared.revolution
-        return steady, study.options[name].added(machine, steady)
+        steady = _turning(machine, speed_rpm, samples) if shared is None else shared.revolution
+        option = study.options[name]
+        with OPTIONS.fenced(option.kind, ParameterError):
+            added = option.added(machine, steady)
+            check_added(added, samples)
+        return steady, added
     except ParameterError as error:
         raise ParameterError(f"options.{name}: {error}") from None
+
+
+def _turning(machine: Machine, speed_rpm: float, samples: int) -> Revolution:
+    """Steady revolution of a machine, its shapes checked."""
+    with MACHINES.fenced(machine.kind, ParameterError):
+        revolution = machine.revolution(speed_rpm, samples)
+        check_revolution(revolution, samples)
+    return revolution
 
 
 def sources_of(study: Study) -> dict[str, Source]:
@@ -90,10 +109,23 @@ def _loaded(study: Study, case: Case) -> tuple[Case, dict[str, Loads]]:
         try:
             if case.supply_frequency_hz is None:
                 case = _on_supply(case, source.supply_frequency_hz(case, dict(loads)))
-            loads[name] = source.loads(case, dict(loads))
+            with SOURCES.fenced(source.kind, ParameterError):
+                loads[name] = source.loads(case, dict(loads))
+                check_loads(loads[name], case.revolution.rotation.crank_angle.size)
+            _check_ports(source, loads[name])
         except ParameterError as error:
             raise ParameterError(f"sources.{name}: {error}") from None
     return case, loads
+
+
+def _check_ports(source: Source, loads: Loads) -> None:
+    """Refuse loads in an elastic shell, of which the study does not know."""
+    for port in loads.ports:
+        if not isinstance(port, BodyPort) and not source.drives_shell:
+            raise ParameterError(
+                f"loads the port {port.name} in the elastic shell; its class needs "
+                "drives_shell = True"
+            )
 
 
 def _on_supply(case: Case, frequency_hz: float | None) -> Case:
@@ -106,9 +138,28 @@ def _on_supply(case: Case, frequency_hz: float | None) -> Case:
     return replace(case, supply_frequency_hz=frequency_hz)
 
 
-def sources_of_wrenches(loads: Mapping[str, Loads]) -> dict[str, str]:
-    """Source of each wrench, by the wrench's name."""
-    return {wrench: source for source, load in loads.items() for wrench in load.wrenches}
+def wrench_lines(
+    case: Case, loads: Mapping[str, Loads], highest_order: int
+) -> dict[str, PortLoads]:
+    """Lines of the wrenches over crank angle by source, on the body with the mechanism.
+
+    Parameters
+    ----------
+    case : with its revolution
+    loads : of all sources, with their wrenches
+    highest_order : of the result
+    """
+    speed, port = case.revolution.rotation.speed_rad_per_s, case.machine.mechanism_port
+
+    def spectrum(wrenches: Collection[Wrench]) -> ComplexArray:
+        each = [order_spectra(np.concatenate(one), speed, highest_order) for one in wrenches]
+        return np.asarray(np.sum(each, axis=0))
+
+    return {
+        source: {port: spectrum(load.wrenches.values())}
+        for source, load in loads.items()
+        if load.wrenches
+    }
 
 
 def without_time_series(case: Case, loads: Mapping[str, Loads]) -> tuple[Case, dict[str, Loads]]:

@@ -12,9 +12,10 @@ from ..base.registry import register
 from ..machine.gas_in_shell import DischargeGas
 from ..machine.machine import Machine
 from ..machine.source import Case, Source
-from ..machine.suspension import DischargeTube
+from ..machine.suspension import BLOCK, DischargeTube
 from ..mechanics.capabilities import Capability
 from ..mechanics.loads import Loads
+from ..mechanics.ports import HOUSING
 from ..mechanics.valve_flows import FLOW_SAMPLES, ValvedCylinder
 from ..orders import order_spectrum
 from ..transfer.tube import tube_end_reactions, tube_stiffness
@@ -64,8 +65,7 @@ class DischargePulsation(Source):
         block, shell = _ends(tube, path, area * waves)
         block_arm, shell_arm = path[-1], path[-1] + np.array([0.0, 0.0, height])
         return Loads(
-            rigid=_moved(block, block_arm),
-            on_shell=_moved(shell, shell_arm),
+            lines={BLOCK: _moved(block, block_arm), HOUSING: _moved(shell, shell_arm)},
             figures={"discharge_pulsation_pa": float(abs(pressure[1]))},
         )
 

@@ -5,16 +5,17 @@ from typing import ClassVar, Final
 
 import numpy as np
 
-from ..base.arrays import Array
+from ..base.arrays import Array, ComplexArray
 from ..base.curves import Curve
 from ..base.parameters import Parameters
 from ..base.registry import register
-from ..machine.cavities import DischargeDome, DischargeMuffler, SuctionAnnulus
+from ..machine.cavities import SPACES, DischargeDome, DischargeMuffler, GasPort, SuctionAnnulus
 from ..machine.frame import Frame
 from ..machine.machine import Machine
 from ..machine.source import Case, Shared, Source
 from ..mechanics.capabilities import Capability, OldhamRing
-from ..mechanics.loads import DISCHARGE_DOME, SUCTION_ANNULUS, GasFlow, Loads
+from ..mechanics.loads import Loads
+from ..mechanics.ports import Port
 from ..mechanics.rotation import uniform_crank_angle
 from ..orders import order_spectrum
 from .part_loads import gas_loads
@@ -40,8 +41,7 @@ ORBIT_TOLERANCE: Final = 0.01
 _WITH_INERTIA: Final[Mapping[str, type[Parameters]]] = {
     "leakage": ScrollLeakage,
     "suction_pockets": SuctionPockets,
-    DISCHARGE_DOME: DischargeDome,
-    SUCTION_ANNULUS: SuctionAnnulus,
+    **SPACES,
 }
 """Tables that a machine may have, which are read where its gas has inertia."""
 
@@ -84,8 +84,11 @@ class ScrollGasForces(Source):
         return case.shared(
             ("gas loads", id(cycle), of_frame, highest),
             lambda: Loads(
-                on_parts=order_spectrum(gas_loads(cycle, *of_frame), highest),
-                flows=_flows(case, cycle, highest),
+                lines={
+                    port: order_spectrum(load, highest)
+                    for port, load in gas_loads(cycle, *of_frame).items()
+                }
+                | _flows(case, cycle, highest),
                 shaft_torque_n_m=order_spectrum(cycle.torque_n_m, highest),
             ),
         )
@@ -105,22 +108,26 @@ class ScrollGasForces(Source):
             )
 
 
-def _flows(case: Case, cycle: ScrollGasCycle, highest: int) -> tuple[GasFlow, ...]:
+def _flows(case: Case, cycle: ScrollGasCycle, highest: int) -> dict[Port, ComplexArray]:
     """Into dome and annulus, where the gas has inertia and the machine has the tables."""
-    machine, flows = case.machine, []
+    machine, flows = case.machine, dict[Port, ComplexArray]()
     if cycle.port_flow_kg_per_s is None:
-        return ()
+        return flows
     if machine.has_table(DischargeDome):
         rho, sound = machine.table(ScrollGas).discharge_state
         flow = order_spectrum(cycle.port_flow_kg_per_s, highest) / rho
-        flows.append(GasFlow(DISCHARGE_DOME, rho, sound, flow))
+        flows[_port("discharge_dome", rho, sound)] = flow[None]
     if machine.has_table(SuctionAnnulus):
         _, rho, sound = _suction_state(machine, SuctionAnnulus)
         filling = suction_gas(machine, SuctionAnnulus, case.shared, case.speed_rpm)
         wraps = machine.table(ScrollWraps)
         flow = order_spectrum(filling.over_crank_angle(wraps, cycle.crank_angle), highest)
-        flows.append(GasFlow(SUCTION_ANNULUS, rho, sound, -flow / rho))
-    return tuple(flows)
+        flows[_port("suction_annulus", rho, sound)] = -flow[None] / rho
+    return flows
+
+
+def _port(space: str, density: float, sound_speed: float) -> GasPort:
+    return GasPort(space, density_kg_per_m3=density, sound_speed_m_per_s=sound_speed)
 
 
 def suction_gas(
@@ -188,8 +195,8 @@ def gas_cycle(machine: Machine, shared: Shared, speed_rpm: float) -> ScrollGasCy
     )
 
 
-def gas_on_parts(machine: Machine, speed_rpm: float, angle: Array) -> Array:
-    """Gas forces of steady running at any crank angles, shape (part, component, times), N and N m.
+def gas_on_parts(machine: Machine, speed_rpm: float, angle: Array) -> dict[Port, Array]:
+    """Gas forces of steady running at any crank angles by part, (component, times), N and N m.
 
     Parameters
     ----------
@@ -203,11 +210,13 @@ def gas_on_parts(machine: Machine, speed_rpm: float, angle: Array) -> Array:
         As `steady_opening`.
     """
     cycle = gas_cycle(machine, Shared(), speed_rpm)
-    loads = gas_loads(cycle, *_of_frame(machine))
     at, part = np.divmod(np.mod(angle, 2.0 * np.pi) * GAS_SAMPLES / (2.0 * np.pi), 1.0)
     before = at.astype(int) % GAS_SAMPLES
     after = (before + 1) % GAS_SAMPLES
-    return np.asarray((1.0 - part) * loads[..., before] + part * loads[..., after])
+    return {
+        port: (1.0 - part) * load[:, before] + part * load[:, after]
+        for port, load in gas_loads(cycle, *_of_frame(machine)).items()
+    }
 
 
 def opened_gas(machine: Machine, shared: Shared, speed_rpm: float) -> OpenedGas | None:

@@ -11,19 +11,19 @@ from ..base.arrays import Array, ComplexArray
 from ..base.curves import Curve
 from ..base.parameters import Parameters
 from ..base.registry import register
-from ..machine.frame import Frame
-from ..machine.machine import Machine
-from ..machine.source import Case, Source
-from ..mechanics.added import FurtherRing, RingForce
-from ..mechanics.capabilities import Capability, OldhamRing
-from ..mechanics.loads import (
+from ..machine.frame import (
     BEARING_HOUSING,
     FIXED_SCROLL,
     LOWER_BEARING,
     ORBITING_SCROLL,
-    Loads,
-    Noise,
+    Frame,
 )
+from ..machine.machine import Machine
+from ..machine.source import Case, Source
+from ..mechanics.added import FurtherRing, RingForce
+from ..mechanics.capabilities import Capability, OldhamRing
+from ..mechanics.loads import Loads, Noise, summed
+from ..mechanics.ports import Port
 from ..orders import order_spectrum
 from .gas import gas_cycle, gas_tables
 from .oldham_keys.contact_loss import contact_loss_speed_rpm
@@ -48,7 +48,7 @@ class _Ring:
     hung_n: Array
 
 
-_Spectra = tuple[ComplexArray, ComplexArray, Noise]
+_Spectra = tuple[dict[Port, ComplexArray], ComplexArray, Noise]
 """Orders of the load on the parts and of the shaft's torque, and the load's noise."""
 
 
@@ -89,14 +89,14 @@ class OldhamKeyForces(Source):
         on_parts = key_parts(standing, ORBITING_SCROLL, ring.height_m)
         spectra = [_spectra(case, keys, turning, forces, on_parts)]
         if case.machine.has_table(Frame):  # the gas source turns the scroll against the keys
-            spectra[0][0][standing, 5] -= order_spectrum(turning.moment_n_m, case.maximum_order)
+            spectra[0][0][standing][5] -= order_spectrum(turning.moment_n_m, case.maximum_order)
         figures = {
             "key_impacts_per_revolution": forces.impacts_per_revolution,
             "key_force_peak_n": float(forces.peak_n.max()),
         }
         first = order_spectrum(hung.force_n, 1)[1] if hung.force_n.size > 1 else 0.0j
         if hung.from_housing:
-            spectra[0][0][standing, [0, 4], 1] -= first * np.array([1.0, ring.height_m])
+            spectra[0][0][standing][[0, 4], 1] -= first * np.array([1.0, ring.height_m])
         if hung.inertial:
             omega = 2.0 * np.pi * case.shaft_frequency_hz
             carried = ring.mass_kg + first.real / (ring.stroke_m * omega**2)
@@ -108,7 +108,7 @@ class OldhamKeyForces(Source):
             figures |= seen
         of_rings, torques, noise = zip(*spectra, strict=True)
         return Loads(
-            on_parts=np.sum(of_rings, axis=0),
+            lines=summed(of_rings),
             shaft_torque_n_m=np.sum(torques, axis=0),
             noise=noise,
             figures=figures,
@@ -125,7 +125,7 @@ class OldhamKeyForces(Source):
         forces, keys = self._forces(case, free), case.machine.table(OldhamKeys)
         on_parts = key_parts(LOWER_BEARING, LOWER_BEARING, ring.height_m)
         # In opposite phase: all is turned by half a turn about the shaft.
-        on_parts[:, :5] *= -1.0
+        on_parts[LOWER_BEARING][:5] *= -1.0
         return _spectra(case, keys, free, forces, on_parts), {
             "twin_key_impacts_per_revolution": forces.impacts_per_revolution,
             "twin_key_force_peak_n": float(forces.peak_n.max()),
@@ -143,7 +143,7 @@ class OldhamKeyForces(Source):
         )
 
 
-def _standing(machine: Machine) -> int:
+def _standing(machine: Machine) -> Port:
     """Part with the slots that stand."""
     if machine.has_table(Frame) and machine.table(Frame).keys_on == "fixed-scroll":
         return FIXED_SCROLL
@@ -158,7 +158,11 @@ def _turning(case: Case) -> _Ring:
 
 
 def _spectra(
-    case: Case, keys: OldhamKeys, ring: _Ring, forces: KeyForces, on_parts: Array
+    case: Case,
+    keys: OldhamKeys,
+    ring: _Ring,
+    forces: KeyForces,
+    on_parts: Mapping[Port, Array],
 ) -> _Spectra:
     """Orders of the load on the parts and of the shaft's torque, and the load's noise.
 
@@ -167,7 +171,7 @@ def _spectra(
     case : for the highest frequency
     keys, ring : that made the forces
     forces : of all four keys
-    on_parts : load on the parts per unit of each resultant
+    on_parts : load on each part per unit of each resultant
     """
     highest = case.maximum_order
     resultants = key_resultants(forces, keys.radius_m, ring.stroke_m)
@@ -179,4 +183,5 @@ def _spectra(
     frequency, density = spectral_density(rest, forces.sample_rate_hz, block)
     kept = frequency <= case.maximum_frequency_hz
     noise = Noise(on_parts, frequency[kept], density[..., kept])
-    return on_parts @ order_spectrum(mean, highest), torque, noise
+    orders = order_spectrum(mean, highest)
+    return {part: per_force @ orders for part, per_force in on_parts.items()}, torque, noise

@@ -5,15 +5,17 @@ from typing import ClassVar
 
 import numpy as np
 
+from ..base.arrays import ComplexArray
 from ..base.errors import ParameterError
 from ..base.parameters import Parameters
 from ..base.registry import register
 from ..machine.shell_structure import ShellStructure
 from ..machine.source import Case, Source
 from ..machine.stator_yoke import StatorYoke
-from ..mechanics.loads import PART_COMPONENTS, PARTS, YOKE_ORDERS, Loads, Tone, total_torque_n_m
+from ..mechanics.loads import Loads, PortLoads, Tone, total_torque_n_m
+from ..mechanics.ports import Port
 from ..mechanics.scroll_shaft import ScrollShaft
-from .air_gap.loads import StressLoads, loads_of_stress
+from .air_gap.loads import PORTS, loads_of_stress
 from .air_gap.parameters import AirGap
 from .air_gap.waves import Wave, Waves, cosine, permeance, product, stress_pa
 from .induction_motor.parameters import CapacitorMotor
@@ -48,26 +50,27 @@ class _AirGapForces(Source):
             machine.table(ScrollShaft),
             stack_m,
         )
-        on_parts = np.zeros((len(PARTS), PART_COMPONENTS, case.maximum_order + 1), dtype=complex)
-        on_yoke = np.zeros((len(YOKE_ORDERS), 2, case.maximum_order + 1), dtype=complex)
+        orders = case.maximum_order + 1
+        lines: dict[Port, ComplexArray] = {
+            port: np.zeros((len(port.components), orders), dtype=complex) for port in PORTS
+        }
         tones = []
         for (line, turns), load in loads.items():
-            if line == 0 and turns <= case.maximum_order:
-                on_parts[..., turns], on_yoke[..., turns] = load.on_parts, load.on_yoke
+            if line == 0 and turns < orders:
+                for port, amplitudes in load.items():
+                    lines[port][:, turns] = amplitudes
             frequency = line * supply_hz + turns * case.shaft_frequency_hz
             if line > 0 and 0.0 < abs(frequency) <= case.maximum_frequency_hz:
                 tones.append(_tone(line, turns, frequency, load))
-        return Loads(on_parts=on_parts, on_yoke=on_yoke, tones=tuple(tones))
+        return Loads(lines=lines, tones=tuple(tones))
 
 
-def _tone(line: int, turns: int, frequency_hz: float, load: StressLoads) -> Tone:
+def _tone(line: int, turns: int, frequency_hz: float, loads: PortLoads) -> Tone:
     """A line; one of negative frequency is its conjugate's."""
     name = f"{line} x line" + (f" {turns:+d} x shaft" if turns else "")
-    still = np.zeros(PART_COMPONENTS, dtype=complex)
-    on_parts, on_yoke = load.on_parts, load.on_yoke
     if frequency_hz < 0.0:
-        on_parts, on_yoke = on_parts.conj(), on_yoke.conj()
-    return Tone(name, abs(frequency_hz), still, on_parts, None, on_yoke)
+        loads = {port: load.conj() for port, load in loads.items()}
+    return Tone(name, abs(frequency_hz), loads)
 
 
 @register

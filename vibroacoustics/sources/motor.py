@@ -11,10 +11,11 @@ from ..base.parameters import Parameters
 from ..base.registry import register
 from ..machine.source import Case, Source
 from ..mechanics.loads import Loads, Tone, total_torque_n_m
+from ..mechanics.ports import Port
 from .induction_motor.parameters import CapacitorMotor, TurningRotor
 from .induction_motor.supply import on_supply, supply_frequency_hz
 from .induction_motor.torque_lines import TorqueLine, TorqueLines, rotor_in_motor, torque_lines
-from .part_loads import about_z, stator_loads
+from .part_loads import motor_lines
 
 TWICE_LINE: Final = "2 x line"
 TWICE_LINE_FIGURE: Final = "foot_force_2x_line_n"
@@ -46,11 +47,8 @@ class TorqueRipple(_MotorTorque):
 
     def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
         """Torque on the stator and roll moment of the rotor's swing, by order."""
-        on_parts, roll = stator_loads(_balance(case, before).shaft)
-        return Loads(
-            rigid=about_z(np.pad(roll, (1, 0))),
-            on_parts=np.pad(on_parts, ((0, 0), (0, 0), (1, 0))),
-        )
+        lines = motor_lines(case.machine.mechanism_port, _balance(case, before).shaft)
+        return Loads(lines={port: np.pad(load, ((0, 0), (1, 0))) for port, load in lines.items()})
 
 
 @register
@@ -72,15 +70,19 @@ class MotorPulsation(_MotorTorque):
             for line in (*balance.line, *balance.sidebands)
             if LOWEST_LINE_HZ <= line.frequency_hz <= case.maximum_frequency_hz
         ]
-        return Loads(tones=_tones(kept))
+        return Loads(tones=_tones(case.machine.mechanism_port, kept))
 
 
-def _tones(lines: Sequence[TorqueLine]) -> tuple[Tone, ...]:
-    on_parts, roll = stator_loads(lines)
-    rows = zip(lines, about_z(roll).T, np.moveaxis(on_parts, -1, 0), strict=True)
+def _tones(mechanism: Port, lines: Sequence[TorqueLine]) -> tuple[Tone, ...]:
+    loads = motor_lines(mechanism, lines)
     return tuple(
-        Tone(line.name, line.frequency_hz, wrench, parts, _FIGURE.get(line.name))
-        for line, wrench, parts in rows
+        Tone(
+            line.name,
+            line.frequency_hz,
+            {port: load[:, number] for port, load in loads.items()},
+            _FIGURE.get(line.name),
+        )
+        for number, line in enumerate(lines)
     )
 
 

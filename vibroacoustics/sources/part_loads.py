@@ -6,13 +6,8 @@ from typing import Final
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
-from ..mechanics.loads import (
-    FIXED_SCROLL,
-    ORBITING_SCROLL,
-    PART_COMPONENTS,
-    PARTS,
-    STATOR,
-)
+from ..machine.frame import FIXED_SCROLL, ORBITING_SCROLL, STATOR
+from ..mechanics.ports import WRENCH, Port
 from .induction_motor.torque_lines import TorqueLine
 from .oldham_keys.rattle import KeyForces
 from .scroll_gas.cycle import ScrollGasCycle
@@ -21,7 +16,9 @@ KEY_FORCES: Final = 5
 """Resultants of `key_resultants`."""
 
 
-def gas_loads(cycle: ScrollGasCycle, height_m: float = 0.0, flanks_close: bool = False) -> Array:
+def gas_loads(
+    cycle: ScrollGasCycle, height_m: float = 0.0, flanks_close: bool = False
+) -> dict[Port, Array]:
     """Gas forces on the two scrolls: a pair along one line, and the torque that the keys pass on.
 
     The pin takes the orbiting scroll's share of F_t at the orbit radius; what is left turns the
@@ -36,18 +33,16 @@ def gas_loads(cycle: ScrollGasCycle, height_m: float = 0.0, flanks_close: bool =
 
     Returns
     -------
-    shape (part, component, samples), N and N m
+    by part, shape (component, samples), N and N m
     """
     (fx, fy, fz), (x, y) = cycle.on_fixed_scroll_n, cycle.line_of_action_m
     if flanks_close:
         across = np.stack([-np.sin(cycle.crank_angle), np.cos(cycle.crank_angle)])
         fx, fy = cycle.tangential_force_n * across
-    loads = np.zeros((len(PARTS), PART_COMPONENTS, fx.size))
     about_x, about_y = y * fz - height_m * fy, height_m * fx - x * fz
-    loads[FIXED_SCROLL] = fx, fy, fz, about_x, about_y, x * fy - y * fx
-    loads[ORBITING_SCROLL, :5] = -loads[FIXED_SCROLL, :5]
-    loads[ORBITING_SCROLL, 5] = cycle.self_rotation_moment_n_m
-    return loads
+    on_fixed = np.stack([fx, fy, fz, about_x, about_y, x * fy - y * fx])
+    on_orbiting = np.stack([*-on_fixed[:5], cycle.self_rotation_moment_n_m])
+    return {FIXED_SCROLL: on_fixed, ORBITING_SCROLL: on_orbiting}
 
 
 def key_resultants(forces: KeyForces, radius_m: float, stroke_m: float) -> Array:
@@ -69,8 +64,8 @@ def key_resultants(forces: KeyForces, radius_m: float, stroke_m: float) -> Array
     return np.concatenate([standing.sum(axis=0), turn[None], scroll.sum(axis=0)])
 
 
-def key_parts(standing: int, orbiting: int, height_m: float) -> Array:
-    """Load on the parts per unit of each of `key_resultants`, (part, component, force).
+def key_parts(standing: Port, orbiting: Port, height_m: float) -> dict[Port, Array]:
+    """Load on the parts per unit of each of `key_resultants`, shape (component, force).
 
     Parameters
     ----------
@@ -78,11 +73,13 @@ def key_parts(standing: int, orbiting: int, height_m: float) -> Array:
     orbiting : part that the other two keys load
     height_m : of the ring
     """
-    loads = np.zeros((len(PARTS), PART_COMPONENTS, KEY_FORCES))
+    loads: dict[Port, Array] = {
+        part: np.zeros((len(WRENCH), KEY_FORCES)) for part in (standing, orbiting)
+    }
     for part, first in ((standing, 0), (orbiting, 3)):
-        loads[part, 0, first] = loads[part, 1, first + 1] = 1.0
-        loads[part, 4, first], loads[part, 3, first + 1] = height_m, -height_m
-    loads[standing, 5, 2] = 1.0
+        loads[part][0, first] = loads[part][1, first + 1] = 1.0
+        loads[part][4, first], loads[part][3, first + 1] = height_m, -height_m
+    loads[standing][5, 2] = 1.0
     return loads
 
 
@@ -102,32 +99,29 @@ def key_torque_n_m(forces: KeyForces, stroke_m: float) -> Array:
     return np.asarray(stroke_m * (along_x * np.sin(angle) - along_y * np.cos(angle)))
 
 
-def stator_loads(lines: Sequence[TorqueLine]) -> tuple[ComplexArray, ComplexArray]:
-    """Torque of the motor on the stator, and the roll moment on the whole machine, by line.
-
-    Returns
-    -------
-    loads, roll_moment : complex peaks, shapes (part, component, line) and (line,), N m
-    """
-    torque = np.array([line.motor_torque_n_m for line in lines], dtype=complex)
-    roll = np.array([line.roll_moment_n_m for line in lines], dtype=complex)
-    return motor_on_stator(torque), roll
-
-
-def motor_on_stator(torque_n_m: ComplexArray) -> ComplexArray:
-    """Load on the parts by a motor's torque on its rotor: the opposite on the stator.
+def motor_loads(
+    mechanism: Port, roll_moment_n_m: ComplexArray, torque_n_m: ComplexArray
+) -> dict[Port, ComplexArray]:
+    """Loads of a motor's torque: roll moment on the machine, the torque's reaction on the stator.
 
     Parameters
     ----------
-    torque_n_m : complex peaks, shape (line,)
+    mechanism : the body with the motor
+    roll_moment_n_m : on it, complex peaks, shape (line,)
+    torque_n_m : on the rotor, likewise
 
     Returns
     -------
-    shape (part, component, line), N m
+    by port, shape (component, line), N m
     """
-    loads = np.zeros((len(PARTS), PART_COMPONENTS, torque_n_m.size), dtype=complex)
-    loads[STATOR, 5] = -torque_n_m
-    return loads
+    return {mechanism: about_z(roll_moment_n_m), STATOR: about_z(-torque_n_m)}
+
+
+def motor_lines(mechanism: Port, lines: Sequence[TorqueLine]) -> dict[Port, ComplexArray]:
+    """Loads of lines of a motor's torque, as `motor_loads`."""
+    roll = np.array([line.roll_moment_n_m for line in lines], dtype=complex)
+    torque = np.array([line.motor_torque_n_m for line in lines], dtype=complex)
+    return motor_loads(mechanism, roll, torque)
 
 
 def about_z(moment: ComplexArray) -> ComplexArray:

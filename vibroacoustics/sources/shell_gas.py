@@ -14,6 +14,7 @@ from ..machine.machine import Machine
 from ..machine.source import Case, Source
 from ..mechanics.capabilities import Capability
 from ..mechanics.loads import Loads
+from ..mechanics.ports import HOUSING
 from ..mechanics.valve_flows import FLOW_SAMPLES, ValvedCylinder
 from ..orders import order_spectrum
 
@@ -54,7 +55,8 @@ class GasInShell(Source):
         wrench = [c * force, s * force, still, -height * s * force, height * c * force, still]
         first = float(mode_numbers(1)[0]) * gas.speed_of_sound_m_per_s / gas.radius_m
         return Loads(
-            on_shell=np.stack(wrench), figures={"first_gas_mode_hz": first / (2.0 * np.pi)}
+            lines={HOUSING: np.stack(wrench)},
+            figures={"first_gas_mode_hz": first / (2.0 * np.pi)},
         )
 
 

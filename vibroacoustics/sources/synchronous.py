@@ -5,14 +5,14 @@ from typing import ClassVar, Final
 
 import numpy as np
 
-from ..base.arrays import ComplexArray
 from ..base.errors import ParameterError
 from ..base.parameters import Parameters
 from ..base.registry import register
 from ..base.units import shaft_frequency_hz
 from ..machine.source import Case, Source
 from ..mechanics.loads import Loads, Tone, total_torque_n_m
-from .part_loads import about_z, motor_on_stator
+from ..mechanics.ports import Port
+from .part_loads import motor_loads
 from .synchronous_motor.harmonics import OperatingPoint, operating_point, shaft_orders
 from .synchronous_motor.parameters import SynchronousMotor
 from .synchronous_motor.switching import Sideband, sidebands
@@ -56,8 +56,7 @@ class SynchronousMotorTorque(Source):
         torque[0] = load[0]  # the mean turns no rotor
         tones = _tones(motor, point, case)
         return Loads(
-            rigid=about_z(load - torque),
-            on_parts=motor_on_stator(torque),
+            lines=motor_loads(case.machine.mechanism_port, load - torque, torque),
             tones=tones,
             figures={
                 "motor_phase_current_a": abs(point.current_a[1]),
@@ -84,18 +83,16 @@ def _tones(motor: SynchronousMotor, point: OperatingPoint, case: Case) -> tuple[
     largest = max((abs(side.torque_n_m) for side in every), default=0.0)
     electrical_hz = point.electrical_rad_per_s / (2.0 * np.pi)
     return tuple(
-        _tone(side, motor.switching_frequency_hz, electrical_hz)
+        _tone(case.machine.mechanism_port, side, motor.switching_frequency_hz, electrical_hz)
         for side in every
         if abs(side.torque_n_m) > SMALLEST_SHARE * largest
     )
 
 
-def _tone(side: Sideband, switching_hz: float, electrical_hz: float) -> Tone:
+def _tone(mechanism: Port, side: Sideband, switching_hz: float, electrical_hz: float) -> Tone:
     torque = np.array([side.torque_n_m])
-    on_parts: ComplexArray = motor_on_stator(torque)
     return Tone(
         f"{side.carrier} x switching {side.electrical:+d} x electrical",
         side.carrier * switching_hz + side.electrical * electrical_hz,
-        about_z(-torque)[:, 0],
-        on_parts[..., 0],
+        {port: load[:, 0] for port, load in motor_loads(mechanism, -torque, torque).items()},
     )

@@ -17,6 +17,7 @@ from ..radiation.transfer_vectors import pressure_per_velocity
 from ..study.study import Study
 from ..transfer import MachineOnMounts
 from ..transfer.bending import bending_shell
+from ..transfer.observers import Observers
 from ..transfer.path import ShellPath
 from ..transfer.transient import LOAD_SAMPLES, RESULT_SAMPLES
 from .coasting import RunDown
@@ -62,16 +63,17 @@ def stopping_variables(
     ]
     clock = _clock(runs, rate_hz, before_s, lead_s)
     vectors = pressure_per_velocity(results["transfer_vector"])
-    bending = None
+    bending, microphones = None, Observers(vectors)
     if turns_back and path is not None:
-        bending = bending_shell(machine, path, pressure_per_shell_velocity(results), vectors)
+        bending = bending_shell(machine, path)
+        microphones = Observers(vectors, pressure_per_shell_velocity(results))
     events = [
         stopping_event(
             run,
             clock,
             body,
             vectors,
-            None if bending is None else StopThroughShell(machine, bending, speed),
+            None if bending is None else StopThroughShell(machine, bending, microphones, speed),
         )
         for speed, run in zip(speeds, runs, strict=True)
     ]

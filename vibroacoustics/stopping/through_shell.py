@@ -7,18 +7,14 @@ import numpy as np
 from scipy import fft
 
 from ..base.arrays import Array
+from ..machine.frame import BEARING_HOUSING, FIXED_SCROLL, ORBITING_SCROLL
 from ..machine.machine import Machine
 from ..machine.turning_back import TurningBack
-from ..mechanics.loads import (
-    BEARING_HOUSING,
-    FIXED_SCROLL,
-    ORBITING_SCROLL,
-    PART_COMPONENTS,
-    PARTS,
-)
+from ..mechanics.loads import summed
+from ..mechanics.ports import Port
 from ..sources.gas import gas_on_parts
-from ..transfer.bending import pressure_over_time
-from ..transfer.sound_path import BendingShell
+from ..transfer.bending import BendingShell, pressure_over_time
+from ..transfer.observers import Observers
 from ..transfer.transient import LOAD_SAMPLES
 from .coasting import VALVE, RunDown
 
@@ -36,11 +32,13 @@ class StopThroughShell:
     ----------
     machine : gas, brake
     shell : elastic, with the machine's values
+    microphones : with its modes
     speed_rpm : before switch-off
     """
 
     machine: Machine
     shell: BendingShell
+    microphones: Observers
     speed_rpm: float
 
     def pressure(
@@ -56,31 +54,41 @@ class StopThroughShell:
         samples : of the result
         rate_hz : of the result
         """
-        load = fade * self.loads(run, first)
+        loads = {port: fade * load for port, load in self.loads(run, first).items()}
         out = round(LOAD_SAMPLES * FADE_OUT_S * rate_hz)
         falling = 0.5 + 0.5 * np.cos(np.linspace(0.0, np.pi, out))
         total = fft.next_fast_len(samples + round((FADE_OUT_S + RING_OUT_S) * rate_hz), real=True)
-        standing = LOAD_SAMPLES * samples - load.shape[-1]
+        standing = LOAD_SAMPLES * samples - fade.size
         held = np.concatenate([np.ones(standing), falling])
-        event = np.zeros((*load.shape[:2], LOAD_SAMPLES * total))
-        event[..., : load.shape[-1]] = load
-        event[..., load.shape[-1] :][..., : held.size] = load[..., -1:] * held
-        return pressure_over_time(self.shell, event, LOAD_SAMPLES * rate_hz)[:, :samples]
 
-    def loads(self, run: RunDown, first: int) -> Array:
-        """On the parts from a sample on, shape (part, component, times), N and N m."""
+        def event(load: Array) -> Array:
+            course = np.zeros((len(load), LOAD_SAMPLES * total))
+            course[:, : fade.size] = load
+            course[:, fade.size :][:, : held.size] = load[:, -1:] * held
+            return course
+
+        events = {port: event(load) for port, load in loads.items()}
+        rate = LOAD_SAMPLES * rate_hz
+        return pressure_over_time(self.shell, self.microphones, events, rate)[:, :samples]
+
+    def loads(self, run: RunDown, first: int) -> dict[Port, Array]:
+        """On the parts from a sample on, shape (component, times), N and N m."""
         angle = (run.crank_angle_rad + run.shift.angle)[first:]
-        loads = run.gas_share[first:] * gas_on_parts(self.machine, self.speed_rpm, angle)
+        of_gas = gas_on_parts(self.machine, self.speed_rpm, angle)
+        loads = {port: run.gas_share[first:] * load for port, load in of_gas.items()}
         if run.brake_force_n.any():
             height = _height_of_brake(self.machine)
             table = self.machine.table(TurningBack)
-            loads += brake_on_parts(table, run.brake_force_n[first:], angle, height)
+            brake = brake_on_parts(table, run.brake_force_n[first:], angle, height)
+            loads = summed([loads, brake])
         if VALVE in run.sources:
-            loads[FIXED_SCROLL, 2] += run.force_n[run.sources.index(VALVE), 2, first:]
+            loads[FIXED_SCROLL][2] += run.force_n[run.sources.index(VALVE), 2, first:]
         return loads
 
 
-def brake_on_parts(table: TurningBack, force_n: Array, angle: Array, height_m: float) -> Array:
+def brake_on_parts(
+    table: TurningBack, force_n: Array, angle: Array, height_m: float
+) -> dict[Port, Array]:
     """The jam as a pair between the wall of the bearing housing and the crank pin.
 
     The shaft that turns back drags the wall with it by F, and the brake is wedged outwards with
@@ -95,16 +103,16 @@ def brake_on_parts(table: TurningBack, force_n: Array, angle: Array, height_m: f
 
     Returns
     -------
-    shape (part, component, times), N and N m
+    by part, shape (component, times), N and N m
     """
     outwards = force_n / table.friction_ratio
     x = outwards * np.cos(angle) + force_n * np.sin(angle)
     y = outwards * np.sin(angle) - force_n * np.cos(angle)
-    loads = np.zeros((len(PARTS), PART_COMPONENTS, angle.size))
-    loads[BEARING_HOUSING, :5] = x, y, 0.0 * x, -height_m * y, height_m * x
-    loads[ORBITING_SCROLL, :5] = -loads[BEARING_HOUSING, :5]
-    loads[BEARING_HOUSING, 5] = -table.wall_radius_m * force_n
-    return loads
+    still = np.zeros_like(x)
+    pair = np.stack([x, y, still, -height_m * y, height_m * x, still])
+    on_wall = pair.copy()
+    on_wall[5] = -table.wall_radius_m * force_n
+    return {BEARING_HOUSING: on_wall, ORBITING_SCROLL: -pair}
 
 
 def _height_of_brake(machine: Machine) -> float:

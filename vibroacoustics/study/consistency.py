@@ -6,12 +6,12 @@ from typing import Final
 
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import REFERENCE_OPTION
+from ..machine.cavities import SPACES
 from ..machine.frame import Frame
 from ..machine.option import Option
 from ..machine.shell_structure import ShellStructure, ShellVariation
 from ..machine.stopping import Stopping
 from ..machine.turning_back import TurningBack
-from ..mechanics.loads import DISCHARGE_DOME, SUCTION_ANNULUS
 from .scoring import check_given, check_scales
 from .tables import StudyTables
 
@@ -209,7 +209,7 @@ def _check_turning_back(study: StudyTables) -> None:
 
 def _gas_flows_into(study: StudyTables) -> list[str]:
     read = {name for one in study.sources.values() for name in one.tables_read(study.machine)}
-    return sorted(read & {DISCHARGE_DOME, SUCTION_ANNULUS})
+    return sorted(read & set(SPACES))
 
 
 def _check_fits(study: StudyTables, name: str, option: Option) -> None:

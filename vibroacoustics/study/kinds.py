@@ -36,7 +36,8 @@ def validate_kinds(
         if isinstance(table, dict):
             try:
                 kind, values = of_kind(registry, table, reader.file_and_key((name, key)))
-                valid[key] = checked(kind, values, reader, (name, key))
+                with registry.fenced(kind.kind, ParameterError):
+                    valid[key] = checked(kind, values, reader, (name, key))
             except ParameterError as error:
                 reader.problems += error.args
         else:  # refused by the study

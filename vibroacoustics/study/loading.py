@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from ..base.errors import ParameterError
+from ..base.fault import FaultError, collected
 from ..machine.machine import Machine
 from ..machine.option import OPTIONS
 from ..machine.source import SOURCES
@@ -13,6 +14,8 @@ from .baseline import BaselineSettings
 from .baseline_files import read_baseline
 from .draws import warn_of_contradictions
 from .evidence_files import take_evidence
+from .failing import without_failing, without_source
+from .file_names import resolve_file_names
 from .given_values import take_given
 from .kinds import validate_kinds
 from .machine_file import (
@@ -32,13 +35,14 @@ from .toml_files import Written, beside, read_with_base
 from .wording import validated
 
 
-def load_study(path: str | Path) -> Study:
+def load_study(path: str | Path, without: Collection[str] = ()) -> Study:
     """Read a study file, the study it extends, its machine and its published table.
 
     Parameters
     ----------
     path : TOML file. Keys carry their unit; a value is a number or
         `{ value, source, range }`. `extends` names a study whose values it takes over.
+    without : names of sources that are omitted
 
     Raises
     ------
@@ -51,17 +55,32 @@ def load_study(path: str | Path) -> Study:
     >>> study.machine.name
     'Copeland ZP41K3E-PFJ'
     """
-    return study_of(read_with_base(Path(path)))
+    written = read_with_base(Path(path))
+    for name in without:
+        written = without_source(written, name)
+    lines = [f"source {name} is omitted: as asked for by --without" for name in without]
+    return study_of(written).leaving_out(lines)
 
 
 def study_of(written: Written) -> Study:
-    """The study that a file's tables say; see `load_study`.
+    """Read the study that a file's tables say, without options and criteria that fail.
 
     Raises
     ------
     ParameterError
         As `load_study`.
+    FaultError
+        The code of a machine or source failed.
     """
+    with collected() as lines:
+        while True:
+            try:
+                return _study_of(written).leaving_out(lines)
+            except FaultError as fault:
+                written = without_failing(written, fault)
+
+
+def _study_of(written: Written) -> Study:
     path, content = written.path, deepcopy(written.content)
     reader = Reader(path, written.origin)
     titles = take_titles(content, reader)
@@ -89,6 +108,9 @@ def study_of(written: Written) -> Study:
             reader.problems.append(f"{path}: {name}: unknown key")
     given, evidence = take_given(content, reader), take_evidence(content, reader)
     content = reader.to_si(content, ())
+    for name in _WITH_DATA_FILES:
+        if isinstance(content.get(name), dict):
+            resolve_file_names(content[name], reader, (name,))
     _read_measured(content, reader)
     plate = _plate(content, reader)
     if plate is not None:
@@ -142,9 +164,11 @@ def load_machine(path: str | Path) -> Machine:
 
 _FILLED_IN: Final = (
     "records", "ranges", "held_ranges", "source_file", "given", "catalogue_machine", "coarsened",
-    "titles",
+    "titles", "left_out",
 )  # fmt: skip
 """Here, not by a file."""
+_WITH_DATA_FILES: Final = ("options", "shell_modes", "sources")
+"""Tables in which every `file`, at any depth, is the name of a data file."""
 
 
 def _machine_table(content: dict[str, Any], reader: Reader) -> tuple[Path, Any, list[str]]:
@@ -220,8 +244,7 @@ def _plate(content: Mapping[str, Any], reader: Reader) -> StructureBorne | None:
 
 def _resolve_file_names(content: Mapping[str, Any], reader: Reader) -> None:
     """Make names of files relative to the file that gives them."""
-    for keys in (("shell_modes", "file"), ("radiation", "body", "file")):
-        _resolve(content, keys, reader)
+    _resolve(content, ("radiation", "body", "file"), reader)
     for name in ("floor", "sound", "shell"):
         _resolve_list(content, ("measured", name, "frequency_responses"), reader)
     patterns = _table_at(content, ("radiation", "body", "patterns"))

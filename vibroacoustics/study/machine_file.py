@@ -8,10 +8,11 @@ from ..base.errors import ParameterError
 from ..base.units import si_key
 from ..machine.machine import MACHINES, Machine
 from ..machine.option import OPTIONS
+from .file_names import resolve_file_names
 from .kinds import of_kind
 from .reader import Reader
 from .record import ParameterRecord
-from .toml_files import beside, leaves, read_toml
+from .toml_files import leaves, read_toml
 from .wording import validated
 
 POINTS: Final = "operating_points"
@@ -56,28 +57,10 @@ def read_machine(
     for prefix, change in changes.items():
         _apply(content, prefix, change, reader, study)
     in_si = reader.to_si(content, ())
-    _resolve_file_names(in_si, reader)
+    resolve_file_names(in_si, reader)
     model, values = of_kind(MACHINES, in_si, f"{path}: machine")
-    return validated(model, values, reader), reader
-
-
-def _resolve_file_names(
-    table: dict[str, Any], reader: Reader, prefix: tuple[str, ...] = ()
-) -> None:
-    """Make every `file` of a machine's tables relative to the file that gives it."""
-    for key, value in table.items():
-        keys = (*prefix, key)
-        if isinstance(value, dict):
-            _resolve_file_names(value, reader, keys)
-        elif key == "file" and isinstance(value, str) and value:
-            where, recorded = reader.file_and_key(keys), {item.field for item in reader.records}
-            if ".".join(keys) not in recorded and f"{where}: source is missing" not in (
-                reader.problems
-            ):
-                reader.problems.append(
-                    f'{where} = {value}: needs a source: {{ value = "{value}", source = "…" }}'
-                )
-            table[key] = str(beside(reader.file(keys), value))
+    with MACHINES.fenced(model.kind, ParameterError):
+        return validated(model, values, reader), reader
 
 
 def operating_points(path: Path) -> tuple[str, ...]:

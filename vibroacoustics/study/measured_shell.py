@@ -7,7 +7,7 @@ from typing import Literal
 from pydantic import Field, model_validator
 
 from ..base.parameters import Parameters
-from ..mechanics.loads import PARTS
+from ..machine.frame import PARTS
 
 DirectionCode = Literal["+x", "-x", "+y", "-y", "+z", "-z"]
 COMPONENTS = ("fx", "fy", "fz")
@@ -38,8 +38,9 @@ class PartPoint(Hit):
 
     @model_validator(mode="after")
     def _known(self) -> "PartPoint":
-        if self.part not in PARTS:
-            raise ValueError(f"part = {self.part}: must be one of {', '.join(PARTS)}")
+        parts = [part.name for part in PARTS]
+        if self.part not in parts:
+            raise ValueError(f"part = {self.part}: must be one of {', '.join(parts)}")
         return self
 
 

@@ -1,6 +1,6 @@
 """A study: one machine, its operating points, options, microphones and scoring."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from copy import deepcopy
 from typing import Any, Final, NamedTuple
 
@@ -97,7 +97,7 @@ class Study(StudyTables):
         vibroacoustics.base.errors.ParameterError: ...speed_rpm = 10 rpm: allowed 60 to 60000 rpm
         """
         written, study_of = self._as_read()
-        return study_of(replaced(written, values))
+        return study_of(replaced(written, values)).leaving_out(self.left_out)
 
     def as_written(self) -> dict[str, Any]:
         """What its file says, with those that it extends; numbers as there, in their units."""
@@ -116,7 +116,15 @@ class Study(StudyTables):
 
     def marked_coarse(self, words: tuple[str, ...]) -> "Study":
         """The study, with what was made coarser in it."""
-        marked = self.model_copy(update={"coarsened": words})
+        return self._marked(coarsened=words)
+
+    def leaving_out(self, lines: Sequence[str]) -> "Study":
+        """Return the study with further lines on what it runs without."""
+        further = tuple(line for line in lines if line not in self.left_out)
+        return self._marked(left_out=(*self.left_out, *further)) if further else self
+
+    def _marked(self, **fields: tuple[str, ...]) -> "Study":
+        marked = self.model_copy(update=fields)
         read: AsRead | None = getattr(self, "_read", None)
         return marked if read is None else marked.remember(*read)
 

@@ -70,6 +70,8 @@ class StudyTables(Parameters):
     records: tuple[ParameterRecord, ...] = ()
     coarsened: tuple[str, ...] = ()
     """What was made coarser for a first look, and the error that is expected."""
+    left_out: tuple[str, ...] = Field(default=(), exclude=True)
+    """A line on what runs without: what failed when the study was read, sources not wanted."""
     source_file: str = ""
 
     @field_validator("options", "receivers")

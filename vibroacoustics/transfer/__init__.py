@@ -3,7 +3,7 @@
 from ..machine.feet import FOOT_NAMES
 from .bushings import Bushing, RigidBody
 from .isolation import Isolation
-from .machine import MachineOnMounts, largest_foot_force_n, on_mounts
+from .machine import MachineOnMounts, on_mounts
 from .tube import tube_stiffness
 
 __all__ = [
@@ -12,7 +12,6 @@ __all__ = [
     "Isolation",
     "MachineOnMounts",
     "RigidBody",
-    "largest_foot_force_n",
     "on_mounts",
     "tube_stiffness",
 ]

@@ -1,11 +1,30 @@
-"""Reported figures of what tones do to the feet."""
+"""Forces of the feet on the floor by the loads of sources, and the figures that tones report."""
 
 from collections.abc import Mapping
 from dataclasses import replace
 
+import numpy as np
+
+from ..base.arrays import Array, ComplexArray
 from ..machine.machine import Machine
-from ..mechanics.loads import Loads
-from .machine import largest_foot_force_n, on_mounts
+from ..mechanics.loads import Loads, PortLoads, Tone
+from .load_path import LoadPath
+from .machine import MachineOnMounts, on_mounts
+from .observers import feet
+
+
+def foot_force(body: MachineOnMounts, loads: PortLoads, frequency_hz: Array) -> ComplexArray:
+    """Force of each foot on the floor, complex peaks, shape (line, foot, axis), N.
+
+    Parameters
+    ----------
+    body : on the feet
+    loads : by port, shape (component, line)
+    frequency_hz : shape (line,)
+    """
+    force = np.zeros((3 * len(body.stand.names), frequency_hz.size), dtype=complex)
+    force += LoadPath(body).observed(feet(body), loads, frequency_hz)
+    return np.asarray(force.T.reshape(frequency_hz.size, -1, 3))
 
 
 def with_foot_figures(machine: Machine, loads: Mapping[str, Loads]) -> dict[str, Loads]:
@@ -18,12 +37,13 @@ def with_foot_figures(machine: Machine, loads: Mapping[str, Loads]) -> dict[str,
     """
     body = on_mounts(machine)
 
+    def largest_n(tone: Tone) -> float:
+        by_port = {port: load[:, None] for port, load in tone.loads.items()}
+        force = foot_force(body, by_port, np.array([tone.frequency_hz]))
+        return float(np.max(np.linalg.norm(np.abs(force), axis=-1)))
+
     def figures(load: Loads) -> dict[str, float]:
-        return {
-            tone.figure: largest_foot_force_n(body, tone)
-            for tone in load.tones
-            if tone.figure is not None
-        }
+        return {tone.figure: largest_n(tone) for tone in load.tones if tone.figure is not None}
 
     return {
         name: replace(load, figures={**load.figures, **figures(load)})

@@ -7,6 +7,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
+from ..mechanics.ports import HOUSING
 from .machine import MachineOnMounts
 
 PressurePerVelocity = Callable[[Array], ComplexArray]
@@ -58,9 +59,8 @@ class ForceSound:
         def per_velocity(frequency_hz: Array) -> ComplexArray:
             moves = frequency_hz > 0.0
             frequency = np.where(moves, frequency_hz, 1.0)
-            nothing = np.zeros((6, frequency.size, 6), dtype=complex)
-            loads = np.broadcast_to(np.eye(6, dtype=complex)[:, None], nothing.shape)
-            response = body.response(nothing, frequency, loads)
+            loads = np.broadcast_to(np.eye(6, dtype=complex)[:, None], (6, frequency.size, 6))
+            response = body.response(loads, frequency, HOUSING)
             velocity = np.moveaxis(response.velocity, 0, -1)  # (frequency, dof, load)
             if self.per_wrench is not None:
                 made = self._at(self.per_wrench, frequency)

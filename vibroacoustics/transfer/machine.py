@@ -7,21 +7,23 @@ from typing import Final
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
+from ..base.errors import ParameterError
 from ..machine.feet import FOOT_NAMES, Feet
 from ..machine.floor import Floor, FloorMobility
 from ..machine.housing import Housing
 from ..machine.machine import Machine
 from ..machine.mount_stiffness import MountStiffness
 from ..machine.mounts import Mounts
-from ..machine.suspension import DischargeTube, Suspension
-from ..mechanics.loads import Tone
+from ..machine.suspension import BLOCK, DischargeTube, Suspension
+from ..mechanics.ports import HOUSING, BodyPort
 from .bushings import Bushing, RigidBody
 from .feet import Stand, corners
 from .isolation import Isolation
 from .modes_over_frequency import modes_over_frequency
 from .tube import tube_stiffness
 
-MACHINE, SHELL, BLOCK = "machine", "shell", "block"
+MACHINE, SHELL = "machine", "shell"
+"""Names of the body on the feet, without and with a block on springs in it."""
 HIGHEST_MODE_HZ: Final = 1e5
 """Above every natural frequency on mounts."""
 KEPT_MACHINES: Final = 64
@@ -30,7 +32,7 @@ KEPT_MACHINES: Final = 64
 
 @dataclass(frozen=True)
 class Response:
-    """What a load on the mechanism's body does, complex peaks.
+    """What a load on a body does, complex peaks.
 
     Attributes
     ----------
@@ -95,13 +97,35 @@ class MachineOnMounts:
         return self._isolation(with_floor=True)
 
     def _isolation(self, with_floor: bool) -> Isolation:
-        name = MACHINE if self.suspension is None else SHELL
-        bodies = [_rigid_body(name, self.housing, np.zeros(3))]
-        bushings = self.stand.bushings(name, with_floor)
+        bodies = [_rigid_body(self._on_feet, self.housing, np.zeros(3))]
+        bushings = self.stand.bushings(self._on_feet, with_floor)
         if self.suspension is not None:
             bodies.append(_block(self.suspension))
             bushings += _suspension_bushings(self.suspension)
         return Isolation(tuple(bodies), tuple(bushings))
+
+    @property
+    def _on_feet(self) -> str:
+        return MACHINE if self.suspension is None else SHELL
+
+    @property
+    def mechanism_port(self) -> BodyPort:
+        """As of `Machine`."""
+        return HOUSING if self.suspension is None else BLOCK
+
+    def row(self, port: BodyPort) -> int:
+        """Find the body that a port loads among those of `isolation`.
+
+        Raises
+        ------
+        ParameterError
+            The machine has no such port.
+        """
+        names = [body.name for body in self.isolation.bodies]
+        name = self._on_feet if port == HOUSING else port.name
+        if name not in names:
+            raise ParameterError(f"port {port.name}: the machine has none")
+        return names.index(name)
 
     def natural_modes(self) -> tuple[Array, Array]:
         """As `Isolation.natural_modes`, on a rigid floor, with the mounts' stiffness there."""
@@ -117,25 +141,25 @@ class MachineOnMounts:
         self,
         load: ComplexArray,
         frequency_hz: Array | float,
-        on_shell: ComplexArray | float = 0.0,
+        port: BodyPort | None = None,
     ) -> Response:
-        """Motion and foot forces under a load on the body with the mechanism.
+        """Motion and foot forces under a load on a body.
 
         Parameters
         ----------
-        load : force and moment about that body's centre of mass, shape (..., 6), N and N m
+        load : force and moment about the body's centre of mass, shape (..., 6), N and N m
         frequency_hz : at least zero, broadcasts against load[..., 0]
-        on_shell : the same on the body on the feet, about its own centre of mass
+        port : of the body; that with the mechanism where none is given
         """
-        isolation = self.isolation
+        isolation, mechanism = self.isolation, self.mechanism_port
         loads = np.zeros((*np.shape(load)[:-1], len(isolation.bodies), 6), dtype=complex)
-        loads[..., -1, :] = load
-        loads[..., 0, :] += on_shell
+        loads[..., self.row(port or mechanism), :] = load
         motion = isolation.displacement(loads, frequency_hz)
         force = isolation.bushing_force(motion, frequency_hz)
         velocity = 2j * np.pi * np.asarray(frequency_hz, dtype=float)[..., None, None] * motion
         feet = force[..., : len(self.stand.names), :3]
-        return Response(velocity[..., 0, :], velocity[..., -1, :], feet)
+        on_feet, in_block = self.row(HOUSING), self.row(mechanism)
+        return Response(velocity[..., on_feet, :], velocity[..., in_block, :], feet)
 
 
 def on_mounts(machine: Machine) -> MachineOnMounts:
@@ -147,12 +171,6 @@ def on_mounts(machine: Machine) -> MachineOnMounts:
     )  # fmt: skip
 
 
-def largest_foot_force_n(body: MachineOnMounts, tone: Tone) -> float:
-    """Largest force into a foot by a tone's wrench on the rigid machine, peak, N."""
-    force = body.response(tone.rigid, tone.frequency_hz).foot_force
-    return float(np.max(np.linalg.norm(np.abs(force), axis=-1)))
-
-
 _kept = lru_cache(KEPT_MACHINES)(MachineOnMounts)
 
 
@@ -162,13 +180,13 @@ def _centre(suspension: Suspension) -> Array:
 
 
 def _block(suspension: Suspension) -> RigidBody:
-    return _rigid_body(BLOCK, suspension.block, _centre(suspension))
+    return _rigid_body(BLOCK.name, suspension.block, _centre(suspension))
 
 
 def _suspension_bushings(suspension: Suspension) -> list[Bushing]:
     springs, centre = suspension.springs, _centre(suspension)
     points = centre + corners(springs.pitch_m, suspension.springs_height_m)
-    bushings = _corner_bushings("spring", springs, points, (BLOCK, SHELL))
+    bushings = _corner_bushings("spring", springs, points, (BLOCK.name, SHELL))
     if suspension.discharge_tube is not None:
         bushings.append(_tube_bushing(suspension.discharge_tube, centre))
     return bushings
@@ -201,6 +219,6 @@ def _tube_bushing(tube: DischargeTube, block_centre_m: Array) -> Bushing:
         tube.poisson_ratio,
     )
     return Bushing(
-        "discharge_tube", BLOCK, SHELL, points[-1], stiffness,
+        "discharge_tube", BLOCK.name, SHELL, points[-1], stiffness,
         loss_factor_ratio=tube.loss_factor_ratio,
     )  # fmt: skip

@@ -9,6 +9,7 @@ from scipy.linalg import block_diag, eigh
 
 from ..base.arrays import Array
 from ..base.vocabulary import check, stamp
+from ..machine.cavities import GasPort
 from ..machine.machine import Machine
 from ..machine.shell_structure import ShellStructure, ShellVariation
 from ..mechanics.loads import Loads
@@ -30,7 +31,7 @@ def natural_variables(
     ----------
     machine : as given
     path : modes of its shell; none where no source drives it
-    loads : of all sources in one case; their flows say how fast sound is in the spaces of gas
+    loads : of all sources in one case; their ports say how fast sound is in the spaces of gas
     highest_hz : of the sound
     """
     if path is None:
@@ -102,4 +103,5 @@ def gas_frequencies(machine: Machine, path: ShellPath, sound_speed: Mapping[str,
 
 def sound_speeds(loads: Mapping[str, Loads]) -> dict[str, float]:
     """Of the spaces of gas that the loads feed, by the name of their table, m/s."""
-    return {flow.into: flow.sound_speed_m_per_s for load in loads.values() for flow in load.flows}
+    ports = (port for load in loads.values() for port in load.ports)
+    return {port.name: port.sound_speed_m_per_s for port in ports if isinstance(port, GasPort)}

@@ -9,18 +9,13 @@ import numpy as np
 
 from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.decibel import amplitude_of_level
+from ..machine.frame import PARTS
 from ..machine.shell import Shell
-from ..machine.shell_structure import (
-    BEARING_HOUSING,
-    FIXED_SCROLL,
-    JOINTS,
-    STATOR,
-    ShellStructure,
-    ShellVariation,
-)
-from ..mechanics.loads import ORBITING_SCROLL, PART_COMPONENTS, PARTS
+from ..machine.shell_structure import JOINTS, ShellStructure, ShellVariation
+from ..mechanics.ports import WRENCH
 from .cavity.in_shell import GasInShell
 from .shell_modes import (
+    JOINT_LOADS,
     JointLoads,
     SampledMode,
     ShellMode,
@@ -30,11 +25,6 @@ from .shell_modes import (
 )
 from .shell_modes.projection import ProjectedModes, least_frequency_factor
 
-JOINT_OF_PART: Final = (FIXED_SCROLL, BEARING_HOUSING, BEARING_HOUSING, STATOR, STATOR)
-"""Where each of the parts hands its load on to a shell without a frame: the orbiting scroll through
-pin and main bearing, a second ring below through the motor's stator."""
-JOINT_COMPONENTS: Final = (0, 1, 2, 5)
-"""Of a part's load: force along x, y, z and moment about z."""
 MODES_BEYOND: Final = 1.1
 """Modes up to this many times the highest frequency take part."""
 
@@ -95,17 +85,17 @@ class ShellPath:
     def forces_of_parts(self) -> Array:
         """Generalised force of each mode per load on a part that its joint hands on.
 
-        What turns the orbiting scroll presses the keys, which are a source.
-
         Returns
         -------
-        shape (mode, part, component, 1), the same at every frequency
+        shape (mode, part times component, 1), the same at every frequency
         """
-        forces = np.zeros((len(self.modes), len(PARTS), PART_COMPONENTS, 1))
-        for part, joint in enumerate(JOINT_OF_PART):
-            forces[:, part, JOINT_COMPONENTS, 0] = self.joint_forces[:, joint]
-        forces[:, ORBITING_SCROLL, 5] = 0.0
-        return forces
+        forces = np.zeros((len(self.modes), len(PARTS), len(WRENCH)))
+        for number, part in enumerate(PARTS):
+            of_joint = self.joint_forces[:, JOINTS.index(part.joint)]
+            for component in part.handed_on:
+                column = of_joint[:, JOINT_LOADS.index(component)]
+                forces[:, number, WRENCH.index(component)] = column
+        return forces.reshape(len(forces), -1, 1)
 
     def with_structure(self, structure: ShellStructure) -> "ShellPath":
         """The path with drawn values of joints and wall.
@@ -176,7 +166,7 @@ def pressure_per_load(
     variation: ShellVariation,
     forces: Array | ComplexArray,
 ) -> ComplexArray:
-    """Pressure of the modes per unit load on a part, (receiver, part, component, frequency).
+    """Pressure of the modes per unit load, shape (receiver, load, frequency).
 
     Σ over the modes of transfer vector, velocity per force and force per load.
 
@@ -187,17 +177,15 @@ def pressure_per_load(
     frequency_hz : shape (frequency,)
     loss_factor_ratio : of the shell
     variation : how the real shell differs
-    forces : generalised, per load, shape (mode, part, component, frequency or 1)
+    forces : generalised, per load, shape (mode, load, frequency or 1)
     """
     natural_hz = variation.frequency_factor_ratio * path.natural_hz
     moving = velocity_per_force(natural_hz, path.modal_mass_kg, loss_factor_ratio, frequency_hz)
     sound = pressure_per_velocity * moving
     gain = amplitude_of_level(variation.mobility_change_db)
-    modes, *load, _ = forces.shape
-    each = forces.reshape(modes, -1, forces.shape[-1])
     if forces.shape[-1] == 1:  # the same at all frequencies: one product
-        per_load = np.moveaxis(np.tensordot(gain * sound, each[..., 0], (1, 0)), -1, 1)
+        per_load = np.moveaxis(np.tensordot(gain * sound, forces[..., 0], (1, 0)), -1, 1)
     else:
-        by_frequency = np.moveaxis(gain * sound, -1, 0) @ np.moveaxis(each, -1, 0)
+        by_frequency = np.moveaxis(gain * sound, -1, 0) @ np.moveaxis(forces, -1, 0)
         per_load = np.moveaxis(by_frequency, 0, -1)
-    return np.asarray(per_load.reshape(len(sound), *load, frequency_hz.size), dtype=complex)
+    return np.asarray(per_load, dtype=complex)

@@ -2,22 +2,20 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
+from ..machine.frame import PARTS
 from ..machine.machine import Machine
 from ..machine.shell_structure import ShellStructure, ShellVariation
-from ..mechanics.loads import PARTS
-from .force_sound import PressurePerVelocity
+from .bending import BendingShell
 from .frame import frame_on_shell
+from .observers import constant
 from .path import ShellPath
-from .sound_path import BendingShell
 
 Reference = int | tuple[str, str]
 """A force outwards at a point, by its number, or on a part along an axis, `fx`."""
-_AXES: Final = ("fx", "fy", "fz")
 
 
 def wall_points(angle_rad: Array, height_m: Array, radius_m: float) -> tuple[Array, Array]:
@@ -31,6 +29,26 @@ def wall_points(angle_rad: Array, height_m: Array, radius_m: float) -> tuple[Arr
     """
     normal = np.stack([np.cos(angle_rad), np.sin(angle_rad), np.zeros_like(angle_rad)], axis=1)
     return radius_m * normal + np.outer(height_m, [0.0, 0.0, 1.0]), normal
+
+
+@dataclass(frozen=True)
+class ShellMobilities:
+    """What was measured, each mobility once, repeats averaged.
+
+    Attributes
+    ----------
+    frequency_hz : shape (frequency,)
+    mobility : outward velocity per force, m/(N s), shape (mobility, frequency)
+    response : name of the point on the wall, by mobility
+    reference : name of the point on the wall or of the part's
+    unused : frequency responses of nodes that the study does not name
+    """
+
+    frequency_hz: Array
+    mobility: ComplexArray
+    response: tuple[str, ...]
+    reference: tuple[str, ...]
+    unused: int
 
 
 @dataclass(frozen=True)
@@ -83,22 +101,17 @@ def wall_mobility(
     structure, variation = machine.table(ShellStructure), machine.table(ShellVariation)
     shell_path = path.with_structure(structure)
     shell = BendingShell(
-        shell_path, _at_all(wall.modes), _at_all(wall.rigid), structure.loss_factor_ratio,
-        variation, frame_on_shell(machine, shell_path),
-    )  # fmt: skip
+        shell_path, structure.loss_factor_ratio, variation, frame_on_shell(machine, shell_path)
+    )
+    points, lines = constant(wall.rigid, wall.modes), np.arange(frequency_hz.size)
+    parts = {part.name: part for part in PARTS}
     columns = []
     for reference in references:
         if isinstance(reference, int):
-            driven = np.repeat(wall.modes[reference][:, None], frequency_hz.size, axis=1)
-            columns.append(shell.per_modal_force(driven.astype(complex), frequency_hz))
+            forces = np.repeat(wall.modes[reference][:, None, None], lines.size, axis=2)
+            driven_by = points, forces, frequency_hz, lines, shell.frame
+            columns.append(shell.of_modal_forces(*driven_by)[:, 0])
         else:
-            part, axis = PARTS.index(reference[0]), _AXES.index(reference[1])
-            columns.append(shell.per_load(frequency_hz)[:, part, axis])
+            part, axis = parts[reference[0]], parts[reference[0]].components.index(reference[1])
+            columns.append(shell.response(points, part, frequency_hz, lines)[:, axis])
     return np.stack(columns, axis=1)
-
-
-def _at_all(per_velocity: Array) -> PressurePerVelocity:
-    """The same at all frequencies."""
-    return lambda frequency_hz: np.repeat(
-        per_velocity[:, :, None].astype(complex), frequency_hz.size, axis=2
-    )

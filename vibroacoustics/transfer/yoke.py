@@ -9,8 +9,7 @@ from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
 from ..machine.machine import Machine
 from ..machine.shell_structure import ShellVariation
-from ..machine.stator_yoke import StatorYoke
-from ..mechanics.loads import YOKE_ORDERS
+from ..machine.stator_yoke import STATOR_YOKE, YOKE_ORDERS, StatorYoke
 from .path import ShellPath
 from .shell_modes import ShellMode, velocity_per_force
 from .shell_modes.loads import mean_over_band
@@ -59,7 +58,7 @@ class YokeOnWall:
         """Generalised force of each mode per line load around the yoke.
 
         With D of the ring, C of the wall and k of the fit per length, the wall gets the share
-        1/(1 + D (C + 1/k)) of the load.
+        1/(1 + D (C + 1/k)) of the load; none at frequency zero.
 
         Parameters
         ----------
@@ -67,17 +66,21 @@ class YokeOnWall:
 
         Returns
         -------
-        shape (mode, order, 2, frequency), m; for cos nθ and sin nθ of each of YOKE_ORDERS
+        shape (mode, component of `STATOR_YOKE`, frequency), m
         """
-        forces = np.zeros((len(self.path.modes), len(YOKE_ORDERS), 2, frequency_hz.size), complex)
+        shape = len(self.path.modes), len(STATOR_YOKE.components), frequency_hz.size
+        forces = np.zeros(shape, dtype=complex)
+        moves = frequency_hz > 0.0
+        frequency_hz = np.where(moves, frequency_hz, 1.0)
         fit = self.yoke.fit_stiffness_n_per_m / (2.0 * np.pi * self.yoke.mean_radius_m)
         for number, order in enumerate(YOKE_ORDERS):
             give = self.wall_compliance(order, frequency_hz) + 1.0 / fit
-            share = 1.0 / (1.0 + ring_stiffness(self.yoke, order, frequency_hz) * give)
+            share = moves / (1.0 + ring_stiffness(self.yoke, order, frequency_hz) * give)
             for row, mode in enumerate(self._modes):
                 if mode.around.order == order:
                     turned = int(mode.around.angle_rad > 0.0)
-                    forces[row, number, turned] = self._around(order) * self._outwards[row] * share
+                    of_mode = self._around(order) * self._outwards[row]
+                    forces[row, 2 * number + turned] = of_mode * share
         return forces
 
     def wall_compliance(self, order: int, frequency_hz: Array) -> ComplexArray:

@@ -10,15 +10,12 @@ from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..machine.machine import Machine
 from ..machine.source import Case, CaseKey, Shared
-from ..mechanics.loads import Loads
-from ..sources.cases import loads_of, without_time_series
+from ..mechanics.loads import Loads, PortLoads
+from ..sources.cases import loads_of, without_time_series, wrench_lines
 from ..study.draws import with_draw
 from ..study.sampling import Draw
 from ..study.study import Study
-from ..transfer.force_sound import PressurePerVelocity
-from ..transfer.received import BySource
 from .first_order import first_order
-from .wrenches import wrench_pressure
 
 _SHELL: Final = {"shell", "structure", "variation", "frame", "shaft", "overall_noise", "remainder"}
 """Tables that say nothing of the motion."""
@@ -32,19 +29,17 @@ class DrawnCases:
     ----------
     cases : with drawn values, without courses over crank angle
     loads : of all sources in each
-    wrench_pressure : of the cases whose motion is not that as given, by source, (receiver, order)
+    wrenches : lines of the cases whose motion is not that as given, by source
     first_order : of the same, force, moment and foot force at 1x, N, N m, N
     """
 
     cases: dict[CaseKey, Case]
     loads: dict[CaseKey, dict[str, Loads]]
-    wrench_pressure: dict[CaseKey, BySource]
+    wrenches: dict[CaseKey, dict[str, PortLoads]]
     first_order: dict[CaseKey, Array]
 
 
-def drawn_cases(
-    cases: Mapping[CaseKey, Case], study: Study, draw: Draw, rigid: PressurePerVelocity
-) -> DrawnCases:
+def drawn_cases(cases: Mapping[CaseKey, Case], study: Study, draw: Draw) -> DrawnCases:
     """The cases with drawn values; they share no result with those of other draws.
 
     Where a draw changes what moves, or the machine on its mounts, revolution and what an option
@@ -55,7 +50,6 @@ def drawn_cases(
     cases : with the values as given, without their courses
     study : with its machine and options
     draw : values by table and field
-    rigid : pressure per velocity of the rigid motions
 
     Raises
     ------
@@ -76,8 +70,8 @@ def drawn_cases(
             loads = loads_of(study, case)
             if case.revolution.wrenches:
                 highest = study.highest_order(case.speed_rpm)
-                drawn.wrench_pressure[key] = wrench_pressure(case, loads, highest, rigid)
-                drawn.first_order[key] = first_order(case, loads)
+                drawn.wrenches[key] = wrench_lines(case, loads, highest)
+                drawn.first_order[key] = first_order(case, drawn.wrenches[key])
             drawn.cases[key], drawn.loads[key] = without_time_series(case, loads)
     return drawn
 

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.errors import ParameterError, SolverError
+from ..base.fault import FaultError
 from ..base.linear_algebra import one_thread_of_linear_algebra
 from ..base.threads import processors
 from ..base.vocabulary import check, stamp
@@ -37,7 +38,11 @@ def of_every_draw(
     def solved(draw: Draw) -> tuple[Result, str | None]:
         try:
             return compute(draw), None
-        except (ParameterError, SolverError) as error:  # whose frames would hold all it computed
+        except (
+            ParameterError,
+            SolverError,
+            FaultError,
+        ) as error:  # whose frames would hold all it computed
             return without_solution, str(error)
 
     results: list[Result] = []
@@ -47,7 +52,7 @@ def of_every_draw(
     with one_thread_of_linear_algebra(), ThreadPoolExecutor(processors()) as pool:
         for result, failure in pool.map(solved, draws):
             results.append(result)
-            failures += [] if failure is None else [failure]
+            failures += [] if failure is None else [f"draw {len(results)}: {failure}"]
             progress(len(results))
     if failures:
         warnings.warn(

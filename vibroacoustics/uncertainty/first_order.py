@@ -12,8 +12,7 @@ from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import check, stamp
 from ..machine.source import Case, CaseKey
 from ..mechanics.ellipse import semi_major_axis
-from ..mechanics.loads import Loads
-from ..orders.spectrum import order_spectrum_at_speed
+from ..mechanics.loads import PortLoads, summed
 from ..transfer import on_mounts
 
 _AMPLITUDES: Final = {
@@ -24,18 +23,15 @@ _AMPLITUDES: Final = {
 """Amplitudes by draw, and where those of the values as given are."""
 
 
-def first_order(case: Case, loads: Mapping[str, Loads]) -> Array:
+def first_order(case: Case, wrenches: Mapping[str, PortLoads]) -> Array:
     """Force N and moment N m on the housing and largest force N into a foot at 1x, peak.
 
     Parameters
     ----------
-    case : with its revolution
-    loads : of all sources, with their wrenches
+    case : machine and speed
+    wrenches : lines of the wrenches over crank angle by source
     """
-    speed = case.revolution.rotation.speed_rad_per_s
-    wrenches = [wrench for load in loads.values() for wrench in load.wrenches.values()]
-    over_angle = np.sum([np.concatenate([one.force_n, one.moment_n_m]) for one in wrenches], axis=0)
-    phasor = order_spectrum_at_speed(over_angle, speed, 1)[:, 1]
+    phasor = summed(wrenches.values())[case.machine.mechanism_port][:, 1]
     frequency = np.array([shaft_frequency_hz(case.speed_rpm)])
     foot_force = on_mounts(case.machine).response(phasor[None], frequency).foot_force
     halves = (semi_major_axis(phasor[:3], 0), semi_major_axis(phasor[3:], 0))

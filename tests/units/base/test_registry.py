@@ -92,7 +92,7 @@ def test_thing_without_name_is_refused(fruits: Registry[type[Fruit]]) -> None:
 def test_broken_plugin_is_one_line(tmp_path: Path, content: str, message: str) -> None:
     file = tmp_path / "mine.py"
     file.write_text(content)
-    with pytest.raises(PluginError, match=f"mine.py: {message}") as caught:
+    with pytest.raises(PluginError, match=rf"mine.py: mine.py, line 1: {message}") as caught:
         load_plugin(file)
     assert "\n" not in str(caught.value)
 

@@ -13,7 +13,7 @@ from support import PIPELINES, ROOT
 
 from vibroacoustics import given_radiation
 from vibroacoustics.design.engine.seen import Need
-from vibroacoustics.pipeline.shell import shell_path
+from vibroacoustics.stages.shell import shell_path
 
 CLOSE_DB = 1e-9
 WEIGHT = """

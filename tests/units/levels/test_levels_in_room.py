@@ -36,7 +36,7 @@ def step(hertz):
 
 def received(pressure, hertz, noise=()):
     names = tuple(f"order {number}" for number in range(hertz.size))
-    return ReceivedSound(Lines(names, hertz, {}, {}), pressure, tuple(noise))
+    return ReceivedSound(Lines(names, hertz, {}), pressure, tuple(noise))
 
 
 def test_waves_below_and_power_above():

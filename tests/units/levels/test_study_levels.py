@@ -46,7 +46,7 @@ def received(orders, hertz, tone, size):
     names = (*(f"order {order}" for order in range(orders)), f"motor: {tone}")
     frequency = np.array([*(hertz * np.arange(orders)), 100.0])
     pressure = size * np.arange(1.0, orders + 2) * np.array([[[1.0]], [[1.0j]]])
-    return ReceivedSound(Lines(names, frequency, {}, {}), pressure, ())
+    return ReceivedSound(Lines(names, frequency, {}), pressure, ())
 
 
 def test_tones_of_one_name_are_one_line_after_all_orders():

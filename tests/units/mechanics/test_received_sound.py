@@ -8,7 +8,7 @@ from vibroacoustics.mechanics.loads import Lines
 from vibroacoustics.mechanics.received_sound import NoisePower, ReceivedSound
 
 SOUND = ReceivedSound(
-    Lines(("order 0", "order 1", "motor: hum"), np.array([0.0, 50.0, 1000.0]), {}, {}),
+    Lines(("order 0", "order 1", "motor: hum"), np.array([0.0, 50.0, 1000.0]), {}),
     np.full((2, 1, 3), 2.0 + 1.0j),
     (NoisePower(1, np.array([50.0, 1000.0]), np.array([[3.0, 5.0]])),),
 )

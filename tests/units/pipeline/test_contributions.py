@@ -9,7 +9,7 @@ from vibroacoustics import pipeline
 from vibroacoustics.base.decibel import power_of_level
 from vibroacoustics.base.vocabulary import REFERENCE_OPTION
 from vibroacoustics.levels.contributions import contribution_variables
-from vibroacoustics.pipeline import contributions
+from vibroacoustics.stages import contributions
 from vibroacoustics.study.loading import load_study
 
 

@@ -106,10 +106,10 @@ def test_sound_of_the_machine_is_that_of_its_force_and_moment(tmp_path):
 
 def test_another_body_makes_the_same_of_a_force_on_the_machine(tmp_path):
     """Velocity changes with its mass, pressure per velocity changes back."""
-    from vibroacoustics.pipeline.force_sound import measured_force_sound
+    from vibroacoustics.measured.sound_functions import force_sound_of
 
     given = study(machine_table(tmp_path))
-    sound = measured_force_sound(given)
+    sound = force_sound_of(given)
     machine = given.machine
     housing = machine.housing.model_copy(update={"mass_kg": 2.0 * machine.housing.mass_kg})
     frequency, load = np.array([0.0, 48.0, 500.0]), np.array([1.0, 2.0, 0.5j, 0.1, 0.2, 0.3])

@@ -2,16 +2,17 @@
 
 import numpy as np
 import pytest
-from sources_study import SOURCES_STUDY, case_of, path_of, run_made_up, with_tables
+from sources_study import SOURCES_STUDY, case_of, on_parts, path_of, run_made_up, with_tables
 from support import ROOT
 
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.mechanics.loads import (
+from vibroacoustics.machine.frame import (
     BEARING_HOUSING,
     FIXED_SCROLL,
     ORBITING_SCROLL,
     STATOR,
 )
+from vibroacoustics.mechanics.ports import HOUSING
 from vibroacoustics.sources.cases import loads_of
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer.frame import frame_on_shell
@@ -40,37 +41,38 @@ def loads(study):
 def test_gas_is_a_pair_but_for_the_rotors_inertia(loads):
     """Sum of all forces and moments about the centre of mass; what is left turns the shaft."""
     gas = loads["gas"]
-    total, largest = gas.on_parts.sum(axis=0), abs(gas.on_parts).max()
+    parts = np.array([*on_parts(gas.lines).values()])
+    total, largest = parts.sum(axis=0), abs(parts).max()
     assert largest > 2000.0
     assert abs(total[:5]).max() < 1e-9 * largest
     assert total[5] == pytest.approx(gas.shaft_torque_n_m, abs=1e-9 * largest)
     assert abs(total[5, 1]) > 0.01
     half = 0.5 * gas.shaft_torque_n_m
     for scroll in (FIXED_SCROLL, ORBITING_SCROLL):
-        assert gas.on_parts[scroll, 5] == pytest.approx(half, abs=1e-9 * largest)
+        assert gas.lines[scroll][5] == pytest.approx(half, abs=1e-9 * largest)
 
 
 def test_radial_force_closes_at_the_flanks(study, loads):
     """Then what is left is tangential: across the line from the shaft to where it acts."""
-    tangential = loads["gas"].on_parts[FIXED_SCROLL]
+    tangential = loads["gas"].lines[FIXED_SCROLL]
     fixed = with_tables(study, frame={"radially_compliant": False})
-    both = loads_of(fixed, case_of(fixed))["gas"].on_parts[FIXED_SCROLL]
+    both = loads_of(fixed, case_of(fixed))["gas"].lines[FIXED_SCROLL]
     assert both[5] == pytest.approx(tangential[5], abs=1e-9)
     assert np.abs(both[:2, :8] - tangential[:2, :8]).max() > 100.0
     assert both[2] == pytest.approx(tangential[2], abs=1e-9)
 
 
 def test_motor_turns_the_stator_alone(loads):
-    for part in (loads["torque_ripple"].on_parts, *(t.on_parts for t in loads["motor"].tones)):
-        assert abs(part[STATOR, 5]).max() > 0.0
-        rest = part.copy()
-        rest[STATOR, 5] = 0.0
-        assert not rest.any()
+    for load in (loads["torque_ripple"].lines, *(tone.loads for tone in loads["motor"].tones)):
+        assert set(load) == {HOUSING, STATOR}
+        for wrench in load.values():
+            assert not wrench[:5].any()
+        assert abs(load[STATOR][5]).max() > 0.0
 
 
 def test_keys_hand_on_the_inertia_of_the_ring_at_its_height(study, loads):
     """What gas presses through them is the gas source's; moments are the forces' at the ring."""
-    total = loads["keys"].on_parts.sum(axis=0)
+    total = sum(loads["keys"].lines.values())
     omega = 2.0 * np.pi * 2900.0 / 60.0
     machine = study.machine
     inertia = machine.oldham.mass_kg * machine.kinematics.orbit_radius_m * omega**2
@@ -79,17 +81,17 @@ def test_keys_hand_on_the_inertia_of_the_ring_at_its_height(study, loads):
     assert total[4] == pytest.approx(height * total[0], abs=1e-9)
     assert total[3] == pytest.approx(-height * total[1], abs=1e-9)
     alone = study.model_copy(update={"machine": study.machine.model_copy(update={"frame": None})})
-    without = loads_of(alone, case_of(alone))["keys"].on_parts[BEARING_HOUSING, 5]
+    without = loads_of(alone, case_of(alone))["keys"].lines[BEARING_HOUSING][5]
     pressed = 0.5 * loads["gas"].shaft_torque_n_m
-    assert loads["keys"].on_parts[FIXED_SCROLL, 5] == pytest.approx(without - pressed, abs=1e-9)
+    assert loads["keys"].lines[FIXED_SCROLL][5] == pytest.approx(without - pressed, abs=1e-9)
 
 
 def test_keys_stand_on_the_part_that_the_machine_says(study):
     other = with_tables(study, frame={"keys_on": "bearing-housing"})
-    of_each = [loads_of(s, case_of(s))["keys"].on_parts for s in (study, other)]
+    of_each = [loads_of(s, case_of(s))["keys"].lines for s in (study, other)]
     np.testing.assert_array_equal(of_each[0][FIXED_SCROLL], of_each[1][BEARING_HOUSING])
-    assert not of_each[0][BEARING_HOUSING].any()
-    assert not of_each[1][FIXED_SCROLL].any()
+    assert BEARING_HOUSING not in of_each[0]
+    assert FIXED_SCROLL not in of_each[1]
 
 
 def test_frame_changes_the_sound_and_is_drawn(study):
@@ -115,11 +117,12 @@ def test_a_frame_as_stiff_as_can_be_is_quieter_than_separate_joints(study):
     }
     path = path_of(study)
     framed = frame_on_shell(with_tables(study, frame=stiff).machine, path)
-    gas = loads_of(study, case_of(study))["gas"].on_parts[..., 2:3]
+    parts = on_parts(loads_of(study, case_of(study))["gas"].lines).values()
+    gas = np.concatenate([load[:, 2] for load in parts])
     frequency = np.array([2.0 * 2900.0 / 60.0])
-    forces = framed.contact_forces(frequency)[0] @ gas.ravel()
+    forces = framed.contact_forces(frequency)[0] @ gas
     on_modes = framed.modal_forces @ forces
-    separate = np.einsum("mpcl,pcl->m", path.forces_of_parts(), gas)
+    separate = path.forces_of_parts()[..., 0] @ gas
     assert np.linalg.norm(on_modes) < 0.5 * np.linalg.norm(separate)
 
 

@@ -9,8 +9,9 @@ from support import TINY, assert_refused, command_here
 import vibroacoustics as va
 from vibroacoustics.base.vocabulary import RIGID_BODY_DOFS
 from vibroacoustics.commands.impulse_files import write_impulse_responses
-from vibroacoustics.pipeline import in_room
 from vibroacoustics.radiation.rooms import of_study as rooms
+from vibroacoustics.sound.room_ways import ways_of
+from vibroacoustics.stages import room
 
 
 @pytest.fixture(scope="module")
@@ -26,7 +27,7 @@ def vectors(study):
 @pytest.fixture(scope="module")
 def responses(study, vectors):
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(in_room, "vectors_of", lambda *_: (vectors, False))
+        patch.setattr(room, "vectors_of", lambda *_: (vectors, False))
         return va.impulse_responses(study)
 
 
@@ -44,7 +45,7 @@ def test_they_are_the_vectors_below_the_seam_and_the_levels_above(study, vectors
     low = (hertz > 100.0) & (hertz < 300.0)
     np.testing.assert_allclose(written[..., low], (0.01 / (2.0 * np.pi)) ** 2, rtol=0.02)
     pressure = rooms.pressure_at_places(vectors)
-    ways = in_room.ways_of(study.room, study.machine.shell, vectors, pressure).ways
+    ways = ways_of(study.room, study.machine.shell, vectors, pressure).ways
     for middle in (1000.0, 1258.9):
         within = (hertz > middle * 10.0**-0.05) & (hertz < middle * 10.0**0.05)
         at = hertz[within]
@@ -75,10 +76,10 @@ def test_the_command_writes_and_refuses_in_one_line(tmp_path, study, vectors, mo
     monkeypatch.setattr("vibroacoustics.study.loading.load_study", lambda _: study)
     out = tmp_path / "responses"
     asked = ("impulse-responses", TINY, "--out", out, "--listener")
-    monkeypatch.setattr(in_room, "vectors_of", lambda *_: pytest.fail("is computed"))
+    monkeypatch.setattr(room, "vectors_of", lambda *_: pytest.fail("is computed"))
     assert_refused(command_here(*asked, "cook"), "listener = cook", "there are table, doorway")
     assert_refused(command_here(*asked, "doorway", "--full-scale", -1), "must be above 0")
-    monkeypatch.setattr(in_room, "vectors_of", lambda *_: (vectors, False))
+    monkeypatch.setattr(room, "vectors_of", lambda *_: (vectors, False))
     outcome = command_here(*asked, "doorway", "--full-scale", 1)
     assert outcome.returncode == 0, outcome.stderr
     names = [line.rpartition("/")[2] for line in outcome.stdout.splitlines()]

@@ -14,9 +14,7 @@ from vibroacoustics.base.decibel import energy_sum
 from vibroacoustics.base.errors import SchemaError
 from vibroacoustics.base.progress import no_progress
 from vibroacoustics.levels import a_weighting
-from vibroacoustics.pipeline import in_room
 from vibroacoustics.pipeline.cost import run_cost
-from vibroacoustics.pipeline.in_room import vectors_of
 from vibroacoustics.radiation.rooms import of_study as rooms
 from vibroacoustics.report.html import html
 from vibroacoustics.report.in_room import (
@@ -34,6 +32,8 @@ from vibroacoustics.sound import loudness
 from vibroacoustics.sound.gain import full_scale_of
 from vibroacoustics.sound.ingredients import ingredients
 from vibroacoustics.sound.loudness import loudness_of
+from vibroacoustics.stages import room as room_stage
+from vibroacoustics.stages.room import vectors_of
 
 RHO_C = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S
 PANEL = {
@@ -60,8 +60,8 @@ def run_in_room(study, patch, room=1.0, radiation=made_up_radiation, **changes):
         listeners, highest = settings.listeners, study.radiation.maximum_frequency_hz
         return made_up_vectors(listeners, motions, room, highest_hz=highest), False
 
-    patch.setattr(in_room, "vectors_of", vectors)
-    patch.setattr(in_room, "_map", no_map)
+    patch.setattr(room_stage, "vectors_of", vectors)
+    patch.setattr(room_stage, "_map", no_map)
     return va.run(study.replace({"room": KITCHEN, **changes}), radiation=radiation)
 
 
@@ -92,12 +92,12 @@ def test_surfaces_have_their_absorption_in_results_and_report(kitchen):
 
 
 def test_a_surface_of_another_absorption_is_a_warning_before_waves(monkeypatch):
-    monkeypatch.setattr(in_room.storage, "cached", lambda *_: (xr.Dataset(), True))
+    monkeypatch.setattr(room_stage.storage, "cached", lambda *_: (xr.Dataset(), True))
     opening = {"absorption_ratio": [1.0] * 6}
     room = KITCHEN | {"walls": {"+x": opening}}
     study = va.load_study(TINY).replace({"room": room})
     with pytest.warns(UserWarning, match=r"room\.walls\.\+x: absorption of waves is 0\.94 instead"):
-        vectors_of(study, study.room, (), no_progress)  # `in_room.vectors_of` is made up here
+        vectors_of(study, study.room, (), no_progress)  # the stage has made-up vectors here
 
 
 def test_what_a_run_would_refuse_is_refused_before():

@@ -12,8 +12,8 @@ from vibroacoustics import pipeline
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.commands import outputs
 from vibroacoustics.levels import SILENCE_DB
-from vibroacoustics.pipeline import motion
 from vibroacoustics.results import size, speed_blocks
+from vibroacoustics.stages import forces as forces_stage
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.speeds import speed_range
 from vibroacoustics.study.study import Study
@@ -256,13 +256,13 @@ def test_result_above_2_gib_is_refused_before_the_second_speed(tmp_path, monkeyp
         tmp_path,
         "speed_rpm = { start = 1000.0, stop = 1999.0, step = 1.0 }\ncrank_angle_samples = 512",
     )
-    forces = motion.force_variables
+    forces = forces_stage.force_variables
 
     def counted(part, *others):
         motions.append(part.operation.speed_rpm)
         return forces(part, *others)
 
-    monkeypatch.setattr(motion, "force_variables", counted)
+    monkeypatch.setattr(forces_stage, "force_variables", counted)
     with pytest.raises(ParameterError, match=r"1000 speeds takes .* GiB; allowed 2 GiB"):
         pipeline.run(study, lambda task, *_: told.append(task))
     assert motions == [(1000.0,)]

@@ -102,7 +102,7 @@ def test_ranges_that_are_not_drawn_are_told(rigid):
     count = sum(record.lowest is not None for record in load_study(TINY).replace(NO_LEVEL).records)
     assert f"{count} values have a range; they are not drawn" in text_of(rigid)
     words = data_sheet(rigid, "none", 2900.0).sound_power.uncertainty_words
-    assert words.startswith(f"nothing was drawn: K is not known. {count} values have a range")
+    assert words.startswith(f"nothing was sampled: K is not known. {count} values have a range")
 
 
 def test_what_contradicts_it_is_refused():

@@ -8,7 +8,6 @@ import xarray as xr
 from support import ROOT, TINY, made_up_radiation
 
 from vibroacoustics import pipeline
-from vibroacoustics.pipeline.radiating import methods_of
 from vibroacoustics.radiation.receiver_methods import GIVEN
 from vibroacoustics.report.kwave_words import (
     kwave_difference_db,
@@ -17,6 +16,7 @@ from vibroacoustics.report.kwave_words import (
     receiver_methods,
 )
 from vibroacoustics.results import storage
+from vibroacoustics.stages.radiation import methods_of
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.study import Study
 

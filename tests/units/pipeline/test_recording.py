@@ -299,8 +299,9 @@ def test_pulses_that_are_not_what_is_stated_are_warned_of(wheel):
     else:
         pulses, stated, words = tacho(angle, 300, 0.5), 300, "pulses are missed or alias"
     recording = recorded({"force": ("N", np.cos(angle)), "tacho": ("V", pulses)}, 25600.0)
-    with pytest.warns(PulseWarning, match=words):
+    with pytest.warns(PulseWarning) as caught:
         recorded_speed(LabelledBlocks(recording), SpeedChannel("tacho", stated))
+    assert any(words in str(warning.message) for warning in caught)
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,7 @@ from sources_study import (
     all_lines,
     case_of,
     made_up_modes,
+    on_parts,
     path_of,
     run_made_up,
     with_tables,
@@ -23,22 +24,17 @@ from vibroacoustics.base.constants import REFERENCE_PRESSURE_PA
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.levels.agreement import agreement, priors_of
 from vibroacoustics.levels.by_source import SourceSound, filled_thirds, source_sound
-from vibroacoustics.machine.shell_structure import BEARING_HOUSING as HOUSING_JOINT
-from vibroacoustics.machine.shell_structure import FIXED_SCROLL as SCROLL_JOINT
-from vibroacoustics.machine.shell_structure import STATOR as STATOR_JOINT
-from vibroacoustics.mechanics.added import RingForce
-from vibroacoustics.mechanics.loads import (
+from vibroacoustics.machine.frame import (
     BEARING_HOUSING,
     FIXED_SCROLL,
     LOWER_BEARING,
     ORBITING_SCROLL,
-    PARTS,
     STATOR,
-    Noise,
-    total_torque_n_m,
 )
+from vibroacoustics.mechanics.added import RingForce
+from vibroacoustics.mechanics.loads import Noise, total_torque_n_m
+from vibroacoustics.mechanics.ports import HOUSING
 from vibroacoustics.mechanics.received_sound import NoisePower
-from vibroacoustics.pipeline.sound import DrawnSound
 from vibroacoustics.radiation.pressure import wrench_pressure
 from vibroacoustics.radiation.scene import machine_body
 from vibroacoustics.radiation.transfer_vectors import pressure_per_velocity
@@ -50,14 +46,18 @@ from vibroacoustics.sources.keys import OldhamKeyForces
 from vibroacoustics.sources.oldham_keys.rattle import steady_key_forces
 from vibroacoustics.sources.oldham_keys.spectra import spectral_density
 from vibroacoustics.sources.part_loads import key_torque_n_m
+from vibroacoustics.stages import ensemble, samples
+from vibroacoustics.stages.chain import Cases
+from vibroacoustics.stages.sampled import SampledSound
 from vibroacoustics.study.draws import with_draw
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.sampling import latin_hypercubes
 from vibroacoustics.study.uncertainty import MeasuredModes, Range
 from vibroacoustics.transfer import MachineOnMounts
+from vibroacoustics.transfer.load_path import LoadPath
+from vibroacoustics.transfer.observers import Observers
 from vibroacoustics.transfer.path import pressure_per_load
 from vibroacoustics.transfer.shell_modes import elastic_shell
-from vibroacoustics.transfer.sound_path import SoundPath
 from vibroacoustics.uncertainty.bank import MOST_ROUNDS
 
 TEXT = SOURCES_STUDY.read_text(encoding="utf-8")
@@ -85,9 +85,12 @@ def lines_with(study, option):
     return all_lines(case, loads_of(study, case))
 
 
-def to_joints(on_parts):
+HOUSING_JOINT, SCROLL_JOINT, STATOR_JOINT = range(3)
+
+
+def to_joints(loads, count):
     """Loads on the joints of a shell without a frame, one part after another."""
-    joints = np.zeros((3, 4, on_parts.shape[-1]), dtype=complex)
+    joints = np.zeros((3, 4, count), dtype=complex)
     for part, joint in (
         (FIXED_SCROLL, SCROLL_JOINT),
         (BEARING_HOUSING, HOUSING_JOINT),
@@ -95,9 +98,10 @@ def to_joints(on_parts):
         (LOWER_BEARING, STATOR_JOINT),
         (STATOR, STATOR_JOINT),
     ):
-        joints[joint, :3] += on_parts[part, :3]
-        if part != ORBITING_SCROLL:  # what turns it presses the keys
-            joints[joint, 3] += on_parts[part, 5]
+        if part in loads:
+            joints[joint, :3] += loads[part][:3]
+            if part != ORBITING_SCROLL:  # what turns it presses the keys
+                joints[joint, 3] += loads[part][5]
     return joints
 
 
@@ -116,10 +120,10 @@ def pressed_by(monkeypatch):
 
 
 def test_gas_pulls_at_the_two_scrolls_with_equal_and_opposite_forces(study):
-    load = loads_with(study, "none")["gas"].on_parts
-    assert np.all(load[FIXED_SCROLL, :3] == -load[ORBITING_SCROLL, :3])
-    assert not load[[BEARING_HOUSING, LOWER_BEARING, STATOR]].any()
-    assert np.min(np.abs(load[FIXED_SCROLL, :3, 1])) > 10.0
+    load = loads_with(study, "none")["gas"].lines
+    assert np.all(load[FIXED_SCROLL][:3] == -load[ORBITING_SCROLL][:3])
+    assert set(load) == {FIXED_SCROLL, ORBITING_SCROLL}
+    assert np.min(np.abs(load[FIXED_SCROLL][:3, 1])) > 10.0
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.1])
@@ -137,8 +141,9 @@ def test_moments_about_the_shaft_add_up_to_the_rotors_momentum(study, option, fr
     lines, figures = all_lines(case, loads), loads["keys"].figures
     assert figures["key_impacts_per_revolution"] == 0.0
     order = np.arange(1, 9)
-    moment = sum(to_joints(parts)[:, 3].sum(axis=0) for parts in lines.on_parts.values())
-    momentum = sum(rigid[5] for rigid in lines.rigid.values())
+    count = lines.frequency_hz.size
+    moment = sum(to_joints(load, count)[:, 3].sum(axis=0) for load in lines.loads.values())
+    momentum = sum(load[HOUSING][5] for load in lines.loads.values() if HOUSING in load)
     depth = (figures["key_force_peak_n"] / keys.contact_stiffness_n_per_m1p5) ** (2.0 / 3.0)
     turn = 2.0 * depth / keys.radius_m
     inertia = keys.scroll_inertia_kg_m2 + keys.ring_inertia_kg_m2
@@ -179,15 +184,16 @@ def test_keys_push_the_machine_with_the_rings_inertia(study):
     inertia = study.machine.oldham.mass_kg * study.machine.kinematics.orbit_radius_m * omega**2
     push = {}
     for option in ("none", "damping", "twin-oldham"):
-        load = loads_with(study, option)["keys"].on_parts
-        push[option] = load[:, 0, 1]
-        assert not load[[FIXED_SCROLL, STATOR]].any()
-        assert load[LOWER_BEARING].any() == (option == "twin-oldham")
-    upper = [BEARING_HOUSING, ORBITING_SCROLL]
+        load = loads_with(study, option)["keys"].lines
+        push[option] = {part: wrench[0, 1] for part, wrench in load.items()}
+        lower = {LOWER_BEARING} if option == "twin-oldham" else set()
+        assert set(load) == {BEARING_HOUSING, ORBITING_SCROLL} | lower
     for option in ("none", "damping"):
-        assert push[option].sum() == pytest.approx(inertia, rel=2e-3), option
-    assert np.all(push["twin-oldham"][upper] == push["none"][upper])
-    assert abs(push["twin-oldham"].sum()) < 0.02 * inertia  # its keys rattle within 15 µm
+        assert sum(push[option].values()) == pytest.approx(inertia, rel=2e-3), option
+    for part in (BEARING_HOUSING, ORBITING_SCROLL):
+        assert push["twin-oldham"][part] == push["none"][part]
+    # Its keys rattle within 15 µm.
+    assert abs(sum(push["twin-oldham"].values())) < 0.02 * inertia
 
 
 def test_twin_is_the_ring_turned_by_half_a_turn(study, pressed_by):
@@ -199,9 +205,9 @@ def test_twin_is_the_ring_turned_by_half_a_turn(study, pressed_by):
     assert second.density == pytest.approx(first.density, rel=1e-12, abs=1e-12)
     assert np.abs(first.density[0, 2]).max() > 0.0
     sign = np.array([-1.0, -1.0, 1.0])
-    ways = [part.on_parts[:, [0, 1, 5]].sum(axis=0) for part in (first, second)]
+    ways = [sum(part.loads.values())[[0, 1, 5]] for part in (first, second)]
     assert np.all(ways[1] == sign[:, None] * ways[0])
-    load = both.on_parts[:, [0, 1, 5]]
+    load = {part: wrench[[0, 1, 5]] for part, wrench in both.lines.items()}
     upper = load[BEARING_HOUSING] + load[ORBITING_SCROLL]
     assert load[LOWER_BEARING] == pytest.approx(sign[:, None] * upper, rel=1e-12, abs=1e-9)
 
@@ -244,8 +250,7 @@ def test_lines_of_the_motor_and_orders_of_the_shaft_never_share_a_place(study):
     assert lines.frequency_hz[twice] == 100.0
     assert lines.frequency_hz[2] == 100.0
     for source in study.sources:
-        parts, rigid = lines.on_parts[source], lines.rigid[source]
-        filled = np.any(parts != 0.0, axis=(0, 1)) | np.any(rigid != 0.0, axis=0)
+        filled = np.any([load.any(axis=0) for load in lines.loads[source].values()], axis=0)
         own = filled[orders:] if source != "motor" else filled[:orders]
         assert not np.any(own), source
         assert np.any(filled), source
@@ -272,7 +277,8 @@ def pressure_by_loops(results, study, lines):
     assert study.machine.variation.frequency_factor_ratio == 1.0
     pressure = {}
     for source in study.sources:
-        load, wrench = to_joints(lines.on_parts[source]), lines.rigid[source]
+        load = to_joints(lines.loads[source], frequency.size)
+        wrench = lines.loads[source].get(HOUSING, np.zeros((6, frequency.size)))
         assert np.all(wrench[:5] == 0.0)
         total = np.zeros((vectors.shape[0], frequency.size), dtype=complex)
         for mode, shape in enumerate(path.modes):
@@ -342,7 +348,7 @@ def noise_by_loops(results, study, keys):
         step = part.frequency_hz[1] - part.frequency_hz[0]
         for line in range(1, part.frequency_hz.size):
             weight = 10.0 ** (levels.WEIGHTING["A"](part.frequency_hz[line]) / 10.0)
-            heard = np.tensordot(way[..., line], part.on_parts, 2)
+            heard = way[..., line] @ np.concatenate([*on_parts(part.loads).values()])
             power = [(h.conj() @ part.density[..., line] @ h).real for h in heard]
             total = total + weight * step * np.array(power)
     return total
@@ -358,18 +364,20 @@ def test_noise_keeps_the_phases_between_its_forces():
     phase = 2.0 * np.pi * tone * np.arange(4000) / rate
     forces = np.stack([np.cos(phase), np.sin(phase), np.zeros(4000)])
     frequency, density = spectral_density(forces, rate, 1000)
-    on_parts = np.zeros((len(PARTS), 6, 3))
-    on_parts[BEARING_HOUSING, [0, 1, 5], [0, 1, 2]] = 1.0
-    noise = Noise(on_parts, frequency, density)
-    silent = SoundPath(lambda at: np.zeros((3, 6, at.size)), SimpleNamespace()).noise_power(
-        Noise(on_parts, frequency, 0.0 * density)
+    on_housing = np.zeros((6, 3))
+    on_housing[[0, 1, 5], [0, 1, 2]] = 1.0
+    noise = Noise({BEARING_HOUSING: on_housing}, frequency, density)
+    three = Observers(lambda at: np.zeros((3, 6, at.size)))
+    silent = LoadPath(SimpleNamespace()).noise_power(
+        three, Noise({BEARING_HOUSING: on_housing}, frequency, 0.0 * density)
     )
     np.testing.assert_array_equal(silent, np.zeros((3, frequency.size)))
     for way, expected in ((1.0j, 2.0), (-1.0j, 0.0)):
-        per_load = np.zeros((1, len(PARTS), 6, frequency.size), dtype=complex)
-        per_load[0, BEARING_HOUSING, :2] = np.array([1.0, way])[:, None]
-        shell = SimpleNamespace(per_load=lambda _, per_load=per_load: per_load)
-        power = SoundPath(lambda _: np.zeros((1, 6, 1)), shell).noise_power(noise)
+        per_load = np.zeros((1, 6, frequency.size), dtype=complex)
+        per_load[0, :2] = np.array([1.0, way])[:, None]
+        shell = SimpleNamespace(response=lambda *_, per_load=per_load: per_load)
+        microphone = Observers(lambda _: np.zeros((1, 6, 1)), lambda _: np.zeros((1, 0, 1)))
+        power = LoadPath(SimpleNamespace(), shell).noise_power(microphone, noise)
         sound = source_sound(
             np.zeros((1, 1, 1), dtype=complex),
             np.zeros(1),
@@ -428,8 +436,8 @@ def test_rigid_machine_is_moved_by_momentum_alone(study, without):
     rigid = without["level_modelled"].sel(weighting="A").values
     assert moving == pytest.approx(rigid, abs=10.0 * SUMS)
     lines = lines_with(study, "none")
-    assert np.all(lines.rigid["gas"] == 0.0)
-    assert np.all(lines.rigid["keys"] == 0.0)
+    assert HOUSING not in lines.loads["gas"]
+    assert HOUSING not in lines.loads["keys"]
 
 
 def test_modes_reach_the_highest_frequency_in_every_draw(study):
@@ -535,25 +543,26 @@ def run_with_draws(study, monkeypatch, squares):
     gas[1] = 1.0
     by_draw: dict[tuple[float, ...], float] = {}
 
-    def sounds(transmission, axes, cases, given, draws, done):
+    def sounds(chain, draws, done):
         for draw in draws:
             by_draw.setdefault(tuple(draw.values()), squares[len(by_draw) % len(squares)])
         return [
-            DrawnSound(
+            SampledSound(
                 {
                     key: SourceSound(
                         np.tile(square * gas[:, None, None], (1, receivers, bands)),
                         np.tile(square * gas[:, None], (1, receivers)),
                         np.tile(square * gas[:, None], (3, 1, receivers)),
                     )
-                    for key in cases
+                    for key in chain[Cases].cases
                 },
                 {},
             )
             for square in (by_draw[tuple(draw.values())] for draw in draws)
         ]
 
-    monkeypatch.setattr("vibroacoustics.pipeline.sound.sound_of_draws", sounds)
+    for stage in (ensemble, samples):
+        monkeypatch.setattr(stage, "sounds_of", sounds)
     settings = study.uncertainty.model_copy(update={"random_samples": len(squares)})
     return run_made_up(study.model_copy(update={"uncertainty": settings}))
 

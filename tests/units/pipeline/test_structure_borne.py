@@ -2,13 +2,12 @@
 
 import numpy as np
 import pytest
-import xarray as xr
 from support import ROOT, TINY, command_here, made_up_radiation
 
 import vibroacoustics as va
 from vibroacoustics.base.decibel import energy_sum
-from vibroacoustics.mechanics.loads import PARTS, Loads, Tone
-from vibroacoustics.pipeline.structure_borne import foot_force
+from vibroacoustics.mechanics.loads import Loads, Tone
+from vibroacoustics.mechanics.ports import HOUSING
 from vibroacoustics.report.html import html
 from vibroacoustics.report.page import Page, Part
 from vibroacoustics.report.sections import SECTIONS
@@ -16,6 +15,7 @@ from vibroacoustics.report.structure_borne import carrier, way_sentence, ways_ta
 from vibroacoustics.sources.cases import cases_of
 from vibroacoustics.study.selection import at_speeds
 from vibroacoustics.transfer import on_mounts
+from vibroacoustics.transfer.foot_lines import force_at_lines
 from vibroacoustics.transfer.plate.driven import Plate, near_power
 
 SHEET = {
@@ -113,12 +113,9 @@ def test_tones_of_sources_push_the_feet_too(study):
     """A tone's force up and down on the machine comes down through its feet, as by itself."""
     (case,) = cases_of(at_speeds(study, [2900.0], {"none": study.options["none"]}), _quiet).values()
     rigid = np.array([0.0, 0.0, 30.0, 0.0, 0.0, 0.0], dtype=complex)
-    tone = Tone("hum", 100.0, rigid, np.zeros((len(PARTS), 6), dtype=complex))
-    nothing = xr.DataArray(
-        np.zeros((1, 4, 3, 2), complex), dims=("source", "foot", "axis", "order")
-    )
+    tone = Tone("hum", 100.0, {HOUSING: rigid})
     names = ["order 0", "order 1", "elsewhere", "motor: hum"]
-    force = foot_force(case, {"motor": Loads(tones=(tone,))}, nothing, names)
+    force = force_at_lines(case, {"motor": Loads(tones=(tone,))}, {}, names)
     expected = on_mounts(case.machine).response(rigid, 100.0).foot_force
     np.testing.assert_allclose(force[3], expected, rtol=1e-12)
     assert not force[:3].any()

@@ -1,11 +1,13 @@
 """Readers as things that others can add to; what a stranger's does, tests/strangers."""
 
 import re
+import shutil
 
 import pytest
 from support import ROOT
 
 from vibroacoustics.base.errors import ParameterError, PluginError
+from vibroacoustics.base.plugin_file import load_plugin
 from vibroacoustics.base.registry import register
 from vibroacoustics.recordings import read_recording
 from vibroacoustics.recordings.reader import READERS, Reader, readers_by_suffix
@@ -45,6 +47,14 @@ def test_a_reader_of_this_session_alone_is_refused(tmp_path):
     (tmp_path / "a.mine").write_bytes(b"x")
     with pytest.raises(ParameterError, match="put it into a file for load_plugin, or install it"):
         read_recording(tmp_path / "a.mine")
+
+
+def test_a_reader_from_a_file_reads_in_a_process_of_its_own(tmp_path):
+    """Its channel is named after the process: that of this test has labelled arrays."""
+    load_plugin(shutil.copy(ROOT / "tests" / "strangers" / "reading_process.py", tmp_path))
+    (tmp_path / "ones.process").write_bytes(bytes([1, 1, 1, 1]))
+    recording = read_recording(tmp_path / "ones.process")
+    assert recording["channel"].values.tolist() == ["process that reads"]
 
 
 def test_every_format_is_on_its_page():

@@ -107,8 +107,16 @@ def test_strangers_criterion_of_a_built_in_name_is_refused(stranger: Path) -> No
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ('.max("speed")', "", r"criterion force_2x_n: has dims .*, must have \('option',\)"),
-        ("force_amplitude", "loudness", "criterion force_2x_n: not in the results: .*loudness"),
+        (
+            '.max("speed")',
+            "",
+            r"is omitted: .*: has dims .*, must have \('option',\)",
+        ),
+        (
+            "force_amplitude",
+            "loudness",
+            r"is omitted: .*, line \d+: KeyError: .*loudness",
+        ),
         ('.max("speed")', '.max("speed") * float("nan")', "no finite value for the option none"),
     ],
 )
@@ -119,7 +127,10 @@ def test_wrong_values_of_a_stranger_are_one_line(
     load_plugin(stranger)
     scale = {"weight": 1.0, "best": 0.0, "worst": 1.0}
     settings = Scoring.model_validate({"criteria": {"force_2x_n": scale}})
-    with pytest.raises(ParameterError, match=message):
+    with (
+        pytest.warns(UserWarning, match=message),
+        pytest.raises(ParameterError, match="none with a weight above 0 has values"),
+    ):
         scoring.score(judged, settings)
 
 

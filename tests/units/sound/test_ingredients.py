@@ -46,7 +46,7 @@ def test_measured_orders_and_bands_stand_for_the_model(results):
 def test_noise_of_sources_and_remainder_go_to_their_bands():
     bands = bands_between(3, 20.0, 4000.0)
     axes = LevelAxes([3000.0], ["none"], ["keys"], ["front_1m"], bands)
-    lines = Lines(("order 1",), np.array([50.0]), {}, {})
+    lines = Lines(("order 1",), np.array([50.0]), {})
     frequency = np.array([90.0, 100.0, 3600.0])
     noise = NoisePower(0, frequency, 4e-10 * np.array([[1e4, 2e4, 1e3]]))
     sound = {(3000.0, "none"): ReceivedSound(lines, np.zeros((1, 1, 1), complex), (noise,))}

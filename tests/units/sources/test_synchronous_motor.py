@@ -7,7 +7,8 @@ from sources_study import case_of
 from support import PIPELINES
 
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.mechanics.loads import STATOR
+from vibroacoustics.machine.frame import STATOR
+from vibroacoustics.mechanics.ports import HOUSING
 from vibroacoustics.sources.cases import loaded_cases, loads_of
 from vibroacoustics.sources.synchronous_motor.harmonics import (
     dead_time_voltage_v,
@@ -178,18 +179,18 @@ def test_stator_gets_the_reaction_and_the_machine_the_rotor(study):
     case = case_of(study)
     loads = loads_of(study, case)
     motor_loads, load = loads["motor"], loads["gas"].shaft_torque_n_m
-    on_stator = motor_loads.on_parts[STATOR, 5]
+    on_stator = motor_loads.lines[STATOR][5]
     assert on_stator[0] == pytest.approx(-load[0])
-    assert motor_loads.rigid[5] == pytest.approx(load + on_stator)
+    assert motor_loads.lines[HOUSING][5] == pytest.approx(load + on_stator)
     assert abs(on_stator[18]) > 0.3  # cogging and sixth of the electrical frequency
     assert abs(on_stator[1]) == 0.0
-    assert not motor_loads.on_parts[:STATOR].any()
+    assert set(motor_loads.lines) == {HOUSING, STATOR}
     current = 2.0 * load[0].real / (3.0 * 3.0 * 0.152)  # of a fundamental without harmonics
     assert motor_loads.figures["motor_phase_current_a"] == pytest.approx(current, rel=2e-3)
     tones = {tone.name: tone for tone in motor_loads.tones}
     lower = tones["1 x switching -3 x electrical"]
     assert lower.frequency_hz == pytest.approx(4000.0 - 3.0 * 3.0 * 2900.0 / 60.0)
-    assert lower.rigid[5] == pytest.approx(lower.on_parts[STATOR, 5])
+    assert lower.loads[HOUSING][5] == pytest.approx(lower.loads[STATOR][5])
 
 
 def test_supply_follows_the_speed(study):

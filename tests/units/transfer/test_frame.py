@@ -5,15 +5,8 @@ import pytest
 from frames import frame_with
 from support import ROOT
 
+from vibroacoustics.machine.frame import PARTS
 from vibroacoustics.mechanics.critical_speed import free_scroll_shaft
-from vibroacoustics.mechanics.loads import (
-    BEARING_HOUSING,
-    FIXED_SCROLL,
-    LOWER_BEARING,
-    ORBITING_SCROLL,
-    PARTS,
-    STATOR,
-)
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer.frame import FrameOnShell, contacts_of, inner_set
 from vibroacoustics.transfer.frame.of_machine import SHAFT_ELEMENT_M
@@ -25,6 +18,7 @@ STRUCTURE = MACHINE.structure.model_copy(
         for name in ("bearing_housing", "fixed_scroll", "stator")
     }
 )
+FIXED_SCROLL, BEARING_HOUSING, ORBITING_SCROLL, LOWER_BEARING, STATOR = range(len(PARTS))
 RADIUS = 0.081
 OVERHANG = 35.0 / 185.0
 STIFF = 1e14
@@ -107,7 +101,7 @@ def test_stiff_and_slow_the_joints_bear_the_torque():
 
 def light(**changes):
     """Nearly massless parts."""
-    bodies = {name: {"mass_kg": 1e-3} for name in PARTS}
+    bodies = {part.name: {"mass_kg": 1e-3} for part in PARTS}
     return {
         **{name: {**bodies.get(name, {}), **changes.pop(name, {})} for name in bodies},
         **changes,

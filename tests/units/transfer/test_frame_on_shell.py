@@ -9,9 +9,8 @@ from scipy.linalg import block_diag
 from support import ROOT
 
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.machine.frame import Frame
+from vibroacoustics.machine.frame import PARTS, Frame
 from vibroacoustics.machine.shell_structure import Joint
-from vibroacoustics.mechanics.loads import PARTS
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer.frame import frame_on_shell
 from vibroacoustics.transfer.frame.natural import answers
@@ -53,7 +52,7 @@ FREQUENCY = np.array([0.0, 48.3, 517.0, 1333.0, 2900.0])
 
 
 def velocities(on_shell, frequency_hz):
-    """Of the shell's modes and then its rigid motions per load, (motion, part, 6, frequency)."""
+    """Of the shell's modes and then its rigid motions per load, (motion, load, frequency)."""
     count = on_shell.natural_hz.size + 6
     each = np.repeat(np.eye(count)[..., None], frequency_hz.size, axis=-1)
     return on_shell.sound(each[:, :-6], each[:, -6:], frequency_hz).of_loads
@@ -100,12 +99,12 @@ def test_nothing_moves_at_frequency_zero(on_shell):
 def test_motion_under_loads_is_what_receivers_of_each_motion_hear(on_shell):
     """Loads put on directly, against reciprocity: from the receivers to the loads."""
     random, count = np.random.default_rng(1), on_shell.natural_hz.size
-    shapes = (len(PARTS), 6, FREQUENCY.size), (count, FREQUENCY.size)
+    shapes = (6 * len(PARTS), FREQUENCY.size), (count, FREQUENCY.size)
     on_parts, on_modes = (random.normal(size=(2, *shape)) for shape in shapes)
     on_parts, on_modes = on_parts[0] + 1j * on_parts[1], on_modes[0] + 1j * on_modes[1]
     each = np.repeat(np.eye(count + 6)[..., None], FREQUENCY.size, axis=-1)
     heard = on_shell.sound(each[:, :-6], each[:, -6:], FREQUENCY)
-    expected = np.einsum("npcf,pcf->nf", heard.of_loads, on_parts)
+    expected = np.einsum("nlf,lf->nf", heard.of_loads, on_parts)
     expected += np.einsum("nmf,mf->nf", heard.of_modes(np.arange(FREQUENCY.size)), on_modes)
     moved = on_shell.velocities(on_parts, on_modes, FREQUENCY)
     largest = abs(expected).max(axis=0)

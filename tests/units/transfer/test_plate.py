@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from vibroacoustics.base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
-from vibroacoustics.levels.structure_borne import mean_square_per_power
+from vibroacoustics.levels.structure_borne import level_range, mean_square_per_power
 from vibroacoustics.levels.weighting import WEIGHTING
 from vibroacoustics.study.structure_borne import StructureBorne
 from vibroacoustics.transfer.plate.driven import (
@@ -18,7 +18,7 @@ from vibroacoustics.transfer.plate.driven import (
     wave_power,
 )
 from vibroacoustics.transfer.plate.radiation_efficiency import radiation_efficiency
-from vibroacoustics.transfer.plate.spread import level_range, modal_overlap, relative_variance
+from vibroacoustics.transfer.plate.spread import modal_overlap, relative_variance
 
 STEEL = StructureBorne(
     thickness_m=1e-3, density_kg_per_m3=7850.0, youngs_modulus_pa=2.1e11, loss_factor_ratio=0.01

@@ -10,8 +10,8 @@ from sources_study import path_of, run_made_up
 
 import vibroacoustics as va
 from vibroacoustics.base.quantiles import weighted_quantiles
-from vibroacoustics.pipeline.calibration import shell_test
 from vibroacoustics.report.sections import SECTIONS
+from vibroacoustics.stages.hammer_test import hammer_test
 from vibroacoustics.study.draws import batches_of_draws
 from vibroacoustics.transfer.wall_mobility import wall_of, wall_points
 from vibroacoustics.uncertainty.shell_agreement import Tolerances, shell_agreement
@@ -95,7 +95,7 @@ def test_a_hammer_test_is_read_with_its_turned_points(tmp_path):
     study, path = study_and_path()
     truth = mobilities(study, path, {})
     hammered = study.replace({"measured.shell": table(write(tmp_path / "h.uff", truth))})
-    test = shell_test(hammered, path)
+    test = hammer_test(hammered, path)
     y = test.mobility(study.machine)
     np.testing.assert_allclose(test.mobilities.mobility, y, atol=1e-9 * abs(y).max())
     assert test.of_machine(study.machine).likelihood == pytest.approx(1.0, abs=1e-6)
@@ -105,7 +105,7 @@ def weighed(tmp_path, truth, candidates, number, tolerances):
     """Draws by the test of a truth with 3 % noise: their likelihoods."""
     study, path = study_and_path()
     file = write(tmp_path / "h.uff", mobilities(study, path, truth), 0.03, number)
-    test = shell_test(study.replace({"measured.shell": table(file)}), path)
+    test = hammer_test(study.replace({"measured.shell": table(file)}), path)
     frequency = test.mobilities.frequency_hz
     agreements = [shell_agreement(test.measured, one, tolerances) for one in candidates]
     assert np.array_equal(frequency, FREQUENCY)
@@ -177,7 +177,7 @@ def test_weights_of_those_that_go_on_are_right_on_average(tmp_path):
     """Russian roulette: the mean of any value by the weights is that by the likelihoods."""
     study, path = study_and_path()
     file = write(tmp_path / "h.uff", mobilities(study, path, draws(4)[0]))
-    test = shell_test(study.replace({"measured.shell": table(file)}), path)
+    test = hammer_test(study.replace({"measured.shell": table(file)}), path)
     known = np.random.default_rng(1).uniform(size=(4000, 2)) ** [8.0, 1.0]
     made = iter(known[:, 0])
     agreement = test.of_machine(study.machine)
@@ -214,14 +214,14 @@ def test_what_is_wrong_is_one_line(tmp_path, values, words):
             at = at[each]
         at[key] = value
     with pytest.raises((va.ParameterError, va.StorageError)) as raised:
-        shell_test(study.replace({"measured.shell": changed}), path)
+        hammer_test(study.replace({"measured.shell": changed}), path)
     assert words in str(raised.value)
 
 
 def test_no_draw_that_agrees_is_one_line(tmp_path):
     study, path = study_and_path()
     file = write(tmp_path / "h.uff", 1e4 * mobilities(study, path, {}))
-    test = shell_test(study.replace({"measured.shell": table(file)}), path)
+    test = hammer_test(study.replace({"measured.shell": table(file)}), path)
     few = iter([draws(4)])
     with pytest.raises(va.ParameterError, match="none of 4 draws agrees with the hammer test"):
         list(test.agreeing(few, 4, lambda *_: None))

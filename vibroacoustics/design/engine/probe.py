@@ -8,9 +8,9 @@ import numpy as np
 from ...base.arrays import Array, ComplexArray, IndexArray
 from ...base.progress import no_progress
 from ...machine.source import Case
-from ...mechanics.loads import Lines, Loads, lines_of
-from ...orders.spectrum import order_spectra
-from ...sources.cases import cases_of, loaded_cases
+from ...mechanics.loads import Lines, Loads, PortLoads, lines_of, summed
+from ...mechanics.ports import BodyPort
+from ...sources.cases import cases_of, loaded_cases, wrench_lines
 from ...study.study import Study
 from ...transfer.machine import MachineOnMounts, on_mounts
 from .sound_way import SoundWay
@@ -73,11 +73,12 @@ def probe(study: Study, option: str, way_of: Callable[[Study], SoundWay]) -> Pro
         case, of_case = cases[speed, option], loads[speed, option]
         orders_held = study.highest_order(speed)
         highest = max(orders_held, case.maximum_order) if study.drives_shell else orders_held
-        lines = lines_of(of_case, case.shaft_frequency_hz, highest)
+        wrenches = wrench_lines(case, of_case, orders_held)
+        lines = lines_of(of_case, case.shaft_frequency_hz, highest, wrenches)
         frequencies.append(lines.frequency_hz[1:])
         number = np.arange(1, lines.frequency_hz.size)
         orders.append(np.where(number <= highest, number, 0))
-        parts.append(_of_case(study, option, case, of_case, lines, way))
+        parts.append(_of_case(study, option, case, of_case, lines, wrenches, way))
     machine = study.options[option].applied_to(study.machine)
     body = on_mounts(machine)
     added = [_over_frequency(body, frequency) for frequency in frequencies]
@@ -91,17 +92,15 @@ def _of_case(
     case: Case,
     loads: Mapping[str, Loads],
     lines: Lines,
+    wrenches: Mapping[str, PortLoads],
     way: SoundWay,
 ) -> dict[str, ComplexArray]:
-    held = study.highest_order(case.speed_rpm)
-    wrench = _wrench(case, loads, held)
-    bodies = len(on_mounts(case.machine).isolation.bodies)
-    load = np.zeros((lines.frequency_hz.size, bodies, 6), dtype=complex)
-    for on_mechanism in lines.rigid.values():
-        load[:, -1] += on_mechanism.T
-    for on_shell in lines.on_shell.values():
-        load[:, 0] += on_shell.T
-    load[: held + 1, -1] += wrench
+    body = on_mounts(case.machine)
+    load = np.zeros((lines.frequency_hz.size, len(body.isolation.bodies), 6), dtype=complex)
+    for of_source in lines.loads.values():
+        for port, amplitudes in of_source.items():
+            if isinstance(port, BodyPort):
+                load[:, body.row(port)] += amplitudes.T
     other, noise = way.besides_rigid(case.machine, lines, loads)
     loss = study.options[option].insertion_loss()
     factor: Array = np.ones(lines.frequency_hz.size)
@@ -112,21 +111,13 @@ def _of_case(
     for one in loads.values():
         figures |= one.figures
     return {
-        "wrench": wrench[1:],
+        "wrench": summed(wrenches.values())[body.mechanism_port].T[1:],
         "load": load[1:].reshape(len(load) - 1, -1),
         "other": other[:, 1:].T,
         "noise": way.weighted(noise),
         "factor": factor[1:].astype(complex),
         **{name: np.asarray(complex(value)) for name, value in figures.items()},
     }
-
-
-def _wrench(case: Case, loads: Mapping[str, Loads], highest: int) -> ComplexArray:
-    """Of the moving parts by order, shape (order, 6)."""
-    wrenches = [wrench for one in loads.values() for wrench in one.wrenches.values()]
-    both = np.sum([np.concatenate(wrench) for wrench in wrenches], axis=0)
-    speed = case.revolution.rotation.speed_rad_per_s
-    return np.asarray(order_spectra(both, speed, highest).T)
 
 
 def body_matrices(body: MachineOnMounts) -> dict[str, ComplexArray]:

@@ -1,7 +1,7 @@
 """The way from motion and loads to the microphones, made by the pipeline's stages."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
@@ -12,17 +12,17 @@ from ...base.hashing import canonical_json, sha256
 from ...base.progress import no_progress
 from ...levels.weighting import WEIGHTING
 from ...machine.machine import Machine
-from ...mechanics.loads import Lines, Loads
-from ...pipeline.shell import shell_path
+from ...mechanics.loads import Lines, Loads, in_shell
 from ...radiation.given import Radiation
 from ...radiation.pressure import pressure_per_shell_velocity
 from ...radiation.transfer_vectors import pressure_per_velocity
+from ...stages.shell import shell_path
 from ...study.study import Study
 from ...transfer.bending import bending_shell
-from ...transfer.force_sound import PressurePerVelocity
+from ...transfer.load_path import LoadPath
 from ...transfer.machine import on_mounts
+from ...transfer.observers import Observers
 from ...transfer.path import ShellPath
-from ...transfer.sound_path import SoundPath
 
 Noise = list[tuple[Array, Array]]
 """Frequencies, Hz, shape (frequency,), and mean squares, shape (receiver, frequency), Pa²."""
@@ -38,22 +38,22 @@ class SoundWay:
     key : hash of what it is made of
     content : hash of the transfer vectors
     receivers : number of them
-    rigid : pressure per velocity of the rigid motions
+    microphones : pressure per velocity of the rigid motions and, where a source drives it, of the
+        shell's modes
     highest_hz : of the transfer vectors; higher lines are silent
-    modes, shell : elastic modes of the shell; none where no source drives it
+    shell : elastic modes of the shell; none where no source drives it
     """
 
     key: str
     content: str
     receivers: int
-    rigid: PressurePerVelocity
+    microphones: Observers
     highest_hz: float
-    modes: PressurePerVelocity | None
     shell: ShellPath | None
 
     def per_velocity(self, frequency_hz: Array) -> ComplexArray:
         """Pressure per velocity of the rigid motions, shape (receiver, 6, line), Pa s/m."""
-        return self.rigid(np.minimum(frequency_hz, self.highest_hz))
+        return self.microphones.rigid(np.minimum(frequency_hz, self.highest_hz))
 
     def besides_rigid(
         self, machine: Machine, lines: Lines, loads: Mapping[str, Loads]
@@ -61,15 +61,12 @@ class SoundWay:
         """Pressure of what bends the shell, (receiver, line), and random loads."""
         shape = (self.receivers, lines.frequency_hz.size)
         other: ComplexArray = np.zeros(shape, dtype=complex)
-        if self.shell is None or self.modes is None:
-            return other, []
-        path = SoundPath(self.rigid, bending_shell(machine, self.shell, self.modes, self.rigid))
-        still = {source: np.zeros_like(wrench) for source, wrench in lines.rigid.items()}
-        alone = replace(lines, rigid=still, on_shell={})
-        for pressure in path.pressure(on_mounts(machine), alone).values():
-            other = other + pressure
+        shell = None if self.shell is None else bending_shell(machine, self.shell)
+        path = LoadPath(on_mounts(machine), shell)
+        for load in lines.loads.values():
+            other = other + path.observed(self.microphones, in_shell(load), lines.frequency_hz)
         noise = [
-            (part.frequency_hz, path.noise_power(part))
+            (part.frequency_hz, path.noise_power(self.microphones, part))
             for one in loads.values()
             for part in one.noise
         ]
@@ -115,9 +112,11 @@ class Ways:
             key,
             sha256(b"".join(v.values.tobytes() for n, v in radiated.items() if n in _VECTORS)),
             vectors.sizes["receiver"],
-            pressure_per_velocity(vectors),
+            Observers(
+                pressure_per_velocity(vectors),
+                None if path is None else pressure_per_shell_velocity(radiated),
+            ),
             float(vectors["frequency"].max()),
-            None if path is None else pressure_per_shell_velocity(radiated),
             path,
         )
 

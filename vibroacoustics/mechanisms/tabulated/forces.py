@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 
 from ...base.arrays import ComplexArray
 from ...base.errors import ParameterError
-from ...machine.file_table import FileTable
+from ...base.file_table import FileTable
 from .spectra import Spectra, packed, unpacked
 
 KEPT_TABLES: Final = 16
@@ -30,9 +30,9 @@ class Forces(FileTable):
     """Complex orders of what was read, see `spectra.packed`."""
 
     @classmethod
-    def read(cls, path: Path, given: dict[str, Any]) -> dict[str, Any]:
+    def read(cls, path: Path, table: dict[str, Any]) -> dict[str, Any]:
         """Spectra of the file, by its ending."""
-        spectra = _read(path, given.get("recorded_speed_rpm"))
+        spectra = _read(path, table.get("recorded_speed_rpm"))
         if not np.any(spectra.orders[..., 1:]):
             raise ParameterError(f"{path}: all forces and moments are constant")
         return {

@@ -3,6 +3,7 @@
 import xarray as xr
 
 from ...base.registry import register
+from ...results.left_out import lines_of
 from .. import verdict
 from ..blocks import Beside, Block, Bullets, Pictures, Text
 from ..drawing import machine_picture
@@ -16,9 +17,16 @@ from . import Section
 def _blocks(results: xr.Dataset) -> list[Block]:
     return [
         Text(verdict.headline(results), "headline"),
+        *left_out_words(results),
         *coarse_words(results),
         *_drawing_and_chart(results),
     ]
+
+
+def left_out_words(results: xr.Dataset) -> list[Block]:
+    """Say what is omitted, as it failed or was not wanted; nothing where nothing is."""
+    lines = lines_of(results)
+    return [Text("This report is not complete:"), Bullets(tuple(lines))] if lines else []
 
 
 def coarse_words(results: xr.Dataset) -> list[Block]:

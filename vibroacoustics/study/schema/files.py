@@ -29,7 +29,7 @@ _STEPS: Final[Schema] = {
 }
 _FILLED_IN: Final = (
     "records", "ranges", "held_ranges", "source_file", "given", "catalogue_machine", "coarsened",
-    "titles",
+    "left_out", "titles",
 )  # fmt: skip
 
 

@@ -4,7 +4,7 @@ from typing import Any, Final
 
 from pydantic.json_schema import GenerateJsonSchema
 
-from ...machine.file_table import FileTable
+from ...base.file_table import FileTable
 from .units import Schema, keys_of
 
 _OBJECT: Final = ("properties", "additionalProperties")
@@ -14,9 +14,11 @@ class FileSchema(GenerateJsonSchema):
     """Of tables as files write them: keys in any unit, nothing that is filled in by the reader."""
 
     def model_schema(self, schema: Any) -> Schema:
-        """A model without the fields that are read from a file which it names."""
+        """A model without the fields that are read from a file, and without examples in Python."""
         made = super().model_schema(schema)
         model = schema["cls"]
+        if "description" in made:
+            made["description"] = made["description"].partition("\n\nExamples\n")[0]
         if issubclass(model, FileTable):
             filled = {name for name, of in model.model_fields.items() if of.default in ((), "")}
             made["properties"] = {

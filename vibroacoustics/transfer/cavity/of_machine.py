@@ -5,15 +5,16 @@ from collections.abc import Mapping
 import numpy as np
 
 from ...base.errors import ParameterError
-from ...machine.cavities import DischargeDome, SuctionAnnulus
+from ...machine.cavities import SPACES, DischargeDome, SuctionAnnulus
 from ...machine.machine import Machine
 from ...machine.shell import Shell
-from ...mechanics.loads import DISCHARGE_DOME, SUCTION_ANNULUS
 from ..path import ShellPath
 from ..shell_modes.modes import ShellMode
 from .in_shell import GasInShell, Mouth
 from .profile import Profile, annulus_profile, disc_profile
 from .response import DrivenGas
+
+_DOME, _ANNULUS = SPACES
 
 
 def gas_of(machine: Machine, path: ShellPath) -> Mapping[str, DrivenGas]:
@@ -30,10 +31,10 @@ def gas_of(machine: Machine, path: ShellPath) -> Mapping[str, DrivenGas]:
         The modes of the wall are measured.
     """
     spaces, gas = spaces_of(machine, path), {}
-    if DISCHARGE_DOME in spaces:
-        gas[DISCHARGE_DOME] = _dome(machine.table(DischargeDome), spaces[DISCHARGE_DOME])
-    if SUCTION_ANNULUS in spaces:
-        gas[SUCTION_ANNULUS] = _annulus(machine.table(SuctionAnnulus), spaces[SUCTION_ANNULUS])
+    if _DOME in spaces:
+        gas[_DOME] = _dome(machine.table(DischargeDome), spaces[_DOME])
+    if _ANNULUS in spaces:
+        gas[_ANNULUS] = _annulus(machine.table(SuctionAnnulus), spaces[_ANNULUS])
     return gas
 
 
@@ -45,7 +46,7 @@ def spaces_of(machine: Machine, path: ShellPath) -> Mapping[str, GasInShell]:
         if depth not in path.gas:
             profile = _under_cap(machine.shell, _thickness(path), depth)
             path.gas[depth] = _in_shell(profile, True, path)
-        spaces[DISCHARGE_DOME] = path.gas[depth]
+        spaces[_DOME] = path.gas[depth]
     if machine.has_table(SuctionAnnulus):
         annulus = machine.table(SuctionAnnulus)
         bounds = annulus.inner_radius_m, annulus.lower_height_m, annulus.upper_height_m
@@ -53,7 +54,7 @@ def spaces_of(machine: Machine, path: ShellPath) -> Mapping[str, GasInShell]:
             inner, *faces = bounds
             profile = annulus_profile(inner, machine.shell.radius_m - _thickness(path), *faces)
             path.gas[bounds] = _in_shell(profile, False, path)
-        spaces[SUCTION_ANNULUS] = path.gas[bounds]
+        spaces[_ANNULUS] = path.gas[bounds]
     return spaces
 
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...base.arrays import Array, ComplexArray, IndexArray
-from ...machine.frame import Frame
+from ...machine.frame import BEARING_HOUSING, FIXED_SCROLL, LOWER_BEARING, PARTS, STATOR, Frame
 from ...machine.shell_structure import Joint, ShellStructure
-from ...mechanics.loads import BEARING_HOUSING, FIXED_SCROLL, LOWER_BEARING, STATOR
+from ...mechanics.ports import Port
 from ..shell_modes.loads import weld_angles
 
 
@@ -19,13 +19,13 @@ class Contacts:
     Attributes
     ----------
     joints : their places on the wall
-    parts : index of the part that each joint holds
+    parts : that the joints hold
     radius_m : of the wall
     stiffness : with loss, shape (contact,), N/m
     """
 
     joints: tuple[Joint, ...]
-    parts: tuple[int, ...]
+    parts: tuple[Port, ...]
     radius_m: float
     stiffness: ComplexArray
 
@@ -36,8 +36,9 @@ class Contacts:
 
     @property
     def part(self) -> IndexArray:
-        """Part of each contact, shape (contact,)."""
-        return np.repeat(self.parts, [3 * joint.welds for joint in self.joints])
+        """Index of the part of each contact among PARTS, shape (contact,)."""
+        held = [PARTS.index(part) for part in self.parts]
+        return np.repeat(held, [3 * joint.welds for joint in self.joints])
 
 
 def contacts_of(frame: Frame, structure: ShellStructure, radius_m: float) -> Contacts:
@@ -50,7 +51,7 @@ def contacts_of(frame: Frame, structure: ShellStructure, radius_m: float) -> Con
     radius_m : of the wall
     """
     given = frame.contacts
-    every: Sequence[tuple[int, Joint, float]] = (
+    every: Sequence[tuple[Port, Joint, float]] = (
         (BEARING_HOUSING, structure.bearing_housing, given.weld_n_per_m),
         (LOWER_BEARING, frame.legs, given.leg_n_per_m),
         (FIXED_SCROLL, structure.fixed_scroll, given.seal_n_per_m),

@@ -6,22 +6,23 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from ...base.arrays import Array, ComplexArray
-from ...machine.frame import Frame, RoundPart
-from ...mechanics.beam_rotor import NODE_FREEDOMS
-from ...mechanics.critical_speed import FreeShaft
-from ...mechanics.loads import (
+from ...machine.frame import (
     BEARING_HOUSING,
     LOWER_BEARING,
     ORBITING_SCROLL,
-    PART_COMPONENTS,
     PARTS,
+    Frame,
+    RoundPart,
 )
+from ...mechanics.beam_rotor import NODE_FREEDOMS
+from ...mechanics.critical_speed import FreeShaft
+from ...mechanics.ports import WRENCH
 from ..bushings import RigidBody, motion_at
 from ..isolation import Isolation
 from .contacts import Contacts
 from .springs import springs_of
 
-BODY_FREEDOMS = PART_COMPONENTS * len(PARTS)
+BODY_FREEDOMS = len(WRENCH) * len(PARTS)
 
 
 @dataclass(frozen=True)
@@ -61,7 +62,7 @@ def inner_set(frame: Frame, shaft: FreeShaft, contacts: Contacts) -> InnerSet:
     shaft : free, with its bearings' stiffness
     contacts : with the shell
     """
-    bodies = [_body(name, getattr(frame, name)) for name in PARTS]
+    bodies = [_body(part.name, getattr(frame, part.name)) for part in PARTS]
     middles = [body.centre_of_mass_m for body in bodies]
     held = Isolation(tuple(bodies), springs_of(frame))
     stiffness = block_diag(
@@ -75,7 +76,7 @@ def inner_set(frame: Frame, shaft: FreeShaft, contacts: Contacts) -> InnerSet:
     loads[:BODY_FREEDOMS] = block_diag(*np.linalg.inv(to_middle).transpose(0, 2, 1))
     at_contacts = np.zeros((len(contacts.part), BODY_FREEDOMS + nodes))
     for row, (part, rigid) in enumerate(zip(contacts.part, contacts.rigid, strict=True)):
-        first = PART_COMPONENTS * part
+        first = len(WRENCH) * part
         at_contacts[row, first : first + 6] = rigid @ np.linalg.inv(to_middle[part])
     rigid = np.concatenate([to_middle.reshape(-1, 6), _shaft_rigid(frame, shaft)])
     mass = block_diag(held.mass_matrix, shaft.rotor.mass)
@@ -98,9 +99,10 @@ def _bearings(frame: Frame, shaft: FreeShaft, middles: list[Array]) -> ComplexAr
     ):
         height = frame.lower_bearing_height_m + shaft.heights_m[node]
         between = np.zeros((2, size))
-        first, last = PART_COMPONENTS * part, BODY_FREEDOMS + NODE_FREEDOMS * node
+        number, last = PARTS.index(part), BODY_FREEDOMS + NODE_FREEDOMS * node
+        first = len(WRENCH) * number
         point = np.array([0.0, 0.0, height])
-        between[:, first : first + 6] = motion_at(point, middles[part])[:2]
+        between[:, first : first + 6] = motion_at(point, middles[number])[:2]
         between[:, last : last + 2] = -np.eye(2)
         lossy = stiffness * (1.0 + 1j * frame.bearing_loss_factor_ratio)
         total += lossy * between.T @ between

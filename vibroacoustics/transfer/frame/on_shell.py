@@ -12,7 +12,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ...base.arrays import Array, ComplexArray, IndexArray
-from ...mechanics.loads import PART_COMPONENTS, PARTS
 from .contacts import Contacts
 from .inner import InnerSet
 from .natural import NaturalMotions, answers, natural_motions, times
@@ -24,7 +23,7 @@ class SoundPerForce(NamedTuple):
 
     Attributes
     ----------
-    of_loads : per load on a part, shape (receiver, part, component, frequency)
+    of_loads : per load on the parts, shape (receiver, part times component, frequency)
     of_modes : per generalised force on a mode of the shell at some of the frequencies, given by
         index, shape (receiver, mode, some)
     """
@@ -94,8 +93,7 @@ class FrameOnShell:
             moved = times(self.modal_forces, forces[..., some])
             return np.asarray((modes[..., some] * turning[some] - moved) * shell[:, some])
 
-        shape = len(forces), len(PARTS), PART_COMPONENTS, frequency_hz.size
-        return SoundPerForce(of_loads.reshape(shape), of_modes)
+        return SoundPerForce(of_loads, of_modes)
 
     def velocities(
         self, on_parts: ComplexArray, on_modes: ComplexArray, frequency_hz: Array
@@ -106,19 +104,18 @@ class FrameOnShell:
 
         Parameters
         ----------
-        on_parts : loads on the parts together, shape (part, component, frequency)
+        on_parts : loads on the parts together, shape (part times component, frequency)
         on_modes : generalised forces on the shell's modes, shape (mode, frequency)
         frequency_hz : shape (frequency,)
         """
         omega = 2.0 * np.pi * np.where(frequency_hz > 0.0, frequency_hz, 1.0)
         shell = answers(self._squares, omega) / self.modal_mass_kg[:, None]
         parts = answers(self.motions.squares, omega)
-        loads = on_parts.reshape(-1, omega.size)
-        moved = self._at_contacts @ (parts * (self._drives_of_parts @ loads))
+        moved = self._at_contacts @ (parts * (self._drives_of_parts @ on_parts))
         moved -= times(self.modal_forces.T, shell * on_modes)
         forces = self._joined(shell, parts, omega, moved[:, None])[:, 0]
         modes = shell * (on_modes + times(self.modal_forces, forces))
-        rigid = times(self._together, loads) - times(self._of_contacts, forces)
+        rigid = times(self._together, on_parts) - times(self._of_contacts, forces)
         motion = np.concatenate([modes, rigid / omega**2])
         return np.asarray(2j * np.pi * frequency_hz * motion)
 

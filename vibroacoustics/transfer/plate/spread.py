@@ -11,8 +11,6 @@ GAUSSIAN: Final = 3.0
 """E[φ⁴]/E[φ²]² of mode shapes at a point, taken as Gaussian; 2.25 of a hinged rectangle."""
 _FEW: Final = 1e-3
 _MANY: Final = 30.0
-_CHANCE: Final = 1.6448536269514722
-"""Of a standard normal variable, passed once in 20."""
 
 
 def modal_overlap(
@@ -45,20 +43,3 @@ def relative_variance(overlap: Array) -> Array:
     last = exp1(some) * (np.cosh(some) - np.sinh(some) / some)
     last = np.where(x > _MANY, 0.5 / x, last)  # E1(x) eˣ tends to 1/x
     return np.asarray((GAUSSIAN - 1.0 + (1.0 - np.exp(-2.0 * x)) / (2.0 * x) + last) / x)
-
-
-def level_range(variance: Array, deviation_db: float) -> tuple[Array, Array]:
-    """Levels that 5 % and 95 % lie below, over that of the mean power, dB, shapes (...).
-
-    Energies are lognormal (Langley and Cotoni, J. Acoust. Soc. Am. 115 (2004) 706), and so is what
-    a prediction errs by otherwise.
-
-    Parameters
-    ----------
-    variance : relative, of the power
-    deviation_db : standard deviation of the level by all else
-    """
-    in_db = 10.0 / np.log(10.0)
-    modal = np.log1p(np.asarray(variance, dtype=float))
-    median, spread = -0.5 * in_db * modal, np.sqrt(in_db**2 * modal + deviation_db**2)
-    return np.asarray(median - _CHANCE * spread), np.asarray(median + _CHANCE * spread)

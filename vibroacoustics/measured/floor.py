@@ -4,9 +4,9 @@ from ..base.errors import ParameterError
 from ..machine.floor import FloorMobility
 from ..machine.machine import Machine
 from ..machine.option import Option
-from ..measured.floor_functions import read_floor
 from ..study.study import Study
 from ..transfer import on_mounts
+from .floor_functions import read_floor
 
 
 def on_measured_floor(study: Study) -> Study:

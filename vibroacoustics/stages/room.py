@@ -1,15 +1,16 @@
-"""The machine of a study in its room: levels at the listeners, the seam of methods, a map."""
+"""The machine of a study in its room: levels at the listeners, both methods, a map."""
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Final
 
 import numpy as np
 import xarray as xr
 
-from ..base.arrays import Array, IndexArray
+from ..base.arrays import Array
 from ..base.progress import Progress
+from ..base.registry import register
 from ..base.vocabulary import REFERENCE_OPTION, check, stamp
-from ..levels.in_room import RoomSound, RoomWays, blended_gains, room_sound, wave_gains
+from ..levels.in_room import RoomSound, blended_gains, room_sound
 from ..levels.measured_points import MIDDLE_HZ
 from ..levels.room_levels import (
     AirInRoom,
@@ -20,103 +21,80 @@ from ..levels.room_levels import (
 )
 from ..levels.room_map import map_bands_hz, map_level
 from ..levels.room_rest import rest_in_bands
-from ..levels.room_seam import seam_variables, shown_bands
-from ..machine.shell import Shell
+from ..levels.room_seam import seam_variables
 from ..machine.source import CaseKey
 from ..radiation.patterns import SurfaceMotion
-from ..radiation.pressure import wrench_pressure_by
 from ..radiation.rooms import of_study as rooms
 from ..radiation.rooms import room_vectors
+from ..radiation.rooms.cost import room_cost
 from ..radiation.rooms.plane import plane_gains
 from ..radiation.rooms.wall_absorption import wall_absorption, warn_of_absorption
 from ..results import storage
+from ..results.storage import is_cached
+from ..sound.room_ways import ways_of
 from ..sources.cases import sources_of
 from ..study.room import StudyRoom
 from ..study.study import Study
+from ..transfer.observers import Observers
 from ..transfer.path import ShellPath
-from ..transfer.received import Transmission, by_case_and_source
-from .motion import Motion
+from ..transfer.received import Transmission
+from .chain import Cases, Chain
+from .stage import Given, Stage, Trial
+
+_CACHE: Final = "room-responses"
 
 
-def sound_in_room(
-    study: Study, motion: Motion, shell: ShellPath | None, progress: Progress
-) -> xr.Dataset:
-    """Sound of the machine in the room of the study; empty where it has none.
+@register
+class SoundInRoom(Stage):
+    """Sound of the machine at the listeners in the room of the study."""
 
-    Parameters
-    ----------
-    study : with its table of the room
-    motion : of every speed with every option; its results hold the levels
-    shell : its elastic modes; none where no source drives it
-    progress : called with the advance
-    """
-    settings = study.room
-    if settings is None:
-        return xr.Dataset()
-    vectors, _ = vectors_of(study, settings, () if shell is None else shell.modes, progress)
+    name = "room"
+    reads = (Cases, ShellPath, "velocity_order", "level_total", "structure_borne_power")
+    gives = (
+        "room_absorption_area", "room_wall_absorption", "room_wall_absorption_requested",
+        "room_limit", "room_level", "room_level_low", "room_level_middle", "room_level_high",
+        "room_level_both_ways", "room_source_level", "room_band_level", "room_noise_band_level",
+        "room_pressure_line", "room_sound_power_level", "room_plate_level",
+        "room_plate_level_low", "room_plate_level_high", "room_plate_line_level",
+        "room_gain_waves", "room_gain_diffuse", "room_gain_difference", "room_place_gain",
+        "room_place_gain_above", "room_map_level", "room_map_gain",
+    )  # fmt: skip
+
+    def applies(self, study: Study) -> bool:
+        return study.room is not None
+
+    def run(self, chain: Chain) -> Given:
+        settings = chain.study.room
+        return Given() if settings is None else Given(_sound_in_room(chain, settings))
+
+    def tried(self, chain: Chain, study: Study) -> Trial:
+        settings, path = study.room, chain.get(ShellPath)
+        modes = () if path is None else path.modes
+        if settings is None or is_cached(_CACHE, rooms.room_key(study, settings, modes)):
+            return Trial(chain)
+        return Trial(chain, (room_cost(study, settings),))
+
+
+def _sound_in_room(chain: Chain, settings: StudyRoom) -> xr.Dataset:
+    study, of, shell = chain.study, chain[Cases], chain.get(ShellPath)
+    motions = () if shell is None else shell.modes
+    vectors, _ = vectors_of(study, settings, motions, chain.progress)
     pressure, listeners = rooms.pressure_at_places(vectors), list(settings.listeners)
     both_ways = ways_of(settings, study.machine.shell, vectors, pressure)
-    received = _transmission(study, motion, shell, pressure).received(motion.cases, motion.loads)
+    received = _transmission(chain, pressure).received(of.cases, of.loads)
     by_case = {key: room_sound(one, both_ways.ways) for key, one in received.items()}
     gains, _ = blended_gains(both_ways.waves, both_ways.ways)
-    air = _by_air(study, motion, by_case, gains)
+    air = _by_air(study, chain.results, by_case, gains)
     sources = list(sources_of(study))
     speeds, options = list(study.operation.speed_rpm), list(study.options)
     sound = air_variables(air, speeds, options, listeners, sources)
-    sound = sound.merge(line_variables(by_case, motion.results.merge(sound)))
-    results = motion.results.merge(sound)
+    sound = sound.merge(line_variables(by_case, chain.results.merge(sound)))
+    results = chain.results.merge(sound)
     sound = sound.merge(drawn_band(air, results, study.catalogue_receiver))
     sound = sound.merge(_by_plate(settings, vectors, results.merge(sound)))
     of_seam = (both_ways.shown, *both_ways.both, both_ways.gains_db)
     sound = sound.merge(_of_the_room(settings)).merge(seam_variables(listeners, *of_seam))
-    return sound.merge(_map(study, settings, air, progress))
-
-
-class BothMethods(NamedTuple):
-    """Ways to the listeners, and both methods around their seam.
-
-    Attributes
-    ----------
-    ways : with the gain of the place
-    gain : of the power at the machine's place, of frequencies
-    waves : mean square per power, shape (listener, band), Pa²/W
-    shown : numbers of the bands around the seam
-    both : waves and diffuse field in these, without the gain
-    gains_db : of the place, in these and above
-    """
-
-    ways: RoomWays
-    gain: Callable[[Array], Array]
-    waves: Array
-    shown: IndexArray
-    both: tuple[Array, Array]
-    gains_db: Array
-
-
-def ways_of(
-    settings: StudyRoom, shell: Shell, vectors: xr.Dataset, pressure: rooms.PressureAt
-) -> BothMethods:
-    """How the machine's sound comes to the listeners.
-
-    Parameters
-    ----------
-    settings : of the room
-    shell : of the machine
-    vectors, pressure : of `vectors_of` and `pressure_at_places`
-    """
-    highest_hz, at = settings.maximum_frequency_hz, rooms.machine_middle_m(settings, shell)
-    share, radius_m = rooms.wave_share(highest_hz), float(vectors.attrs["hemisphere_radius_m"])
-    count = len(settings.listeners)
-    free = RoomWays(count, radius_m, share, rooms.diffuse_per_power(settings, at))
-    waves = wave_gains(pressure, free, highest_hz)
-    shown = shown_bands(rooms.seam_bands_hz(highest_hz))
-    both = (waves[:, shown], blended_gains(waves, free)[1][:, shown])
-    gains_db = rooms.place_gains_db(*both)
-    gain = rooms.gain_over_frequency(gains_db, MIDDLE_HZ[shown])
-    per_power = rooms.diffuse_per_power(settings, at, gain)
-    return BothMethods(
-        RoomWays(count, radius_m, share, per_power), gain, waves, shown, both, gains_db
-    )
+    return sound.merge(_map(study, settings, air, chain.progress))
 
 
 def vectors_of(
@@ -125,7 +103,7 @@ def vectors_of(
     """Pressure per velocity at the listeners and on the hemisphere; from the cache if there."""
     warn_of_absorption(rooms.room_of(settings), settings.maximum_frequency_hz)
     return storage.cached(
-        "room-responses",
+        _CACHE,
         rooms.room_key(study, settings, motions),
         lambda: room_vectors(
             study.machine.shell,
@@ -140,29 +118,25 @@ def vectors_of(
     )
 
 
-def _transmission(
-    study: Study, motion: Motion, shell: ShellPath | None, pressure: rooms.PressureAt
-) -> Transmission:
-    """The way of the sound to the listeners and to the positions on the hemisphere."""
-    rigid = rooms.of_rigid(pressure)
-    wrenches = wrench_pressure_by(motion.results, rigid, study.radiation.maximum_frequency_hz)
+def _transmission(chain: Chain, pressure: rooms.PressureAt) -> Transmission:
+    """Paths of the sound to the listeners and to the positions on the hemisphere."""
+    study, shell, rigid = chain.study, chain.get(ShellPath), rooms.of_rigid(pressure)
     return Transmission(
         study,
-        rigid,
-        None if shell is None else rooms.of_modes(pressure),
+        Observers(rigid, None if shell is None else rooms.of_modes(pressure)),
         shell,
-        by_case_and_source(wrenches, motion.source_of_wrench),
+        chain[Cases].wrenches,
     )
 
 
 def _by_air(
-    study: Study, motion: Motion, sound: Mapping[CaseKey, RoomSound], gains: Array
+    study: Study, results: xr.Dataset, sound: Mapping[CaseKey, RoomSound], gains: Array
 ) -> AirInRoom:
     return AirInRoom.of(
         sound,
         list(study.operation.speed_rpm),
         list(study.options),
-        rest_in_bands(motion.results, study.catalogue_receiver),
+        rest_in_bands(results, study.catalogue_receiver),
         gains,
         study.receivers[study.catalogue_receiver].distance_m,
     )

@@ -12,15 +12,14 @@ from ..base.errors import ParameterError, SolverError
 from ..base.progress import Progress
 from ..base.vocabulary import check, stamp
 from ..machine.machine import Machine
-from ..measured.shell_functions import ShellMobilities, read_shell_mobilities
 from ..study.draws import with_draw
 from ..study.measured_shell import MeasuredShell
 from ..study.sampling import Draw
 from ..study.study import Study
 from ..transfer.path import ShellPath
-from ..transfer.wall_mobility import Reference, Wall, wall_mobility, wall_of
-from ..uncertainty.shell_agreement import ShellAgreement, Tolerances, shell_agreement
-from ..uncertainty.shell_features import Features, features
+from ..transfer.wall_mobility import Reference, ShellMobilities, Wall, wall_mobility
+from .shell_agreement import ShellAgreement, Tolerances, shell_agreement
+from .shell_features import Features, features
 
 MOST_TRIED: Final = 8192
 """Draws that are held against a test."""
@@ -34,7 +33,7 @@ NO_MACHINE: Final = ShellAgreement(0.0, np.nan, np.nan, np.nan)
 
 
 @dataclass
-class ShellTest:
+class HammerTest:
     """A hammer test of the shell, and how draws agree with it.
 
     Attributes
@@ -195,34 +194,3 @@ class ShellTest:
         if not self.measured.peak_hz.size:
             del arrays["shell_peak_loss"]
         return check(xr.Dataset(arrays))
-
-
-def shell_test(study: Study, path: ShellPath | None) -> ShellTest | None:
-    """The hammer test that a study names; none where it names none.
-
-    Raises
-    ------
-    ParameterError
-        No source drives an elastic shell, nothing is drawn, or a file does not fit.
-    StorageError
-        A file cannot be read.
-    """
-    settings = None if study.measured is None else study.measured.shell
-    if settings is None:
-        return None
-    if path is None:
-        raise ParameterError("measured.shell: no source drives an elastic shell")
-    if not study.ranges:
-        raise ParameterError("measured.shell: weighs draws, and no value has a range")
-    points = settings.wall.values()
-    try:
-        wall = wall_of(
-            path,
-            np.array([point.angle_rad for point in points]),
-            np.array([point.height_m for point in points]),
-        )
-    except ParameterError as error:
-        raise ParameterError(f"measured.shell.wall: {error}") from None
-    mobilities = read_shell_mobilities(settings, study.radiation.maximum_frequency_hz)
-    measured = features(mobilities.mobility, mobilities.frequency_hz)
-    return ShellTest(study, path, settings, mobilities, measured, wall)

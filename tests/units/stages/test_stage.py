@@ -1,0 +1,85 @@
+"""Order of the stages, what they may give, and the chain that they work on."""
+
+import pytest
+
+from vibroacoustics.base.errors import PluginError
+from vibroacoustics.base.vocabulary import VARIABLES, stamp
+from vibroacoustics.stages.chain import Cases, Chain
+from vibroacoustics.stages.stage import (
+    EVERYTHING,
+    STAGES,
+    Given,
+    Stage,
+    advanced,
+    ordered,
+)
+
+
+def stage(name, reads=(), gives=(), given=None):
+    """A stage that returns what it is asked to return."""
+
+    class Made(Stage):
+        def run(self, chain):
+            return given
+
+    Made.name, Made.reads, Made.gives = name, reads, gives
+    return Made()
+
+
+def names(stages):
+    return [one.name for one in ordered(stages)]
+
+
+def test_a_stage_follows_those_that_give_what_it_reads():
+    chain = [stage("a", ("level_total",)), stage("b", (Cases,), ("level_total",))]
+    assert names([*chain, stage("c", (), (Cases,))]) == ["c", "b", "a"]
+
+
+def test_stages_that_do_not_depend_on_each_other_go_by_name():
+    assert names([stage("b"), stage("a"), stage("c")]) == ["a", "b", "c"]
+
+
+def test_what_no_stage_gives_is_not_waited_for():
+    assert names([stage("b"), stage("a", ("level_total",))]) == ["a", "b"]
+
+
+def test_a_stage_that_reads_everything_is_last_but_for_those_that_read_it():
+    first = stage("a", (EVERYTHING,), ("score",))
+    assert names([first, stage("b"), stage("z", ("score",))]) == ["b", "a", "z"]
+
+
+def test_a_circle_is_refused_with_its_stages():
+    one, other = stage("a", ("score",), ("rank",)), stage("b", ("rank",), ("score",))
+    with pytest.raises(PluginError, match="stages a, b: read what each other gives"):
+        ordered([stage("c"), one, other])
+
+
+def test_two_stages_cannot_give_the_same():
+    with pytest.raises(PluginError, match="stage b: Cases is given by a already"):
+        ordered([stage("a", (), (Cases,)), stage("b", (), (Cases,))])
+
+
+def test_what_a_stage_does_not_name_is_refused():
+    shown = stamp("level_remainder", 50.0).to_dataset()
+    chain = Chain(None, None)
+    with pytest.raises(PluginError, match="stage a: gives level_remainder, which it does not name"):
+        advanced(chain, stage("a", given=Given(shown)))
+    with pytest.raises(PluginError, match="stage a: gives Cases, which it does not name"):
+        advanced(chain, stage("a", given=Given(products=(Cases({}, {}, {}),))))
+
+
+def test_products_are_found_by_type():
+    cases = Cases({}, {}, {})
+    chain = advanced(Chain(None, None), stage("a", (), (Cases,), Given(products=(cases,))))
+    assert chain[Cases] is cases
+    assert chain.get(Given) is None
+    with pytest.raises(PluginError, match="Given: no stage of this study gives it"):
+        chain[Given]
+
+
+def test_every_variable_that_a_stage_names_is_in_the_vocabulary():
+    every = [kind() for kind in STAGES.values()]
+    ordered(every)
+    for one in every:
+        words = [thing for thing in (*one.reads, *one.gives) if isinstance(thing, str)]
+        assert [word for word in words if word not in VARIABLES and word != EVERYTHING] == []

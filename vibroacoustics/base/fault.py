@@ -1,0 +1,97 @@
+"""Faults of third parties' code, and what a run omits because of them."""
+
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import Final, NamedTuple
+
+from .errors import PluginError
+
+MOST_WORDS: Final = 300
+"""Characters of a plug-in's own words that are shown."""
+
+
+class Place(NamedTuple):
+    """Whose code runs.
+
+    Attributes
+    ----------
+    noun, name : of the thing, as its registry calls it
+    file : name of the file that holds it
+    thing : class or object
+    """
+
+    noun: str
+    name: str
+    file: str
+    thing: object = None
+
+
+class FaultError(PluginError):
+    """A plug-in's thing failed; the line names it, its file and the line of code.
+
+    Attributes
+    ----------
+    noun, name : of the thing
+    reason : file, line and words, without noun and name
+    """
+
+    noun = name = reason = ""
+
+    @classmethod
+    def at(cls, place: Place, line: int | None, words: str) -> "FaultError":
+        """Return the fault of a thing at a line of its file."""
+        where = place.file if line is None else f"{place.file}, line {line}"
+        reason = f"{where}: {cut(words)}"
+        fault = cls(f"{place.noun} {place.name}: {reason}")
+        fault.noun, fault.name, fault.reason = place.noun, place.name, reason
+        return fault
+
+    def with_hint(self, hint: str) -> "FaultError":
+        """Return the same fault with what the user can do about it."""
+        fault = type(self)(f"{self}; {hint}")
+        fault.noun, fault.name, fault.reason = self.noun, self.name, self.reason
+        return fault
+
+
+class LeftOutWarning(UserWarning):
+    """Something of a plug-in is omitted because it failed."""
+
+
+def cut(words: str) -> str:
+    """Return a plug-in's words in one line of at most 300 characters."""
+    line = " ".join(words[: 10 * MOST_WORDS].split())
+    return line if len(line) <= MOST_WORDS else f"{line[: MOST_WORDS - 2]} …"
+
+
+def leave_out(fault: FaultError, what: str = "") -> None:
+    """Tell that something is omitted: to all that collect, and once by a warning.
+
+    Parameters
+    ----------
+    fault : why
+    what : is omitted; the fault's thing where it is empty
+    """
+    line = f"{what or f'{fault.noun} {fault.name}'} is omitted: {fault.reason}"
+    collecting = _COLLECTING.get()
+    is_known = bool(collecting) and line in collecting[0]
+    for lines in collecting:
+        if line not in lines:
+            lines.append(line)
+    if not is_known:
+        warnings.warn(line, LeftOutWarning, stacklevel=2)
+
+
+@contextmanager
+def collected() -> Iterator[list[str]]:
+    """Collect a line on everything that is omitted."""
+    lines: list[str] = []
+    token = _COLLECTING.set((*_COLLECTING.get(), lines))
+    try:
+        yield lines
+    finally:
+        _COLLECTING.reset(token)
+
+
+_COLLECTING: Final[ContextVar[Sequence[list[str]]]] = ContextVar("_COLLECTING", default=())

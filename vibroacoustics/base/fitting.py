@@ -1,0 +1,124 @@
+"""Whether what a third party's code returns is of the type that is asked for, and finite."""
+
+import dataclasses
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cache
+from numbers import Real
+from types import NoneType, UnionType
+from typing import Annotated, Any, ClassVar, Final, Union, get_args, get_origin, get_type_hints
+
+import numpy as np
+
+MAY_BE_MISSING: Final = "figures"
+"""Field whose values may be not a number: a reported figure that there is none of."""
+
+
+@cache
+def result_hint(base: type, name: str) -> Any:
+    """Return the type that a method, property or function of a class gives by its annotation."""
+    declared = vars(base).get(name)
+    try:
+        if declared is None or name in getattr(base, "__dataclass_fields__", ()):
+            return get_args(get_type_hints(base)[name])[-1]
+        function = getattr(declared, "fget", None) or getattr(declared, "__func__", declared)
+        return get_type_hints(function).get("return", Any)
+    except (NameError, KeyError, IndexError):
+        return Any
+
+
+@cache
+def attribute_hints(base: type) -> dict[str, Any]:
+    """Return the types of the attributes that a class declares, but not of functions in them."""
+    try:
+        hints = get_type_hints(base)
+    except NameError:
+        return {}
+    own = {name: hints[name] for name in vars(base).get("__annotations__", {})}
+    if not dataclasses.is_dataclass(base):
+        own = {name: get_args(one)[0] for name, one in own.items() if get_origin(one) is ClassVar}
+    return {name: one for name, one in own.items() if get_origin(one) is not Callable}
+
+
+def misfit(value: Any, hint: Any, place: str = "") -> str:
+    """Return why a value does not fit an annotation; empty where it does.
+
+    Parameters
+    ----------
+    value : returned by a plug-in
+    hint : annotation
+    place : of the value within what was returned
+    """
+    origin, arguments = get_origin(hint), get_args(hint)
+    if origin is Annotated:
+        return misfit(value, arguments[0], place)
+    if origin in (Union, UnionType):
+        reasons = [misfit(value, one, place) for one in arguments]
+        return "" if "" in reasons else _of_union(value, arguments, reasons, place)
+    wanted = NoneType if hint is None else origin or hint
+    if not isinstance(wanted, type):
+        return ""
+    if not _is(value, wanted):
+        return f"{_kind(value)}{place}, must be {getattr(wanted, '__name__', wanted)}"
+    return _inside(value, arguments, place)
+
+
+def _of_union(value: Any, hints: Sequence[Any], reasons: Sequence[str], place: str) -> str:
+    """Return the reason of the alternative that the value is of; else all that are allowed."""
+    for one, reason in zip(hints, reasons, strict=True):
+        wanted = get_origin(one) or one
+        if isinstance(wanted, type) and _is(value, wanted):
+            return reason
+    allowed = " or ".join(getattr(get_origin(one) or one, "__name__", str(one)) for one in hints)
+    return f"{_kind(value)}{place}, must be {allowed}"
+
+
+def _is(value: Any, wanted: type) -> bool:
+    """Whether a value is of a class; numbers and sequences by what they can do."""
+    if wanted is float:
+        return isinstance(value, Real) and not isinstance(value, bool | np.bool_)
+    if wanted is bool:
+        return isinstance(value, bool | np.bool_)
+    if wanted in (tuple, Sequence, Iterable):
+        return isinstance(value, Iterable) and not isinstance(value, str | bytes | Mapping)
+    try:
+        return isinstance(value, wanted)
+    except TypeError:  # a protocol
+        return True
+
+
+def _inside(value: Any, arguments: Sequence[Any], place: str) -> str:
+    """Return why a part of a value does not fit."""
+    may_be_missing = place.endswith(f" in {MAY_BE_MISSING}")
+    if isinstance(value, np.ndarray | float | np.number):
+        return _of_numbers(np.asarray(value), place, may_be_missing)
+    if isinstance(value, Mapping):
+        parts = [(one, arguments[-1], place) for one in value.values()] if arguments else []
+    elif isinstance(value, tuple | list) and not hasattr(value, "_fields"):
+        parts = [(one, arguments[0], place) for one in value] if arguments else []
+    elif dataclasses.is_dataclass(value) or hasattr(value, "_fields"):
+        hints = _hints(value.__class__)
+        parts = [(getattr(value, name), hint, f" in {name}") for name, hint in hints.items()]
+    else:
+        return ""
+    return next(filter(None, (misfit(*part) for part in parts)), "")
+
+
+def _of_numbers(numbers: Any, place: str, may_be_missing: bool) -> str:
+    if numbers.dtype.kind not in "biufc":
+        return f"no numbers{place}"
+    if np.isinf(numbers).any() or (np.isnan(numbers).any() and not may_be_missing):
+        return f"numbers that are not finite{place}"
+    return ""
+
+
+@cache
+def _hints(kind: Any) -> dict[str, Any]:
+    """Annotations of the fields of a dataclass or named tuple; none where they cannot be read."""
+    try:
+        return get_type_hints(kind)
+    except NameError:
+        return {}
+
+
+def _kind(value: Any) -> str:
+    return "None" if value is None else f"a {type(value).__name__}"

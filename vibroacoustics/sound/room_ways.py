@@ -1,0 +1,98 @@
+"""Paths from a machine to the listeners in its room: waves below, a diffuse field above."""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array, IndexArray
+from ..levels.in_room import RoomWays, blended_gains, wave_gains
+from ..levels.measured_points import MIDDLE_HZ
+from ..levels.room_seam import shown_bands
+from ..machine.shell import Shell
+from ..radiation.rooms import DiffuseRoom
+from ..radiation.rooms import of_study as rooms
+from ..radiation.rooms.arrivals import arrivals
+from ..study.room import StudyRoom
+from .room_responses import WaysOfRoom
+
+
+class BothMethods(NamedTuple):
+    """Ways to the listeners, and both methods around their seam.
+
+    Attributes
+    ----------
+    ways : with the gain of the place
+    gain : of the power at the machine's place, of frequencies
+    waves : mean square per power, shape (listener, band), Pa²/W
+    shown : numbers of the bands around the seam
+    both : waves and diffuse field in these, without the gain
+    gains_db : of the place, in these and above
+    """
+
+    ways: RoomWays
+    gain: Callable[[Array], Array]
+    waves: Array
+    shown: IndexArray
+    both: tuple[Array, Array]
+    gains_db: Array
+
+
+def ways_of(
+    settings: StudyRoom, shell: Shell, vectors: xr.Dataset, pressure: rooms.PressureAt
+) -> BothMethods:
+    """Compute the paths from the machine to the listeners by both methods.
+
+    Parameters
+    ----------
+    settings : of the room
+    shell : of the machine
+    vectors, pressure : of `vectors_of` and `pressure_at_places`
+    """
+    highest_hz, at = settings.maximum_frequency_hz, rooms.machine_middle_m(settings, shell)
+    share, radius_m = rooms.wave_share(highest_hz), float(vectors.attrs["hemisphere_radius_m"])
+    count = len(settings.listeners)
+    free = RoomWays(count, radius_m, share, rooms.diffuse_per_power(settings, at))
+    waves = wave_gains(pressure, free, highest_hz)
+    shown = shown_bands(rooms.seam_bands_hz(highest_hz))
+    both = (waves[:, shown], blended_gains(waves, free)[1][:, shown])
+    gains_db = rooms.place_gains_db(*both)
+    gain = rooms.gain_over_frequency(gains_db, MIDDLE_HZ[shown])
+    per_power = rooms.diffuse_per_power(settings, at, gain)
+    return BothMethods(
+        RoomWays(count, radius_m, share, per_power), gain, waves, shown, both, gains_db
+    )
+
+
+def response_ways(settings: StudyRoom, shell: Shell, vectors: xr.Dataset) -> WaysOfRoom:
+    """Return the paths of the rigid motions to the listeners, as impulse responses need them.
+
+    Parameters
+    ----------
+    settings : room
+    shell : housing of the machine
+    vectors : pressure per velocity at the listeners and on the hemisphere
+    """
+    pressure = rooms.pressure_at_places(vectors)
+    both = ways_of(settings, shell, vectors, pressure)
+    first = arrivals(settings, rooms.machine_middle_m(settings, shell))
+    diffuse = DiffuseRoom.of(rooms.room_of(settings))
+    reach_m = float(np.hypot(shell.radius_m, shell.floor_clearance_m + shell.height_m))
+
+    def direct_per_power(frequency_hz: Array) -> Array:
+        return np.asarray(both.gain(frequency_hz) * first.per_power[:, None])
+
+    def decay_s(frequency_hz: Array) -> Array:
+        return np.asarray(diffuse.reverberation_time_s(frequency_hz), dtype=np.float64)
+
+    return WaysOfRoom(
+        pressure=rooms.of_rigid(pressure),
+        ways=both.ways,
+        direct_per_power=direct_per_power,
+        distance_m=np.asarray(first.distance_m, dtype=np.float64),
+        nearest_m=both.ways.radius_m - reach_m,
+        decay_s=decay_s,
+        record_s=float(vectors.attrs["room_record_s"]),
+        highest_hz=float(vectors["frequency"].values[-1]),
+    )

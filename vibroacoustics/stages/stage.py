@@ -1,0 +1,207 @@
+"""A stage of the chain, the registry of stages, and the order that follows from what they read."""
+
+import time
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import ClassVar, Final, NamedTuple
+
+import xarray as xr
+
+from ..base.errors import PluginError
+from ..base.registry import Registry
+from ..base.vocabulary import check
+from ..radiation.cost import Cost, about
+from ..results.run_variables import check_numbers
+from ..study.study import Study
+from .chain import Chain
+
+EVERYTHING: Final = "*"
+"""Among what a stage reads: all variables that other stages give."""
+
+
+@dataclass(frozen=True)
+class Given:
+    """What a stage gives.
+
+    Attributes
+    ----------
+    results : variables of the vocabulary
+    products : typed things that are not stored
+
+    Examples
+    --------
+    >>> level = va.stamp("level_total", [[[54.2]]],
+    ...                  {"speed": [2900.0], "option": ["none"], "receiver": ["front_1m"]})
+    >>> list(va.Given(level.to_dataset()).results)
+    ['level_total']
+    """
+
+    results: xr.Dataset = field(default_factory=xr.Dataset)
+    products: tuple[object, ...] = ()
+
+
+class Stage:
+    """A step of the chain, one file of `stages` or of a plug-in.
+
+    Names of variables and types of products say what it reads and gives; the order of all stages
+    follows from them. What it reads may be missing where no stage of the study gives it.
+
+    Examples
+    --------
+    >>> class Total(va.Stage):
+    ...     name = "total"
+    ...     reads = ("level_total",)
+    ...     gives = ("level_of_total",)
+    """
+
+    name: ClassVar[str]
+    reads: ClassVar[tuple[str | type, ...]] = ()
+    gives: ClassVar[tuple[str | type, ...]] = ()
+
+    def applies(self, study: Study) -> bool:
+        """Return whether the study asks for this stage."""
+        return True
+
+    def run(self, chain: Chain) -> Given:
+        """Compute the variables and products that the stage gives.
+
+        Parameters
+        ----------
+        chain : the study, with results and products of the stages before
+
+        Raises
+        ------
+        ParameterError, SolverError, StorageError
+            An input is out of range, a computation failed, or a file cannot be read.
+        """
+        raise NotImplementedError
+
+    def tried(self, chain: Chain, study: Study) -> "Trial":
+        """Run at the first speed, or not at all, and say what a run at all speeds will cost.
+
+        Parameters
+        ----------
+        chain : at the first speed
+        study : at all speeds
+        """
+        return Trial(chain)
+
+
+class Trial(NamedTuple):
+    """A stage tried at the first speed.
+
+    Attributes
+    ----------
+    chain : with what the stage gave, if it was run
+    costs : of the stage at all speeds; empty where it costs little
+    """
+
+    chain: Chain
+    costs: tuple[Cost, ...] = ()
+
+
+STAGES: Final[Registry[type[Stage]]] = Registry(
+    "stage", Stage, "name", "stages", "vibroacoustics.stages"
+)
+
+
+def applying(study: Study) -> list[Stage]:
+    """Return the stages that a study asks for, in their order."""
+    stages = []
+    for name, kind in STAGES.items():
+        with STAGES.spared(), STAGES.fenced(name):
+            stage = kind()
+            if stage.applies(study):
+                stages.append(stage)
+    return ordered(stages)
+
+
+def ordered(stages: Iterable[Stage]) -> list[Stage]:
+    """Sort stages so that each follows those that give what it reads, else by name.
+
+    Raises
+    ------
+    PluginError
+        Two stages give the same, or stages read what each other gives.
+    """
+    waiting = sorted(stages, key=lambda stage: stage.name)
+    givers = _givers(waiting)
+    before = {stage.name: _before(stage, waiting, givers) for stage in waiting}
+    done: list[Stage] = []
+    while waiting:
+        names = {stage.name for stage in waiting}
+        ready = next((stage for stage in waiting if not before[stage.name] & names), None)
+        if ready is None:
+            raise PluginError(f"stages {', '.join(sorted(names))}: read what each other gives")
+        waiting.remove(ready)
+        done.append(ready)
+    return done
+
+
+def _givers(stages: Iterable[Stage]) -> dict[str | type, str]:
+    givers: dict[str | type, str] = {}
+    for stage in stages:
+        for thing in stage.gives:
+            other = givers.setdefault(thing, stage.name)
+            if other != stage.name:
+                raise PluginError(f"stage {stage.name}: {_word(thing)} is given by {other} already")
+    return givers
+
+
+def _before(stage: Stage, stages: Iterable[Stage], givers: Mapping[str | type, str]) -> set[str]:
+    """Names of the stages that give what one reads."""
+    read = {givers[thing] for thing in stage.reads if thing in givers}
+    if EVERYTHING in stage.reads:
+        gives = set(stage.gives)
+        read |= {other.name for other in stages if not gives & set(other.reads)}
+    return read - {stage.name}
+
+
+def _word(thing: str | type) -> str:
+    return thing if isinstance(thing, str) else thing.__name__
+
+
+def advanced(chain: Chain, stage: Stage) -> Chain:
+    """Run one stage and return the chain with what it gives.
+
+    Raises
+    ------
+    PluginError
+        The stage gives what it does not name.
+    FaultError
+        The stage of a plug-in failed.
+    """
+    with STAGES.fenced(stage.name):
+        return _advanced(chain, stage)
+
+
+def _advanced(chain: Chain, stage: Stage) -> Chain:
+    given = stage.run(chain)
+    if STAGES.origin(stage.name):
+        _check_variables(given.results)
+    names = {str(name) for name in given.results.data_vars} | {type(one) for one in given.products}
+    for thing in names - set(stage.gives):
+        raise PluginError(f"stage {stage.name}: gives {_word(thing)}, which it does not name")
+    return chain.having(*given.products, results=chain.results.merge(given.results))
+
+
+def _check_variables(given: xr.Dataset) -> None:
+    """Refuse what a stage of a plug-in may not give: other dims or units, no finite numbers."""
+    for array in check(given).data_vars.values():
+        check_numbers(array)
+
+
+def timed(chain: Chain, stage: Stage, study: Study, task: str) -> Trial:
+    """Run a stage at the first speed; at each further one it takes as long.
+
+    Parameters
+    ----------
+    chain : at the first speed
+    stage : to run
+    study : at all speeds
+    task : name of the cost
+    """
+    start, speeds = time.process_time(), len(study.operation.speed_rpm)
+    after = advanced(chain, stage)
+    seconds = speeds * (time.process_time() - start)
+    return Trial(after, (about(task, seconds, f"{speeds} speeds, one measured"),))

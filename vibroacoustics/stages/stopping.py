@@ -1,0 +1,34 @@
+"""The run-down from each speed after the machine is switched off."""
+
+from ..base.progress import stage
+from ..base.registry import register
+from ..stopping.labelled import stopping_variables
+from ..study.study import Study
+from ..transfer import on_mounts
+from ..transfer.path import ShellPath
+from .chain import Chain
+from .stage import Given, Stage
+
+
+@register
+class Stopping(Stage):
+    """Forces, foot forces and sound while the machine runs down, without a balancer."""
+
+    name = "stopping"
+    reads = (ShellPath, "transfer_vector", "level_total")
+    gives = (
+        "stopping_shaft_speed", "stopping_revolutions", "stopping_duration", "stopping_force",
+        "stopping_moment", "stopping_foot_force", "stopping_brake_force", "stopping_pressure",
+        "stopping_fast_level", "stopping_fast_maximum_level", "stopping_peak_level",
+        "stopping_order_map", "stopping_turned_back_angle",
+    )  # fmt: skip
+
+    def applies(self, study: Study) -> bool:
+        return study.operation.stopping
+
+    def run(self, chain: Chain) -> Given:
+        machine, path = chain.study.machine, chain.get(ShellPath)
+        with stage(chain.progress, "switching off"):
+            return Given(
+                stopping_variables(chain.study, machine, on_mounts(machine), chain.results, path)
+            )
