@@ -42,7 +42,7 @@ class FaultError(PluginError):
     reason: str = ""
 
     @classmethod
-    def at(cls, owner: Owner, line: int | None, words: str) -> "FaultError":
+    def at_line(cls, owner: Owner, line: int | None, words: str) -> "FaultError":
         """Return the fault of a thing at a line of its file."""
         where = owner.file if line is None else f"{owner.file}, line {line}"
         reason = f"{where}: {cut(words)}"

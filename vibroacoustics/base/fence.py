@@ -41,7 +41,7 @@ def fence(owner: Owner, passing: tuple[type[Exception], ...] = ()) -> Iterator[N
     except passing as error:
         raise type(error)(*map(cut, map(str, error.args))) from None
     except (Exception, SystemExit) as error:
-        raise FaultError.at(owner, _line(owner, error), _words(error)) from error
+        raise FaultError.at_line(owner, _line(owner, error), _words(error)) from error
 
 
 def fenced(thing: Any, base: type, owner: Owner) -> None:
@@ -75,7 +75,7 @@ def fenced(thing: Any, base: type, owner: Owner) -> None:
         elif isinstance(defined, property) and defined.fget is not None:
             setattr(thing, name, property(_guarded(defined.fget, base, name, owner)))
         elif isinstance(verb, FunctionType) and not callable(defined):
-            raise FaultError.at(owner, _first_line(thing), f"{name} is no method")
+            raise FaultError.at_line(owner, _first_line(thing), f"{name} is no method")
 
 
 def _check_attributes(thing: Any, base: type, owner: Owner) -> None:
@@ -83,7 +83,7 @@ def _check_attributes(thing: Any, base: type, owner: Owner) -> None:
     for name, hint in attribute_hints(base).items():
         reason = misfit(getattr(thing, name, None), hint)
         if reason:
-            raise FaultError.at(owner, _first_line(thing), f"{name} is {reason}")
+            raise FaultError.at_line(owner, _first_line(thing), f"{name} is {reason}")
 
 
 def _guarded(
@@ -94,14 +94,14 @@ def _guarded(
         return function
 
     @wraps(function)
-    def guarded(*given: Any, **named: Any) -> Any:
+    def guarded(*positional: Any, **named: Any) -> Any:
         with fence(owner, REFUSALS):
-            result = function(*given, **named)
+            result = function(*positional, **named)
             if inspect.isgenerator(result):
                 result = tuple(result)
             reason = misfit(result, result_hint(base, name))
             if reason:
-                raise FaultError.at(owner, _first_line(function), f"{name} returns {reason}")
+                raise FaultError.at_line(owner, _first_line(function), f"{name} returns {reason}")
             return result
 
     guarded.inside_fence = True  # type: ignore[attr-defined]
@@ -135,7 +135,7 @@ def _is_of(owner: Owner, filename: str) -> bool:
 def _first_line(thing: Any) -> int | None:
     """Return the line at which a class or function begins."""
     defined = vars(thing).values() if hasattr(thing, "__dataclass_fields__") else ()
-    functions = [getattr(one, "__wrapped__", one) for one in defined if callable(one)]
+    functions = [getattr(entry, "__wrapped__", entry) for entry in defined if callable(entry)]
     try:
         return inspect.getsourcelines(functions[0] if functions else thing)[1]
     except (OSError, TypeError):

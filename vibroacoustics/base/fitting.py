@@ -36,9 +36,11 @@ def attribute_hints(base: type) -> dict[str, Any]:
     declared = {name: hints[name] for name in vars(base).get("__annotations__", {})}
     if not dataclasses.is_dataclass(base):
         declared = {
-            name: get_args(one)[0] for name, one in declared.items() if get_origin(one) is ClassVar
+            name: get_args(entry)[0]
+            for name, entry in declared.items()
+            if get_origin(entry) is ClassVar
         }
-    return {name: one for name, one in declared.items() if get_origin(one) is not Callable}
+    return {name: entry for name, entry in declared.items() if get_origin(entry) is not Callable}
 
 
 def misfit(value: Any, hint: Any, location: str = "") -> str:
@@ -54,7 +56,7 @@ def misfit(value: Any, hint: Any, location: str = "") -> str:
     if origin is Annotated:
         return misfit(value, arguments[0], location)
     if origin in (Union, UnionType):
-        reasons = [misfit(value, one, location) for one in arguments]
+        reasons = [misfit(value, entry, location) for entry in arguments]
         return "" if "" in reasons else _of_union(value, arguments, reasons, location)
     wanted = NoneType if hint is None else origin or hint
     if not isinstance(wanted, type):
@@ -66,11 +68,13 @@ def misfit(value: Any, hint: Any, location: str = "") -> str:
 
 def _of_union(value: Any, hints: Sequence[Any], reasons: Sequence[str], location: str) -> str:
     """Return the reason of the alternative that the value is of; else all that are allowed."""
-    for one, reason in zip(hints, reasons, strict=True):
-        wanted = get_origin(one) or one
+    for entry, reason in zip(hints, reasons, strict=True):
+        wanted = get_origin(entry) or entry
         if isinstance(wanted, type) and _is(value, wanted):
             return reason
-    allowed = " or ".join(getattr(get_origin(one) or one, "__name__", str(one)) for one in hints)
+    allowed = " or ".join(
+        getattr(get_origin(entry) or entry, "__name__", str(entry)) for entry in hints
+    )
     return f"{_kind(value)}{location}, must be {allowed}"
 
 
@@ -94,9 +98,9 @@ def _misfit_of_parts(value: Any, arguments: Sequence[Any], location: str) -> str
     if isinstance(value, np.ndarray | float | np.number):
         return _of_numbers(np.asarray(value), location, may_be_missing)
     if isinstance(value, Mapping):
-        parts = [(one, arguments[-1], location) for one in value.values()] if arguments else []
+        parts = [(entry, arguments[-1], location) for entry in value.values()] if arguments else []
     elif isinstance(value, tuple | list) and not hasattr(value, "_fields"):
-        parts = [(one, arguments[0], location) for one in value] if arguments else []
+        parts = [(entry, arguments[0], location) for entry in value] if arguments else []
     elif dataclasses.is_dataclass(value) or hasattr(value, "_fields"):
         hints = _hints(value.__class__)
         parts = [(getattr(value, name), hint, f" in {name}") for name, hint in hints.items()]
