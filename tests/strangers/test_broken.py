@@ -452,7 +452,7 @@ def test_file_that_cannot_be_loaded_is_refused(tmp_path, code, said):
 def test_unknown_kind_names_the_way_to_bring_one(tmp_path):
     said = "sources.mine.kind = odd: unknown"
     line = refused(["run", study_with_source(tmp_path)], said)
-    assert line.endswith("further kinds come with --plugin FILE.py")
+    assert line.endswith("; others by --plugin")
 
 
 def test_single_samples_without_a_source_have_no_solution(forgotten, tmp_path):

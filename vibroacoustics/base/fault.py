@@ -12,7 +12,7 @@ MOST_WORDS: Final = 300
 """Characters of a plug-in's own words that are shown."""
 
 
-class Place(NamedTuple):
+class Owner(NamedTuple):
     """Whose code runs.
 
     Attributes
@@ -37,15 +37,17 @@ class FaultError(PluginError):
     reason : file, line and words, without noun and name
     """
 
-    noun = name = reason = ""
+    noun: str = ""
+    name: str = ""
+    reason: str = ""
 
     @classmethod
-    def at(cls, place: Place, line: int | None, words: str) -> "FaultError":
+    def at_line(cls, owner: Owner, line: int | None, words: str) -> "FaultError":
         """Return the fault of a thing at a line of its file."""
-        where = place.file if line is None else f"{place.file}, line {line}"
+        where = owner.file if line is None else f"{owner.file}, line {line}"
         reason = f"{where}: {cut(words)}"
-        fault = cls(f"{place.noun} {place.name}: {reason}")
-        fault.noun, fault.name, fault.reason = place.noun, place.name, reason
+        fault = cls(f"{owner.noun} {owner.name}: {reason}")
+        fault.noun, fault.name, fault.reason = owner.noun, owner.name, reason
         return fault
 
     def with_hint(self, hint: str) -> "FaultError":

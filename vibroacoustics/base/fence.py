@@ -13,7 +13,7 @@ from types import FunctionType
 from typing import Any, Final
 
 from .errors import ParameterError, StorageError
-from .fault import FaultError, Place, cut
+from .fault import FaultError, Owner, cut
 from .fitting import attribute_hints, misfit, result_hint
 
 REFUSALS: Final = (ParameterError, StorageError)
@@ -21,12 +21,12 @@ REFUSALS: Final = (ParameterError, StorageError)
 
 
 @contextmanager
-def fence(place: Place, passing: tuple[type[Exception], ...] = ()) -> Iterator[None]:
+def fence(owner: Owner, passing: tuple[type[Exception], ...] = ()) -> Iterator[None]:
     """Turn whatever a plug-in raises into a `FaultError`, `sys.exit` too.
 
     Parameters
     ----------
-    place : whose code runs
+    owner : whose code runs
     passing : errors that stay what they are, their words cut
 
     Raises
@@ -41,67 +41,67 @@ def fence(place: Place, passing: tuple[type[Exception], ...] = ()) -> Iterator[N
     except passing as error:
         raise type(error)(*map(cut, map(str, error.args))) from None
     except (Exception, SystemExit) as error:
-        raise FaultError.at(place, _line(place, error), _words(error)) from error
+        raise FaultError.at_line(owner, _line(owner, error), _words(error)) from error
 
 
-def fenced(thing: Any, base: type, place: Place) -> None:
+def fenced(thing: Any, base: type, owner: Owner) -> None:
     """Put the fence around the methods of a class, or the functions of an object, in place.
 
     Parameters
     ----------
     thing : subclass of `base`, or an instance
     base : declares the methods or fields, and what they return
-    place : where the thing comes from
+    owner : where the thing comes from
 
     Raises
     ------
     PluginError
         The thing has no method where it needs one, or an attribute of the wrong type.
     """
-    _check_attributes(thing, base, place)
+    _check_attributes(thing, base, owner)
     if not isinstance(thing, type):
         for name, function in vars(thing).items():
             if callable(function):
-                object.__setattr__(thing, name, _guarded(function, base, name, place))
+                object.__setattr__(thing, name, _guarded(function, base, name, owner))
         return
     for name, verb in vars(base).items():
         if name.startswith("_") or not isinstance(verb, FunctionType | classmethod | property):
             continue
-        own = inspect.getattr_static(thing, name)
-        if isinstance(own, FunctionType):
-            setattr(thing, name, _guarded(own, base, name, place))
-        elif isinstance(own, classmethod | staticmethod):
-            setattr(thing, name, type(own)(_guarded(own.__func__, base, name, place)))
-        elif isinstance(own, property) and own.fget is not None:
-            setattr(thing, name, property(_guarded(own.fget, base, name, place)))
-        elif isinstance(verb, FunctionType) and not callable(own):
-            raise FaultError.at(place, _first_line(thing), f"{name} is no method")
+        defined = inspect.getattr_static(thing, name)
+        if isinstance(defined, FunctionType):
+            setattr(thing, name, _guarded(defined, base, name, owner))
+        elif isinstance(defined, classmethod | staticmethod):
+            setattr(thing, name, type(defined)(_guarded(defined.__func__, base, name, owner)))
+        elif isinstance(defined, property) and defined.fget is not None:
+            setattr(thing, name, property(_guarded(defined.fget, base, name, owner)))
+        elif isinstance(verb, FunctionType) and not callable(defined):
+            raise FaultError.at_line(owner, _first_line(thing), f"{name} is no method")
 
 
-def _check_attributes(thing: Any, base: type, place: Place) -> None:
+def _check_attributes(thing: Any, base: type, owner: Owner) -> None:
     """Refuse attributes that are not of the types that the base declares."""
     for name, hint in attribute_hints(base).items():
         reason = misfit(getattr(thing, name, None), hint)
         if reason:
-            raise FaultError.at(place, _first_line(thing), f"{name} is {reason}")
+            raise FaultError.at_line(owner, _first_line(thing), f"{name} is {reason}")
 
 
 def _guarded(
-    function: Callable[..., Any], base: type, name: str, place: Place
+    function: Callable[..., Any], base: type, name: str, owner: Owner
 ) -> Callable[..., Any]:
     """Return a function within the fence, whose results are checked."""
     if hasattr(function, "inside_fence"):
         return function
 
     @wraps(function)
-    def guarded(*given: Any, **named: Any) -> Any:
-        with fence(place, REFUSALS):
-            result = function(*given, **named)
+    def guarded(*positional: Any, **named: Any) -> Any:
+        with fence(owner, REFUSALS):
+            result = function(*positional, **named)
             if inspect.isgenerator(result):
                 result = tuple(result)
             reason = misfit(result, result_hint(base, name))
             if reason:
-                raise FaultError.at(place, _first_line(function), f"{name} returns {reason}")
+                raise FaultError.at_line(owner, _first_line(function), f"{name} returns {reason}")
             return result
 
     guarded.inside_fence = True  # type: ignore[attr-defined]
@@ -116,26 +116,26 @@ def _words(error: BaseException) -> str:
         return type(error).__name__
 
 
-def _line(place: Place, error: BaseException) -> int | None:
+def _line(owner: Owner, error: BaseException) -> int | None:
     """Return the innermost line of the plug-in's file that an error comes from."""
-    if isinstance(error, SyntaxError) and error.filename and _is_of(place, error.filename):
+    if isinstance(error, SyntaxError) and error.filename and _is_of(owner, error.filename):
         return error.lineno
     lines = [
         number
         for frame, number in walk_tb(error.__traceback__)
-        if _is_of(place, frame.f_code.co_filename)
+        if _is_of(owner, frame.f_code.co_filename)
     ]
-    return lines[-1] if lines else _first_line(place.thing)
+    return lines[-1] if lines else _first_line(owner.thing)
 
 
-def _is_of(place: Place, filename: str) -> bool:
-    return Path(filename).name == place.file
+def _is_of(owner: Owner, filename: str) -> bool:
+    return Path(filename).name == owner.file
 
 
 def _first_line(thing: Any) -> int | None:
     """Return the line at which a class or function begins."""
-    own = vars(thing).values() if hasattr(thing, "__dataclass_fields__") else ()
-    functions = [getattr(one, "__wrapped__", one) for one in own if callable(one)]
+    defined = vars(thing).values() if hasattr(thing, "__dataclass_fields__") else ()
+    functions = [getattr(entry, "__wrapped__", entry) for entry in defined if callable(entry)]
     try:
         return inspect.getsourcelines(functions[0] if functions else thing)[1]
     except (OSError, TypeError):

@@ -33,43 +33,49 @@ def attribute_hints(base: type) -> dict[str, Any]:
         hints = get_type_hints(base)
     except NameError:
         return {}
-    own = {name: hints[name] for name in vars(base).get("__annotations__", {})}
+    declared = {name: hints[name] for name in vars(base).get("__annotations__", {})}
     if not dataclasses.is_dataclass(base):
-        own = {name: get_args(one)[0] for name, one in own.items() if get_origin(one) is ClassVar}
-    return {name: one for name, one in own.items() if get_origin(one) is not Callable}
+        declared = {
+            name: get_args(entry)[0]
+            for name, entry in declared.items()
+            if get_origin(entry) is ClassVar
+        }
+    return {name: entry for name, entry in declared.items() if get_origin(entry) is not Callable}
 
 
-def misfit(value: Any, hint: Any, place: str = "") -> str:
+def misfit(value: Any, hint: Any, location: str = "") -> str:
     """Return why a value does not fit an annotation; empty where it does.
 
     Parameters
     ----------
     value : returned by a plug-in
     hint : annotation
-    place : of the value within what was returned
+    location : of the value within what was returned
     """
     origin, arguments = get_origin(hint), get_args(hint)
     if origin is Annotated:
-        return misfit(value, arguments[0], place)
+        return misfit(value, arguments[0], location)
     if origin in (Union, UnionType):
-        reasons = [misfit(value, one, place) for one in arguments]
-        return "" if "" in reasons else _of_union(value, arguments, reasons, place)
+        reasons = [misfit(value, entry, location) for entry in arguments]
+        return "" if "" in reasons else _of_union(value, arguments, reasons, location)
     wanted = NoneType if hint is None else origin or hint
     if not isinstance(wanted, type):
         return ""
     if not _is(value, wanted):
-        return f"{_kind(value)}{place}, must be {getattr(wanted, '__name__', wanted)}"
-    return _inside(value, arguments, place)
+        return f"{_kind(value)}{location}, must be {getattr(wanted, '__name__', wanted)}"
+    return _misfit_of_parts(value, arguments, location)
 
 
-def _of_union(value: Any, hints: Sequence[Any], reasons: Sequence[str], place: str) -> str:
+def _of_union(value: Any, hints: Sequence[Any], reasons: Sequence[str], location: str) -> str:
     """Return the reason of the alternative that the value is of; else all that are allowed."""
-    for one, reason in zip(hints, reasons, strict=True):
-        wanted = get_origin(one) or one
+    for entry, reason in zip(hints, reasons, strict=True):
+        wanted = get_origin(entry) or entry
         if isinstance(wanted, type) and _is(value, wanted):
             return reason
-    allowed = " or ".join(getattr(get_origin(one) or one, "__name__", str(one)) for one in hints)
-    return f"{_kind(value)}{place}, must be {allowed}"
+    allowed = " or ".join(
+        getattr(get_origin(entry) or entry, "__name__", str(entry)) for entry in hints
+    )
+    return f"{_kind(value)}{location}, must be {allowed}"
 
 
 def _is(value: Any, wanted: type) -> bool:
@@ -86,15 +92,15 @@ def _is(value: Any, wanted: type) -> bool:
         return True
 
 
-def _inside(value: Any, arguments: Sequence[Any], place: str) -> str:
+def _misfit_of_parts(value: Any, arguments: Sequence[Any], location: str) -> str:
     """Return why a part of a value does not fit."""
-    may_be_missing = place.endswith(f" in {MAY_BE_MISSING}")
+    may_be_missing = location.endswith(f" in {MAY_BE_MISSING}")
     if isinstance(value, np.ndarray | float | np.number):
-        return _of_numbers(np.asarray(value), place, may_be_missing)
+        return _of_numbers(np.asarray(value), location, may_be_missing)
     if isinstance(value, Mapping):
-        parts = [(one, arguments[-1], place) for one in value.values()] if arguments else []
+        parts = [(entry, arguments[-1], location) for entry in value.values()] if arguments else []
     elif isinstance(value, tuple | list) and not hasattr(value, "_fields"):
-        parts = [(one, arguments[0], place) for one in value] if arguments else []
+        parts = [(entry, arguments[0], location) for entry in value] if arguments else []
     elif dataclasses.is_dataclass(value) or hasattr(value, "_fields"):
         hints = _hints(value.__class__)
         parts = [(getattr(value, name), hint, f" in {name}") for name, hint in hints.items()]
@@ -103,11 +109,11 @@ def _inside(value: Any, arguments: Sequence[Any], place: str) -> str:
     return next(filter(None, (misfit(*part) for part in parts)), "")
 
 
-def _of_numbers(numbers: Any, place: str, may_be_missing: bool) -> str:
+def _of_numbers(numbers: Any, location: str, may_be_missing: bool) -> str:
     if numbers.dtype.kind not in "biufc":
-        return f"no numbers{place}"
+        return f"no numbers{location}"
     if np.isinf(numbers).any() or (np.isnan(numbers).any() and not may_be_missing):
-        return f"numbers that are not finite{place}"
+        return f"numbers that are not finite{location}"
     return ""
 
 

@@ -19,7 +19,7 @@ from pydantic_core import CoreSchema
 from .errors import ParameterError
 from .registry import Registry
 
-FURTHER: Final = "further kinds come with --plugin FILE.py"
+FURTHER: Final = "others by --plugin"
 
 
 class Parameters(BaseModel):

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Final
 
 from .errors import PluginError, VibroacousticsError
-from .fault import Place
+from .fault import Owner
 from .fence import fence
 from .regular_file import opened
 
@@ -51,7 +51,7 @@ def load_plugin(path: str | Path) -> None:
     module = module_from_spec(spec)
     sys.modules[name] = module  # its classes are looked up there
     try:
-        with fence(Place("plug-in", str(path), file.name), (VibroacousticsError,)):
+        with fence(Owner("plug-in", str(path), file.name), (VibroacousticsError,)):
             spec.loader.exec_module(module)
         _FILES[name] = file
     except BaseException:

@@ -16,7 +16,7 @@ from pkgutil import iter_modules
 from typing import Any, Final, Generic, NamedTuple, TypeVar
 
 from .errors import ParameterError, PluginError
-from .fault import FaultError, Place, leave_out
+from .fault import FaultError, Owner, leave_out
 from .fence import fence, fenced
 from .hashing import sha256
 
@@ -116,7 +116,7 @@ class Registry(Generic[Thing]):
         origin = self.origin(name)
         if origin is None:
             return nullcontext()
-        return fence(Place(self.noun, name, origin.file, self._things[name]), passing)
+        return fence(Owner(self.noun, name, origin.file, self._things[name]), passing)
 
     @contextmanager
     def spared(self) -> Iterator[None]:
@@ -183,7 +183,7 @@ class Registry(Generic[Thing]):
             prefix = "" if origin is None else f"{origin.file}: "
             raise PluginError(f"{prefix}{self.noun} {name}: {whose}; choose another name")
         if origin is not None:
-            fenced(thing, self.base, Place(self.noun, name, origin.file, thing))
+            fenced(thing, self.base, Owner(self.noun, name, origin.file, thing))
         self._things[name] = thing
         if origin is not None:
             self._origins[name] = origin
@@ -211,7 +211,7 @@ class Registry(Generic[Thing]):
     def _add_installed(self, point: metadata.EntryPoint) -> None:
         """Take in what an installed package brings, except what cannot be loaded."""
         try:
-            with fence(Place(self.noun, point.name, f"{point.module.rpartition('.')[2]}.py")):
+            with fence(Owner(self.noun, point.name, f"{point.module.rpartition('.')[2]}.py")):
                 thing = point.load()
                 if not self.accepts(thing):
                     raise PluginError(f"{point.value}: is no {self.noun}")

@@ -48,7 +48,7 @@ def answer(
         header, rows = (uff_modes.read if request.modes else _recording)(request)
         digest = _digest(request.path) if hashed else ""
     except VibroacousticsError as error:
-        return _told(request, error), ()
+        return _error_header(request, error), ()
     except MemoryError:
         return _refusal(
             f"needs more than the {MAXIMUM_READING_BYTES / 2**30:g} GiB of memory that reading "
@@ -115,7 +115,7 @@ def cut(recording: Recorded, request: Request) -> Recorded:
     return replace(recording, samples=samples, first_sample=first, total_samples=total)
 
 
-def _told(request: Request, error: VibroacousticsError) -> dict[str, Any]:
+def _error_header(request: Request, error: VibroacousticsError) -> dict[str, Any]:
     """What the user shall see of an error; of a plug-in that misses a module, what to install."""
     missing = error.__cause__
     if isinstance(error, FaultError) and isinstance(missing, ModuleNotFoundError):

@@ -21,7 +21,11 @@ def with_lines(
     lines : on what is omitted now
     registries : of sections and columns
     """
-    loaded = [f"{one.noun} {name} is omitted:" for one in registries for name in one.origins()]
+    loaded = [
+        f"{registry.noun} {name} is omitted:"
+        for registry in registries
+        for name in registry.origins()
+    ]
     older = [line for line in lines_of(results) if not line.startswith(tuple(loaded))]
     return keep_lines(results, [*older, *lines])
 

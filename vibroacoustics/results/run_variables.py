@@ -172,6 +172,13 @@ def _check_dimensions(results: xr.Dataset, array: xr.DataArray) -> None:
 
 
 def check_numbers(array: xr.DataArray) -> None:
+    """Refuse a variable without finite numbers, but for those that may be empty by design.
+
+    Raises
+    ------
+    SchemaError
+        Names the variable.
+    """
     if array.dtype.kind not in "iufc":
         raise SchemaError(f"{array.name} holds no numbers")
     if array.name not in EMPTY_WHERE_NONE | ONLY_DRAWS_THAT_COUNT:

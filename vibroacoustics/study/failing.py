@@ -32,8 +32,8 @@ def surviving(study: Study, job: Callable[[Study], Result]) -> Result:
 
 def _without_options(study: Study, fault: FaultError) -> Study:
     kinds = {name: option.kind for name, option in study.options.items()}
-    failing = _failing(fault, kinds, {name: one.kind for name, one in study.sources.items()})
-    options = {name: one for name, one in study.options.items() if name not in failing}
+    failing = _failing(fault, kinds, {name: entry.kind for name, entry in study.sources.items()})
+    options = {name: entry for name, entry in study.options.items() if name not in failing}
     given = {name: values for name, values in study.given.items() if name not in failing}
     return study.model_copy(update={"options": options, "given": given})
 
@@ -109,4 +109,4 @@ def _table(content: Any, *keys: str) -> dict[str, Any]:
 
 
 def _kinds(tables: dict[str, Any]) -> dict[str, Any]:
-    return {name: one.get("kind") for name, one in tables.items() if isinstance(one, dict)}
+    return {name: entry.get("kind") for name, entry in tables.items() if isinstance(entry, dict)}
