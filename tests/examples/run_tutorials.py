@@ -19,23 +19,27 @@ import vibroacoustics as va  # noqa: E402
 
 INCLUDED = re.compile(r"```\{literalinclude\} (\S+)")
 TOML = re.compile(r"^```toml\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+DATA = re.compile(r"^with `(\S+)`:\n\n```text\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
 def main() -> None:
     """All tutorials into one study; the machine's is a study of its own."""
-    files, tables = {}, {}
+    files, tables, data = {}, {}, {}
     for page in sorted(DOCS.glob("add_a_*.md")):
         text = page.read_text(encoding="utf-8")
         files[page.stem] = INCLUDED.findall(text)
         tables[page.stem] = "\n".join(TOML.findall(text))
+        data |= dict(DATA.findall(text))
         for file in files[page.stem]:
             va.load_plugin(DOCS / file)
     with tempfile.TemporaryDirectory() as folder:
-        print(json.dumps({"files": files, **one_study(Path(folder), tables)}))
+        print(json.dumps({"files": files, **one_study(Path(folder), tables, data)}))
 
 
-def one_study(folder: Path, tables: dict[str, str]) -> dict[str, object]:
+def one_study(folder: Path, tables: dict[str, str], data: dict[str, str]) -> dict[str, object]:
     """What is in the results and the report of a study with everything."""
+    for name, content in data.items():
+        (folder / name).write_text(content)
     tiny = TINY.read_text()
     further = [tables[f"add_a_{name}"] for name in ("balancer", "source", "criterion")]
     bare = tiny.replace("../../data/machines/copeland_zp41k3e.toml", str(MACHINE_FILE))

@@ -22,8 +22,8 @@ def followed() -> dict[str, object]:
 
 def test_every_tutorial_has_complete_code(followed):
     assert set(followed["files"]) == {
-        "add_a_balancer", "add_a_criterion", "add_a_machine", "add_a_section", "add_a_source",
-        "add_a_stage",
+        "add_a_balancer", "add_a_criterion", "add_a_machine", "add_a_reader", "add_a_section",
+        "add_a_source", "add_a_stage",
     }  # fmt: skip
     for page, files in followed["files"].items():
         assert files, page
@@ -33,7 +33,7 @@ def test_every_tutorial_has_complete_code(followed):
 
 def test_balancer_source_and_criterion_are_in_the_results(followed):
     assert "counter-shaft" in followed["options"]
-    assert "table" in followed["sources"]
+    assert {"table", "bench"} <= set(followed["sources"])
     assert "force_2x_n" in followed["criteria"]
 
 
