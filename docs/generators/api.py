@@ -12,6 +12,7 @@ def page() -> str:
     groups = {
         "Functions": [name for name, thing in things.items() if inspect.isfunction(thing)],
         "Classes": [name for name, thing in things.items() if inspect.isclass(thing)],
+        "Ports": [name for name, thing in things.items() if isinstance(thing, vibroacoustics.Port)],
         "Modules": [name for name, thing in things.items() if isinstance(thing, ModuleType)],
     }
     parts = [f"{title}\n{'-' * len(title)}\n" for title in groups]
@@ -26,6 +27,9 @@ def directive(head: str, name: str, thing: object) -> str:
     """What sphinx is told of one name."""
     if head == "Functions":
         return f".. autofunction:: {name}\n"
+    if head == "Ports":
+        components = ", ".join(thing.components)
+        return f"{name}\n{'~' * len(name)}\n\nThe port ``{thing.name}``: {components}.\n"
     if head == "Modules":
         return f"{name}\n{'~' * len(name)}\n\n.. automodule:: {thing.__name__}\n   :members:\n"
     fields = {*getattr(thing, "__dataclass_fields__", ()), *getattr(thing, "_fields", ())}

@@ -12,7 +12,7 @@ from ..base.errors import ParameterError
 from .moving_parts import Wrench
 from .ports import BodyPort, Port
 
-A = TypeVar("A", Array, ComplexArray)
+Amplitudes = TypeVar("Amplitudes", Array, ComplexArray)
 PortLoads = Mapping[Port, ComplexArray]
 """Loads by port, (component, ...): complex peaks in the units of the port's components."""
 _FORMER: Final = {
@@ -185,9 +185,9 @@ def in_shell(loads: PortLoads) -> PortLoads:
     return {port: load for port, load in loads.items() if not isinstance(port, BodyPort)}
 
 
-def summed(loads: Iterable[Mapping[Port, A]]) -> dict[Port, A]:
+def summed(loads: Iterable[Mapping[Port, Amplitudes]]) -> dict[Port, Amplitudes]:
     """Sum loads port by port."""
-    total: dict[Port, A] = {}
+    total: dict[Port, Amplitudes] = {}
     for by_port in loads:
         for port, amplitudes in by_port.items():
             total[port] = total[port] + amplitudes if port in total else amplitudes
