@@ -17,7 +17,7 @@ run: $(VENV)/.core
 	$(BIN)/vibroacoustics run $(STUDY)
 
 test: $(VENV)/.dev
-	$(BIN)/pytest -n auto --dist loadfile --no-loadscope-reorder
+	$(BIN)/pytest -n auto --dist loadfile --no-loadscope-reorder --durations=25
 
 long: $(VENV)/.dev
 	$(BIN)/pytest -n auto -m long
