@@ -9,6 +9,8 @@ import pytest
 from support import ROOT
 
 FOLDERS = ("vibroacoustics", "data", "docs", "tests", "pipelines", "benchmarks")
+BUILT = ("docs/_build/", "docs/examples/", "docs/generated/")
+"""Made from the sources by `make docs`."""
 PAGES = ("reports/README.md", "README.md", "CHANGELOG.md")
 SUFFIXES = {".csv", ".md", ".py", ".svg", ".toml", ".txt"}
 # Every pattern has a class of one letter, so that this file does not match itself.
@@ -33,7 +35,10 @@ AUTHORITIES = {
 
 def texts() -> Iterator[Path]:
     for folder in FOLDERS:
-        yield from (path for path in (ROOT / folder).rglob("*") if path.suffix in SUFFIXES)
+        for path in (ROOT / folder).rglob("*"):
+            is_built = path.relative_to(ROOT).as_posix().startswith(BUILT)
+            if path.suffix in SUFFIXES and not is_built:
+                yield path
     yield from (ROOT / page for page in PAGES)
 
 
