@@ -49,7 +49,11 @@ class SoundInRoom(Stage):
     """Sound of the machine at the listeners in the room of the study."""
 
     name = "room"
-    reads = (Cases, ShellPath, "velocity_order", "level_total", "structure_borne_power")
+    reads = (
+        Cases, ShellPath, "velocity_order", "level_total", "pressure_line", "noise_band_level",
+        "remainder_band_level", "baseline_band_level", "draw_weight", "level_total_by_draw",
+        "structure_borne_power", "structure_borne_level",
+    )  # fmt: skip
     gives = (
         "room_absorption_area", "room_wall_absorption", "room_wall_absorption_requested",
         "room_limit", "room_level", "room_level_low", "room_level_middle", "room_level_high",

@@ -83,3 +83,9 @@ def test_every_variable_that_a_stage_names_is_in_the_vocabulary():
     for one in every:
         words = [thing for thing in (*one.reads, *one.gives) if isinstance(thing, str)]
         assert [word for word in words if word not in VARIABLES and word != EVERYTHING] == []
+
+
+def test_the_room_follows_the_samples_whose_bands_it_gives():
+    """Without a plate under the feet nothing else puts it behind them."""
+    order = names(kind() for kind in STAGES.values() if kind.name != "structure-borne")
+    assert order.index("samples") < order.index("room")
