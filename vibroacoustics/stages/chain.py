@@ -1,6 +1,6 @@
 """The chain of one study: its results so far and the typed products that stages hand on."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TypeVar, cast
 
@@ -104,6 +104,17 @@ class Chain:
         further = {type(product): product for product in products}
         kept = self.results if results is None else results
         return replace(self, products={**self.products, **further}, results=kept)
+
+    def limited(self, reads: Collection[str | type]) -> "Chain":
+        """Return the chain with some variables and products alone; coordinates stay.
+
+        Parameters
+        ----------
+        reads : names of variables and types of products
+        """
+        others = [name for name in self.results.data_vars if name not in reads]
+        products = {kind: product for kind, product in self.products.items() if kind in reads}
+        return replace(self, results=self.results.drop_vars(others), products=products)
 
     def at(self, sample: Draw) -> "Chain":
         """Return the chain with the cases, loads and paths of one sample, and nominal results.

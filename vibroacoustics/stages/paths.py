@@ -25,7 +25,7 @@ class Paths(Stage):
     """Paths of the sound, with the nominal values."""
 
     name = "paths"
-    reads = (Cases, ShellPath, ForceSound, "transfer_vector")
+    reads = (Cases, ShellPath, ForceSound, "transfer_vector", "pattern_transfer_vector")
     gives = (Transmission, PublishedCases)
 
     def run(self, chain: Chain) -> Given:

@@ -51,8 +51,9 @@ class SoundInRoom(Stage):
     name = "room"
     reads = (
         Cases, ShellPath, "velocity_order", "level_total", "pressure_line", "noise_band_level",
-        "remainder_band_level", "baseline_band_level", "draw_weight", "level_total_by_draw",
-        "structure_borne_power", "structure_borne_level",
+        "remainder_band_level", "baseline_band_level", "draw_weight", "level_modelled",
+        "level_total_by_draw", "level_modelled_by_draw", "structure_borne_power",
+        "structure_borne_level", "structure_borne_level_low", "structure_borne_level_high",
     )  # fmt: skip
     gives = (
         "room_absorption_area", "room_wall_absorption", "room_wall_absorption_requested",

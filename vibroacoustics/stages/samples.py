@@ -22,7 +22,10 @@ class Samples(Stage):
     """Levels, changes and forces of all cases with the samples that go on."""
 
     name = "samples"
-    reads = (Cases, PublishedCases, Transmission, NominalSound, Bank, "level_total")
+    reads = (
+        Cases, PublishedCases, Transmission, NominalSound, Bank, "force_amplitude",
+        "moment_amplitude", "foot_force_amplitude",
+    )  # fmt: skip
     gives = (
         "level_total_by_draw", "level_modelled_by_draw", "level_remainder_by_draw",
         "source_level_by_draw", "force_1x_by_draw", "moment_1x_by_draw", "foot_force_1x_by_draw",

@@ -16,7 +16,10 @@ class SoundField(Stage):
     """Level of the 1x line on the map, sound power by order, difference of two room methods."""
 
     name = "sound-field"
-    reads = ("velocity_order", "transfer_vector")
+    reads = (
+        "velocity_order", "transfer_vector", "transfer_vector_closed_form", "map_transfer_vector",
+        "surface_transfer_vector",
+    )  # fmt: skip
     gives = ("map_level", "order_sound_power_level", "sound_power_level", "line_difference")
 
     def run(self, chain: Chain) -> Given:

@@ -164,6 +164,9 @@ def _word(thing: str | type) -> str:
 def advanced(chain: Chain, stage: Stage) -> Chain:
     """Run one stage and return the chain with what it gives.
 
+    The stage gets what it names among its reads, so that one that it forgets is missing in every
+    run, not only where the stage that gives it comes later.
+
     Raises
     ------
     PluginError
@@ -176,7 +179,7 @@ def advanced(chain: Chain, stage: Stage) -> Chain:
 
 
 def _advanced(chain: Chain, stage: Stage) -> Chain:
-    given = stage.run(chain)
+    given = stage.run(chain if EVERYTHING in stage.reads else chain.limited(stage.reads))
     if STAGES.origin(stage.name):
         _check_variables(given.results)
     names = {str(name) for name in given.results.data_vars} | {type(one) for one in given.products}

@@ -15,7 +15,7 @@ class Stopping(Stage):
     """Forces, foot forces and sound while the machine runs down, without a balancer."""
 
     name = "stopping"
-    reads = (ShellPath, "transfer_vector", "level_total")
+    reads = (ShellPath, "transfer_vector", "pattern_transfer_vector")
     gives = (
         "stopping_shaft_speed", "stopping_revolutions", "stopping_duration", "stopping_force",
         "stopping_moment", "stopping_foot_force", "stopping_brake_force", "stopping_pressure",
