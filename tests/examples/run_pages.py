@@ -15,7 +15,7 @@ import warnings
 from contextlib import chdir
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "helpers"))
 
 from support import command_here
 

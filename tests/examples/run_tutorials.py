@@ -10,7 +10,7 @@ import tempfile
 from pathlib import Path
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
-sys.path[:0] = [str(DOCS / "gallery"), str(DOCS.parent / "tests")]
+sys.path[:0] = [str(DOCS / "gallery"), str(DOCS.parent / "tests" / "helpers")]
 
 from rough_radiation import rough_radiation  # noqa: E402
 from support import MACHINE_FILE, TINY  # noqa: E402

@@ -21,7 +21,7 @@ import numpy as np
 import xarray as xr
 from torture import Trial, child, ended
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "helpers"))
 from mutated_studies import PATHS, make_tree, write_changed
 from support import TINY, append_hash, made_up_radiation, tiny_run
 

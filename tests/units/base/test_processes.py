@@ -20,7 +20,7 @@ from vibroacoustics.base import processes
 from vibroacoustics.base.errors import SolverError
 from vibroacoustics.base.processes import ProcessPool
 
-TESTS = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 SQUARES = [number**2 for number in range(30)]
 
 
@@ -195,7 +195,7 @@ def started(folder: Path) -> tuple[subprocess.Popen[str], list[psutil.Process]]:
         stderr=subprocess.PIPE,
         text=True,
         start_new_session=True,
-        env={**os.environ, "PYTHONPATH": os.pathsep.join((str(TESTS.parent), str(TESTS)))},
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, (ROOT, ROOT / "tests/helpers")))},
     )
     wait_for(lambda: len(psutil.Process(parent.pid).children()) == 3)  # and Python's tracker
     return parent, psutil.Process(parent.pid).children(recursive=True)

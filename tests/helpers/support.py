@@ -35,7 +35,7 @@ from vibroacoustics.results import hashed
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.study import Study
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 PIPELINES = ROOT / "pipelines"
 TINY = ROOT / "tests" / "studies" / "tiny.toml"
 MACHINE_FILE = ROOT / "data" / "machines" / "copeland_zp41k3e.toml"
