@@ -1,6 +1,7 @@
 """The page of all variables of results: dimensions, unit, meaning, and who makes them."""
 
 import re
+import tomllib
 from functools import cache
 from pathlib import Path
 from typing import Final
@@ -8,7 +9,7 @@ from typing import Final
 import vibroacoustics
 from vibroacoustics.base.vocabulary import COORDINATES, VARIABLES
 
-from .tables import code, first_sentence, table
+from .tables import code, table
 
 PACKAGE: Final = Path(vibroacoustics.__file__).parent
 SUBJECTS: Final = PACKAGE / "base" / "variables"
@@ -53,10 +54,10 @@ def by_subject() -> dict[str, list[str]]:
     """Names by the subject of the file that has them."""
     left = {*VARIABLES, *COORDINATES}
     subjects: dict[str, list[str]] = {}
-    for file in sorted(SUBJECTS.glob("[!_]*.py"), key=place):
+    for file in sorted(SUBJECTS.glob("*.toml"), key=place):
         text = file.read_text(encoding="utf-8")
-        named = re.findall(r'(?:Variable|Coordinate)\(\s*"(\w+)"', text)
-        title = first_sentence(re.match(r'"""(.*?)"""', text, re.DOTALL)[1]).rstrip(".")
+        named = [name for tables in tomllib.loads(text).values() for name in tables]
+        title = text.partition("\n")[0].removeprefix("# ").rstrip(".")
         subjects[title] = [name for name in named if name in left]
         left -= set(named)
     if left:

@@ -25,6 +25,7 @@ IS: Final = {entry["word"] for entry in LISTS["is"]}
 PHRASES: Final = [re.compile(entry["pattern"], re.MULTILINE) for entry in LISTS["phrase"]]
 PROSE: Final = re.compile(r"[A-Za-z]+\s+[A-Za-z]+")
 """Strings without two words in a row are keys and formats."""
+QUOTED: Final = re.compile(r'"[^"]*"|#.*')
 
 
 class Fault(NamedTuple):
@@ -66,6 +67,13 @@ def faults_of_code(path: str, code: str) -> Iterator[Fault]:
         yield from faults_of_text(path, text, first)
 
 
+def faults_of_table(path: str, text: str) -> Iterator[Fault]:
+    """Faults of a table of the package: of its comments and its strings of words."""
+    for number, line in enumerate(text.splitlines(), 1):
+        for part in filter(PROSE.search, QUOTED.findall(line)):
+            yield from faults_of_text(path, part, number)
+
+
 def faults_of_text(path: str, text: str, first: int = 1) -> Iterator[Fault]:
     """Faults of a text that begins at a line."""
     for number, line in enumerate(text.splitlines(), first):
@@ -78,12 +86,14 @@ def faults() -> tuple[Fault, ...]:
     """Faults of the package, the pages and the studies."""
     files = [*ROOT.glob("vibroacoustics/**/*.py"), *ROOT.glob("docs/**/*.md"), ROOT / "README.md"]
     files += [*ROOT.glob("pipelines/*.toml"), *ROOT.glob("data/machines/*.toml")]
+    tables = [*ROOT.glob("vibroacoustics/**/*.toml")]
     built = ("docs/_build/", "docs/examples/", "docs/generated/")
     found: list[Fault] = []
-    for file in sorted(files):
+    for file in sorted(files + tables):
         path = file.relative_to(ROOT).as_posix()
         if not path.startswith(built):
             reader = faults_of_code if file.suffix == ".py" else faults_of_text
+            reader = faults_of_table if file in tables else reader
             found += reader(path, file.read_text(encoding="utf-8"))
     return tuple(found)
 

@@ -10,6 +10,7 @@ from types import ModuleType
 from support import ROOT
 
 import vibroacoustics as va
+from vibroacoustics.base.vocabulary import COORDINATES, VARIABLES
 
 PACKAGE = "vibroacoustics"
 FENCED = re.compile(r"^```(\w*)[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -143,7 +144,7 @@ def definitions() -> frozenset[str]:
 @cache
 def words() -> frozenset[str]:
     """Words of files and results: texts of the package, and fields of its tables."""
-    found = set()
+    found = {*VARIABLES, *COORDINATES}
     for node in (node for tree in _trees() for node in tree.body if not _is_list(node)):
         for inner in ast.walk(node):
             if isinstance(inner, ast.Constant) and isinstance(inner.value, str):

@@ -1,7 +1,7 @@
 """Named things that others can add to: options, machines, criteria, sections, variables, units, …
 
 Built-in things are the modules of the registry's folder: they are imported when a name is first
-looked up, so that a new file edits no other. A stranger's thing comes from an installed package
+looked up, so that a new file edits no other. A thing of a third party comes from an installed package
 (entry point), from a file that the user names, or from a call of `register`; never because a
 study's file says so.
 """
@@ -266,7 +266,7 @@ def origin_of(module: dict[str, Any], version: str = "") -> Origin:
 
 
 def plugins() -> dict[str, dict[str, str]]:
-    """Where every stranger's thing that is loaded comes from, by noun and name, as JSON values."""
+    """Where every loaded thing of a third party comes from, by noun and name, as JSON values."""
     return {
         f"{registry.noun} {name}": origin._asdict()
         for registry in _REGISTRIES

@@ -79,7 +79,7 @@ RIGID_BODY_DOFS: Final = ("tx", "ty", "tz", "rx", "ry", "rz")
 """Translations (m/s) and rotations (rad/s) along and about x, y, z at the centre of mass."""
 WEIGHTINGS: Final = ("Z", "A", "C")
 REFERENCE_OPTION: Final = "none"
-"""The option against which every change is told."""
+"""The option against which changes are computed."""
 GIVEN_SUPPLY: Final = "given by the study"
 DERIVED_SUPPLY: Final = "derived from speed and slip"
 """Attribute `source` of the frequency of the motor's supply."""
