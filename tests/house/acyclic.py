@@ -2,10 +2,10 @@
 
     python tests/house/acyclic.py FOLDER OF THE PACKAGE
 
-Every import counts: at the top of a file, inside a function, and under `if TYPE_CHECKING`, by which
-a package's face lists what it imports when first asked. Importing `a.b` runs `a/__init__.py` too,
-unless the importer itself is inside `a`, where that file runs already. The modules of a registry's
-folder are found by name and import nothing by that.
+Every import counts: at the top of a file, inside a function, under `if TYPE_CHECKING`, and in a
+stub, by which a package's face lists what it imports when first asked. Importing `a.b` runs
+`a/__init__.py` too, unless the importer itself is inside `a`, where that file runs already. The
+modules of a registry's folder are found by name and import nothing by that.
 """
 
 import ast
@@ -53,7 +53,9 @@ def _imported(name: str, file: Path, modules: Mapping[str, Path]) -> list[str]:
 
 def _targets(package: str, file: Path) -> Iterator[str]:
     """Dotted names of what a file of a package imports: modules, or names in modules."""
-    for node in ast.walk(ast.parse(file.read_bytes())):
+    sources = [source for source in (file, file.with_suffix(".pyi")) if source.exists()]
+    trees = [ast.parse(source.read_bytes()) for source in sources]
+    for node in (node for tree in trees for node in ast.walk(tree)):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):

@@ -18,7 +18,7 @@ CODE = re.compile(r"`+([^`\n]+)`+(?!\]\()")
 """Code style, but for the text of a link: that leads to the source or to a page."""
 NAME = re.compile(r"((?:[A-Za-z_]\w*\.)*)([A-Za-z_]\w*)(\(.*\))?")
 CLASS = re.compile(r"[A-Z][A-Z]*[a-z]\w*")
-LISTS = ("__all__", "_HOME")
+LISTS = ("__all__",)
 ENDINGS = ("html",)
 """Of names of files that are names of functions, too."""
 

@@ -1,24 +1,37 @@
 """Public names of a package that are imported when they are first asked for."""
 
-from collections.abc import Mapping
+import ast
+from collections.abc import Callable
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 
-def imported(package: str, home: Mapping[str, str], name: str) -> Any:
-    """A public name of a package; for its `__getattr__`.
+def public_names(
+    package: str, file: str
+) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
+    """Make `__getattr__`, `__dir__` and `__all__` of a package from its stub.
 
     Parameters
     ----------
-    package : that is asked
-    home : module within the package, by name
-    name : that is asked for
-
-    Raises
-    ------
-    AttributeError
-        The package has no such name.
+    package : its dotted name
+    file : its `__init__.py`; the stub beside it, `__init__.pyi`, imports every public name
     """
-    if name not in home:
-        raise AttributeError(f"module {package} has no attribute {name}")
-    return getattr(import_module(f"{package}.{home[name]}"), name)
+    stub = ast.parse(Path(file).with_suffix(".pyi").read_text("utf-8"))
+    home = {
+        alias.name: statement.module
+        for statement in stub.body
+        if isinstance(statement, ast.ImportFrom)
+        for alias in statement.names
+    }
+    names = sorted(home)
+
+    def attribute(name: str) -> Any:
+        if name not in home:
+            raise AttributeError(f"module {package} has no attribute {name}")
+        module = home[name]
+        if module is None:
+            return import_module(f"{package}.{name}")
+        return getattr(__import__(f"{package}.{module}", fromlist=[name]), name)
+
+    return attribute, lambda: names, names

@@ -1,9 +1,9 @@
 """Named things that others can add to: options, machines, criteria, sections, variables, units, …
 
 Built-in things are the modules of the registry's folder: they are imported when a name is first
-looked up, so that a new file edits no other. A thing of a third party comes from an installed package
-(entry point), from a file that the user names, or from a call of `register`; never because a
-study's file says so.
+looked up, so that a new file edits no other. A thing of a third party comes from an installed
+package (entry point), from a file that the user names, or from a call of `register`; never because
+a study's file says so.
 """
 
 import sys

@@ -1,0 +1,14 @@
+from .blocks import FileBlocks as FileBlocks
+from .blocks import LabelledBlocks as LabelledBlocks
+from .blocks import open_recording as open_recording
+from .export import csv_bytes as csv_bytes
+from .export import wav_bytes as wav_bytes
+from .function_export import functions_csv as functions_csv
+from .function_export import functions_uff as functions_uff
+from .functions import read_functions as read_functions
+from .measured_function import MeasuredFunction as MeasuredFunction
+from .measured_function import Node as Node
+from .modes import MeasuredModes as MeasuredModes
+from .modes import read_modes as read_modes
+from .reading import read_recording as read_recording
+from .recording import label_recording as label_recording
