@@ -1,103 +1,25 @@
 """What the command line's words mean, checked."""
 
 from collections.abc import Sequence
+from typing import TypeVar
 
 from ..base.errors import ParameterError
-from ..study.order_analysis import (
-    BAND_METHODS,
-    DEFAULT_COMB,
-    EDGES,
-    BandMethod,
-    Edge,
-    NominalSpeed,
-    OrderAnalysis,
-    SpeedChannel,
-    SpeedSource,
-    TacholessSpeed,
-)
+
+Choice = TypeVar("Choice", bound=str)
 
 
-def order_analysis(
-    source: SpeedSource,
-    orders: str,
-    maximum_order: float,
-    resolution: float,
-    speed_step: float,
-    with_map: bool,
-    bands: str,
-) -> OrderAnalysis:
-    """Settings of an analysis from the options of `orders`.
+def chosen(option: str, text: str, choices: Sequence[Choice]) -> Choice:
+    """Return the choice that a text names.
 
     Raises
     ------
     ParameterError
-        The orders are no numbers, or `bands` is neither way.
+        It names none.
     """
-    numbers = order_numbers(orders)
-    return OrderAnalysis(
-        source, numbers, maximum_order, resolution, speed_step, with_map, band_method(bands)
-    )
-
-
-def band_method(text: str) -> BandMethod:
-    """How third octaves come about.
-
-    Raises
-    ------
-    ParameterError
-        In neither way.
-    """
-    for method in BAND_METHODS:
-        if text == method:
-            return method
-    raise ParameterError(f"--bands {text!r}: must be one of {', '.join(BAND_METHODS)}")
-
-
-def speed_source(
-    speed: str | None,
-    pulses: int,
-    index: str | None,
-    rpm: float | None,
-    tacholess: tuple[float, float] | None,
-    comb: str | None = None,
-    mains_hz: float | None = None,
-    threshold: float | None = None,
-    edge: str | None = None,
-) -> SpeedSource:
-    """Where the speed of a recording comes from.
-
-    Raises
-    ------
-    ParameterError
-        From nowhere or from two places, or an option belongs to another source.
-    """
-    given = [rpm is not None, tacholess is not None, speed is not None and tacholess is None]
-    if sum(given) != 1:
-        raise ParameterError(
-            "speed: give one of --speed CHANNEL, --rpm NUMBER and --tacholess LOWEST HIGHEST"
-        )
-    of_a_tacho = pulses != 1 or any(one is not None for one in (index, threshold, edge))
-    if of_a_tacho and (rpm is not None or tacholess is not None):
-        raise ParameterError(
-            "--index, --pulses, --threshold, --edge: belong to a tacho, --speed CHANNEL"
-        )
-    if (comb is not None or mains_hz is not None) and tacholess is None:
-        raise ParameterError("--comb, --mains: belong to --tacholess LOWEST HIGHEST")
-    if tacholess is not None:
-        orders = DEFAULT_COMB if comb is None else order_numbers(comb, "--comb")
-        return TacholessSpeed(speed, *tacholess, orders, mains_hz)
-    if rpm is not None:
-        return NominalSpeed(rpm)
-    return SpeedChannel(str(speed), pulses, index, threshold, _edge(edge))
-
-
-def _edge(text: str | None) -> Edge | None:
-    for edge in EDGES:
-        if text == edge:
-            return edge
-    if text is not None:
-        raise ParameterError(f"--edge {text!r}: must be one of {', '.join(EDGES)}")
-    return None
+    for choice in choices:
+        if text == choice:
+            return choice
+    raise ParameterError(f"{option} {text!r}: must be one of {', '.join(choices)}")
 
 
 def order_numbers(text: str, option: str = "--orders") -> tuple[float, ...]:

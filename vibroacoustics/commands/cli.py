@@ -27,7 +27,17 @@ from . import (
     score_commands,
     sound_power_commands,
 )
-from .options import NoCache, Paper, Pdf, Plugins, load_plugins, used_cache
+from .options import (
+    NoCache,
+    Paper,
+    Pdf,
+    Plugins,
+    ResultsFile,
+    StudyOut,
+    load_plugins,
+    out_option,
+    used_cache,
+)
 from .progress import progress_on_stderr
 
 if TYPE_CHECKING:
@@ -46,25 +56,23 @@ app = typer.Typer(
     rich_markup_mode=None,
 )
 
-app.add_typer(run_commands.commands)
-app.add_typer(curve_commands.commands)
-app.add_typer(recording_commands.commands)
-app.add_typer(sound_power_commands.commands)
-app.add_typer(comparison_commands.commands)
-app.add_typer(prediction_commands.commands)
-app.add_typer(design_commands.commands)
-app.add_typer(schema_commands.commands)
-app.add_typer(check_commands.commands)
-app.add_typer(score_commands.commands)
-app.add_typer(data_sheet_commands.commands)
-app.add_typer(listen_commands.commands)
+for _module in (
+    run_commands,
+    curve_commands,
+    recording_commands,
+    sound_power_commands,
+    comparison_commands,
+    prediction_commands,
+    design_commands,
+    schema_commands,
+    check_commands,
+    score_commands,
+    data_sheet_commands,
+    listen_commands,
+):
+    app.add_typer(_module.commands)
 
 StudyFile = Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study to run.")]
-Out = Annotated[
-    Path | None,
-    typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE STUDY."),
-]
-ResultsFile = Annotated[Path, typer.Argument(metavar="RESULTS.nc", help="Results of a run.")]
 
 
 def _print_version(asked: bool) -> None:
@@ -112,7 +120,7 @@ def _run(left_out: list[str]) -> None:
 @app.command("radiation")
 def radiation_command(
     study_file: StudyFile,
-    out: Out = None,
+    out: StudyOut = None,
     plugin: Plugins = None,
     no_cache: NoCache = False,
 ) -> None:
@@ -132,7 +140,7 @@ def radiation_command(
 def report_command(
     results_file: ResultsFile,
     out: Annotated[
-        Path | None, typer.Option("--out", help="Folder of the report; default: that of the file.")
+        Path | None, out_option("Folder of the report; default: that of the file.")
     ] = None,
     plugin: Plugins = None,
     pdf: Pdf = False,

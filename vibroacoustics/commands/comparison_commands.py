@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
-from .options import Paper, Pdf
+from .options import Paper, Pdf, out_option
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -42,9 +42,7 @@ def compare_command(
     tacho_angle: Annotated[
         float, typer.Option(help="Crank angle of A where B's tacho gives its pulse, degrees.")
     ] = 0.0,
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder of the results; default: that of B.")
-    ] = None,
+    out: Annotated[Path | None, out_option("Folder of the results; default: that of B.")] = None,
     limits: Annotated[
         Path | None,
         typer.Option(

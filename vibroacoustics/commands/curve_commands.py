@@ -5,6 +5,8 @@ from typing import Annotated, Final
 
 import typer
 
+from .options import out_option
+
 CURVES_NAME: Final = "curves.nc"
 
 commands = typer.Typer()
@@ -21,8 +23,7 @@ def curves_command(
         str, typer.Option(help="Balancing option of the study, such as a redesign.")
     ] = "none",
     out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder; default: reports/NAME OF THE FILE/curves."),
+        Path | None, out_option("Folder; default: reports/NAME OF THE FILE/curves.")
     ] = None,
     plugin: Annotated[
         list[Path] | None,

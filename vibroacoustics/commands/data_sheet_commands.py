@@ -5,14 +5,14 @@ from typing import Annotated
 
 import typer
 
-from .options import Plugins, load_plugins
+from .options import Plugins, ResultsFile, load_plugins, out_option
 
 commands = typer.Typer()
 
 
 @commands.command("datasheet")
 def datasheet_command(
-    results_file: Annotated[Path, typer.Argument(metavar="RESULTS.nc", help="Results of a run.")],
+    results_file: ResultsFile,
     option: Annotated[str, typer.Option(help="Balancing option.")] = "none",
     speed: Annotated[
         float | None, typer.Option(help="One of the speeds, rpm; default: the first.")
@@ -28,9 +28,7 @@ def datasheet_command(
             help="Point of the housing, mm, from the axis and above the floor.",
         ),
     ] = None,
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder; default: that of the file.")
-    ] = None,
+    out: Annotated[Path | None, out_option("Folder; default: that of the file.")] = None,
     plugin: Plugins = None,
 ) -> None:
     """Write the data sheet of an option, predicted: page, CSV and JSON (ISO 4871, EN 12102-1)."""

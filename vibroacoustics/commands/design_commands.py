@@ -1,25 +1,24 @@
 """Commands for designs. Heavy imports wait until they are needed."""
 
-from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
-from functools import partial
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
 from . import messages
-from .options import Paper, Pdf, Plugins, load_plugins
+from .grouped import with_groups
+from .options import Paper, Pdf, Plugins, StudyOut, load_plugins
 from .progress import progress_on_stderr
+from .workers import Workers
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from ..design.evaluation import Evaluate
     from ..design.problem import Problem
-    from ..design.workers.spread import ParallelMap
-
-    Opener = Callable[[], AbstractContextManager[ParallelMap]]
+    from .workers import Opener
 
 SWEEP_NAME: Final = "sweep.nc"
 TABLE_NAME: Final = "sweep.csv"
@@ -32,49 +31,15 @@ commands = typer.Typer()
 StudyFile = Annotated[
     Path, typer.Argument(metavar="STUDY.toml", help="The study with a table `design`.")
 ]
-Out = Annotated[
-    Path | None,
-    typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE STUDY."),
-]
-Workers = Annotated[
-    int, typer.Option(min=0, max=1000, help="Local processes that compute; 0: this one alone.")
-]
-Scheduler = Annotated[
-    str | None,
-    typer.Option(
-        metavar="tls://HOST:PORT", help="Running scheduler of dask.distributed, for its workers."
-    ),
-]
-TlsCa = Annotated[
-    Path | None,
-    typer.Option(metavar="FILE.pem", help="Certificate of the scheduler's own authority."),
-]
-TlsCert = Annotated[
-    Path | None,
-    typer.Option(metavar="FILE.pem", help="Your certificate, signed by this authority."),
-]
-TlsKey = Annotated[
-    Path | None, typer.Option(metavar="FILE.pem", help="Private key of your certificate.")
-]
-Insecure = Annotated[
-    bool,
-    typer.Option(
-        "--insecure",
-        help="Use a scheduler without TLS: whoever reaches it may run code as its users.",
-    ),
-]
 
 
 @commands.command("sweep")
+@with_groups
 def sweep_command(
     study_file: StudyFile,
-    out: Out = None,
-    workers: Workers = 0,
-    scheduler: Scheduler = None,
-    tls_ca: TlsCa = None,
-    tls_cert: TlsCert = None,
-    tls_key: TlsKey = None,
-    insecure: Insecure = False,
+    *,
+    out: StudyOut = None,
+    workers: Workers,
     plugin: Plugins = None,
     longest: Annotated[
         float,
@@ -96,7 +61,7 @@ def sweep_command(
     from .printing import printer
 
     prints = printer(pdf, paper)
-    opened = _opener(workers, scheduler, tls_ca, tls_cert, tls_key, insecure)
+    opened = workers.opener()
     problem, folder = _problem(study_file, out, plugin)
     prepared = prepare(problem, 3600.0 * longest)
     typer.echo(f"plan: {prepared.plan.text}")
@@ -122,15 +87,12 @@ def sweep_command(
 
 
 @commands.command("optimise")
+@with_groups
 def optimise_command(
     study_file: StudyFile,
-    out: Out = None,
-    workers: Workers = 0,
-    scheduler: Scheduler = None,
-    tls_ca: TlsCa = None,
-    tls_cert: TlsCert = None,
-    tls_key: TlsKey = None,
-    insecure: Insecure = False,
+    *,
+    out: StudyOut = None,
+    workers: Workers,
     plugin: Plugins = None,
     pdf: Pdf = False,
     paper: Paper = None,
@@ -145,7 +107,7 @@ def optimise_command(
     from .printing import printer
 
     prints = printer(pdf, paper)
-    opened = _opener(workers, scheduler, tls_ca, tls_cert, tls_key, insecure)
+    opened = workers.opener()
     problem, folder = _problem(study_file, out, plugin)
     with (
         _evaluating(problem, study_file, folder / SEARCH_CHUNKS, opened, plugin) as evaluate,
@@ -186,29 +148,6 @@ def _report(
 
     texts = best_studies(problem, search, study_file, folder)
     return report.render_designs(search) | {name: text.encode() for name, text in texts.items()}
-
-
-def _opener(
-    workers: int,
-    scheduler: str | None,
-    tls_ca: Path | None,
-    tls_cert: Path | None,
-    tls_key: Path | None,
-    insecure: bool,
-) -> "Opener | None":
-    """What opens the workers that are asked for; None where this process computes."""
-    from ..base.errors import ParameterError
-    from ..design.workers.scheduler import SchedulerAccess, opened_scheduler
-    from ..design.workers.spread import local_workers
-
-    if scheduler is not None:
-        if workers:
-            raise ParameterError("--workers contradicts --scheduler: remove one of both")
-        access = SchedulerAccess(scheduler, tls_ca, tls_cert, tls_key, insecure)
-        return partial(opened_scheduler, access)
-    if tls_ca or tls_cert or tls_key or insecure:
-        raise ParameterError("--tls-ca, --tls-cert, --tls-key, --insecure: need --scheduler")
-    return partial(local_workers, workers) if workers else None
 
 
 @contextmanager

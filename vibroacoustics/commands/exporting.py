@@ -142,7 +142,5 @@ def export_forces(results: xr.Dataset, path: str | Path, option: str = REFERENCE
 
 def _written(file: Path, content: bytes) -> Path:
     """Write a file, whole or not at all."""
-    with files.only_writer(file.parent) as staged:
-        files.write(staged, file.name, content)
-        files.replace_all(staged)
+    files.write_together(file.parent, {file.name: content})
     return file

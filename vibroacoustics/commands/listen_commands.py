@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from .options import NoCache, Plugins, load_plugins, used_cache
+from .options import NoCache, Plugins, ResultsFile, load_plugins, out_option, used_cache
 from .progress import progress_on_stderr
 
 commands = typer.Typer()
@@ -13,7 +13,7 @@ commands = typer.Typer()
 
 @commands.command("listen")
 def listen_command(
-    results_file: Annotated[Path, typer.Argument(metavar="RESULTS.nc", help="Results of a run.")],
+    results_file: ResultsFile,
     option: Annotated[
         list[str] | None, typer.Option(help="Option to listen to; default: all.")
     ] = None,
@@ -42,8 +42,7 @@ def listen_command(
         str, typer.Option("--format", help="wav, or flac (extra `sound`).")
     ] = "wav",
     out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder of the sounds; default: sound, beside the file."),
+        Path | None, out_option("Folder of the sounds; default: sound, beside the file.")
     ] = None,
 ) -> None:
     """Write the sound of options where one listens, all at one gain, which the names state."""
@@ -84,10 +83,7 @@ def impulse_responses_command(
     ] = None,
     out: Annotated[
         Path | None,
-        typer.Option(
-            "--out",
-            help="Folder of the files; default: reports/NAME OF THE STUDY/impulse_responses.",
-        ),
+        out_option("Folder of the files; default: reports/NAME OF THE STUDY/impulse_responses."),
     ] = None,
     plugin: Plugins = None,
     no_cache: NoCache = False,

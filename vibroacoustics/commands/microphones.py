@@ -1,6 +1,7 @@
 """Recordings of several files that are one measurement, and the room that it was made in."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,9 +19,7 @@ Absorption = float | dict[float, float] | None
 def read_files(
     files: Sequence[Path],
     all_files: Sequence[Path],
-    unit: list[str] | None,
-    calibration: list[str] | None,
-    sample_rate_hz: float | None,
+    reading: Reading,
     plugins: list[Path] | None,
 ) -> list[xr.Dataset]:
     """Recordings, each with the assignments that are its own.
@@ -31,18 +30,18 @@ def read_files(
     ----------
     files : to be read
     all_files : that assignments may name
-    unit, calibration : assignments of the command line
-    sample_rate_hz : of all files, instead of theirs
+    reading : options of the command line
     plugins : files with readers
     """
     stems = [file.stem for file in all_files]
     return [
-        Reading(
-            file, _of_file(unit, file.stem, stems), _of_file(calibration, file.stem, stems), None,
-            sample_rate_hz, None, None, plugins,
-        ).at_once()
+        replace(
+            reading,
+            unit=_of_file(reading.unit, file.stem, stems),
+            calibration=_of_file(reading.calibration, file.stem, stems),
+        ).at_once(file, plugins)
         for file in files
-    ]  # fmt: skip
+    ]
 
 
 def _of_file(given: list[str] | None, stem: str, stems: Sequence[str]) -> list[str] | None:

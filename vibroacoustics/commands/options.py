@@ -2,10 +2,23 @@
 
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
+
+def out_option(words: str) -> Any:
+    """Return the option `--out` with its help."""
+    return typer.Option("--out", help=words)
+
+
+ResultsFile = Annotated[Path, typer.Argument(metavar="RESULTS.nc", help="Results of a run.")]
+FileOut = Annotated[
+    Path | None, out_option("Folder of the results; default: reports/NAME OF THE FILE.")
+]
+StudyOut = Annotated[
+    Path | None, out_option("Folder of the results; default: reports/NAME OF THE STUDY.")
+]
 Plugins = Annotated[
     list[Path] | None,
     typer.Option(

@@ -5,6 +5,8 @@ from typing import Annotated, Final
 
 import typer
 
+from .options import FileOut
+
 PREDICTION_NAME: Final = "prediction.nc"
 BLOCKED_NAME: Final = "blocked_forces.nc"
 
@@ -16,10 +18,7 @@ def predict_command(
     file: Annotated[
         Path, typer.Argument(metavar="FILE.toml", help="Measured files, mounts and changes.")
     ],
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE FILE."),
-    ] = None,
+    out: FileOut = None,
 ) -> None:
     """Predict a change of mounts, masses or absorbers from measurements alone, with a band."""
     from .. import report
@@ -45,10 +44,7 @@ def blocked_forces_command(
     file: Annotated[
         Path, typer.Argument(metavar="FILE.toml", help="Measured files and the interface.")
     ],
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE FILE."),
-    ] = None,
+    out: FileOut = None,
 ) -> None:
     """Find a source's blocked forces (ISO 20270) where it stands, validated on board."""
     from .. import report

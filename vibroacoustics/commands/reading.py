@@ -1,71 +1,88 @@
-"""A recording as the options of a command ask for it."""
+"""A recording as the options of a command ask for it. Heavy imports wait until it is read."""
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-import xarray as xr
+import typer
 
-from ..base.recording_blocks import RecordingBlocks
-from ..recordings import LabelledBlocks, open_recording, read_recording
-from ..recordings.recorded import TooLargeError
-from . import arguments
 from .options import load_plugins
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from ..base.recording_blocks import RecordingBlocks
+
+SampleRate = Annotated[
+    float | None, typer.Option(help="Actual sample rate, Hz, instead of the file's.")
+]
 
 
 @dataclass(frozen=True)
 class Reading:
-    """What is read, in the words of the options.
+    """Options of what is read of a recording.
 
     Attributes
     ----------
-    file : of the recording
     unit, calibration : assignments CHANNEL=UNIT and CHANNEL=FACTOR
     channels : names, with commas
-    sample_rate_hz : instead of the file's
+    sample_rate : instead of the file's
     from_s, to_s : part of the recording
-    plugins : files with readers
     """
 
-    file: Path
-    unit: list[str] | None
-    calibration: list[str] | None
-    channels: str | None
-    sample_rate_hz: float | None
-    from_s: float | None
-    to_s: float | None
-    plugins: list[Path] | None
+    unit: Annotated[
+        list[str] | None,
+        typer.Option("--unit", metavar="CHANNEL=UNIT", help="Where the file states none."),
+    ] = None
+    calibration: Annotated[
+        list[str] | None,
+        typer.Option(metavar="CHANNEL=FACTOR", help="Unit per unit stored in the file."),
+    ] = None
+    channels: Annotated[str | None, typer.Option(help="Channels to read, with commas.")] = None
+    sample_rate: SampleRate = None
+    from_s: Annotated[
+        float | None,
+        typer.Option("--from", help="Begin of the part to read, s from the first sample."),
+    ] = None
+    to_s: Annotated[float | None, typer.Option("--to", help="End of the part to read, s.")] = None
 
-    def at_once(self) -> xr.Dataset:
-        """All that is asked for.
+    def at_once(self, file: Path, plugins: list[Path] | None) -> "xr.Dataset":
+        """Read all that is asked for of a file, by built-in readers and those of plug-ins.
 
         Raises
         ------
         ParameterError, StorageError
             It cannot be read, or is larger than the cap.
         """
-        load_plugins(self.plugins)
-        return read_recording(self.file, **self._asked())
+        from ..recordings import read_recording
 
-    def in_blocks(self) -> RecordingBlocks:
-        """The same in memory; what is too large for that stays in its file.
+        load_plugins(plugins)
+        return read_recording(file, **self._asked())
+
+    def in_blocks(self, file: Path, plugins: list[Path] | None) -> "RecordingBlocks":
+        """Read the same into memory; what is too large for that stays in its file.
 
         Raises
         ------
         ParameterError, StorageError
             It cannot be read.
         """
+        from ..recordings import LabelledBlocks, open_recording
+        from ..recordings.recorded import TooLargeError
+
         try:
-            return LabelledBlocks(self.at_once())
+            return LabelledBlocks(self.at_once(file, plugins))
         except TooLargeError:
-            return open_recording(self.file, **self._asked())
+            return open_recording(file, **self._asked())
 
     def _asked(self) -> dict[str, Any]:
+        from . import arguments
+
         return {
             "units": arguments.assignments("--unit", self.unit),
             "calibration": arguments.numbers("--calibration", self.calibration),
             "channels": None if self.channels is None else self.channels.split(","),
-            "sample_rate_hz": self.sample_rate_hz,
+            "sample_rate_hz": self.sample_rate,
             "from_s": self.from_s,
             "to_s": self.to_s,
         }

@@ -8,81 +8,25 @@ from typing import Annotated
 
 import typer
 
+from .grouped import with_groups
 from .option_words import in_own_words
-from .options import LimitsFile, Paper, Pdf, Plugins
+from .options import FileOut, LimitsFile, Paper, Pdf, Plugins
 from .progress import progress_on_stderr
+from .reading import Reading
+from .speed_options import SpeedOptions
 
 commands = typer.Typer()
 
 Recording = Annotated[Path, typer.Argument(metavar="FILE", help="The recording.")]
-Speed = Annotated[
-    str | None,
-    typer.Option(
-        help="Channel of the tacho, or of the speed in rpm; with --tacholess, of the signal."
-    ),
-]
-Pulses = Annotated[int, typer.Option(help="Pulses of the tacho per revolution.")]
-Index = Annotated[
-    str | None, typer.Option(help="Channel with one pulse a revolution: crank angle zero.")
-]
-Threshold = Annotated[
-    float | None,
-    typer.Option(help="Level of the tacho that marks the angle, in its unit; default: follows it."),
-]
-Edge = Annotated[
-    str | None,
-    typer.Option("--edge", help="Edge of the tacho's pulses: rising or falling; default: auto."),
-]
-Rpm = Annotated[float | None, typer.Option(help="Nominal speed, instead of a channel.")]
-Tacholess = Annotated[
-    tuple[float, float] | None,
-    typer.Option(metavar="LOWEST HIGHEST", help="Find the speed in the signal, rpm."),
-]
-Comb = Annotated[
-    str | None,
-    typer.Option(
-        help="With --tacholess: orders that the machine has, with commas; default: 1 to 10."
-    ),
-]
-Mains = Annotated[
-    float | None,
-    typer.Option(help="With --tacholess: frequency of the mains, Hz; its multiples are left out."),
-]
-Units = Annotated[
-    list[str] | None,
-    typer.Option("--unit", metavar="CHANNEL=UNIT", help="Where the file states none."),
-]
-Calibration = Annotated[
-    list[str] | None,
-    typer.Option(metavar="CHANNEL=FACTOR", help="Unit per unit stored in the file."),
-]
-Channels = Annotated[str | None, typer.Option(help="Channels to read, with commas.")]
-SampleRate = Annotated[
-    float | None, typer.Option(help="Actual sample rate, Hz, instead of the file's.")
-]
-From = Annotated[
-    float | None, typer.Option("--from", help="Begin of the part to read, s from the first sample.")
-]
-To = Annotated[float | None, typer.Option("--to", help="End of the part to read, s.")]
-Out = Annotated[
-    Path | None,
-    typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE FILE."),
-]
 
 
 @commands.command("orders")
 @in_own_words
+@with_groups
 def orders_command(
     recording_file: Recording,
-    speed: Speed = None,
-    pulses: Pulses = 1,
-    index: Index = None,
-    threshold: Threshold = None,
-    edge: Edge = None,
-    rpm: Rpm = None,
-    tacholess: Tacholess = None,
-    comb: Comb = None,
-    mains: Mains = None,
+    *,
+    speed: SpeedOptions,
     orders: Annotated[str, typer.Option(help="Orders wanted, with commas.")] = "1,2,3,4",
     maximum_order: Annotated[float, typer.Option(help="Highest order of spectra and map.")] = 20.0,
     resolution: Annotated[float, typer.Option(help="Coarsest resolution, orders.")] = 0.25,
@@ -91,13 +35,8 @@ def orders_command(
     bands: Annotated[
         str, typer.Option(help="Third octaves: sums of lines, or filters of IEC 61260-1.")
     ] = "sums",
-    unit: Units = None,
-    calibration: Calibration = None,
-    channels: Channels = None,
-    sample_rate: SampleRate = None,
-    from_s: From = None,
-    to_s: To = None,
-    out: Out = None,
+    reading: Reading,
+    out: FileOut = None,
     limits: LimitsFile = None,
     plugin: Plugins = None,
     pdf: Pdf = False,
@@ -105,21 +44,24 @@ def orders_command(
 ) -> None:
     """Find the orders of a recording: orders.html, netCDF, CSV, figures and a table."""
     from .. import pipeline, report
-    from . import arguments, checking, outputs, reading
+    from ..study.order_analysis import BAND_METHODS, OrderAnalysis
+    from . import arguments, checking, outputs
     from .printing import printer
 
-    source = arguments.speed_source(
-        speed, pulses, index, rpm, tacholess, comb, mains, threshold, edge
-    )
-    settings = arguments.order_analysis(
-        source, orders, maximum_order, resolution, speed_step, with_map, bands
+    source = speed.source()
+    settings = OrderAnalysis(
+        source,
+        arguments.order_numbers(orders),
+        maximum_order,
+        resolution,
+        speed_step,
+        with_map,
+        arguments.chosen("--bands", bands, BAND_METHODS),
     )
     folder, prints = out or Path("reports") / recording_file.stem, printer(pdf, paper)
     outputs.check_folder(folder)
     allowed = checking.read(limits)
-    recording = reading.Reading(
-        recording_file, unit, calibration, channels, sample_rate, from_s, to_s, plugin
-    ).in_blocks()
+    recording = reading.in_blocks(recording_file, plugin)
     with progress_on_stderr() as progress:
         results = pipeline.analyse_orders(recording, settings, progress)
         results = checking.held_against(results, allowed)
@@ -134,44 +76,29 @@ def orders_command(
 
 @commands.command("track")
 @in_own_words
+@with_groups
 def track_command(
     recording_file: Recording,
+    *,
     bandwidth: Annotated[
         float, typer.Option(help="Full width at -3 dB of what passes around each order, Hz.")
     ],
-    speed: Speed = None,
-    pulses: Pulses = 1,
-    index: Index = None,
-    threshold: Threshold = None,
-    edge: Edge = None,
-    rpm: Rpm = None,
-    tacholess: Tacholess = None,
-    comb: Comb = None,
-    mains: Mains = None,
+    speed: SpeedOptions,
     orders: Annotated[str, typer.Option(help="Orders to track, with commas.")] = "1,2,3,4",
     poles: Annotated[int, typer.Option(help="1, 2 or 3: steepness of the filter.")] = 2,
-    unit: Units = None,
-    calibration: Calibration = None,
-    channels: Channels = None,
-    sample_rate: SampleRate = None,
-    from_s: From = None,
-    to_s: To = None,
-    out: Out = None,
+    reading: Reading,
+    out: FileOut = None,
     plugin: Plugins = None,
 ) -> None:
     """Track orders over the time of a recording (Vold-Kalman): netCDF, figures and a table."""
     from .. import pipeline, report
-    from . import arguments, outputs, reading, recorded_outputs
+    from . import arguments, outputs, recorded_outputs
 
-    source = arguments.speed_source(
-        speed, pulses, index, rpm, tacholess, comb, mains, threshold, edge
-    )
+    source = speed.source()
     numbers = arguments.order_numbers(orders)
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
-    recording = reading.Reading(
-        recording_file, unit, calibration, channels, sample_rate, from_s, to_s, plugin
-    ).at_once()
+    recording = reading.at_once(recording_file, plugin)
     tracked = pipeline.track_orders(recording, source, numbers, bandwidth, poles)
     written = recorded_outputs.write_tracked(tracked, folder)
     typer.echo(report.tracked_text(tracked))
@@ -180,42 +107,27 @@ def track_command(
 
 @commands.command("map")
 @in_own_words
+@with_groups
 def map_command(
     recording_file: Recording,
-    speed: Speed = None,
-    pulses: Pulses = 1,
-    index: Index = None,
-    threshold: Threshold = None,
-    edge: Edge = None,
-    rpm: Rpm = None,
-    tacholess: Tacholess = None,
-    comb: Comb = None,
-    mains: Mains = None,
+    *,
+    speed: SpeedOptions,
     resolution: Annotated[float, typer.Option(help="Coarsest resolution, Hz.")] = 5.0,
     maximum_frequency: Annotated[
         float | None, typer.Option(help="Highest frequency, Hz; default: all.")
     ] = None,
-    unit: Units = None,
-    calibration: Calibration = None,
-    channels: Channels = None,
-    sample_rate: SampleRate = None,
-    from_s: From = None,
-    to_s: To = None,
-    out: Out = None,
+    reading: Reading,
+    out: FileOut = None,
     plugin: Plugins = None,
 ) -> None:
     """Draw a recording over speed and frequency, its level over the speed: page, figures."""
     from .. import pipeline
-    from . import arguments, outputs, reading, recorded_outputs
+    from . import outputs, recorded_outputs
 
-    source = arguments.speed_source(
-        speed, pulses, index, rpm, tacholess, comb, mains, threshold, edge
-    )
+    source = speed.source()
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
-    recording = reading.Reading(
-        recording_file, unit, calibration, channels, sample_rate, from_s, to_s, plugin
-    ).at_once()
+    recording = reading.at_once(recording_file, plugin)
     mapped = pipeline.speed_frequency_map(recording, source, resolution, maximum_frequency)
     typer.echo(f"speed-frequency map: {recorded_outputs.write_speed_map(mapped, folder)}")
     typer.echo(f"report: {folder / recorded_outputs.SPEED_MAP_REPORT_NAME}")
@@ -223,45 +135,35 @@ def map_command(
 
 @commands.command("export")
 @in_own_words
+@with_groups
 def export_command(
     recording_file: Recording,
+    *,
     out: Annotated[Path, typer.Option("--out", help="File that ends in .csv, .wav or .nc.")],
-    unit: Units = None,
-    calibration: Calibration = None,
-    channels: Channels = None,
-    sample_rate: SampleRate = None,
-    from_s: From = None,
-    to_s: To = None,
+    reading: Reading,
     plugin: Plugins = None,
 ) -> None:
     """Write a recording as CSV, WAV or netCDF in SI units."""
-    from . import exporting, outputs, reading
+    from . import exporting, outputs
 
     outputs.check_folder(out.parent)
-    recording = reading.Reading(
-        recording_file, unit, calibration, channels, sample_rate, from_s, to_s, plugin
-    ).at_once()
+    recording = reading.at_once(recording_file, plugin)
     typer.echo(f"recording: {exporting.export_recording(recording, out)}")
 
 
 @commands.command("tones")
 @in_own_words
+@with_groups
 def tones_command(
     recording_file: Recording,
-    unit: Units = None,
-    calibration: Calibration = None,
-    channels: Channels = None,
-    sample_rate: SampleRate = None,
-    from_s: From = None,
-    to_s: To = None,
+    *,
+    reading: Reading,
     plugin: Plugins = None,
 ) -> None:
     """Print the tones of a steady recording, prominent or not, with loudness and sharpness."""
-    from . import outputs, reading
+    from . import outputs
     from .recorded_tones import tones_text
 
-    recording = reading.Reading(
-        recording_file, unit, calibration, channels, sample_rate, from_s, to_s, plugin
-    ).at_once()
+    recording = reading.at_once(recording_file, plugin)
     with outputs.naming(recording_file):
         typer.echo(tones_text(recording))

@@ -10,7 +10,7 @@ import typer
 from ..base.errors import ParameterError
 from ..base.progress import Progress
 from . import messages
-from .options import NoCache, Plugins, load_plugins, used_cache
+from .options import NoCache, Plugins, load_plugins, out_option, used_cache
 from .progress import progress_on_stderr
 
 if TYPE_CHECKING:
@@ -23,10 +23,9 @@ StudyFiles = Annotated[
 ]
 Out = Annotated[
     Path | None,
-    typer.Option(
-        "--out",
-        help="Folder of the results; of several studies one in it each; "
-        "default: reports/NAME OF THE STUDY.",
+    out_option(
+        "Folder of the results; of several studies one in it each; "
+        "default: reports/NAME OF THE STUDY."
     ),
 ]
 Coarse = Annotated[

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
-from .options import Plugins, load_plugins
+from .options import Plugins, load_plugins, out_option
 
 commands = typer.Typer()
 
@@ -13,9 +13,7 @@ commands = typer.Typer()
 @commands.command("new")
 def new_command(
     kind: Annotated[str, typer.Argument(metavar="KIND", help="Of machine.")],
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder of the files; default: KIND.")
-    ] = None,
+    out: Annotated[Path | None, out_option("Folder of the files; default: KIND.")] = None,
 ) -> None:
     """Write a commented machine file and study to begin with, and their schemas."""
     from ..base.errors import StorageError
@@ -44,14 +42,12 @@ def schema_command(
     plugin: Plugins = None,
 ) -> None:
     """Write JSON schemas: of study and machine files, for editors, and of a data sheet."""
-    from ..results.files import only_writer, replace_all, write
+    from ..report import data_sheet_schema
+    from ..results.files import write_together
 
     load_plugins(plugin)
-    schemas = _schemas() | _sheet_schema()
-    with only_writer(out) as staged:
-        for name, content in schemas.items():
-            write(staged, name, content)
-        replace_all(staged)
+    schemas = _schemas() | {"data_sheet.json": _text(data_sheet_schema())}
+    write_together(out, schemas)
     for name in ("study.json", "machine.json"):
         typer.echo(f"#:schema {out / name}")
 
@@ -61,12 +57,6 @@ def _schemas() -> dict[str, bytes]:
     from ..study.schema.files import machine_schema, study_schema
 
     return {"study.json": _text(study_schema()), "machine.json": _text(machine_schema())}
-
-
-def _sheet_schema() -> dict[str, bytes]:
-    from ..report import data_sheet_schema
-
-    return {"data_sheet.json": _text(data_sheet_schema())}
 
 
 def _text(schema: dict[str, Any]) -> bytes:

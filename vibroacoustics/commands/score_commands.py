@@ -6,21 +6,20 @@ from typing import Annotated
 import typer
 
 from . import messages
-from .options import Plugins, load_plugins
+from .options import Plugins, ResultsFile, load_plugins, out_option
 
 commands = typer.Typer()
 
 
 @commands.command("score")
 def score_command(
-    results_file: Annotated[Path, typer.Argument(metavar="RESULTS.nc", help="Results of a run.")],
+    results_file: ResultsFile,
     scoring_of: Annotated[
         Path | None,
         typer.Option("--scoring", metavar="STUDY.toml", help="Take scales and weights from here."),
     ] = None,
     out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder of what is written; default: scored, beside the file."),
+        Path | None, out_option("Folder of what is written; default: scored, beside the file.")
     ] = None,
     plugin: Plugins = None,
 ) -> None:

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from .. import report
-from ..results.files import only_writer, replace_all, write
+from ..results.files import write_together
 
 if TYPE_CHECKING:
     from ..report.data_sheet.model import DataSheet
@@ -43,8 +43,5 @@ def write_data_sheet(sheet: "DataSheet", folder: str | Path) -> Path:
         f"{name}.csv": report.data_sheet_csv(sheet),
         f"{name}.json": report.data_sheet_json(sheet),
     }
-    with only_writer(Path(folder)) as staged:
-        for file, content in files.items():
-            write(staged, file, content)
-        replace_all(staged)
+    write_together(Path(folder), files)
     return Path(folder) / f"{name}.html"

@@ -6,8 +6,8 @@ from typing import Annotated, Final
 import typer
 
 from .option_words import in_own_words
-from .options import Plugins
-from .recording_commands import SampleRate
+from .options import Plugins, out_option
+from .reading import Reading, SampleRate
 
 SOUND_POWER_NAME: Final = "sound_power.nc"
 
@@ -54,8 +54,7 @@ def sound_power_command(
     ] = None,
     sample_rate: SampleRate = None,
     out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder of the results; default: reports/NAME OF THE FIRST."),
+        Path | None, out_option("Folder of the results; default: reports/NAME OF THE FIRST.")
     ] = None,
     plugin: Plugins = None,
 ) -> None:
@@ -67,7 +66,8 @@ def sound_power_command(
     surface = microphones.surface_of(hemisphere, box)
     absorption = microphones.absorption_of(absorption_area, reverberation_time, volume)
     outputs.check_folder(folder)
-    given = ([*files, *quiet], unit, calibration, sample_rate, plugin)
+    reading = Reading(unit, calibration, sample_rate=sample_rate)
+    given = ([*files, *quiet], reading, plugin)
     running, still = (microphones.read_files(each, *given) for each in (files, quiet))
     measured = pipeline.sound_power(running, surface, still, absorption)
     tables = {

@@ -6,7 +6,7 @@ from typing import Final
 
 from ..base.errors import ParameterError
 from ..recordings.quantities import find_quantity, quantity
-from .limit import LEVEL_UNIT
+from .limit import LEVEL_UNIT, Refusing
 
 HIGHEST, LOWEST = "highest", "lowest"
 WEIGHTED: Final = {LEVEL_UNIT: "Z", "dB(A)": "A", "dB(C)": "C"}
@@ -14,7 +14,7 @@ WEIGHTED: Final = {LEVEL_UNIT: "Z", "dB(A)": "A", "dB(C)": "C"}
 
 
 @dataclass(frozen=True)
-class FigureLimit:
+class FigureLimit(Refusing):
     """Highest or lowest value of a figure; which one it is of follows from what is given.
 
     Attributes
@@ -107,8 +107,3 @@ class FigureLimit:
             raise self._refusal("unit", f"of a {self.figure} must be one of {', '.join(allowed)}")
         if self.figure == "order" and self.unit != LEVEL_UNIT and find_quantity(self.unit) is None:
             raise self._refusal("unit", "must be dB (re 20 µPa) or that of the channel's quantity")
-
-    def _refusal(self, field: str, allowed: str) -> ParameterError:
-        value = getattr(self, field)
-        shown = repr(value) if isinstance(value, str) else f"{value:g}"
-        return ParameterError(f"{self.origin}: {field} = {shown}: {allowed}")

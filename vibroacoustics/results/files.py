@@ -5,7 +5,7 @@ before stays as it is. A folder has one writer at a time. Nothing outside the fo
 """
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from functools import partial
@@ -96,6 +96,20 @@ def write(staged: Folder, name: str, content: bytes) -> None:
     """
     with naming(staged.path / name):
         staged.write(name, content)
+
+
+def write_together(folder: Path, files: Mapping[str, bytes]) -> None:
+    """Write files into a folder, together or not at all.
+
+    Raises
+    ------
+    StorageError
+        The folder cannot be written; what was there before then stays.
+    """
+    with only_writer(folder) as staged:
+        for name, content in files.items():
+            write(staged, name, content)
+        replace_all(staged)
 
 
 def replace_all(staged: Staging, first: str = "") -> None:

@@ -14,8 +14,19 @@ LEVEL_UNIT: Final = "dB"
 PRESSURE_UNIT: Final = "Pa"
 
 
+class Refusing:
+    """What limits have in common: where each comes from, and refusals that say so."""
+
+    origin: str
+
+    def _refusal(self, field: str, allowed: str) -> ParameterError:
+        value = getattr(self, field)
+        shown = repr(value) if isinstance(value, str) else f"{value:g}"
+        return ParameterError(f"{self.origin}: {field} = {shown}: {allowed}")
+
+
 @dataclass(frozen=True)
-class Limit:
+class Limit(Refusing):
     """Largest RMS that an order of a channel may have.
 
     Attributes
@@ -77,8 +88,3 @@ class Limit:
     def channel_unit(self) -> str:
         """SI unit of the channels that it can be for."""
         return PRESSURE_UNIT if self.unit == LEVEL_UNIT else quantity(self.unit).unit
-
-    def _refusal(self, field: str, allowed: str) -> ParameterError:
-        value = getattr(self, field)
-        shown = repr(value) if isinstance(value, str) else f"{value:g}"
-        return ParameterError(f"{self.origin}: {field} = {shown}: {allowed}")
