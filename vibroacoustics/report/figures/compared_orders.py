@@ -1,6 +1,5 @@
 """Order spectra of two results on top of each other."""
 
-from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -10,16 +9,8 @@ from matplotlib.figure import Figure
 
 from ..titles import chosen
 from .needs import needs
-from .style import (
-    COLOURS,
-    Picture,
-    draw,
-    legend_below,
-    numbered_file_name,
-    png,
-    shortened,
-    whole_number_ticks,
-)
+from .panels import each_panel
+from .style import COLOURS, Picture, numbered, png, shortened, whole_number_ticks
 
 _MOST_PANELS: Final = 4
 _QUIETEST: Final = 1e-5
@@ -32,8 +23,8 @@ def compared_order_figures(compared: xr.Dataset) -> list[Picture]:
     Channels without an order that both results have are left out.
     """
     return [
-        _picture(compared, str(name), numbered_file_name(number, str(name)))
-        for number, name in enumerate(compared["channel"].values, 1)
+        _picture(compared, name, file)
+        for name, file in numbered(compared, "channel")
         if np.isfinite(compared["order_difference"].sel(channel=name)).any()
     ]
 
@@ -76,34 +67,34 @@ def compared_orders(compared: xr.Dataset, channel: str | None = None) -> Figure:
     sizes = np.concatenate([drawn.values.ravel(), [] if limits is None else limits.values.ravel()])
     bottom, top = 0.5 * float(np.nanmin(sizes)), 2.0 * float(np.nanmax(sizes))
 
-    def paint(panels: Sequence[Axes]) -> None:
-        for axes, value in zip(panels, panel_values, strict=True):
-            for shown, label, colour, marker, width in zip(
-                drawn.sel({across: value}), labels, (COLOURS[3], COLOURS[1]), "ox", (8, 6),
-                strict=True,
-            ):  # fmt: skip
-                if by_speed:
-                    axes.vlines(shown[within], bottom, shown, color=colour, alpha=0.4)
-                axes.semilogy(
-                    shown[within], shown, marker, color=colour, label=shortened(label),
-                    markersize=width, fillstyle="none",
-                )  # fmt: skip
-            if limits is not None:
-                axes.semilogy(
-                    limits[within], limits.sel({across: value}), "_", color=COLOURS[5],
-                    label="limit, as a peak", markersize=12,
-                )  # fmt: skip
-            where = f"{value:.0f} rpm" if by_speed else f"order {value:g}"
-            axes.set_title(f"{title}, {where}", loc="left")
-            axes.set_ylim(bottom, top)
-            axes.set_ylabel(f"Peak, {of_channel['channel_unit'].item()}")
-        panels[-1].set_xlabel("Shaft order" if by_speed else "Speed, rpm")
-        if by_speed:
-            panels[-1].set_xlim(0.0, float(of_channel["order"].max()) + 0.5)
-            whole_number_ticks(panels[-1])
-        legend_below(panels[0], 1)
+    looks = list(zip(labels, (COLOURS[3], COLOURS[1]), "ox", (8, 6), strict=True))
 
-    return draw(len(panel_values), 2.2, paint, legend_rows=2 + (limits is not None), sharex=True)
+    def paint(axes: Axes, value: float) -> None:
+        for shown, (label, colour, marker, width) in zip(
+            drawn.sel({across: value}), looks, strict=True
+        ):
+            if by_speed:
+                axes.vlines(shown[within], bottom, shown, color=colour, alpha=0.4)
+            axes.semilogy(
+                shown[within], shown, marker, color=colour, label=shortened(label),
+                markersize=width, fillstyle="none",
+            )  # fmt: skip
+        if limits is not None:
+            axes.semilogy(
+                limits[within], limits.sel({across: value}), "_", color=COLOURS[5],
+                label="limit, as a peak", markersize=12,
+            )  # fmt: skip
+        axes.set_ylim(bottom, top)
+        if by_speed:
+            axes.set_xlim(0.0, float(of_channel["order"].max()) + 0.5)
+            whole_number_ticks(axes)
+
+    return each_panel(
+        panel_values, 2.2, paint, "Shaft order" if by_speed else "Speed, rpm",
+        f"Peak, {of_channel['channel_unit'].item()}",
+        lambda value: f"{title}, {f'{value:.0f} rpm' if by_speed else f'order {value:g}'}",
+        columns=1, rows=2 + (limits is not None), sharex=True,
+    )  # fmt: skip
 
 
 def _picture(compared: xr.Dataset, channel: str, name: str) -> Picture:

@@ -10,16 +10,8 @@ from matplotlib.figure import Figure
 
 from ...base.arrays import Array
 from .needs import needs
-from .style import (
-    COLOURS,
-    MARKERS,
-    Picture,
-    draw,
-    legend_below,
-    png,
-    shortened,
-    whole_number_ticks,
-)
+from .panels import each_panel
+from .style import COLOURS, MARKERS, Picture, png, shortened, whole_number_ticks
 
 _MOST_PANELS: Final = 4
 _MOST_CHANNELS: Final = 6
@@ -64,31 +56,30 @@ def order_differences(compared: xr.Dataset, channels: Sequence[str] = ()) -> Fig
     shown = (list(channels) or known)[:_MOST_CHANNELS]
     speeds = difference["speed"].values[:_MOST_PANELS]
 
-    def paint(panels: Sequence[Axes]) -> None:
-        for axes, speed in zip(panels, speeds, strict=True):
-            axes.axhline(0.0, color=COLOURS[0], linewidth=0.8)
-            for number, name in enumerate(shown):
-                at = {"channel": name, "speed": speed}
-                axes.errorbar(
-                    difference["order"] + 0.08 * (number - (len(shown) - 1) / 2.0),
-                    difference.sel(at),
-                    yerr=_reach(compared, at),
-                    fmt=MARKERS[number % len(MARKERS)],
-                    color=COLOURS[1 + number],
-                    markersize=5,
-                    fillstyle="none",
-                    capsize=2,
-                    label=shortened(name),
-                )
-            axes.set_title(f"{speed:.0f} rpm", loc="left")
-            axes.set_ylabel("B − A, dB")
-            whole_number_ticks(axes)
-        highest = difference["order"].where(difference.notnull()).max().item()
-        panels[-1].set_xlim(0.0, highest + 0.5)
-        panels[-1].set_xlabel("Shaft order")
-        legend_below(panels[0], 2)
+    highest = difference["order"].where(difference.notnull()).max().item()
 
-    return draw(len(speeds), 2.0, paint, legend_rows=(len(shown) + 1) // 2, sharex=True)
+    def paint(axes: Axes, speed: float) -> None:
+        axes.axhline(0.0, color=COLOURS[0], linewidth=0.8)
+        for number, name in enumerate(shown):
+            at = {"channel": name, "speed": speed}
+            axes.errorbar(
+                difference["order"] + 0.08 * (number - (len(shown) - 1) / 2.0),
+                difference.sel(at),
+                yerr=_reach(compared, at),
+                fmt=MARKERS[number % len(MARKERS)],
+                color=COLOURS[1 + number],
+                markersize=5,
+                fillstyle="none",
+                capsize=2,
+                label=shortened(name),
+            )
+        whole_number_ticks(axes)
+        axes.set_xlim(0.0, highest + 0.5)
+
+    return each_panel(
+        speeds, 2.0, paint, "Shaft order", "B − A, dB", lambda speed: f"{speed:.0f} rpm",
+        columns=2, rows=(len(shown) + 1) // 2, sharex=True,
+    )  # fmt: skip
 
 
 def _reach(compared: xr.Dataset, at: dict[str, object]) -> Array | None:

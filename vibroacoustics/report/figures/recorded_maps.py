@@ -1,6 +1,5 @@
 """Figures of a recording over speed: spectra, levels, tracked orders."""
 
-from collections.abc import Sequence
 from functools import partial
 
 import xarray as xr
@@ -11,17 +10,9 @@ from ..over_speed.level_curves import is_run_up
 from ..titles import chosen
 from .levels_over_speed import levels_over_speed
 from .needs import needs
+from .panels import lines, one_panel
 from .speed_maps import MAP_RANGE_DB, speed_frequency_map
-from .style import (
-    Picture,
-    draw,
-    in_both_widths,
-    legend_below,
-    line_looks,
-    numbered_file_name,
-    png,
-    shortened,
-)
+from .style import Picture, in_both_widths, numbered, png, shortened
 
 
 @needs("tracked_order", from_="`track_orders`, command `track`")
@@ -49,40 +40,35 @@ def tracked_orders(tracked: xr.Dataset, channel: str | None = None) -> Figure:
     size = abs(tracked["tracked_order"].sel(channel=name))
     varies = is_run_up(tracked["track_speed"])
     along = tracked["track_speed"] if varies else tracked["track_time"]
-    numbers = size["order"].values
+    orders = [f"{order:g}×" for order in size["order"].values]
 
-    def paint(panels: Sequence[Axes]) -> None:
-        (axes,) = panels
-        for order, look in zip(numbers, line_looks(numbers.size), strict=True):
-            axes.plot(along, size.sel(order=order), label=f"{order:g}×", **look)
+    def paint(axes: Axes) -> None:
+        lines(axes, along, orders, size.transpose("order", ...))
         axes.set_ylim(bottom=0.0)
-        axes.set_xlabel("Speed, rpm" if varies else "Time, s")
-        axes.set_ylabel(f"Peak, {tracked['channel_unit'].sel(channel=name).item()}")
-        axes.set_title(shortened(str(name)), loc="left")
-        legend_below(axes, 4)
 
-    return draw(1, 2.6, paint, -(-numbers.size // 4))
+    y = f"Peak, {tracked['channel_unit'].sel(channel=name).item()}"
+    x, title = "Speed, rpm" if varies else "Time, s", shortened(str(name))
+    return one_panel(2.6, paint, x, y, title, columns=4, rows=-(-len(orders) // 4))
 
 
 def tracked_order_figures(tracked: xr.Dataset) -> list[Picture]:
     """For each channel: tracked orders over the speed."""
     return [
         Picture(
-            f"tracked_{numbered_file_name(number, name)}",
+            f"tracked_{file}",
             f"Tracked orders of {name}.",
             f"Tracked orders of {name}: peak amplitude, bandwidth "
             f"{tracked.attrs['bandwidth_hz']:g} Hz.",
             png(tracked_orders(tracked, name)),
         )
-        for number, name in enumerate(map(str, tracked["channel"].values), 1)
+        for name, file in numbered(tracked, "channel")
     ]
 
 
 def speed_map_figures(mapped: xr.Dataset) -> list[Picture]:
     """For each channel the map; of sound pressure its level too."""
     pictures = []
-    for number, name in enumerate(map(str, mapped["channel"].values), 1):
-        file = numbered_file_name(number, name)
+    for name, file in numbered(mapped, "channel"):
         pictures.append(
             in_both_widths(
                 f"speed_map_{file}",

@@ -1,39 +1,25 @@
 """Figures of a recording's orders: spectrum, orders over speed, order map."""
 
-from collections.abc import Sequence
 from typing import Final
 
-import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullLocator
 
 from ..map_levels import map_level
 from ..titles import chosen
 from .needs import needs
 from .orders_over_speed import over_speed_picture
-from .style import (
-    COLOURS,
-    Picture,
-    draw,
-    legend_below,
-    numbered_file_name,
-    png,
-    shortened,
-    whole_number_ticks,
-)
+from .panels import level_map, logarithmic, one_panel
+from .style import COLOURS, Picture, numbered, png, shortened, whole_number_ticks
 
 _MAP_RANGE_DB: Final = 60.0
-_QUIETEST: Final = 1e-5
-"""Lowest amplitude of a logarithmic axis, as a share of the largest."""
 
 
 def recorded_order_figures(results: xr.Dataset) -> list[Picture]:
     """For each channel: mean spectrum, orders over speed in a run-up, and map if there is one."""
     pictures = []
-    for number, channel in enumerate(map(str, results["channel"].values), 1):
-        name = numbered_file_name(number, channel)
+    for channel, name in numbered(results, "channel"):
         pictures.append(_spectrum_picture(results, channel, name))
         if _is_run_up(results):
             pictures.append(over_speed_picture(results, f"orders_{name}", channel))
@@ -61,24 +47,6 @@ def _without_offset(lines: xr.DataArray, of_channel: xr.Dataset) -> xr.DataArray
     return lines.sel(map_order=lines["map_order"] > 0.5 * of_channel.attrs["band_order"])
 
 
-_DECADES: Final = 100.0
-"""Range of a logarithmic axis from which on it has ticks at powers of ten alone."""
-
-
-def _logarithmic(axes: Axes, shown: xr.DataArray, limits: xr.DataArray | None = None) -> None:
-    """Logarithmic axis over what is shown, unless it is next to nothing, and over its limits."""
-    sizes = shown.values.ravel()
-    highest = float(sizes.max())
-    if highest > 0.0:
-        allowed = np.array([]) if limits is None else limits.values[np.isfinite(limits.values)]
-        bottom = max(0.5 * float(sizes.min()), _QUIETEST * highest)
-        bottom, top = min([bottom, *0.5 * allowed]), 2.0 * max([highest, *allowed])
-        axes.set_yscale("log")
-        axes.set_ylim(bottom, top)
-        if top > _DECADES * bottom:
-            axes.yaxis.set_minor_locator(NullLocator())  # they take half the time of a picture
-
-
 def _limits(of_channel: xr.Dataset) -> xr.DataArray | None:
     """Limits of a channel (speed, order), where it has any."""
     return (
@@ -104,7 +72,6 @@ def _draw_steady_limits(axes: Axes, limits: xr.DataArray, band_order: float) -> 
     axes.hlines(
         limits, orders - half, orders + half, colors=COLOURS[1], label="limit in an order's band"
     )
-    legend_below(axes, 1)
 
 
 @needs("mean_order_spectrum", from_="`analyse_orders`")
@@ -133,18 +100,16 @@ def order_spectrum(orders: xr.Dataset, channel: str | None = None) -> Figure:
     spectrum = _without_offset(of_channel["mean_order_spectrum"], of_channel)
     limits = _steady_limits(of_channel)
 
-    def paint(panels: Sequence[Axes]) -> None:
-        (axes,) = panels
+    def paint(axes: Axes) -> None:
         axes.plot(spectrum["map_order"], spectrum)
-        _logarithmic(axes, spectrum, limits)
+        logarithmic(axes, spectrum.values, None if limits is None else limits.values)
         if limits is not None:
             _draw_steady_limits(axes, limits, of_channel.attrs["band_order"])
         whole_number_ticks(axes)
-        axes.set_xlabel("Shaft order")
-        axes.set_ylabel(f"RMS of a line, {_unit(of_channel)}")
-        axes.set_title(title, loc="left")
 
-    return draw(1, 2.6, paint, 0 if limits is None else 1)
+    has_limits = int(limits is not None)
+    y = f"RMS of a line, {_unit(of_channel)}"
+    return one_panel(2.6, paint, "Shaft order", y, title, columns=has_limits, rows=has_limits)
 
 
 def _spectrum_picture(results: xr.Dataset, channel: str, name: str) -> Picture:
@@ -184,29 +149,13 @@ def order_map(orders: xr.Dataset, channel: str | None = None) -> Figure:
     spectra = _without_offset(of_channel["order_map"].transpose("block", "map_order"), of_channel)
     spectra = spectra.sortby("block_speed") if is_run_up else spectra
     level, label = map_level(spectra.values, _unit(of_channel))
-    top = float(level.max())
+    along = spectra["block_speed" if is_run_up else "block_time"]
 
-    def paint(panels: Sequence[Axes]) -> None:
-        (axes,) = panels
-        shown = axes.pcolormesh(
-            spectra["map_order"],
-            spectra["block_speed" if is_run_up else "block_time"],
-            level,
-            vmin=top - _MAP_RANGE_DB,
-            vmax=top,
-            shading="nearest",
-            rasterized=True,
-        )
-        figure = axes.get_figure()
-        if figure is not None:
-            figure.colorbar(shown, ax=axes, label=label)
-        axes.grid(visible=False)
+    def paint(axes: Axes) -> None:
+        level_map(axes, spectra["map_order"], along, level, _MAP_RANGE_DB, label)
         whole_number_ticks(axes)
-        axes.set_xlabel("Shaft order")
-        axes.set_ylabel("Speed, rpm" if is_run_up else "Time, s")
-        axes.set_title(title, loc="left")
 
-    return draw(1, 3.4, paint, 0)
+    return one_panel(3.4, paint, "Shaft order", "Speed, rpm" if is_run_up else "Time, s", title)
 
 
 def _map_picture(results: xr.Dataset, channel: str, name: str) -> Picture:
