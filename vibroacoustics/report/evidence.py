@@ -15,7 +15,14 @@ import xarray as xr
 from ..base.arrays import Array
 from ..base.decibel import level_of_amplitude, level_of_power
 from ..base.vocabulary import REFERENCE_OPTION
-from .study import catalogue_receiver, elsewhere, has_sources, overall_noise, parameters
+from .study import (
+    at_catalogue,
+    catalogue_receiver,
+    elsewhere,
+    has_sources,
+    overall_noise,
+    parameters,
+)
 
 COVERAGE: Final = 2.0
 """k: about 95 % of a normal distribution."""
@@ -76,9 +83,7 @@ def _catalogue_level(results: xr.Dataset) -> Iterator[Rung]:
     drawn = drawn[np.isfinite(drawn)]
     speed = noise["speed_rpm"]
     if speed in results["speed"].values and not elsewhere(results):
-        level = results["level_modelled"].sel(
-            speed=speed, option=REFERENCE_OPTION, receiver=receiver, weighting="A"
-        )
+        level = results["level_modelled"].sel(at_catalogue(results, speed=speed, weighting="A"))
         simulated = float(level)
     elif drawn.size:
         simulated = float(np.median(drawn))

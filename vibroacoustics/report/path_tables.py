@@ -1,7 +1,6 @@
 """Tables of the paths of sound: the leading ones, by order, by band, by option."""
 
 from collections.abc import Sequence
-from itertools import product
 from typing import Final
 
 import numpy as np
@@ -25,7 +24,7 @@ from .paths import (
     with_share,
 )
 from .study import options
-from .tables import Table, to_csv
+from .tables import Table, dataset_csv
 
 _NAMED: Final = 2
 """Paths in a row of a table by order or band."""
@@ -149,16 +148,15 @@ def options_table(results: xr.Dataset, receiver: str) -> Table:
 
 def paths_csv(results: xr.Dataset) -> bytes:
     """One row per option, speed, microphone and path, to nine significant digits."""
-    dims = ("option", "path_speed", "receiver", "path")
-    columns = ("path_level", "path_share")
-    values = zip(*(results[name].transpose(*dims).values.ravel() for name in columns), strict=True)
-    fields = [results[f"path_{name}"].values for name in ("source", "port", "direction")]
-    names = list(zip(*(field.tolist() for field in fields), strict=True))
-    keys = product(*(results[dim].values.tolist() for dim in dims[:-1]), names)
-    rows = ([*key, *name, *map(float, row)] for (*key, name), row in zip(keys, values, strict=True))
-    head = ("option", "speed_rpm", "receiver", "source", "port", "direction", "level_dba",
-            "share_of_modelled_energy")  # fmt: skip
-    return to_csv(head, rows)
+    columns = {
+        "option": results["option"],
+        "speed_rpm": results["path_speed"],
+        "receiver": results["receiver"],
+        **{name: results[f"path_{name}"] for name in ("source", "port", "direction")},
+        "level_dba": results["path_level"],
+        "share_of_modelled_energy": results["path_share"],
+    }
+    return dataset_csv(("option", "path_speed", "receiver", "path"), columns)
 
 
 def _named(results: xr.Dataset, share: Array) -> Sequence[str]:

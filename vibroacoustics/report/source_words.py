@@ -11,6 +11,8 @@ from ..machine.remainder import Remainder
 from .bands import Band, band, band_words, draws, energy_share, percent, share_band
 from .drawn_words import drawn_sentences
 from .study import (
+    a_weighted,
+    at_catalogue,
     catalogue_receiver,
     elsewhere,
     first_order_hz,
@@ -37,8 +39,13 @@ def source_name(results: xr.Dataset, source: str) -> str:
 def ranked(results: xr.Dataset, speed: float) -> list[tuple[str, Band]]:
     """Sources without a balancer at the catalogue's microphone, the loudest first."""
     sources = [
-        (str(source), _source_band(results, str(source), speed))
-        for source in results["sound_source"].values
+        (
+            source,
+            band(
+                results, "source_level", **at_catalogue(results, sound_source=source, speed=speed)
+            ),
+        )
+        for source in map(str, results["sound_source"].values)
     ]
     return sorted(sources, key=lambda entry: -entry[1].middle)
 
@@ -126,10 +133,8 @@ def source_share(results: xr.Dataset, source: str, prior: int = 0) -> Band:
 def at_published(results: xr.Dataset, name: str, source: str | None = None) -> xr.DataArray:
     """A level by draw, or as given, without an option where the level is published."""
     level = results[f"{name}_by_draw" if has_draws(results) else name]
-    at = {"option": REFERENCE_OPTION, "receiver": catalogue_receiver(results)}
-    level = level.sel(at if source is None else {**at, "sound_source": source})
-    level = level.sel(speed=quoted_speed(results))
-    return level.sel(weighting="A", drop=True) if "weighting" in level.dims else level
+    of_source = {} if source is None else {"sound_source": source}
+    return a_weighted(level.sel(at_catalogue(results, speed=quoted_speed(results), **of_source)))
 
 
 def certainty_sentences(results: xr.Dataset) -> list[str]:
@@ -184,27 +189,10 @@ def _unresolved(results: xr.Dataset) -> str:
     )
 
 
-def _source_band(results: xr.Dataset, source: str, speed: float) -> Band:
-    return band(
-        results,
-        "source_level",
-        sound_source=source,
-        speed=speed,
-        option=REFERENCE_OPTION,
-        receiver=catalogue_receiver(results),
-    )
-
-
 def _assumed_level(results: xr.Dataset, source: str) -> float:
     """At the assumed values, without a balancer, where the overall level is published, dB(A)."""
-    return float(
-        results["source_level"].sel(
-            sound_source=source,
-            speed=quoted_speed(results),
-            option=REFERENCE_OPTION,
-            receiver=catalogue_receiver(results),
-        )
-    )
+    at = at_catalogue(results, sound_source=source, speed=quoted_speed(results))
+    return float(results["source_level"].sel(at))
 
 
 def _ranking(results: xr.Dataset) -> str:

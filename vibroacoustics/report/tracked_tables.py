@@ -1,43 +1,27 @@
 """Tracked orders as plain text and CSV."""
 
-from collections.abc import Iterator
-from typing import Final, NamedTuple
+from typing import Final
 
-import numpy as np
 import xarray as xr
 
 from ..base import rounding
-from .tables import Table, to_csv, to_text
+from .order_tables import WIDEST_CHANNEL
+from .tables import Columns, Record, dataset_csv, phase_deg, records, table_of, to_text
 
-_WIDEST_CHANNEL: Final = 32
-
-
-class _Peak(NamedTuple):
-    """Where an order of a channel is largest."""
-
-    channel: str
-    unit: str
-    order: float
-    peak: float
-    time_s: float
-    speed_rpm: float
+_COLUMNS: Final[Columns] = (
+    ("Channel", "channel", str),
+    ("unit", "unit", str),
+    ("Order", "order", "{:g}".format),
+    ("Largest peak", "peak", rounding.significant),
+    ("at s", "time_s", "{:.2f}".format),
+    ("at rpm", "speed_rpm", "{:.0f}".format),
+)
 
 
 def tracked_text(tracked: xr.Dataset) -> str:
     """Where the speed comes from, and where each order is largest."""
-    rows = tuple(
-        (
-            row.channel,
-            row.unit,
-            f"{row.order:g}",
-            rounding.significant(row.peak),
-            f"{row.time_s:.2f}",
-            f"{row.speed_rpm:.0f}",
-        )
-        for row in _peaks(tracked)
-    )
-    head = ("Channel", "unit", "Order", "Largest peak", "at s", "at rpm")
-    table = Table("Tracked orders: where each is largest", head, rows, frozenset({0, 1}))
+    caption = "Tracked orders: where each is largest"
+    table = table_of(caption, _peaks(tracked), _COLUMNS, frozenset({0, 1}))
     attrs = tracked.attrs
     facts = [
         f"speed: {attrs['speed_source']}",
@@ -45,37 +29,33 @@ def tracked_text(tracked: xr.Dataset) -> str:
         f"by up to {attrs['noise_gain']:.2g}",
         "",
     ]
-    return "\n".join([*facts, to_text(table, _WIDEST_CHANNEL)])
+    return "\n".join([*facts, to_text(table, WIDEST_CHANNEL)])
 
 
 def tracked_csv(tracked: xr.Dataset) -> bytes:
     """Amplitude and phase of every tracked order of every channel over the time."""
-    head = ("channel", "unit", "order", "time_s", "speed_rpm", "amplitude_peak", "phase_deg")
-    return to_csv(head, _rows(tracked))
+    columns = {
+        "channel": tracked["channel"],
+        "unit": tracked["channel_unit"],
+        "order": tracked["order"],
+        "time_s": tracked["track_time"],
+        "speed_rpm": tracked["track_speed"],
+        "amplitude_peak": abs(tracked["tracked_order"]),
+        "phase_deg": phase_deg(tracked["tracked_order"]),
+    }
+    return dataset_csv(("channel", "order", "track_time"), columns)
 
 
-def _peaks(tracked: xr.Dataset) -> Iterator[_Peak]:
-    for channel in tracked["channel"].values:
-        for order in tracked["order"].values:
-            size = abs(tracked["tracked_order"].sel(channel=channel, order=order))
-            at = size.isel(track_time=int(np.argmax(size.values)))
-            yield _Peak(
-                str(channel),
-                str(at["channel_unit"].item()),
-                float(order),
-                float(at),
-                float(at["track_time"]),
-                float(at["track_speed"]),
-            )
-
-
-def _rows(tracked: xr.Dataset) -> Iterator[tuple[str | float, ...]]:
-    times, speeds = tracked["track_time"].values, tracked["track_speed"].values
-    for channel in tracked["channel"].values:
-        of_channel = tracked["tracked_order"].sel(channel=channel)
-        unit = str(of_channel["channel_unit"].item())
-        for order in of_channel["order"].values:
-            values = of_channel.sel(order=order).values
-            sizes, phases = np.abs(values), np.rad2deg(np.angle(values))
-            for row in zip(times, speeds, sizes, phases, strict=True):
-                yield (str(channel), unit, float(order), *map(float, row))
+def _peaks(tracked: xr.Dataset) -> list[Record]:
+    """Where each order of a channel is largest."""
+    size = abs(tracked["tracked_order"])
+    at = size.isel(track_time=size.argmax("track_time"))
+    columns = {
+        "channel": tracked["channel"],
+        "unit": tracked["channel_unit"],
+        "order": tracked["order"],
+        "peak": at,
+        "time_s": at["track_time"],
+        "speed_rpm": at["track_speed"],
+    }
+    return records(("channel", "order"), columns)

@@ -21,6 +21,7 @@ from .shifts import measurable, shift
 from .source_changes import changes_sentence
 from .source_words import carrier_sentence, left_out_sentence, shares_sentence
 from .study import (
+    at_catalogue,
     balancers,
     catalogue_receiver,
     first_order_hz,
@@ -110,9 +111,7 @@ def _total_words(results: xr.Dataset, change_db: float) -> str:
 
 def _as_it_is(results: xr.Dataset) -> str:
     """Forces and levels without a balancer."""
-    reference = comparison(results).sel(
-        {"option": REFERENCE_OPTION, "receiver": catalogue_receiver(results)}
-    )
+    reference = comparison(results).sel(at_catalogue(results))
     shaken = (
         _shaken_over_the_speeds(results, reference)
         if many_speeds(results)
@@ -232,5 +231,4 @@ def _total_dba(results: xr.Dataset) -> float:
     speed = measured_rpm(results)
     if speed is None:
         return quoted_dba(results)
-    at = {"speed": speed, "option": REFERENCE_OPTION, "receiver": catalogue_receiver(results)}
-    return float(results["level_total"].sel(at).round(1))
+    return float(results["level_total"].sel(at_catalogue(results, speed=speed)).round(1))
