@@ -1,4 +1,4 @@
-"""Orders of a recording, and their comparison, as plain text and CSV."""
+"""Orders of a recording, also tracked ones, as plain text and CSV."""
 
 from collections.abc import Iterator
 from functools import partial
@@ -10,6 +10,7 @@ import xarray as xr
 from ..base import rounding
 from .tables import (
     Columns,
+    Record,
     Table,
     dataset_csv,
     phase_deg,
@@ -182,3 +183,56 @@ def _levels_table(results: xr.Dataset) -> Table:
         f"{method}"
     )
     return Table(caption, head, rows, frozenset({0, 1}))
+
+
+_TRACKED_COLUMNS: Final[Columns] = (
+    ("Channel", "channel", str),
+    ("unit", "unit", str),
+    ("Order", "order", "{:g}".format),
+    ("Largest peak", "peak", rounding.significant),
+    ("at s", "time_s", "{:.2f}".format),
+    ("at rpm", "speed_rpm", "{:.0f}".format),
+)
+
+
+def tracked_text(tracked: xr.Dataset) -> str:
+    """Where the speed comes from, and where each order is largest."""
+    caption = "Tracked orders: where each is largest"
+    table = table_of(caption, _peaks(tracked), _TRACKED_COLUMNS, frozenset({0, 1}))
+    attrs = tracked.attrs
+    facts = [
+        f"speed: {attrs['speed_source']}",
+        f"bandwidth: {attrs['bandwidth_hz']:g} Hz, {attrs['poles']} poles; noise within it grows "
+        f"by up to {attrs['noise_gain']:.2g}",
+        "",
+    ]
+    return "\n".join([*facts, to_text(table, WIDEST_CHANNEL)])
+
+
+def tracked_csv(tracked: xr.Dataset) -> bytes:
+    """Amplitude and phase of every tracked order of every channel over the time."""
+    columns = {
+        "channel": tracked["channel"],
+        "unit": tracked["channel_unit"],
+        "order": tracked["order"],
+        "time_s": tracked["track_time"],
+        "speed_rpm": tracked["track_speed"],
+        "amplitude_peak": abs(tracked["tracked_order"]),
+        "phase_deg": phase_deg(tracked["tracked_order"]),
+    }
+    return dataset_csv(("channel", "order", "track_time"), columns)
+
+
+def _peaks(tracked: xr.Dataset) -> list[Record]:
+    """Where each order of a channel is largest."""
+    size = abs(tracked["tracked_order"])
+    at = size.isel(track_time=size.argmax("track_time"))
+    columns = {
+        "channel": tracked["channel"],
+        "unit": tracked["channel_unit"],
+        "order": tracked["order"],
+        "peak": at,
+        "time_s": at["track_time"],
+        "speed_rpm": at["track_speed"],
+    }
+    return records(("channel", "order"), columns)

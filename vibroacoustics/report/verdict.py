@@ -9,7 +9,6 @@ import xarray as xr
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
 from .baseline import not_measured
-from .carrier import sure_sentence
 from .column_values import column
 from .comparison import comparison
 from .drawn_words import not_drawn_sentence
@@ -19,7 +18,7 @@ from .ranking_words import ranking_sentence
 from .remainder import growth_sentence, measured_rpm, remainder_band
 from .shifts import measurable, shift
 from .source_changes import changes_sentence
-from .source_words import carrier_sentence, left_out_sentence, shares_sentence
+from .source_words import carrier_sentence, left_out_sentence, shares_sentence, sure_sentence
 from .study import (
     at_catalogue,
     balancers,

@@ -79,7 +79,7 @@ def _columns(compared: xr.Dataset) -> dict[str, xr.DataArray]:
         "amplitude_peak": abs(compared["channel_order"]),
         "other_amplitude_peak": abs(compared["compared_order"]),
         "difference_db": compared["order_difference"],
-        "phase_difference_deg": np.degrees(compared["order_phase_difference"]),
+        "phase_difference_deg": np.rad2deg(1.0) * compared["order_phase_difference"],
         "coherence": compared["channel_order_coherence"],
     }
 

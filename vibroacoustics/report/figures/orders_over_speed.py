@@ -114,8 +114,8 @@ def _lines(axes: Axes, cuts: OrderCuts, number: int, look: dict[str, Any]) -> No
 def _scale(axes: Axes, cuts: OrderCuts) -> None:
     """Levels down to a range below the highest; of others a logarithmic axis, if there is any."""
     if cuts.unit == "Pa":
-        every = [cuts.rms.ravel(), [] if cuts.limits is None else cuts.limits.ravel()]
-        _level_scale(axes, cuts.shown(np.concatenate(every)))
+        both = [cuts.rms] if cuts.limits is None else [cuts.rms, cuts.limits]
+        _level_scale(axes, cuts.shown(np.concatenate([rms.ravel() for rms in both])))
     else:
         logarithmic(axes, cuts.rms, cuts.limits)
 

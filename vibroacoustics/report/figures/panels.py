@@ -28,7 +28,7 @@ _DECADES: Final = 100.0
 
 
 def each_panel(
-    items: Sequence[Item],
+    items: Iterable[Item],
     height_inch: float,
     paint: Callable[[Axes, Item], None],
     x: str,
@@ -53,8 +53,10 @@ def each_panel(
     share : which axes the panels have in common, as `Figure.subplots` takes it
     """
 
+    shown = list(items)
+
     def paint_all(panels: Sequence[Axes]) -> None:
-        for axes, item in zip(panels, items, strict=True):
+        for axes, item in zip(panels, shown, strict=True):
             paint(axes, item)
             if title:
                 axes.set_title(title(item), loc="left")
@@ -64,7 +66,7 @@ def each_panel(
         if columns:
             legend_below(panels[0], columns)
 
-    return draw(len(items), height_inch, paint_all, rows, width_inch, **share)
+    return draw(len(shown), height_inch, paint_all, rows, width_inch, **share)
 
 
 def one_panel(
@@ -94,8 +96,8 @@ def lines(
     """A line for each name, each in its look, with markers where they are wanted."""
     looks = zip(names, curves, line_looks(len(names)), strict=True)
     for number, (name, curve, look) in enumerate(looks):
-        marks = {"marker": MARKERS[number % len(MARKERS)], "markersize": 3.5} if marked else {}
-        axes.plot(x, curve, label=name, **marks, **look)
+        marks = {"marker": MARKERS[number % len(MARKERS)], "markersize": 3.5}
+        axes.plot(x, curve, label=name, **(look | marks if marked else look))
 
 
 def third_octaves(
@@ -120,7 +122,7 @@ def named_rows(axes: Axes, names: Sequence[str], width: int = 20) -> None:
 
 def stacked_bars(axes: Axes, names: Sequence[str], parts: Iterable[tuple[str, Any, Array]]) -> None:
     """A bar for each name, of parts that add up to one: label, colour, sizes (name,)."""
-    left = np.zeros(len(names))
+    left: Array = np.zeros(len(names))
     for label, colour, sizes in parts:
         axes.barh(range(len(names)), sizes, left=left, color=colour, label=label)
         left = left + sizes
@@ -155,6 +157,6 @@ def logarithmic(axes: Axes, sizes: Array, limits: Array | None = None) -> None:
             axes.yaxis.set_minor_locator(NullLocator())  # they take half the time of a picture
 
 
-def third_octave_ticks(axes: Axes, band_hz: Sequence[float]) -> None:
+def third_octave_ticks(axes: Axes, band_hz: Array | Sequence[float]) -> None:
     """Names of every third band, where the bands are numbered from 0."""
     axes.set_xticks(range(0, len(band_hz), 3), [f"{band:g}" for band in band_hz[::3]])

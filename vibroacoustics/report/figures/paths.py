@@ -6,8 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base.vocabulary import REFERENCE_OPTION
-from ..foot_paths import foot_forces
-from ..paths import at_path_speed, leading, path_speed, path_words
+from ..paths import at_path_speed, foot_forces, leading, path_speed, path_words
 from ..study import catalogue_receiver
 from ..titles import chosen
 from .needs import needs
