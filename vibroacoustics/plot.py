@@ -31,7 +31,7 @@ Of `curves`: `curves`. Of `predict`: `predicted_levels`.
 from .report.figures.baseline import baseline_third_octaves
 from .report.figures.blocked_forces import blocked_force, blocked_validation
 from .report.figures.campbell import campbell
-from .report.figures.compared_orders import compared_orders
+from .report.figures.compared_orders import compared_orders, order_differences
 from .report.figures.curves import curves
 from .report.figures.directivity import directivity
 from .report.figures.forces import force_over_revolution
@@ -39,14 +39,12 @@ from .report.figures.in_room import room_map, room_seam
 from .report.figures.levels_over_speed import levels_over_speed, source_levels_over_speed
 from .report.figures.maps import line_map, unit_level_map
 from .report.figures.mounts import mount_transmissibility
-from .report.figures.order_differences import order_differences
 from .report.figures.orders import foot_force_orders, force_orders, level_orders
 from .report.figures.orders_over_speed import orders_over_speed
 from .report.figures.paths import path_shares
 from .report.figures.prediction import predicted_levels
 from .report.figures.radiation import green_difference, levels, transfer
-from .report.figures.recorded_maps import tracked_orders
-from .report.figures.recorded_orders import order_map, order_spectrum
+from .report.figures.recorded_orders import order_map, order_spectrum, tracked_orders
 from .report.figures.scores import rank_acceptability, scores
 from .report.figures.sources import option_third_octaves, source_third_octaves
 from .report.figures.speed_maps import speed_frequency_map

@@ -21,11 +21,12 @@ from vibroacoustics.report.over_speed.avoid import (
     FOOT_FORCE,
     LEVEL,
     STANDS_OUT_DB,
+    avoid_csv,
+    avoided,
     ranges_to_avoid,
     recorded_speeds_to_avoid,
     speeds_to_avoid,
 )
-from vibroacoustics.report.over_speed.avoid_table import avoid_csv, avoided
 from vibroacoustics.report.over_speed.modes import crossing_speeds, crossings, modes_of
 from vibroacoustics.report.over_speed.order_cuts import order_cuts
 from vibroacoustics.report.over_speed.plane import MOST_COLUMNS, MOST_ROWS, plane_of

@@ -29,11 +29,14 @@ from vibroacoustics.radiation.arrangements import (
 )
 from vibroacoustics.radiation.exact import green, wavenumber
 from vibroacoustics.report.figures.directivity import directivity_figure
-from vibroacoustics.report.figures.maps import line_map_figures, map_figure
+from vibroacoustics.report.figures.maps import (
+    colour_edges,
+    line_map_figures,
+    map_figure,
+    unit_level_db,
+)
 from vibroacoustics.report.figures.transfer_vectors import transfer_vector_figure
-from vibroacoustics.report.figures.unit_levels import colour_edges, unit_level_db
-from vibroacoustics.report.radiation_figures import radiation_figures
-from vibroacoustics.report.radiation_tables import radiation_text
+from vibroacoustics.report.radiation_tables import radiation_figures, radiation_text
 from vibroacoustics.results import storage
 from vibroacoustics.study.sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
 

@@ -10,8 +10,7 @@ from test_report_sources import PUBLISHED_DBA, energy, with_parameters, with_sou
 
 from vibroacoustics.base.vocabulary import stamp
 from vibroacoustics.report import render
-from vibroacoustics.report.evidence import rungs
-from vibroacoustics.report.evidence_table import evidence_table
+from vibroacoustics.report.evidence import evidence_table, rungs
 
 pytestmark = pytest.mark.usefixtures("quick_figures")
 

@@ -7,16 +7,19 @@ import numpy as np
 import pytest
 from support import tiny_run
 
-from vibroacoustics.report.foot_paths import foot_table
 from vibroacoustics.report.html import html
 from vibroacoustics.report.page import Page, Part
-from vibroacoustics.report.path_tables import (
+from vibroacoustics.report.paths import (
+    foot_table,
+    leading,
+    leading_sentence,
     orders_table,
     partial_sums_table,
     paths_csv,
     paths_table,
+    phasor_shares,
+    relation,
 )
-from vibroacoustics.report.paths import leading, leading_sentence, phasor_shares, relation
 from vibroacoustics.report.sections import SECTIONS
 
 

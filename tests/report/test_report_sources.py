@@ -12,12 +12,12 @@ from test_report import PUBLISHED_DBA, make_results
 
 from vibroacoustics.base.vocabulary import DERIVED_SUPPLY, GIVEN_SUPPLY, WEIGHTINGS, check, stamp
 from vibroacoustics.report import comparison_text, render
-from vibroacoustics.report.acceptability import too_close_words
 from vibroacoustics.report.assumptions import not_modelled, remainder_sentence
 from vibroacoustics.report.bands import Band, draws, percent
 from vibroacoustics.report.drawn_words import drawn_sentences, held_sentence
 from vibroacoustics.report.extremes import extremes_table
 from vibroacoustics.report.option_verdict import option_verdict, option_verdicts
+from vibroacoustics.report.scores import too_close_words
 from vibroacoustics.report.source_changes import changes_sentence
 from vibroacoustics.report.source_tables import change_tables, figures_table, source_tables
 from vibroacoustics.report.source_words import (

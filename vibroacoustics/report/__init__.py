@@ -29,8 +29,11 @@ from .figures.blocked_forces import blocked_figures
 from .figures.compared_orders import compared_order_figures
 from .figures.curves import curve_figures
 from .figures.prediction import predicted_figures
-from .figures.recorded_maps import speed_map_figures, tracked_order_figures
-from .figures.recorded_orders import recorded_order_figures
+from .figures.recorded_orders import (
+    recorded_order_figures,
+    speed_map_figures,
+    tracked_order_figures,
+)
 from .figures.style import file_name
 from .html import html
 from .kept_columns import keep_columns
@@ -39,27 +42,25 @@ from .kept_sections import keep_sections
 from .kept_sections import kept as kept_sections
 from .left_out import with_lines
 from .limit_tables import limits_csv, limits_text
-from .map_page import speed_map_html
 from .markdown import markdown
 from .measured_power import measured_power_csv, measured_power_html, measured_power_text
 from .order_tables import (
     levels_csv,
     orders_csv,
     orders_text,
+    tracked_csv,
+    tracked_text,
 )
-from .orders_page import orders_html
-from .over_speed.avoid_table import avoid_csv, avoided
+from .over_speed.avoid import avoid_csv, avoided
 from .page import page_of
-from .path_tables import paths_csv
-from .paths import has_paths
+from .paths import has_paths, paths_csv
 from .prediction import prediction_csv, prediction_markdown, prediction_text
-from .radiation_figures import radiation_figures
-from .radiation_tables import kwave_text, radiation_text
+from .radiation_tables import kwave_text, radiation_figures, radiation_text
+from .recording_pages import orders_html, speed_map_html
 from .scores import scores_csv
 from .sections import SECTIONS
 from .source_tables import sources_csv
 from .study import has_sources, over_speed
-from .tracked_tables import tracked_csv, tracked_text
 
 __all__ = [
     "blocked_csv",

@@ -11,7 +11,7 @@ from ..base.decibel import level_of_power, power_of_level
 from ..base.quantiles import weighted_quantiles
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.agreement import effective_draws
-from .study import catalogue_receiver, has_draws, quoted_dba, quoted_speed
+from .study import a_weighted, at_catalogue, has_draws, quoted_dba, quoted_speed
 
 
 class Band(NamedTuple):
@@ -50,9 +50,7 @@ def quantiles(results: xr.Dataset, name: str) -> xr.DataArray:
         or `change_total`; `force_1x`, `moment_1x` or `foot_force_1x` where they were drawn
     """
     if not has_draws(results):
-        given = results[name]
-        given = given.sel(weighting="A", drop=True) if "weighting" in given.dims else given
-        return over_draws(results, given)
+        return over_draws(results, a_weighted(results[name]))
     level = results[f"{name.replace('change', 'level')}_by_draw"]
     if "prior" in level.dims:
         level = level.isel(prior=0, drop=True)
@@ -130,11 +128,7 @@ def share_band(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> Band
 
 def total_by_draw(results: xr.Dataset, prior: int) -> xr.DataArray:
     """Level of the whole machine without an option at the published speed, (draw,), dB(A)."""
-    at = {
-        "speed": quoted_speed(results),
-        "option": REFERENCE_OPTION,
-        "receiver": catalogue_receiver(results),
-    }
+    at = at_catalogue(results, speed=quoted_speed(results))
     modelled = power_of_level(results["level_modelled_by_draw"].sel(at))
     rest = power_of_level(results["level_remainder_by_draw"].isel(prior=prior, drop=True))
     return level_of_power(modelled + rest)

@@ -1,7 +1,5 @@
 """Blocked forces and their validation, as plain text, CSV and Markdown."""
 
-from collections.abc import Iterator
-
 import numpy as np
 import xarray as xr
 
@@ -9,7 +7,15 @@ from ..base import rounding
 from ..base.errors import ParameterError
 from ..base.units import shaft_frequency_hz
 from ..mechanisms.tabulated.csv_layout import orders_csv
-from .tables import Table, escape_markdown, to_csv, to_markdown, to_text
+from .tables import (
+    Table,
+    dataset_csv,
+    escape_markdown,
+    phase_deg,
+    records,
+    to_markdown,
+    to_text,
+)
 
 ON_ORDER = 0.01
 """Largest distance of a line from an order, in orders."""
@@ -39,37 +45,30 @@ def blocked_markdown(blocked: xr.Dataset) -> bytes:
 
 def blocked_csv(blocked: xr.Dataset) -> bytes:
     """Every blocked force at every line: amplitude with its 90 % band, and phase."""
-    head = ("point", "frequency_hz", "force_n", "phase_deg", "low_n", "high_n")
-    return to_csv(head, _forces(blocked))
-
-
-def _forces(blocked: xr.Dataset) -> Iterator[tuple[str | float, ...]]:
-    frequency = blocked["frequency"].values
-    for point in map(str, blocked["force_point"].values):
-        at = blocked.sel(force_point=point)
-        force = at["blocked_force"].values
-        columns = (abs(force), np.degrees(np.angle(force)), at["blocked_force_low"].values,
-                   at["blocked_force_high"].values)  # fmt: skip
-        for row in zip(frequency, *columns, strict=True):
-            yield (point, *map(float, row))
+    columns = {
+        "point": blocked["force_point"],
+        "frequency_hz": blocked["frequency"],
+        "force_n": abs(blocked["blocked_force"]),
+        "phase_deg": phase_deg(blocked["blocked_force"]),
+        "low_n": blocked["blocked_force_low"],
+        "high_n": blocked["blocked_force_high"],
+    }
+    return dataset_csv(("force_point", "frequency"), columns)
 
 
 def validation_csv(blocked: xr.Dataset) -> bytes:
     """Every line of every validation: measured, predicted with its band, difference."""
-    head = ("validation", "quantity", "frequency_hz", "measured_db", "predicted_db", "low_db",
-            "high_db", "difference_db")  # fmt: skip
-    names = [f"validation_{end}" for end in (
-        "measured", "predicted", "predicted_low", "predicted_high", "difference"
-    )]  # fmt: skip
-    rows: Iterator[tuple[str | float, ...]] = (
-        (str(name), str(at["validation_quantity"].item()), *map(float, row))
-        for name in blocked["validation_point"].values
-        for at in [blocked.sel(validation_point=name)]
-        for row in zip(
-            blocked["frequency"].values, *(at[each].values for each in names), strict=True
-        )
-    )
-    return to_csv(head, rows)
+    columns = {
+        "validation": blocked["validation_point"],
+        "quantity": blocked["validation_quantity"],
+        "frequency_hz": blocked["frequency"],
+        "measured_db": blocked["validation_measured"],
+        "predicted_db": blocked["validation_predicted"],
+        "low_db": blocked["validation_predicted_low"],
+        "high_db": blocked["validation_predicted_high"],
+        "difference_db": blocked["validation_difference"],
+    }
+    return dataset_csv(("validation_point", "frequency"), columns)
 
 
 def blocked_orders_csv(blocked: xr.Dataset) -> bytes | None:
@@ -124,25 +123,24 @@ def _validation(blocked: xr.Dataset) -> Table:
 
 
 def _bands(blocked: xr.Dataset) -> Table:
-    rows = []
-    for name in map(str, blocked["validation_point"].values):
-        at = blocked.sel(validation_point=name).dropna("band", subset=["validation_band_measured"])
-        for number in range(at.sizes["band"]):
-            one = at.isel(band=number)
-            low, high = (one[f"validation_band_difference_{end}"].item() for end in ("low", "high"))
-            rows.append(
-                (
-                    name,
-                    f"{one['band'].item():g}",
-                    rounding.fixed(one["validation_band_measured"].item()),
-                    rounding.fixed(one["validation_band_predicted"].item()),
-                    rounding.signed(one["validation_band_difference"].item(), 2),
-                    f"{rounding.signed(low, 2)} to {rounding.signed(high, 2)}",
-                )
-            )
+    parts = ("measured", "predicted", "difference", "difference_low", "difference_high")
+    columns = {part: blocked[f"validation_band_{part}"] for part in parts}
+    columns |= {"name": blocked["validation_point"], "hz": blocked["band"]}
+    rows = tuple(
+        (
+            row["name"],
+            f"{row['hz']:g}",
+            rounding.fixed(row["measured"]),
+            rounding.fixed(row["predicted"]),
+            rounding.signed(row["difference"], 2),
+            f"{rounding.signed(low, 2)} to {rounding.signed(high, 2)}",
+        )
+        for row in records(("validation_point", "band"), columns)
+        for low, high in [(row["difference_low"], row["difference_high"])]
+        if np.isfinite(row["measured"])
+    )
     head = ("Validation", "Hz", "measured", "predicted", "difference", "90 % band")
-    caption = "Third octaves, dB re 20 µPa, or re 1 µm/s²"
-    return Table(caption, head, tuple(rows), frozenset({0}))
+    return Table("Third octaves, dB re 20 µPa, or re 1 µm/s²", head, rows, frozenset({0}))
 
 
 def _truncation(blocked: xr.Dataset) -> Table:

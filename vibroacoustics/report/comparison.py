@@ -1,11 +1,9 @@
 """The comparison of the options: one value per option, speed and microphone."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import product
 
-import numpy as np
 import xarray as xr
 
 from ..base import rounding
@@ -27,7 +25,7 @@ from .study import (
     overall_noise,
     speeds,
 )
-from .tables import Table, to_csv, to_text
+from .tables import Table, dataset_csv, to_text
 
 _DIMENSIONS = ("option", "speed", "receiver")
 
@@ -44,12 +42,10 @@ def comparison(results: xr.Dataset) -> xr.Dataset:
 def comparison_csv(results: xr.Dataset) -> bytes:
     """One row per option, speed and microphone, to nine significant digits."""
     compared = comparison(results)
-    names = [str(name) for name in compared.data_vars]
-    receivers = [str(name) for name in compared["receiver"].values]
-    keys: Iterable[tuple[str | float, ...]] = product(options(results), speeds(results), receivers)
-    values = np.stack([compared[name].values.ravel() for name in names], axis=-1).tolist()
-    rows = ((*key, *row) for key, row in zip(keys, values, strict=True))
-    return to_csv(("option", "speed_rpm", "receiver", *names), rows)
+    keys = {"option": "option", "speed_rpm": "speed", "receiver": "receiver"}
+    columns = {head: compared[dim] for head, dim in keys.items()}
+    values = {str(name): column for name, column in compared.data_vars.items()}
+    return dataset_csv(_DIMENSIONS, {**columns, **values})
 
 
 def comparison_tables(results: xr.Dataset, receiver: str) -> list[Table]:

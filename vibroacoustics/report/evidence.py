@@ -12,10 +12,19 @@ from typing import Any, Final
 import numpy as np
 import xarray as xr
 
+from ..base import rounding
 from ..base.arrays import Array
 from ..base.decibel import level_of_amplitude, level_of_power
 from ..base.vocabulary import REFERENCE_OPTION
-from .study import catalogue_receiver, elsewhere, has_sources, overall_noise, parameters
+from .study import (
+    at_catalogue,
+    catalogue_receiver,
+    elsewhere,
+    has_sources,
+    overall_noise,
+    parameters,
+)
+from .tables import Table
 
 COVERAGE: Final = 2.0
 """k: about 95 % of a normal distribution."""
@@ -76,9 +85,7 @@ def _catalogue_level(results: xr.Dataset) -> Iterator[Rung]:
     drawn = drawn[np.isfinite(drawn)]
     speed = noise["speed_rpm"]
     if speed in results["speed"].values and not elsewhere(results):
-        level = results["level_modelled"].sel(
-            speed=speed, option=REFERENCE_OPTION, receiver=receiver, weighting="A"
-        )
+        level = results["level_modelled"].sel(at_catalogue(results, speed=speed, weighting="A"))
         simulated = float(level)
     elif drawn.size:
         simulated = float(np.median(drawn))
@@ -186,3 +193,44 @@ def _source(results: xr.Dataset, field: str) -> str:
 def _is_of(record: dict[str, Any], field: str) -> bool:
     """Whether a record is of a value, whatever the unit that its file gives it in."""
     return bool(record["field"] == field or record["field"].startswith(f"{field}_"))
+
+
+def evidence_table(results: xr.Dataset) -> Table:
+    """All that is published of what the results hold."""
+    return rungs_table("Results beside published values", rungs(results))
+
+
+def rungs_table(caption: str, shown: Iterable[Rung]) -> Table:
+    """A rung a row."""
+    head = (
+        "Quantity", "Unit", "Simulation S", "Data D", "E = S − D", "u_num", "u_input", "u_D",
+        "u", "Verdict", "Data from",
+    )  # fmt: skip
+    return Table(caption, head, tuple(map(_row, shown)), frozenset({0, 1, 9, 10}))
+
+
+def _row(rung: Rung) -> tuple[str, ...]:
+    numbers = (rung.simulation, rung.data)
+    spreads = (rung.numerical, rung.inputs, rung.published, rung.uncertainty)
+    is_level = rung.unit.startswith("dB")
+    write = rounding.fixed if is_level else rounding.significant
+    reach = f"{write(COVERAGE * rung.uncertainty)} {rung.unit.removesuffix('(A)')}"
+    verdict = (
+        f"agrees: no error above {reach} is seen"
+        if rung.agrees
+        else f"differs by more than {reach}"
+    )
+    return (
+        rung.quantity,
+        rung.unit,
+        *map(write, numbers),
+        rounding.signed(rung.error) if is_level else _with_sign(rung.error),
+        *(rounding.significant(spread, 2) for spread in spreads),
+        verdict,
+        rung.source,
+    )
+
+
+def _with_sign(value: float) -> str:
+    text = rounding.significant(value)
+    return f"+{text}" if value > 0.0 else text

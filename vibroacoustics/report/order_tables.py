@@ -1,15 +1,24 @@
-"""Orders of a recording, and their comparison, as plain text and CSV."""
+"""Orders of a recording, also tracked ones, as plain text and CSV."""
 
 from collections.abc import Iterator
-from itertools import product
-from typing import Any, Final, NamedTuple
+from functools import partial
+from typing import Final
 
 import numpy as np
 import xarray as xr
 
 from ..base import rounding
-from ..base.rounding import NOTHING
-from .tables import Table, to_csv, to_text
+from .tables import (
+    Columns,
+    Record,
+    Table,
+    dataset_csv,
+    phase_deg,
+    records,
+    table_of,
+    to_csv,
+    to_text,
+)
 
 _MOST_SPEEDS: Final = 6
 """Operating points in the text; all are in the CSV."""
@@ -22,19 +31,25 @@ WIDEST_CHANNEL: Final = 32
 _LEVELS: Final = ("equivalent_level", "fast_maximum_level", "slow_maximum_level")
 
 
-class _Order(NamedTuple):
-    """A row of orders.csv; the fields are its head."""
+_DIMENSIONS: Final = ("channel", "speed", "order")
 
-    channel: str
-    unit: str
-    speed_rpm: float
-    blocks: int
-    order: float
-    frequency_hz: float
-    amplitude_peak: float
-    phase_deg: float
-    rms_in_band: float
-    coherence: float
+
+def amplitude(value: float) -> str:
+    """Four digits of any unit: accelerations in m/s² and displacements in m alike."""
+    return f"{value:.4g}"
+
+
+_COLUMNS: Final[Columns] = (
+    ("Channel", "channel", str),
+    ("unit", "unit", str),
+    ("rpm", "speed_rpm", "{:.0f}".format),
+    ("blocks", "blocks", "{:.0f}".format),
+    ("Order", "order", "{:g}".format),
+    ("Peak", "amplitude_peak", amplitude),
+    ("phase, °", "known_phase_deg", rounding.fixed),
+    ("RMS in band", "rms_in_band", amplitude),
+    ("coherence", "coherence", partial(rounding.fixed, decimals=3)),
+)
 
 
 def orders_text(results: xr.Dataset) -> str:
@@ -70,7 +85,7 @@ def orders_tables(results: xr.Dataset) -> list[Table]:
 
 def orders_csv(results: xr.Dataset) -> bytes:
     """Every order of every channel at every operating point."""
-    return to_csv(_Order._fields, _order_rows(results))
+    return dataset_csv(_DIMENSIONS, _orders(results))
 
 
 def levels_csv(results: xr.Dataset) -> bytes:
@@ -100,11 +115,6 @@ def _left_out_s(results: xr.Dataset, weighting: str) -> float:
     return 0.0 if weighting == "Z" else float(results.attrs.get("levels_left_out_s", 0.0))
 
 
-def amplitude(value: float) -> str:
-    """Four digits of any unit: accelerations in m/s² and displacements in m alike."""
-    return f"{value:.4g}"
-
-
 def _faults_line(times: xr.DataArray) -> str:
     kinds = [str(name).split()[1] for name in times["fault"].values]
     counts = ", ".join(f"{kinds.count(kind)} {kind}" for kind in sorted(set(kinds)))
@@ -113,64 +123,36 @@ def _faults_line(times: xr.DataArray) -> str:
     return f"tacho faults: {counts} ({', '.join(shown[:_MOST_FAULTS] + more)})"
 
 
-def _order_rows(results: xr.Dataset) -> Iterator[_Order]:
-    dims = ("channel", "speed", "order")
-    peak, rms, coherence = (
-        results[f"channel_order{part}"].transpose(*dims).values
-        for part in ("", "_rms", "_coherence")
-    )
-    channel, speed, order = (results[dim].values for dim in dims)
-    unit, blocks = results["channel_unit"].values, results["block_count"].values
-    for c, s, o in np.ndindex(peak.shape):
-        value = complex(peak[c, s, o])
-        yield _Order(
-            channel=str(channel[c]),
-            unit=str(unit[c]),
-            speed_rpm=float(speed[s]),
-            blocks=int(blocks[s]),
-            order=float(order[o]),
-            frequency_hz=float(order[o] * speed[s] / 60.0),
-            amplitude_peak=abs(value),
-            phase_deg=float(np.degrees(np.angle(value))),
-            rms_in_band=float(rms[c, s, o]),
-            coherence=float(coherence[c, s, o]),
-        )
-
-
-def labels_of_orders(results: xr.Dataset) -> Iterator[dict[str, Any]]:
-    """Every channel at every speed and order."""
-    dims = ("channel", "speed", "order")
-    for values in product(*(results[dim].values for dim in dims)):
-        yield dict(zip(dims, values, strict=True))
+def _orders(results: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Columns of orders.csv."""
+    peak = results["channel_order"]
+    return {
+        "channel": results["channel"],
+        "unit": results["channel_unit"],
+        "speed_rpm": results["speed"],
+        "blocks": results["block_count"],
+        "order": results["order"],
+        "frequency_hz": results["order"] * results["speed"] / 60.0,
+        "amplitude_peak": abs(peak),
+        "phase_deg": phase_deg(peak),
+        "rms_in_band": results["channel_order_rms"],
+        "coherence": results["channel_order_coherence"],
+    }
 
 
 def _orders_table(results: xr.Dataset) -> Table:
     shown = shown_speeds(results)
-    rows = tuple(
-        (
-            row.channel,
-            row.unit,
-            f"{row.speed_rpm:.0f}",
-            f"{row.blocks}",
-            f"{row.order:g}",
-            amplitude(row.amplitude_peak),
-            rounding.fixed(row.phase_deg) if row.coherence >= _LEAST_COHERENCE else NOTHING,
-            amplitude(row.rms_in_band),
-            rounding.fixed(row.coherence, 3),
-        )
-        for row in _order_rows(results)
-        if row.speed_rpm in shown
-    )
-    head = (
-        "Channel", "unit", "rpm", "blocks", "Order", "Peak", "phase, °", "RMS in band", "coherence"
-    )  # fmt: skip
+    columns = _orders(results)
+    known = columns["phase_deg"].where(columns["coherence"] >= _LEAST_COHERENCE)
+    every = records(_DIMENSIONS, {**columns, "known_phase_deg": known})
     caption = (
         "Orders: peak and phase of the coherent mean over the blocks at a speed; RMS in a band of "
         f"{results.attrs['band_order']:.3g} orders"
     )
     if len(shown) < results.sizes["speed"]:
         caption += f"; {len(shown)} of {results.sizes['speed']} speeds, all in the CSV"
-    return Table(caption, head, rows, frozenset({0, 1}))
+    rows = [row for row in every if row["speed_rpm"] in shown]
+    return table_of(caption, rows, _COLUMNS, frozenset({0, 1}))
 
 
 def shown_speeds(results: xr.Dataset) -> set[float]:
@@ -201,3 +183,56 @@ def _levels_table(results: xr.Dataset) -> Table:
         f"{method}"
     )
     return Table(caption, head, rows, frozenset({0, 1}))
+
+
+_TRACKED_COLUMNS: Final[Columns] = (
+    ("Channel", "channel", str),
+    ("unit", "unit", str),
+    ("Order", "order", "{:g}".format),
+    ("Largest peak", "peak", rounding.significant),
+    ("at s", "time_s", "{:.2f}".format),
+    ("at rpm", "speed_rpm", "{:.0f}".format),
+)
+
+
+def tracked_text(tracked: xr.Dataset) -> str:
+    """Where the speed comes from, and where each order is largest."""
+    caption = "Tracked orders: where each is largest"
+    table = table_of(caption, _peaks(tracked), _TRACKED_COLUMNS, frozenset({0, 1}))
+    attrs = tracked.attrs
+    facts = [
+        f"speed: {attrs['speed_source']}",
+        f"bandwidth: {attrs['bandwidth_hz']:g} Hz, {attrs['poles']} poles; noise within it grows "
+        f"by up to {attrs['noise_gain']:.2g}",
+        "",
+    ]
+    return "\n".join([*facts, to_text(table, WIDEST_CHANNEL)])
+
+
+def tracked_csv(tracked: xr.Dataset) -> bytes:
+    """Amplitude and phase of every tracked order of every channel over the time."""
+    columns = {
+        "channel": tracked["channel"],
+        "unit": tracked["channel_unit"],
+        "order": tracked["order"],
+        "time_s": tracked["track_time"],
+        "speed_rpm": tracked["track_speed"],
+        "amplitude_peak": abs(tracked["tracked_order"]),
+        "phase_deg": phase_deg(tracked["tracked_order"]),
+    }
+    return dataset_csv(("channel", "order", "track_time"), columns)
+
+
+def _peaks(tracked: xr.Dataset) -> list[Record]:
+    """Where each order of a channel is largest."""
+    size = abs(tracked["tracked_order"])
+    at = size.isel(track_time=size.argmax("track_time"))
+    columns = {
+        "channel": tracked["channel"],
+        "unit": tracked["channel_unit"],
+        "order": tracked["order"],
+        "peak": at,
+        "time_s": at["track_time"],
+        "speed_rpm": at["track_speed"],
+    }
+    return records(("channel", "order"), columns)

@@ -1,17 +1,13 @@
 """What was predicted from measurements alone, as plain text, CSV and Markdown."""
 
-from collections.abc import Iterator
-
 import numpy as np
 import xarray as xr
 
 from ..base import rounding
 from ..base.decibel import SILENCE_DB
 from ..base.vocabulary import REFERENCE_OPTION
-from .figures.style import numbered_file_name
-from .tables import Table, escape_markdown, to_csv, to_markdown, to_text
-
-_LEVELS = ("predicted_level", "predicted_level_low", "predicted_level_high")
+from .figures.style import numbered
+from .tables import Table, dataset_csv, escape_markdown, to_markdown, to_text
 
 
 def prediction_text(predicted: xr.Dataset) -> str:
@@ -23,8 +19,8 @@ def prediction_text(predicted: xr.Dataset) -> str:
 def prediction_markdown(predicted: xr.Dataset) -> bytes:
     """A short report: tables, notes and the figures beside it."""
     pictures = [
-        f"![{escape_markdown(str(name))}](prediction_{numbered_file_name(number, str(name))}.png)"
-        for number, name in enumerate(predicted["receiver"].values, 1)
+        f"![{escape_markdown(name)}](prediction_{file}.png)"
+        for name, file in numbered(predicted, "receiver")
     ]
     parts = [
         f"# {escape_markdown(predicted.attrs['title'])}",
@@ -39,20 +35,18 @@ def prediction_markdown(predicted: xr.Dataset) -> bytes:
 
 def prediction_csv(predicted: xr.Dataset) -> bytes:
     """Every line of every microphone before and after each change, with its 90 % band."""
-    head = ("change", "microphone", "frequency_hz", "measured_db", "predicted_db", "low_db",
-            "high_db")  # fmt: skip
-    return to_csv(head, _rows(predicted))
-
-
-def _rows(predicted: xr.Dataset) -> Iterator[tuple[str | float, ...]]:
-    frequency = predicted["frequency"].values
-    for option in _changes(predicted):
-        for receiver in map(str, predicted["receiver"].values):
-            at = predicted.sel(receiver=receiver)
-            before = at["predicted_level"].sel(option=REFERENCE_OPTION).values
-            after = [at[name].sel(option=option).values for name in _LEVELS]
-            for row in zip(frequency, before, *after, strict=True):
-                yield (option, receiver, *map(float, row))
+    levels = predicted["predicted_level"]
+    after = predicted.sel(option=_changes(predicted))
+    columns = {
+        "change": after["option"],
+        "microphone": after["receiver"],
+        "frequency_hz": after["frequency"],
+        "measured_db": levels.sel(option=REFERENCE_OPTION, drop=True),
+        "predicted_db": after["predicted_level"],
+        "low_db": after["predicted_level_low"],
+        "high_db": after["predicted_level_high"],
+    }
+    return dataset_csv(("option", "receiver", "frequency"), columns)
 
 
 def _changes(predicted: xr.Dataset) -> list[str]:

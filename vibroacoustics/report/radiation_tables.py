@@ -1,4 +1,4 @@
-"""Levels of a housing that moves at unit velocity, as plain text."""
+"""What `radiate` reports: levels of a housing at unit velocity as text, and figures."""
 
 from typing import Final
 
@@ -8,7 +8,10 @@ import xarray as xr
 from ..base import rounding
 from ..base.arrays import Array
 from ..base.decibel import level_of_amplitude
-from .figures.unit_levels import names, silent_dofs, unit_level_db
+from .figures.directivity import directivity_figure
+from .figures.maps import map_figure, names, silent_dofs, unit_level_db
+from .figures.style import Picture
+from .figures.transfer_vectors import transfer_vector_figure
 from .kwave_words import kwave_line
 from .tables import Table, to_text
 
@@ -76,3 +79,13 @@ def _power_table(power: xr.DataArray, nearest: list[int], head: tuple[str, ...])
     if stand:
         caption += f"; the test stand's microphones read K1 + K2 = {stand:.1f} dB more"
     return Table(caption, ("dof", *head), rows)
+
+
+def radiation_figures(radiated: xr.Dataset) -> list[Picture]:
+    """The figures that the dataset has variables for."""
+    makers = {
+        "transfer_vector": transfer_vector_figure,
+        "map_transfer_vector": map_figure,
+        "directivity_transfer_vector": directivity_figure,
+    }
+    return [make(radiated) for name, make in makers.items() if name in radiated]

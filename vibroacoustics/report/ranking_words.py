@@ -7,9 +7,8 @@ import xarray as xr
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
 from . import labels
-from .acceptability import acceptability_words
 from .option_verdict import BETTER, OptionVerdict
-from .scores import criteria_of_advantage, scope_words
+from .scores import acceptability_words, criteria_of_advantage, scope_words
 
 
 def ranking_sentence(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> str:

@@ -9,7 +9,15 @@ from ..base import rounding
 from ..base.decibel import level_of_power, power_of_level
 from ..base.vocabulary import REFERENCE_OPTION
 from .bands import Band, over_draws
-from .study import catalogue_receiver, has_draws, overall_noise, parameters, quoted_speed, speeds
+from .study import (
+    a_weighted,
+    at_catalogue,
+    has_draws,
+    overall_noise,
+    parameters,
+    quoted_speed,
+    speeds,
+)
 
 _GROWTH = "remainder.speed_growth_db"
 NO_LEVEL: Final = (
@@ -21,12 +29,9 @@ NO_LEVEL: Final = (
 
 def remainder_band(results: xr.Dataset, speed: float) -> Band:
     """Level of the remainder at a speed without an option, over the draws."""
-    at = {"speed": speed, "option": REFERENCE_OPTION, "receiver": catalogue_receiver(results)}
-    suffix = "_by_draw" if has_draws(results) else ""
-    levels = [results[f"level_{name}{suffix}"].sel(at) for name in ("total", "modelled")]
+    at, suffix = at_catalogue(results, speed=speed), "_by_draw" if has_draws(results) else ""
     total, modelled = (
-        level.sel(weighting="A", drop=True) if "weighting" in level.dims else level
-        for level in levels
+        a_weighted(results[f"level_{name}{suffix}"].sel(at)) for name in ("total", "modelled")
     )
     left = (power_of_level(total) - power_of_level(modelled)).clip(min=0.0).fillna(0.0)
     level = xr.apply_ufunc(level_of_power, left)
@@ -40,9 +45,7 @@ def measured_rpm(results: xr.Dataset) -> float | None:
     """
     if "baseline_band_level" not in results:
         return None
-    there = results["baseline_band_level"].sel(
-        receiver=catalogue_receiver(results), option=REFERENCE_OPTION
-    )
+    there = results["baseline_band_level"].sel(at_catalogue(results))
     measured = results["speed"].values[there.notnull().any("baseline_band").values]
     return float(measured[0]) if measured.size else None
 

@@ -1,15 +1,18 @@
-"""Tables of the scores, and of the published scores with their sums added up again."""
+"""Tables of scores and ranks, how sure the ranks are, and published scores added up again."""
 
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
 import xarray as xr
 
 from ..base import rounding
+from ..base.vocabulary import REFERENCE_OPTION
 from ..scoring.ranking import utilities
-from ..scoring.scores import ANY_WEIGHTS
+from ..scoring.scores import ANY_WEIGHTS, OF_THE_STUDY
 from . import labels
-from .option_verdict import option_verdicts
+from .bands import percent
+from .option_verdict import NO_CHANGE, option_verdicts
 from .study import has_draws, has_sources, options, parameters
 from .tables import Table, to_csv
 
@@ -180,3 +183,47 @@ def _criteria(results: xr.Dataset) -> list[tuple[str, str, str]]:
 
 def _names(results: xr.Dataset, dim: str) -> list[str]:
     return [str(name) for name in results[dim].values]
+
+
+def acceptability_words(results: xr.Dataset, winners: Sequence[str]) -> str:
+    """How sure the first rank is; files of older versions have it by the weights alone."""
+    whatever = 100.0 * float(results["first_place_share"].sel(option=winners).sum())
+    if "rank_acceptability" not in results or not has_draws(results):
+        return f", and in {whatever:.0f} % of the weightings drawn at random"
+    first = results["rank_acceptability"].isel(rank_position=0).sel(option=winners).sum("option")
+    by_study = 100.0 * float(first.sel({"criteria_weights": OF_THE_STUDY}))
+    return (
+        f": by these weights in {by_study:.0f} % of the draws, and with draws and weights at "
+        f"random in {whatever:.0f} %"
+    )
+
+
+def too_close_words(results: xr.Dataset) -> str:
+    """Options that cannot be measured apart from the reference, and how often they rank first."""
+    first = results["first_place_share"]
+    texts = [
+        f"{of.option} ({percent(float(first.sel(option=of.option)))})"
+        for of in option_verdicts(results)
+        if of.judgement == NO_CHANGE and float(first.sel(option=of.option)) > 0.0
+    ]
+    if not texts:
+        return ""
+    return (
+        f"First by differences from {REFERENCE_OPTION} too small to be measured: "
+        f"{', '.join(texts)}. Ranks count every difference; read these with those of "
+        f"{REFERENCE_OPTION}."
+    )
+
+
+def acceptability_table(results: xr.Dataset) -> Table | None:
+    """Probability of each rank of each option; None in files of older versions."""
+    if "rank_acceptability" not in results:
+        return None
+    probability = results["rank_acceptability"].sel({"criteria_weights": ANY_WEIGHTS})
+    rows = tuple(
+        (option, *(percent(float(one)) for one in probability.sel(option=option).values))
+        for option in ranked(results)
+    )
+    head = ("Option", *(f"Rank {number:g}" for number in probability["rank_position"].values))
+    drawn = "over draws and weights together" if has_draws(results) else "over the weights"
+    return Table(f"Probability of each rank, {drawn}", head, rows)

@@ -11,7 +11,7 @@ from ..base.arrays import Array
 from .bands import Band, band_words, bands_by_speed
 from .quantities import TOLERANCE_DB, TOTAL
 from .shifts import shift
-from .study import balancers, catalogue_receiver, has_draws, many_speeds, speeds, total_of
+from .study import at_catalogue, balancers, has_draws, many_speeds, speeds, total_of
 
 
 class SourceChange(NamedTuple):
@@ -23,7 +23,7 @@ class SourceChange(NamedTuple):
 
 def source_change(results: xr.Dataset, option: str) -> SourceChange:
     """Changes by an option at the catalogue's microphone."""
-    at = {"option": option, "receiver": catalogue_receiver(results)}
+    at = at_catalogue(results, option=option)
     return SourceChange(
         *(bands_by_speed(results, name, **at) for name in ("change_modelled", "change_total"))
     )

@@ -16,6 +16,8 @@ from .remainder import remainder_band
 from .source_changes import key_figure
 from .source_words import at_published, ranked, source_name, source_share
 from .study import (
+    a_weighted,
+    at_catalogue,
     balancers,
     catalogue_receiver,
     has_draws,
@@ -26,7 +28,7 @@ from .study import (
     total_of,
     words,
 )
-from .tables import Table, to_csv
+from .tables import Table, dataset_csv
 
 _NOT_QUOTED: Final = "; no overall level is published at this speed"
 
@@ -86,23 +88,18 @@ def figures_table(results: xr.Dataset) -> Table:
 
 def sources_csv(results: xr.Dataset) -> bytes:
     """One row per option, speed, microphone and source, to nine significant digits."""
-    dims = ("option", "speed", "receiver", "sound_source")
     drawn = quantiles(results, "source_level")
-    by_quantile = {
-        f"level_{100.0 * quantile:.0f}_percent_dba": drawn.sel(quantile=quantile)
-        for quantile in QUANTILES
-    }
     columns = {
+        "option": results["option"],
+        "speed_rpm": results["speed"],
+        "receiver": results["receiver"],
+        "source": results["sound_source"],
         "level_dba": results["source_level"],
-        **by_quantile,
-        "share_of_modelled_energy": results["source_share"],
     }
-    values = zip(
-        *(array.transpose(*dims).values.ravel() for array in columns.values()), strict=True
-    )
-    keys = product(*(results[dim].values.tolist() for dim in dims))
-    rows = ([*key, *map(float, row)] for key, row in zip(keys, values, strict=True))
-    return to_csv(("option", "speed_rpm", "receiver", "source", *columns), rows)
+    for quantile in QUANTILES:
+        columns[f"level_{100.0 * quantile:.0f}_percent_dba"] = drawn.sel(quantile=quantile)
+    columns["share_of_modelled_energy"] = results["source_share"]
+    return dataset_csv(("option", "speed", "receiver", "sound_source"), columns)
 
 
 def _source_table(results: xr.Dataset, speed: float) -> Table:
@@ -118,7 +115,7 @@ def _source_table(results: xr.Dataset, speed: float) -> Table:
     rows = [
         _row(
             source_name(results, source).capitalize(),
-            _level(results, source, speed),
+            _at(results, "source_level", speed, sound_source=source),
             level,
             percent(_at(results, "source_share", speed, sound_source=source)),
             source_share(results, source) if quoted else None,
@@ -145,7 +142,9 @@ def _sum_rows(results: xr.Dataset, speed: float, quoted: bool) -> list[tuple[str
         _row(
             words,
             level,
-            _band(results, name, speed) if name else remainder_band(results, speed),
+            band(results, name, **at_catalogue(results, speed=speed))
+            if name
+            else remainder_band(results, speed),
             share,
             share_band(results, at_published(results, name) if name else of_rest)
             if quoted
@@ -170,7 +169,7 @@ def _row(
 
 
 def _change_row(results: xr.Dataset, option: str, speed: float) -> tuple[str, ...]:
-    selection = {"option": option, "speed": speed, "receiver": catalogue_receiver(results)}
+    selection = at_catalogue(results, option=option, speed=speed)
     of_both = {**selection, "option": [option, REFERENCE_OPTION]}
     line = column(results, "level_1x_db").sel(of_both).values
     change = float(column(results, "change_1x_db").sel(selection))
@@ -191,30 +190,7 @@ def _change_row(results: xr.Dataset, option: str, speed: float) -> tuple[str, ..
 
 
 def _at(results: xr.Dataset, name: str, speed: float, **more: str) -> float:
-    selection = {
-        "speed": speed,
-        "option": REFERENCE_OPTION,
-        "receiver": catalogue_receiver(results),
-        **more,
-    }
-    values = results[name]
-    if "weighting" in values.dims:
-        selection["weighting"] = "A"
-    return float(values.sel(selection))
-
-
-def _level(results: xr.Dataset, source: str, speed: float) -> float:
-    return _at(results, "source_level", speed, sound_source=source)
-
-
-def _band(results: xr.Dataset, name: str, speed: float) -> Band:
-    return band(
-        results,
-        name,
-        speed=speed,
-        option=REFERENCE_OPTION,
-        receiver=catalogue_receiver(results),
-    )
+    return float(a_weighted(results[name]).sel(at_catalogue(results, speed=speed, **more)))
 
 
 def _difference(total_dba: float, part_dba: float) -> float:

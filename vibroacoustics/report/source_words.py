@@ -2,15 +2,19 @@
 
 from typing import Final
 
+import numpy as np
 import xarray as xr
 
 from ..base import rounding
+from ..base.decibel import power_of_level
 from ..base.vocabulary import DERIVED_SUPPLY, REFERENCE_OPTION
 from ..levels.agreement import priors_of
 from ..machine.remainder import Remainder
-from .bands import Band, band, band_words, draws, energy_share, percent, share_band
+from .bands import Band, band, band_words, draws, energy_share, percent, share_band, total_by_draw
 from .drawn_words import drawn_sentences
 from .study import (
+    a_weighted,
+    at_catalogue,
     catalogue_receiver,
     elsewhere,
     first_order_hz,
@@ -37,8 +41,13 @@ def source_name(results: xr.Dataset, source: str) -> str:
 def ranked(results: xr.Dataset, speed: float) -> list[tuple[str, Band]]:
     """Sources without a balancer at the catalogue's microphone, the loudest first."""
     sources = [
-        (str(source), _source_band(results, str(source), speed))
-        for source in results["sound_source"].values
+        (
+            source,
+            band(
+                results, "source_level", **at_catalogue(results, sound_source=source, speed=speed)
+            ),
+        )
+        for source in map(str, results["sound_source"].values)
     ]
     return sorted(sources, key=lambda entry: -entry[1].middle)
 
@@ -126,10 +135,8 @@ def source_share(results: xr.Dataset, source: str, prior: int = 0) -> Band:
 def at_published(results: xr.Dataset, name: str, source: str | None = None) -> xr.DataArray:
     """A level by draw, or as given, without an option where the level is published."""
     level = results[f"{name}_by_draw" if has_draws(results) else name]
-    at = {"option": REFERENCE_OPTION, "receiver": catalogue_receiver(results)}
-    level = level.sel(at if source is None else {**at, "sound_source": source})
-    level = level.sel(speed=quoted_speed(results))
-    return level.sel(weighting="A", drop=True) if "weighting" in level.dims else level
+    of_source = {} if source is None else {"sound_source": source}
+    return a_weighted(level.sel(at_catalogue(results, speed=quoted_speed(results), **of_source)))
 
 
 def certainty_sentences(results: xr.Dataset) -> list[str]:
@@ -184,27 +191,10 @@ def _unresolved(results: xr.Dataset) -> str:
     )
 
 
-def _source_band(results: xr.Dataset, source: str, speed: float) -> Band:
-    return band(
-        results,
-        "source_level",
-        sound_source=source,
-        speed=speed,
-        option=REFERENCE_OPTION,
-        receiver=catalogue_receiver(results),
-    )
-
-
 def _assumed_level(results: xr.Dataset, source: str) -> float:
     """At the assumed values, without a balancer, where the overall level is published, dB(A)."""
-    return float(
-        results["source_level"].sel(
-            sound_source=source,
-            speed=quoted_speed(results),
-            option=REFERENCE_OPTION,
-            receiver=catalogue_receiver(results),
-        )
-    )
+    at = at_catalogue(results, sound_source=source, speed=quoted_speed(results))
+    return float(results["source_level"].sel(at))
 
 
 def _ranking(results: xr.Dataset) -> str:
@@ -284,3 +274,45 @@ def _derived_supply(results: xr.Dataset) -> str:
     if results["supply_frequency"].attrs["source"] != DERIVED_SUPPLY:
         return ""
     return "The supply's frequency is derived from speed and slip under the mean load. "
+
+
+_SURE: Final = 0.9
+"""Probability from which on a sentence says so."""
+_HALF: Final = 0.5
+"""Share of the energy above which a source carries the level."""
+
+
+def sure_sentence(results: xr.Dataset) -> str:
+    """Whether the loudest modelled source carries the level of the whole machine, with draws."""
+    source, _ = ranked(results, quoted_speed(results))[0]
+    probability = [_carries(results, source, number) for number in range(results.sizes["prior"])]
+    name = source_name(results, source)
+    where = f"at {catalogue_receiver(results)} and {quoted_speed(results):g} rpm"
+    noise = overall_noise(results)
+    total = "level of all that is modelled" if noise is None else f"{noise['level_dba']:g} dB(A)"
+    level = f"the {total} {where}"
+    if min(probability) >= _SURE:
+        first = f"Of {level}, without a balancer, {name} make the most"
+    elif max(probability) <= 1.0 - _SURE:
+        first = f"No modelled source carries {level}, without a balancer, not even {name}"
+    else:
+        first = f"Whether {name} carry {level}, without a balancer, is not sure"
+    chance = f"{first}: the probability of more than half of the energy is"
+    if noise is None:
+        return f"{chance} {percent(probability[0])}. No level of the machine is published."
+    priors = prior_words(results)
+    what = ["what is not modelled", *["it"] * (len(priors) - 1)]
+    by_prior = [
+        f"{percent(one)} if {rest} lies {prior}"
+        for one, rest, prior in zip(probability, what, priors, strict=True)
+    ]
+    return f"{chance} {', '.join(by_prior)}."
+
+
+def _carries(results: xr.Dataset, source: str, prior: int) -> float:
+    """Probability that a source makes more than half of the energy of the whole machine."""
+    level = at_published(results, "source_level", source).transpose("draw").values
+    total = total_by_draw(results, prior).transpose("draw").values
+    weight = results["draw_weight"].values[prior]
+    share = np.nan_to_num(power_of_level(level - total))  # none in a draw without solution
+    return float(weight[share > _HALF].sum() / weight.sum())

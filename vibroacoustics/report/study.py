@@ -98,8 +98,24 @@ def quoted_dba(results: xr.Dataset) -> float:
     noise = overall_noise(results)
     if noise is not None:
         return noise["level_dba"]
-    at = {"option": REFERENCE_OPTION, "receiver": catalogue_receiver(results)}
-    return float(results["level_total"].sel(at).sel(speed=quoted_speed(results)).round(1))
+    at = at_catalogue(results, speed=quoted_speed(results))
+    return float(results["level_total"].sel(at).round(1))
+
+
+def at_catalogue(results: xr.Dataset, **more: Any) -> dict[str, Any]:
+    """Selection of the catalogue's microphone without a balancer, with further labels.
+
+    Parameters
+    ----------
+    results : of a run
+    more : labels by dimension, in place of these too
+    """
+    return {"option": REFERENCE_OPTION, "receiver": catalogue_receiver(results), **more}
+
+
+def a_weighted(level: xr.DataArray) -> xr.DataArray:
+    """A level by weighting as its A-weighted one; other levels are A-weighted already."""
+    return level.sel(weighting="A", drop=True) if "weighting" in level.dims else level
 
 
 def total_of(results: xr.Dataset) -> str:

@@ -1,10 +1,18 @@
 """A table as data, and its forms as CSV, Markdown and plain text."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+import xarray as xr
 
 from ..base.csv_text import csv_bytes
+
+Record: TypeAlias = Mapping[str, Any]
+"""Values of a row by their names."""
+Columns: TypeAlias = Sequence[tuple[str, str, Callable[[Any], str]]]
+"""Head of each column, name of its value in a record, and what writes it."""
 
 
 @dataclass(frozen=True)
@@ -22,6 +30,40 @@ class Table:
 def to_csv(columns: Sequence[str], rows: Iterable[Sequence[str | float]]) -> bytes:
     """CSV with a head line; numbers to nine significant digits."""
     return csv_bytes(columns, rows, lambda number: f"{number:.9g}")
+
+
+def table_of(
+    caption: str,
+    rows: Iterable[Record],
+    columns: Columns,
+    words: frozenset[int] = frozenset({0}),
+) -> Table:
+    """Table of records: a row for each, with the values that the columns name."""
+    cells = tuple(tuple(write(row[name]) for _, name, write in columns) for row in rows)
+    return Table(caption, tuple(head for head, _, _ in columns), cells, words)
+
+
+def records(dims: Sequence[str], columns: Mapping[str, xr.DataArray]) -> list[Record]:
+    """A record for each point of some dimensions, the last of which runs fastest.
+
+    Parameters
+    ----------
+    dims : all dimensions of the columns
+    columns : values by name, over some of the dimensions each
+    """
+    arrays = xr.broadcast(*columns.values())
+    values = [array.transpose(*dims).values.ravel().tolist() for array in arrays]
+    return [dict(zip(columns, row, strict=True)) for row in zip(*values, strict=True)]
+
+
+def dataset_csv(dims: Sequence[str], columns: Mapping[str, xr.DataArray]) -> bytes:
+    """CSV of the records of some columns."""
+    return to_csv(list(columns), (list(row.values()) for row in records(dims, columns)))
+
+
+def phase_deg(peaks: xr.DataArray) -> xr.DataArray:
+    """Phase of complex amplitudes, degrees."""
+    return peaks.copy(data=np.degrees(np.angle(peaks.values)))
 
 
 def to_markdown(table: Table) -> str:

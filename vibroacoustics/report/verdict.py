@@ -9,7 +9,6 @@ import xarray as xr
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
 from .baseline import not_measured
-from .carrier import sure_sentence
 from .column_values import column
 from .comparison import comparison
 from .drawn_words import not_drawn_sentence
@@ -19,8 +18,9 @@ from .ranking_words import ranking_sentence
 from .remainder import growth_sentence, measured_rpm, remainder_band
 from .shifts import measurable, shift
 from .source_changes import changes_sentence
-from .source_words import carrier_sentence, left_out_sentence, shares_sentence
+from .source_words import carrier_sentence, left_out_sentence, shares_sentence, sure_sentence
 from .study import (
+    at_catalogue,
     balancers,
     catalogue_receiver,
     first_order_hz,
@@ -110,9 +110,7 @@ def _total_words(results: xr.Dataset, change_db: float) -> str:
 
 def _as_it_is(results: xr.Dataset) -> str:
     """Forces and levels without a balancer."""
-    reference = comparison(results).sel(
-        {"option": REFERENCE_OPTION, "receiver": catalogue_receiver(results)}
-    )
+    reference = comparison(results).sel(at_catalogue(results))
     shaken = (
         _shaken_over_the_speeds(results, reference)
         if many_speeds(results)
@@ -232,5 +230,4 @@ def _total_dba(results: xr.Dataset) -> float:
     speed = measured_rpm(results)
     if speed is None:
         return quoted_dba(results)
-    at = {"speed": speed, "option": REFERENCE_OPTION, "receiver": catalogue_receiver(results)}
-    return float(results["level_total"].sel(at).round(1))
+    return float(results["level_total"].sel(at_catalogue(results, speed=speed)).round(1))

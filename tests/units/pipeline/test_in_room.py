@@ -23,9 +23,9 @@ from vibroacoustics.report.in_room import (
     room_table,
     seam_sentence,
     seam_table,
+    sones,
 )
 from vibroacoustics.report.page import Page, Part
-from vibroacoustics.report.room_loudness import sones
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.results.size import result_bytes
 from vibroacoustics.sound import loudness

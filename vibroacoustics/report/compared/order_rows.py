@@ -1,8 +1,10 @@
 """Orders of two results beside each other as plain text and CSV."""
 
 from collections.abc import Iterable, Iterator
+from functools import partial
 from itertools import groupby
-from typing import Final, NamedTuple
+from operator import itemgetter
+from typing import Final
 
 import numpy as np
 import xarray as xr
@@ -10,8 +12,8 @@ import xarray as xr
 from ...base import rounding
 from ...base.decibel import level_of_amplitude
 from ...base.vocabulary import NO_ANGLE_ZERO
-from ..order_tables import WIDEST_CHANNEL, amplitude, labels_of_orders, shown_speeds
-from ..tables import Table, to_csv, to_text
+from ..order_tables import WIDEST_CHANNEL, amplitude, shown_speeds
+from ..tables import Columns, Record, dataset_csv, records, table_of, to_text
 from .orders import WITHIN_DB
 
 LOUD_DB: Final = 20.0
@@ -22,46 +24,26 @@ MOST_ORDERS: Final = 12
 """Of a channel at a speed, the strongest."""
 
 
-class _ComparedOrder(NamedTuple):
-    """A row of compared_orders.csv; the fields are its head."""
-
-    channel: str
-    other_channel: str
-    unit: str
-    speed_rpm: float
-    other_speed_rpm: float
-    order: float
-    amplitude_peak: float
-    other_amplitude_peak: float
-    difference_db: float
-    phase_difference_deg: float
-    coherence: float
+_COLUMNS: Final[Columns] = (
+    ("Channel", "channel", str),
+    ("of B", "other_channel", str),
+    ("unit", "unit", str),
+    ("rpm", "speed_rpm", "{:.0f}".format),
+    ("of B", "other_speed_rpm", "{:.0f}".format),
+    ("Order", "order", "{:g}".format),
+    ("Peak A", "amplitude_peak", amplitude),
+    ("peak B", "other_amplitude_peak", amplitude),
+    ("B - A, dB", "difference_db", partial(rounding.signed, decimals=2)),
+    ("phase, °", "phase_difference_deg", rounding.signed),
+    ("coherence", "coherence", partial(rounding.fixed, decimals=3)),
+)
 
 
 def comparison_of_orders_text(compared: xr.Dataset) -> str:
     """Table of the orders that matter of those that both results have, with their differences."""
-    every = list(_compared_rows(compared))
+    every = records(("channel", "speed", "order"), _columns(compared))
     shown = shown_speeds(compared)
-    rows = tuple(
-        (
-            row.channel,
-            row.other_channel,
-            row.unit,
-            f"{row.speed_rpm:.0f}",
-            f"{row.other_speed_rpm:.0f}",
-            f"{row.order:g}",
-            amplitude(row.amplitude_peak),
-            amplitude(row.other_amplitude_peak),
-            rounding.signed(row.difference_db, 2),
-            rounding.signed(row.phase_difference_deg, 1),
-            rounding.fixed(row.coherence, 3),
-        )
-        for row in _that_matter(row for row in every if row.speed_rpm in shown)
-    )
-    head = (
-        "Channel", "of B", "unit", "rpm", "of B", "Order", "Peak A", "peak B", "B - A, dB",
-        "phase, °", "coherence",
-    )  # fmt: skip
+    rows = list(_that_matter(row for row in every if row["speed_rpm"] in shown))
     facts = [*(_compared_fact(compared, name) for name in ("first", "second")), ""]
     caption = "B against A: level and phase of each order; coherence is the lower of both"
     if len(rows) < len(every):
@@ -69,13 +51,13 @@ def comparison_of_orders_text(compared: xr.Dataset) -> str:
             f"; {len(rows)} of {len(every)} rows, those within {LOUD_DB:g} dB of the strongest or "
             f"with more than {CHANGED_DB:g} dB between A and B; all in the CSV"
         )
-    table = Table(caption, head, rows, frozenset({0, 1, 2}))
+    table = table_of(caption, rows, _COLUMNS, frozenset({0, 1, 2}))
     return "\n".join([*facts, to_text(table, WIDEST_CHANNEL)])
 
 
 def comparison_of_orders_csv(compared: xr.Dataset) -> bytes:
     """Every pair of orders."""
-    return to_csv(_ComparedOrder._fields, _compared_rows(compared))
+    return dataset_csv(("channel", "speed", "order"), _columns(compared))
 
 
 def _compared_fact(compared: xr.Dataset, name: str) -> str:
@@ -85,40 +67,39 @@ def _compared_fact(compared: xr.Dataset, name: str) -> str:
     return f"{fact}, peaks from the RMS in the bands" if angle_zero == NO_ANGLE_ZERO else fact
 
 
-def _compared_rows(compared: xr.Dataset) -> Iterator[_ComparedOrder]:
-    for at in labels_of_orders(compared):
-        of_order = compared.sel(at)
-        yield _ComparedOrder(
-            channel=str(at["channel"]),
-            other_channel=str(of_order["compared_channel"].item()),
-            unit=str(of_order["channel_unit"].item()),
-            speed_rpm=float(at["speed"]),
-            other_speed_rpm=float(of_order["compared_speed"]),
-            order=float(at["order"]),
-            amplitude_peak=abs(complex(of_order["channel_order"].item())),
-            other_amplitude_peak=abs(complex(of_order["compared_order"].item())),
-            difference_db=float(of_order["order_difference"]),
-            phase_difference_deg=float(np.degrees(of_order["order_phase_difference"])),
-            coherence=float(of_order["channel_order_coherence"]),
-        )
+def _columns(compared: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Columns of compared_orders.csv."""
+    return {
+        "channel": compared["channel"],
+        "other_channel": compared["compared_channel"],
+        "unit": compared["channel_unit"],
+        "speed_rpm": compared["speed"],
+        "other_speed_rpm": compared["compared_speed"],
+        "order": compared["order"],
+        "amplitude_peak": abs(compared["channel_order"]),
+        "other_amplitude_peak": abs(compared["compared_order"]),
+        "difference_db": compared["order_difference"],
+        "phase_difference_deg": np.rad2deg(1.0) * compared["order_phase_difference"],
+        "coherence": compared["channel_order_coherence"],
+    }
 
 
-def _that_matter(rows: Iterable[_ComparedOrder]) -> Iterator[_ComparedOrder]:
+def _that_matter(rows: Iterable[Record]) -> Iterator[Record]:
     """Of each channel and speed the orders that are strong, or strong enough and different."""
-    for _, group in groupby(rows, key=lambda row: (row.channel, row.speed_rpm)):
-        known = [row for row in group if np.isfinite(row.difference_db)]
+    for _, group in groupby(rows, key=itemgetter("channel", "speed_rpm")):
+        known = [row for row in group if np.isfinite(row["difference_db"])]
         strongest = max((_peak(row) for row in known), default=0.0)
         chosen = [row for row in known if _matters(row, strongest)]
-        printed = {row.order for row in sorted(chosen, key=_peak, reverse=True)[:MOST_ORDERS]}
-        yield from (row for row in chosen if row.order in printed)
+        printed = {row["order"] for row in sorted(chosen, key=_peak, reverse=True)[:MOST_ORDERS]}
+        yield from (row for row in chosen if row["order"] in printed)
 
 
-def _matters(row: _ComparedOrder, strongest: float) -> bool:
+def _matters(row: Record, strongest: float) -> bool:
     below_db = -level_of_amplitude(_peak(row) / strongest) if strongest > 0.0 else 0.0
-    differs = abs(row.difference_db) > CHANGED_DB
+    differs = abs(row["difference_db"]) > CHANGED_DB
     return bool(below_db <= LOUD_DB or (differs and below_db <= WITHIN_DB))
 
 
-def _peak(row: _ComparedOrder) -> float:
+def _peak(row: Record) -> float:
     """The larger of both."""
-    return max(row.amplitude_peak, row.other_amplitude_peak)
+    return float(max(row["amplitude_peak"], row["other_amplitude_peak"]))

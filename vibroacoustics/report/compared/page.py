@@ -8,9 +8,8 @@ import xarray as xr
 from ...results.figure_limits import CheckedFigure, Compared
 from ...results.mean_of_runs import runs_of
 from ..blocks import Block, Details, Pictures, Text
-from ..evidence import COVERAGE, Rung
-from ..evidence_table import rungs_table
-from ..figures.order_differences import difference_picture
+from ..evidence import COVERAGE, Rung, rungs_table
+from ..figures.compared_orders import difference_picture
 from ..figures.style import Picture
 from ..html import html
 from ..page import Page, Part

@@ -1,7 +1,5 @@
 """The measured baseline with every option, by third octave."""
 
-from collections.abc import Sequence
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -11,7 +9,8 @@ from ...base.vocabulary import REFERENCE_OPTION
 from ..study import few_speeds, options, speeds
 from ..titles import chosen
 from .needs import needs
-from .style import MARKERS, Picture, draw, frequency_ticks, legend_below, line_looks, png, wrap
+from .panels import each_panel, in_rpm, third_octaves
+from .style import Picture, png, wrap
 
 
 @needs("baseline_band_level")
@@ -41,22 +40,16 @@ def baseline_third_octaves(results: xr.Dataset, receiver: str | None = None) -> 
     level = shown["baseline_band_level"].sel(receiver=at)
     level = level.isel(baseline_band=level.notnull().any(["speed", "option"]).values)
     names = options(shown)
-    hertz = level["baseline_band"].values
+    words = ["measured" if name == REFERENCE_OPTION else wrap(name, 24) for name in names]
 
-    def paint(panels: Sequence[Axes]) -> None:
-        for axes, speed in zip(panels, speeds(shown), strict=True):
-            for number, (name, look) in enumerate(zip(names, line_looks(len(names)), strict=True)):
-                curve = level.sel(option=name, speed=speed).values
-                words = "measured" if name == REFERENCE_OPTION else wrap(name, 24)
-                marker = MARKERS[number % len(MARKERS)]
-                axes.semilogx(hertz, curve, marker=marker, markersize=3.5, label=words, **look)
-            axes.set_title(f"{speed:g} rpm", loc="left")
-            axes.set_ylabel("Level, dB re 20 µPa")
-            frequency_ticks(axes, hertz)
-        panels[-1].set_xlabel("Third-octave band, Hz")
-        legend_below(panels[0], 2)
+    def paint(axes: Axes, speed: float) -> None:
+        curves = (level.sel(option=name, speed=speed).values for name in names)
+        third_octaves(axes, level["baseline_band"].values, words, curves)
 
-    return draw(len(speeds(shown)), 2.4, paint, (len(names) + 1) // 2, sharex=True)
+    return each_panel(
+        speeds(shown), 2.4, paint, "Third-octave band, Hz", "Level, dB re 20 µPa", in_rpm,
+        columns=2, rows=(len(names) + 1) // 2, sharex=True,
+    )  # fmt: skip
 
 
 def measured_receivers(results: xr.Dataset) -> list[str]:

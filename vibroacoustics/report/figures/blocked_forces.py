@@ -1,14 +1,13 @@
 """Blocked forces with their bands, and their on-board validation."""
 
-from collections.abc import Sequence
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from .needs import needs
-from .style import COLOURS, Picture, draw, legend_below, png, shortened
+from .panels import band, each_panel
+from .style import COLOURS, Picture, png, shortened
 
 _FROM = "`blocked_forces`, command `blocked-forces`"
 _RANGE_DB = 80.0
@@ -36,22 +35,15 @@ def blocked_force(blocked: xr.Dataset) -> Figure:
     points = [str(name) for name in blocked["force_point"].values]
     frequency = blocked["frequency"].values
 
-    def paint(panels: Sequence[Axes]) -> None:
-        for axes, point in zip(panels, points, strict=True):
-            at = blocked.sel(force_point=point)
-            amplitude = np.abs(at["blocked_force"].values)
-            least = 0.1 * max(amplitude.min(), 1e-9)
-            axes.fill_between(
-                frequency, np.maximum(at["blocked_force_low"], least), at["blocked_force_high"],
-                color=COLOURS[1], alpha=0.3, linewidth=0.0, label="90 % band",
-            )  # fmt: skip
-            axes.semilogy(frequency, amplitude, color=COLOURS[1], label="blocked force")
-            axes.set_ylabel("Force, N")
-            axes.set_title(shortened(point), loc="left")
-        panels[-1].set_xlabel("Frequency, Hz")
-        legend_below(panels[-1], 2)
+    def paint(axes: Axes, point: str) -> None:
+        at = blocked.sel(force_point=point)
+        amplitude = np.abs(at["blocked_force"].values)
+        least = 0.1 * max(amplitude.min(), 1e-9)
+        low, high = np.maximum(at["blocked_force_low"], least), at["blocked_force_high"]
+        band(axes, frequency, low, high)
+        axes.semilogy(frequency, amplitude, color=COLOURS[1], label="blocked force")
 
-    return draw(len(points), 2.0, paint, 1)
+    return each_panel(points, 2.0, paint, "Frequency, Hz", "Force, N", shortened, 2, 1)
 
 
 @needs("validation_measured", "validation_predicted", from_=_FROM)
@@ -76,28 +68,19 @@ def blocked_validation(blocked: xr.Dataset) -> Figure:
     points = [str(name) for name in blocked["validation_point"].values]
     frequency = blocked["frequency"].values
 
-    def paint(panels: Sequence[Axes]) -> None:
-        for axes, point in zip(panels, points, strict=True):
-            at = blocked.sel(validation_point=point)
-            top = float(at["validation_measured"].max()) + 5.0
-            axes.fill_between(
-                frequency, np.maximum(at["validation_predicted_low"], top - _RANGE_DB),
-                at["validation_predicted_high"], color=COLOURS[1], alpha=0.3, linewidth=0.0,
-                label="90 % band",
-            )  # fmt: skip
-            axes.plot(frequency, at["validation_measured"], color=COLOURS[0], label="measured")
-            axes.plot(
-                frequency, at["validation_predicted"], "--", color=COLOURS[1],
-                label="by the blocked forces",
-            )  # fmt: skip
-            axes.set_ylim(max(top - _RANGE_DB, float(at["validation_measured"].min()) - 5.0), top)
-            is_sound = at["validation_quantity"].item() == "sound pressure"
-            axes.set_ylabel(f"Level, dB re {'20 µPa' if is_sound else '1 µm/s²'}")
-            axes.set_title(shortened(point), loc="left")
-        panels[-1].set_xlabel("Frequency, Hz")
-        legend_below(panels[-1], 3)
+    def paint(axes: Axes, point: str) -> None:
+        at = blocked.sel(validation_point=point)
+        measured, predicted = at["validation_measured"], at["validation_predicted"]
+        top = float(measured.max()) + 5.0
+        low = np.maximum(at["validation_predicted_low"], top - _RANGE_DB)
+        band(axes, frequency, low, at["validation_predicted_high"])
+        axes.plot(frequency, measured, color=COLOURS[0], label="measured")
+        axes.plot(frequency, predicted, "--", color=COLOURS[1], label="by the blocked forces")
+        axes.set_ylim(max(top - _RANGE_DB, float(measured.min()) - 5.0), top)
+        is_sound = at["validation_quantity"].item() == "sound pressure"
+        axes.set_ylabel(f"Level, dB re {'20 µPa' if is_sound else '1 µm/s²'}")
 
-    return draw(len(points), 2.2, paint, 1)
+    return each_panel(points, 2.2, paint, "Frequency, Hz", title=shortened, columns=3, rows=1)
 
 
 def blocked_figures(blocked: xr.Dataset) -> list[Picture]:

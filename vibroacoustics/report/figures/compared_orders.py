@@ -1,4 +1,4 @@
-"""Order spectra of two results on top of each other."""
+"""Orders of two results on top of each other, and how far they are apart."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -8,18 +8,11 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ...base.arrays import Array
 from ..titles import chosen
 from .needs import needs
-from .style import (
-    COLOURS,
-    Picture,
-    draw,
-    legend_below,
-    numbered_file_name,
-    png,
-    shortened,
-    whole_number_ticks,
-)
+from .panels import each_panel
+from .style import COLOURS, MARKERS, Picture, numbered, png, shortened, whole_number_ticks
 
 _MOST_PANELS: Final = 4
 _QUIETEST: Final = 1e-5
@@ -32,8 +25,8 @@ def compared_order_figures(compared: xr.Dataset) -> list[Picture]:
     Channels without an order that both results have are left out.
     """
     return [
-        _picture(compared, str(name), numbered_file_name(number, str(name)))
-        for number, name in enumerate(compared["channel"].values, 1)
+        _picture(compared, name, file)
+        for name, file in numbered(compared, "channel")
         if np.isfinite(compared["order_difference"].sel(channel=name)).any()
     ]
 
@@ -76,34 +69,34 @@ def compared_orders(compared: xr.Dataset, channel: str | None = None) -> Figure:
     sizes = np.concatenate([drawn.values.ravel(), [] if limits is None else limits.values.ravel()])
     bottom, top = 0.5 * float(np.nanmin(sizes)), 2.0 * float(np.nanmax(sizes))
 
-    def paint(panels: Sequence[Axes]) -> None:
-        for axes, value in zip(panels, panel_values, strict=True):
-            for shown, label, colour, marker, width in zip(
-                drawn.sel({across: value}), labels, (COLOURS[3], COLOURS[1]), "ox", (8, 6),
-                strict=True,
-            ):  # fmt: skip
-                if by_speed:
-                    axes.vlines(shown[within], bottom, shown, color=colour, alpha=0.4)
-                axes.semilogy(
-                    shown[within], shown, marker, color=colour, label=shortened(label),
-                    markersize=width, fillstyle="none",
-                )  # fmt: skip
-            if limits is not None:
-                axes.semilogy(
-                    limits[within], limits.sel({across: value}), "_", color=COLOURS[5],
-                    label="limit, as a peak", markersize=12,
-                )  # fmt: skip
-            where = f"{value:.0f} rpm" if by_speed else f"order {value:g}"
-            axes.set_title(f"{title}, {where}", loc="left")
-            axes.set_ylim(bottom, top)
-            axes.set_ylabel(f"Peak, {of_channel['channel_unit'].item()}")
-        panels[-1].set_xlabel("Shaft order" if by_speed else "Speed, rpm")
-        if by_speed:
-            panels[-1].set_xlim(0.0, float(of_channel["order"].max()) + 0.5)
-            whole_number_ticks(panels[-1])
-        legend_below(panels[0], 1)
+    looks = list(zip(labels, (COLOURS[3], COLOURS[1]), "ox", (8, 6), strict=True))
 
-    return draw(len(panel_values), 2.2, paint, legend_rows=2 + (limits is not None), sharex=True)
+    def paint(axes: Axes, value: float) -> None:
+        for shown, (label, colour, marker, width) in zip(
+            drawn.sel({across: value}), looks, strict=True
+        ):
+            if by_speed:
+                axes.vlines(shown[within], bottom, shown, color=colour, alpha=0.4)
+            axes.semilogy(
+                shown[within], shown, marker, color=colour, label=shortened(label),
+                markersize=width, fillstyle="none",
+            )  # fmt: skip
+        if limits is not None:
+            axes.semilogy(
+                limits[within], limits.sel({across: value}), "_", color=COLOURS[5],
+                label="limit, as a peak", markersize=12,
+            )  # fmt: skip
+        axes.set_ylim(bottom, top)
+        if by_speed:
+            axes.set_xlim(0.0, float(of_channel["order"].max()) + 0.5)
+            whole_number_ticks(axes)
+
+    return each_panel(
+        panel_values, 2.2, paint, "Shaft order" if by_speed else "Speed, rpm",
+        f"Peak, {of_channel['channel_unit'].item()}",
+        lambda value: f"{title}, {f'{value:.0f} rpm' if by_speed else f'order {value:g}'}",
+        columns=1, rows=2 + (limits is not None), sharex=True,
+    )  # fmt: skip
 
 
 def _picture(compared: xr.Dataset, channel: str, name: str) -> Picture:
@@ -114,3 +107,77 @@ def _picture(compared: xr.Dataset, channel: str, name: str) -> Picture:
         f"{channel}: {labels[0]} (circles) and {labels[1]} (crosses).",
         png(compared_orders(compared, channel)),
     )
+
+
+_MOST_CHANNELS: Final = 6
+_COVERAGE: Final = 2.0
+
+
+def difference_picture(compared: xr.Dataset) -> Picture:
+    """Differences of all shown channels."""
+    with_bars = "order_mean_uncertainty" in compared
+    bars = " Bars: twice the standard uncertainty of the mean of the runs." if with_bars else ""
+    return Picture(
+        "compared_differences",
+        "Level of each order in B less that in A, a marker a channel; numbers are in the tables.",
+        f"B − A: {compared.attrs['second']} less {compared.attrs['first']}.{bars}",
+        png(order_differences(compared)),
+    )
+
+
+@needs("order_difference", from_="`compare`")
+def order_differences(compared: xr.Dataset, channels: Sequence[str] = ()) -> Figure:
+    """Level of each order in the second result less that in the first, a panel a speed.
+
+    With several runs behind the second result, bars are twice the standard uncertainty of its mean.
+
+    Parameters
+    ----------
+    compared : of `compare`; needs `order_difference` (channel, speed, order), dB
+    channels : at most six are drawn; default: the first with values
+
+    Raises
+    ------
+    ParameterError
+        The dataset holds none.
+
+    Examples
+    --------
+    >>> compared = va.open_results("compared_orders.nc")
+    >>> va.plot.order_differences(compared).savefig("differences.png")
+    """
+    difference = compared["order_difference"]
+    known = [str(name) for name in difference.dropna("channel", how="all")["channel"].values]
+    shown = (list(channels) or known)[:_MOST_CHANNELS]
+    speeds = difference["speed"].values[:_MOST_PANELS]
+
+    highest = difference["order"].where(difference.notnull()).max().item()
+
+    def paint(axes: Axes, speed: float) -> None:
+        axes.axhline(0.0, color=COLOURS[0], linewidth=0.8)
+        for number, name in enumerate(shown):
+            at = {"channel": name, "speed": speed}
+            axes.errorbar(
+                difference["order"] + 0.08 * (number - (len(shown) - 1) / 2.0),
+                difference.sel(at),
+                yerr=_reach(compared, at),
+                fmt=MARKERS[number % len(MARKERS)],
+                color=COLOURS[1 + number],
+                markersize=5,
+                fillstyle="none",
+                capsize=2,
+                label=shortened(name),
+            )
+        whole_number_ticks(axes)
+        axes.set_xlim(0.0, highest + 0.5)
+
+    return each_panel(
+        speeds, 2.0, paint, "Shaft order", "B − A, dB", lambda speed: f"{speed:.0f} rpm",
+        columns=2, rows=(len(shown) + 1) // 2, sharex=True,
+    )  # fmt: skip
+
+
+def _reach(compared: xr.Dataset, at: dict[str, object]) -> Array | None:
+    if "order_mean_uncertainty" not in compared:
+        return None
+    return np.asarray(np.nan_to_num(_COVERAGE * compared["order_mean_uncertainty"].sel(at).values))

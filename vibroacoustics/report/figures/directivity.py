@@ -11,9 +11,7 @@ from matplotlib.ticker import MaxNLocator
 
 from ...base import rounding
 from ...base.arrays import Array
-from .needs import needs
-from .style import COLOURS, Picture, plain, png, render
-from .unit_levels import (
+from .maps import (
     COLOUR_MAP,
     DEPTH_DB,
     WIDE_INCH,
@@ -23,6 +21,8 @@ from .unit_levels import (
     silent_dofs,
     unit_level_db,
 )
+from .needs import needs
+from .style import COLOURS, Picture, plain, png, render
 
 RING_STEP_DB: Final = 20.0
 

@@ -1,7 +1,5 @@
 """The resultant force of every option over one revolution."""
 
-from collections.abc import Sequence
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -10,7 +8,8 @@ from matplotlib.figure import Figure
 from ..study import options, speeds, words
 from ..titles import chosen
 from .needs import needs
-from .style import Picture, draw, legend_below, line_looks, png, wrap
+from .panels import each_panel, lines
+from .style import Picture, png, wrap
 
 
 @needs("force", from_="`run` (above 100 speeds with operation.keep_time_series)")
@@ -35,20 +34,18 @@ def force_over_revolution(results: xr.Dataset, speed_rpm: float | None = None) -
     speed = max(speeds(results)) if speed_rpm is None else chosen(results, "speed", speed_rpm)
     total = _total(results, speed)
     degrees = np.rad2deg(results["crank_angle"].values)
-    names = options(results)
-    looks = line_looks(len(names))
+    names = [wrap(name, 24) for name in options(results)]
 
-    def paint(panels: Sequence[Axes]) -> None:
-        for axes, along in zip(panels, total, strict=True):
-            for curve, name, look in zip(along.values, names, looks, strict=True):
-                axes.plot(degrees, curve, label=wrap(name, 24), **look)
-            axes.set_ylabel(f"Force along {along['axis'].item()}, N")
-            axes.set_xlim(0.0, 360.0)
-            axes.set_xticks(range(0, 361, 60))
-        panels[-1].set_xlabel("Crank angle, degrees")
-        legend_below(panels[0])
+    def paint(axes: Axes, along: xr.DataArray) -> None:
+        lines(axes, degrees, names, along.values)
+        axes.set_ylabel(f"Force along {along['axis'].item()}, N")
+        axes.set_xlim(0.0, 360.0)
+        axes.set_xticks(range(0, 361, 60))
 
-    return draw(total.sizes["axis"], 1.8, paint, (len(names) + 1) // 2, sharex=True, sharey=True)
+    return each_panel(
+        list(total), 1.8, paint, "Crank angle, degrees", columns=2, rows=(len(names) + 1) // 2,
+        sharex=True, sharey=True,
+    )  # fmt: skip
 
 
 def force_figures(results: xr.Dataset) -> list[Picture]:

@@ -10,6 +10,7 @@ from matplotlib.patches import Rectangle
 
 from ..study import parameters
 from ..titles import chosen
+from .maps import COLOUR_MAP
 from .needs import needs
 from .style import (
     WIDTH_INCH,
@@ -22,7 +23,6 @@ from .style import (
     render,
     shortened,
 )
-from .unit_levels import COLOUR_MAP
 
 _MAP_HEIGHT_INCH = 4.0
 _SEAM_HEIGHT_INCH = 1.7

@@ -21,7 +21,8 @@ from ..over_speed.level_curves import (
 from ..study import catalogue_receiver
 from ..titles import chosen, titled
 from .needs import needs
-from .style import WIDTH_INCH, draw, legend_below, line_looks, shade, shortened, wrap
+from .panels import each_panel, one_panel
+from .style import WIDTH_INCH, line_looks, shade, shortened, wrap
 
 _FEW_POINTS: Final = 12
 _RANGE_DB: Final = 60.0
@@ -70,27 +71,26 @@ def levels_over_speed(
     >>> va.plot.levels_over_speed(mapped).savefig("run_up.png")
     """
     panels, xlabel = _curves(results, receiver, options)
+    solid = {title: len(curves) for title, curves in panels.items()}
     if beside is not None:
         panels = {title: _lettered("A", curves) for title, curves in panels.items()}
         beside = titled(beside)
         others, _ = _curves(beside, receiver if _has(beside, receiver) else None, beside_options)
         panels = {title: [*curves, *_like(others, title)] for title, curves in panels.items()}
-    solid = [len(one) for one in _curves(results, receiver, options)[0].values()]
     shaded = _shaded(results, receiver, options)
 
-    def paint(axes_of: Sequence[Axes]) -> None:
-        for axes, (title, curves), count in zip(axes_of, panels.items(), solid, strict=True):
-            _panel(axes, curves, count)
-            axes.set_title(shortened(title, 60), loc="left")
-            axes.set_ylabel("Level, dB(A)" if "level_total" in results else "Level, dB re 20 µPa")
-            for span in shaded:
-                shade(axes, span.from_rpm, span.to_rpm)
-        axes_of[-1].set_xlabel(xlabel)
-        legend_below(axes_of[0], columns)
+    def paint(axes: Axes, title: str) -> None:
+        _panel(axes, panels[title], solid[title])
+        for span in shaded:
+            shade(axes, span.from_rpm, span.to_rpm)
 
     columns = 4 if width_inch > WIDTH_INCH else 2
     rows = -(-max(len(curves) for curves in panels.values()) // columns)
-    return draw(len(panels), 2.3, paint, rows, width_inch, sharex=True)
+    y = "Level, dB(A)" if "level_total" in results else "Level, dB re 20 µPa"
+    return each_panel(
+        list(panels), 2.3, paint, xlabel, y, lambda title: shortened(title, 60), columns, rows,
+        width_inch, sharex=True,
+    )  # fmt: skip
 
 
 @needs("source_level")
@@ -128,18 +128,15 @@ def source_levels_over_speed(
         one.range for one in speeds_to_avoid(results, receiver, [option]) if one.quantity == LEVEL
     ]
 
-    def paint(panels: Sequence[Axes]) -> None:
-        (axes,) = panels
+    def paint(axes: Axes) -> None:
         _panel(axes, audible, len(audible))
         for span in shaded:
             shade(axes, span.from_rpm, span.to_rpm)
-        axes.set_xlabel("Speed, rpm")
-        axes.set_ylabel("Level, dB(A)")
-        axes.set_title(f"Each source alone, option {shortened(option, 30)}", loc="left")
-        legend_below(axes, columns)
 
     columns = 3 if width_inch > WIDTH_INCH else 1
-    return draw(1, 2.8, paint, -(-len(audible) // columns), width_inch)
+    title = f"Each source alone, option {shortened(option, 30)}"
+    rows = -(-len(audible) // columns)
+    return one_panel(2.8, paint, "Speed, rpm", "Level, dB(A)", title, columns, rows, width_inch)
 
 
 def _curves(

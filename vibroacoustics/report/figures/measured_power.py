@@ -1,12 +1,11 @@
 """Sound power in third octaves from recorded microphones."""
 
-from collections.abc import Sequence
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from .style import COLOURS, Picture, draw, legend_below, png
+from .panels import one_panel, third_octave_ticks
+from .style import COLOURS, Picture, png
 
 
 def power_picture(measured: xr.Dataset) -> Picture:
@@ -16,17 +15,14 @@ def power_picture(measured: xr.Dataset) -> Picture:
     level = measured["measured_power_level"].values
     corrections = measured["background_correction"] + measured["environment_correction"]
 
-    def paint(panels: Sequence[Axes]) -> None:
-        (axes,) = panels
+    def paint(axes: Axes) -> None:
         uncorrected = level + corrections.values
         axes.plot(at, uncorrected, "o", mfc="none", color=COLOURS[3], label="without K1 and K2")
         axes.bar(at, level, color=COLOURS[6], label="L_W")
         known = uncorrected[np.isfinite(uncorrected)]
         axes.set_ylim(max(known.min() - 10.0, 0.0), known.max() + 3.0)
-        axes.set_xticks(at[::3], [f"{band:g}" for band in bands[::3]])
-        axes.set_xlabel("Third octave, Hz")
-        axes.set_ylabel("Level, dB re 1 pW")
-        legend_below(axes, 2)
+        third_octave_ticks(axes, bands)
 
     words = "Sound power level in third octaves."
-    return Picture("sound_power", words, words, png(draw(1, 2.6, paint, 1)))
+    figure = one_panel(2.6, paint, "Third octave, Hz", "Level, dB re 1 pW", columns=2, rows=1)
+    return Picture("sound_power", words, words, png(figure))

@@ -1,7 +1,5 @@
 """What the mounts let through."""
 
-from collections.abc import Sequence
-
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -10,7 +8,8 @@ from ...base import rounding
 from ..study import first_order_hz, many_speeds
 from .first_order import mark_first_order
 from .needs import needs
-from .style import COLOURS, Picture, draw, frequency_ticks, legend_below, png
+from .panels import one_panel
+from .style import COLOURS, Picture, frequency_ticks, png
 
 
 @needs("mount_transmissibility")
@@ -33,20 +32,17 @@ def mount_transmissibility(results: xr.Dataset) -> Figure:
     """
     transmitted = abs(results["mount_transmissibility"])
 
-    def paint(panels: Sequence[Axes]) -> None:
-        (axes,) = panels
+    def paint(axes: Axes) -> None:
         looks = zip(("-", "--", "-."), (COLOURS[3], COLOURS[2], COLOURS[5]), strict=True)
         for curve, (dash, colour) in zip(transmitted, looks, strict=True):
             label = f"along {curve['axis'].item()}"
             axes.loglog(curve["mount_frequency"], curve, dash, color=colour, label=label)
         mark_first_order(axes, results, "black", "1× at the speeds of the study")
         axes.axhline(1.0, color="#888888", linewidth=0.8)
-        axes.set_xlabel("Frequency, Hz")
-        axes.set_ylabel("Sum of foot forces per force, 1")
         frequency_ticks(axes, transmitted["mount_frequency"].values)
-        legend_below(axes)
 
-    return draw(1, 3.0, paint, 2)
+    y = "Sum of foot forces per force, 1"
+    return one_panel(3.0, paint, "Frequency, Hz", y, columns=2, rows=2)
 
 
 def mount_figures(results: xr.Dataset) -> list[Picture]:

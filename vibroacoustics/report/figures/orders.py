@@ -1,6 +1,5 @@
 """Order spectra of the options side by side: force, foot force, sound pressure level."""
 
-from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -9,11 +8,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base import rounding
-from ...base.arrays import Array
 from ..study import catalogue_receiver, few_speeds, options, speeds
 from ..titles import chosen
 from .needs import needs
-from .style import COLOURS, MARKERS, Picture, draw, legend_below, logarithmic_ticks, png, wrap
+from .panels import each_panel, in_rpm, named_rows
+from .style import COLOURS, MARKERS, Picture, logarithmic_ticks, png
 
 HIGHEST_ORDER: Final = 4
 LOWEST_FORCE_N: Final = 1e-3
@@ -122,31 +121,17 @@ def _dots(values: xr.DataArray, label: str, lowest: float, logarithmic: bool) ->
     labelled = audible.to_dataset(name="value")
     names, shafts = options(labelled), speeds(labelled)
 
-    def paint(panels: Sequence[Axes]) -> None:
-        for axes, shaft, per_option in zip(panels, shafts, data, strict=True):
-            _dot_panel(axes, per_option, [int(order) for order in audible["order"].values])
-            axes.set_title(f"{shaft:g} rpm", loc="left")
-            axes.set_yticks(range(len(names)), [wrap(name) for name in names])
-            axes.set_ylim(len(names) - 0.5, -0.5)
-            if logarithmic:
-                axes.set_xscale("log")
-                logarithmic_ticks(axes)
-        panels[-1].set_xlabel(label)
-        legend_below(panels[0], 4)
+    def paint(axes: Axes, shaft: float) -> None:
+        by_order = zip(audible["order"].values, data[shafts.index(shaft)].T, strict=True)
+        for index, (order, sizes) in enumerate(by_order):
+            axes.plot(
+                sizes, range(len(names)), MARKERS[index % len(MARKERS)], markersize=6,
+                color=COLOURS[(0, 1, 3, 5)[index % 4]], label=f"{int(order)}×",
+            )  # fmt: skip
+        named_rows(axes, names)
+        if logarithmic:
+            axes.set_xscale("log")
+            logarithmic_ticks(axes)
 
     height = 0.7 + 0.26 * len(names)
-    return draw(len(shafts), height, paint, sharex=True)
-
-
-def _dot_panel(axes: Axes, per_option: Array, orders: list[int]) -> None:
-    rows = np.arange(len(per_option))
-    for index, order in enumerate(orders):
-        axes.plot(
-            per_option[:, index],
-            rows,
-            linestyle="none",
-            marker=MARKERS[index % len(MARKERS)],
-            color=COLOURS[(0, 1, 3, 5)[index % 4]],
-            markersize=6,
-            label=f"{order}×",
-        )
+    return each_panel(shafts, height, paint, label, title=in_rpm, columns=4, rows=1, sharex=True)

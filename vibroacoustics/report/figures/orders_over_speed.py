@@ -1,34 +1,21 @@
 """Order cuts over the speed, of a study, a recording or two results."""
 
-from collections.abc import Sequence
 from typing import Any, Final
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullLocator
 
 from ...base.arrays import Array
 from ...base.vocabulary import REFERENCE_OPTION
 from ..over_speed.order_cuts import OrderCuts, order_cuts
 from .needs import needs
-from .style import (
-    WIDTH_INCH,
-    Picture,
-    draw,
-    in_both_widths,
-    legend_below,
-    line_looks,
-    shortened,
-)
+from .panels import logarithmic, one_panel
+from .style import WIDTH_INCH, Picture, in_both_widths, line_looks, shortened
 
-_QUIETEST: Final = 1e-5
-"""Lowest amplitude of a logarithmic axis, as a share of the largest."""
 _RANGE_DB: Final = 80.0
 """Levels further below the highest are not drawn."""
-_DECADES: Final = 100.0
-"""Range of a logarithmic axis from which on it has ticks at powers of ten alone."""
 _FEW_POINTS: Final = 12
 """Speeds that get a marker each."""
 _OF_LIMITS: Final = {"linewidth": 0.8, "marker": "_", "markersize": 4.0, "linestyle": "-"}
@@ -74,19 +61,16 @@ def orders_over_speed(
     """
     cuts = order_cuts(orders, channel, option)
 
-    def paint(panels: Sequence[Axes]) -> None:
-        (axes,) = panels
+    def paint(axes: Axes) -> None:
         for number, look in enumerate(line_looks(cuts.order.size)):
             _lines(axes, cuts, number, look)
         _scale(axes, cuts)
-        axes.set_xlabel("Speed, rpm")
-        axes.set_ylabel(_label(cuts))
-        axes.set_title(_title(orders, cuts), loc="left")
-        legend_below(axes, columns)
 
     columns = 8 if width_inch > WIDTH_INCH else 4
-    entries = cuts.order.size + (cuts.limits is not None)
-    return draw(1, 2.6, paint, -(-entries // columns), width_inch)
+    rows = -(-(cuts.order.size + (cuts.limits is not None)) // columns)
+    y = "Level, dB re 20 µPa" if cuts.unit == "Pa" else f"RMS in the order's band, {cuts.unit}"
+    title = f"{shortened(cuts.channel, 40)}{'; solid A, dashed B' if len(cuts.rms) > 1 else ''}"
+    return one_panel(2.6, paint, "Speed, rpm", y, title, columns, rows, width_inch)
 
 
 def over_speed_picture(
@@ -129,18 +113,11 @@ def _lines(axes: Axes, cuts: OrderCuts, number: int, look: dict[str, Any]) -> No
 
 def _scale(axes: Axes, cuts: OrderCuts) -> None:
     """Levels down to a range below the highest; of others a logarithmic axis, if there is any."""
-    allowed = np.array([]) if cuts.limits is None else cuts.limits[np.isfinite(cuts.limits)]
-    known = cuts.rms[np.isfinite(cuts.rms)]
     if cuts.unit == "Pa":
-        _level_scale(axes, cuts.shown(np.concatenate([known, allowed])))
-    elif known.size and known.max() > 0.0:
-        highest = float(known.max())
-        bottom = max(0.5 * float(known.min()), _QUIETEST * highest)
-        bottom, top = min([bottom, *0.5 * allowed]), 2.0 * max([highest, *allowed])
-        axes.set_yscale("log")
-        axes.set_ylim(bottom, top)
-        if top > _DECADES * bottom:
-            axes.yaxis.set_minor_locator(NullLocator())  # they take half the time of a picture
+        both = [cuts.rms] if cuts.limits is None else [cuts.rms, cuts.limits]
+        _level_scale(axes, cuts.shown(np.concatenate([rms.ravel() for rms in both])))
+    else:
+        logarithmic(axes, cuts.rms, cuts.limits)
 
 
 def _level_scale(axes: Axes, levels: Array) -> None:
@@ -148,12 +125,3 @@ def _level_scale(axes: Axes, levels: Array) -> None:
     if known.size:
         top = float(known.max()) + 3.0
         axes.set_ylim(max(float(known.min()) - 3.0, top - _RANGE_DB), top)
-
-
-def _label(cuts: OrderCuts) -> str:
-    return "Level, dB re 20 µPa" if cuts.unit == "Pa" else f"RMS in the order's band, {cuts.unit}"
-
-
-def _title(orders: xr.Dataset, cuts: OrderCuts) -> str:
-    both = "; solid A, dashed B" if len(cuts.rms) > 1 else ""
-    return f"{shortened(cuts.channel, 40)}{both}"

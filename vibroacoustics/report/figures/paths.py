@@ -1,29 +1,26 @@
 """Bars of the leading paths of sound, and of the forces into the feet."""
 
-from collections.abc import Sequence
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base.vocabulary import REFERENCE_OPTION
-from ..foot_paths import foot_forces
-from ..paths import at_path_speed, leading, path_speed, path_words
+from ..paths import at_path_speed, foot_forces, leading, path_speed, path_words
 from ..study import catalogue_receiver
 from ..titles import chosen
 from .needs import needs
-from .style import COLOURS, Picture, draw, legend_below, numbered_file_name, png, wrap
+from .panels import each_panel, one_panel
+from .style import COLOURS, Picture, numbered, png, wrap
 
 _WITH, _AGAINST = COLOURS[3], COLOURS[1]
 
 
 def path_figure(results: xr.Dataset, receiver: str) -> Picture:
     """Bars of a microphone's leading paths."""
-    number = [str(name) for name in results["receiver"].values].index(receiver) + 1
-    speed = path_speed(results)
+    speed, files = path_speed(results), dict(numbered(results, "receiver"))
     return Picture(
-        f"paths_{numbered_file_name(number, receiver)}",
+        f"paths_{files[receiver]}",
         f"Shares of the leading paths of the modelled A-weighted energy at {receiver} as bars, to "
         "the left where a path works against the others; the numbers are in the table.",
         f"{receiver}, {speed:g} rpm, option {REFERENCE_OPTION}: shares add up to 100 % over all "
@@ -58,17 +55,16 @@ def path_shares(results: xr.Dataset, receiver: str | None = None) -> Figure:
     rows = leading(share)
     labels = [wrap(": ".join(path_words(results, row)), 34) for row in rows]
 
-    def paint(panels: Sequence[Axes]) -> None:
-        (axes,) = panels
+    def paint(axes: Axes) -> None:
         sizes = 100.0 * share[rows]
         colours = [_WITH if size >= 0.0 else _AGAINST for size in sizes]
         axes.barh(range(len(rows)), sizes, color=colours)
         axes.axvline(0.0, color="black", linewidth=0.8)
         axes.set_yticks(range(len(rows)), labels)
         axes.invert_yaxis()
-        axes.set_xlabel("Share of the modelled energy, %")
 
-    return draw(1, 0.7 + 0.33 * max(len(rows), 1), paint, 0)
+    height = 0.7 + 0.33 * max(len(rows), 1)
+    return one_panel(height, paint, "Share of the modelled energy, %")
 
 
 def foot_figure(results: xr.Dataset, speed: float) -> Picture:
@@ -88,16 +84,15 @@ def _foot_bars(results: xr.Dataset, speed: float) -> Figure:
     axes_names = [str(name) for name in forces["axis"].values]
     height = 0.8 / len(axes_names)
 
-    def paint(panels: Sequence[Axes]) -> None:
-        for axes, order in zip(panels, forces["order"].values, strict=True):
-            for number, axis in enumerate(axes_names):
-                at = np.arange(len(feet)) + (number - 1) * height
-                values = forces.sel(axis=axis, order=order).values
-                axes.barh(at, values, height, color=COLOURS[1 + number], label=f"along {axis}")
-            axes.set_yticks(range(len(feet)), [wrap(name) for name in feet])
-            axes.invert_yaxis()
-            axes.set_title(f"{order:g}×", loc="left")
-        panels[-1].set_xlabel("Force into the foot, N peak")
-        legend_below(panels[0], 3)
+    def paint(axes: Axes, order: float) -> None:
+        for number, axis in enumerate(axes_names):
+            at = np.arange(len(feet)) + (number - 1) * height
+            values = forces.sel(axis=axis, order=order).values
+            axes.barh(at, values, height, color=COLOURS[1 + number], label=f"along {axis}")
+        axes.set_yticks(range(len(feet)), [wrap(name) for name in feet])
+        axes.invert_yaxis()
 
-    return draw(forces.sizes["order"], 0.5 + 0.35 * len(feet), paint)
+    return each_panel(
+        forces["order"].values, 0.5 + 0.35 * len(feet), paint, "Force into the foot, N peak",
+        title=lambda order: f"{order:g}×", columns=3, rows=1,
+    )  # fmt: skip

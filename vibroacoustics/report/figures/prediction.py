@@ -1,7 +1,5 @@
 """Levels before and after a change that was predicted from measurements alone."""
 
-from collections.abc import Sequence
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -10,7 +8,8 @@ from matplotlib.figure import Figure
 from ...base.vocabulary import REFERENCE_OPTION
 from ..titles import chosen
 from .needs import needs
-from .style import COLOURS, Picture, draw, legend_below, numbered_file_name, png, shortened
+from .panels import band, each_panel
+from .style import COLOURS, Picture, numbered, png, shortened
 
 _RANGE_DB = 80.0
 
@@ -42,33 +41,28 @@ def predicted_levels(predicted: xr.Dataset, receiver: str | None = None) -> Figu
     frequency = at["frequency"].values
     top = float(at["predicted_level"].max()) + 5.0
 
-    def paint(panels: Sequence[Axes]) -> None:
-        for axes, option in zip(panels, options, strict=True):
-            after = at.sel(option=option)
-            low, high = after["predicted_level_low"], after["predicted_level_high"]
-            axes.fill_between(
-                frequency, np.maximum(low, top - _RANGE_DB), high, color=COLOURS[1], alpha=0.3,
-                linewidth=0.0, label="90 % band",
-            )  # fmt: skip
-            axes.plot(frequency, before, color=COLOURS[0], label="as measured")
-            axes.plot(frequency, after["predicted_level"], color=COLOURS[1], label="after")
-            axes.set_ylim(top - _RANGE_DB, top)
-            axes.set_ylabel("Level, dB re 20 µPa")
-            axes.set_title(shortened(f"{name}: {option}"), loc="left")
-        panels[-1].set_xlabel("Frequency, Hz")
-        legend_below(panels[-1], 3)
+    def paint(axes: Axes, option: str) -> None:
+        after = at.sel(option=option)
+        low, high = after["predicted_level_low"], after["predicted_level_high"]
+        band(axes, frequency, np.maximum(low, top - _RANGE_DB), high)
+        axes.plot(frequency, before, color=COLOURS[0], label="as measured")
+        axes.plot(frequency, after["predicted_level"], color=COLOURS[1], label="after")
+        axes.set_ylim(top - _RANGE_DB, top)
 
-    return draw(len(options), 2.2, paint, 1)
+    return each_panel(
+        options, 2.2, paint, "Frequency, Hz", "Level, dB re 20 µPa",
+        lambda option: shortened(f"{name}: {option}"), columns=3, rows=1,
+    )  # fmt: skip
 
 
 def predicted_figures(predicted: xr.Dataset) -> list[Picture]:
     """For each microphone: levels before and after each change."""
     return [
         Picture(
-            f"prediction_{numbered_file_name(number, name)}",
+            f"prediction_{file}",
             f"Levels at {name} before and after each change.",
             f"Levels of the lines at {name} as measured and after each change, with 90 % bands.",
             png(predicted_levels(predicted, name)),
         )
-        for number, name in enumerate(map(str, predicted["receiver"].values), 1)
+        for name, file in numbered(predicted, "receiver")
     ]

@@ -1,6 +1,5 @@
 """From the motion of the housing to the sound at the microphones."""
 
-from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -15,17 +14,8 @@ from ..study import catalogue_receiver, few_speeds, has_sources, options, speeds
 from ..titles import chosen
 from .first_order import first_order_marks, mark_first_order
 from .needs import needs
-from .style import (
-    COLOURS,
-    Picture,
-    draw,
-    file_name,
-    frequency_ticks,
-    legend_below,
-    line_looks,
-    png,
-    wrap,
-)
+from .panels import each_panel, in_rpm, lines, named_rows, one_panel
+from .style import COLOURS, Picture, file_name, frequency_ticks, png, wrap
 
 NEGLIGIBLE: Final = 1e-4
 """Motions are not drawn whose largest transfer is below this share of the largest of their kind:
@@ -72,20 +62,18 @@ def levels(results: xr.Dataset, receiver: str | None = None) -> Figure:
         "level_total_dba": ("total", "s", 6, COLOURS[0]),
     }
 
-    def paint(panels: Sequence[Axes]) -> None:
-        for axes, speed in zip(panels, shown_speeds, strict=True):
-            for column, (label, marker, size, colour) in kinds.items():
-                values = compared[column].sel(speed=speed).values
-                shown = np.where(values >= rounding.LEVEL_FLOOR_DB, values, np.nan)
-                (dots,) = axes.plot(shown, range(len(names)), marker, color=colour, label=label)
-                dots.set(markersize=size, markeredgewidth=1.6)
-            axes.set_title(f"{speed:g} rpm", loc="left")
-            axes.set_yticks(range(len(names)), [wrap(name) for name in names])
-            axes.set_ylim(len(names) - 0.5, -0.5)
-        panels[-1].set_xlabel("A-weighted level, dB(A) re 20 µPa")
-        legend_below(panels[0], 3)
+    def paint(axes: Axes, speed: float) -> None:
+        for column, (label, marker, size, colour) in kinds.items():
+            values = compared[column].sel(speed=speed).values
+            shown = np.where(values >= rounding.LEVEL_FLOOR_DB, values, np.nan)
+            (dots,) = axes.plot(shown, range(len(names)), marker, color=colour, label=label)
+            dots.set(markersize=size, markeredgewidth=1.6)
+        named_rows(axes, names)
 
-    return draw(len(shown_speeds), 0.7 + 0.26 * len(names), paint, sharex=True)
+    return each_panel(
+        shown_speeds, 0.7 + 0.26 * len(names), paint, "A-weighted level, dB(A) re 20 µPa",
+        title=in_rpm, columns=3, rows=1, sharex=True,
+    )  # fmt: skip
 
 
 def level_figures(results: xr.Dataset) -> list[Picture]:
@@ -141,15 +129,15 @@ def transfer(results: xr.Dataset, receiver: str | None = None) -> Figure:
         abs(results["transfer_vector_closed_form"].sel(receiver=receiver)) if compared else None
     )
 
-    def paint(panels: Sequence[Axes]) -> None:
-        for axes, (title, letter, unit) in zip(panels, _KINDS, strict=True):
-            _transfer_panel(axes, simulated, closed, letter)
-            axes.set_title(title.capitalize(), loc="left")
-            axes.set_ylabel(unit)
-            mark_first_order(axes, results, "#888888")
-        panels[-1].set_xlabel("Frequency, Hz")
+    def paint(axes: Axes, kind: tuple[str, str, str]) -> None:
+        _, letter, unit = kind
+        _transfer_panel(axes, simulated, closed, letter)
+        axes.set_ylabel(unit)
+        mark_first_order(axes, results, "#888888")
 
-    return draw(2, 2.5, paint, 0, sharex=True)
+    return each_panel(
+        _KINDS, 2.5, paint, "Frequency, Hz", title=lambda kind: kind[0].capitalize(), sharex=True
+    )
 
 
 def _transfer(results: xr.Dataset, receiver: str) -> Picture:
@@ -208,18 +196,14 @@ def green_difference(results: xr.Dataset) -> Figure:
     >>> va.plot.green_difference(results).savefig("green_difference.png")
     """
     gap = computed_by_kwave(results)
-    names = [str(name) for name in gap["receiver"].values]
+    names = [wrap(str(name), 24) for name in gap["receiver"].values]
 
-    def paint(panels: Sequence[Axes]) -> None:
-        (axes,) = panels
-        for curve, name, look in zip(gap, names, line_looks(len(names)), strict=True):
-            axes.plot(gap["frequency"], curve, label=wrap(name, 24), **look)
+    def paint(axes: Axes) -> None:
+        lines(axes, gap["frequency"], names, gap)
         axes.axhline(0.0, color="#888888", linewidth=0.8)
-        axes.set_xlabel("Frequency, Hz")
-        axes.set_ylabel("k-Wave − closed form, dB")
-        legend_below(axes)
 
-    return draw(1, 2.4, paint, (len(names) + 1) // 2)
+    y, rows = "k-Wave − closed form, dB", (len(names) + 1) // 2
+    return one_panel(2.4, paint, "Frequency, Hz", y, columns=2, rows=rows)
 
 
 def _difference(results: xr.Dataset) -> Picture:

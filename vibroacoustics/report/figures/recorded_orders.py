@@ -1,39 +1,29 @@
-"""Figures of a recording's orders: spectrum, orders over speed, order map."""
+"""Figures of a recording: order spectrum, orders over speed, order map, levels, tracked orders."""
 
-from collections.abc import Sequence
+from functools import partial
 from typing import Final
 
-import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullLocator
 
 from ..map_levels import map_level
+from ..over_speed.level_curves import is_run_up
 from ..titles import chosen
+from .levels_over_speed import levels_over_speed
 from .needs import needs
 from .orders_over_speed import over_speed_picture
-from .style import (
-    COLOURS,
-    Picture,
-    draw,
-    legend_below,
-    numbered_file_name,
-    png,
-    shortened,
-    whole_number_ticks,
-)
+from .panels import level_map, lines, logarithmic, one_panel
+from .speed_maps import MAP_RANGE_DB, speed_frequency_map
+from .style import COLOURS, Picture, in_both_widths, numbered, png, shortened, whole_number_ticks
 
 _MAP_RANGE_DB: Final = 60.0
-_QUIETEST: Final = 1e-5
-"""Lowest amplitude of a logarithmic axis, as a share of the largest."""
 
 
 def recorded_order_figures(results: xr.Dataset) -> list[Picture]:
     """For each channel: mean spectrum, orders over speed in a run-up, and map if there is one."""
     pictures = []
-    for number, channel in enumerate(map(str, results["channel"].values), 1):
-        name = numbered_file_name(number, channel)
+    for channel, name in numbered(results, "channel"):
         pictures.append(_spectrum_picture(results, channel, name))
         if _is_run_up(results):
             pictures.append(over_speed_picture(results, f"orders_{name}", channel))
@@ -61,24 +51,6 @@ def _without_offset(lines: xr.DataArray, of_channel: xr.Dataset) -> xr.DataArray
     return lines.sel(map_order=lines["map_order"] > 0.5 * of_channel.attrs["band_order"])
 
 
-_DECADES: Final = 100.0
-"""Range of a logarithmic axis from which on it has ticks at powers of ten alone."""
-
-
-def _logarithmic(axes: Axes, shown: xr.DataArray, limits: xr.DataArray | None = None) -> None:
-    """Logarithmic axis over what is shown, unless it is next to nothing, and over its limits."""
-    sizes = shown.values.ravel()
-    highest = float(sizes.max())
-    if highest > 0.0:
-        allowed = np.array([]) if limits is None else limits.values[np.isfinite(limits.values)]
-        bottom = max(0.5 * float(sizes.min()), _QUIETEST * highest)
-        bottom, top = min([bottom, *0.5 * allowed]), 2.0 * max([highest, *allowed])
-        axes.set_yscale("log")
-        axes.set_ylim(bottom, top)
-        if top > _DECADES * bottom:
-            axes.yaxis.set_minor_locator(NullLocator())  # they take half the time of a picture
-
-
 def _limits(of_channel: xr.Dataset) -> xr.DataArray | None:
     """Limits of a channel (speed, order), where it has any."""
     return (
@@ -104,7 +76,6 @@ def _draw_steady_limits(axes: Axes, limits: xr.DataArray, band_order: float) -> 
     axes.hlines(
         limits, orders - half, orders + half, colors=COLOURS[1], label="limit in an order's band"
     )
-    legend_below(axes, 1)
 
 
 @needs("mean_order_spectrum", from_="`analyse_orders`")
@@ -133,18 +104,16 @@ def order_spectrum(orders: xr.Dataset, channel: str | None = None) -> Figure:
     spectrum = _without_offset(of_channel["mean_order_spectrum"], of_channel)
     limits = _steady_limits(of_channel)
 
-    def paint(panels: Sequence[Axes]) -> None:
-        (axes,) = panels
+    def paint(axes: Axes) -> None:
         axes.plot(spectrum["map_order"], spectrum)
-        _logarithmic(axes, spectrum, limits)
+        logarithmic(axes, spectrum.values, None if limits is None else limits.values)
         if limits is not None:
             _draw_steady_limits(axes, limits, of_channel.attrs["band_order"])
         whole_number_ticks(axes)
-        axes.set_xlabel("Shaft order")
-        axes.set_ylabel(f"RMS of a line, {_unit(of_channel)}")
-        axes.set_title(title, loc="left")
 
-    return draw(1, 2.6, paint, 0 if limits is None else 1)
+    has_limits = int(limits is not None)
+    y = f"RMS of a line, {_unit(of_channel)}"
+    return one_panel(2.6, paint, "Shaft order", y, title, columns=has_limits, rows=has_limits)
 
 
 def _spectrum_picture(results: xr.Dataset, channel: str, name: str) -> Picture:
@@ -184,29 +153,13 @@ def order_map(orders: xr.Dataset, channel: str | None = None) -> Figure:
     spectra = _without_offset(of_channel["order_map"].transpose("block", "map_order"), of_channel)
     spectra = spectra.sortby("block_speed") if is_run_up else spectra
     level, label = map_level(spectra.values, _unit(of_channel))
-    top = float(level.max())
+    along = spectra["block_speed" if is_run_up else "block_time"]
 
-    def paint(panels: Sequence[Axes]) -> None:
-        (axes,) = panels
-        shown = axes.pcolormesh(
-            spectra["map_order"],
-            spectra["block_speed" if is_run_up else "block_time"],
-            level,
-            vmin=top - _MAP_RANGE_DB,
-            vmax=top,
-            shading="nearest",
-            rasterized=True,
-        )
-        figure = axes.get_figure()
-        if figure is not None:
-            figure.colorbar(shown, ax=axes, label=label)
-        axes.grid(visible=False)
+    def paint(axes: Axes) -> None:
+        level_map(axes, spectra["map_order"], along, level, _MAP_RANGE_DB, label)
         whole_number_ticks(axes)
-        axes.set_xlabel("Shaft order")
-        axes.set_ylabel("Speed, rpm" if is_run_up else "Time, s")
-        axes.set_title(title, loc="left")
 
-    return draw(1, 3.4, paint, 0)
+    return one_panel(3.4, paint, "Shaft order", "Speed, rpm" if is_run_up else "Time, s", title)
 
 
 def _map_picture(results: xr.Dataset, channel: str, name: str) -> Picture:
@@ -216,3 +169,86 @@ def _map_picture(results: xr.Dataset, channel: str, name: str) -> Picture:
         f"Order map of {channel}: level of each line, {_MAP_RANGE_DB:g} dB shown.",
         png(order_map(results, channel)),
     )
+
+
+@needs("tracked_order", from_="`track_orders`, command `track`")
+def tracked_orders(tracked: xr.Dataset, channel: str | None = None) -> Figure:
+    """Amplitude of each tracked order of a channel over speed, peak: a line an order.
+
+    Of a steady speed over the time instead.
+
+    Parameters
+    ----------
+    tracked : of `track_orders`; needs `tracked_order` (channel, track_time, order)
+    channel : one of the dataset's channels; default: the first
+
+    Raises
+    ------
+    ParameterError
+        The dataset holds none, or there is no such channel.
+
+    Examples
+    --------
+    >>> tracked = va.open_results("tracked_orders.nc")
+    >>> va.plot.tracked_orders(tracked).savefig("tracked.png")
+    """
+    name = chosen(tracked, "channel", channel)
+    size = abs(tracked["tracked_order"].sel(channel=name))
+    varies = is_run_up(tracked["track_speed"])
+    along = tracked["track_speed"] if varies else tracked["track_time"]
+    orders = [f"{order:g}×" for order in size["order"].values]
+
+    def paint(axes: Axes) -> None:
+        lines(axes, along, orders, size.transpose("order", ...))
+        axes.set_ylim(bottom=0.0)
+
+    y = f"Peak, {tracked['channel_unit'].sel(channel=name).item()}"
+    x, title = "Speed, rpm" if varies else "Time, s", shortened(str(name))
+    return one_panel(2.6, paint, x, y, title, columns=4, rows=-(-len(orders) // 4))
+
+
+def tracked_order_figures(tracked: xr.Dataset) -> list[Picture]:
+    """For each channel: tracked orders over the speed."""
+    return [
+        Picture(
+            f"tracked_{file}",
+            f"Tracked orders of {name}.",
+            f"Tracked orders of {name}: peak amplitude, bandwidth "
+            f"{tracked.attrs['bandwidth_hz']:g} Hz.",
+            png(tracked_orders(tracked, name)),
+        )
+        for name, file in numbered(tracked, "channel")
+    ]
+
+
+def speed_map_figures(mapped: xr.Dataset) -> list[Picture]:
+    """For each channel the map; of sound pressure its level too."""
+    pictures = []
+    for name, file in numbered(mapped, "channel"):
+        pictures.append(
+            in_both_widths(
+                f"speed_map_{file}",
+                f"Spectra of {name} over speed and frequency.",
+                f"{name} over speed and frequency: level of each line, {MAP_RANGE_DB:g} dB shown.",
+                partial(_map, mapped, name),
+            )
+        )
+        if mapped["channel_unit"].sel(channel=name) == "Pa":
+            pictures.append(
+                in_both_widths(
+                    f"levels_{file}",
+                    f"Level of {name} over the speed.",
+                    f"Level of {name} over the speed, block by block. Shaded: speeds to avoid by "
+                    "the A-weighted level.",
+                    partial(_levels, mapped, name),
+                )
+            )
+    return pictures
+
+
+def _map(mapped: xr.Dataset, channel: str, width_inch: float) -> Figure:
+    return speed_frequency_map(mapped, channel, width_inch=width_inch)
+
+
+def _levels(mapped: xr.Dataset, channel: str, width_inch: float) -> Figure:
+    return levels_over_speed(mapped, channel, width_inch=width_inch)

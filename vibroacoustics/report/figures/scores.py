@@ -1,17 +1,17 @@
 """How the score of each option comes about."""
 
-from collections.abc import Sequence
+from itertools import cycle
 
 import numpy as np
 import xarray as xr
 from matplotlib import colormaps
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...scoring.scores import ANY_WEIGHTS
 from ..study import has_draws, options
 from .needs import needs
-from .style import COLOURS, Picture, draw, legend_below, png, wrap
+from .panels import one_panel, stacked_bars
+from .style import COLOURS, Picture, png, wrap
 
 
 @needs("criterion_value", "weight")
@@ -32,24 +32,15 @@ def scores(results: xr.Dataset) -> Figure:
     >>> results = va.open_results("results.nc")
     >>> va.plot.scores(results).savefig("scores.png")
     """
-    parts = contributions(results)
-    names = options(results)
-
-    def paint(panels: Sequence[Axes]) -> None:
-        (axes,) = panels
-        left = np.zeros(len(names))
-        for index, part in enumerate(parts.transpose("criterion", "option")):
-            label = wrap(str(part["criterion_label"].item()), 50)
-            colour = COLOURS[1:][index % (len(COLOURS) - 1)]
-            axes.barh(range(len(names)), part.values, left=left, color=colour, label=label)
-            left = left + part.values
-        axes.set_yticks(range(len(names)), [wrap(name) for name in names])
-        axes.invert_yaxis()
-        axes.set_xlim(0.0, 1.0)
-        axes.set_xlabel("Score by weighted sum, 0 worst to 1 best")
-        legend_below(axes, 1)
-
-    return draw(1, 0.8 + 0.26 * len(names), paint, parts.sizes["criterion"] + 1)
+    names, colours = options(results), cycle(COLOURS[1:])
+    parts = [
+        (wrap(str(part["criterion_label"].item()), 50), next(colours), part.values)
+        for part in contributions(results).transpose("criterion", "option")
+    ]
+    return one_panel(
+        0.8 + 0.26 * len(names), lambda axes: stacked_bars(axes, names, parts),
+        "Score by weighted sum, 0 worst to 1 best", columns=1, rows=len(parts) + 1,
+    )  # fmt: skip
 
 
 def score_figures(results: xr.Dataset) -> list[Picture]:
@@ -104,23 +95,16 @@ def rank_acceptability(results: xr.Dataset) -> Figure:
     probability = results["rank_acceptability"].sel({"criteria_weights": ANY_WEIGHTS})
     names = options(results)
     shades = colormaps["Blues"](np.linspace(0.95, 0.15, probability.sizes["rank_position"]))
-
-    def paint(panels: Sequence[Axes]) -> None:
-        (axes,) = panels
-        left = np.zeros(len(names))
+    parts = [
+        (f"rank {part['rank_position'].item():g}", shade, part.values)
         for shade, part in zip(
             shades, probability.transpose("rank_position", "option"), strict=True
-        ):
-            label = f"rank {part['rank_position'].item():g}"
-            axes.barh(range(len(names)), part.values, left=left, color=shade, label=label)
-            left = left + part.values
-        axes.set_yticks(range(len(names)), [wrap(name) for name in names])
-        axes.invert_yaxis()
-        axes.set_xlim(0.0, 1.0)
-        axes.set_xlabel("Probability")
-        legend_below(axes, 4)
-
-    return draw(1, 0.8 + 0.26 * len(names), paint, (len(names) + 3) // 4 + 1)
+        )
+    ]
+    return one_panel(
+        0.8 + 0.26 * len(names), lambda axes: stacked_bars(axes, names, parts),
+        "Probability", columns=4, rows=(len(names) + 3) // 4 + 1,
+    )  # fmt: skip
 
 
 def contributions(results: xr.Dataset) -> xr.DataArray:

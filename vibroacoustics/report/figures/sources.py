@@ -1,6 +1,6 @@
 """Third-octave spectra of the sources of sound, and of the options that change them."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Final
 
 import numpy as np
@@ -23,7 +23,8 @@ from ..study import (
 )
 from ..titles import chosen
 from .needs import needs
-from .style import MARKERS, Picture, draw, frequency_ticks, legend_below, line_looks, png, wrap
+from .panels import each_panel, in_rpm, one_panel, third_octaves
+from .style import Picture, png, wrap
 
 QUIETEST_DB: Final = -10.0
 """Levels below are not drawn."""
@@ -71,16 +72,13 @@ def source_third_octaves(
     spectra = _spectra(results, receiver, option, speed_rpm)
     shown = _loud(spectra)
 
-    def paint(panels: Sequence[Axes]) -> None:
-        (axes,) = panels
-        curves = [spectra.sel(sound_source=source).values for source in shown]
+    def paint(axes: Axes) -> None:
+        curves = (spectra.sel(sound_source=source).values for source in shown)
         names = [source_name(results, source) for source in shown]
-        _curves(axes, spectra["band"].values, curves, names)
-        axes.set_xlabel("Third-octave band, Hz")
-        axes.set_ylabel("Level, dB re 20 µPa, unweighted")
-        legend_below(axes, 1)
+        _curves(axes, spectra["band"].values, names, curves)
 
-    return draw(1, 3.0, paint, len(shown))
+    y = "Level, dB re 20 µPa, unweighted"
+    return one_panel(3.0, paint, "Third-octave band, Hz", y, columns=1, rows=len(shown))
 
 
 def _spectra(
@@ -151,16 +149,14 @@ def option_third_octaves(results: xr.Dataset) -> Figure:
     shown = few_speeds(results)
     level = _inner_level(shown)
 
-    def paint(panels: Sequence[Axes]) -> None:
-        for axes, speed in zip(panels, speeds(shown), strict=True):
-            curves = [level.sel(option=name, speed=speed).values for name in names]
-            _curves(axes, level["band"].values, curves, [wrap(name, 24) for name in names])
-            axes.set_title(f"{speed:g} rpm", loc="left")
-            axes.set_ylabel("Level, dB re 20 µPa")
-        panels[-1].set_xlabel("Third-octave band, Hz")
-        legend_below(panels[0], 2)
+    def paint(axes: Axes, speed: float) -> None:
+        curves = (level.sel(option=name, speed=speed).values for name in names)
+        _curves(axes, level["band"].values, [wrap(name, 24) for name in names], curves)
 
-    return draw(len(speeds(shown)), 2.4, paint, (len(names) + 1) // 2, sharex=True)
+    return each_panel(
+        speeds(shown), 2.4, paint, "Third-octave band, Hz", "Level, dB re 20 µPa", in_rpm,
+        columns=2, rows=(len(names) + 1) // 2, sharex=True,
+    )  # fmt: skip
 
 
 def _options(results: xr.Dataset, changing: list[str]) -> Picture:
@@ -175,21 +171,11 @@ def _options(results: xr.Dataset, changing: list[str]) -> Picture:
     )
 
 
-def _curves(
-    axes: Axes,
-    band_hz: Array,
-    curves: Sequence[Array],
-    names: list[str],
-) -> None:
-    for number, (curve, name, look) in enumerate(
-        zip(curves, names, line_looks(len(names)), strict=True)
-    ):
-        shown = np.where(curve > QUIETEST_DB, curve, np.nan)
-        marker = MARKERS[number % len(MARKERS)]
-        axes.semilogx(band_hz, shown, marker=marker, markersize=3.5, label=name, **look)
+def _curves(axes: Axes, band_hz: Array, names: Sequence[str], curves: Iterable[Array]) -> None:
+    audible = (np.where(curve > QUIETEST_DB, curve, np.nan) for curve in curves)
+    third_octaves(axes, band_hz, names, audible)
     axes.set_ylim(bottom=QUIETEST_DB)
     axes.set_xlim(band_hz[0] / 1.12, band_hz[-1] * 1.12)
-    frequency_ticks(axes, band_hz)
 
 
 def _changing_options(results: xr.Dataset) -> list[str]:

@@ -1,6 +1,5 @@
 """Colour maps over speed and frequency, of a study or a recording."""
 
-from collections.abc import Sequence
 from typing import Final
 
 import xarray as xr
@@ -10,7 +9,8 @@ from matplotlib.figure import Figure
 from ...base.vocabulary import REFERENCE_OPTION
 from ..over_speed.plane import Plane, plane_of
 from .needs import needs
-from .style import WIDTH_INCH, draw, shortened
+from .panels import level_map, one_panel
+from .style import WIDTH_INCH, shortened
 
 MAP_RANGE_DB: Final = 60.0
 _GUIDES: Final = (1, 2, 5, 10, 20, 50)
@@ -51,25 +51,16 @@ def speed_frequency_map(
     >>> va.plot.speed_frequency_map(mapped).savefig("speed_map.png")
     """
     plane = plane_of(results, channel, option)
-    top = float(plane.level_db.max())
 
-    def paint(panels: Sequence[Axes]) -> None:
-        (axes,) = panels
-        shown = axes.pcolormesh(
-            plane.frequency_hz, plane.along, plane.level_db,
-            vmin=top - MAP_RANGE_DB, vmax=top, shading="nearest", rasterized=True,
-        )  # fmt: skip
-        figure = axes.get_figure()
-        if figure is not None:
-            figure.colorbar(shown, ax=axes, label=plane.unit)
-        axes.grid(visible=False)
+    def paint(axes: Axes) -> None:
+        unit = plane.unit
+        level_map(axes, plane.frequency_hz, plane.along, plane.level_db, MAP_RANGE_DB, unit)
         if plane.is_speed:
             _guides(axes, plane)
-        axes.set_xlabel("Frequency, Hz")
-        axes.set_ylabel("Speed, rpm" if plane.is_speed else "Time, s")
-        axes.set_title(shortened(plane.title), loc="left")
 
-    return draw(1, 3.4, paint, 0, width_inch)
+    y = "Speed, rpm" if plane.is_speed else "Time, s"
+    title = shortened(plane.title)
+    return one_panel(3.4, paint, "Frequency, Hz", y, title, width_inch=width_inch)
 
 
 def _guides(axes: Axes, plane: Plane) -> None:

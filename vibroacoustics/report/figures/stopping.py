@@ -1,6 +1,5 @@
 """The stop of the machine over time, and the order map of its run-down."""
 
-from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -12,10 +11,12 @@ from ...base.decibel import level_of_amplitude
 from ..stopping import force_and_moments
 from ..study import catalogue_receiver, few_speeds, speeds
 from .needs import needs
-from .style import Picture, draw, legend_below, line_looks, png, shortened, whole_number_ticks
+from .panels import each_panel, in_rpm, level_map, lines, one_panel
+from .style import Picture, png, shortened, whole_number_ticks
 
 MAP_RANGE_DB: Final = 60.0
 LEVEL_RANGE_DB: Final = 40.0
+LEVEL: Final = "Fast level, dB(A)"
 
 
 def stopping_figures(results: xr.Dataset) -> list[Picture]:
@@ -52,23 +53,22 @@ def stopping(results: xr.Dataset) -> Figure:
         "Force, N": force,
         "Tilting moment, N m": tilting,
         "Roll moment, N m": roll,
-        "Fast level, dB(A)": level,
+        LEVEL: level,
     }
-    names = speeds(results)
+    names = list(map(in_rpm, speeds(results)))
     milliseconds = 1e3 * results["stopping_time"].values
 
-    def paint(panels: Sequence[Axes]) -> None:
-        for axes, (label, over_time) in zip(panels, curves.items(), strict=True):
-            for speed, look in zip(names, line_looks(len(names)), strict=True):
-                at_speed = over_time.sel(speed=speed)
-                axes.plot(milliseconds, at_speed, label=f"{speed:g} rpm", **look)
-            axes.set_ylabel(label)
-        top = float(level.max())
-        panels[-1].set_ylim(top - LEVEL_RANGE_DB, top + 3.0)
-        panels[-1].set_xlabel("Time from switch-off, ms")
-        legend_below(panels[0], 4)
+    def paint(axes: Axes, label: str) -> None:
+        lines(axes, milliseconds, names, curves[label].transpose("speed", ...))
+        axes.set_ylabel(label)
+        if label == LEVEL:
+            top = float(level.max())
+            axes.set_ylim(top - LEVEL_RANGE_DB, top + 3.0)
 
-    return draw(len(curves), 1.55, paint, -(-len(names) // 4), sharex=True)
+    return each_panel(
+        list(curves), 1.55, paint, "Time from switch-off, ms", columns=4,
+        rows=-(-len(names) // 4), sharex=True,
+    )  # fmt: skip
 
 
 def _course(results: xr.Dataset) -> Picture:
@@ -103,28 +103,13 @@ def stopping_order_map(results: xr.Dataset) -> Figure:
     """
     along_x = results["stopping_order_map"].sel(axis="x").transpose("stopping_block", "map_order")
     level = level_of_amplitude(along_x.values)
-    top = float(level.max())
 
-    def paint(panels: Sequence[Axes]) -> None:
-        (axes,) = panels
-        shown = axes.pcolormesh(
-            along_x["map_order"],
-            along_x["stopping_block_speed"],
-            level,
-            vmin=top - MAP_RANGE_DB,
-            vmax=top,
-            shading="nearest",
-            rasterized=True,
-        )
-        figure = axes.get_figure()
-        if figure is not None:
-            figure.colorbar(shown, ax=axes, label="Force along x, dB re 1 N peak")
-        axes.grid(visible=False)
+    def paint(axes: Axes) -> None:
+        speed, label = along_x["stopping_block_speed"], "Force along x, dB re 1 N peak"
+        level_map(axes, along_x["map_order"], speed, level, MAP_RANGE_DB, label)
         whole_number_ticks(axes)
-        axes.set_xlabel("Shaft order")
-        axes.set_ylabel("Speed, rpm")
 
-    return draw(1, 2.8, paint, 0)
+    return one_panel(2.8, paint, "Shaft order", "Speed, rpm")
 
 
 def _map(results: xr.Dataset) -> Picture:

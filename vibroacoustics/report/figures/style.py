@@ -9,6 +9,7 @@ from typing import Any, Final, Literal, NamedTuple
 
 import matplotlib
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -238,3 +239,9 @@ def file_name(name: str) -> str:
 def numbered_file_name(number: int, name: str) -> str:
     """A name that is safe in a path, and another one for each number; at most about 60 letters."""
     return f"{number}_{file_name(name)[:60]}"
+
+
+def numbered(results: xr.Dataset, dimension: str) -> list[tuple[str, str]]:
+    """Labels of a dimension, each with the name of its file without ending."""
+    names = map(str, results[dimension].values)
+    return [(name, numbered_file_name(number, name)) for number, name in enumerate(names, 1)]

@@ -9,9 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base.arrays import Array, ComplexArray
-from .needs import needs
-from .style import Picture, frequency_ticks, line_looks, png, render, wrap
-from .unit_levels import (
+from .maps import (
     WIDE_INCH,
     dof_title,
     names,
@@ -20,6 +18,8 @@ from .unit_levels import (
     unit_level_db,
     write_silent,
 )
+from .needs import needs
+from .style import Picture, frequency_ticks, line_looks, png, render, wrap
 
 CURVE_DEPTH_DB: Final = 100.0
 """Curves are cut off this far below the loudest of their panel."""

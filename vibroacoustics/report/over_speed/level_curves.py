@@ -10,7 +10,7 @@ from ...base.arrays import Array
 from ...base.vocabulary import REFERENCE_OPTION
 from ..bands import quantiles
 from ..source_words import source_name
-from ..study import catalogue_receiver, has_draws, options
+from ..study import a_weighted, catalogue_receiver, has_draws, options
 from ..titles import chosen
 
 MOST_CURVES: Final = 8
@@ -49,8 +49,7 @@ def option_curves(
     """
     at = {"receiver": chosen(results, "receiver", receiver or catalogue_receiver(results))}
     names = [chosen(results, "option", one) for one in of] or options(results)[:MOST_CURVES]
-    given = results[name].sel(at)
-    given = given.sel(weighting="A") if "weighting" in given.dims else given
+    given = a_weighted(results[name].sel(at))
     bands = quantiles(results, name).sel(at) if has_draws(results) else None
     return [_curve(given, bands if one == names[0] else None, one, option=one) for one in names]
 

@@ -4,7 +4,7 @@ import xarray as xr
 
 from ...base.registry import register
 from .. import baseline
-from ..baseline_tables import order_tables
+from ..baseline import order_tables
 from ..blocks import Block, Bullets, Pictures, Text
 from ..figures.baseline import baseline_figures
 from ..speeds import chosen_speeds

@@ -4,8 +4,7 @@ import xarray as xr
 
 from ...base.registry import register
 from ..blocks import Block, Text
-from ..evidence import COVERAGE, rungs
-from ..evidence_table import evidence_table
+from ..evidence import COVERAGE, evidence_table, rungs
 from . import Section
 
 

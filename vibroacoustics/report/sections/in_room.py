@@ -10,13 +10,13 @@ from ..in_room import (
     has_room,
     listeners,
     loudest_listener,
+    loudness_words,
     power_sentence,
     room_sentence,
     room_table,
     seam_sentence,
     seam_table,
 )
-from ..room_loudness import loudness_words
 from . import Section
 
 

@@ -5,16 +5,21 @@ import xarray as xr
 from ...base.registry import register
 from ..blocks import Block, Details, Heading, Pictures, Text
 from ..figures.paths import foot_figure, path_figure
-from ..foot_paths import foot_orders, foot_table
-from ..path_tables import (
+from ..paths import (
     bands_table,
+    foot_orders,
+    foot_table,
+    has_motions,
+    has_paths,
+    leading_sentence,
+    loudest_order,
     motions_table,
     options_table,
     orders_table,
     partial_sums_table,
+    path_speed,
     paths_table,
 )
-from ..paths import has_motions, has_paths, leading_sentence, loudest_order, path_speed
 from ..study import catalogue_receiver, other_receivers
 from . import Section
 

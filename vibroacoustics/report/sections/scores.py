@@ -3,7 +3,7 @@
 import xarray as xr
 
 from ...base.registry import register
-from .. import acceptability, scores
+from .. import scores
 from ..blocks import Block, Heading, Pictures, Text
 from ..figures import score_figures
 from ..study import parameters
@@ -23,7 +23,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
             "SMAA-2)."
         ),
         scores.scores_table(results),
-        *filter(None, [acceptability.acceptability_table(results)]),
+        *filter(None, [scores.acceptability_table(results)]),
         *_too_close(results),
         Pictures(tuple(score_figures(results))),
         scores.criteria_table(results),
@@ -33,7 +33,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
 
 
 def _too_close(results: xr.Dataset) -> list[Block]:
-    words = acceptability.too_close_words(results)
+    words = scores.too_close_words(results)
     return [Text(words, "note")] if words else []
 
 

@@ -1,17 +1,38 @@
-"""The page of a recording over speed and frequency."""
+"""Pages of a recording, of the same blocks as the report: its orders, its spectra over speed."""
 
 from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
 
-from .blocks import Block, Pictures, Text
+from .blocks import Block, Bullets, Pictures, Text
 from .figures.style import Picture
 from .html import html
-from .over_speed.avoid import recorded_speeds_to_avoid
-from .over_speed.avoid_table import RECORDED_RULE, recorded_avoid_table
+from .limit_tables import order_limits_table
+from .order_tables import orders_facts, orders_tables
+from .over_speed.avoid import RECORDED_RULE, recorded_avoid_table, recorded_speeds_to_avoid
 from .over_speed.level_curves import is_run_up, recorded_curves
 from .page import Page, Part
+
+
+def orders_html(results: xr.Dataset, pictures: Sequence[Picture]) -> bytes:
+    """The page.
+
+    Parameters
+    ----------
+    results : orders of a recording
+    pictures : of its channels
+    """
+    parts = [
+        Part("figures", "Orders by channel", (Pictures(tuple(pictures)),)),
+        Part("orders", "Orders and levels", tuple(orders_tables(results))),
+        Part("settings", "Speed and resolution", (Bullets(tuple(orders_facts(results))),)),
+    ]
+    if "order_limit" in results:
+        parts.insert(0, Part("limits", "Limits", (order_limits_table(results),)))
+    attrs = results.attrs
+    about = "Orders are multiples of the shaft frequency; amplitudes are peaks."
+    return html(Page(str(attrs["title"]), "Recording", attrs["created_utc"], tuple(parts), about))
 
 
 def speed_map_html(mapped: xr.Dataset, pictures: Sequence[Picture]) -> bytes:
