@@ -17,7 +17,9 @@ def with_groups(command: Command) -> Command:
     command : function that gets each group of options as one dataclass
     """
     parameters = signature(command, eval_str=True).parameters.values()
-    groups = {one.name: one.annotation for one in parameters if is_dataclass(one.annotation)}
+    groups: dict[str, Any] = {
+        one.name: one.annotation for one in parameters if is_dataclass(one.annotation)
+    }
 
     def options_of(parameter: Parameter) -> list[Parameter]:
         if parameter.name not in groups:

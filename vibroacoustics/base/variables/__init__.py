@@ -1,14 +1,1 @@
-"""The built-in variables of results and their coordinates: a table of each subject."""
-
-import tomllib
-from importlib import resources
-
-from ..registry import register
-from ..vocabulary import Coordinate, Variable
-
-for _file in resources.files(__package__).iterdir():
-    if _file.name.endswith(".toml"):
-        _tables = tomllib.loads(_file.read_text("utf-8"))
-        for _kind, _table in (("coordinate", Coordinate), ("variable", Variable)):
-            for _name, _entry in _tables.get(_kind, {}).items():
-                register(_table(_name, **{**_entry, "dims": tuple(_entry["dims"])}))
+"""The built-in variables of results and their coordinates, by subject."""
