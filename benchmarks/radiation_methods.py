@@ -16,8 +16,8 @@ import numpy as np
 from vibroacoustics.base.vocabulary import RIGID_BODY_DOFS
 from vibroacoustics.radiation.arrangements import hemisphere_positions
 from vibroacoustics.radiation.bodies import cylinder
+from vibroacoustics.radiation.exact import Mirror
 from vibroacoustics.radiation.machine_side import MachineSide, near_fields
-from vibroacoustics.radiation.mirrors import Mirror
 from vibroacoustics.radiation.patterns import Pattern, rigid_body
 from vibroacoustics.radiation.revolution.profile import capped_cylinder
 from vibroacoustics.radiation.revolution.side import RevolutionSide

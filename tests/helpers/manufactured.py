@@ -12,9 +12,8 @@ import numpy as np
 from vibroacoustics.base.constants import AIR_DENSITY_KG_PER_M3
 from vibroacoustics.radiation.arrays import Array, ComplexArray
 from vibroacoustics.radiation.bodies import Body
-from vibroacoustics.radiation.exact import wavenumber
+from vibroacoustics.radiation.exact import Mirror, images, wavenumber
 from vibroacoustics.radiation.machine_side import ERROR, MachineSide, near_fields
-from vibroacoustics.radiation.mirrors import Mirror, images
 from vibroacoustics.radiation.neglected_echo import SAFETY, neglected_echo
 from vibroacoustics.radiation.patterns import Pattern
 from vibroacoustics.radiation.scene import Scene

@@ -5,8 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from vibroacoustics.base.arrays import Array
-from vibroacoustics.mechanisms.hermetic.film_force import FilmForce
-from vibroacoustics.mechanisms.hermetic.journal_bearing import Values, sommerfeld_angle
+from vibroacoustics.mechanisms.hermetic.journal_bearing import FilmForce, Values, sommerfeld_angle
 from vibroacoustics.mechanisms.hermetic.parameters import JournalBearing
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from vibroacoustics.radiation.arrays import Array, ComplexArray
 from vibroacoustics.radiation.bodies import Body
 from vibroacoustics.radiation.box import Box, BoxField
-from vibroacoustics.radiation.mirrors import Mirror
+from vibroacoustics.radiation.exact import Mirror
 from vibroacoustics.radiation.patterns import Pattern
 
 

@@ -1,9 +1,12 @@
 """Displacement, built-in ratio and pressure, work of a revolution: the scroll in closed form."""
 
+from types import SimpleNamespace
+
 import numpy as np
 
+from vibroacoustics.sources.scroll_gas.chambers import contact_angle, pocket_volume, swept_volume_m3
 from vibroacoustics.sources.scroll_gas.parameters import ScrollGas, ScrollWraps
-from vibroacoustics.sources.scroll_gas.pockets import pocket_volume
+from vibroacoustics.sources.scroll_gas.suction import volume_and_swelling
 
 
 def displacement_m3(wraps: ScrollWraps) -> float:
@@ -33,3 +36,10 @@ def compression_work_j(wraps: ScrollWraps, gas: ScrollGas) -> float:
     compressed = n / (n - 1.0) * gas.suction_pressure_pa * drawn_in * (ratio ** (n - 1.0) - 1.0)
     step = gas.discharge_pressure_pa - built_in_pressure_pa(wraps, gas)
     return float(compressed + step * drawn_in / ratio)
+
+
+def suction_volume_m3(wraps: ScrollWraps, since_closing):
+    """Volume of one suction pocket at crank angles since the one before has closed, m³."""
+    outer = float(contact_angle(wraps, np.zeros(())))
+    constants = SimpleNamespace(outer_contact=outer, swept_volume=swept_volume_m3(wraps))
+    return volume_and_swelling.py_func(np.asarray(since_closing), constants)[0]

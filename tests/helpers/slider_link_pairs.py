@@ -9,7 +9,7 @@ from vibroacoustics.mechanisms.slider_link.bearing_friction import _checked
 from vibroacoustics.mechanisms.slider_link.crankshaft import CrankForces
 from vibroacoustics.mechanisms.slider_link.machine import SliderLinkMachine
 from vibroacoustics.mechanisms.slider_link.piston import CrankState, engaged_length
-from vibroacoustics.mechanisms.slider_link.unbalance import _wrench
+from vibroacoustics.mechanisms.slider_link.revolution import _wrench
 
 
 def free_acceleration(block: Housing, load: Array) -> Array:

@@ -22,8 +22,7 @@ from vibroacoustics.commands import cli
 from vibroacoustics.mechanics.added import Added
 from vibroacoustics.mechanics.moving_parts import MovingPart, Revolution, wrench
 from vibroacoustics.mechanics.rotation import Rotation, constant_rotation
-from vibroacoustics.mechanisms.oldham_scroll.ring import oldham_ring
-from vibroacoustics.mechanisms.oldham_scroll.rotating_set import rotating_set
+from vibroacoustics.mechanisms.oldham_scroll.revolution import oldham_ring, rotating_set
 from vibroacoustics.orders import order_spectrum
 from vibroacoustics.radiation.bodies import Body
 from vibroacoustics.radiation.box import Box, BoxField, closed_box

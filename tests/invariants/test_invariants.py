@@ -22,7 +22,7 @@ from vibroacoustics.levels import energy_difference, energy_sum
 from vibroacoustics.machine.housing import Housing
 from vibroacoustics.machine.mounts import Mounts
 from vibroacoustics.mechanics.moving_parts import MovingPart, path, wrench
-from vibroacoustics.mechanisms.oldham_scroll.rotating_set import (
+from vibroacoustics.mechanisms.oldham_scroll.revolution import (
     circling,
     counterweight,
     rotating_set,

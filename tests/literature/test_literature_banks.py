@@ -20,8 +20,8 @@ from vibroacoustics.mechanics.capabilities import Slider
 from vibroacoustics.mechanics.rotation import constant_rotation
 from vibroacoustics.mechanisms.reciprocating.cycle import steady_cycle
 from vibroacoustics.mechanisms.reciprocating.cylinders import CylinderBanks
-from vibroacoustics.mechanisms.reciprocating.joints import ConstraintForces, journal_share
 from vibroacoustics.mechanisms.reciprocating.revolution import reciprocating_revolution
+from vibroacoustics.mechanisms.reciprocating.slider_crank import ConstraintForces, journal_share
 from vibroacoustics.orders import order_spectrum
 from vibroacoustics.study.loading import load_machine, load_study
 

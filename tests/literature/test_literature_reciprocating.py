@@ -8,8 +8,7 @@ from machine_files import changed, machine_file
 from scipy.optimize import brentq, minimize_scalar
 from support import ROOT
 
-from vibroacoustics.mechanisms.reciprocating.cycle import steady_cycle
-from vibroacoustics.mechanisms.reciprocating.efficiency import efficiency_map, optimum_bore
+from vibroacoustics.mechanisms.reciprocating.cycle import efficiency_map, optimum_bore, steady_cycle
 from vibroacoustics.mechanisms.reciprocating.slider_crank import design_at_bore, motion
 from vibroacoustics.study.loading import load_machine
 

@@ -27,10 +27,10 @@ from vibroacoustics.report.source_words import (
     shares_sentence,
 )
 from vibroacoustics.report.verdict import headline, reasons
+from vibroacoustics.sources.cases import MovingParts
 from vibroacoustics.sources.gas import ScrollGasForces
 from vibroacoustics.sources.keys import OldhamKeyForces
 from vibroacoustics.sources.motor import MotorPulsation
-from vibroacoustics.sources.moving_parts import MovingParts
 
 pytestmark = pytest.mark.usefixtures("quick_figures")
 

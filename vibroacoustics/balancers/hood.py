@@ -3,8 +3,9 @@
 from typing import ClassVar
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Field
 
+from ..base.parameters import Contradictions
 from ..base.registry import register
 from ..machine.machine import Machine
 from ..machine.option import Option
@@ -24,24 +25,20 @@ class Hood(Option):
     mass_kg: float = Field(default=0.0, ge=0.0, le=100.0)
     """Not on the mounts."""
 
-    @model_validator(mode="after")
-    def _one_loss_a_band(self) -> "Hood":
+    def contradictions(self) -> Contradictions:
         if len(self.band_hz) != len(self.insertion_loss_db):
-            raise ValueError(
+            yield (
                 f"insertion_loss_db: {len(self.insertion_loss_db)} values for "
                 f"{len(self.band_hz)} bands in band_hz"
             )
         numbers = third_octave_number(np.asarray(self.band_hz))
         if min(self.band_hz) < 20.0 or max(self.band_hz) > 20e3 or np.any(np.diff(numbers) < 1):
-            raise ValueError(
+            yield (
                 f"band_hz = {list(self.band_hz)} Hz: must rise by a third octave or more from "
                 "20 to 20000 Hz"
             )
         if max(map(abs, self.insertion_loss_db)) > 80.0:
-            raise ValueError(
-                f"insertion_loss_db = {list(self.insertion_loss_db)} dB: allowed -80 to 80 dB"
-            )
-        return self
+            yield f"insertion_loss_db = {list(self.insertion_loss_db)} dB: allowed -80 to 80 dB"
 
     def added(self, machine: Machine, revolution: Revolution) -> Added:
         """No moving part."""

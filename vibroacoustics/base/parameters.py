@@ -1,9 +1,9 @@
 """What every parameter object has in common."""
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Final, TypeVar
+from typing import Any, ClassVar, Final, Self, TypeVar
 
 from pydantic import (
     BaseModel,
@@ -12,6 +12,7 @@ from pydantic import (
     SerializerFunctionWrapHandler,
     ValidationInfo,
     model_serializer,
+    model_validator,
 )
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
@@ -20,6 +21,7 @@ from .errors import ParameterError
 from .registry import Registry
 
 FURTHER: Final = "others by --plugin"
+Contradictions = Iterator[str]
 
 
 class Parameters(BaseModel):
@@ -41,6 +43,21 @@ class Parameters(BaseModel):
     )
     lines_to_add: ClassVar[str] = ""
     """What a refusal says of a missing table, where its required keys alone do not say enough."""
+
+    def contradictions(self) -> Contradictions:
+        """Give what is wrong between values each of which is allowed; the first is reported.
+
+        Those of a parent class are asked first, without a call of this one's.
+        """
+        yield from ()
+
+    @model_validator(mode="after")
+    def _without_contradictions(self) -> Self:
+        for owner in reversed(type(self).__mro__):
+            own = vars(owner).get("contradictions")
+            for problem in () if own is None else own(self):
+                raise ValueError(problem)
+        return self
 
 
 @dataclass(frozen=True)

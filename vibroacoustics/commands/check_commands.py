@@ -22,8 +22,8 @@ def check_command(
     plugin: Plugins = None,
 ) -> None:
     """Tell all that is wrong with a study or a machine; of a study, what a run would cost."""
+    from ..study.loading import load_study_or_machine
     from ..study.study import Study
-    from ..study.study_or_machine import load_study_or_machine
     from . import cost_lines
 
     with collected() as left_out:

@@ -34,7 +34,7 @@ def curves_command(
     from .. import report
     from ..base.plugin_file import load_plugin
     from ..sources.curves import curves
-    from ..study.study_or_machine import load_study_or_machine
+    from ..study.loading import load_study_or_machine
     from . import outputs
 
     for one in plugin or ():

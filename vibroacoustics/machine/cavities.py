@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from math import pi
 from typing import Annotated, Final
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ..base.parameters import Held, Parameters
+from ..base.parameters import Contradictions, Held, Parameters
 from ..mechanics.ports import Port
 from .frame import SHELL_TABLES
 from .shell import Shell
@@ -37,14 +37,12 @@ class DischargeDome(Parameters):
     quality_ratio: float = QUALITY
     """Q of the gas: its loss factor, but for the tube, is one over it."""
 
-    @model_validator(mode="after")
-    def _tube_in_wall(self) -> "DischargeDome":
+    def contradictions(self) -> Contradictions:
         if self.tube_height_m > self.depth_m:
-            raise ValueError(
+            yield (
                 f"tube_height_mm = {1e3 * self.tube_height_m:g} mm: must be at most depth_mm = "
                 f"{1e3 * self.depth_m:g} mm, where the cap begins"
             )
-        return self
 
     def why_not_in(self, shell: Shell) -> str | None:
         """Why a shell cannot have it; None where it can."""
@@ -79,15 +77,13 @@ class SuctionAnnulus(Parameters):
     """κ = ρ c²/p of the gas, which gives its density at the suction pressure."""
     quality_ratio: float = QUALITY
 
-    @model_validator(mode="after")
-    def _inlets_in_it(self) -> "SuctionAnnulus":
+    def contradictions(self) -> Contradictions:
         lower, inlet, upper = self.lower_height_m, self.inlet_height_m, self.upper_height_m
         if not lower <= inlet <= upper or lower == upper:
-            raise ValueError(
+            yield (
                 f"inlet_height_mm = {1e3 * inlet:g} mm: must lie between lower_height_mm = "
                 f"{1e3 * lower:g} mm and upper_height_mm = {1e3 * upper:g} mm"
             )
-        return self
 
     def why_not_in(self, shell: Shell) -> str | None:
         """Why a shell cannot have it; None where it can."""

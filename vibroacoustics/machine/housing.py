@@ -1,8 +1,8 @@
 """Mass and moments of inertia of a rigid body."""
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ..base.parameters import Parameters
+from ..base.parameters import Contradictions, Parameters
 
 
 class Housing(Parameters):
@@ -13,12 +13,10 @@ class Housing(Parameters):
     inertia_yy_kg_m2: float = Field(gt=0.0, le=1e4)
     inertia_zz_kg_m2: float = Field(gt=0.0, le=1e4)
 
-    @model_validator(mode="after")
-    def _triangle_inequality(self) -> "Housing":
+    def contradictions(self) -> Contradictions:
         moments = sorted((self.inertia_xx_kg_m2, self.inertia_yy_kg_m2, self.inertia_zz_kg_m2))
         if moments[2] > moments[0] + moments[1]:
-            raise ValueError(
+            yield (
                 "inertia_*_kg_m2: the largest moment of inertia must not exceed the sum of the "
                 f"others, got {moments[2]:g} > {moments[0]:g} + {moments[1]:g} kg m²"
             )
-        return self

@@ -6,12 +6,12 @@ Heights are those of the machine's frame: z up, zero at the centre of mass at re
 from collections.abc import Iterable, Mapping
 from typing import Annotated, ClassVar, Final, TypeVar
 
-from pydantic import Field, SerializeAsAny, model_validator
+from pydantic import Field, SerializeAsAny
 
 from ..base.arrays import Array
 from ..base.curves import Curve
 from ..base.errors import ParameterError
-from ..base.parameters import AnyOf, KindOfParameters, Parameters
+from ..base.parameters import AnyOf, Contradictions, KindOfParameters, Parameters
 from ..base.registry import Registry
 from ..mechanics.capabilities import UPRIGHT, Capability, CrankFrame
 from ..mechanics.moving_parts import MovingPart, Revolution
@@ -25,8 +25,7 @@ from .housing import Housing
 from .limits import OF_EVERY_MACHINE, Limit
 from .mount_stiffness import MountStiffness
 from .mounts import Mounts
-from .overall_noise import OverallNoise
-from .remainder import OF_THE_REMAINDER, Remainder
+from .remainder import OF_THE_REMAINDER, OverallNoise, Remainder
 from .shell import Shell
 from .suspension import BLOCK, Suspension
 
@@ -113,15 +112,13 @@ class Machine(KindOfParameters):
     limits: ClassVar[tuple[Limit, ...]] = OF_EVERY_MACHINE
     """What other values leave of a value's range, in the order in which they are drawn."""
 
-    @model_validator(mode="after")
-    def _stands_on_one_floor(self) -> "Machine":
+    def contradictions(self) -> Contradictions:
         if self.floor is not None and self.floor_mobility is not None:
-            raise ValueError("floor, floor_mobility: give one of them")
+            yield "floor, floor_mobility: give one of them"
         feet = FOOT_NAMES if self.feet is None else tuple(self.feet.by_name)
         reason = self.floor_mobility and self.floor_mobility.why_not_under(feet)
         if reason:
-            raise ValueError(f"floor_mobility: {reason}")
-        return self
+            yield f"floor_mobility: {reason}"
 
     def revolution(self, speed_rpm: float, samples: int) -> Revolution:
         """One steady revolution: force and moment of the moving parts by source.

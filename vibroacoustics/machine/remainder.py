@@ -3,11 +3,11 @@
 from typing import Annotated, Final
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from ..base.arrays import Array
 from ..base.decibel import level_of_power, power_of_level
-from ..base.parameters import Held, Parameters
+from ..base.parameters import Contradictions, Held, Parameters
 
 PRIOR: Final = Held("say what is held of the remainder before anything is drawn")
 LEAST_FLAT_DB: Final = 1.0
@@ -15,6 +15,17 @@ OF_THE_REMAINDER: Final = frozenset(
     f"remainder.{name}" for name in ("speed_growth_db", "peak_frequency_hz", "slope_db")
 )
 """Without effect where a machine has no published level that leaves a remainder."""
+DATUM: Final = Held("are data that the model is compared to")
+
+
+class OverallNoise(Parameters):
+    """The A-weighted sound pressure level of the whole machine, from a catalogue or assumed."""
+
+    level_dba: Annotated[float, DATUM] = Field(ge=0.0, le=140.0)
+    speed_rpm: Annotated[float, DATUM] = Field(ge=60.0, le=60000.0)
+    distance_m: Annotated[float, DATUM] = Field(ge=0.1, le=20.0)
+    deviation_db: Annotated[float, DATUM] = Field(default=2.0, ge=0.1, le=10.0)
+    """Standard deviation of the level."""
 
 
 class Remainder(Parameters):
@@ -36,14 +47,12 @@ class Remainder(Parameters):
     near_level_db: Annotated[float, PRIOR] = Field(default=-2.0, ge=-30.0, le=5.0)
     near_deviation_db: Annotated[float, PRIOR] = Field(default=3.0, ge=0.5, le=20.0)
 
-    @model_validator(mode="after")
-    def _rising(self) -> "Remainder":
+    def contradictions(self) -> Contradictions:
         if self.flat_highest_db - self.flat_lowest_db < LEAST_FLAT_DB:
-            raise ValueError(
+            yield (
                 f"flat_lowest_db = {self.flat_lowest_db:g} dB: must be at least "
                 f"{LEAST_FLAT_DB:g} dB below flat_highest_db, {self.flat_highest_db:g} dB"
             )
-        return self
 
     def speed_factor(self, speed_rpm: Array, published_rpm: float) -> Array:
         """Mean square at each speed over that at the speed of the published level."""

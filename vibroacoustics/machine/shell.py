@@ -3,9 +3,9 @@
 from math import hypot
 from typing import Annotated, Final
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ..base.parameters import Held, Parameters
+from ..base.parameters import Contradictions, Held, Parameters
 
 OUTSIDE: Final = Held("give the outside of the shell: each value needs a radiation of its own")
 
@@ -23,19 +23,17 @@ class Shell(Parameters):
     floor_clearance_m: Annotated[float, OUTSIDE] = Field(ge=0.0, le=0.5)
     """Height of the bottom of the shell above the floor."""
 
-    @model_validator(mode="after")
-    def _proportions(self) -> "Shell":
+    def contradictions(self) -> Contradictions:
         if self.centre_of_mass_height_m >= self.height_m:
-            raise ValueError(
+            yield (
                 f"centre_of_mass_height_mm = {1e3 * self.centre_of_mass_height_m:g} mm: must be "
                 f"below height_mm = {1e3 * self.height_m:g} mm"
             )
         if 2.0 * self.dome_height_m > self.height_m:
-            raise ValueError(
+            yield (
                 f"dome_height_mm = {1e3 * self.dome_height_m:g} mm: must be at most half of "
                 f"height_mm = {1e3 * self.height_m:g} mm"
             )
-        return self
 
     @property
     def radius_m(self) -> float:

@@ -3,9 +3,9 @@
 from math import pi
 from typing import Annotated, ClassVar, Final
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ..base.parameters import Held, Parameters
+from ..base.parameters import Contradictions, Held, Parameters
 
 JOINTS: Final = ("bearing_housing", "fixed_scroll", "stator")
 """Inner parts that are fixed to the wall."""
@@ -25,15 +25,13 @@ class Joint(Parameters):
     spread_rad: float = Field(default=0.0, ge=0.0, le=2.0 * pi)
     """Angle that one weld covers; 2π over the number of welds is a joint all around."""
 
-    @model_validator(mode="after")
-    def _fits_around(self) -> "Joint":
+    def contradictions(self) -> Contradictions:
         covered = self.welds * self.spread_rad
         if covered > 2.0 * pi * (1.0 + 1e-9):
-            raise ValueError(
+            yield (
                 f"spread_deg = {self.spread_rad * 180.0 / pi:g} °: {self.welds} welds cover "
                 f"{covered * 180.0 / pi:g} °; at most 360 ° fit around"
             )
-        return self
 
 
 ENDS: Final = Held("say where the wall is kept round: another one makes other modes")

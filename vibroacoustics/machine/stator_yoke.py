@@ -2,9 +2,9 @@
 
 from typing import Final
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ..base.parameters import Parameters
+from ..base.parameters import Contradictions, Parameters
 from ..mechanics.ports import Port
 from .frame import SHELL_TABLES
 
@@ -31,19 +31,17 @@ class StatorYoke(Parameters):
     fit_stiffness_n_per_m: float = Field(gt=0.0, le=1e15)
     """Between yoke and wall, outwards, all around together."""
 
-    @model_validator(mode="after")
-    def _is_a_ring(self) -> "StatorYoke":
+    def contradictions(self) -> Contradictions:
         if self.thickness_m >= self.mean_radius_m:
-            raise ValueError(
+            yield (
                 f"thickness_mm = {1e3 * self.thickness_m:g} mm: must be below the mean radius, "
                 f"{1e3 * self.mean_radius_m:g} mm"
             )
         if self.bore_radius_m > self.mean_radius_m - 0.5 * self.thickness_m:
-            raise ValueError(
+            yield (
                 f"bore_radius_mm = {1e3 * self.bore_radius_m:g} mm: reaches into the yoke, whose "
                 f"inner radius is {1e3 * (self.mean_radius_m - 0.5 * self.thickness_m):g} mm"
             )
-        return self
 
 
 YOKE_ORDERS: Final = (0, 2, 3, 4, 5, 6)

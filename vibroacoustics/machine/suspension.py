@@ -2,9 +2,9 @@
 
 from typing import Final
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ..base.parameters import Parameters
+from ..base.parameters import Contradictions, Parameters
 from ..mechanics.ports import BodyPort
 from .housing import Housing
 from .mounts import Mounts
@@ -28,20 +28,14 @@ class DischargeTube(Parameters):
     poisson_ratio: float = Field(gt=-1.0, le=0.5)
     loss_factor_ratio: float = Field(ge=0.0, le=1.0)
 
-    @model_validator(mode="after")
-    def _whole_points(self) -> "DischargeTube":
+    def contradictions(self) -> Contradictions:
         if not len(self.x_m) == len(self.y_m) == len(self.z_m):
-            raise ValueError("x_mm, y_mm, z_mm: must be as long as each other")
-        return self
-
-    @model_validator(mode="after")
-    def _has_a_wall(self) -> "DischargeTube":
+            yield "x_mm, y_mm, z_mm: must be as long as each other"
         if self.inner_diameter_m >= self.outer_diameter_m:
-            raise ValueError(
+            yield (
                 f"inner_diameter_mm = {1e3 * self.inner_diameter_m:g} mm: must be below "
                 f"outer_diameter_mm = {1e3 * self.outer_diameter_m:g} mm"
             )
-        return self
 
 
 class Suspension(Parameters):

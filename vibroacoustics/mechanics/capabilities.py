@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 from typing import ClassVar, Final, NamedTuple
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ..base.parameters import Parameters
+from ..base.parameters import Contradictions, Parameters
 
 HEIGHT = Field(ge=-2.0, le=2.0)
 
@@ -24,14 +24,21 @@ class BalancePlanes(Parameters):
     lower_height_m: float = HEIGHT
     radius_m: float = Field(gt=0.0, le=0.5)
 
-    @model_validator(mode="after")
-    def _planes_apart(self) -> "BalancePlanes":
+    def contradictions(self) -> Contradictions:
         if self.upper_height_m - self.lower_height_m < 1e-3:
-            raise ValueError(
+            yield (
                 f"upper_height_mm = {1e3 * self.upper_height_m:g} mm: must be at least 1 mm above "
                 f"lower_height_mm = {1e3 * self.lower_height_m:g} mm"
             )
-        return self
+
+    @property
+    def counted_down(self) -> "BalancePlanes":
+        """The same planes where heights count down the shaft."""
+        return BalancePlanes(
+            upper_height_m=-self.lower_height_m,
+            lower_height_m=-self.upper_height_m,
+            radius_m=self.radius_m,
+        )
 
 
 class CrankFrame(NamedTuple):

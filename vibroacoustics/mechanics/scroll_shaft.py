@@ -2,9 +2,9 @@
 
 from math import pi
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ..base.parameters import Parameters
+from ..base.parameters import Contradictions, Parameters
 
 LENGTH = Field(gt=0.0, le=2.0)
 MASS = Field(gt=0.0, le=100.0)
@@ -36,18 +36,16 @@ class ScrollShaft(Parameters):
         volume = 0.25 * pi * self.diameter_m**2 * self.length_m
         return self.density_kg_per_m3 * volume + self.rotor_mass_kg
 
-    @model_validator(mode="after")
-    def _in_place(self) -> "ScrollShaft":
+    def contradictions(self) -> Contradictions:
         top = self.rotor_height_m + 0.5 * self.rotor_length_m
         if not top < self.main_bearing_height_m < self.length_m:
-            raise ValueError(
+            yield (
                 f"main_bearing_height_mm = {1e3 * self.main_bearing_height_m:g} mm: must be above "
                 f"the rotor's top at {1e3 * top:g} mm and below the crank pin at "
                 f"{1e3 * self.length_m:g} mm"
             )
         if self.rotor_height_m < 0.5 * self.rotor_length_m:
-            raise ValueError(
+            yield (
                 f"rotor_height_mm = {1e3 * self.rotor_height_m:g} mm: the rotor of "
                 f"{1e3 * self.rotor_length_m:g} mm reaches below the lower bearing"
             )
-        return self

@@ -100,8 +100,7 @@ def sound_power_points(settings: SoundPowerSettings, body: Body, floor_z_m: floa
 
 def hemisphere_positions(radius_m: float, count: int = 10) -> Array:
     """The first `count` positions of Table B.1, (position, 3), from the origin on the floor."""
-    positions: Array = radius_m * TABLE_B1[:count]
-    return positions
+    return np.asarray(radius_m * TABLE_B1[:count])
 
 
 def box_positions(length_m: float, width_m: float, height_m: float, distance_m: float) -> Array:
@@ -122,8 +121,7 @@ def box_positions(length_m: float, width_m: float, height_m: float, distance_m: 
         for axis, corner in sides
     ]
     above = [point for point in np.concatenate(points) if point[2] > 1e-9]
-    distinct: Array = np.unique(np.round(above, 9), axis=0)  # sides share their corners
-    return distinct
+    return np.asarray(np.unique(np.round(above, 9), axis=0))
 
 
 def _side_positions(

@@ -31,14 +31,12 @@ def interpolation_weights(offset: Array) -> Array:
     gram = _band(_PASS_RAD_PER_NODE, apart) + _STOP_WEIGHT * (
         _band(np.pi, apart) - _band(_STOP_RAD_PER_NODE, apart)
     )
-    weights: Array = np.linalg.solve(gram, _band(_PASS_RAD_PER_NODE, offset - nodes[:, None])).T
-    return weights
+    return np.asarray(np.linalg.solve(gram, _band(_PASS_RAD_PER_NODE, offset - nodes[:, None])).T)
 
 
 def _band(limit: float, distance: Array) -> Array:
     """Half the integral of exp(j k x) over |k| <= limit: sin(limit x)/x."""
-    integral: Array = limit * np.sinc(limit * distance / np.pi)
-    return integral
+    return np.asarray(limit * np.sinc(limit * distance / np.pi))
 
 
 def interpolation_matrix(first: float, spacing: float, count: int, points: Array) -> Array:
@@ -74,5 +72,4 @@ class Interpolator:
         for matrix in self._matrices:
             # Contracts the first axis and appends the new one: after three the order is back.
             field = np.tensordot(field, matrix, axes=(0, 1))
-        values: Array = field[self._indices]
-        return values
+        return np.asarray(field[self._indices])

@@ -32,14 +32,12 @@ class Body:
     @property
     def triangles(self) -> Array:
         """Corners of the faces, (face, corner, 3), m."""
-        corners: Array = self.vertices[self.faces]
-        return corners
+        return np.asarray(self.vertices[self.faces])
 
     def area_vectors(self) -> Array:
         """Area of each face times its unit normal, m², (face, 3)."""
         a, b, c = np.moveaxis(self.triangles, 1, 0)
-        area: Array = 0.5 * np.cross(b - a, c - a)
-        return area
+        return np.asarray(0.5 * np.cross(b - a, c - a))
 
     def bounds(self) -> tuple[Array, Array]:
         """Lower and upper corner of the bounding box, m."""
@@ -54,8 +52,7 @@ class Body:
         planes, which = np.unique(coordinate, return_inverse=True)
         total = np.bincount(which, size[across], planes.size)
         chosen = np.argsort(-total, kind="stable")
-        result: Array = planes[chosen[total[chosen] >= least_area_m2]]
-        return result
+        return np.asarray(planes[chosen[total[chosen] >= least_area_m2]])
 
     def contains(self, point: Array) -> bool:
         """Whether a point (3,) lies inside: its solid angle seen by the surface is 4 pi.

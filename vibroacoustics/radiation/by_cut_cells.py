@@ -115,8 +115,7 @@ def with_neglected_echo(closed: Radiated, task: Task) -> Array:
     """Return the estimated error at the microphones, (receiver, pattern, frequency), Pa."""
     share = neglected_echo(task.scene, task.patterns, task.table_hz, task.receivers.points)
     largest = np.abs(closed.pressure).max(axis=0)
-    error: Array = closed.error + SAFETY * share * largest
-    return error
+    return np.asarray(closed.error + SAFETY * share * largest)
 
 
 def _check_receivers(task: Task, near: list[NearField]) -> None:

@@ -14,8 +14,7 @@ from .by_cut_cells import ByCutCells
 from .near_field import NearField
 from .near_step import Fields
 from .pulse import pulse_duration_s
-from .revolution.method import ByRevolution
-from .revolution.receivers import join_box
+from .revolution.method import ByRevolution, join_box
 from .revolution.sampling import first_solved
 from .revolution.side import memory_bytes
 from .room_greens import room_spacing_m

@@ -86,8 +86,7 @@ def _smallest_volumes(open_areas: list[Array], grid: NearGrid) -> Array:
     for axis, area in enumerate(open_areas):
         shape = [-1 if other == axis else 1 for other in range(3)]
         total += area * upper.stiffness(axis).reshape(shape)
-    smallest: Array = total * (grid.courant_number / COURANT_NUMBER) ** 2 / MOST_OPEN
-    return smallest
+    return np.asarray(total * (grid.courant_number / COURANT_NUMBER) ** 2 / MOST_OPEN)
 
 
 def _wall_areas(open_areas: list[Array], grid: NearGrid) -> Array:
@@ -124,8 +123,7 @@ def _upper(axis: int) -> tuple[slice, ...]:
 def _lines(edges: Array, per_cell: int) -> Array:
     """Coordinates of the lines of consecutive cells on one axis."""
     shares = (np.arange(per_cell) + 0.5) / per_cell
-    coordinates: Array = (edges[:-1, None] + np.diff(edges)[:, None] * shares).ravel()
-    return coordinates
+    return np.asarray((edges[:-1, None] + np.diff(edges)[:, None] * shares).ravel())
 
 
 def _open_fractions(body: Body, edges: list[Array], axis: int) -> Array:

@@ -1,19 +1,43 @@
 """Green's functions in closed form. Time factor exp(+j omega t)."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from ..base.constants import SPEED_OF_SOUND_M_PER_S
 from .arrays import Array, ComplexArray
 from .box import Box, BoxField
-from .mirrors import Mirror, images
+
+
+@dataclass(frozen=True)
+class Mirror:
+    """An infinite wall across one axis; no two of a room are parallel.
+
+    With a reflection factor below 1 the image is weaker by it, in every direction: the wall of a
+    half space of heavier fluid with the same speed of sound. Walls that absorb by their local
+    impedance reflect less at some angles than at others; a mirror is their mean.
+    """
+
+    axis: int
+    sign: int
+    """-1: the wall bounds the room below, 1: above."""
+    position_m: float
+    reflection: float = 1.0
+    """Share of the pressure that comes back, 0 to 1."""
+
+    @property
+    def hard(self) -> bool:
+        return self.reflection == 1.0
+
+    def depth_m(self, points: Array) -> Array:
+        """Distance of points (..., 3) from the wall, into the room, m."""
+        return np.asarray(self.sign * (self.position_m - points[..., self.axis]))
 
 
 def wavenumber(frequency_hz: Array) -> Array:
     """k = 2 pi f / c, rad/m."""
-    number: Array = 2 * np.pi * np.asarray(frequency_hz, dtype=float) / SPEED_OF_SOUND_M_PER_S
-    return number
+    return np.asarray(2 * np.pi * np.asarray(frequency_hz, dtype=float) / SPEED_OF_SOUND_M_PER_S)
 
 
 def free_green(points: Array, source: Array, frequency_hz: Array) -> ComplexArray:
@@ -23,8 +47,7 @@ def free_green(points: Array, source: Array, frequency_hz: Array) -> ComplexArra
     """
     distance = np.linalg.norm(points - source, axis=-1)
     k = wavenumber(frequency_hz)[:, None]
-    value: ComplexArray = np.exp(-1j * k * distance) / (4 * np.pi * distance)
-    return value
+    return np.asarray(np.exp(-1j * k * distance) / (4 * np.pi * distance))
 
 
 def green(
@@ -81,3 +104,15 @@ def box_green(
         green(box.inner, source, frequency_hz, mirrors),
         green(box.outer, source, frequency_hz, mirrors),
     )
+
+
+def images(source: Array, mirrors: Sequence[Mirror]) -> tuple[Array, Array]:
+    """A source (3,) and all of its images: positions (image, 3), m, and strengths (image,)."""
+    positions: Array = np.asarray(source, dtype=float)[None, :]
+    strengths: Array = np.ones(1)
+    for mirror in mirrors:
+        reflected = positions.copy()
+        reflected[:, mirror.axis] = 2.0 * mirror.position_m - reflected[:, mirror.axis]
+        positions = np.concatenate([positions, reflected])
+        strengths = np.concatenate([strengths, mirror.reflection * strengths])
+    return positions, strengths

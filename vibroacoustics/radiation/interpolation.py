@@ -120,5 +120,4 @@ def _trend(frequency_hz: Array, distance_m: Array) -> ComplexArray:
     """Delay and growth that are taken out before interpolation: j omega exp(-jkr)."""
     omega = 2.0 * np.pi * frequency_hz
     delay_s = np.asarray(distance_m)[..., None] / SPEED_OF_SOUND_M_PER_S
-    trend: ComplexArray = 1j * omega * np.exp(-1j * omega * delay_s)
-    return trend
+    return np.asarray(1j * omega * np.exp(-1j * omega * delay_s))

@@ -27,8 +27,7 @@ from .arrays import Array, ComplexArray
 from .bodies import Body
 from .box import Box, closed_box
 from .cut_cells import GEOMETRY_BYTES_PER_CELL, CutCells, cut_cells
-from .exact import green_rows
-from .mirrors import Mirror
+from .exact import Mirror, green_rows
 from .near_grid import BOX_MARGIN_M, NearGrid, near_grid
 from .near_run import Run, Watch, advance_run
 from .near_step import BYTES_PER_CELL
@@ -194,5 +193,4 @@ class NearField:
 def _divided(edges: Array, parts: int) -> Array:
     """Planes that cut every cell of an axis in equal parts."""
     cells = np.arange(edges.size)
-    planes: Array = np.interp(np.arange(parts * cells[-1] + 1) / parts, cells, edges)
-    return planes
+    return np.asarray(np.interp(np.arange(parts * cells[-1] + 1) / parts, cells, edges))

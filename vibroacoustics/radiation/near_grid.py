@@ -13,7 +13,7 @@ from ..base.constants import SPEED_OF_SOUND_M_PER_S
 from .arrays import Array
 from .bodies import Body
 from .box import Side, open_sides
-from .mirrors import Mirror
+from .exact import Mirror
 from .symmetry import symmetric_axes
 
 COURANT_NUMBER: Final = 0.3
@@ -86,8 +86,7 @@ class NearGrid:
 
     def centres(self, axis: int) -> Array:
         """Coordinates of the cells' middles, (cell,), m."""
-        middles: Array = (self.edges[axis][1:] + self.edges[axis][:-1]) / 2.0
-        return middles
+        return np.asarray((self.edges[axis][1:] + self.edges[axis][:-1]) / 2.0)
 
     def widths(self, axis: int) -> Array:
         """(cell,), m."""
@@ -126,8 +125,7 @@ class NearGrid:
         """
         gaps = np.concatenate([self.widths(axis)[:1], self.gaps(axis), self.widths(axis)[-1:]])
         nearest = np.minimum(gaps[:-1], gaps[1:])
-        result: Array = self.spacing_m**2 / (self.widths(axis) * nearest)
-        return result
+        return np.asarray(self.spacing_m**2 / (self.widths(axis) * nearest))
 
     def middles(self, cells: NDArray[np.intp]) -> Array:
         """Middles (cell, 3) of cells given by flat index, m."""
@@ -159,8 +157,7 @@ class NearGrid:
         if (axis, 1) not in self.on_walls:
             depth = np.maximum(depth, position - (self.shape[axis] - 1 - PML_CELLS))
         exponent = 0.5 * PML_ALPHA * self.courant_number * (depth / PML_CELLS) ** _PML_POWER
-        damping: Array = np.exp(-exponent)
-        return damping
+        return np.asarray(np.exp(-exponent))
 
 
 def near_grid(

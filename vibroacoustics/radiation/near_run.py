@@ -43,8 +43,7 @@ class Watch:
 
     def pressure(self, spectrum: ComplexArray) -> ComplexArray:
         """Pressure (watched, point) of a spectrum (watched, cell)."""
-        result: ComplexArray = np.einsum("fc,fcp->fp", spectrum, self.green)
-        return result
+        return np.asarray(np.einsum("fc,fcp->fp", spectrum, self.green))
 
 
 @dataclass(frozen=True)

@@ -53,7 +53,8 @@ class Fields:
             grid.courant_number**2, volumes, out=np.zeros(grid.shape), where=volumes > 0
         )
         gain = np.pad(gain, ((1, 0),) * 3).reshape(planes)
-        self._coefficients = (*openings, gain, *flow, *squeeze, *width)
+        factors = tuple(map(tuple, (flow, squeeze, width)))
+        self._coefficients = (tuple(openings), gain, factors, self._shape[2])
 
     def _on_planes(self, values: Array, axis: int) -> Array:
         """Values along an axis: as they are along the first, else for all cells of a plane."""
@@ -69,12 +70,11 @@ class Fields:
     def advance(self) -> None:
         """One step of fluxes and pressure."""
         step: Any = _advance  # numba's types do not tell its arguments
-        step(self._pressure, *self._flux, *self._split, *self._coefficients, self._shape[2])
+        step(self._pressure, self._flux, self._split, *self._coefficients)
 
     def pressure(self, indices: IndexArray) -> Array:
         """Pressure at flat indices."""
-        values: Array = self._pressure.reshape(-1)[indices]
-        return values
+        return np.asarray(self._pressure.reshape(-1)[indices])
 
     def add(self, indices: IndexArray, pressure: Array) -> None:
         """Add pressure at flat indices."""
@@ -89,32 +89,14 @@ def _along(values: Array, axis: int) -> Array:
 
 @_kernel
 def _advance(
-    p: Any,
-    fx: Any,
-    fy: Any,
-    fz: Any,
-    sx: Any,
-    sy: Any,
-    sz: Any,
-    ax: Any,
-    ay: Any,
-    az: Any,
-    gain: Any,
-    dx: Any,
-    dy: Any,
-    dz: Any,
-    cx: Any,
-    cy: Any,
-    cz: Any,
-    wx: Any,
-    wy: Any,
-    wz: Any,
-    row: int,
+    p: Any, flux: Any, split: Any, opening: Any, gain: Any, factors: Any, row: int
 ) -> None:  # pragma: no cover
     """Planes across x in order: fluxes that need the old pressure, then the pressure before them.
 
     A row is as many cells along z.
     """
+    (fx, fy, fz), (sx, sy, sz), (ax, ay, az) = flux, split, opening
+    (dx, dy, dz), (cx, cy, cz), (wx, wy, wz) = factors
     last = p.shape[0] - 1
     for i in range(last + 1):
         if i < last:

@@ -16,8 +16,7 @@ from ..base.constants import SPEED_OF_SOUND_M_PER_S
 from ..base.vocabulary import RIGID_BODY_DOFS
 from .arrays import Array, ComplexArray
 from .bodies import Body, block
-from .exact import wavenumber
-from .mirrors import Mirror, images
+from .exact import Mirror, images, wavenumber
 from .patterns import Pattern, rigid_body
 from .scene import Scene
 from .surface_points import surface_in_parts

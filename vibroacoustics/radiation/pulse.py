@@ -25,8 +25,7 @@ def pulse(time_s: Array, width_s: float) -> Array:
     Zero mean keeps the air at rest afterwards: nothing static remains in the grid.
     """
     argument = time_s / width_s - _LEAD_WIDTHS
-    value: Array = -argument * np.exp(-(argument**2) / 2.0)
-    return value
+    return np.asarray(-argument * np.exp(-(argument**2) / 2.0))
 
 
 def pulse_duration_s(width_s: float) -> float:
@@ -45,8 +44,7 @@ def sampling_steps(width_s: float, time_step_s: float) -> int:
 
 def transform(frequency_hz: Array, time_s: Array, signal: Array) -> ComplexArray:
     """Sum of s(t) exp(-j 2 pi f t), shape (frequency,)."""
-    spectrum: ComplexArray = np.exp(-2j * np.pi * np.outer(frequency_hz, time_s)) @ signal
-    return spectrum
+    return np.asarray(np.exp(-2j * np.pi * np.outer(frequency_hz, time_s)) @ signal)
 
 
 def transform_bytes(frequencies: int, signals: float) -> float:
@@ -73,8 +71,7 @@ class RunningTransform:
             self._flush()
         self._times[self._filled] = time_s
         self._filled += 1
-        row: Array = self._block[self._filled - 1]
-        return row
+        return np.asarray(self._block[self._filled - 1])
 
     def _flush(self) -> None:
         angle = 2 * np.pi * np.outer(self._frequency, self._times[: self._filled])

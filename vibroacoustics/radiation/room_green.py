@@ -19,14 +19,12 @@ from ..base.decibel import amplitude_of_level, level_of_amplitude
 from ..base.errors import ParameterError, SolverError
 from ..base.progress import Progress, no_progress
 from . import device, kwave
-from .arrays import Array
-from .band_limited import STENCIL_NODES
+from .arrays import Array, ComplexArray
+from .band_limited import STENCIL_NODES, Interpolator
 from .box import Box, BoxField
-from .exact import box_green
-from .mirrors import Mirror
-from .pulse import pulse, pulse_duration_s, pulse_width_s, transform
+from .exact import Mirror, box_green
+from .pulse import RunningTransform, pulse, pulse_duration_s, pulse_width_s, transform
 from .room_grid import RoomGrid, room_grid
-from .room_record import BoxRecorder, recorder_bytes, steps_per_sample
 from .spectral_step import step_bytes
 
 PRECISION: Final = np.float64
@@ -40,6 +38,33 @@ CLEAR_NODES: Final = STENCIL_NODES // 2
 """Nodes between microphone and box: with the source inside a stencil, errors reach 1 dB."""
 _LARGEST_DIFFERENCE_DB: Final = 6.0
 _DEEPEST_NULL: Final = amplitude_of_level(-30.0)
+_LARGEST_ALIAS: Final = 1e-8
+"""Of the pulse's spectrum at any frequency, what decimation may fold onto it."""
+_COPIES_OF_SPECTRA: Final = 4
+"""Spectra that exist at once: sums and their update, result and its parts."""
+_BUFFERED_SAMPLES: Final = 64
+
+
+class BoxRecorder:
+    """Spectra at the points of a box from samples of the grid's block around it."""
+
+    def __init__(self, grid: RoomGrid, box: Box, frequency_hz: Array) -> None:
+        points = np.concatenate([box.inner, box.outer])
+        self._pairs = len(box.inner)
+        self._interpolator = Interpolator(
+            grid.block_origin, grid.spacing_m, grid.block_shape, points
+        )
+        self._transform = RunningTransform(frequency_hz, len(points))
+
+    def add(self, time_s: float, block: Array) -> None:
+        """Add a sample of the block (x, y, z)."""
+        self._transform.next_row(time_s)[:] = self._interpolator(block)
+
+    def field(self, divisor: ComplexArray) -> BoxField:
+        """Sum of samples times exp(-j 2 pi f t), divided by a spectrum (frequency,)."""
+        spectrum = self._transform.spectrum()
+        spectrum /= divisor[:, None]
+        return BoxField(spectrum[:, : self._pairs], spectrum[:, self._pairs :])
 
 
 def kwave_green(
@@ -90,8 +115,7 @@ def green_difference_db(field: BoxField, expected: BoxField) -> Array:
     counted = exact >= _DEEPEST_NULL * exact.max(axis=1, keepdims=True)
     difference = np.where(counted, level_of_amplitude(simulated / exact), 0.0)
     worst = np.argmax(np.abs(difference), axis=1)
-    result: Array = difference[np.arange(difference.shape[0]), worst]
-    return result
+    return np.asarray(difference[np.arange(difference.shape[0]), worst])
 
 
 def _run(
@@ -177,8 +201,7 @@ def check_receiver(
 
 def clearance_m(box: Box, microphone: Array) -> Array:
     """Distance of a microphone from the box along each axis, (3,), m; 0 beside it."""
-    outside: Array = np.maximum(np.maximum(box.lower - microphone, microphone - box.upper), 0.0)
-    return outside
+    return np.asarray(np.maximum(np.maximum(box.lower - microphone, microphone - box.upper), 0.0))
 
 
 def _check_memory(name: str, grid: RoomGrid, box: Box, frequencies: int) -> None:
@@ -199,3 +222,32 @@ def memory_bytes(grid: RoomGrid, box: Box, frequencies: int) -> float:
         return step_bytes(grid.shape, PRECISION) + recorder
     values = _STOCK_VALUES_PER_NODE * np.prod(grid.shape, dtype=float)
     return float(values * np.dtype(PRECISION).itemsize) + recorder
+
+
+def steps_per_sample(time_step_s: float, frequency_hz: Array, pulse_width_s: float) -> int:
+    """Number of time steps from one recorded sample to the next.
+
+    The pulse's spectrum is x exp(-x^2/2) with x = 2 pi f s. Sampling at the rate r folds the
+    spectrum at r - f onto f; the longest interval is chosen that keeps this below 1e-8 at all
+    frequencies.
+    """
+
+    def spectrum(frequency: Array) -> Array:
+        x = 2 * np.pi * frequency * pulse_width_s
+        return np.asarray(x * np.exp(-(x**2) / 2))
+
+    steps = 1
+    while True:
+        folded = 1 / ((steps + 1) * time_step_s) - frequency_hz
+        quiet = (folded > frequency_hz) & (
+            spectrum(folded) <= _LARGEST_ALIAS * spectrum(frequency_hz)
+        )
+        if not quiet.all():
+            return steps
+        steps += 1
+
+
+def recorder_bytes(box: Box, frequencies: int) -> float:
+    """Memory that recording takes at its peak."""
+    points = 2.0 * len(box.inner)
+    return points * (16.0 * _COPIES_OF_SPECTRA * frequencies + 8.0 * _BUFFERED_SAMPLES)

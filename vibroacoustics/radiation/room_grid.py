@@ -10,7 +10,7 @@ from ..base.constants import SPEED_OF_SOUND_M_PER_S
 from .arrays import Array
 from .band_limited import STENCIL_NODES
 from .box import Box
-from .mirrors import Mirror, images
+from .exact import Mirror, images
 
 COURANT_NUMBER: Final = 0.6
 """Time steps do not limit accuracy here: in a uniform medium k-Wave's scheme is exact for any step.
@@ -57,14 +57,12 @@ class RoomGrid:
     def block_origin(self) -> Array:
         """First recorded node, m."""
         start = np.array([part.start for part in self.block])
-        first: Array = self.origin + self.spacing_m * start
-        return first
+        return np.asarray(self.origin + self.spacing_m * start)
 
     @property
     def sources(self) -> Array:
         """Positions of the microphone and its images, m, (source, 3)."""
-        positions: Array = self.origin + self.spacing_m * np.array(self.source_nodes)
-        return positions
+        return np.asarray(self.origin + self.spacing_m * np.array(self.source_nodes))
 
 
 def room_grid(

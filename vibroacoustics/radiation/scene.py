@@ -23,8 +23,7 @@ from ..study.receivers import Receiver
 from .arrays import Array, ComplexArray
 from .bodies import Body, block, cylinder, join_bodies, read_mesh, sphere
 from .cabinet import cabinet_panels, check_fits
-from .exact import green_rows
-from .mirrors import Mirror
+from .exact import Mirror, green_rows
 from .outdoors.green import Outdoors
 from .outdoors.of_study import check_barrier, outdoors_of
 from .patterns import Pattern, sampled

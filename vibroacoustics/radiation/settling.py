@@ -64,8 +64,7 @@ def spread_points(points: Array) -> Array:
     while len(chosen) < min(_POINTS, points.shape[0]):
         chosen.append(int(np.argmax(distance)))
         distance = np.minimum(distance, np.linalg.norm(points - points[chosen[-1]], axis=1))
-    few: Array = points[chosen]
-    return few
+    return np.asarray(points[chosen])
 
 
 def watched_frequencies(frequency_hz: Array) -> IndexArray:
@@ -73,5 +72,4 @@ def watched_frequencies(frequency_hz: Array) -> IndexArray:
     rising = np.argsort(frequency_hz, kind="stable")
     others = np.linspace(0, rising.size - 1, _OTHER_FREQUENCIES).round().astype(int)
     chosen: Sequence[int] = [*range(min(_LOWEST_FREQUENCIES, rising.size)), *others]
-    indices: IndexArray = rising[np.unique(chosen)]
-    return indices
+    return np.asarray(rising[np.unique(chosen)])

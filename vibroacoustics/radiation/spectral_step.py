@@ -27,8 +27,9 @@ import scipy.fft
 from numpy.typing import DTypeLike
 
 from .arrays import Array, ComplexArray
-from .fft import LINE_AXIS, Slab, slab_type
 from .spectral_layout import (
+    LINE_AXIS,
+    Slab,
     advance_lines,
     along_lines,
     doubled,
@@ -38,6 +39,7 @@ from .spectral_layout import (
     multiply,
     partial_transform,
     scatter,
+    slab_type,
 )
 
 _SLAB_BYTES: Final = 2**18
@@ -139,8 +141,7 @@ class SpectralStep:
         field = self._fields[0]
         self._each_thread(field.read, iter(field.slabs), self._pressure, along_x, part)
         part = scipy.fft.ifft(part, axis=1)[:, along_y] / self._shape[0]
-        result: Array = scipy.fft.irfft(part, n=self._shape[2], axis=2)[:, :, along_z]
-        return result
+        return np.asarray(scipy.fft.irfft(part, n=self._shape[2], axis=2)[:, :, along_z])
 
     def close(self) -> None:
         """End the engine's threads."""
@@ -288,5 +289,4 @@ def _footprint(
     np.add.at(nodes, tuple(np.transpose(source.nodes)), source.strengths)
     spectrum = scipy.fft.rfftn(nodes)
     spectrum *= _of_wavenumber(axes, lambda k: np.cos(courant * k), real)
-    footprint: Array = scipy.fft.irfftn(spectrum, s=nodes.shape, overwrite_x=True)
-    return footprint
+    return np.asarray(scipy.fft.irfftn(spectrum, s=nodes.shape, overwrite_x=True))

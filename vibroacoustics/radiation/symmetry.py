@@ -77,5 +77,4 @@ def images(
 def signs(across: NDArray[np.bool_], parity: Sequence[int]) -> IndexArray:
     """Sign of a field, even (1) or odd (-1) along each axis, at cells (...) over their images."""
     by_axis = np.reshape(np.array(parity, dtype=int), (-1, *[1] * (across.ndim - 1)))
-    sign: IndexArray = np.where(across, by_axis, 1).prod(axis=0)
-    return sign
+    return np.asarray(np.where(across, by_axis, 1).prod(axis=0))

@@ -68,8 +68,7 @@ class _Wall:
     def translation_flux(self) -> Array:
         """Flux of the moving part's unit translations along x, y, z, (wall, 3)."""
         share = self.moving_area / np.maximum(self.area, np.finfo(float).tiny)
-        flux: Array = share[:, None] * self.areas
-        return flux
+        return np.asarray(share[:, None] * self.areas)
 
     def volume(self) -> float:
         """Of what moves: three ways to it by the divergence theorem.
@@ -110,8 +109,7 @@ class _Sums:
         flux -= wall.translation_flux() @ self._moment / wall.volume()
         moving = np.linalg.norm(mean, axis=1) * np.linalg.norm(wall.areas, axis=1)
         excess = flux.sum() + self._across.sum()
-        corrected: Array = flux - excess * moving / moving.sum()
-        return corrected
+        return np.asarray(flux - excess * moving / moving.sum())
 
 
 def _wall_pieces(

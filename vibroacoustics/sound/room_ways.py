@@ -13,7 +13,7 @@ from ..levels.room_seam import shown_bands
 from ..machine.shell import Shell
 from ..radiation.rooms import DiffuseRoom
 from ..radiation.rooms import of_study as rooms
-from ..radiation.rooms.arrivals import arrivals
+from ..radiation.rooms.of_study import arrivals
 from ..study.room import StudyRoom
 from .room_responses import WaysOfRoom
 

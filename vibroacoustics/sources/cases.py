@@ -1,13 +1,14 @@
 """Speeds and options as cases: revolutions, what options add, loads of the sources."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from itertools import product
-from typing import Final
+from math import isfinite
+from typing import ClassVar, Final
 
 import numpy as np
 
-from ..base.arrays import ComplexArray
+from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
 from ..base.progress import Progress
 from ..base.vocabulary import REFERENCE_OPTION
@@ -16,15 +17,27 @@ from ..machine.option import OPTIONS
 from ..machine.source import SOURCES, Case, CaseKey, Source
 from ..mechanics.added import Added
 from ..mechanics.loads import Loads, PortLoads
-from ..mechanics.moving_parts import Revolution, Wrench
+from ..mechanics.moving_parts import Revolution, Wrench, wrench
 from ..mechanics.ports import BodyPort
 from ..orders.spectrum import order_spectra
 from ..study.study import Study
-from .moving_parts import MovingParts
-from .shapes import check_added, check_loads, check_revolution
 
 MOVING_PARTS: Final = "moving_parts"
 """Name of the source that every study has."""
+_ADDED_MASS: Final = "added_mass_kg"
+
+
+class MovingParts(Source):
+    """Always there; a study does not name it."""
+
+    kind: ClassVar[str] = "moving-parts"
+    position: ClassVar[float] = 0.0
+    label: ClassVar[str] = "moving parts (orders of the rigid machine)"
+
+    def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
+        """Wrenches of the machine's parts by name, and of the option's as `balancer`."""
+        balancer = wrench(case.added.parts, case.revolution.rotation)
+        return Loads(wrenches={**case.revolution.wrenches, "balancer": balancer})
 
 
 def cases_of(study: Study, progress: Progress) -> dict[CaseKey, Case]:
@@ -170,3 +183,56 @@ def without_time_series(case: Case, loads: Mapping[str, Loads]) -> tuple[Case, d
         added=replace(case.added, parts=()),
     )
     return bare, {name: replace(load, wrenches={}) for name, load in loads.items()}
+
+
+def check_revolution(revolution: Revolution, samples: int) -> None:
+    """Refuse a revolution whose courses are not over the crank angles.
+
+    Raises
+    ------
+    ValueError
+        Names the course.
+    """
+    _check_course("rotation", revolution.rotation.speed_rad_per_s, (samples,))
+    _check_wrenches(revolution.wrenches, samples)
+
+
+def check_added(added: Added, samples: int) -> None:
+    """Refuse what has no added mass, or a path that is not over the crank angles.
+
+    Raises
+    ------
+    ValueError
+        Names the figure or the part.
+    """
+    if not isfinite(added.figures.get(_ADDED_MASS, float("nan"))):
+        raise ValueError(f"figures: need a finite {_ADDED_MASS}")
+    for part in added.parts:
+        _check_course(part.source, part.position_m, (3, samples))
+
+
+def check_loads(loads: Loads, samples: int) -> None:
+    """Refuse wrenches not over the crank angles, and lines not of a port's components.
+
+    Raises
+    ------
+    ValueError
+        Names the wrench or the port.
+    """
+    _check_wrenches(loads.wrenches, samples)
+    for port, spectrum in loads.lines.items():
+        if spectrum.ndim != 2 or len(spectrum) != len(port.components):
+            raise ValueError(
+                f"{port.name}: shape {spectrum.shape}, must be ({len(port.components)}, order)"
+            )
+
+
+def _check_wrenches(wrenches: Mapping[str, Wrench], samples: int) -> None:
+    for name, of_source in wrenches.items():
+        for course in of_source:
+            _check_course(name, course, (3, samples))
+
+
+def _check_course(name: str, course: Array | ComplexArray, shape: Iterable[int]) -> None:
+    if course.shape != tuple(shape):
+        raise ValueError(f"{name}: shape {course.shape}, must be {tuple(shape)}")

@@ -14,9 +14,9 @@ from ..machine.machine import Machine
 from ..machine.source import Case, Source
 from ..machine.suspension import BLOCK, DischargeTube
 from ..mechanics.capabilities import Capability
+from ..mechanics.cylinder_gas import FLOW_SAMPLES, ValvedCylinder
 from ..mechanics.loads import Loads
 from ..mechanics.ports import HOUSING
-from ..mechanics.valve_flows import FLOW_SAMPLES, ValvedCylinder
 from ..orders import order_spectrum
 from ..transfer.tube import tube_end_reactions, tube_stiffness
 

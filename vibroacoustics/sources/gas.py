@@ -19,9 +19,8 @@ from ..mechanics.ports import Port
 from ..mechanics.rotation import uniform_crank_angle
 from ..orders import order_spectrum
 from .part_loads import gas_loads
-from .scroll_gas.curves import scroll_gas_curves
+from .scroll_gas.curves import discharge_line_curves, scroll_gas_curves
 from .scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
-from .scroll_gas.discharge_line import discharge_line_curves
 from .scroll_gas.opened_gas import OpenedGas
 from .scroll_gas.opening import steady_opening, why_no_opening
 from .scroll_gas.parameters import (

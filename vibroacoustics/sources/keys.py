@@ -26,10 +26,13 @@ from ..mechanics.loads import Loads, Noise, summed
 from ..mechanics.ports import Port
 from ..orders import order_spectrum
 from .gas import gas_cycle, gas_tables
-from .oldham_keys.contact_loss import contact_loss_speed_rpm
-from .oldham_keys.curves import oldham_key_curves
 from .oldham_keys.parameters import OldhamKeys
-from .oldham_keys.rattle import KeyForces, steady_key_forces
+from .oldham_keys.rattle import (
+    KeyForces,
+    contact_loss_speed_rpm,
+    oldham_key_curves,
+    steady_key_forces,
+)
 from .oldham_keys.spectra import spectral_density, split_periodic
 from .part_loads import key_parts, key_resultants, key_torque_n_m
 from .scroll_gas.parameters import ScrollGas, ScrollWraps

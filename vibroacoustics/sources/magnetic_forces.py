@@ -19,8 +19,12 @@ from .air_gap.loads import PORTS, loads_of_stress
 from .air_gap.parameters import AirGap
 from .air_gap.waves import Wave, Waves, cosine, permeance, product, stress_pa
 from .induction_motor.parameters import CapacitorMotor
-from .induction_motor.revolving_fields import air_gap_voltages, point_at_torque
-from .induction_motor.supply import on_supply, supply_frequency_hz
+from .induction_motor.revolving_fields import (
+    air_gap_voltages,
+    on_supply,
+    point_at_torque,
+    supply_frequency_hz,
+)
 from .synchronous_motor.parameters import SynchronousMotor
 
 _TABLES: Mapping[str, type[Parameters]] = {

@@ -13,7 +13,7 @@ from ..machine.source import Case, Source
 from ..mechanics.loads import Loads, Tone, total_torque_n_m
 from ..mechanics.ports import Port
 from .induction_motor.parameters import CapacitorMotor, TurningRotor
-from .induction_motor.supply import on_supply, supply_frequency_hz
+from .induction_motor.revolving_fields import on_supply, supply_frequency_hz
 from .induction_motor.torque_lines import TorqueLine, TorqueLines, rotor_in_motor, torque_lines
 from .part_loads import motor_lines
 

@@ -13,9 +13,9 @@ from ..machine.gas_in_shell import ShellGas
 from ..machine.machine import Machine
 from ..machine.source import Case, Source
 from ..mechanics.capabilities import Capability
+from ..mechanics.cylinder_gas import FLOW_SAMPLES, ValvedCylinder
 from ..mechanics.loads import Loads
 from ..mechanics.ports import HOUSING
-from ..mechanics.valve_flows import FLOW_SAMPLES, ValvedCylinder
 from ..orders import order_spectrum
 
 MODES: Final = 20

@@ -2,7 +2,7 @@
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -10,11 +10,19 @@ from scipy.interpolate import CubicSpline
 from ..base.arrays import Array
 from ..machine.stopping import Stopping
 from ..mechanics.moving_parts import MovingPart
-from .paths import inertia_over_angle
-from .shift import Shift, brake_shift
 
 ANGLES: Final = 512
 """Samples a revolution of the reduced inertia."""
+NO_HARMONIC: Final = 1e-13
+"""A harmonic this much smaller than the largest is rounding."""
+
+
+class Shift(NamedTuple):
+    """Angle of the set ahead of the crank pin and its derivatives in time, rad, rad/s, rad/s²."""
+
+    angle: Array
+    rate: Array
+    acceleration: Array
 
 
 @dataclass(frozen=True)
@@ -82,3 +90,75 @@ class Coasting:
 def _periodic(values: Array) -> CubicSpline:
     angle = np.linspace(0.0, 2.0 * np.pi, values.size + 1)
     return CubicSpline(angle, np.append(values, values[0]), bc_type="periodic")
+
+
+def brake_shift(time_s: Array, shift_rad: float, duration_s: float) -> Shift:
+    """A turn from rest to rest with the least jerk, δ (10u³ - 15u⁴ + 6u⁵) with u = t/duration.
+
+    The thesis gives neither course nor size ("a few degrees"); the course is assumed.
+
+    Parameters
+    ----------
+    time_s : from switch-off, any shape
+    shift_rad : δ reached at the end
+    duration_s : of the turn
+    """
+    u = np.clip(np.asarray(time_s) / duration_s, 0.0, 1.0)
+    return Shift(
+        shift_rad * u**3 * (10.0 - 15.0 * u + 6.0 * u**2),
+        shift_rad / duration_s * 30.0 * u**2 * (1.0 - u) ** 2,
+        shift_rad / duration_s**2 * 60.0 * u * (1.0 - u) * (1.0 - 2.0 * u),
+    )
+
+
+def path_derivatives(position_m: Array, angle: Array) -> tuple[Array, Array, Array]:
+    """A closed path and its first two derivatives over angle, at any angles.
+
+    Parameters
+    ----------
+    position_m : over one revolution, shape (3, samples)
+    angle : shape (times,), rad
+
+    Returns
+    -------
+    position, first, second : shape (3, times); exact for a path that is band-limited below half
+        the number of samples
+    """
+    samples = position_m.shape[-1]
+    spectrum = np.fft.rfft(position_m, axis=-1)[:, : (samples + 1) // 2] * (2.0 / samples)
+    spectrum[:, 0] *= 0.5
+    largest = np.max(np.abs(spectrum), axis=0)
+    orders = np.flatnonzero(largest > NO_HARMONIC * np.max(largest))
+    turning = np.exp(1j * orders[:, None] * angle)
+
+    def derivative(power: int) -> Array:
+        return np.asarray(((1j * orders) ** power * spectrum[:, orders] @ turning).real)
+
+    return derivative(0), derivative(1), derivative(2)
+
+
+def inertia_over_angle(parts: Sequence[MovingPart], angle: Array) -> Array:
+    """Σ m |dr/dθ|², inertia of the parts reduced to the shaft, kg m², shape (times,)."""
+    total = np.zeros(angle.size)
+    for part in parts:
+        total += part.mass_kg * np.sum(path_derivatives(part.position_m, angle)[1] ** 2, axis=0)
+    return total
+
+
+def wrench_along(
+    part: MovingPart, angle: Array, rate: Array, acceleration: Array
+) -> tuple[Array, Array]:
+    """Force and moment of a part on the housing, -m a and -r x m a.
+
+    Parameters
+    ----------
+    part : its path over one revolution
+    angle, rate, acceleration : of the part's own angle in time, shape (times,), rad, rad/s, rad/s²
+
+    Returns
+    -------
+    force, moment : shape (3, times), N and N m about the centre of mass at rest
+    """
+    position, first, second = path_derivatives(part.position_m, angle)
+    force = -part.mass_kg * (second * rate**2 + first * acceleration)
+    return force, np.asarray(np.cross(position, force, axis=0))

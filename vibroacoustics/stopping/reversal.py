@@ -9,8 +9,8 @@ from scipy.integrate import solve_ivp
 
 from ..base.arrays import Array
 from ..base.errors import SolverError
-from ..machine.turning_back import TurningBack
-from ..sources.oldham_keys.contact import contact_force, flores
+from ..machine.stopping import TurningBack
+from ..sources.oldham_keys.equations import contact_force, flores
 from .equation import Coasting
 
 RELATIVE_TOLERANCE: Final = 1e-9

@@ -9,8 +9,7 @@ import numpy as np
 from ..base.units import shaft_frequency_hz
 from ..machine.machine import Machine
 from ..machine.source import Shared
-from ..machine.stopping import Stopping
-from ..machine.turning_back import CheckValve, TurningBack
+from ..machine.stopping import CheckValve, Stopping, TurningBack
 from ..mechanics.moving_parts import MovingPart
 from ..mechanics.rotation import uniform_crank_angle
 from ..sources.gas import gas_cycle

@@ -9,7 +9,7 @@ from scipy import fft
 from ..base.arrays import Array
 from ..machine.frame import BEARING_HOUSING, FIXED_SCROLL, ORBITING_SCROLL
 from ..machine.machine import Machine
-from ..machine.turning_back import TurningBack
+from ..machine.stopping import TurningBack
 from ..mechanics.loads import summed
 from ..mechanics.ports import Port
 from ..sources.gas import gas_on_parts

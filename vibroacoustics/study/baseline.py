@@ -4,10 +4,10 @@ from collections.abc import Iterator, Sequence
 from typing import Any, Final, Literal
 
 import numpy as np
-from pydantic import Field, field_validator, model_validator
+from pydantic import Field, field_validator
 
 from ..base.decibel import power_of_level
-from ..base.parameters import Parameters
+from ..base.parameters import Contradictions, Parameters
 from ..mechanics.added import third_octave_number
 from .measured_floor import MeasuredFloor
 from .measured_shell import MeasuredShell
@@ -33,16 +33,14 @@ class BaselineSpectrum(Parameters):
     without_orders: bool = False
     """Whether the orders that were measured are taken off already."""
 
-    @model_validator(mode="after")
-    def _third_octaves(self) -> "BaselineSpectrum":
+    def contradictions(self) -> Contradictions:
         for band in self.band_hz:
             exact = power_of_level(float(third_octave_number(np.asarray(band))))
             if not (LOWEST_HZ <= band <= HIGHEST_HZ and abs(band / exact - 1.0) < ROUNDED):
-                raise ValueError(
+                yield (
                     f"band_hz = {band:g} Hz: must be the middle of a third octave from "
                     f"{LOWEST_HZ:g} to {HIGHEST_HZ:g} Hz"
                 )
-        return self
 
 
 class BaselineOrders(Parameters):
@@ -60,11 +58,9 @@ class BaselineOrders(Parameters):
     phase_rad: tuple[float | None, ...]
     """None where it is not known."""
 
-    @model_validator(mode="after")
-    def _above_zero(self) -> "BaselineOrders":
+    def contradictions(self) -> Contradictions:
         if not self.order[0] > 0.0:
-            raise ValueError(f"order = {self.order[0]:g}: must be above 0")
-        return self
+            yield f"order = {self.order[0]:g}: must be above 0"
 
 
 class BaselineMicrophone(Parameters):
@@ -109,20 +105,18 @@ class Baseline(BaselineSettings):
     third_octaves: tuple[BaselineSpectrum, ...] = ()
     orders: tuple[BaselineOrders, ...] = ()
 
-    @model_validator(mode="after")
-    def _alike(self) -> "Baseline":
+    def contradictions(self) -> Contradictions:
         for name in self.measured_at:
             if len({one.band_hz for one in self.spectra_at(name)}) > 1:
-                raise ValueError(f"microphone {name}: has other bands at another speed")
+                yield f"microphone {name}: has other bands at another speed"
             if len({one.order for one in self.orders_at(name)}) > 1:
-                raise ValueError(f"microphone {name}: has other orders at another speed")
+                yield f"microphone {name}: has other orders at another speed"
         for name in self.measured_at:
             for kind in (self.spectra_at(name), self.orders_at(name)):
                 speeds = [one.speed_rpm for one in kind]
                 twice = {speed for speed in speeds if speeds.count(speed) > 1}
                 if twice:
-                    raise ValueError(f"microphone {name}: {min(twice):g} rpm is there twice")
-        return self
+                    yield f"microphone {name}: {min(twice):g} rpm is there twice"
 
     @property
     def measured_at(self) -> tuple[str, ...]:

@@ -10,8 +10,7 @@ from ..machine.cavities import SPACES
 from ..machine.frame import Frame
 from ..machine.option import Option
 from ..machine.shell_structure import ShellStructure, ShellVariation
-from ..machine.stopping import Stopping
-from ..machine.turning_back import TurningBack
+from ..machine.stopping import Stopping, TurningBack
 from .scoring import check_given, check_scales
 from .tables import StudyTables
 

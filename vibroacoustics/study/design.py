@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from typing import Any, Final, Literal
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import Field, field_validator
 
-from ..base.parameters import Parameters
+from ..base.parameters import Contradictions, Parameters
 
 Number = int | float
 Statistic = Literal["worst", "mean"] | float
@@ -24,18 +24,16 @@ class DesignVariable(Parameters):
     points: int | None = Field(default=None, ge=2, le=100_000)
     """Of a range in a grid."""
 
-    @model_validator(mode="after")
-    def _one_of_both(self) -> "DesignVariable":
+    def contradictions(self) -> Contradictions:
         if (self.range is None) == (self.list is None):
-            raise ValueError("give range = [lowest, highest] or list = [...]")
+            yield "give range = [lowest, highest] or list = [...]"
         if self.list is not None and (self.step is not None or self.points is not None):
-            raise ValueError("step, points: belong to a range, not to a list")
+            yield "step, points: belong to a range, not to a list"
         if self.list is not None and len(set(self.list)) < len(self.list):
-            raise ValueError(f"list = {[*self.list]}: names a value twice")
+            yield f"list = {[*self.list]}: names a value twice"
         if self.range is not None and not self.range[0] < self.range[1]:
             low, high = self.range
-            raise ValueError(f"range = [{low:g}, {high:g}]: must rise")
-        return self
+            yield f"range = [{low:g}, {high:g}]: must rise"
 
 
 class Tolerance(Parameters):
@@ -47,13 +45,11 @@ class Tolerance(Parameters):
     range: tuple[float, float] | None = None
     """The value itself, whatever is meant: the angle of a residual unbalance."""
 
-    @model_validator(mode="after")
-    def _one(self) -> "Tolerance":
+    def contradictions(self) -> Contradictions:
         if [self.ratio, self.plus_minus, self.range].count(None) != 2:
-            raise ValueError("give one of ratio, plus_minus and range")
+            yield "give one of ratio, plus_minus and range"
         if self.range is not None and not self.range[0] < self.range[1]:
-            raise ValueError(f"range = [{self.range[0]:g}, {self.range[1]:g}]: must rise")
-        return self
+            yield f"range = [{self.range[0]:g}, {self.range[1]:g}]: must rise"
 
 
 class Wanted(Parameters):
@@ -88,11 +84,9 @@ class Constraint(Wanted):
     at_most: float | None = None
     at_least: float | None = None
 
-    @model_validator(mode="after")
-    def _one_limit(self) -> "Constraint":
+    def contradictions(self) -> Contradictions:
         if (self.at_most is None) == (self.at_least is None):
-            raise ValueError("give at_most or at_least")
-        return self
+            yield "give at_most or at_least"
 
 
 class Search(Parameters):
@@ -137,11 +131,9 @@ class Design(Parameters):
     def _dotted(cls, given: Any) -> Any:
         return flattened(given) if isinstance(given, Mapping) else given
 
-    @model_validator(mode="after")
-    def _each_once(self) -> "Design":
+    def contradictions(self) -> Contradictions:
         if len(set(self.option)) < len(self.option):
-            raise ValueError("option: names one twice")
-        return self
+            yield "option: names one twice"
 
 
 def flattened(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:

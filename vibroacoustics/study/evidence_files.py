@@ -11,7 +11,7 @@ from .evidence import Evidence
 from .reader import Reader
 from .toml_files import beside
 
-_MAXIMUM_BYTES: Final = 1_000_000
+MAXIMUM_BYTES: Final = 1_000_000
 
 
 def take_evidence(content: dict[str, Any], reader: Reader) -> dict[str, Any]:
@@ -39,14 +39,20 @@ def take_evidence(content: dict[str, Any], reader: Reader) -> dict[str, Any]:
 
 def _rows(path: Path) -> tuple[dict[str, Any], ...]:
     """Rows of a CSV file with a head; lines that begin with # do not count."""
+    _, lines = _remarks_and_rows(path)
+    table = csv.DictReader(lines)
+    return tuple({key: _number_or_text(cell) for key, cell in row.items()} for row in table)
+
+
+def _remarks_and_rows(path: Path) -> tuple[list[str], list[str]]:
     try:
-        lines = read_text(path, _MAXIMUM_BYTES).splitlines()
+        lines = read_text(path, MAXIMUM_BYTES).splitlines()
     except OSError as error:
         raise ParameterError(f"{path}: cannot be read: {error.strerror}") from None
     except ValueError as error:  # no UTF-8, no file name
         raise ParameterError(f"{path}: cannot be read: {error}") from None
-    table = csv.DictReader(line for line in lines if line.strip() and not line.startswith("#"))
-    return tuple({key: _number_or_text(cell) for key, cell in row.items()} for row in table)
+    remarks = [line for line in lines if line.startswith("#")]
+    return remarks, [line for line in lines if line.strip() and not line.startswith("#")]
 
 
 def _number_or_text(cell: Any) -> Any:
@@ -54,3 +60,23 @@ def _number_or_text(cell: Any) -> Any:
         return float(cell)
     except (TypeError, ValueError):
         return cell
+
+
+def read_published_table(path: Path) -> dict[str, Any]:
+    """A published table of scores: `criterion,OPTION,…`, one line a criterion, last the sums."""
+    remarks, lines = _remarks_and_rows(path)
+    rows = list(csv.reader(lines))
+    try:
+        options = tuple(rows[0][1:])
+        numbers = [tuple(float(cell) for cell in row[1:]) for row in rows[1:]]
+        if len(rows) < 3 or any(len(row) != len(options) for row in numbers):
+            raise ValueError("rows of different length")
+    except (ValueError, IndexError) as error:
+        raise ParameterError(f"{path}: is no table of scores: {error}") from None
+    return {
+        "source": " ".join(line.lstrip("# ") for line in remarks),
+        "options": options,
+        "criteria": tuple(row[0] for row in rows[1:-1]),
+        "scores": tuple(zip(*numbers[:-1], strict=True)),
+        "sums": numbers[-1],
+    }

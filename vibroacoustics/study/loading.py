@@ -13,7 +13,7 @@ from ..machine.source import SOURCES
 from .baseline import BaselineSettings
 from .baseline_files import read_baseline
 from .draws import warn_of_contradictions
-from .evidence_files import take_evidence
+from .evidence_files import read_published_table, take_evidence
 from .failing import without_failing, without_source
 from .file_names import resolve_file_names
 from .given_values import take_given
@@ -25,13 +25,12 @@ from .machine_file import (
     read_redesign,
     take_changes,
 )
-from .published_table import read_published_table
 from .ranges import is_used, ranges_of, tables_used
 from .reader import Reader
 from .structure_borne import StructureBorne
 from .study import Study
 from .title_tables import take_titles
-from .toml_files import Written, beside, read_with_base
+from .toml_files import Written, beside, read_toml, read_with_base
 from .wording import validated
 
 
@@ -102,7 +101,7 @@ def _study_of(written: Written) -> Study:
     }
     _read_published(content, reader)
     _resolve_file_names(content, reader)
-    for name in _FILLED_IN:
+    for name in FILLED_IN:
         if name in content:
             del content[name]
             reader.problems.append(f"{path}: {name}: unknown key")
@@ -162,12 +161,18 @@ def load_machine(path: str | Path) -> Machine:
     return read_machine(path, {}, Reader(path, {}))[0]
 
 
-_FILLED_IN: Final = (
+FILLED_IN: Final = (
     "records", "ranges", "held_ranges", "source_file", "given", "catalogue_machine", "coarsened",
     "titles", "left_out",
 )  # fmt: skip
+
+
 """Here, not by a file."""
+
+
 _WITH_DATA_FILES: Final = ("options", "shell_modes", "sources")
+
+
 """Tables in which every `file`, at any depth, is the name of a data file."""
 
 
@@ -272,3 +277,15 @@ def _table_at(content: Any, keys: tuple[str, ...]) -> dict[str, Any] | None:
     for key in keys:
         content = content.get(key) if isinstance(content, dict) else None
     return content if isinstance(content, dict) else None
+
+
+def load_study_or_machine(path: str | Path) -> Study | Machine:
+    """Read a study; or, of a file that names a kind of machine by itself, that machine.
+
+    Raises
+    ------
+    ParameterError
+        As `load_study` and `load_machine`.
+    """
+    is_machine = "kind" in read_toml(Path(path))
+    return load_machine(path) if is_machine else load_study(path)

@@ -2,9 +2,9 @@
 
 from collections import Counter
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ..base.parameters import Parameters
+from ..base.parameters import Contradictions, Parameters
 from .measured_shell import Hit
 
 
@@ -27,14 +27,12 @@ class MeasuredFloor(Parameters):
     units: dict[str, str] = Field(default_factory=dict)
     points: dict[str, FloorPoint] = Field(min_length=1)
 
-    @model_validator(mode="after")
-    def _each_once(self) -> "MeasuredFloor":
+    def contradictions(self) -> Contradictions:
         counted = Counter((point.foot, point.is_vertical) for point in self.points.values())
         for (foot, is_vertical), count in counted.items():
             if count > 1:
                 along = "up and down" if is_vertical else "sideways"
-                raise ValueError(f"points: {count} points {along} under {foot}, must be one")
+                yield f"points: {count} points {along} under {foot}, must be one"
         for foot, is_vertical in counted:
             if not is_vertical and (foot, True) not in counted:
-                raise ValueError(f"points: {foot} has a point sideways and none up and down")
-        return self
+                yield f"points: {foot} has a point sideways and none up and down"

@@ -1,12 +1,11 @@
 """Hammer tests of the shell: files, where their nodes are, how well draws must agree with them."""
 
-from collections.abc import Iterator
 from math import pi
 from typing import Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ..base.parameters import Parameters
+from ..base.parameters import Contradictions, Parameters
 from ..machine.frame import PARTS
 
 DirectionCode = Literal["+x", "-x", "+y", "-y", "+z", "-z"]
@@ -36,12 +35,10 @@ class PartPoint(Hit):
     part: str
     component: Literal["fx", "fy", "fz"]
 
-    @model_validator(mode="after")
-    def _known(self) -> "PartPoint":
+    def contradictions(self) -> Contradictions:
         parts = [part.name for part in PARTS]
         if self.part not in parts:
-            raise ValueError(f"part = {self.part}: must be one of {', '.join(parts)}")
-        return self
+            yield f"part = {self.part}: must be one of {', '.join(parts)}"
 
 
 class MeasuredShell(Parameters):
@@ -60,13 +57,7 @@ class MeasuredShell(Parameters):
     wall: dict[str, WallPoint] = Field(min_length=1)
     parts: dict[str, PartPoint] = Field(default_factory=dict)
 
-    @model_validator(mode="after")
-    def _each_once(self) -> "MeasuredShell":
-        for problem in self._problems():
-            raise ValueError(problem)
-        return self
-
-    def _problems(self) -> Iterator[str]:
+    def contradictions(self) -> Contradictions:
         seen: dict[tuple[int, str], str] = {}
         for kind, points in (("wall", self.wall), ("parts", self.parts)):
             for name, point in points.items():

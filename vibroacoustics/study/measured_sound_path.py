@@ -3,9 +3,9 @@
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ..base.parameters import Parameters
+from ..base.parameters import Contradictions, Parameters
 from .measured_shell import Hit
 
 _POSITION = ("x_m", "y_m", "z_m")
@@ -21,12 +21,10 @@ class ForcePoint(Hit):
     z_m: float | None = Field(default=None, ge=-10.0, le=10.0)
     """From the centre of mass at rest."""
 
-    @model_validator(mode="after")
-    def _one_of_both(self) -> "ForcePoint":
+    def contradictions(self) -> Contradictions:
         given = [name for name in _POSITION if getattr(self, name) is not None]
         if (self.foot is None) != (len(given) == len(_POSITION)) or (self.foot and given):
-            raise ValueError("needs either foot or x_mm, y_mm and z_mm")
-        return self
+            yield "needs either foot or x_mm, y_mm and z_mm"
 
 
 class MicrophoneNode(Parameters):
@@ -44,18 +42,16 @@ class MeasuredSoundPath(Parameters):
     microphones: dict[str, MicrophoneNode] = Field(min_length=1)
     """By the study's receiver."""
 
-    @model_validator(mode="after")
-    def _of_one_kind(self) -> "MeasuredSoundPath":
+    def contradictions(self) -> Contradictions:
         kinds = {point.foot is None for point in self.points.values()}
         if len(kinds) > 1:
-            raise ValueError("points: some are on the machine, some under feet; must be one")
+            yield "points: some are on the machine, some under feet; must be one"
         counted = Counter(
             (point.foot, point.direction[1]) for point in self.points.values() if point.foot
         )
         for (foot, axis), count in counted.items():
             if count > 1:
-                raise ValueError(f"points: {count} points along {axis} under {foot}, must be one")
-        return self
+                yield f"points: {count} points along {axis} under {foot}, must be one"
 
     @property
     def is_at_feet(self) -> bool:

@@ -1,17 +1,21 @@
 """Operating points of a study."""
 
+from collections.abc import Mapping
+from math import isfinite
 from typing import Annotated, Any, Final
 
-from pydantic import Field, WithJsonSchema, field_validator, model_validator
+from pydantic import Field, WithJsonSchema, field_validator
 
-from ..base.parameters import Parameters
-from .speeds import MOST_SPEEDS, speed_range
+from ..base.parameters import Contradictions, Parameters
 
 MOST_SPEEDS_WITH_TIME_SERIES: Final = 100
-
 # Limits for the schema of files; `Operation` refuses them in words of its own.
 _SHOWN_SPEED = WithJsonSchema({"type": "number", "minimum": 60.0, "maximum": 60000.0})
 _SHOWN_SUPPLY = WithJsonSchema({"type": "number", "minimum": 1.0, "maximum": 1000.0})
+MOST_SPEEDS: Final = 1000
+KEYS: Final = ("start", "stop", "step")
+DECIMALS: Final = 9
+"""Of a speed in rpm; and a speed that misses `stop` by 1e-9 of a step counts as it."""
 
 
 class Operation(Parameters):
@@ -40,26 +44,56 @@ class Operation(Parameters):
             return speed_range(given)
         return tuple(given) if isinstance(given, list) else given
 
-    @model_validator(mode="after")
-    def _speeds(self) -> "Operation":
+    def contradictions(self) -> Contradictions:
         for speed in self.speed_rpm:
             if not 60.0 <= speed <= 60000.0:
-                raise ValueError(f"speed_rpm = {speed:g} rpm: allowed 60 to 60000 rpm")
+                yield f"speed_rpm = {speed:g} rpm: allowed 60 to 60000 rpm"
         if len(set(self.speed_rpm)) < len(self.speed_rpm):
-            raise ValueError("speed_rpm lists a speed twice")
+            yield "speed_rpm lists a speed twice"
         supply = self.supply_frequency_hz
         if supply is not None and len(supply) != len(self.speed_rpm):
-            raise ValueError(
+            yield (
                 f"supply_frequency_hz: {len(supply)} values for {len(self.speed_rpm)} speeds; one "
                 "is needed for each"
             )
         for frequency in supply or ():
             if not 1.0 <= frequency <= 1e3:
-                raise ValueError(f"supply_frequency_hz = {frequency:g} Hz: allowed 1 to 1000 Hz")
-        return self
+                yield f"supply_frequency_hz = {frequency:g} Hz: allowed 1 to 1000 Hz"
 
     @property
     def keeps_time_series(self) -> bool:
         """Whether the results hold forces and moments over crank angle."""
         few = len(self.speed_rpm) <= MOST_SPEEDS_WITH_TIME_SERIES
         return few if self.keep_time_series is None else self.keep_time_series
+
+
+def speed_range(table: Mapping[str, Any]) -> tuple[float, ...]:
+    """Speeds from start in equal steps, rpm; stop among them where a step meets it.
+
+    Raises
+    ------
+    ValueError
+        A key is missing or unknown, a value is no number, the step is not above zero, stop lies
+        below start, or there are too many speeds.
+    """
+    for key in table:
+        if key not in KEYS:
+            raise ValueError(f"{key}: unknown key; allowed {', '.join(KEYS)}")
+    start, stop, step = (_number(table, key) for key in KEYS)
+    if step <= 0.0:
+        raise ValueError(f"step = {step:g} rpm: must be above 0 rpm")
+    if stop < start:
+        raise ValueError(f"stop = {stop:g} rpm: must be at least start = {start:g} rpm")
+    steps = (stop - start) / step + 10.0**-DECIMALS
+    if steps >= MOST_SPEEDS:
+        raise ValueError(f"step = {step:g} rpm: makes more than {MOST_SPEEDS} speeds")
+    return tuple(round(start + number * step, DECIMALS) for number in range(int(steps) + 1))
+
+
+def _number(table: Mapping[str, Any], key: str) -> float:
+    value = table.get(key)
+    if value is None:
+        raise ValueError(f"{key}: is missing")
+    if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
+        raise ValueError(f"{key} = {value}: must be a number of rpm")
+    return float(value)

@@ -2,10 +2,10 @@
 
 from typing import Final, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from ..base.constants import SPEED_OF_SOUND_M_PER_S
-from ..base.parameters import Parameters
+from ..base.parameters import Contradictions, Parameters
 from .body import RadiatingBody, ShellBody
 from .surroundings import Surroundings
 
@@ -49,26 +49,17 @@ class RadiationSettings(Parameters):
         alone = not self.surroundings.walls and self.surroundings.cabinet is None
         return alone and self.body.kind in ("shell", "sphere")
 
-    @model_validator(mode="after")
-    def _method_fits(self) -> "RadiationSettings":
+    def contradictions(self) -> Contradictions:
         if self.method == "revolution" and not self._turned:
-            raise ValueError(
+            yield (
                 'method = "revolution": needs a body of kind shell or sphere, no walls and no '
                 'cabinet; take "automatic" or "cut-cells"'
             )
-        return self
-
-    @model_validator(mode="after")
-    def _room_fits(self) -> "RadiationSettings":
         if self.surroundings.is_outdoors and self.room_solver == "k-wave":
-            raise ValueError(
+            yield (
                 'room_solver = "k-wave": has hard and absorbing walls alone; take "closed-form" '
                 "over ground or a barrier"
             )
-        return self
-
-    @model_validator(mode="after")
-    def _grids_resolve_the_wave(self) -> "RadiationSettings":
         near_m = None if self.revolution else self.near_field_spacing_m
         room_m = self.room_spacing_m if self.room_solver == "k-wave" else None
         kwave_hz = min(self.maximum_frequency_hz, KWAVE_LIMIT_HZ)
@@ -78,19 +69,14 @@ class RadiationSettings(Parameters):
         ):
             largest_m = SPEED_OF_SOUND_M_PER_S / highest_hz / nodes
             if spacing_m is not None and spacing_m > largest_m:
-                raise ValueError(
+                yield (
                     f"{name} = {1e3 * spacing_m:g} mm: fewer than {nodes:g} nodes per wavelength "
                     f"at {highest_hz:g} Hz; allowed up to {1e3 * largest_m:.4g} mm"
                 )
-        return self
-
-    @model_validator(mode="after")
-    def _panels_are_tight(self) -> "RadiationSettings":
         cabinet, least = self.surroundings.cabinet, 1.5 * self.near_field_spacing_m
         if cabinet is not None and cabinet.panel_thickness_m < least * (1.0 - 1e-9):
-            raise ValueError(
+            yield (
                 f"surroundings.cabinet.panel_thickness_mm = {1e3 * cabinet.panel_thickness_m:g} mm:"
                 f" thinner than a cell of the coarser grid, {1e3 * least:g} mm, and sound would "
                 "leak through; take thicker panels or a smaller near_field_spacing_mm"
             )
-        return self

@@ -1,11 +1,11 @@
 """A room with walls, furniture and listeners into which the machine is put."""
 
 from math import hypot
-from typing import Annotated, Final, Literal, Self
+from typing import Annotated, Final, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ..base.parameters import Parameters
+from ..base.parameters import Contradictions, Parameters
 from ..machine.shell import Shell
 from .room_materials import Material
 
@@ -88,11 +88,10 @@ class StudyRoom(Parameters):
     listeners: dict[str, Listener] = Field(min_length=1)
     limits: RoomLimits = RoomLimits()
 
-    @model_validator(mode="after")
-    def _possible(self) -> Self:
+    def contradictions(self) -> Contradictions:
         volume = self.size_m[0] * self.size_m[1] * self.size_m[2]
         if volume > LARGEST_M3:
-            raise ValueError(
+            yield (
                 f"size_mm = {_millimetres(self.size_m)}: a volume of {volume:.4g} m³; "
                 f"allowed to {LARGEST_M3:g} m³"
             )
@@ -103,7 +102,6 @@ class StudyRoom(Parameters):
             _check_rises(f"patches.{name}", patch.lower_m, patch.upper_m, across)
         self._check_listeners()
         self._check_stands()
-        return self
 
     def _check_listeners(self) -> None:
         for name, one in self.listeners.items():

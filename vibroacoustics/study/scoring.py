@@ -2,9 +2,9 @@
 
 from collections.abc import Collection, Mapping
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ..base.parameters import Parameters
+from ..base.parameters import Contradictions, Parameters
 from .criterion import CRITERIA
 
 Given = Mapping[str, Mapping[str, float]]
@@ -39,11 +39,9 @@ class CriterionScale(Parameters):
     unit: str = ""
     """Unit of a given criterion; that of its name's suffix where empty."""
 
-    @model_validator(mode="after")
-    def _apart(self) -> "CriterionScale":
+    def contradictions(self) -> Contradictions:
         if self.worst == self.best:
-            raise ValueError(f"worst = {self.worst:g}: must differ from best")
-        return self
+            yield f"worst = {self.worst:g}: must differ from best"
 
 
 class Measurable(Parameters):
@@ -70,11 +68,9 @@ class Scoring(Parameters):
     seed: int = Field(default=20061, ge=0, lt=2**63)
     published: PublishedTable | None = None
 
-    @model_validator(mode="after")
-    def _some_weight(self) -> "Scoring":
+    def contradictions(self) -> Contradictions:
         if sum(scale.weight for scale in self.criteria.values()) <= 0.0:
-            raise ValueError("at least one criterion needs a weight above 0")
-        return self
+            yield "at least one criterion needs a weight above 0"
 
 
 def check_given(given: Given, options: Collection[str]) -> None:

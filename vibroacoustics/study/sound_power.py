@@ -3,9 +3,9 @@
 from math import ceil, pi
 from typing import Annotated, Final, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ..base.parameters import Parameters
+from ..base.parameters import Contradictions, Parameters
 
 HEMISPHERES: Final = ("iso3744-hemisphere-10", "iso3744-hemisphere-20")
 MINIMUM_BACKGROUND_MARGIN_DB: Final = 6.0
@@ -33,21 +33,19 @@ class SoundPowerSettings(Parameters):
     absorption_area_m2: float | None = Field(default=None, gt=0.0, le=1e6)
     """Absorption area of that test stand's room; none is an ideal hemi-anechoic room."""
 
-    @model_validator(mode="after")
-    def _fits_the_arrangement(self) -> "SoundPowerSettings":
+    def contradictions(self) -> Contradictions:
         given = self.model_fields_set
         unused = "distance_m" if self.arrangement in HEMISPHERES else "radius_m"
         if unused in given:
-            raise ValueError(
+            yield (
                 f"{unused.removesuffix('_m')}_mm: has no meaning for arrangement = "
                 f"{self.arrangement}"
             )
         if self.arrangement == "en12102-box" and self.distance_m != 1.0:
-            raise ValueError(
+            yield (
                 f"distance_mm = {1e3 * self.distance_m:g} mm: is 1000 mm for arrangement = "
                 f"{self.arrangement}"
             )
-        return self
 
 
 class MapSettings(Parameters):
@@ -64,22 +62,20 @@ class MapSettings(Parameters):
     spacing_m: float = Field(default=0.05, ge=0.005, le=1.0)
     """Largest distance of neighbouring points."""
 
-    @model_validator(mode="after")
-    def _sensible_extent(self) -> "MapSettings":
+    def contradictions(self) -> Contradictions:
         for name in ("horizontal_m", "vertical_m"):
             low, high = getattr(self, name)
             if high - low < self.spacing_m:
-                raise ValueError(
+                yield (
                     f"{name.removesuffix('_m')}_mm = [{1e3 * low:g}, {1e3 * high:g}] mm: must "
                     f"rise by at least spacing_mm = {1e3 * self.spacing_m:g} mm"
                 )
         points = (self.sizes[0] + 1) * (self.sizes[1] + 1)
         if points > MAXIMUM_POINTS:
-            raise ValueError(
+            yield (
                 f"spacing_mm = {1e3 * self.spacing_m:g} mm: gives {points} points; allowed up to "
                 f"{MAXIMUM_POINTS}"
             )
-        return self
 
     @property
     def sizes(self) -> tuple[int, int]:
@@ -96,11 +92,7 @@ class DirectivitySettings(Parameters):
     step_rad: float = Field(default=pi / 18.0, ge=pi / 180.0, le=pi / 4.0)
     """Of both angles; a quarter turn is a whole number of it."""
 
-    @model_validator(mode="after")
-    def _divides_a_quarter_turn(self) -> "DirectivitySettings":
+    def contradictions(self) -> Contradictions:
         steps = pi / 2.0 / self.step_rad
         if abs(steps - round(steps)) > 1e-6:
-            raise ValueError(
-                f"step_deg = {self.step_rad * 180.0 / pi:g} °: must divide 90 ° evenly"
-            )
-        return self
+            yield f"step_deg = {self.step_rad * 180.0 / pi:g} °: must divide 90 ° evenly"

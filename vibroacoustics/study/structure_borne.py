@@ -1,12 +1,11 @@
 """A plate under the feet that radiates what they push into it: a floor, a panel of a cupboard."""
 
 from math import pi, sqrt
-from typing import Self
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from ..base.constants import SPEED_OF_SOUND_M_PER_S
-from ..base.parameters import Parameters
+from ..base.parameters import Contradictions, Parameters
 from ..machine.floor import FloorMobility
 from ..machine.machine import Machine
 
@@ -31,11 +30,9 @@ class StructureBorne(Parameters):
     deviation_db: float = Field(default=5.0, ge=0.0, le=20.0)
     """Standard deviation of such predictions apart from the spread of the plate's modes."""
 
-    @model_validator(mode="after")
-    def _both_sides(self) -> Self:
+    def contradictions(self) -> Contradictions:
         if (self.length_m is None) != (self.width_m is None):
-            raise ValueError("length_mm, width_mm: give both, or none for a plate without end")
-        return self
+            yield "length_mm, width_mm: give both, or none for a plate without end"
 
     @property
     def size_m(self) -> tuple[float, float] | None:

@@ -1,14 +1,30 @@
 """What stands around the machine: floor or ground, walls, a cabinet, a barrier."""
 
-from typing import Literal, Self
+from typing import Final, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ..base.parameters import Parameters
-from .grounds import FLOW_RESISTIVITY_PA_S_PER_M2, GroundName
+from ..base.parameters import Contradictions, Parameters
 
 WallSide = Literal["-x", "+x", "-y", "+y"]
 PanelSide = Literal["-x", "+x", "-y", "+y", "top"]
+GroundName = Literal[
+    "snow", "moss", "loose_soil", "pasture", "lawn", "gravel_road", "asphalt", "water"
+]
+FLOW_RESISTIVITY_PA_S_PER_M2: Final[dict[GroundName, float]] = {
+    "snow": 12.5e3,
+    "moss": 31.5e3,
+    "loose_soil": 80e3,
+    "pasture": 200e3,
+    "lawn": 500e3,
+    "gravel_road": 2e6,
+    "asphalt": 20e6,
+    "water": 200e6,
+}
+"""Directive (EU) 2015/996, Table 2.5.a, classes A to H, which are those of Nordtest ACOU 104:
+very soft, snow or moss-like; soft forest floor, thick moss; uncompacted, loose ground, turf;
+normal uncompacted ground, forest floor, pasture; compacted field, lawn, park; compacted dense
+ground, gravel road, car park; hard, most asphalt and concrete; very hard and dense, water."""
 
 
 class Wall(Parameters):
@@ -51,11 +67,9 @@ class Ground(Parameters):
     flow_resistivity_pa_s_per_m2: float | None = Field(default=None, ge=1e3, le=1e9)
     """Effective, of a ground that is none of those by name."""
 
-    @model_validator(mode="after")
-    def _one(self) -> Self:
+    def contradictions(self) -> Contradictions:
         if (self.material is None) == (self.flow_resistivity_pa_s_per_m2 is None):
-            raise ValueError("material, flow_resistivity_kpa_s_per_m2: give one of them")
-        return self
+            yield "material, flow_resistivity_kpa_s_per_m2: give one of them"
 
     @property
     def resistivity_pa_s_per_m2(self) -> float:
@@ -90,25 +104,19 @@ class Surroundings(Parameters):
         """Whether sound goes over ground or a barrier."""
         return self.ground is not None or self.barrier is not None
 
-    @model_validator(mode="after")
-    def _outdoors(self) -> Self:
-        if not self.is_outdoors:
-            return self
-        if not self.floor:
-            raise ValueError("ground, barrier: lie and stand on the floor, floor = true is needed")
-        if len(self.walls) > 1:
-            raise ValueError("walls: beside ground or a barrier at most one")
-        if self.barrier is not None and self.barrier.side in self.walls:
-            raise ValueError(f"barrier.side = {self.barrier.side}: a wall is there")
-        return self
-
-    @model_validator(mode="after")
-    def _possible(self) -> "Surroundings":
+    def contradictions(self) -> Contradictions:
+        if self.is_outdoors:
+            yield from self._outdoors()
         for axis in "xy":
             if {f"-{axis}", f"+{axis}"} <= set(self.walls):
-                raise ValueError(
-                    f"walls: -{axis} and +{axis} face each other: at most one wall an axis"
-                )
+                yield f"walls: -{axis} and +{axis} face each other: at most one wall an axis"
         if self.cabinet is not None and not self.floor:
-            raise ValueError("cabinet: stands on the floor, floor = true is needed")
-        return self
+            yield "cabinet: stands on the floor, floor = true is needed"
+
+    def _outdoors(self) -> Contradictions:
+        if not self.floor:
+            yield "ground, barrier: lie and stand on the floor, floor = true is needed"
+        if len(self.walls) > 1:
+            yield "walls: beside ground or a barrier at most one"
+        if self.barrier is not None and self.barrier.side in self.walls:
+            yield f"barrier.side = {self.barrier.side}: a wall is there"

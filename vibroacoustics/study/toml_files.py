@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
@@ -10,12 +11,21 @@ from typing import Any, Final, NamedTuple
 from ..base.errors import ParameterError
 from ..base.regular_file import read_text
 from ..base.units import si_key
-from .nesting import nested_deeper_than
 
 MAXIMUM_FILE_BYTES: Final = 1_000_000
 MAXIMUM_DEPTH: Final = 16
 MOST_EXTENDED: Final = 8
 """Studies in a chain of `extends`."""
+_STRINGS_AND_COMMENTS: Final = re.compile(
+    r'"""(?:[^"\\]|\\.|"(?!""))*+(?:"{3,5}|\\?\Z)'
+    r"|'''(?:[^']|'(?!''))*+(?:'{3,5}|\Z)"
+    r'|"(?:[^"\\\n]|\\[^\n])*+"?'
+    r"|'[^'\n]*+'?"
+    r"|#[^\n]*+",
+    re.DOTALL,
+)
+_BETWEEN_KEYS: Final = re.compile(r"[=\[\]{},\n]")
+_BRACKET: Final = re.compile(r"[\[\]{}]")
 
 
 class Written(NamedTuple):
@@ -130,3 +140,22 @@ def leaves(content: Mapping[str, Any], prefix: tuple[str, ...] = ()) -> list[tup
 def shown_key(key: str) -> str:
     """A key as it is shown: in quotes where it is blank."""
     return key if key.strip() else json.dumps(key)
+
+
+def nested_deeper_than(text: str, depth: int) -> bool:
+    """Whether a key has more parts, or lists and inline tables stand deeper, than a depth.
+
+    Parameters
+    ----------
+    text : TOML, valid or not
+    depth : allowed
+    """
+    bare = _STRINGS_AND_COMMENTS.sub("", text)
+    if any(piece.count(".") >= depth for piece in _BETWEEN_KEYS.split(bare)):
+        return True
+    level = 0
+    for bracket in _BRACKET.findall(bare):
+        level += 1 if bracket in "[{" else -1
+        if level > depth:
+            return True
+    return False

@@ -12,7 +12,7 @@ from vibroacoustics.radiation.bodies import read_mesh
 from vibroacoustics.radiation.scene import _read_velocities
 from vibroacoustics.results.hashed import read_checked, stored_hash
 from vibroacoustics.results.limits_file import read_limits
-from vibroacoustics.study.published_table import read_published_table
+from vibroacoustics.study.evidence_files import read_published_table
 from vibroacoustics.study.toml_files import read_toml
 
 READERS = {

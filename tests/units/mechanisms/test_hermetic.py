@@ -25,7 +25,6 @@ from vibroacoustics.mechanisms.hermetic.cycle import (
     steady_cycle,
     uniform_samples,
 )
-from vibroacoustics.mechanisms.hermetic.forces import mechanism_motion
 from vibroacoustics.mechanisms.hermetic.gas import (
     dead_centres,
     fill,
@@ -34,16 +33,15 @@ from vibroacoustics.mechanisms.hermetic.gas import (
     piston_place_m,
     valve_angles,
 )
-from vibroacoustics.mechanisms.hermetic.housing import housing_wrenches
 from vibroacoustics.mechanisms.hermetic.journal_bearing import film_coordinates, short_bearing_force
-from vibroacoustics.mechanisms.hermetic.pin import crank_point, rod_motion
+from vibroacoustics.mechanisms.hermetic.pin import crank_point, mechanism_motion, rod_motion
 from vibroacoustics.mechanisms.hermetic.results import (
     bearing_cycles,
     motion_of,
     support_reaction,
     works_per_cycle_j,
 )
-from vibroacoustics.mechanisms.hermetic.revolution import hermetic_revolution
+from vibroacoustics.mechanisms.hermetic.revolution import hermetic_revolution, housing_wrenches
 from vibroacoustics.study.loading import load_machine, load_study
 
 MACHINE_FILE = ROOT / "data" / "machines" / "estupinan_hermetic.toml"

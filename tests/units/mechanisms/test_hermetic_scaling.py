@@ -10,7 +10,7 @@ from support import ROOT
 from vibroacoustics.base.errors import SolverError
 from vibroacoustics.base.parameters import Parameters
 from vibroacoustics.base.units import split_key
-from vibroacoustics.mechanisms.hermetic import cycle, forces
+from vibroacoustics.mechanisms.hermetic import cycle, pin
 from vibroacoustics.mechanisms.hermetic.cycle import cycle_at_speed, steady_cycle
 from vibroacoustics.study.draws import draws_of, with_draw
 from vibroacoustics.study.loading import load_machine
@@ -41,7 +41,7 @@ def test_a_smaller_machine_has_the_scaled_solution(case, monkeypatch):
     solve = partial(cycle_at_speed.__wrapped__, speed_rpm=2980.0, steps=40)  # none is kept
     _, given = solve(machine)
     _, plain = solve(scaled(machine, RATIO))
-    monkeypatch.setattr(forces, "GRAVITY", RATIO * forces.GRAVITY)
+    monkeypatch.setattr(pin, "GRAVITY", RATIO * pin.GRAVITY)
     _, exact = solve(scaled(machine, RATIO))
     clearance = machine.bearing.clearance_m
     journal = [0, 1]

@@ -8,11 +8,11 @@ from printed_films import long_bearing_force, long_bearing_pressure, printed_fil
 from scipy.integrate import solve_bvp
 
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.mechanisms.hermetic.film_force import positive_film_force
-from vibroacoustics.mechanisms.hermetic.film_linearisation import linear_film
 from vibroacoustics.mechanisms.hermetic.journal_bearing import (
     film_coordinates,
     highest_pressure_pa,
+    linear_film,
+    positive_film_force,
     short_bearing_force,
     short_bearing_pressure,
 )

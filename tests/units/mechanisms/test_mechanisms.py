@@ -6,9 +6,9 @@ from support import CRANK_ANGLE, machine_parts, turning
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.mechanics.moving_parts import wrench
-from vibroacoustics.mechanisms.oldham_scroll.ring import oldham_ring
-from vibroacoustics.mechanisms.oldham_scroll.rotating_set import (
+from vibroacoustics.mechanisms.oldham_scroll.revolution import (
     counterweight,
+    oldham_ring,
     rotating_set,
     two_plane_balance,
 )

@@ -22,13 +22,20 @@ from vibroacoustics.mechanics.moving_parts import (
     wrench,
 )
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
-from vibroacoustics.mechanisms.minicrank.cycle import steady_minicrank_cycle
-from vibroacoustics.mechanisms.minicrank.four_bar import four_bar_motion, three_minicranks_motion
-from vibroacoustics.mechanisms.minicrank.housing import counterweight_moments, housing_wrenches
+from vibroacoustics.mechanisms.minicrank.cycle import (
+    crank_pin_force,
+    four_bar_motion,
+    minicrank_pin_force,
+    steady_minicrank_cycle,
+    three_minicranks_motion,
+)
 from vibroacoustics.mechanisms.minicrank.links import FourBar, Links, closing_margins
 from vibroacoustics.mechanisms.minicrank.machine import MiniCrankMachine
-from vibroacoustics.mechanisms.minicrank.pin_forces import crank_pin_force, minicrank_pin_force
-from vibroacoustics.mechanisms.minicrank.revolution import minicrank_revolution
+from vibroacoustics.mechanisms.minicrank.revolution import (
+    counterweight_moments,
+    housing_wrenches,
+    minicrank_revolution,
+)
 from vibroacoustics.orders import order_spectrum, order_spectrum_at_speed
 from vibroacoustics.study.loading import load_machine, load_study
 

@@ -12,9 +12,11 @@ from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.mechanics.crankshaft import planar, reduced_inertia
 from vibroacoustics.mechanics.moving_parts import derivative, wrench
 from vibroacoustics.mechanics.rotation import constant_rotation, uniform_crank_angle
-from vibroacoustics.mechanisms.reciprocating.cycle import steady_cycle
-from vibroacoustics.mechanisms.reciprocating.efficiency import optimum_bore
-from vibroacoustics.mechanisms.reciprocating.gas import cylinder_pressure
+from vibroacoustics.mechanisms.reciprocating.cycle import (
+    cylinder_pressure,
+    optimum_bore,
+    steady_cycle,
+)
 from vibroacoustics.mechanisms.reciprocating.slider_crank import (
     SliderCrank,
     design_at_bore,

@@ -39,21 +39,22 @@ from vibroacoustics.mechanisms.slider_link.crankshaft import (
     crank_forces,
     crank_pin_force,
 )
-from vibroacoustics.mechanisms.slider_link.gas import cylinder_pressure, gas_force, valve_angles
-from vibroacoustics.mechanisms.slider_link.gauss_panels import GaussPanels
 from vibroacoustics.mechanisms.slider_link.machine import SliderLinkMachine
-from vibroacoustics.mechanisms.slider_link.motion import SliderLinkCycle, steady_motion
+from vibroacoustics.mechanisms.slider_link.motion import GaussPanels, SliderLinkCycle, steady_motion
 from vibroacoustics.mechanisms.slider_link.parameters import JournalBearing
 from vibroacoustics.mechanisms.slider_link.piston import (
     SIDES,
     CrankState,
     check_not_jammed,
+    cylinder_pressure,
     engaged_length,
+    gas_force,
     piston_matrix,
     piston_velocity,
     slider_velocity,
+    valve_angles,
 )
-from vibroacoustics.mechanisms.slider_link.unbalance import unbalance
+from vibroacoustics.mechanisms.slider_link.revolution import unbalance
 from vibroacoustics.orders import order_spectrum, order_spectrum_at_speed
 from vibroacoustics.study.loading import load_machine, load_study
 from vibroacoustics.transfer import MachineOnMounts
@@ -63,6 +64,12 @@ ROUNDING = 1e-11
 
 
 EPSILON = np.finfo(float).eps
+
+
+def _imbalance_ratio(cycle):
+    """Work of the motor less that which all others take, over that of the gas."""
+    taken = sum(work for name, work in cycle.work_j.items() if name != "motor")
+    return abs(cycle.work_j["motor"] - taken) / cycle.work_j["gas"]
 
 
 def total(wrenches) -> Wrench:
@@ -267,7 +274,7 @@ def test_jamming_is_refused():
 def test_energy_balance(case):
     """Motor work less gas work and friction, to 1e-6 of the gas work."""
     _, cycle = case
-    assert cycle.imbalance_ratio < 1e-6
+    assert _imbalance_ratio(cycle) < 1e-6
 
 
 def test_gas_work_is_that_of_the_polytropic_cycle(machine, cycle):
@@ -405,7 +412,7 @@ def test_motor_smooths_the_speed_like_a_low_pass(machine, slope):
     ratio = np.abs(np.fft.rfft(steep.state.velocity) / np.fft.rfft(base.state.velocity))[1:4]
     # The inertia swings by this part and couples orders two apart, from either side.
     np.testing.assert_allclose(ratio, expected, rtol=2.0 * swinging / inertia)
-    assert steep.imbalance_ratio < 1e-6
+    assert _imbalance_ratio(steep) < 1e-6
 
 
 def test_a_crank_that_would_stop_is_refused(machine):
@@ -855,4 +862,4 @@ def test_any_geometry_is_refused_or_runs(machine, radius, bore, length):
     except (ValidationError, ParameterError, SolverError):
         return
     assert np.all(np.isfinite(cycle.state.acceleration))
-    assert cycle.imbalance_ratio < 1e-3  # 16 panels only
+    assert _imbalance_ratio(cycle) < 1e-3  # 16 panels only

@@ -15,7 +15,7 @@ from vibroacoustics.levels import SILENCE_DB
 from vibroacoustics.results import size, speed_blocks
 from vibroacoustics.stages import forces as forces_stage
 from vibroacoustics.study.loading import load_study
-from vibroacoustics.study.speeds import speed_range
+from vibroacoustics.study.operation import speed_range
 from vibroacoustics.study.study import Study
 
 THESIS = (PIPELINES / "copeland_thesis.toml").read_text().replace("../data", str(ROOT / "data"))

@@ -40,8 +40,7 @@ from vibroacoustics.radiation.scene import machine_body
 from vibroacoustics.radiation.transfer_vectors import pressure_per_velocity
 from vibroacoustics.sources.cases import cases_of, loaded_cases, loads_of
 from vibroacoustics.sources.induction_motor.parameters import CapacitorMotor
-from vibroacoustics.sources.induction_motor.revolving_fields import point_at_torque
-from vibroacoustics.sources.induction_motor.supply import on_supply
+from vibroacoustics.sources.induction_motor.revolving_fields import on_supply, point_at_torque
 from vibroacoustics.sources.keys import OldhamKeyForces
 from vibroacoustics.sources.oldham_keys.rattle import steady_key_forces
 from vibroacoustics.sources.oldham_keys.spectra import spectral_density

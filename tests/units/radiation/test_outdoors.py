@@ -10,12 +10,13 @@ from support import TINY
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.radiation.box import closed_box
-from vibroacoustics.radiation.exact import green
-from vibroacoustics.radiation.mirrors import Mirror
+from vibroacoustics.radiation.exact import Mirror, green
 from vibroacoustics.radiation.outdoors.barrier import Barrier, attenuation_db
-from vibroacoustics.radiation.outdoors.green import Outdoors
-from vibroacoustics.radiation.outdoors.miki import normalised_impedance
-from vibroacoustics.radiation.outdoors.spherical_wave import reflection_coefficient
+from vibroacoustics.radiation.outdoors.green import (
+    Outdoors,
+    normalised_impedance,
+    reflection_coefficient,
+)
 from vibroacoustics.radiation.revolution.mesh import mesh
 from vibroacoustics.radiation.revolution.over_ground import over_ground
 from vibroacoustics.radiation.revolution.profile import capped_cylinder

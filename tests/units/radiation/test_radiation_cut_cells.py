@@ -10,7 +10,7 @@ from support import whole_surface
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.radiation.bodies import Body, block, cylinder, join_bodies, sphere
 from vibroacoustics.radiation.cut_cells import cut_cells
-from vibroacoustics.radiation.mirrors import Mirror
+from vibroacoustics.radiation.exact import Mirror
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.near_grid import BOX_MARGIN_M, PML_CELLS, near_grid
 from vibroacoustics.radiation.patterns import Pattern, rigid_body

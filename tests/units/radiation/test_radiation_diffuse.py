@@ -13,8 +13,11 @@ from vibroacoustics.radiation.rooms import (
     line_of_sight,
     mean_square_per_power,
 )
-from vibroacoustics.radiation.rooms.decay import reverberation_time_s
-from vibroacoustics.radiation.rooms.diffuse import air_attenuation_per_m, surface_m2
+from vibroacoustics.radiation.rooms.diffuse import (
+    air_attenuation_per_m,
+    reverberation_time_s,
+    surface_m2,
+)
 from vibroacoustics.radiation.rooms.room import SIDES
 
 BOARDS = Material("boards", (0.1,) * 7)

@@ -8,11 +8,11 @@ from sphere_sound import outgoing_hankel, sphere_pressure
 
 from vibroacoustics.base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from vibroacoustics.radiation.exact import (
+    Mirror,
     free_green,
     green,
     wavenumber,
 )
-from vibroacoustics.radiation.mirrors import Mirror
 
 FREQUENCY_HZ = np.array([50.0, 400.0, 1500.0])
 

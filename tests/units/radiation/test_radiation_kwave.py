@@ -12,8 +12,7 @@ from support import PEAK_MEMORY, cube_box, in_child
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.radiation import device, kwave, room_green, room_grid
-from vibroacoustics.radiation.exact import box_green
-from vibroacoustics.radiation.mirrors import Mirror
+from vibroacoustics.radiation.exact import Mirror, box_green
 from vibroacoustics.radiation.pulse import pulse, pulse_duration_s
 from vibroacoustics.radiation.room_grid import RoomGrid
 
@@ -260,7 +259,7 @@ def test_predicted_memory_is_what_a_run_takes(spacing_m, frequencies):
         import numpy as np
         from vibroacoustics.radiation import kwave, room_green, room_grid
         from vibroacoustics.radiation.box import closed_box
-        from vibroacoustics.radiation.mirrors import Mirror
+        from vibroacoustics.radiation.exact import Mirror
         box = closed_box([0.0125 * np.arange(-9.0, 10.0)] * 3, [1] * 3, [17] * 3, {(2, -1)})
         frequency = np.linspace(25.0, 500.0, {frequencies})
         microphone, walls = np.array([1.2, 0.1, 0.5]), (Mirror(2, -1, -0.1),)

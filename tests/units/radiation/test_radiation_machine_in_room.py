@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 import xarray as xr
+from local_step import local_transfer
 
 from vibroacoustics.base.decibel import level_of_power
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.vocabulary import RIGID_BODY_DOFS, check, stamp
 from vibroacoustics.levels.bands import bands_between
 from vibroacoustics.machine.shell import Shell
-from vibroacoustics.radiation.exact import green
-from vibroacoustics.radiation.mirrors import Mirror
+from vibroacoustics.radiation.exact import Mirror, green
 from vibroacoustics.radiation.patterns import rigid_body
 from vibroacoustics.radiation.revolution.profile import shell_profile
 from vibroacoustics.radiation.revolution.side import RevolutionSide
@@ -21,7 +21,6 @@ from vibroacoustics.radiation.rooms import (
     Material,
     Room,
     RoomSettings,
-    local_transfer,
     room_pressure_per_velocity,
     room_transfer,
     room_vectors,

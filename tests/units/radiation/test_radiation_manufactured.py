@@ -7,7 +7,7 @@ from radiation_parts import floor
 
 from vibroacoustics.radiation.arrays import Array
 from vibroacoustics.radiation.bodies import Body, block, checked_mesh, cylinder, sphere
-from vibroacoustics.radiation.mirrors import Mirror
+from vibroacoustics.radiation.exact import Mirror
 from vibroacoustics.radiation.neglected_echo import neglected_echo
 from vibroacoustics.radiation.patterns import rigid_body
 from vibroacoustics.radiation.scene import Scene

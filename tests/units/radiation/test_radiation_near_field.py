@@ -12,9 +12,8 @@ from vibroacoustics.base.errors import ParameterError, SolverError
 from vibroacoustics.radiation import near_run
 from vibroacoustics.radiation.bodies import Body, cylinder, join_bodies, sphere
 from vibroacoustics.radiation.box import BoxField
-from vibroacoustics.radiation.exact import box_green
+from vibroacoustics.radiation.exact import Mirror, box_green
 from vibroacoustics.radiation.machine_side import MachineSide, near_fields
-from vibroacoustics.radiation.mirrors import Mirror
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.near_memory import check_memory, memory_bytes
 from vibroacoustics.radiation.patterns import (
@@ -269,7 +268,7 @@ def test_predicted_memory_is_what_it_takes(spacing_m, frequencies, patterns):
         from vibroacoustics.radiation.bodies import cylinder
         from vibroacoustics.radiation.machine_side import MachineSide, near_fields
         from vibroacoustics.radiation.near_memory import memory_bytes
-        from vibroacoustics.radiation.mirrors import Mirror
+        from vibroacoustics.radiation.exact import Mirror
         from vibroacoustics.radiation.patterns import rigid_body
         from vibroacoustics.radiation.scene import Scene
         from vibroacoustics.radiation.task import Microphones

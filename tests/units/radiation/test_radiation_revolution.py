@@ -11,16 +11,19 @@ from vibroacoustics.radiation.exact import free_green, wavenumber
 from vibroacoustics.radiation.patterns import Pattern, rigid_body
 from vibroacoustics.radiation.revolution.layers import layers
 from vibroacoustics.radiation.revolution.mesh import mesh
-from vibroacoustics.radiation.revolution.null_field import null_points
 from vibroacoustics.radiation.revolution.profile import (
     above_floor,
     capped_cylinder,
     polygon,
     sphere,
 )
-from vibroacoustics.radiation.revolution.radiator import Radiator
+from vibroacoustics.radiation.revolution.radiator import (
+    Radiator,
+    null_points,
+    radiated,
+    wall_pressure,
+)
 from vibroacoustics.radiation.revolution.ring import DIGITS, ring, rules
-from vibroacoustics.radiation.revolution.solving import radiated, wall_pressure
 
 FLAT = capped_cylinder(0.0825, -0.2, 0.217)
 DOMED = capped_cylinder(0.0825, -0.2, 0.217, 0.03)

@@ -11,9 +11,9 @@ from vibroacoustics.radiation.band_limited import (
     Interpolator,
     interpolation_weights,
 )
-from vibroacoustics.radiation.mirrors import Mirror, images
+from vibroacoustics.radiation.exact import Mirror, images
 from vibroacoustics.radiation.pulse import pulse, pulse_duration_s, pulse_width_s, transform
-from vibroacoustics.radiation.room_record import steps_per_sample
+from vibroacoustics.radiation.room_green import steps_per_sample
 
 FLOOR = floor(-0.1)
 WALL = Mirror(axis=0, sign=1, position_m=0.75)

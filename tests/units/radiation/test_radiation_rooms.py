@@ -20,8 +20,12 @@ from vibroacoustics.radiation.rooms import (
     read_library,
     room_transfer,
 )
-from vibroacoustics.radiation.rooms.cutting import cut, faces
-from vibroacoustics.radiation.rooms.decay import absorption_area_m2, reverberation_time_s, volume_m3
+from vibroacoustics.radiation.rooms.cutting import cut, faces, rectangles
+from vibroacoustics.radiation.rooms.diffuse import (
+    absorption_area_m2,
+    reverberation_time_s,
+    volume_m3,
+)
 from vibroacoustics.radiation.rooms.impedance import (
     Branches,
     fitted_absorption,
@@ -29,9 +33,7 @@ from vibroacoustics.radiation.rooms.impedance import (
     random_absorption,
     random_absorption_slopes,
 )
-from vibroacoustics.radiation.rooms.materials import MOST_ABSORPTION, OCTAVES_HZ, material
-from vibroacoustics.radiation.rooms.rectangles import rectangles
-from vibroacoustics.radiation.rooms.room import SIDES
+from vibroacoustics.radiation.rooms.room import MOST_ABSORPTION, OCTAVES_HZ, SIDES, material
 from vibroacoustics.radiation.rooms.wall_absorption import (
     AbsorptionWarning,
     wall_absorption,
@@ -106,7 +108,7 @@ def test_walls_take_more_work_than_they_give_back_at_every_time(number):
     work, change = [0.0], np.zeros(1)
     for one in pressure:
         before = walls.flux.sum()
-        pass_walls(np.array([one]), change, *walls.arguments)
+        pass_walls(np.array([one]), change, walls.arguments)
         work.append(work[-1] + one * (before + walls.flux.sum()) / 2.0)
     assert min(work) >= 0.0
     assert np.all(np.isfinite(walls.flux))

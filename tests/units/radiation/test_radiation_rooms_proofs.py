@@ -6,6 +6,8 @@ from itertools import product
 import numpy as np
 import pytest
 from exact_room import exact_green
+from local_grid import local_grid
+from local_step import local_transfer
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import eigsh
 
@@ -23,12 +25,9 @@ from vibroacoustics.radiation.rooms import (
 from vibroacoustics.radiation.rooms.air import Air, largest_eigenvalue, stable_air
 from vibroacoustics.radiation.rooms.cutting import AirBox, cut, faces
 from vibroacoustics.radiation.rooms.impedance import absorption_at_angle, fitted_branches
-from vibroacoustics.radiation.rooms.local_grid import local_grid
-from vibroacoustics.radiation.rooms.local_step import local_transfer
 from vibroacoustics.radiation.rooms.plane import plane_gains
 from vibroacoustics.radiation.rooms.room import SIDES
-from vibroacoustics.radiation.rooms.run import run_all
-from vibroacoustics.radiation.rooms.spacing_error import spacing_error_db
+from vibroacoustics.radiation.rooms.run import run_all, spacing_error_db
 
 
 def _material(name, *octaves):

@@ -11,7 +11,7 @@ from vibroacoustics.machine.shell import Shell
 from vibroacoustics.radiation.bodies import block, join_bodies
 from vibroacoustics.radiation.cabinet import cabinet_panels
 from vibroacoustics.radiation.cut_cells import cut_cells
-from vibroacoustics.radiation.mirrors import images
+from vibroacoustics.radiation.exact import images
 from vibroacoustics.radiation.near_grid import near_grid
 from vibroacoustics.radiation.patterns import Pattern, rigid_body
 from vibroacoustics.radiation.scene import (

@@ -7,8 +7,8 @@ from support import radiated
 from vibroacoustics.base.errors import SolverError
 from vibroacoustics.radiation import near_run
 from vibroacoustics.radiation.bodies import cylinder
+from vibroacoustics.radiation.exact import Mirror
 from vibroacoustics.radiation.machine_side import MachineSide, near_fields
-from vibroacoustics.radiation.mirrors import Mirror
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.patterns import rigid_body
 from vibroacoustics.radiation.scene import Scene

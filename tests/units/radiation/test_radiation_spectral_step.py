@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from vibroacoustics.base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
-from vibroacoustics.radiation import device, fft, kwave, spectral_step
+from vibroacoustics.radiation import device, kwave, spectral_layout, spectral_step
 from vibroacoustics.radiation.room_grid import RoomGrid
 from vibroacoustics.radiation.spectral_step import PressureSource, SpectralStep
 
@@ -58,7 +58,7 @@ def on_device(grid, source):
 
 def scipy_slabs(grid, source):
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(spectral_step, "slab_type", lambda: fft.ScipySlab)
+        patch.setattr(spectral_step, "slab_type", lambda: spectral_layout.ScipySlab)
         return fused(grid, source)
 
 
@@ -132,12 +132,12 @@ def test_a_block_is_a_part_of_the_whole():
 
 
 def test_fftw_is_used_where_it_is_installed(monkeypatch):
-    assert fft.slab_type() is fft.FftwSlab
+    assert spectral_layout.slab_type() is spectral_layout.FftwSlab
     monkeypatch.setitem(__import__("sys").modules, "pyfftw", None)
-    assert fft.slab_type() is fft.ScipySlab
+    assert spectral_layout.slab_type() is spectral_layout.ScipySlab
 
 
-@pytest.mark.parametrize("slab", [fft.FftwSlab, fft.ScipySlab])
+@pytest.mark.parametrize("slab", [spectral_layout.FftwSlab, spectral_layout.ScipySlab])
 @pytest.mark.parametrize("line_axis", [1, 2])
 def test_slabs_transform_their_lines(slab, line_axis):
     lines = slab((2, 9, 10), line_axis, np.complex64)

@@ -8,7 +8,7 @@ from radiation_parts import floor
 from support import radiated
 
 from vibroacoustics.radiation.bodies import Body, block, cylinder, join_bodies, sphere
-from vibroacoustics.radiation.mirrors import Mirror
+from vibroacoustics.radiation.exact import Mirror
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.near_grid import near_grid
 from vibroacoustics.radiation.patterns import Pattern, rigid_body

@@ -9,8 +9,8 @@ from scipy.special import j1
 import vibroacoustics as va
 from vibroacoustics.machine.gas_in_shell import DischargeGas, ShellGas
 from vibroacoustics.machine.suspension import BLOCK
+from vibroacoustics.mechanics.cylinder_gas import ValvedCylinder
 from vibroacoustics.mechanics.ports import HOUSING
-from vibroacoustics.mechanics.valve_flows import ValvedCylinder
 from vibroacoustics.sources.discharge_pulsation import DischargePulsation, muffler_pressure_pa
 from vibroacoustics.sources.shell_gas import GasInShell, mode_numbers, wall_force_per_flow
 from vibroacoustics.study.loading import load_machine

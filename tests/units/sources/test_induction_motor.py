@@ -18,12 +18,17 @@ from vibroacoustics.sources.induction_motor.parameters import CapacitorMotor
 from vibroacoustics.sources.induction_motor.revolving_fields import (
     breakdown_slip,
     field_impedance,
+    on_supply,
     operating_point,
     point_at_torque,
+    supply_frequency_hz,
 )
-from vibroacoustics.sources.induction_motor.speed_response import speed_response, two_axis_motor
-from vibroacoustics.sources.induction_motor.supply import on_supply, supply_frequency_hz
-from vibroacoustics.sources.induction_motor.torque_lines import rotor_in_motor, torque_lines
+from vibroacoustics.sources.induction_motor.torque_lines import (
+    rotor_in_motor,
+    speed_response,
+    torque_lines,
+    two_axis_motor,
+)
 
 VALUES = values_of(machine_file("copeland_zp41k3e"))["motor"]
 MOTOR = CapacitorMotor(**VALUES)

@@ -16,12 +16,15 @@ from support import ROOT
 from vibroacoustics.base.errors import ParameterError, SolverError
 from vibroacoustics.base.units import shaft_frequency_hz
 from vibroacoustics.sources.oldham_keys import rattle
-from vibroacoustics.sources.oldham_keys.contact import CONTACT_LAWS, flores, lankarani_nikravesh
-from vibroacoustics.sources.oldham_keys.contact_loss import contact_loss_speed_rpm
-from vibroacoustics.sources.oldham_keys.equations import Coupling
+from vibroacoustics.sources.oldham_keys.equations import (
+    CONTACT_LAWS,
+    Coupling,
+    flores,
+    lankarani_nikravesh,
+)
 from vibroacoustics.sources.oldham_keys.integration import integrate
 from vibroacoustics.sources.oldham_keys.parameters import OldhamKeys
-from vibroacoustics.sources.oldham_keys.rattle import steady_key_forces
+from vibroacoustics.sources.oldham_keys.rattle import contact_loss_speed_rpm, steady_key_forces
 from vibroacoustics.sources.oldham_keys.spectra import (
     spectral_density,
     split_periodic,

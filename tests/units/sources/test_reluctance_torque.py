@@ -9,9 +9,10 @@ from vibroacoustics.sources.synchronous_motor.harmonics import (
     _rotor_frame,
     dead_time_voltage_v,
     operating_point,
+    pair_currents,
+    reluctance_torque,
     shaft_orders,
 )
-from vibroacoustics.sources.synchronous_motor.saliency import pair_currents, reluctance_torque
 from vibroacoustics.sources.synchronous_motor.switching import sidebands
 
 OMEGA = 3.0 * SPEED

@@ -2,22 +2,27 @@
 
 import numpy as np
 import pytest
+from scroll_closed_forms import suction_volume_m3
 from scroll_flanks import INNER, OUTER, fixed_flank, moved
 from scroll_openings import GAS, OPENING, SPEED_RPM, WRAPS
 from test_scroll_gas import OTHER_WRAPS
 
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.sources.scroll_gas import leakage as leakage_module
-from vibroacoustics.sources.scroll_gas.chambers import chamber_volume_m3, pair_volume_m3
+from vibroacoustics.sources.scroll_gas.chambers import (
+    chamber_volume_m3,
+    contact_angle,
+    pair_volume_m3,
+    pocket_volume,
+)
 from vibroacoustics.sources.scroll_gas.cycle import _of_suction_pockets, scroll_gas_cycle
 from vibroacoustics.sources.scroll_gas.leakage import gap_area_m2
 from vibroacoustics.sources.scroll_gas.leakage_equations import nozzle_flow
 from vibroacoustics.sources.scroll_gas.opening import opening_constants, steady_opening
 from vibroacoustics.sources.scroll_gas.opening_equations import density
 from vibroacoustics.sources.scroll_gas.parameters import ScrollLeakage
-from vibroacoustics.sources.scroll_gas.pockets import contact_angle, pocket_volume
 from vibroacoustics.sources.scroll_gas.pressures import pocket_pressure
-from vibroacoustics.sources.scroll_gas.suction import suction_flow, suction_volume_m3
+from vibroacoustics.sources.scroll_gas.suction import suction_flow
 
 ANGLE = uniform_crank_angle(8192)
 TURN = 2.0 * np.pi

@@ -15,12 +15,12 @@ from vibroacoustics.sources.scroll_gas.chambers import (
     contacts_at_opening,
     least_chamber_volume_m3,
     pair_volume_m3,
+    pocket_volume,
     swept_volume_m3,
 )
 from vibroacoustics.sources.scroll_gas.cycle import scroll_gas_cycle
 from vibroacoustics.sources.scroll_gas.opening import STEPS, opening_constants, steady_opening
 from vibroacoustics.sources.scroll_gas.opening_equations import density
-from vibroacoustics.sources.scroll_gas.pockets import pocket_volume
 from vibroacoustics.sources.scroll_gas.pressures import built_in_pressure_pa, pocket_pressure
 
 ANGLE = uniform_crank_angle(8192)

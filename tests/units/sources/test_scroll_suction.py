@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scroll_closed_forms import suction_volume_m3
 from scroll_flanks import INNER, OUTER, area, fixed_flank, moved
 from scroll_openings import SPEED_RPM, WRAPS
 from test_scroll_gas import OTHER_WRAPS
 
-from vibroacoustics.sources.scroll_gas.chambers import swept_volume_m3
-from vibroacoustics.sources.scroll_gas.pockets import contact_angle, pocket_volume
-from vibroacoustics.sources.scroll_gas.suction import suction_flow, suction_volume_m3
+from vibroacoustics.sources.scroll_gas.chambers import contact_angle, pocket_volume, swept_volume_m3
+from vibroacoustics.sources.scroll_gas.suction import suction_flow
 
 TURN = 2.0 * np.pi
 OUTSIDE = (9.98e5, 33.0, 182.0)

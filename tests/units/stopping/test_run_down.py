@@ -18,8 +18,12 @@ from vibroacoustics.mechanics.moving_parts import (
 from vibroacoustics.mechanics.rotation import constant_rotation
 from vibroacoustics.orders import angular_resample, block_phasors, from_angle, order_map
 from vibroacoustics.stopping.coasting import peaks, run_down
-from vibroacoustics.stopping.paths import inertia_over_angle, path_derivatives, wrench_along
-from vibroacoustics.stopping.shift import brake_shift
+from vibroacoustics.stopping.equation import (
+    brake_shift,
+    inertia_over_angle,
+    path_derivatives,
+    wrench_along,
+)
 from vibroacoustics.study.loading import load_study
 
 FILE = values_of(machine_file("copeland_zp41k3e"))["stopping"]

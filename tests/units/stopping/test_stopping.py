@@ -19,9 +19,9 @@ from vibroacoustics.mechanisms.oldham_scroll.revolution import scroll_parts
 from vibroacoustics.report import render
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.stopping import forces_table, sentences
+from vibroacoustics.stopping.equation import inertia_over_angle
 from vibroacoustics.stopping.labelled import stopping_variables
 from vibroacoustics.stopping.orders import MAP_REVOLUTIONS
-from vibroacoustics.stopping.paths import inertia_over_angle
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.study import Study
 from vibroacoustics.transfer import Isolation, MachineOnMounts

@@ -9,16 +9,19 @@ from support import CRANK_ANGLE, PIPELINES, machine_parts
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.machine.frame import BEARING_HOUSING, ORBITING_SCROLL
-from vibroacoustics.machine.stopping import Stopping
-from vibroacoustics.machine.turning_back import CheckValve, TurningBack
+from vibroacoustics.machine.stopping import CheckValve, Stopping, TurningBack
 from vibroacoustics.report.stopping import sentences
-from vibroacoustics.stopping.coasting import AfterStop, run_down
-from vibroacoustics.stopping.equation import Coasting
+from vibroacoustics.stopping.coasting import (
+    AfterStop,
+    closing_force_n,
+    closing_time_s,
+    flight_s,
+    run_down,
+)
+from vibroacoustics.stopping.equation import Coasting, path_derivatives
 from vibroacoustics.stopping.labelled import stopping_variables
-from vibroacoustics.stopping.paths import path_derivatives
 from vibroacoustics.stopping.reversal import STUCK_RATIO, TrappedGas
 from vibroacoustics.stopping.through_shell import brake_on_parts
-from vibroacoustics.stopping.valve import closing_force_n, closing_time_s, flight_s
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer import on_mounts
 

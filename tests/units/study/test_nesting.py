@@ -5,8 +5,7 @@ import time
 import pytest
 
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.study.nesting import nested_deeper_than
-from vibroacoustics.study.toml_files import MAXIMUM_DEPTH, read_toml
+from vibroacoustics.study.toml_files import MAXIMUM_DEPTH, nested_deeper_than, read_toml
 
 DEEP = {
     "key": ".".join(["a"] * 100_000) + " = 1",

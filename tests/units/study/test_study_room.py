@@ -4,7 +4,7 @@ import pytest
 from support import ROOT, TINY, command_here
 
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.radiation.rooms.materials import read_library
+from vibroacoustics.radiation.rooms.room import read_library
 from vibroacoustics.study.coarse import coarse
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.room_materials import library

@@ -10,8 +10,8 @@ import numpy as np
 from ...base.arrays import Array
 from ...base.errors import ParameterError, SolverError
 from ...base.units import shaft_frequency_hz
-from .film_force import FilmForce, positive_film_force
 from .gas import valve_angles
+from .journal_bearing import FilmForce, positive_film_force
 from .parameters import HermeticTables
 from .periodic_collocation import PeriodicSolution, periodic_solution
 from .shaft import Crankshaft, ShaftEquations, crankshaft

@@ -5,8 +5,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from ...base.arrays import Array
-from ...mechanics.cylinder_gas import IdealValveCycle
-from ...mechanics.valve_flows import ValvedCylinder
+from ...mechanics.cylinder_gas import ValvedCylinder
 from .parameters import HermeticTables
 
 
@@ -50,7 +49,7 @@ def gas_force_n(machine: HermeticTables, crank_angle: Array) -> Array:
     machine : pressures in Pa, polytropic exponent
     crank_angle : θ, rad
     """
-    pressure = _cycle(machine).pressure_pa(
+    pressure = machine.gas.valve_cycle.pressure_pa(
         fill(machine, crank_angle), _outwards(machine, crank_angle)
     )
     return np.asarray((pressure - machine.gas.suction_pressure_pa) * piston_area_m2(machine))
@@ -60,26 +59,16 @@ def valved_cylinder(machine: HermeticTables) -> ValvedCylinder:
     """The cylinder as sources of sound take it: the crank turns about a fixed axis."""
     top, bottom = piston_place_m(machine, np.array(dead_centres(machine)))
     displaced = piston_area_m2(machine) * float(top - bottom)
-    return ValvedCylinder(displaced, _cycle(machine), lambda angle: fill(machine, angle))
+    return ValvedCylinder(displaced, machine.gas.valve_cycle, lambda angle: fill(machine, angle))
 
 
 def valve_angles(machine: HermeticTables) -> tuple[float, float]:
     """Crank angles at which the suction and the discharge valve open, rad: kinks of the force."""
-    cycle = _cycle(machine)
+    cycle = machine.gas.valve_cycle
     top, bottom = dead_centres(machine)
     return (
         _angle_of(machine, cycle.fill_at_suction, top, bottom),
         _angle_of(machine, cycle.fill_at_discharge, bottom, top + 2.0 * np.pi),
-    )
-
-
-def _cycle(machine: HermeticTables) -> IdealValveCycle:
-    gas = machine.gas
-    return IdealValveCycle(
-        gas.suction_pressure_pa,
-        gas.discharge_pressure_pa,
-        gas.exponent_ratio,
-        gas.clearance_ratio,
     )
 
 

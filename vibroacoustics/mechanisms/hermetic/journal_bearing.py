@@ -4,20 +4,44 @@ The film thickness is h = c (1 + ε cos φ), φ from the thickest film in the se
 force on the journal has the component ξ towards the thinnest film and η ahead of it by 90°.
 """
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import brentq
 
 from ...base.arrays import Array
 from ...base.errors import ParameterError
+from ...mechanics.beam_rotor import RotorMatrices
 from .parameters import JournalBearing
 
 Values = NDArray[Any]
 """Real values, or complex ones where a derivative is taken by a complex step."""
-
 PRESSURE_ANGLES: Final = 2880
 """Angles of the search for the highest pressure: at ε = 0.95 it is found to 1e-4."""
+FilmForce = Callable[[JournalBearing, Values, Values, Values], Values]
+"""Force on the journal, N, from its displacement, velocity (..., 2) and spin (...)."""
+COMPLEX_STEP: Final = 1e-30
+"""A complex step has no cancellation; it need only be small beside a displacement of 1 nm."""
+DEEPEST: Final = 0.999
+"""Eccentricity up to which an equilibrium is sought."""
+
+
+@dataclass(frozen=True)
+class LinearFilm:
+    """A film about its equilibrium: force f = f0 - K x - D v on the journal.
+
+    Attributes
+    ----------
+    eccentricity : ε
+    stiffness_n_per_m, damping_ns_per_m : shape (2, 2); the load acts along x
+    """
+
+    eccentricity: float
+    stiffness_n_per_m: Array
+    damping_ns_per_m: Array
 
 
 def short_bearing_force(
@@ -109,3 +133,140 @@ def highest_pressure_pa(
     angle = np.linspace(0.0, 2.0 * np.pi, PRESSURE_ANGLES, endpoint=False)
     eccentricity, rate, slip = (np.asarray(value)[..., np.newaxis] for value in coordinates)
     return np.asarray(short_bearing_pressure(bearing, angle, eccentricity, rate, slip).max(axis=-1))
+
+
+def film_integrals(
+    eccentricity: Values, start: Values, end: Values
+) -> tuple[Values, Values, Values]:
+    """Integrals of cos², sin cos and sin² over (1 + ε cos φ)³ from `start` to `end`."""
+    gap = 1.0 - eccentricity**2
+
+    def primitives(angle: Values) -> tuple[Values, Values, Values]:
+        gamma = sommerfeld_angle(angle, eccentricity)
+        half, double = 0.5 * gamma, 0.25 * np.sin(2.0 * gamma)
+        cosines = half + double - 2.0 * eccentricity * np.sin(gamma) + eccentricity**2 * gamma
+        mixed = 0.5 * np.sin(gamma) ** 2 + eccentricity * np.cos(gamma)
+        return cosines / gap**2.5, mixed / gap**2, (half - double) / gap**1.5
+
+    upper, lower = primitives(end), primitives(start)
+    return upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]
+
+
+def positive_film_force(
+    bearing: JournalBearing, displacement_m: Values, velocity: Values, spin: Values
+) -> Values:
+    """Force of a short film over the half where its pressure is positive, whichever that is.
+
+    With V = v - Ω/2 ẑ x e the pressure of eq. 24 is 6µ (l²/4 - z²) V·n / h³, positive on the half
+    that V points to (Booker 1965), so that (26) and (27) follow for dε/dt = 0 and u > 0. The
+    printed ones keep 0 ≤ φ ≤ π and suck the journal outwards where u < 0 or dε/dt < 0.
+
+    Parameters
+    ----------
+    bearing : radius, width and clearance in m, viscosity in Pa s
+    displacement_m : journal centre from the bearing's, shape (..., 2)
+    velocity : of the journal centre, m/s, shape (..., 2)
+    spin : Ω, rad/s
+
+    Returns
+    -------
+    force on the journal, N, shape (..., 2)
+    """
+    x, y = displacement_m[..., 0], displacement_m[..., 1]
+    eccentric = np.sqrt(x**2 + y**2)
+    cosine, sine = -x / eccentric, -y / eccentric  # to the thickest film
+    slip_x, slip_y = velocity[..., 0] + 0.5 * spin * y, velocity[..., 1] - 0.5 * spin * x
+    along, across = cosine * slip_x + sine * slip_y, cosine * slip_y - sine * slip_x
+    middle = _angle(along, across)
+    cosines, mixed, sines = film_integrals(
+        eccentric / bearing.clearance_m, middle - 0.5 * np.pi, middle + 0.5 * np.pi
+    )
+    scale = (
+        -bearing.viscosity_pa_s * bearing.radius_m * (bearing.width_m / bearing.clearance_m) ** 3
+    )
+    force_along = scale * (cosines * along + mixed * across)
+    force_across = scale * (mixed * along + sines * across)
+    return np.stack(
+        (cosine * force_along - sine * force_across, sine * force_along + cosine * force_across),
+        axis=-1,
+    )
+
+
+def _angle(x: Values, y: Values) -> Values:
+    """Angle of (x, y), differentiable by a complex step, unlike arctan2."""
+    base = np.arctan2(y.real, x.real)
+    turned_x = x * np.cos(base) + y * np.sin(base)
+    turned_y = y * np.cos(base) - x * np.sin(base)
+    return np.asarray(base + np.arctan(turned_y / turned_x))
+
+
+def linear_film(bearing: JournalBearing, load_n: float, spin_rad_per_s: float) -> LinearFilm:
+    """Short half-Sommerfeld film about the equilibrium of a steady load along x.
+
+    Parameters
+    ----------
+    bearing : radius, width and clearance in m, viscosity in Pa s
+    load_n : on the journal, along x, N
+    spin_rad_per_s : Ω
+
+    Raises
+    ------
+    ParameterError
+        The film cannot carry the load.
+    """
+
+    def force(eccentricity: float) -> tuple[float, float]:
+        values = short_bearing_force(
+            bearing, np.array(eccentricity), np.array(0.0), np.array(spin_rad_per_s)
+        )
+        return float(values[0]), float(values[1])
+
+    def excess(eccentricity: float) -> float:
+        return float(np.hypot(*force(eccentricity))) - load_n
+
+    if not 0.0 < load_n < load_n + excess(DEEPEST):
+        raise ParameterError(
+            f"load_n = {load_n:g} N: must be above 0 and below {load_n + excess(DEEPEST):g} N, "
+            f"what the film carries at an eccentricity of {DEEPEST:g}"
+        )
+    eccentricity = float(brentq(excess, 1e-9, DEEPEST, xtol=1e-15))
+    radial, transverse = force(eccentricity)
+    # The film's force stands at (π - its angle) from ξ; the load opposes it along +x.
+    attitude = np.pi - np.arctan2(transverse, radial)
+    position = bearing.clearance_m * eccentricity * np.array([np.cos(attitude), np.sin(attitude)])
+    stiffness, damping = (np.zeros((2, 2)) for _ in range(2))
+    for axis in range(2):
+        step = 1j * COMPLEX_STEP * np.eye(2)[axis]
+        spin = np.array(spin_rad_per_s)
+        moved = positive_film_force(bearing, position + step, np.zeros(2), spin)
+        moving = positive_film_force(bearing, position + 0j, step, spin)
+        stiffness[:, axis] = -moved.imag / COMPLEX_STEP
+        damping[:, axis] = -moving.imag / COMPLEX_STEP
+    return LinearFilm(eccentricity, stiffness, damping)
+
+
+def damped_modes(
+    rotor: RotorMatrices, films: dict[int, LinearFilm], spin_rad_per_s: float
+) -> tuple[Array, Array]:
+    """Damped natural frequencies, ascending, and damping ratios of a rotor on linear films.
+
+    Parameters
+    ----------
+    rotor : M, G and K
+    films : by the freedom of x of the journal; y follows it
+    spin_rad_per_s : Ω
+
+    Returns
+    -------
+    frequencies in Hz and damping ratios of the oscillating modes
+    """
+    damping, stiffness = spin_rad_per_s * rotor.gyroscopic, rotor.stiffness.copy()
+    for at, film in films.items():
+        stiffness[at : at + 2, at : at + 2] += film.stiffness_n_per_m
+        damping[at : at + 2, at : at + 2] += film.damping_ns_per_m
+    zero, one = np.zeros_like(stiffness), np.eye(len(stiffness))
+    lower = -np.linalg.solve(rotor.mass, np.hstack((stiffness, damping)))
+    values = np.linalg.eigvals(np.vstack((np.hstack((zero, one)), lower)))
+    values = values[values.imag > 1.0]
+    values = values[np.argsort(values.imag)]
+    return values.imag / (2.0 * np.pi), -values.real / np.abs(values)

@@ -22,19 +22,13 @@ class HermeticCompressor(HermeticTables):
         """Piston and the part of the rod that goes with it, by its two eyes; cylinder."""
         from .gas import valved_cylinder
 
-        rod, planes = self.rod, self.counterweights
+        rod, planes = self.rod, self.counterweights.counted_down
         share = rod.mass_kg * (1.0 - rod.centre_of_mass_m / rod.length_m)
-        down = planes.model_copy(  # heights down the shaft
-            update={
-                "upper_height_m": -planes.lower_height_m,
-                "lower_height_m": -planes.upper_height_m,
-            }
-        )
         slider = Slider(
             self.piston.mass_kg + share,
             self.crank.radius_m,
             -self.crank.pin_offset_m,
-            down,
+            planes,
             self.crank_frame,
         )
         return slider, valved_cylinder(self)

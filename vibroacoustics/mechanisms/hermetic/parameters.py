@@ -2,12 +2,12 @@
 
 from typing import Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ...base.parameters import Parameters
+from ...base.parameters import Contradictions, Parameters
 from ...machine.machine import Machine
 from ...mechanics.capabilities import HEIGHT, BalancePlanes, CrankFrame
-from ...mechanics.cylinder import CylinderGas
+from ...mechanics.cylinder_gas import CylinderGas
 
 Case = Literal["I", "II", "III"]
 """Crank held, crank free in x and y in one bearing, flexible shaft in two bearings."""
@@ -73,14 +73,12 @@ class Rotor(Parameters):
     axial_inertia_kg_m2: float = INERTIA
     transverse_inertia_kg_m2: float = INERTIA
 
-    @model_validator(mode="after")
-    def _triangle_inequality(self) -> "Rotor":
+    def contradictions(self) -> Contradictions:
         if self.axial_inertia_kg_m2 > 2.0 * self.transverse_inertia_kg_m2:
-            raise ValueError(
+            yield (
                 "axial_inertia_kg_m2: must not exceed the sum of the two transverse ones, got "
                 f"{self.axial_inertia_kg_m2:g} > 2 x {self.transverse_inertia_kg_m2:g} kg m²"
             )
-        return self
 
 
 class Shaft(Parameters):
@@ -112,16 +110,14 @@ class HermeticTables(Machine):
     rotor: Rotor
     shaft: Shaft
 
-    @model_validator(mode="after")
-    def _mechanism_closes(self) -> "HermeticTables":
+    def contradictions(self) -> Contradictions:
         reach = self.crank.radius_m + abs(self.piston.cylinder_offset_m)
         if self.rod.length_m <= reach:
-            raise ValueError(
+            yield (
                 f"rod.length_mm = {1e3 * self.rod.length_m:g} mm: must exceed crank.radius_mm and "
                 f"the size of piston.cylinder_offset_mm, {1e3 * reach:g} mm together, or the "
                 "mechanism cannot close"
             )
-        return self
 
     @property
     def crank_frame(self) -> CrankFrame:

@@ -7,10 +7,10 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.constants import STANDARD_GRAVITY_M_PER_S2
-from .forces import MechanismMotion, mechanism_motion
 from .gas import gas_force_n
 from .journal_bearing import film_coordinates, highest_pressure_pa
 from .periodic_collocation import PeriodicSolution
+from .pin import MechanismMotion, mechanism_motion
 from .shaft import ShaftEquations
 
 

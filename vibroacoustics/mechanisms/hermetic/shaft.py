@@ -17,11 +17,10 @@ from ...mechanics.beam_rotor import (
     assemble,
     with_disc,
 )
-from .film_force import COMPLEX_STEP, FilmForce
-from .forces import added_mass, mechanism_motion
 from .gas import gas_force_n
+from .journal_bearing import COMPLEX_STEP, FilmForce
 from .parameters import HermeticTables
-from .pin import COORDINATES
+from .pin import COORDINATES, added_mass, mechanism_motion
 
 ELEMENTS_TO_LOWER_BEARING: Final = 2
 ELEMENTS_TO_ROTOR: Final = 2

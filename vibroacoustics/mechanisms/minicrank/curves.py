@@ -9,11 +9,17 @@ from ...base.arrays import Array
 from ...base.curves import Curve, CurveAxis, angle_axis
 from ...base.units import shaft_frequency_hz
 from ...mechanics.rotation import uniform_crank_angle
-from .cycle import MiniCrankCycle, input_torque, scroll_load, steady_minicrank_cycle
-from .four_bar import four_bar_motion
+from .cycle import (
+    MiniCrankCycle,
+    crank_pin_force,
+    four_bar_motion,
+    input_torque,
+    minicrank_pin_force,
+    scroll_load,
+    steady_minicrank_cycle,
+)
 from .links import Links, why_open
 from .parameters import MiniCrankTables
-from .pin_forces import crank_pin_force, minicrank_pin_force
 
 SOURCE: Final = "Zhao et al. 2013, "
 CRANK_ANGLES: Final = 3600

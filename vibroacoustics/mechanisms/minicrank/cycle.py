@@ -10,14 +10,34 @@ from ...base.arrays import Array
 from ...base.constants import STANDARD_GRAVITY_M_PER_S2
 from ...base.errors import ParameterError
 from ...base.units import shaft_frequency_hz
-from ...mechanics.crankshaft import DrivenRotation, reduced_inertia, steady_rotation
-from ...mechanics.rotation import uniform_crank_angle
-from .four_bar import FourBarMotion, four_bar_motion, three_minicranks_motion
-from .links import FourBar, Links
+from ...mechanics.crankshaft import (
+    DrivenRotation,
+    acceleration_of,
+    reduced_inertia,
+    steady_rotation,
+)
+from ...mechanics.rotation import Rotation, uniform_crank_angle
+from .links import FourBar, Links, why_open
 from .parameters import Masses, MiniCrankTables, ScrollLoads
 
 SAMPLES: Final = 14400
 """Crank angles a revolution. Errors of 10 µm make a torque peak some 1° wide: 40 samples."""
+
+
+@dataclass(frozen=True)
+class FourBarMotion:
+    """Angles over crank angle, each with first and second derivative, shape (3, samples).
+
+    Attributes
+    ----------
+    crank_angle : θ1 from the bracket's line, shape (samples,), rad
+    scroll_angle : θ2, continuous over crank angle
+    minicrank_angle : θ3, continuous over crank angle
+    """
+
+    crank_angle: Array
+    scroll_angle: Array
+    minicrank_angle: Array
 
 
 @dataclass(frozen=True)
@@ -144,3 +164,142 @@ def _motion(four_bar: FourBar, crank_angle: Array) -> FourBarMotion:
     if four_bar.minicranks == 1:
         return four_bar_motion(four_bar.links, crank_angle, four_bar.branch)
     return three_minicranks_motion(four_bar.links, crank_angle)
+
+
+def minicrank_pin_force(
+    links: Links, moved: FourBarMotion, masses: Masses, load: ScrollLoad, rotation: Rotation
+) -> Array:
+    """Force of the scroll on the mini-crank, x and y, shape (2, samples), N.
+
+    From the moments of the scroll about the crank pin and of the mini-crank about its axis.
+
+    Raises
+    ------
+    ParameterError
+        The links are a parallelogram: a single mini-crank cannot hold the scroll where all links
+        are in line.
+    """
+    if links.is_parallelogram:
+        raise ParameterError(
+            "crank_error_um, scroll_error_um, minicrank_error_um, bracket_error_um = 0 µm: a "
+            "parallelogram with one mini-crank takes no moment where its links are in line"
+        )
+    second, third = moved.scroll_angle, moved.minicrank_angle
+    scroll_turn, minicrank_turn = (acceleration_of(angle, rotation) for angle in (second, third))
+    on_scroll = load.moment_n_m - masses.scroll_inertia_kg_m2 * scroll_turn
+    on_minicrank = masses.minicrank_inertia_kg_m2 * minicrank_turn
+    on_minicrank = on_minicrank + weight_moment(links, moved, masses)
+    along_third = on_scroll / links.scroll_m
+    along_second = -on_minicrank / links.minicrank_m
+    sine = np.sin(third[0] - second[0])
+    return np.asarray(
+        (along_third * direction(third[0]) + along_second * direction(second[0])) / sine
+    )
+
+
+def crank_pin_force(
+    links: Links, moved: FourBarMotion, masses: Masses, load: ScrollLoad, rotation: Rotation
+) -> Array:
+    """Force of the scroll on the crank pin, x and y, shape (2, samples), N.
+
+    Gas, weight and inertia of the scroll, less what the mini-crank takes (Zhao et al. 2013,
+    figure 3).
+
+    Raises
+    ------
+    ParameterError
+        As `minicrank_pin_force`.
+    """
+    outward, forward = direction(moved.crank_angle), direction(moved.crank_angle + 0.5 * np.pi)
+    gas = -load.tangential_force_n * forward - load.radial_force_n * outward
+    weight = np.array([[0.0], [-masses.scroll_mass_kg * STANDARD_GRAVITY_M_PER_S2]])
+    inertia = turning_force(masses.scroll_mass_kg * links.crank_m, moved.crank_angle, rotation)
+    taken = minicrank_pin_force(links, moved, masses, load, rotation)
+    return np.asarray(gas + weight + inertia - taken)
+
+
+def turning_force(mass_moment_kg_m: float, crank_angle: Array, rotation: Rotation) -> Array:
+    """-Σ m a of a mass moment that turns with the crankshaft, x and y, shape (2, samples), N."""
+    outward, forward = direction(crank_angle), direction(crank_angle + 0.5 * np.pi)
+    along = rotation.speed_rad_per_s**2 * outward - rotation.acceleration_rad_per_s2 * forward
+    return np.asarray(mass_moment_kg_m * along)
+
+
+def direction(angle: Array) -> Array:
+    """Unit vectors x and y, shape (2, samples)."""
+    return np.stack([np.cos(angle), np.sin(angle)])
+
+
+def four_bar_motion(links: Links, crank_angle: Array, branch: int) -> FourBarMotion:
+    """Scroll and mini-crank angles of one branch (Zhao et al. 2013, eq. 5 and 6; ideal: 7).
+
+    With errors a branch is never left: the mini-crank runs along with the crankshaft on one half
+    of the revolution and back on the other. Only a true parallelogram, in which both branches
+    meet, turns through; it follows (7).
+
+    Parameters
+    ----------
+    links : lengths, m
+    crank_angle : shape (samples,), rad
+    branch : M of (5), 1 or -1; with -1 the mini-crank runs along for θ1 from 0 to 180°, and the
+        hinges of crank, scroll and bracket stand clockwise (the paper's text has it inverted)
+
+    Raises
+    ------
+    ParameterError
+        The links do not close at every crank angle, or only just.
+    """
+    if links.is_parallelogram:
+        turning, still = np.zeros((2, 3, crank_angle.size))
+        turning[0], turning[1] = crank_angle, 1.0
+        return FourBarMotion(crank_angle, still, turning)
+    if reason := why_open(links):
+        raise ParameterError(reason)
+    l1, l2, l3, l4 = links.crank_m, links.scroll_m, links.minicrank_m, links.bracket_m
+    A, B = l4 - l1 * np.cos(crank_angle), -l1 * np.sin(crank_angle)
+    span = np.hypot(A, B)
+    # √(A² + B² - C²) and that with D, as products: their differences cancel near collinearity.
+    area = np.sqrt((l2 + l3 - span) * (l2 + l3 + span) * (l3 + span - l2) * (l2 + span - l3))
+    C = (l2**2 - l3**2 + span**2) / (2.0 * l2)
+    D = (l2**2 - l3**2 - span**2) / (2.0 * l3)
+    second = np.unwrap(2.0 * np.arctan2(B - branch * area / (2.0 * l2), A + C))
+    third = np.unwrap(2.0 * np.arctan2(B - branch * area / (2.0 * l3), A + D))
+    sine = np.sin(third - second)
+    second_1 = l1 * np.sin(crank_angle - third) / (l2 * sine)
+    third_1 = l1 * np.sin(crank_angle - second) / (l3 * sine)
+    second_2 = l1 * np.cos(crank_angle - third) + second_1**2 * l2 * np.cos(second - third)
+    third_2 = l1 * np.cos(crank_angle - second) + second_1**2 * l2
+    return FourBarMotion(
+        crank_angle,
+        np.stack([second, second_1, (second_2 - third_1**2 * l3) / (l2 * sine)]),
+        np.stack(
+            [third, third_1, (third_2 - third_1**2 * l3 * np.cos(third - second)) / (l3 * sine)]
+        ),
+    )
+
+
+def three_minicranks_motion(links: Links, crank_angle: Array) -> FourBarMotion:
+    """Scroll on three mini-cranks at 120° with equal elastic pins, the first with the errors.
+
+    Each turns freely about its axis, so its pin holds the scroll along the crank's direction only.
+    There pin k is strained by g_k - l2 θ2 sin(θ1 - β_k) with g_1 = (l4 - l2) cos θ1 + l3 - l1
+    and no g of the others. The least Σ strain² gives θ2 = (2/(3 l2)) g_1 sin θ1 (positive with
+    the crank), as Σ sin²(θ1 - β_k) = 3/2 at every crank angle: no change point is left. With one
+    mini-crank it would be g_1/(l2 sin θ1), which the links in line do not bound. Our derivation,
+    to first order in the errors; the mini-cranks then turn with the crank.
+
+    Parameters
+    ----------
+    links : lengths of the crankshaft and the first mini-crank's loop, m
+    crank_angle : shape (samples,), rad
+    """
+    in_line = (links.bracket_m - links.scroll_m) / (3.0 * links.scroll_m)
+    longer = 2.0 * (links.minicrank_m - links.crank_m) / (3.0 * links.scroll_m)
+    once, twice = np.sin(crank_angle), np.sin(2.0 * crank_angle)
+    slope = longer * np.cos(crank_angle) + 2.0 * in_line * np.cos(2.0 * crank_angle)
+    turn = np.stack(
+        [longer * once + in_line * twice, slope, -longer * once - 4.0 * in_line * twice]
+    )
+    even = np.zeros((3, crank_angle.size))
+    even[0], even[1] = crank_angle, 1.0
+    return FourBarMotion(crank_angle, turn, even)

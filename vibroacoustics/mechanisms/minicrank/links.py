@@ -4,9 +4,9 @@ from dataclasses import astuple, dataclass
 from math import inf
 from typing import Any, Final, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ...base.parameters import Parameters
+from ...base.parameters import Contradictions, Parameters
 from ...machine.limits import Limit
 
 LINK = Field(gt=0.0, le=10.0)
@@ -106,14 +106,12 @@ class FourBar(Parameters):
     """1 is the paper's rigid four-bar; of 3, at 120° to each other and on elastic pins, the first
     has the errors."""
 
-    @model_validator(mode="after")
-    def _closes(self) -> "FourBar":
+    def contradictions(self) -> Contradictions:
         why_not = why_open if self.minicranks == 1 else why_misfit
         if min(astuple(self.links)) <= 0.0:
-            raise ValueError(f"{self.links}: must be positive with their errors")
+            yield f"{self.links}: must be positive with their errors"
         if reason := why_not(self.links):
-            raise ValueError(reason)
-        return self
+            yield reason
 
     @property
     def links(self) -> Links:

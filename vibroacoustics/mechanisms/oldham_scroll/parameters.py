@@ -2,16 +2,15 @@
 
 from typing import Annotated, Final
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ...base.parameters import Held, Parameters
+from ...base.parameters import Contradictions, Held, Parameters
 from ...machine.cavities import DischargeDome, DischargeMuffler, SuctionAnnulus
 from ...machine.frame import Frame
 from ...machine.machine import PART_MASS, Machine
 from ...machine.shell_structure import ShellStructure, ShellVariation
 from ...machine.stator_yoke import StatorYoke
-from ...machine.stopping import Stopping
-from ...machine.turning_back import CheckValve, TurningBack
+from ...machine.stopping import CheckValve, Stopping, TurningBack
 from ...mechanics.capabilities import HEIGHT, BalancePlanes
 from ...mechanics.scroll_shaft import ScrollShaft
 from ...sources.air_gap.parameters import AirGap
@@ -95,33 +94,26 @@ class OldhamScrollTables(Machine):
     frame: Frame | None = None
     """Bodies through which the sources drive the shell; none where they do so as they are."""
 
-    @model_validator(mode="after")
-    def _frame_fits(self) -> "OldhamScrollTables":
-        if self.frame is None:
-            return self
-        if self.shaft is None:
-            raise ValueError("frame: needs the table shaft")
-        inner_kg = self.frame.mass_kg + self.shaft.mass_kg
-        if inner_kg > MOST_INNER_SHARE * self.housing.mass_kg:
-            raise ValueError(
-                f"housing.mass_kg = {self.housing.mass_kg:g} kg: frame, stator and shaft weigh "
-                f"{inner_kg:.4g} kg; {100.0 * MOST_INNER_SHARE:g} % of all is the most in a shell"
-            )
-        return self
-
-    @model_validator(mode="after")
-    def _brake_jams(self) -> "OldhamScrollTables":
+    def contradictions(self) -> Contradictions:
+        if self.frame is not None:
+            yield from self._of_frame(self.frame)
         if self.turning_back is not None and self.brake is None:
-            raise ValueError("turning_back: needs the table brake; leave out both or none")
-        return self
-
-    @model_validator(mode="after")
-    def _gas_fits(self) -> "OldhamScrollTables":
+            yield "turning_back: needs the table brake; leave out both or none"
         for name, table in (
             ("discharge_dome", self.discharge_dome),
             ("suction_annulus", self.suction_annulus),
         ):
             reason = table and table.why_not_in(self.shell)
             if reason:
-                raise ValueError(f"{name}.{reason}")
-        return self
+                yield f"{name}.{reason}"
+
+    def _of_frame(self, frame: Frame) -> Contradictions:
+        if self.shaft is None:
+            yield "frame: needs the table shaft"
+            return
+        inner_kg = frame.mass_kg + self.shaft.mass_kg
+        if inner_kg > MOST_INNER_SHARE * self.housing.mass_kg:
+            yield (
+                f"housing.mass_kg = {self.housing.mass_kg:g} kg: frame, stator and shaft weigh "
+                f"{inner_kg:.4g} kg; {100.0 * MOST_INNER_SHARE:g} % of all is the most in a shell"
+            )

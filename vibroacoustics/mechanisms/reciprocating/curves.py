@@ -9,8 +9,7 @@ from ...base.arrays import Array
 from ...base.curves import CRANK_ANGLES, Curve, CurveAxis, angle_axis
 from ...base.errors import ParameterError
 from ...mechanics.rotation import uniform_crank_angle
-from .cycle import Cycle, steady_cycle
-from .efficiency import efficiency_map, optimum_bore
+from .cycle import Cycle, efficiency_map, optimum_bore, steady_cycle
 from .parameters import ReciprocatingTables
 from .slider_crank import design_at_bore, rates_of_momentum
 

@@ -5,27 +5,27 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import minimize_scalar
 
 from ...base.arrays import Array
 from ...base.errors import ParameterError, SolverError
 from ...base.units import shaft_frequency_hz
 from ...mechanics.crankshaft import DrivenRotation, reduced_inertia, steady_rotation
+from ...mechanics.cylinder_gas import IdealValveCycle
 from ...mechanics.rotation import uniform_crank_angle
 from .cylinders import Cylinder
-from .gas import cylinder_pressure
-from .joints import (
-    ConstraintForces,
-    Friction,
-    constraint_forces,
-    coulomb_friction,
-    journal_share,
-    load_torques,
-)
 from .parameters import CylinderGas, ReciprocatingTables
 from .slider_crank import (
+    ConstraintForces,
+    Friction,
     Motion,
     SliderCrank,
+    constraint_forces,
+    coulomb_friction,
     design_at_bore,
+    journal_share,
+    load_torques,
     motion,
     moving_masses,
     top_dead_centre_m,
@@ -184,3 +184,94 @@ def _loads(charges: Sequence[Charge], frictions: Sequence[Friction]) -> dict[str
     ]
     return {name: np.asarray(sum(loads[name] for loads in single[1:]) + single[0][name])
             for name in single[0]}  # fmt: skip
+
+
+def cylinder_pressure(swept_m3: Array, expanding: NDArray[np.bool_], gas: CylinderGas) -> Array:
+    """Pressure over a revolution: polytropic with index n, valves that open without loss, Pa.
+
+    Tsuji et al. 2012, 3.1. After top dead centre the gas in the clearance expands down to suction
+    pressure, after bottom dead centre the charge is compressed up to discharge pressure.
+
+    Parameters
+    ----------
+    swept_m3 : volume that the piston has uncovered since top dead centre, shape (samples,), m³
+    expanding : whether the piston moves towards the crankshaft, shape (samples,)
+    gas : pressures, polytropic index, clearance
+    """
+    cycle = IdealValveCycle(
+        gas.suction_pressure_pa,
+        gas.discharge_pressure_pa,
+        gas.polytropic_index,
+        gas.clearance_ratio,
+    )
+    fill = swept_m3 / float(np.max(swept_m3)) + gas.clearance_ratio
+    return cycle.pressure_pa(fill, expanding)
+
+
+def efficiency_map(
+    machine: ReciprocatingTables,
+    speed_rpm: Sequence[float] | Array,
+    bore_m: Sequence[float] | Array,
+    samples: int = SAMPLES,
+) -> Array:
+    """Mechanical efficiency at constant displacement (Tsuji et al. 2012, figure 5c).
+
+    Parameters
+    ----------
+    machine : masses in kg, lengths in m, pressures in Pa
+    speed_rpm : mean over time
+    bore_m : of the designs
+    samples : crank angles of a revolution
+
+    Returns
+    -------
+    shape (speeds, bores)
+    """
+    return np.array(
+        [
+            [
+                steady_cycle(machine, float(bore), float(speed), samples).mechanical_efficiency
+                for bore in bore_m
+            ]
+            for speed in speed_rpm
+        ]
+    )
+
+
+def optimum_bore(
+    machine: ReciprocatingTables,
+    speed_rpm: float,
+    lowest_m: float,
+    highest_m: float,
+    samples: int = SAMPLES,
+) -> tuple[float, float]:
+    """Bore of the best efficiency at constant displacement (Tsuji et al. 2012, figure 6).
+
+    Parameters
+    ----------
+    machine : masses in kg, lengths in m, pressures in Pa
+    speed_rpm : mean over time
+    lowest_m, highest_m : bores between which it is looked for
+    samples : crank angles of a revolution
+
+    Returns
+    -------
+    bore, efficiency : m and ratio
+
+    Raises
+    ------
+    ParameterError
+        The range is empty or the best bore lies on an end of it.
+    """
+    where = f"bore_mm from {1e3 * lowest_m:g} to {1e3 * highest_m:g} mm"
+    if not 0.0 < lowest_m < highest_m < np.inf:
+        raise ParameterError(f"{where}: must be two rising, positive lengths")
+    optimum = minimize_scalar(
+        lambda bore: -steady_cycle(machine, float(bore), speed_rpm, samples).mechanical_efficiency,
+        bounds=(lowest_m, highest_m),
+        method="bounded",
+        options={"xatol": 1e-5},
+    )
+    if min(optimum.x - lowest_m, highest_m - optimum.x) < 1e-4:
+        raise ParameterError(f"{where}: holds no optimum bore")
+    return float(optimum.x), -float(optimum.fun)

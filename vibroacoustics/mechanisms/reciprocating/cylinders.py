@@ -4,10 +4,10 @@ from math import cos, pi, sin
 from typing import Final, NamedTuple
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from ...base.arrays import Array
-from ...base.parameters import Parameters
+from ...base.parameters import Contradictions, Parameters
 from ...mechanics.capabilities import CrankFrame
 from ...mechanics.crankshaft import acceleration_of
 from ...mechanics.moving_parts import Wrench
@@ -65,20 +65,18 @@ class CylinderBanks(Parameters):
     counterweight_kg_m: float = Field(default=0.0, ge=0.0, le=1e3)
     """Mass moment of the weights opposite each crank pin, in its plane."""
 
-    @model_validator(mode="after")
-    def _within_a_turn(self) -> "CylinderBanks":
+    def contradictions(self) -> Contradictions:
         for name, angles in (
             ("bank_angles_deg", self.bank_angles_rad),
             ("throw_angles_deg", self.throw_angles_rad),
         ):
             if any(abs(angle) > 2.0 * pi for angle in angles):
-                raise ValueError(f"{name}: must be from -360 ° to 360 °")
+                yield f"{name}: must be from -360 ° to 360 °"
         if len(self.throw_positions_m) != len(self.throw_angles_rad):
-            raise ValueError(
+            yield (
                 f"throw_positions_mm: {len(self.throw_positions_m)} values: must be as many as "
                 f"throw_angles_deg, {len(self.throw_angles_rad)}"
             )
-        return self
 
     @property
     def cylinders(self) -> tuple[Cylinder, ...]:

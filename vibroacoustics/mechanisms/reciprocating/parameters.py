@@ -1,8 +1,8 @@
 """A single-acting reciprocating compressor: slider-crank, bearings, gas, drive."""
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ...base.parameters import Parameters
+from ...base.parameters import Contradictions, Parameters
 from ...machine.machine import Machine
 from ...mechanics.capabilities import HEIGHT, BalancePlanes, CrankFrame
 from .cylinders import ONE_CYLINDER, CylinderBanks
@@ -29,15 +29,13 @@ class PistonAndRod(Parameters):
     rod_inertia_kg_m2: float = Field(ge=0.0, le=1e4)
     """About its centre of mass."""
 
-    @model_validator(mode="after")
-    def _centre_on_the_rod(self) -> "PistonAndRod":
+    def contradictions(self) -> Contradictions:
         total = self.small_end_to_centre_m + self.big_end_to_centre_m
         if abs(total - self.rod_length_m) > 1e-3 * self.rod_length_m:
-            raise ValueError(
+            yield (
                 "small_end_to_centre_mm + big_end_to_centre_mm = "
                 f"{1e3 * total:g} mm: must be rod_length_mm = {1e3 * self.rod_length_m:g} mm"
             )
-        return self
 
 
 class Crankshaft(Parameters):
@@ -65,20 +63,18 @@ class CylinderGas(Parameters):
     clearance_ratio: float = Field(ge=0.0, le=0.5)
     """Clearance volume over displacement."""
 
-    @model_validator(mode="after")
-    def _compresses(self) -> "CylinderGas":
+    def contradictions(self) -> Contradictions:
         ratio = self.discharge_pressure_pa / self.suction_pressure_pa
         if ratio <= 1.0:
-            raise ValueError(
+            yield (
                 f"discharge_pressure_mpa = {1e-6 * self.discharge_pressure_pa:g} MPa: must exceed "
                 f"suction_pressure_mpa = {1e-6 * self.suction_pressure_pa:g} MPa"
             )
         if self.clearance_ratio * (ratio ** (1.0 / self.polytropic_index) - 1.0) >= 1.0:
-            raise ValueError(
+            yield (
                 f"clearance_ratio = {self.clearance_ratio:g}: the gas in the clearance expands "
                 "over the whole stroke and nothing is drawn in"
             )
-        return self
 
 
 class ReciprocatingTables(Machine):

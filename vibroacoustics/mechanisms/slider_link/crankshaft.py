@@ -9,12 +9,12 @@ from ...base.arrays import Array
 from ...base.constants import STANDARD_GRAVITY_M_PER_S2
 from ...base.errors import SolverError
 from .bearing_friction import journal_friction_moment, thrust_friction_moment
-from .gas import gas_force
 from .parameters import SliderLinkTables
 from .piston import (
     CrankState,
     PistonContacts,
     engaged_length,
+    gas_force,
     piston_contacts,
     piston_film_force,
     piston_matrix,

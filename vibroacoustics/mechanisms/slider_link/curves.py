@@ -16,10 +16,9 @@ from .bearing_friction import (
     loaded_coefficient,
     petroff_coefficient,
 )
-from .gas import cylinder_pressure
 from .motion import SliderLinkCycle, steady_motion
 from .parameters import JournalBearing, SliderLinkTables
-from .piston import piston_velocity, slider_velocity
+from .piston import cylinder_pressure, piston_velocity, slider_velocity
 
 SOURCE: Final = "Dagilis et al. 2006, "
 JOURNALS: Final = {"crank_pin": "crank pin", "upper": "upper bearing", "lower": "lower bearing"}

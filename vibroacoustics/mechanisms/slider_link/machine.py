@@ -1,17 +1,36 @@
 """A slider-link compressor: its kind and what it does."""
 
 from collections.abc import Iterable
-from typing import ClassVar, Final
+from math import inf
+from typing import Any, ClassVar, Final
 
 from ...base.curves import Curve
 from ...base.registry import register
 from ...machine.gas_in_shell import GAS_PATH_PARTLY
 from ...machine.limits import Limit
 from ...machine.machine import Machine
-from ...mechanics.capabilities import BalancePlanes, Capability, Slider
+from ...mechanics.capabilities import Capability, Slider
 from ...mechanics.moving_parts import Revolution
-from .limits import SIZES
 from .parameters import SliderLinkTables
+
+THINNEST_RING: Final = 0.999
+"""Inner over outer radius of the thrust bearing."""
+
+
+def _piston_length_m(machine: Any) -> tuple[float, float]:
+    """Longer than the cylinder by half the slider, or the link would hit it."""
+    sizes = machine.mechanism
+    return sizes.cylinder_length_m + 0.5 * sizes.slider_diameter_m, inf
+
+
+def _inner_radius_m(machine: Any) -> tuple[float, float]:
+    return 0.0, THINNEST_RING * machine.bearings.thrust.outer_radius_m
+
+
+SIZES: Final = (
+    Limit("mechanism.piston_length_m", _piston_length_m),
+    Limit("bearings.thrust.inner_radius_m", _inner_radius_m),
+)
 
 
 @register
@@ -33,19 +52,13 @@ class SliderLinkMachine(SliderLinkTables):
     @property
     def capabilities(self) -> tuple[Capability, ...]:
         """Piston and link, as the slider goes round with the crank pin; cylinder."""
-        from .gas import valved_cylinder
+        from .piston import valved_cylinder
 
-        planes = self.counterweights
-        below = BalancePlanes(
-            upper_height_m=-planes.lower_height_m,
-            lower_height_m=-planes.upper_height_m,
-            radius_m=planes.radius_m,
-        )  # heights along the frame's shaft count down
         slider = Slider(
             self.masses.piston_mass_kg,
             self.mechanism.crank_radius_m,
             -self.heights.piston_axis_m,
-            below,
+            self.counterweights.counted_down,
             self.crank_frame,
         )
         return slider, valved_cylinder(self.mechanism, self.gas)
@@ -71,6 +84,8 @@ _GAS_PATH: Final = (
     "Sound and force that pass from the block to the shell through gas and oil are left out: "
     "above some hundred hertz they can carry more than the springs."
 )
+
+
 _LEAVES_OUT: Final = (
     "Start and stop, in which the block swings widely on its springs, and knocks of the block "
     "against the shell are not modelled; springs and discharge tube are linear and without mass, "

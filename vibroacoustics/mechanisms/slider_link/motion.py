@@ -9,14 +9,13 @@ import numpy as np
 from ...base.arrays import Array
 from ...base.errors import ParameterError, SolverError
 from .crankshaft import CrankForces, settled
-from .gas import valve_angles
-from .gauss_panels import GaussPanels
 from .parameters import SliderLinkTables
 from .piston import (
     CrankState,
     check_not_jammed,
     piston_velocity,
     slider_velocity,
+    valve_angles,
 )
 
 MAXIMUM_ITERATIONS: Final = 200
@@ -24,6 +23,51 @@ CONVERGED: Final = 1e-12
 """Largest change of velocity and mean torque between iterations, relative."""
 KEPT_CYCLES: Final = 16
 """A search asks for those of a design twice, at each speed: for its forces and its criteria."""
+NODES: Final = 4
+"""Nodes of one panel: exact for a polynomial of degree 7 over it, of degree 3 inside it."""
+
+
+@dataclass(frozen=True)
+class GaussPanels:
+    """Panels between given edges; kinks of the integrand belong on edges.
+
+    Attributes
+    ----------
+    edges : rising, shape (panel + 1,)
+    """
+
+    edges: Array
+
+    @property
+    def nodes(self) -> Array:
+        """Shape (panel × node,)."""
+        positions, _, _ = _rule()
+        return np.asarray(self.edges[:-1, None] + self._width * positions).ravel()
+
+    def integral(self, values: Array) -> float:
+        """Over all panels.
+
+        Parameters
+        ----------
+        values : at the nodes
+        """
+        return float(self.running(values)[1][-1])
+
+    def running(self, values: Array) -> tuple[Array, Array]:
+        """Integrals from the first edge to every node and to every edge.
+
+        Parameters
+        ----------
+        values : at the nodes
+        """
+        _, weights, inner = _rule()
+        scaled = self._width * values.reshape(-1, NODES)
+        edges = np.concatenate([[0.0], np.cumsum(scaled @ weights)])
+        return (edges[:-1, None] + scaled @ inner.T).ravel(), edges
+
+    @property
+    def _width(self) -> Array:
+        return np.diff(self.edges)[:, None]
 
 
 @dataclass(frozen=True)
@@ -44,12 +88,6 @@ class SliderLinkCycle:
     motor_torque_n_m: Array
     time_s: Array
     work_j: dict[str, float]
-
-    @property
-    def imbalance_ratio(self) -> float:
-        """Motor work less all that takes it, per gas work; zero but for the quadrature."""
-        taken = sum(work for name, work in self.work_j.items() if name != "motor")
-        return abs(self.work_j["motor"] - taken) / self.work_j["gas"]
 
 
 @lru_cache(KEPT_CYCLES)
@@ -182,3 +220,14 @@ def _work(
         **{name: moment * state.velocity for name, moment in forces.friction_moments.items()},
     }
     return {name: panels.integral(power / state.velocity) for name, power in powers.items()}
+
+
+def _rule() -> tuple[Array, Array, Array]:
+    """Nodes on 0 to 1, weights over all of it, and from zero to each node (node, node)."""
+    points, weights = np.polynomial.legendre.leggauss(NODES)
+    positions = 0.5 * (points + 1.0)
+    powers = np.arange(NODES)
+    # Integrates every power exactly: inner @ position^k = position^(k+1) / (k+1).
+    vandermonde = positions[:, None] ** powers
+    integrals = positions[:, None] ** (powers + 1) / (powers + 1)
+    return positions, 0.5 * weights, integrals @ np.linalg.inv(vandermonde)

@@ -7,14 +7,14 @@ of the block's centre of mass.
 
 from math import pi
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ...base.parameters import Parameters
+from ...base.parameters import Contradictions, Parameters
 from ...base.units import shaft_frequency_hz
 from ...machine.machine import PART_MASS, Machine
 from ...machine.suspension import Suspension
 from ...mechanics.capabilities import BalancePlanes, CrankFrame
-from ...mechanics.cylinder import CylinderGas
+from ...mechanics.cylinder_gas import CylinderGas
 
 LENGTH = Field(gt=0.0, le=0.5)
 OFFSET = Field(ge=-0.05, le=0.05)
@@ -46,22 +46,20 @@ class SliderLink(Parameters):
     piston_clearance_m: float = CLEARANCE
     """Radial [c_p]."""
 
-    @model_validator(mode="after")
-    def _closes(self) -> "SliderLink":
+    def contradictions(self) -> Contradictions:
         stroke = 2.0 * self.crank_radius_m
         if self.cylinder_length_m <= stroke:
-            raise ValueError(
+            yield (
                 f"cylinder_length_mm = {1e3 * self.cylinder_length_m:g} mm: must be above the "
                 f"stroke 2 crank_radius_mm = {1e3 * stroke:g} mm, the piston would leave it"
             )
         room = self.piston_length_m - self.cylinder_length_m
         if room < 0.5 * self.slider_diameter_m:
-            raise ValueError(
+            yield (
                 f"piston_length_mm = {1e3 * self.piston_length_m:g} mm: must exceed "
                 f"cylinder_length_mm by half of slider_diameter_mm, by "
                 f"{500.0 * self.slider_diameter_m:g} mm, the link would hit the cylinder"
             )
-        return self
 
 
 class MovingMasses(Parameters):
@@ -100,14 +98,12 @@ class JournalBearing(Parameters):
     clearance_m: float = CLEARANCE
     """Radial."""
 
-    @model_validator(mode="after")
-    def _thin_film(self) -> "JournalBearing":
+    def contradictions(self) -> Contradictions:
         if self.clearance_m > 0.1 * self.radius_m:
-            raise ValueError(
+            yield (
                 f"clearance_um = {1e6 * self.clearance_m:g} µm: must not exceed a tenth of "
                 f"radius_mm = {1e3 * self.radius_m:g} mm"
             )
-        return self
 
 
 class ThrustBearing(Parameters):
@@ -118,14 +114,12 @@ class ThrustBearing(Parameters):
     friction_ratio: float = FRICTION
     """[µ_t]"""
 
-    @model_validator(mode="after")
-    def _ring(self) -> "ThrustBearing":
+    def contradictions(self) -> Contradictions:
         if self.inner_radius_m >= self.outer_radius_m:
-            raise ValueError(
+            yield (
                 f"inner_radius_mm = {1e3 * self.inner_radius_m:g} mm: must be below "
                 f"outer_radius_mm = {1e3 * self.outer_radius_m:g} mm"
             )
-        return self
 
 
 class Bearings(Parameters):
@@ -180,12 +174,10 @@ class SliderLinkTables(Machine):
             origin_m=(-self.centre_of_mass_offset_m, 0.0, 0.0),
         )
 
-    @model_validator(mode="after")
-    def _pin_in_slider(self) -> "SliderLinkTables":
+    def contradictions(self) -> Contradictions:
         pin = 2.0 * self.bearings.crank_pin.radius_m
         if pin >= self.mechanism.slider_diameter_m:
-            raise ValueError(
+            yield (
                 f"slider_diameter_mm = {1e3 * self.mechanism.slider_diameter_m:g} mm: must be "
                 f"above the crank pin's diameter of {1e3 * pin:g} mm"
             )
-        return self

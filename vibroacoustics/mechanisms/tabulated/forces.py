@@ -5,11 +5,12 @@ from pathlib import Path
 from typing import Any, ClassVar, Final, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from ...base.arrays import ComplexArray
 from ...base.errors import ParameterError
 from ...base.file_table import FileTable
+from ...base.parameters import Contradictions
 from .spectra import Spectra, packed, unpacked
 
 KEPT_TABLES: Final = 16
@@ -41,15 +42,13 @@ class Forces(FileTable):
             "packed": packed(spectra.orders),
         }
 
-    @model_validator(mode="after")
-    def _scales_one_speed(self) -> "Forces":
+    def contradictions(self) -> Contradictions:
         if self.scaling is not None and len(self.speed_rpm) > 1:
-            raise ValueError(
+            yield (
                 f"scaling = {self.scaling}: for a table of one speed; {self.file} has "
                 f"{len(self.speed_rpm)}"
             )
         _spectra(self)  # refuses what was not read from a file
-        return self
 
     def at(self, speed_rpm: float) -> ComplexArray:
         """Orders at a speed, shape (source, component, order), N and N m.
@@ -72,8 +71,7 @@ class Forces(FileTable):
 
 def _read(path: Path, recorded_speed_rpm: Any) -> Spectra:
     from .csv_layout import read_csv
-    from .other_files import read_recorded, read_results
-    from .uff_spectra import holds_spectra, read_spectra
+    from .other_files import holds_spectra, read_recorded, read_results, read_spectra
 
     if isinstance(recorded_speed_rpm, int | float):
         if path.suffix.lower() in (".uff", ".unv") and holds_spectra(path):

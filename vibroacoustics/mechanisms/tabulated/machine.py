@@ -2,9 +2,9 @@
 
 from typing import ClassVar, Final
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ...base.parameters import Parameters
+from ...base.parameters import Contradictions, Parameters
 from ...base.registry import register
 from ...machine.machine import PART_MASS, Machine
 from ...mechanics.capabilities import (
@@ -61,11 +61,9 @@ class TabulatedMachine(Machine):
     counterweights: BalancePlanes | None = None
     """Where weights can sit on the shaft."""
 
-    @model_validator(mode="after")
-    def _slides_with_planes(self) -> "TabulatedMachine":
+    def contradictions(self) -> Contradictions:
         if self.sliding_mass is not None and self.counterweights is None:
-            raise ValueError("sliding_mass: needs the table counterweights")
-        return self
+            yield "sliding_mass: needs the table counterweights"
 
     @property
     def crank_frame(self) -> CrankFrame:

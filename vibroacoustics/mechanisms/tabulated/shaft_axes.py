@@ -3,9 +3,9 @@
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar, Final, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ...base.parameters import Parameters
+from ...base.parameters import Contradictions, Parameters
 from ...mechanics.capabilities import CrankFrame
 
 Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
@@ -26,11 +26,9 @@ class ShaftAxes(Parameters):
     z_m: float = Field(default=0.0, ge=-2.0, le=2.0)
     """A point of the shaft, from the centre of mass at rest."""
 
-    @model_validator(mode="after")
-    def _across(self) -> "ShaftAxes":
+    def contradictions(self) -> Contradictions:
         if self.stroke[-1] == self.shaft[-1]:
-            raise ValueError(f"stroke = {self.stroke}: must be across the shaft, {self.shaft}")
-        return self
+            yield f"stroke = {self.stroke}: must be across the shaft, {self.shaft}"
 
     @property
     def frame(self) -> CrankFrame:

@@ -4,13 +4,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import wofz
 
 from ..arrays import Array, ComplexArray
-from ..exact import wavenumber
-from ..mirrors import Mirror, images
+from ..exact import Mirror, images, wavenumber
 from .barrier import Barrier
-from .miki import normalised_impedance
-from .spherical_wave import reflection_coefficient
 
 
 @dataclass(frozen=True)
@@ -96,3 +94,44 @@ def _parities(walls: Sequence[Mirror]) -> Array:
     for wall in walls:
         turned = np.concatenate([turned, turned + np.eye(3)[wall.axis]])
     return turned % 2.0
+
+
+def reflection_coefficient(
+    wavenumber: float, admittance: complex, distance_m: Array, cosine: Array
+) -> ComplexArray:
+    """Q = R + (1 - R) F(w): strength of the image source, shape of the distances.
+
+    Weyl-Van der Pol: R = (cos θ - β)/(cos θ + β), F(w) = 1 + j√π w exp(-w²) erfc(-jw),
+    w = (1 + j)/2 √(2 k r2/2) (cos θ + β) with exp(-jωt) (Chien and Soroka, J. Sound Vib. 43 (1975)
+    9; Attenborough, J. Acoust. Soc. Am. 68 (1980) 1521); here all is the complex conjugate. Leading
+    term for waves short against r2 and |β| up to about one; exact on hard ground.
+
+    Parameters
+    ----------
+    wavenumber : k, rad/m
+    admittance : β = ρc/Z
+    distance_m : r2 from the image source, shape (...)
+    cosine : of the angle of incidence from the vertical, cos θ = (z + h)/r2, shape (...)
+    """
+    if admittance == 0.0:
+        return np.ones(np.shape(distance_m), dtype=complex)
+    beta = np.conj(admittance)
+    plane = (cosine - beta) / (cosine + beta)
+    numerical = 0.5 * (1.0 + 1.0j) * np.sqrt(wavenumber * distance_m) * (cosine + beta)
+    loss = 1.0 + 1.0j * np.sqrt(np.pi) * numerical * wofz(numerical)
+    return np.asarray(np.conj(plane + (1.0 - plane) * loss))
+
+
+def normalised_impedance(frequency_hz: Array, flow_resistivity_pa_s_per_m2: float) -> ComplexArray:
+    """Surface impedance of deep porous ground over that of air, time factor exp(+jωt).
+
+    Z/(ρc) = 1 + 5.50 x^-0.632 - j 8.43 x^-0.632, x = 1000 f/σ (Miki, J. Acoust. Soc. Jpn. (E) 11
+    (1990) 19, eq. 30 and 31 with the flow resistivity in SI).
+
+    Parameters
+    ----------
+    frequency_hz : above zero, shape (...)
+    flow_resistivity_pa_s_per_m2 : σ, effective for the ground
+    """
+    ratio = 1e3 * np.asarray(frequency_hz, dtype=float) / flow_resistivity_pa_s_per_m2
+    return np.asarray(1.0 + (5.50 - 8.43j) * ratio**-0.632)

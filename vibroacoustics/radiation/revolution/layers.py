@@ -66,38 +66,20 @@ def layers(
     sides = [points]
     if floor_z_m is not None:
         sides.append(np.stack([points[:, 0], 2.0 * floor_z_m - points[:, 1]], axis=1))
+    elements = (mesh.weights, mesh.lengths, mesh.coefficients)
+    quadrature = (wavenumber, DIGITS, rules(orders), _element())
     for side in sides:
-        _fill(
-            np.ascontiguousarray(side, dtype=float),
-            sources,
-            mesh.weights,
-            mesh.lengths,
-            mesh.coefficients,
-            wavenumber,
-            DIGITS,
-            rules(orders),
-            _element(),
-            single,
-            double,
-        )
+        at = np.ascontiguousarray(side, dtype=float)
+        _fill(at, sources, elements, quadrature, single, double)
     return single, double
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def _fill(
-    points: Any,
-    sources: Any,
-    weights: Any,
-    lengths: Any,
-    coefficients: Any,
-    k: float,
-    digits: float,
-    rules: Any,
-    element: Any,
-    single: Any,
-    double: Any,
+    points: Any, sources: Any, elements: Any, quadrature: Any, single: Any, double: Any
 ) -> None:  # pragma: no cover
     """Add the layers of one side of the floor."""
+    (weights, lengths, coefficients), (k, digits, rules, element) = elements, quadrature
     nodes = element.lagrange.shape[0]
     field = np.empty((4, single.shape[0]))
     near = np.empty((nodes, 4, single.shape[0]))
@@ -108,18 +90,8 @@ def _fill(
             middle = coefficients[number, :, 0]
             away = np.hypot(middle[0] - radius, middle[1] - height)
             if away < _NEAR * lengths[number]:
-                _near(
-                    radius,
-                    height,
-                    coefficients[number],
-                    lengths[number],
-                    k,
-                    digits,
-                    rules,
-                    element,
-                    field,
-                    near,
-                )
+                curve, length = coefficients[number], lengths[number]
+                _near((radius, height), curve, length, quadrature, field, near)
                 for node in range(nodes):
                     _put(near[node], 1.0, row, begin + node, single, double)
                 continue
@@ -139,27 +111,19 @@ def _put(
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def _near(
-    radius: float,
-    height: float,
-    curve: Any,
-    length: float,
-    k: float,
-    digits: float,
-    rules: Any,
-    element: Any,
-    field: Any,
-    near: Any,
+    point: Any, curve: Any, length: float, quadrature: Any, field: Any, near: Any
 ) -> None:  # pragma: no cover
     """Layers of one element at a point next to it, (node, real and imaginary of each, order)."""
     near[:] = 0.0
-    closest, distance = _closest(radius, height, curve)
+    element = quadrature[3]
+    closest, distance = _closest(point[0], point[1], curve)
     if distance < _ON * length:
         for side in (-1.0, 1.0):
             reach = 1.0 - side * closest
             for q in range(element.on_local.size):
                 local = closest + side * reach * element.on_local[q]
                 weight = reach * element.on_weights[q]
-                _add(radius, height, curve, local, weight, k, digits, rules, element, field, near)
+                _add(point, curve, local, weight, quadrature, field, near)
         return
     scale = 2.0 * distance / length
     low, high = np.arcsinh((-1.0 - closest) / scale), np.arcsinh((1.0 - closest) / scale)
@@ -167,27 +131,18 @@ def _near(
         stretched = 0.5 * (low + high) + 0.5 * (high - low) * element.beside_local[q]
         local = closest + scale * np.sinh(stretched)
         weight = 0.5 * (high - low) * scale * np.cosh(stretched) * element.beside_weights[q]
-        _add(radius, height, curve, local, weight, k, digits, rules, element, field, near)
+        _add(point, curve, local, weight, quadrature, field, near)
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def _add(
-    radius: float,
-    height: float,
-    curve: Any,
-    local: float,
-    weight: float,
-    k: float,
-    digits: float,
-    rules: Any,
-    element: Any,
-    field: Any,
-    near: Any,
+    point: Any, curve: Any, local: float, weight: float, quadrature: Any, field: Any, near: Any
 ) -> None:  # pragma: no cover
     """Add one point of a rule along an element."""
+    k, digits, rules, element = quadrature
     r, z, dr, dz = _on_curve(curve, local)
     speed = np.hypot(dr, dz)
-    ring(radius, height, (r, z, dz / speed, -dr / speed), k, digits, rules, field)
+    ring(point[0], point[1], (r, z, dz / speed, -dr / speed), k, digits, rules, field)
     for node in range(near.shape[0]):
         share = 0.0
         for power in range(near.shape[0] - 1, -1, -1):

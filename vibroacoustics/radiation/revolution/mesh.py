@@ -36,8 +36,7 @@ class Mesh:
     @property
     def lengths(self) -> Array:
         """Length of each element, m."""
-        total: Array = self.weights.reshape(-1, NODES).sum(axis=1)
-        return total
+        return np.asarray(self.weights.reshape(-1, NODES).sum(axis=1))
 
     def depth_m(self, points: Array) -> Array:
         """Distance of points (point, 2) from the nodes, m; negative outside the body."""
@@ -46,8 +45,7 @@ class Mesh:
         nearest = np.argmin(distance, axis=1)
         rows = np.arange(len(points))
         facing = np.einsum("pi,pi->p", gap[rows, nearest], self.normals[nearest])
-        depth: Array = -np.sign(facing) * distance[rows, nearest]
-        return depth
+        return np.asarray(-np.sign(facing) * distance[rows, nearest])
 
 
 def mesh(profile: Profile, longest_m: float, gradings: int) -> Mesh:
@@ -100,5 +98,4 @@ def _breaks(length_m: float, longest_m: float, at_start: int, at_end: int) -> Ar
     breaks = np.linspace(0.0, 1.0, number + 1)
     first = breaks[1] * _SHRINKING ** np.arange(at_start, 0, -1)
     last = 1.0 - breaks[1] * _SHRINKING ** np.arange(1, at_end + 1)
-    ends: Array = np.concatenate([breaks[:1], first, breaks[1:-1], last, breaks[-1:]])
-    return ends
+    return np.asarray(np.concatenate([breaks[:1], first, breaks[1:-1], last, breaks[-1:]]))

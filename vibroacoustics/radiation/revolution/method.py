@@ -11,14 +11,17 @@ from ...base.progress import Progress
 from ...machine.shell import Shell
 from ..arrays import Array, ComplexArray
 from ..at_kwave import Vectors, closed_greens, differences_db, solver, with_kwave
+from ..box import Box, BoxField, closed_box
 from ..room_greens import check_receivers, room_greens
 from ..task import Microphones, Task
 from .over_ground import over_ground
 from .profile import shell_profile
-from .receivers import addition, by_name, join_box
+from .sampling import Sampled
 from .side import Addition, RevolutionSide
 
 _NAME: Final = "boundary elements"
+_BOX_MARGIN_M: Final = 0.04
+"""From the body to its box."""
 
 
 class ByRevolution:
@@ -122,3 +125,51 @@ def _check_receivers(side: RevolutionSide, task: Task) -> None:
             raise ParameterError(
                 f"receivers.{name}: stands under the floor or on the wall of the machine"
             )
+
+
+def join_box(side: RevolutionSide, spacing_m: float) -> Box:
+    """Box around the body in cells of at most a spacing; it stands on a floor."""
+    nodes = side.radiators[0].mesh.points
+    reach = float(nodes[:, 0].max()) + _BOX_MARGIN_M
+    lower = np.array([-reach, -reach, float(nodes[:, 1].min()) - _BOX_MARGIN_M])
+    upper = np.array([reach, reach, float(nodes[:, 1].max()) + _BOX_MARGIN_M])
+    if side.floor_z_m is not None:
+        lower[2] = side.floor_z_m
+    cells = np.maximum(2, np.ceil((upper - lower) / spacing_m).astype(int))
+    edges = [
+        low + (high - low) / count * np.arange(-1, count + 2)
+        for low, high, count in zip(lower, upper, cells, strict=True)
+    ]
+    on_floor = [] if side.floor_z_m is None else [(2, -1)]
+    return closed_box(edges, [1, 1, 1], [count + 1 for count in cells], on_floor)
+
+
+def by_name(sampled: Sampled) -> Vectors:
+    """Pressures and errors, (receiver, pattern, frequency)."""
+    return {
+        "transfer_vector": np.moveaxis(sampled.pressure, 0, -1),
+        "transfer_vector_error": np.moveaxis(sampled.error, 0, -1),
+    }
+
+
+def addition(
+    side: RevolutionSide,
+    box: Box,
+    table_hz: Array,
+    greens: Sequence[BoxField],
+    expected: Sequence[BoxField],
+) -> Addition:
+    """What k-Wave's Green's functions add to each microphone's pressure at a frequency."""
+    points = np.concatenate([box.inner, box.outer])
+    pairs = len(box.inner)
+    couples = list(zip(greens, expected, strict=True))
+    inner = box.weights * np.array([green.inner - exact.inner for green, exact in couples])
+    outer = box.weights * np.array([green.outer - exact.outer for green, exact in couples])
+
+    def at(index: int) -> ComplexArray:
+        pressure = side.finer_pressures(float(table_hz[index]), points)
+        added: ComplexArray = outer[:, index] @ pressure[:pairs]
+        added -= inner[:, index] @ pressure[pairs:]
+        return added
+
+    return at

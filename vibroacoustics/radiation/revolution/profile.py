@@ -41,8 +41,7 @@ def _start_of(curve: Curve, outward: Array) -> Array:
     start, _ = _end_tangents(curve)
     if curve(np.zeros(1))[0, 0] <= _ON_AXIS_M:
         return outward
-    mirrored: Array = start * np.array([-1.0, 1.0])
-    return mirrored
+    return np.asarray(start * np.array([-1.0, 1.0]))
 
 
 def _end_tangents(curve: Curve) -> tuple[Array, Array]:

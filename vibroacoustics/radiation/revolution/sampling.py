@@ -72,15 +72,13 @@ def _between(solved: IndexArray, wrong: IndexArray) -> IndexArray:
     neighbours = np.unique(np.concatenate([wrong - 1, wrong]))
     neighbours = neighbours[(neighbours >= 0) & (neighbours < solved.size - 1)]
     low, high = solved[neighbours], solved[neighbours + 1]
-    middles: IndexArray = ((low + high) // 2)[high - low > 1]
-    return middles
+    return np.asarray(((low + high) // 2)[high - low > 1])
 
 
 def _trend(frequency_hz: Array, delay_s: Array) -> ComplexArray:
     """Delay and growth that are taken out: j omega exp(-j omega d), (frequency, receiver, 1)."""
     omega = 2.0 * np.pi * frequency_hz[:, None, None]
-    trend: ComplexArray = 1j * omega * np.exp(-1j * omega * delay_s[:, None])
-    return trend
+    return np.asarray(1j * omega * np.exp(-1j * omega * delay_s[:, None]))
 
 
 def _spline(frequency_hz: Array, smooth: ComplexArray, wanted_hz: Array) -> ComplexArray:
@@ -88,8 +86,7 @@ def _spline(frequency_hz: Array, smooth: ComplexArray, wanted_hz: Array) -> Comp
     both = np.concatenate([-frequency_hz[::-1], frequency_hz])
     values = np.concatenate([smooth[::-1].conj(), smooth])
     degree = min(_DEGREE, both.size - 1)
-    result: ComplexArray = make_interp_spline(both, values, k=degree - 1 + degree % 2)(wanted_hz)
-    return result
+    return np.asarray(make_interp_spline(both, values, k=degree - 1 + degree % 2)(wanted_hz))
 
 
 def _left_out(frequency_hz: Array, smooth: ComplexArray) -> Array:

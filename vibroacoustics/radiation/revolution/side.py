@@ -155,15 +155,13 @@ class RevolutionSide:
         if self.floor_z_m is not None:
             middles.append(2.0 * self.floor_z_m - self._middle_z_m)
         distances = [np.linalg.norm(points - [0.0, 0.0, z], axis=1) for z in middles]
-        delay: Array = np.mean(distances, axis=0) / SPEED_OF_SOUND_M_PER_S
-        return delay
+        return np.asarray(np.mean(distances, axis=0) / SPEED_OF_SOUND_M_PER_S)
 
 
 def error_of(fine: ComplexArray, coarse: ComplexArray) -> Array:
     """Estimated error of the finer mesh's pressures (point, pattern)."""
     size = np.abs(fine).max(axis=0, initial=0.0)
-    error: Array = _ERROR * np.abs(fine - coarse) + _QUADRATURE * size
-    return error
+    return np.asarray(_ERROR * np.abs(fine - coarse) + _QUADRATURE * size)
 
 
 def memory_bytes(radiator: Radiator) -> float:

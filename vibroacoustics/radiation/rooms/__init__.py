@@ -12,14 +12,10 @@ from .diffuse import (
 )
 from .join_box import JoinBox
 from .lattice import Lattice
-from .local_step import local_transfer
 from .machine_in_room import room_pressure_per_velocity, room_vectors
-from .materials import HARD, Material, read_library
-from .response import room_transfer
-from .room import Block, Patch, Room
-from .run import RoomResponse
+from .room import HARD, Block, Material, Patch, Room, read_library
+from .run import RoomResponse, room_transfer, spacing_error_db
 from .settings import RoomSettings
-from .spacing_error import spacing_error_db
 
 __all__ = [
     "HARD",
@@ -35,7 +31,6 @@ __all__ = [
     "blend",
     "gain_at_place_db",
     "line_of_sight",
-    "local_transfer",
     "mean_square_per_power",
     "read_library",
     "room_pressure_per_velocity",

@@ -10,12 +10,13 @@ from ...base.errors import SolverError
 from ..arrays import Array, IndexArray
 from .box_step import pass_seams, step_series, sum_on_sides, to_nodes, to_sides
 from .cutting import AirBox, End, Face
-from .layout import Layout, layout
-from .series import (
+from .layout import (
+    Layout,
     angular_frequencies,
     cosines,
     flux_gain,
     inverse_norms,
+    layout,
     left_out,
     series_mass_m,
 )
@@ -73,7 +74,7 @@ class Air:
         if force:
             self._pressure += force * self._near
         pass_seams(self._pressure, self._change, self._seams, self._give)
-        pass_walls(self._pressure, self._change, *self._walls.arguments)
+        pass_walls(self._pressure, self._change, self._walls.arguments)
         self._to_sides()
 
     def advance(self, force: float = 0.0) -> None:
@@ -107,8 +108,7 @@ class Air:
         self._to_sides()
         result = np.zeros_like(terms)
         self._step_series(terms, result, 2.0 - self._turn)
-        taken: Array = 2.0 * (2.0 - self._turn) * terms - result
-        return taken
+        return np.asarray(2.0 * (2.0 - self._turn) * terms - result)
 
     def balance(self) -> Array:
         """Factors of terms that make `operator` symmetric."""
@@ -120,8 +120,7 @@ class Air:
                 for start, count in zip(starts, shape, strict=True)
             ]
             norms.append(np.einsum("i,j,k->ijk", *lines).ravel())
-        factors: Array = 1.0 / np.sqrt(self._gain * np.concatenate(norms))
-        return factors
+        return np.asarray(1.0 / np.sqrt(self._gain * np.concatenate(norms)))
 
     def _to_nodes(self, terms: Array) -> None:
         plan = self._layout
@@ -134,10 +133,8 @@ class Air:
 
     def _step_series(self, now: Array, before: Array, turn: Array) -> None:
         plan = self._layout
-        step_series(
-            now, before, turn, self._gain, self._flux,
-            plan.shapes, plan.terms, plan.sides, plan.norms, plan.norm_starts,
-        )  # fmt: skip
+        layout = plan.shapes, plan.terms, plan.sides, plan.norms, plan.norm_starts
+        step_series(now, before, turn, self._gain, self._flux, layout)
 
 
 def _mass(boxes: Sequence[AirBox], end: End, time_step_s: float) -> float:

@@ -87,21 +87,13 @@ def to_sides(
 
 @kernel
 def step_series(
-    now: Any,
-    before: Any,
-    turn: Any,
-    gain: Any,
-    flux: Any,
-    shapes: Any,
-    terms: Any,
-    sides: Any,
-    norms: Any,
-    norm_starts: Any,
+    now: Any, before: Any, turn: Any, gain: Any, flux: Any, layout: Any
 ) -> None:  # pragma: no cover
     """The series a step on, written over the one before: turn now - before - gain flux.
 
     The planes of the flux are overwritten by their even and odd parts.
     """
+    shapes, terms, sides, norms, norm_starts = layout
     for box in range(shapes.shape[0]):
         nx, ny, nz = shapes[box]
         first, last = terms[box], terms[box + 1]

@@ -8,7 +8,7 @@ from ...study.study import Study
 from ..cost import Cost, processor_time_s
 from .air import stable_air
 from .cutting import cut, faces
-from .decay import reverberation_time_s
+from .diffuse import reverberation_time_s
 from .lattice import holding
 from .machine_in_room import placed
 from .of_study import foot_m, listeners_m, room_of

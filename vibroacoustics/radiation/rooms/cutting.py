@@ -2,19 +2,21 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...base.errors import ParameterError
 from ..arrays import Array
-from .materials import Material
-from .rectangles import rectangles
-from .room import Room
+from .room import Material, Room
 
 _SAME_PLANE_M = 1e-6
 _THIN_M = 0.05
 """Gaps of air of so much are taken whatever the spacing: the step that they ask for is that of a
 room to 1 kHz."""
+Ranges = tuple[tuple[int, int], ...]
+"""First cell and the one after the last along each axis."""
 
 
 @dataclass(frozen=True)
@@ -29,14 +31,12 @@ class AirBox:
     @property
     def size(self) -> Array:
         """Lengths of the edges, m."""
-        size: Array = self.upper - self.lower
-        return size
+        return np.asarray(self.upper - self.lower)
 
     @property
     def spacing(self) -> Array:
         """Of the nodes, m."""
-        spacing: Array = self.size / np.array(self.nodes)
-        return spacing
+        return np.asarray(self.size / np.array(self.nodes))
 
 
 @dataclass(frozen=True)
@@ -171,3 +171,36 @@ def _lines_across(room: Room, box: AirBox, axis: int, other: int) -> Array:
     kept: Array = line[np.append(True, np.diff(line) > _SAME_PLANE_M)]
     kept[-1] = high
     return kept
+
+
+def rectangles(chosen: NDArray[np.bool_], lines: list[Array]) -> Iterator[Ranges]:
+    """Rectangles that cover the chosen cells once; `lines` bound the cells along each axis, m."""
+    left = chosen.copy()
+    while left.any():
+        ranges = _largest(left, lines)
+        left[tuple(slice(*one) for one in ranges)] = False
+        yield ranges
+
+
+def _largest(chosen: NDArray[np.bool_], lines: list[Array]) -> Ranges:
+    """The rectangle of the largest measure that holds chosen cells alone."""
+    count = np.pad(chosen.astype(int), [(1, 0)] * chosen.ndim)
+    for axis in range(chosen.ndim):
+        count = np.cumsum(count, axis=axis)
+    starts, stops = zip(*(np.triu_indices(number) for number in chosen.shape), strict=True)
+    stops = tuple(stop + 1 for stop in stops)
+    cells = np.ones([start.size for start in starts], dtype=int)
+    measure = np.ones(cells.shape)
+    for axis, (start, stop, line) in enumerate(zip(starts, stops, lines, strict=True)):
+        form = [-1 if other == axis else 1 for other in range(chosen.ndim)]
+        cells = cells * (stop - start).reshape(form)
+        measure = measure * (line[stop] - line[start]).reshape(form)
+    held = np.zeros(cells.shape, dtype=int)
+    for ends in product((0, 1), repeat=chosen.ndim):
+        corner = np.ix_(*((stops if end else starts)[axis] for axis, end in enumerate(ends)))
+        held += (-1) ** (chosen.ndim - sum(ends)) * count[corner]
+    best = np.unravel_index(np.argmax(np.where(held == cells, measure, 0.0)), cells.shape)
+    return tuple(
+        (int(start[index]), int(stop[index]))
+        for start, stop, index in zip(starts, stops, best, strict=True)
+    )

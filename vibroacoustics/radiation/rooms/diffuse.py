@@ -9,9 +9,7 @@ from ...base.constants import AIR_IMPEDANCE_PA_S_PER_M, SPEED_OF_SOUND_M_PER_S
 from ...base.decibel import level_of_power
 from ..arrays import Array
 from .cutting import cut, faces
-from .decay import LONGEST_S, absorption_area_m2, volume_m3
-from .materials import OCTAVES_HZ
-from .room import Room
+from .room import OCTAVES_HZ, WAVE_OCTAVES, Room
 
 SEAM_HZ: Final = (400.0, 630.0)
 """Below, waves alone; above, the diffuse field alone."""
@@ -19,6 +17,8 @@ _MOST_MEAN_ABSORPTION: Final = 0.99
 _NEAREST_M: Final = 0.05
 _AIR_TEMPERATURE_K: Final = 293.15
 _AIR_HUMIDITY_RATIO: Final = 0.5
+LONGEST_S: Final = 5.0
+"""Of rooms that hardly absorb."""
 
 
 @dataclass(frozen=True)
@@ -46,14 +46,12 @@ class DiffuseRoom:
         """
         octaves = np.log(OCTAVES_HZ)
         walls = np.interp(np.log(frequency_hz), octaves, self.absorption_area_m2)
-        area: Array = walls + 4.0 * air_attenuation_per_m(frequency_hz) * self.volume_m3
-        return area
+        return np.asarray(walls + 4.0 * air_attenuation_per_m(frequency_hz) * self.volume_m3)
 
     def constant_m2(self, frequency_hz: Array) -> Array:
         """Room constant R = A/(1 - A/S), (frequency,), m²; A/S is 0.99 at most."""
         area = self.area_m2(frequency_hz)
-        constant: Array = area / (1.0 - np.minimum(area / self.surface_m2, _MOST_MEAN_ABSORPTION))
-        return constant
+        return np.asarray(area / (1.0 - np.minimum(area / self.surface_m2, _MOST_MEAN_ABSORPTION)))
 
     def reverberation_time_s(self, frequency_hz: Array) -> Array:
         """Of walls and air, T = 24 ln 10 V/(c A), (frequency,), s; 5 s at most.
@@ -61,8 +59,7 @@ class DiffuseRoom:
         H. Kuttruff, Room Acoustics, 6th edition (2016), equation 5.25 (Sabine).
         """
         volume = 24.0 * np.log(10.0) * self.volume_m3 / SPEED_OF_SOUND_M_PER_S
-        time: Array = volume / np.maximum(self.area_m2(frequency_hz), volume / LONGEST_S)
-        return time
+        return np.asarray(volume / np.maximum(self.area_m2(frequency_hz), volume / LONGEST_S))
 
 
 def surface_m2(room: Room) -> float:
@@ -90,8 +87,7 @@ def mean_square_per_power(
     in_sight : whether the machine is in the listener's sight: see `line_of_sight`
     """
     reflected = AIR_IMPEDANCE_PA_S_PER_M * 4.0 / room.constant_m2(frequency_hz)
-    result: Array = direct_per_power(distance_m, in_sight) + reflected
-    return result
+    return np.asarray(direct_per_power(distance_m, in_sight) + reflected)
 
 
 def direct_per_power(distance_m: float, in_sight: bool) -> float:
@@ -126,8 +122,7 @@ def blend(frequency_hz: Array) -> Array:
     low, high = np.log(SEAM_HZ)
     with np.errstate(divide="ignore"):
         x = np.clip((np.log(frequency_hz) - low) / (high - low), 0.0, 1.0)
-    weight: Array = x**2 * (3.0 - 2.0 * x)
-    return weight
+    return np.asarray(x**2 * (3.0 - 2.0 * x))
 
 
 def gain_at_place_db(waves: Array, diffuse: Array) -> float:
@@ -168,3 +163,27 @@ def air_attenuation_per_m(frequency_hz: Array) -> Array:
     # The standard counts decibels of the pressure; m is twice the nepers of the pressure.
     nepers: Array = squared * (1.84e-11 * temperature**0.5 + relaxing)
     return 2.0 * nepers
+
+
+def volume_m3(room: Room) -> float:
+    """Of the air, m³."""
+    return float(sum(np.prod(box.size) for box in cut(room, np.inf, least_nodes=1)))
+
+
+def absorption_area_m2(room: Room) -> Array:
+    """Area times absorption, summed over walls and blocks, by octave, m²."""
+    area = np.zeros(len(OCTAVES_HZ))
+    for face in faces(room, cut(room, np.inf, least_nodes=1)):
+        if face.material is not None:
+            area += np.prod(face.upper - face.lower) * np.array(face.material.absorption)
+    return area
+
+
+def reverberation_time_s(room: Room) -> float:
+    """The longest of the octaves that waves are computed in, T = 24 ln 10 V/(c A), s.
+
+    H. Kuttruff, Room Acoustics, 6th edition (2016), equation 5.25 (Sabine); 5 s at most.
+    """
+    least = float(absorption_area_m2(room)[:WAVE_OCTAVES].min())
+    volume = 24.0 * np.log(10.0) * volume_m3(room) / SPEED_OF_SOUND_M_PER_S
+    return float(min(LONGEST_S, volume / least)) if least > 0.0 else LONGEST_S

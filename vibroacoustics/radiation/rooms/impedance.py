@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 
 from ..arrays import Array, ComplexArray
-from .materials import MOST_ABSORPTION, OCTAVES_HZ, WAVE_OCTAVES, Material
+from .room import MOST_ABSORPTION, OCTAVES_HZ, WAVE_OCTAVES, Material
 
 QUALITY: Final = 0.6
 """Quality to which each branch is pulled (assumed): that of branches that overlap by an octave."""
@@ -39,14 +39,12 @@ class Branches:
 
     def admittance(self, frequency_hz: Array) -> ComplexArray:
         """rho c u/p of the wall, (frequency,)."""
-        total: ComplexArray = (1.0 / self._impedances(frequency_hz).sum(axis=1)).sum(axis=1)
-        return total
+        return np.asarray((1.0 / self._impedances(frequency_hz).sum(axis=1)).sum(axis=1))
 
     def slopes(self, frequency_hz: Array) -> ComplexArray:
         """Change of the admittance with the logarithm of each part, (frequency, part, branch)."""
         parts = self._impedances(frequency_hz)
-        slopes: ComplexArray = -parts / parts.sum(axis=1, keepdims=True) ** 2
-        return slopes
+        return np.asarray(-parts / parts.sum(axis=1, keepdims=True) ** 2)
 
     def _impedances(self, frequency_hz: Array) -> ComplexArray:
         """Of mass, resistance and spring, (frequency, part, branch)."""
@@ -62,8 +60,7 @@ def absorption_at_angle(admittance: ComplexArray | Array, cosine: Array) -> Arra
 
     H. Kuttruff, Room Acoustics, 6th edition (2016), equation 2.29, of the impedance 1/Y.
     """
-    share: Array = 4.0 * np.real(admittance) * cosine / np.abs(cosine + admittance) ** 2
-    return share
+    return np.asarray(4.0 * np.real(admittance) * cosine / np.abs(cosine + admittance) ** 2)
 
 
 def random_absorption(admittance: ComplexArray | Array) -> Array:
@@ -74,8 +71,7 @@ def random_absorption(admittance: ComplexArray | Array) -> Array:
     node, weight = _quadrature()
     cosine = (node + 1.0) / 2.0
     share = absorption_at_angle(admittance[..., None], cosine)
-    mean: Array = (cosine * weight * share).sum(axis=-1)
-    return mean
+    return np.asarray((cosine * weight * share).sum(axis=-1))
 
 
 def random_absorption_slopes(admittance: ComplexArray) -> tuple[Array, Array]:

@@ -79,13 +79,11 @@ class MachineField:
         joined = joined.reshape(len(joined), -1, joined.shape[-1])
         both = np.concatenate([-self._table_hz[::-1], self._table_hz])
         spline = CubicSpline(both, np.concatenate([joined[::-1].conj(), joined]))
-        coefficients: ComplexArray = spline.c[:, self._table_hz.size - 1 :]
-        return coefficients
+        return np.asarray(spline.c[:, self._table_hz.size - 1 :])
 
     def _trend(self, frequency_hz: Array) -> ComplexArray:
         omega = 2.0 * np.pi * frequency_hz
-        trend: ComplexArray = 1j * omega * np.exp(-1j * omega * self._delay_s)
-        return trend
+        return np.asarray(1j * omega * np.exp(-1j * omega * self._delay_s))
 
     def join(self, record: Record, length: int, lines: int, step_hz: float) -> ComplexArray:
         """Pressure at the microphone of a record, (pattern, line); lines as in `Record.on_grid`."""
@@ -102,5 +100,4 @@ class MachineField:
                 for coefficients in self._splines[side][:, number]:
                     value = value * along + green[rows] @ coefficients
                 total[rows] += value
-        result: ComplexArray = (total * self._trend(frequency_hz)[:, None]).T
-        return result
+        return np.asarray((total * self._trend(frequency_hz)[:, None]).T)

@@ -22,7 +22,7 @@ from ..revolution.side import RevolutionSide
 from ..scene import machine_body
 from ..transfer_vectors import frequencies_hz
 from .cutting import cut, faces
-from .decay import reverberation_time_s
+from .diffuse import reverberation_time_s
 from .join_box import JoinBox
 from .lattice import Lattice, holding
 from .machine_field import MachineField

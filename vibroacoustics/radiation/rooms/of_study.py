@@ -1,6 +1,7 @@
 """The room of a study, its machine and its listeners, and pressure at all that is asked for."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, Final
 
@@ -18,26 +19,39 @@ from ...study.study import Study
 from ..interpolation import interpolant
 from ..patterns import SurfaceMotion
 from ..transfer_vectors import cache_key_material
-from .decay import absorption_area_m2
 from .diffuse import (
     SEAM_HZ,
     DiffuseRoom,
+    absorption_area_m2,
     blend,
+    direct_per_power,
     gain_at_place_db,
     line_of_sight,
     mean_square_per_power,
 )
 from .machine_in_room import green_of_foot, room_pressure_per_velocity
-from .materials import OCTAVES_HZ, Material
-from .room import Block, Patch, Room
+from .room import OCTAVES_HZ, Block, Material, Patch, Room
 
 _KEPT: Final = 8
 """Sets of frequencies whose values are kept: rigid motions and modes ask for the same."""
 SHOWN_FROM_HZ: Final = 250.0
 """Lowest third octave in which both methods are shown."""
-
 PressureAt = Callable[[Array], ComplexArray]
 """Of frequencies, (frequency,), to (place, pattern, frequency), Pa per unit velocity."""
+
+
+@dataclass(frozen=True)
+class Arrivals:
+    """First sound at the listeners.
+
+    Attributes
+    ----------
+    distance_m : from the source, also where furniture hides it, shape (listener,)
+    per_power : mean square of the direct sound per power, 0 without sight, shape (listener,), Pa²/W
+    """
+
+    distance_m: Array
+    per_power: Array
 
 
 def room_of(settings: StudyRoom) -> Room:
@@ -250,3 +264,18 @@ def gain_over_frequency(gains_db: Array, middle_hz: Array) -> Callable[[Array], 
 def absorption_by_octave(settings: StudyRoom) -> tuple[list[float], Array]:
     """Octaves, Hz, and the equivalent absorption area of walls and furniture in them, m²."""
     return list(OCTAVES_HZ), np.asarray(absorption_area_m2(room_of(settings)), dtype=np.float64)
+
+
+def arrivals(settings: StudyRoom, source_m: Array) -> Arrivals:
+    """First sound of a source at the listeners.
+
+    Parameters
+    ----------
+    settings : of the room
+    source_m : where the sound comes from, shape (3,)
+    """
+    room, ears_m = room_of(settings), list(listeners_m(settings).values())
+    away = np.array([np.linalg.norm(at - source_m) for at in ears_m])
+    seen = [line_of_sight(room, source_m, at) for at in ears_m]
+    direct = [direct_per_power(float(far), one) for far, one in zip(away, seen, strict=True)]
+    return Arrivals(away, np.array(direct))

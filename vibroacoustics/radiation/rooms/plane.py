@@ -17,8 +17,8 @@ from ...base.decibel import mean_square_level
 from ...base.progress import Progress, no_progress
 from ...base.vocabulary import check, stamp
 from .lattice import Lattice
-from .response import room_transfer
 from .room import Room
+from .run import room_transfer
 from .settings import RoomSettings
 
 LATTICE_M: Final = 0.2

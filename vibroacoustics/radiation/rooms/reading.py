@@ -8,8 +8,8 @@ import numpy as np
 from ..arrays import Array, IndexArray
 from .air import Air
 from .box_step import kernel
+from .lattice import Piece
 from .layout import Layout
-from .piece import Piece
 
 
 class Readings:
@@ -42,24 +42,16 @@ class Readings:
             rows.append([start, *terms, *points, *matrices, row, first, len(sides)])
             result_rows.append(one.result_rows)
             row += one.result_rows.size
-        self._pieces = np.array(rows, dtype=np.intp).reshape(-1, 13)
-        self._sides = np.array(sides, dtype=np.intp).reshape(-1, 3)
-        self._numbers, self._result_rows = (
+        self._pieces = (
+            np.array(rows, dtype=np.intp).reshape(-1, 13),
+            np.array(sides, dtype=np.intp).reshape(-1, 3),
             np.concatenate(numbers),
             np.concatenate(result_rows),
         )
 
     def read(self, air: Air, result: Array) -> None:
         """Values of all pieces, into their places (column,)."""
-        read_pieces(
-            air.terms,
-            air.flux,
-            self._pieces,
-            self._sides,
-            self._numbers,
-            self._result_rows,
-            result,
-        )
+        read_pieces(air.terms, air.flux, *self._pieces, result)
 
 
 @kernel

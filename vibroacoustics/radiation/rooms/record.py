@@ -60,8 +60,7 @@ class Record:
         step_hz = 1.0 / (length * self.every * self.pulse.step_s)
         frequency_hz = step_hz * np.arange(1.0, lines + 1.0)
         spectrum *= (self.every / self.pulse.spectrum(frequency_hz))[:, None]
-        by_quantity: ComplexArray = spectrum.reshape(lines, shape[0], -1)
-        return by_quantity
+        return np.asarray(spectrum.reshape(lines, shape[0], -1))
 
     def _columns(self) -> list[slice]:
         ends = np.cumsum([0, *(int(np.prod(shape)) for shape in self.shapes)])

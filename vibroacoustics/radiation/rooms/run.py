@@ -1,7 +1,7 @@
 """Runs of a room's air: a monopole at a microphone each, recorded at points."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import chain
 from threading import Lock
@@ -9,16 +9,18 @@ from typing import Final
 
 import numpy as np
 
-from ...base.decibel import SILENCE_DB, level_of_amplitude
-from ...base.errors import SolverError
+from ...base.decibel import SILENCE_DB, level_of_amplitude, level_of_power
+from ...base.errors import ParameterError, SolverError
 from ...base.progress import Progress, no_progress
 from ...base.threads import in_threads
 from ..arrays import Array, ComplexArray
 from .air import Air, stable_air
-from .cutting import AirBox, Face
+from .cutting import AirBox, Face, cut, faces
+from .diffuse import reverberation_time_s
 from .lattice import Lattice, holding, pieces_of
 from .reading import Readings
 from .record import Pulse, Record
+from .room import Room
 from .settings import RoomSettings
 
 _PROGRESS_STEPS: Final = 200
@@ -177,3 +179,81 @@ class _Decay:
         self.remaining_db = float(level_of_amplitude(ratio)) if ratio else SILENCE_DB
         self._taken, self._peak = 0, 0.0
         return self.remaining_db < -self._decay_db
+
+
+def room_transfer(
+    room: Room,
+    lattices: Sequence[Lattice],
+    microphones: Mapping[str, Array],
+    frequency_hz: Array,
+    settings: RoomSettings | None = None,
+    gradient: bool = False,
+    progress: Progress = no_progress,
+    workers: int | None = None,
+) -> dict[str, RoomResponse]:
+    """Green's functions between microphones and points of a room, by microphone.
+
+    A monopole at the microphone gives those of all points towards it (reciprocity). Pressure is
+    read off the series: points and microphones may lie anywhere in the air, but points nearer to
+    the microphone than two spacings see a monopole that the series blurs.
+
+    Parameters
+    ----------
+    room : its origin is the origin of all coordinates
+    lattices : of points, such as those of `join_lattices`
+    microphones : (3,) by name, m
+    frequency_hz : (frequency,), up to the settings' highest
+    settings : spacing and duration
+    gradient : whether derivatives are asked for, too
+    progress : reports steps done
+    workers : microphones at a time; None: as many as there are processors
+
+    Raises
+    ------
+    ParameterError
+        A microphone or a point lies in a block, a gap is too thin, or a frequency too high.
+    SolverError
+        The pressure is no finite number.
+    """
+    settings = settings or RoomSettings()
+    if frequency_hz.size and frequency_hz.max() > settings.maximum_frequency_hz * (1.0 + 1e-9):
+        raise ParameterError(
+            f"room: {frequency_hz.max():g} Hz is asked for; the room is computed to "
+            f"{settings.maximum_frequency_hz:g} Hz"
+        )
+    boxes = cut(room, settings.spacing_m)
+    for name, position in microphones.items():
+        holding(boxes, position, f"microphones.{name}")
+    longest = settings.longest_s or reverberation_time_s(room)
+    return run_all(
+        boxes, faces(room, boxes), lattices, gradient, microphones, frequency_hz, settings, longest,
+        progress, workers,
+    )  # fmt: skip
+
+
+def spacing_error_db(
+    room: Room,
+    lattices: Sequence[Lattice],
+    microphones: Mapping[str, Array],
+    frequency_hz: Array,
+    settings: RoomSettings | None = None,
+    progress: Progress = no_progress,
+) -> dict[str, Array]:
+    """Level of the room minus that with half the spacing, by microphone, (frequency, point), dB.
+
+    The finer run takes sixteen times the work. Errors fall with the spacing's square, so that the
+    difference is some four thirds of the error that is left: it is published as it is.
+    """
+    settings = settings or RoomSettings()
+    finer = replace(settings, nodes_per_wave=2.0 * settings.nodes_per_wave)
+    of = (room, lattices, microphones, frequency_hz)
+    coarse, fine = (room_transfer(*of, one, progress=progress) for one in (settings, finer))
+    return {name: _difference_db(coarse[name].values, fine[name].values) for name in microphones}
+
+
+def _difference_db(coarse: Sequence[ComplexArray], fine: Sequence[ComplexArray]) -> Array:
+    parts = [
+        level_of_power(np.abs(a[:, 0]) ** 2 / np.abs(b[:, 0]) ** 2).reshape(a.shape[0], -1)
+        for a, b in zip(coarse, fine, strict=True)
+    ]
+    return np.concatenate(parts, axis=1)

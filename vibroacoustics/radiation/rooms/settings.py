@@ -58,5 +58,4 @@ def ricker(time_s: Array, maximum_frequency_hz: float) -> Array:
     """
     peak_hz = 0.45 * maximum_frequency_hz
     argument = (np.pi * peak_hz * (time_s - 2.25 / peak_hz)) ** 2
-    value: Array = (1.0 - 2.0 * argument) * np.exp(-argument)
-    return value
+    return np.asarray((1.0 - 2.0 * argument) * np.exp(-argument))

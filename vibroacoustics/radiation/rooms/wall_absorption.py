@@ -10,8 +10,7 @@ import xarray as xr
 from ...base.vocabulary import stamp
 from ..arrays import Array
 from .impedance import fitted_absorption
-from .materials import HARD, MOST_ABSORPTION, OCTAVES_HZ, WAVE_OCTAVES, Material
-from .room import SIDES, Room
+from .room import HARD, MOST_ABSORPTION, OCTAVES_HZ, SIDES, WAVE_OCTAVES, Material, Room
 
 MOST_DIFFERENCE: Final = 0.03
 """Largest difference from the requested absorption without a warning."""

@@ -11,7 +11,7 @@ from ...base.constants import SPEED_OF_SOUND_M_PER_S
 from ..arrays import Array, IndexArray
 from .box_step import kernel
 from .impedance import Branches, fitted_branches
-from .materials import WAVE_OCTAVES, Material
+from .room import WAVE_OCTAVES, Material
 from .settings import STEPS_PER_PERIOD
 
 _LOWEST_HZ: Final = 20.0
@@ -72,8 +72,7 @@ def _coefficients(material: Material, time_step_s: float) -> Array:
     resistance = stepped.resistance / 2.0
     total = mass + resistance + spring / 4.0
     rows = [1.0 / total, (mass - resistance - spring / 4.0) / total, spring / (2.0 * total)]
-    coefficients: Array = np.array(rows)
-    return coefficients
+    return np.asarray(np.array(rows))
 
 
 def stepped_branches(branches: Branches, time_step_s: float) -> Branches:
@@ -104,17 +103,9 @@ def stepped_branches(branches: Branches, time_step_s: float) -> Branches:
 
 
 @kernel
-def pass_walls(
-    pressure: Any,
-    change: Any,
-    patches: Any,
-    coefficients: Any,
-    mass: Any,
-    flux: Any,
-    sums: Any,
-    work: Any,
-) -> None:  # pragma: no cover
+def pass_walls(pressure: Any, change: Any, walls: Any) -> None:  # pragma: no cover
     """Fluxes into all walls a step on, and their change at the nodes."""
+    patches, coefficients, mass, flux, sums, work = walls
     start = 0
     for patch in range(patches.shape[0]):
         first, count = patches[patch]

@@ -5,6 +5,7 @@ impedances Fitzgerald, Kingsley & Umans, Electric Machinery, 6th ed., 9.3. Phaso
 peaks; at time zero the line voltage has its maximum.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
@@ -12,10 +13,18 @@ import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
 from ...base.errors import ParameterError
+from ...base.units import shaft_frequency_hz
 from .parameters import CapacitorMotor
 
 LARGEST_RUNNING_SLIP: Final = 0.5
 """The breakdown torque of a running compressor motor lies below this slip."""
+_GROW_WITH_FREQUENCY: Final = (
+    "line_voltage_v",
+    "main_leakage_ohm",
+    "auxiliary_leakage_ohm",
+    "magnetising_ohm",
+    "rotor_leakage_ohm",
+)
 
 
 @dataclass(frozen=True)
@@ -101,13 +110,7 @@ def operating_point(motor: CapacitorMotor, slip: float) -> OperatingPoint:
 
 def breakdown_slip(motor: CapacitorMotor) -> float:
     """Slip of the largest mean torque on the running part of the curve."""
-    breakdown = minimize_scalar(
-        lambda slip: -operating_point(motor, slip).torque_n_m,
-        bounds=(0.0, LARGEST_RUNNING_SLIP),
-        method="bounded",
-        options={"xatol": 1e-9},
-    )
-    return float(breakdown.x)
+    return _slip_of_largest(lambda slip: operating_point(motor, slip).torque_n_m)
 
 
 def point_at_torque(motor: CapacitorMotor, torque_n_m: float) -> OperatingPoint:
@@ -118,14 +121,65 @@ def point_at_torque(motor: CapacitorMotor, torque_n_m: float) -> OperatingPoint:
     ParameterError
         The load is beyond what the motor gives between no slip and its breakdown torque.
     """
-    top = breakdown_slip(motor)
-    least, most = (operating_point(motor, slip).torque_n_m for slip in (0.0, top))
-    if not least <= torque_n_m <= most:
-        raise ParameterError(
-            f"torque = {torque_n_m:.4g} N m: the motor gives {least:.4g} to {most:.4g} N m between "
-            "synchronous speed and breakdown"
-        )
-    slip = brentq(
-        lambda slip: operating_point(motor, slip).torque_n_m - torque_n_m, 0.0, top, xtol=1e-14
-    )
+    slip = _slip_at(lambda slip: operating_point(motor, slip).torque_n_m, torque_n_m)
     return operating_point(motor, float(slip))
+
+
+def on_supply(rated: CapacitorMotor, frequency_hz: float) -> CapacitorMotor:
+    """The motor at the same flux: reactances and voltage in proportion to the frequency."""
+    ratio = frequency_hz / rated.line_frequency_hz
+    grown = {name: ratio * getattr(rated, name) for name in _GROW_WITH_FREQUENCY}
+    return rated.model_copy(update={"line_frequency_hz": frequency_hz, **grown})
+
+
+def supply_frequency_hz(rated: CapacitorMotor, speed_rpm: float, torque_n_m: float) -> float:
+    """Supply on which the motor carries a load at a speed, f = p n/(60 (1 - s)).
+
+    By definition the slip is s = (n_s - n)/n_s, the speed n against the synchronous n_s = 60 f/p,
+    at which the field turns. It is that at which the motor on this supply, at the same flux, gives
+    the torque; the curve is that of its circuit (`operating_point`).
+
+    Parameters
+    ----------
+    rated : with the values of its line frequency
+    speed_rpm : of the shaft
+    torque_n_m : mean load against the rotation
+
+    Raises
+    ------
+    ParameterError
+        The motor does not give that torque at that speed on any supply.
+    """
+
+    def frequency(slip: float) -> float:
+        return rated.pole_pairs * shaft_frequency_hz(speed_rpm) / (1.0 - slip)
+
+    def torque(slip: float) -> float:
+        return operating_point(on_supply(rated, frequency(slip)), slip).torque_n_m
+
+    hint = ": give operation.supply_frequency_hz, or change the motor's table"
+    return frequency(_slip_at(torque, torque_n_m, f"at {speed_rpm:g} rpm ", hint))
+
+
+def _slip_of_largest(torque: Callable[[float], float]) -> float:
+    largest = minimize_scalar(
+        lambda slip: -torque(slip),
+        bounds=(0.0, LARGEST_RUNNING_SLIP),
+        method="bounded",
+        options={"xatol": 1e-9},
+    )
+    return float(largest.x)
+
+
+def _slip_at(
+    torque: Callable[[float], float], wanted_n_m: float, speed: str = "", hint: str = ""
+) -> float:
+    """Slip of the running part at which a mean torque over the slip carries a load."""
+    top = _slip_of_largest(torque)
+    least, most = torque(0.0), torque(top)
+    if not least <= wanted_n_m <= most:
+        raise ParameterError(
+            f"torque = {wanted_n_m:.4g} N m: the motor gives {least:.4g} to {most:.4g} N m {speed}"
+            f"between synchronous speed and breakdown{hint}"
+        )
+    return float(brentq(lambda slip: torque(slip) - wanted_n_m, 0.0, top, xtol=1e-14))

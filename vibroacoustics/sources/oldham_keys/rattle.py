@@ -1,5 +1,6 @@
 """Forces between keys and slots over steady revolutions at constant speed."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
 
@@ -7,10 +8,11 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from ...base.arrays import Array
+from ...base.curves import Curve, CurveAxis, angle_axis
 from ...base.errors import ParameterError, SolverError
 from ...base.units import shaft_frequency_hz
-from .contact import CONTACT_LAWS
-from .equations import COORDINATES, KEYS, Coupling
+from ...mechanics.rotation import uniform_crank_angle
+from .equations import CONTACT_LAWS, COORDINATES, KEYS, Coupling
 from .integration import integrate
 from .parameters import OldhamKeys
 
@@ -29,6 +31,13 @@ are then right to 0.1 N."""
 STICKING_SPEED_M_PER_S: Final = 2e-3
 """Friction grows as tanh of sliding speed over this one; at rated load a quarter of it
 changes no peak by more than 0.2 N. The ring slides at up to 1.3 m/s at 3500 rpm."""
+KEY_NAMES: Final = (
+    "in the scroll, y > 0",
+    "in the scroll, y < 0",
+    "in the housing, x > 0",
+    "in the housing, x < 0",
+)
+SOURCE: Final = "four keys with clearance, film and friction, our equations"
 
 
 @dataclass(frozen=True)
@@ -242,3 +251,55 @@ def _periodic_spline(name: str, values: Array) -> Array:
     closed = np.append(values, values[0])
     angles = np.linspace(0.0, 2.0 * np.pi, closed.size)
     return np.ascontiguousarray(CubicSpline(angles, closed, bc_type="periodic").c)
+
+
+def contact_loss_speed_rpm(
+    keys: OldhamKeys, ring_mass_kg: float, stroke_m: float, moment_n_m: Array
+) -> float:
+    """Speed above which a key leaves its face: ω² = min (1 - µ) M_z/(m r R |cos θ|), rpm.
+
+    Friction of the housing's keys, µ M_z/R, adds to the push on the ring just after its reversal.
+    Left out: the orbit's change of lever arms, r²/(4 R²) of the speed, and the overshoot when
+    friction changes its sign: with µ = 0.1 to 0.15 keys part at a speed lower by 3 %.
+
+    Parameters
+    ----------
+    keys : their radius and friction
+    ring_mass_kg : what moves with the ring along its stroke; a pendulum or a sprung mass may
+        multiply it
+    stroke_m : r, amplitude
+    moment_n_m : M_z over uniform crank angles from zero, shape (samples,), or one value in (1,)
+
+    Returns
+    -------
+    0 if the moment turns its sign
+    """
+    if np.min(moment_n_m) <= 0.0:
+        return 0.0
+    if moment_n_m.size == 1:
+        share = 1.0 / moment_n_m
+    else:
+        share = np.abs(np.cos(uniform_crank_angle(moment_n_m.size))) / moment_n_m
+    least_ratio = (1.0 - keys.friction_ratio) / float(np.max(share))
+    speed = np.sqrt(least_ratio / (ring_mass_kg * stroke_m * keys.radius_m))
+    return float(speed) * 30.0 / np.pi
+
+
+def oldham_key_curves(forces: KeyForces) -> Iterator[Curve]:
+    """Force on each of the four keys across its slot and, from friction, along it.
+
+    Parameters
+    ----------
+    forces : of one revolution or more, of which the first is shown
+    """
+    samples = forces.normal_n.shape[-1] // forces.revolutions
+    angle = angle_axis(forces.crank_angle[:samples])
+    axes = (CurveAxis("key", list(KEY_NAMES)), angle)
+    yield Curve(
+        "key_force", "Forces on the Oldham keys across their slots",
+        np.asarray(forces.normal_n[:, :samples]), axes, "n", SOURCE,
+    )  # fmt: skip
+    yield Curve(
+        "key_friction_force", "Friction forces on the Oldham keys along their slots",
+        np.asarray(forces.friction_n[:, :samples]), axes, "n", SOURCE,
+    )  # fmt: skip

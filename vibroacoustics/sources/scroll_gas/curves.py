@@ -5,13 +5,17 @@ from typing import Final
 
 import numpy as np
 
-from ...base.arrays import Array
+from ...base.arrays import Array, ComplexArray
 from ...base.curves import CRANK_ANGLES, Curve, CurveAxis, angle_axis
+from ...base.units import shaft_frequency_hz
+from ...machine.cavities import DischargeMuffler
 from ...mechanics.rotation import uniform_crank_angle
+from ...orders import order_spectrum
+from ...transfer.four_poles import pipe, pressure_ratio, transmission_loss_db
+from .chambers import pocket_volume
 from .cycle import ScrollGasCycle, scroll_gas_cycle
 from .opened_gas import OpenedGas, TrappedGas
 from .parameters import ScrollGas, ScrollWraps
-from .pockets import pocket_volume
 from .pressures import pocket_pressure
 from .suction import SuctionFlow
 
@@ -19,6 +23,8 @@ AFTER_OPENING: Final = np.pi / 3.0
 """How far the pressure of a pocket is shown beyond its opening, rad."""
 AFTER_CLOSING: Final = np.pi / 18.0
 """From where a suction pocket is shown, rad: before, the gap's length exceeds its own."""
+HIGHEST_HZ: Final = 4000.0
+"""Of plane waves in the chamber, roughly, and of what the radiation takes."""
 
 
 def scroll_gas_curves(
@@ -153,3 +159,61 @@ def _forces(cycle: ScrollGasCycle, angle: CurveAxis) -> Iterator[Curve]:
         np.array(list(directions.values())), (CurveAxis("reading", list(directions)), angle), "deg",
         "thesis, figure 20",
     )  # fmt: skip
+
+
+def discharge_line_curves(
+    muffler: DischargeMuffler,
+    opened: OpenedGas,
+    state: tuple[float, float],
+    tube_diameter_m: float,
+    speed_rpm: float,
+) -> Iterator[Curve]:
+    """Pressure in the tube over a turn, and transmission loss of the chamber.
+
+    The plenum gives the pressure at the tube's beginning, whatever the tube does: at these
+    frequencies it is much the softer of the two.
+
+    Parameters
+    ----------
+    muffler : chamber, and tube up to it
+    opened : gas after the opening, with the plenum's pressure
+    state : density and speed of sound at discharge, kg/m³ and m/s
+    tube_diameter_m : before and behind the chamber
+    speed_rpm : constant
+    """
+    density, sound_speed = state
+    tube = 0.25 * np.pi * tube_diameter_m**2
+    impedance, chamber = density * sound_speed / tube, 0.25 * np.pi * muffler.diameter_m**2
+
+    shaft = shaft_frequency_hz(speed_rpm)
+    orders = np.arange(int(HIGHEST_HZ / shaft) + 1)
+    lines = np.asarray(orders * shaft)
+    before = pipe(muffler.distance_m, tube, *state, lines)
+    through = np.matmul(before, pipe(muffler.length_m, chamber, *state, lines))
+    angle = np.linspace(0.0, 2.0 * np.pi, CRANK_ANGLES + 1, dtype=np.float64)
+    at_shell = np.interp(angle[:-1], opened.since_opening, opened.plenum_pa)
+    spectrum = order_spectrum(at_shell, int(orders[-1]))
+    spectrum[0] = 0.0
+    behind = spectrum * pressure_ratio(through, impedance)
+    courses = {"at the shell": spectrum, "behind the muffler": behind}
+    yield Curve(
+        "tube_pressure", "Pulsation in the discharge tube",
+        np.array([_over_angle(one, angle) for one in courses.values()]),
+        (CurveAxis("tube_at", list(courses)),
+         angle_axis(angle, "opening_angle", "Crank angle since a pocket has opened")),
+        "bar", "derived: plane waves in tube and chamber",
+    )  # fmt: skip
+    frequency = np.linspace(0.0, HIGHEST_HZ, 801, dtype=np.float64)
+    poles = pipe(muffler.length_m, chamber, *state, frequency)
+    yield Curve(
+        "muffler_loss", "Transmission loss of the muffler's chamber",
+        transmission_loss_db(poles, impedance),
+        (CurveAxis("tube_frequency", frequency, "hz", "Frequency"),), "db",
+        "Munjal, Acoustics of Ducts and Mufflers, 1987",
+    )  # fmt: skip
+
+
+def _over_angle(spectrum: ComplexArray, angle: Array) -> Array:
+    """Course of complex peaks by order."""
+    turning = np.exp(1j * np.outer(np.arange(spectrum.size), angle))
+    return np.asarray((spectrum @ turning).real)

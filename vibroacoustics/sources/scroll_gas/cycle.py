@@ -6,9 +6,9 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...mechanics.moving_parts import path
+from .chambers import area_inside, contact_angle, contact_count
 from .opened_gas import OpenedGas
 from .parameters import ScrollGas, ScrollWraps
-from .pockets import area_inside, contact_angle, contact_count
 from .pressures import pocket_pressure
 
 

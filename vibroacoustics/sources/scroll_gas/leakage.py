@@ -9,12 +9,11 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from ...base.arrays import Array
-from .chambers import contacts_at_opening
+from .chambers import contact_angle, contacts_at_opening, pocket_volume
 from .leakage_equations import LeakingPairs, leaking_turn
 from .opened_gas import TrappedGas
 from .opening_equations import OpeningConstants
 from .parameters import ScrollGas, ScrollLeakage, ScrollWraps
-from .pockets import contact_angle, pocket_volume
 from .pressures import built_in_pressure_pa, polytropic_pressure_pa
 from .suction import SuctionFlow
 

@@ -4,7 +4,7 @@ Compressible gas in each volume, ρ = ρ_d (p/p_d)^(1/κ); in gap and port the u
 passage, (l/A) dm/dt = Δp - m|m|/(2 ρ (C A)²), with the density where it comes from.
 """
 
-from typing import Final, NamedTuple, Protocol
+from typing import Any, Final, NamedTuple
 
 import numba
 import numpy as np
@@ -40,37 +40,22 @@ class OpeningConstants(NamedTuple):
     """κ = ρ c²/p of the gas at discharge."""
 
 
-class GasConstants(Protocol):
-    """What density, pressure and flow follow with."""
-
-    @property
-    def discharge_coefficient(self) -> float: ...
-    @property
-    def pressure(self) -> float: ...
-    @property
-    def density(self) -> float: ...
-    @property
-    def stiffness_exponent(self) -> float: ...
-
-
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def density(pressure: float, c: GasConstants) -> float:
+def density(pressure: float, c: Any) -> float:
     """Density of the gas at a pressure, kg/m³."""
     return float(c.density * (pressure / c.pressure) ** (1.0 / c.stiffness_exponent))
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def pressure_rise(
-    pressure: float, rho: float, volume: float, swelling: float, inflow: float, c: GasConstants
+    pressure: float, rho: float, volume: float, swelling: float, inflow: float, c: Any
 ) -> float:
     """dp/dt = κ p/V (inflow/ρ - dV/dt), Pa/s."""
     return float(c.stiffness_exponent * pressure / volume * (inflow / rho - swelling))
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def flow_rise(
-    flow: float, drop: float, rho: float, area: float, length: float, c: GasConstants
-) -> float:
+def flow_rise(flow: float, drop: float, rho: float, area: float, length: float, c: Any) -> float:
     """dm/dt through a passage, kg/s²; none through a closed one."""
     if area <= 0.0:
         return 0.0

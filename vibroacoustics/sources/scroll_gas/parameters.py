@@ -3,10 +3,10 @@
 from typing import Literal
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from ...base.errors import ParameterError
-from ...base.parameters import Parameters
+from ...base.parameters import Contradictions, Parameters
 
 PRESSURE = Field(gt=0.0, le=1e9)
 
@@ -51,24 +51,20 @@ class ScrollWraps(Parameters):
         """
         return float(self.end_angle_rad - 3.0 * np.pi - self.start_angle_rad)
 
-    @model_validator(mode="after")
-    def _orbits_and_closes(self) -> "ScrollWraps":
+    def contradictions(self) -> Contradictions:
         if self.orbit_radius_m <= 0.0:
-            raise ValueError(
+            yield (
                 f"thickness_mm = {1e3 * self.thickness_m:g} mm: must be below "
                 f"π base_radius_mm = {1e3 * np.pi * self.base_radius_m:g} mm"
             )
         if self.start_angle_rad < self.half_thickness_angle:
-            raise ValueError(
+            yield (
                 f"start_angle_deg = {np.degrees(self.start_angle_rad):g}°: must be at least half "
                 f"the thickness over the base radius, {np.degrees(self.half_thickness_angle):g}°"
             )
         if self.opening_angle_rad <= 0.0:
             least = 1.5 + self.start_angle_rad / (2.0 * np.pi)
-            raise ValueError(
-                f"turns = {self.turns:g}: must exceed {least:g}, or no pocket ever closes"
-            )
-        return self
+            yield f"turns = {self.turns:g}: must exceed {least:g}, or no pocket ever closes"
 
 
 class ScrollGas(Parameters):
@@ -110,14 +106,12 @@ class ScrollGas(Parameters):
             raise ParameterError(f"gas.discharge_{missing}: is missing; the law inertia needs it")
         return density, sound
 
-    @model_validator(mode="after")
-    def _compresses(self) -> "ScrollGas":
+    def contradictions(self) -> Contradictions:
         if self.discharge_pressure_pa <= self.suction_pressure_pa:
-            raise ValueError(
+            yield (
                 f"discharge_pressure_bar = {1e-5 * self.discharge_pressure_pa:g} bar: must exceed "
                 f"suction_pressure_bar = {1e-5 * self.suction_pressure_pa:g} bar"
             )
-        return self
 
 
 class ScrollOpening(Parameters):

@@ -5,9 +5,9 @@ from typing import Final
 import numpy as np
 
 from ...base.arrays import Array
+from .chambers import pocket_volume
 from .opened_gas import OpenedGas
 from .parameters import ScrollGas, ScrollWraps
-from .pockets import pocket_volume
 
 OPENED_BEFORE: Final = 1e-9
 """Crank angle before the opening at which a pocket counts as open, rad: rounding must not decide

@@ -13,10 +13,9 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.units import shaft_frequency_hz
-from .chambers import swept_volume_m3
+from .chambers import contact_angle, swept_volume_m3
 from .opening_equations import density, flow_rise, pressure_rise
 from .parameters import ScrollWraps
-from .pockets import contact_angle
 
 STEPS_PER_S: Final = 400_000.0
 """The pocket is small at first: its gas swings at some 30 kHz in the gap."""
@@ -73,22 +72,6 @@ class FillingConstants(NamedTuple):
     pressure: float
     density: float
     stiffness_exponent: float
-
-
-def suction_volume_m3(wraps: ScrollWraps, since_closing: Array) -> Array:
-    """Of one suction pocket, m³: ∫ h r_o (1 - cos(t - t_c)) r_b t dt from its contact to t_e.
-
-    The crescent between the flanks, t_c = t_e - φ; after a turn that of a closed pocket.
-
-    Parameters
-    ----------
-    wraps : geometry
-    since_closing : crank angle since the pocket before it has closed, 0 to 2π, rad
-    """
-    outer = float(contact_angle(wraps, np.zeros(())))
-    swept, angle = swept_volume_m3(wraps), np.asarray(since_closing)
-    crescent = 0.5 * (outer**2 - (outer - angle) ** 2)
-    return np.asarray(0.5 * swept * (crescent - outer * np.sin(angle) - np.cos(angle) + 1.0))
 
 
 def suction_flow(

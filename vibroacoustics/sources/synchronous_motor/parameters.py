@@ -3,9 +3,9 @@
 import math
 from typing import Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ...base.parameters import Parameters
+from ...base.parameters import Contradictions, Parameters
 
 RATIO = Field(default=0.0, ge=-1.0, le=1.0)
 
@@ -62,11 +62,9 @@ class SynchronousMotor(Parameters):
         """Of the shaft: the least common multiple of slots and poles."""
         return math.lcm(self.slots, 2 * self.pole_pairs)
 
-    @model_validator(mode="after")
-    def _dead_time_fits(self) -> "SynchronousMotor":
+    def contradictions(self) -> Contradictions:
         if self.dead_time_s * self.switching_frequency_hz > 0.1:
-            raise ValueError(
+            yield (
                 f"dead_time_us = {1e6 * self.dead_time_s:g} µs: more than a tenth of a switching "
                 f"period of {1e6 / self.switching_frequency_hz:.4g} µs"
             )
-        return self

@@ -9,9 +9,8 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from ...base.arrays import Array, ComplexArray
-from .harmonics import OperatingPoint
+from .harmonics import OperatingPoint, pair_currents
 from .parameters import SynchronousMotor
-from .saliency import pair_currents
 
 SAMPLES: Final = 1024
 """Of the reference; the series is exact to rounding for a sine."""

@@ -5,6 +5,7 @@ from typing import Final
 from ...machine.machine import MACHINES
 from ...machine.option import OPTIONS
 from ..evidence import Evidence
+from ..loading import FILLED_IN
 from ..machine_file import POINTS
 from ..study import Study
 from ..titles import LONGEST
@@ -27,17 +28,13 @@ _STEPS: Final[Schema] = {
     "required": ["start", "stop", "step"],
     "properties": {key: {"type": "number"} for key in ("start", "stop", "step")},
 }
-_FILLED_IN: Final = (
-    "records", "ranges", "held_ranges", "source_file", "given", "catalogue_machine", "coarsened",
-    "left_out", "titles",
-)  # fmt: skip
 
 
 def study_schema() -> Schema:
     """Of a study's file, which may extend another."""
     raw = Study.model_json_schema(schema_generator=FileSchema)
     machine = raw["properties"]["machine"]
-    for name in _FILLED_IN:
+    for name in FILLED_IN:
         del raw["properties"][name]
     made = in_file(raw)
     definitions, properties = made["$defs"], made["properties"]

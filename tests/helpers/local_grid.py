@@ -5,9 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Array, IndexArray
-from .materials import Material
-from .room import Room
+from vibroacoustics.radiation.arrays import Array, IndexArray
+from vibroacoustics.radiation.rooms.room import Material, Room
 
 
 @dataclass(frozen=True)
@@ -97,5 +96,5 @@ def _behind(room: Room, cell: Array, axis: int, end: int, level: float) -> Mater
     if width < level < room.size_m[axis] - width:  # the next cell's middle lies in the block
         point[axis] += width if end else -width
     material = room.material(axis, end, point)
-    assert material is not None  # noqa: S101  # air cells are told apart before
+    assert material is not None  # air cells are told apart before
     return material

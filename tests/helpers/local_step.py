@@ -8,18 +8,18 @@ from functools import partial
 from typing import Any, Final
 
 import numpy as np
+from local_grid import LocalGrid, local_grid
 
-from ...base.constants import SPEED_OF_SOUND_M_PER_S
-from ...base.progress import Progress, no_progress
-from ...base.threads import in_threads
-from ..arrays import Array, ComplexArray
-from ..pulse import RunningTransform, transform
-from .box_step import fast_kernel
-from .decay import reverberation_time_s
-from .local_grid import LocalGrid, local_grid
-from .room import Room
-from .settings import RoomSettings
-from .wall_step import WallPatch, Walls, pass_walls
+from vibroacoustics.base.constants import SPEED_OF_SOUND_M_PER_S
+from vibroacoustics.base.progress import Progress, no_progress
+from vibroacoustics.base.threads import in_threads
+from vibroacoustics.radiation.arrays import Array, ComplexArray
+from vibroacoustics.radiation.pulse import RunningTransform, transform
+from vibroacoustics.radiation.rooms.box_step import fast_kernel
+from vibroacoustics.radiation.rooms.diffuse import reverberation_time_s
+from vibroacoustics.radiation.rooms.room import Room
+from vibroacoustics.radiation.rooms.settings import RoomSettings
+from vibroacoustics.radiation.rooms.wall_step import WallPatch, Walls, pass_walls
 
 _BELOW_LIMIT: Final = 0.999
 _PROGRESS_STEPS: Final = 200
@@ -117,7 +117,7 @@ class LocalField:
     def advance(self) -> None:
         """One step."""
         flat = self.pressure.reshape(-1)
-        pass_walls(flat[self._cells], self._change, *self._walls.arguments)
+        pass_walls(flat[self._cells], self._change, self._walls.arguments)
         _step(self.pressure, self._before, self._stays, self._air, *self._squares)
         _take(self._before.reshape(-1), self._cells, self._loss, self._change)
         self.pressure, self._before = self._before, self.pressure
