@@ -125,7 +125,10 @@ if TYPE_CHECKING:
     from .measured.blocked_forces import blocked_forces
     from .measured.change import changed_response
     from .measured.inversion import inverted_forces
+    from .measured.measurement_surface import MeasurementSurface
     from .measured.prediction import predict
+    from .measured.recorded_orders import analyse_orders, speed_frequency_map, track_orders
+    from .measured.sound_power import sound_power
     from .mechanics.added import Added, FurtherRing, InsertionLoss, RingForce
     from .mechanics.capabilities import BalancePlanes, Capability, CrankFrame, OldhamRing, Slider
     from .mechanics.loads import Loads, Noise, Tone
@@ -139,16 +142,7 @@ if TYPE_CHECKING:
     from .mechanics.ports import HOUSING, Port
     from .mechanics.rotation import Rotation, constant_rotation
     from .orders.recorded_speed import PulseWarning
-    from .pipeline import (
-        MeasurementSurface,
-        analyse_orders,
-        impulse_responses,
-        radiate,
-        run,
-        sound_power,
-        speed_frequency_map,
-        track_orders,
-    )
+    from .pipeline import impulse_responses, radiate, run
     from .radiation import rooms
     from .radiation.given import given_radiation
     from .recordings import (
@@ -344,7 +338,7 @@ _HOME = {
     "Loads": "mechanics.loads",
     "Machine": "machine.machine",
     "MeasuredFunction": "recordings",
-    "MeasurementSurface": "pipeline",
+    "MeasurementSurface": "measured.measurement_surface",
     "MovingPart": "mechanics.moving_parts",
     "Need": "design.engine.seen",
     "Node": "recordings",
@@ -378,7 +372,7 @@ _HOME = {
     "Variable": "base.vocabulary",
     "VibroacousticsError": "base.errors",
     "Wrench": "mechanics.moving_parts",
-    "analyse_orders": "pipeline",
+    "analyse_orders": "measured.recorded_orders",
     "blocked_forces": "measured.blocked_forces",
     "changed_response": "measured.change",
     "check": "base.vocabulary",
@@ -414,11 +408,11 @@ _HOME = {
     "register": "base.registry",
     "run": "pipeline",
     "score": "scoring",
-    "sound_power": "pipeline",
-    "speed_frequency_map": "pipeline",
+    "sound_power": "measured.sound_power",
+    "speed_frequency_map": "measured.recorded_orders",
     "stamp": "base.vocabulary",
     "sweep": "design.sweep",
-    "track_orders": "pipeline",
+    "track_orders": "measured.recorded_orders",
     "wrenches_of_parts": "mechanics.moving_parts",
     "write_data_sheet": "commands.sheets",
     "write_report": "commands.outputs",

@@ -104,7 +104,8 @@ def orders_command(
     paper: Paper = None,
 ) -> None:
     """Find the orders of a recording: orders.html, netCDF, CSV, figures and a table."""
-    from .. import pipeline, report
+    from .. import report
+    from ..measured.recorded_orders import analyse_orders
     from . import arguments, checking, outputs, reading
     from .printing import printer
 
@@ -121,7 +122,7 @@ def orders_command(
         recording_file, unit, calibration, channels, sample_rate, from_s, to_s, plugin
     ).in_blocks()
     with progress_on_stderr() as progress:
-        results = pipeline.analyse_orders(recording, settings, progress)
+        results = analyse_orders(recording, settings, progress)
         results = checking.held_against(results, allowed)
         written = outputs.write_orders(results, folder, prints)
     typer.echo(report.orders_text(results))
@@ -160,7 +161,8 @@ def track_command(
     plugin: Plugins = None,
 ) -> None:
     """Track orders over the time of a recording (Vold-Kalman): netCDF, figures and a table."""
-    from .. import pipeline, report
+    from .. import report
+    from ..measured.recorded_orders import track_orders
     from . import arguments, outputs, reading, recorded_outputs
 
     source = arguments.speed_source(
@@ -172,7 +174,7 @@ def track_command(
     recording = reading.Reading(
         recording_file, unit, calibration, channels, sample_rate, from_s, to_s, plugin
     ).at_once()
-    tracked = pipeline.track_orders(recording, source, numbers, bandwidth, poles)
+    tracked = track_orders(recording, source, numbers, bandwidth, poles)
     written = recorded_outputs.write_tracked(tracked, folder)
     typer.echo(report.tracked_text(tracked))
     typer.echo(f"tracked orders: {written}")
@@ -205,7 +207,7 @@ def map_command(
     plugin: Plugins = None,
 ) -> None:
     """Draw a recording over speed and frequency, its level over the speed: page, figures."""
-    from .. import pipeline
+    from ..measured.recorded_orders import speed_frequency_map
     from . import arguments, outputs, reading, recorded_outputs
 
     source = arguments.speed_source(
@@ -216,7 +218,7 @@ def map_command(
     recording = reading.Reading(
         recording_file, unit, calibration, channels, sample_rate, from_s, to_s, plugin
     ).at_once()
-    mapped = pipeline.speed_frequency_map(recording, source, resolution, maximum_frequency)
+    mapped = speed_frequency_map(recording, source, resolution, maximum_frequency)
     typer.echo(f"speed-frequency map: {recorded_outputs.write_speed_map(mapped, folder)}")
     typer.echo(f"report: {folder / recorded_outputs.SPEED_MAP_REPORT_NAME}")
 
