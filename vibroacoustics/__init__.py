@@ -109,6 +109,7 @@ if TYPE_CHECKING:
     from .design.optimising import optimise
     from .design.problem import Problem
     from .design.sweep import sweep
+    from .machine.cases import Cases
     from .machine.cavities import GasPort
     from .machine.frame import (
         BEARING_HOUSING,
@@ -171,7 +172,7 @@ if TYPE_CHECKING:
     from .results.storage import open_results
     from .scoring import score
     from .sources.curves import curves
-    from .stages.chain import Cases, Chain
+    from .stages.chain import Chain
     from .stages.stage import Given, Stage
     from .study.criterion import Criterion
     from .study.loading import load_machine, load_study
@@ -318,7 +319,7 @@ _HOME = {
     "BalancePlanes": "mechanics.capabilities",
     "Capability": "mechanics.capabilities",
     "Case": "machine.source",
-    "Cases": "stages.chain",
+    "Cases": "machine.cases",
     "Chain": "stages.chain",
     "Column": "report.columns",
     "Coordinate": "base.vocabulary",
