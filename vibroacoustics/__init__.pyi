@@ -32,6 +32,7 @@ from .design.figure import DesignFigure as DesignFigure
 from .design.optimising import optimise as optimise
 from .design.problem import Problem as Problem
 from .design.sweep import sweep as sweep
+from .machine.cases import Cases as Cases
 from .machine.cavities import GasPort as GasPort
 from .machine.frame import BEARING_HOUSING as BEARING_HOUSING
 from .machine.frame import FIXED_SCROLL as FIXED_SCROLL
@@ -47,7 +48,12 @@ from .machine.suspension import BLOCK as BLOCK
 from .measured.blocked_forces import blocked_forces as blocked_forces
 from .measured.change import changed_response as changed_response
 from .measured.inversion import inverted_forces as inverted_forces
+from .measured.measurement_surface import MeasurementSurface as MeasurementSurface
 from .measured.prediction import predict as predict
+from .measured.recorded_orders import analyse_orders as analyse_orders
+from .measured.recorded_orders import speed_frequency_map as speed_frequency_map
+from .measured.recorded_orders import track_orders as track_orders
+from .measured.sound_power import sound_power as sound_power
 from .mechanics.added import Added as Added
 from .mechanics.added import FurtherRing as FurtherRing
 from .mechanics.added import InsertionLoss as InsertionLoss
@@ -70,14 +76,9 @@ from .mechanics.ports import Port as Port
 from .mechanics.rotation import Rotation as Rotation
 from .mechanics.rotation import constant_rotation as constant_rotation
 from .orders.recorded_speed import PulseWarning as PulseWarning
-from .pipeline import MeasurementSurface as MeasurementSurface
-from .pipeline import analyse_orders as analyse_orders
 from .pipeline import impulse_responses as impulse_responses
 from .pipeline import radiate as radiate
 from .pipeline import run as run
-from .pipeline import sound_power as sound_power
-from .pipeline import speed_frequency_map as speed_frequency_map
-from .pipeline import track_orders as track_orders
 from .radiation import rooms as rooms
 from .radiation.given import given_radiation as given_radiation
 from .recordings import MeasuredFunction as MeasuredFunction
@@ -106,7 +107,6 @@ from .results.order_limits import check_limits as check_limits
 from .results.storage import open_results as open_results
 from .scoring import score as score
 from .sources.curves import curves as curves
-from .stages.chain import Cases as Cases
 from .stages.chain import Chain as Chain
 from .stages.stage import Given as Given
 from .stages.stage import Stage as Stage

@@ -5,10 +5,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vibroacoustics.levels.axes import LevelAxes
+from vibroacoustics.levels.nominal import NominalSound
 from vibroacoustics.levels.remainder import over_published, remaining_by_draw
-from vibroacoustics.stages.chain import Cases, Chain
-from vibroacoustics.stages.levels import NominalSound
-from vibroacoustics.stages.paths import with_published
+from vibroacoustics.machine.cases import Cases
+from vibroacoustics.stages.chain import Chain
+from vibroacoustics.stages.forces import with_published
 from vibroacoustics.stages.radiation import transfer_vectors
 from vibroacoustics.stages.sampled import sounds_of
 from vibroacoustics.stages.stage import advanced, applying

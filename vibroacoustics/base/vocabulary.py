@@ -126,6 +126,26 @@ def stamp(
     return labelled
 
 
+def stamped(values: Mapping[str, Any], coords: Mapping[str, Any]) -> xr.Dataset:
+    """Label arrays as variables of the vocabulary, each with the coordinates of its dimensions.
+
+    Parameters
+    ----------
+    values : arrays by name of a registered variable
+    coords : coordinate values by dimension, of all of them
+
+    Raises
+    ------
+    SchemaError
+        A name is unknown, or an array does not fit its variable.
+    """
+    arrays = {}
+    for name, array in values.items():
+        dims = _look_up(VARIABLES, name).dims
+        arrays[name] = stamp(name, array, {dim: coords[dim] for dim in dims})
+    return check(xr.Dataset(arrays))
+
+
 def check(dataset: xr.Dataset, required: Sequence[str] = ()) -> xr.Dataset:
     """Return the dataset if all of its variables obey the vocabulary.
 

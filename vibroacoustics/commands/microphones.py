@@ -10,7 +10,7 @@ import xarray as xr
 from ..base.column_file import read_columns
 from ..base.errors import ParameterError
 from ..levels.measured_power import reverberant_absorption_area_m2
-from ..pipeline import MeasurementSurface
+from ..measured.measurement_surface import MeasurementSurface
 from .reading import Reading
 
 Absorption = float | dict[float, float] | None

@@ -43,7 +43,8 @@ def orders_command(
     paper: Paper = None,
 ) -> None:
     """Find the orders of a recording: orders.html, netCDF, CSV, figures and a table."""
-    from .. import pipeline, report
+    from .. import report
+    from ..measured.recorded_orders import analyse_orders
     from ..study.order_analysis import BAND_METHODS, OrderAnalysis
     from . import arguments, checking, outputs
     from .printing import printer
@@ -63,7 +64,7 @@ def orders_command(
     allowed = checking.read(limits)
     recording = reading.in_blocks(recording_file, plugin)
     with progress_on_stderr() as progress:
-        results = pipeline.analyse_orders(recording, settings, progress)
+        results = analyse_orders(recording, settings, progress)
         results = checking.held_against(results, allowed)
         written = outputs.write_orders(results, folder, prints)
     typer.echo(report.orders_text(results))
@@ -91,7 +92,8 @@ def track_command(
     plugin: Plugins = None,
 ) -> None:
     """Track orders over the time of a recording (Vold-Kalman): netCDF, figures and a table."""
-    from .. import pipeline, report
+    from .. import report
+    from ..measured.recorded_orders import track_orders
     from . import arguments, outputs, recorded_outputs
 
     source = speed.source()
@@ -99,7 +101,7 @@ def track_command(
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
     recording = reading.at_once(recording_file, plugin)
-    tracked = pipeline.track_orders(recording, source, numbers, bandwidth, poles)
+    tracked = track_orders(recording, source, numbers, bandwidth, poles)
     written = recorded_outputs.write_tracked(tracked, folder)
     typer.echo(report.tracked_text(tracked))
     typer.echo(f"tracked orders: {written}")
@@ -121,14 +123,14 @@ def map_command(
     plugin: Plugins = None,
 ) -> None:
     """Draw a recording over speed and frequency, its level over the speed: page, figures."""
-    from .. import pipeline
+    from ..measured.recorded_orders import speed_frequency_map
     from . import outputs, recorded_outputs
 
     source = speed.source()
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
     recording = reading.at_once(recording_file, plugin)
-    mapped = pipeline.speed_frequency_map(recording, source, resolution, maximum_frequency)
+    mapped = speed_frequency_map(recording, source, resolution, maximum_frequency)
     typer.echo(f"speed-frequency map: {recorded_outputs.write_speed_map(mapped, folder)}")
     typer.echo(f"report: {folder / recorded_outputs.SPEED_MAP_REPORT_NAME}")
 

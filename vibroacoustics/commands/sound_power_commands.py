@@ -59,7 +59,8 @@ def sound_power_command(
     plugin: Plugins = None,
 ) -> None:
     """Sound power of a machine from the microphones around it, with K1 and K2 (ISO 3744)."""
-    from .. import pipeline, report
+    from .. import report
+    from ..measured.sound_power import sound_power
     from . import microphones, outputs
 
     folder, quiet = out or Path("reports") / files[0].stem, background or []
@@ -69,7 +70,7 @@ def sound_power_command(
     reading = Reading(unit, calibration, sample_rate=sample_rate)
     given = ([*files, *quiet], reading, plugin)
     running, still = (microphones.read_files(each, *given) for each in (files, quiet))
-    measured = pipeline.sound_power(running, surface, still, absorption)
+    measured = sound_power(running, surface, still, absorption)
     tables = {
         "sound_power.csv": report.measured_power_csv(measured),
         "sound_power.html": report.measured_power_html(measured),

@@ -10,7 +10,7 @@ from ..base.arrays import Array
 from ..machine.source import CaseKey
 from ..study.study import Study
 from .bands import Band
-from .by_source import SourceSound, filled_thirds
+from .by_source import filled_thirds
 
 
 @dataclass(frozen=True)
@@ -34,17 +34,16 @@ class LevelAxes:
     @classmethod
     def of(cls, study: Study, sources: Sequence[str], results: xr.Dataset) -> "LevelAxes":
         """Axes of a study's results with the sources of these names."""
-        baseline = None if study.measured is None else study.measured.baseline
         return cls(
             list(study.operation.speed_rpm),
             list(study.options),
             sources,
             [str(name) for name in results["receiver"].values],
             filled_thirds(study.radiation.maximum_frequency_hz),
-            () if baseline is None else baseline.all_orders,
+            () if study.baseline is None else study.baseline.all_orders,
         )
 
-    def gathered(self, sound: Mapping[CaseKey, SourceSound], part: str) -> Array:
+    def gathered(self, sound: Mapping[CaseKey, object], part: str) -> Array:
         """A part of the sound of all cases, shape (speed, option, ...)."""
         return np.array([[getattr(sound[s, o], part) for o in self.options] for s in self.speeds])
 

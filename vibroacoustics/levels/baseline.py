@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -10,7 +9,7 @@ import xarray as xr
 from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level, power_of_level
-from ..base.vocabulary import REFERENCE_OPTION, check, stamp
+from ..base.vocabulary import REFERENCE_OPTION, stamped
 from ..machine.source import CaseKey
 from ..study.study import Study
 from .axes import LevelAxes
@@ -48,9 +47,9 @@ class Changed:
 
 def points_of(study: Study, axes: LevelAxes) -> dict[PointKey, MeasuredPoint]:
     """What was measured at the microphones and speeds of a study; nothing without a baseline."""
-    if study.measured is None or study.measured.baseline is None:
+    if study.baseline is None:
         return {}
-    return measured_points(study.measured.baseline, axes.receivers, axes.speeds)
+    return measured_points(study.baseline, axes.receivers, axes.speeds)
 
 
 def with_baseline(
@@ -151,21 +150,16 @@ def baseline_variables(
         tones = changed.order @ holds(point.frequency_hz)[:, point.band]
         bands[s][:, r, point.band] = _level(changed.rest + changed.beside + tones)
         share[s, r, point.band] = _ratio(changed.beside[none], point.rest)
-    shared: dict[str, Any] = {"speed": list(axes.speeds), "receiver": list(axes.receivers)}
-    in_bands = {"baseline_band": [band.nominal_hz for band in BASELINE_BANDS]}
-    in_orders = {"baseline_order": order}
-    arrays = {
-        "baseline_share": (share, shared | in_bands),
-        "baseline_band_level": (bands, axes.by_receiver | in_bands),
-    }
+    values = {"baseline_share": share, "baseline_band_level": bands}
     if order.size:
-        arrays |= {
-            "baseline_order_share": (order_share, shared | in_orders),
-            "baseline_order_phase": (phase, shared | in_orders),
-            "baseline_order_pressure": (peak, shared | in_orders),
-            "baseline_order_level": (orders, axes.by_receiver | in_orders),
+        values |= {
+            "baseline_order_share": order_share,
+            "baseline_order_phase": phase,
+            "baseline_order_pressure": peak,
+            "baseline_order_level": orders,
         }
-    return check(xr.Dataset({name: stamp(name, value, at) for name, (value, at) in arrays.items()}))
+    names = [band.nominal_hz for band in BASELINE_BANDS]
+    return stamped(values, {**axes.by_receiver, "baseline_band": names, "baseline_order": order})
 
 
 def _changed(

@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
-from ..base.vocabulary import check, stamp
+from ..base.vocabulary import stamped
 from ..machine.source import CaseKey
 from ..mechanics.received_sound import ReceivedSound
 from .axes import LevelAxes
@@ -33,12 +33,8 @@ def noise_levels(
     rest = np.zeros((*remaining.shape[:2], len(BASELINE_BANDS)))
     rest[..., _OF_REMAINDER] = remaining / weighting_power("A", MIDDLE_HZ[_OF_REMAINDER])
     bands = {"noise_band": [band.nominal_hz for band in BASELINE_BANDS]}
-    by_option = {name: axes.by_receiver[name] for name in ("speed", "option")}
-    arrays = {
-        "noise_band_level": stamp("noise_band_level", level(noise), axes.by_receiver | bands),
-        "remainder_band_level": stamp("remainder_band_level", level(rest), by_option | bands),
-    }
-    return check(xr.Dataset(arrays))
+    values = {"noise_band_level": level(noise), "remainder_band_level": level(rest)}
+    return stamped(values, axes.by_receiver | bands)
 
 
 def _noise(sound: ReceivedSound, axes: LevelAxes) -> Array:

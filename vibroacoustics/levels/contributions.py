@@ -1,13 +1,13 @@
 """Levels and shares of the paths of sound, labelled."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
-from ..base.vocabulary import check, stamp
+from ..base.vocabulary import stamped
 from ..machine.source import CaseKey
 from ..mechanics.contributions import Contributions, PathName
 from .axes import LevelAxes
@@ -91,45 +91,33 @@ def contribution_variables(
         radiated[:, speeds.index(speed), axes.options.index(option), rows] = of_motions(split)
     total = part.sum(axis=2, keepdims=True)
     share = _shares(part, total)
-    coords = _coordinates(axes, names, speeds)
-    ordered = {**coords, "path_order": [float(order) for order in orders]}
-    banded = {**coords, "band": [band.nominal_hz for band in axes.bands]}
-    of_all = {name: values for name, values in banded.items() if not name.startswith("path")}
-    of_all["path_speed"] = speeds
     lines = radiated[1].sum(axis=2, keepdims=True)
-    by_motion = {name: values for name, values in of_all.items() if name != "band"}
-    by_motion["radiating_motion"] = motions
-    arrays = {
-        "path_pressure": (pressure, ordered),
-        "path_level": (level(alone[..., -1]), coords),
-        "path_share": (share[..., -1], coords),
-        "motion_level": (level(radiated[0]), by_motion),
-        "motion_share": (_shares(radiated[1], lines), by_motion),
-        "path_band_level": (level(alone[..., :-1]), banded),
-        "path_band_share": (share[..., :-1], banded),
-        "modelled_band_level": (level(total[:, :, 0, :, :-1]), of_all),
+    values = {
+        "path_pressure": pressure,
+        "path_level": level(alone[..., -1]),
+        "path_share": share[..., -1],
+        "motion_level": level(radiated[0]),
+        "motion_share": _shares(radiated[1], lines),
+        "path_band_level": level(alone[..., :-1]),
+        "path_band_share": share[..., :-1],
+        "modelled_band_level": level(total[:, :, 0, :, :-1]),
     }
-    return check(
-        xr.Dataset({name: stamp(name, values, at) for name, (values, at) in arrays.items()})
-    )
+    coords = {
+        **axes.by_receiver,
+        "path_speed": speeds,
+        "path": [f"{name.source}: {name.port} {name.direction}" for name in names],
+        "path_order": [float(order) for order in orders],
+        "radiating_motion": motions,
+        "band": [band.nominal_hz for band in axes.bands],
+    }
+    of_paths = {
+        f"path_{part}": ("path", [getattr(name, part) for name in names])
+        for part in PathName._fields
+    }
+    return stamped(values, coords).assign_coords(of_paths)
 
 
 def _shares(part: Array, total: Array) -> Array:
     """Parts over their sum; none of what is silent beside the loudest."""
     sounds = total > SILENT * total.max(initial=0.0)
     return np.where(sounds, part / np.where(sounds, total, 1.0), 0.0)
-
-
-def _coordinates(
-    axes: LevelAxes, names: Sequence[PathName], speeds: Sequence[float]
-) -> dict[str, Any]:
-    return {
-        "path_speed": list(speeds),
-        "option": list(axes.options),
-        "receiver": list(axes.receivers),
-        "path": [f"{name.source}: {name.port} {name.direction}" for name in names],
-        **{
-            f"path_{field}": ("path", [getattr(name, field) for name in names])
-            for field in PathName._fields
-        },
-    }

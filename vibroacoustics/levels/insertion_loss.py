@@ -28,6 +28,18 @@ def airborne_factor(options: Mapping[str, Option], order_frequency: xr.DataArray
     return xr.DataArray(factor, coords, ("option", *order_frequency.dims))
 
 
+def airborne(options: Mapping[str, Option], results: xr.Dataset) -> xr.Dataset:
+    """Return results whose velocities are less by each option's insertion loss.
+
+    Parameters
+    ----------
+    options : by name
+    results : with `velocity_order` and `order_frequency`
+    """
+    factor = airborne_factor(options, results["order_frequency"])
+    return results.assign(velocity_order=factor * results["velocity_order"])
+
+
 def remaining_factor(options: Mapping[str, Option], frequency_hz: Array) -> Array:
     """Mean square of a sound with each option's insertion loss over that without, (option, band).
 

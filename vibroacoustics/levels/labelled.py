@@ -1,7 +1,6 @@
 """Levels of a study at the receivers: by source, of all modelled sources, of the machine."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -9,7 +8,7 @@ import xarray as xr
 from ..base.arrays import Array, ComplexArray
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level, sound_pressure_level
-from ..base.vocabulary import REFERENCE_OPTION, WEIGHTINGS, check, stamp
+from ..base.vocabulary import REFERENCE_OPTION, WEIGHTINGS, stamped
 from ..machine.source import CaseKey
 from .axes import LevelAxes
 from .by_source import A_FIRST, SourceSound
@@ -59,37 +58,32 @@ def level_variables(
         "change_modelled": level(a_total),
         "change_total": total,
     }
-    weighted = {**axes.by_receiver, "weighting": list(WEIGHTINGS)}
-    ordered = {**weighted, "order": order_frequency["order"].values}
     reference = list(axes.options).index(REFERENCE_OPTION)
-    rest = level(np.asarray(remainder))
-    arrays = {
-        "order_level": stamp("order_level", order_level, ordered),
-        "level_modelled": stamp("level_modelled", np.stack(modelled, axis=-1), weighted),
-        "level_total": stamp("level_total", total, axes.by_receiver),
-        "level_remainder": stamp("level_remainder", rest),
+    values = {
+        "order_level": order_level,
+        "level_modelled": np.stack(modelled, axis=-1),
+        "level_total": total,
+        "level_remainder": level(np.asarray(remainder)),
         **_of_sources(axes, sound),
-        **{
-            name: stamp(name, values - values[:, [reference]], axes.by_receiver)
-            for name, values in changes.items()
-        },
+        **{name: every - every[:, [reference]] for name, every in changes.items()},
     }
-    return check(xr.Dataset(arrays))
+    coords = {
+        **axes.by_source,
+        "weighting": list(WEIGHTINGS),
+        "order": order_frequency["order"].values,
+        "band": [band.nominal_hz for band in axes.bands],
+    }
+    return stamped(values, coords)
 
 
-def _of_sources(axes: LevelAxes, sound: Mapping[CaseKey, SourceSound]) -> dict[str, xr.DataArray]:
+def _of_sources(axes: LevelAxes, sound: Mapping[CaseKey, SourceSound]) -> dict[str, Array]:
     """A-weighted level, share of the modelled total and third octaves of each source."""
     shares = axes.gathered(sound, "part")[:, :, A_FIRST.index("A")]
     total = shares.sum(axis=2, keepdims=True)
-    bands = {**axes.by_source, "band": [band.nominal_hz for band in axes.bands]}
-    values = {
+    return {
         "source_level": level(axes.gathered(sound, "alone")),
         "source_share": shares / np.where(total > 0.0, total, 1.0),
         "source_band_level": level(axes.gathered(sound, "band")),
-    }
-    coords = {"source_band_level": bands}
-    return {
-        name: stamp(name, array, coords.get(name, axes.by_source)) for name, array in values.items()
     }
 
 
@@ -115,21 +109,18 @@ def draw_variables(
     weight : of the draws, shape (prior, draw)
     prior_names : of the remainder
     """
-    draws: dict[str, Any] = {"draw": np.arange(1, len(sounds) + 1)}
-    by_prior = {"prior": list(prior_names), **draws}
-    by_receiver = {**draws, **axes.by_receiver}
     alone = np.array([axes.gathered(sound, "alone") for sound in sounds])
     modelled = np.array([axes.gathered(sound, "part")[:, :, 0].sum(axis=2) for sound in sounds])
     total = modelled + remaining
-    arrays: dict[str, tuple[Array, dict[str, Any]]] = {
-        "source_level_by_draw": (_level_or_none(alone), {**draws, **axes.by_source}),
-        "level_modelled_by_draw": (_level_or_none(modelled), by_receiver),
-        "level_total_by_draw": (_level_or_none(total), by_receiver),
-        "level_remainder_by_draw": (level(remainder), by_prior),
-        "draw_weight": (_of_solved(weight, modelled), by_prior),
+    values = {
+        "source_level_by_draw": _level_or_none(alone),
+        "level_modelled_by_draw": _level_or_none(modelled),
+        "level_total_by_draw": _level_or_none(total),
+        "level_remainder_by_draw": level(remainder),
+        "draw_weight": _of_solved(weight, modelled),
     }
-    labelled = {name: stamp(name, values, coords) for name, (values, coords) in arrays.items()}
-    return check(xr.Dataset(labelled))
+    draws = np.arange(1, len(sounds) + 1)
+    return stamped(values, {**axes.by_source, "draw": draws, "prior": list(prior_names)})
 
 
 def _of_solved(weight: Array, modelled: Array) -> Array:

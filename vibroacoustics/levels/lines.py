@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
-from ..base.vocabulary import check, stamp
+from ..base.vocabulary import stamped
 from ..machine.source import CaseKey
 from ..mechanics.received_sound import ReceivedSound
 from .axes import LevelAxes
@@ -40,5 +40,5 @@ def line_pressure(axes: LevelAxes, received: Mapping[CaseKey, ReceivedSound]) ->
         float(name.removeprefix(_ORDER)) if name.startswith(_ORDER) else np.nan for name in names
     ]
     coords = {"tone_frequency": (("speed", "line"), frequency), "line_order": ("line", orders)}
-    labelled = stamp("pressure_line", pressure, {**axes.by_source, "line": names})
-    return check(xr.Dataset({"pressure_line": labelled}, coords=coords))
+    labelled = stamped({"pressure_line": pressure}, {**axes.by_source, "line": names})
+    return labelled.assign_coords(coords)

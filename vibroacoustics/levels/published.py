@@ -27,6 +27,5 @@ def published_of(study: Study) -> Published:
     """The published level of a study's machine."""
     noise = study.machine.overall_noise
     level, deviation = (0.0, np.inf) if noise is None else (noise.level_dba, noise.deviation_db)
-    has_baseline = study.measured is not None and study.measured.baseline is not None
-    priors = priors_of(study.machine.remainder) if noise or has_baseline else (ALL_ALIKE,)
+    priors = priors_of(study.machine.remainder) if noise or study.baseline else (ALL_ALIKE,)
     return Published(level, deviation, priors)

@@ -1,7 +1,7 @@
 """Levels at the listeners in a room, labelled: by air, by the feet, both ways, and their limits."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any, Final
 
 import numpy as np
@@ -11,13 +11,14 @@ from ..base.arrays import Array
 from ..base.constants import REFERENCE_POWER_W
 from ..base.decibel import energy_sum, level_of_power, power_of_level
 from ..base.quantiles import weighted_quantiles
-from ..base.vocabulary import check, stamp
+from ..base.vocabulary import stamped
 from ..machine.source import CaseKey
 from .by_source import weighting_power
 from .in_room import RoomSound, power_of_hemisphere
 from .labelled import level
 from .measured_points import BASELINE_BANDS, MIDDLE_HZ
-from .room_rest import beside_model
+from .nominal import NominalSound
+from .room_rest import beside_model, rest_in_bands
 from .structure_borne import weight_of
 
 BAND_SHARES: Final = {"low": 0.05, "middle": 0.5, "high": 0.95}
@@ -35,6 +36,7 @@ class AirInRoom:
     band : of all of it, shape (speed, option, listener, band), Pa²
     power_band : of the machine, shape (speed, option, band), W
     noise_band : of what is no line, shape (speed, option, listener, band), Pa²
+    coords : along these axes, by name
     """
 
     modelled: Array
@@ -43,41 +45,45 @@ class AirInRoom:
     band: Array
     power_band: Array
     noise_band: Array
+    coords: Mapping[str, Any] = field(default_factory=dict)
 
     @classmethod
     def of(
         cls,
+        nominal: NominalSound,
+        listeners: Sequence[str],
         sound: Mapping[CaseKey, RoomSound],
-        speeds: Sequence[float],
-        options: Sequence[str],
-        rest: Array,
+        results: xr.Dataset,
         gains: Array,
-        distance_m: float,
     ) -> "AirInRoom":
-        """Of the modelled sound and the rest, which goes by the gains of both methods.
+        """Add the rest, which goes by the gains of both methods, to the modelled sound.
 
         Parameters
         ----------
+        nominal : sound at the microphones
+        listeners : names
         sound : of every case
-        speeds, options : in the order of the arrays
-        rest : of `rest_in_bands`, Pa²
+        results : levels at the microphones
         gains : mean square per power, shape (listener, band), Pa²/W
-        distance_m : of the rest's microphone from the foot of the machine's axis
         """
-
-        def gathered(part: str) -> Array:
-            return np.array([[getattr(sound[s, o], part) for o in options] for s in speeds])
-
-        rest_power = power_of_hemisphere(rest, distance_m)
+        study, axes, receiver = nominal.study, nominal.axes, nominal.study.catalogue_receiver
+        rest = rest_in_bands(results, receiver)
+        rest_power = power_of_hemisphere(rest, study.receivers[receiver].distance_m)
         rest_band = rest_power[:, :, None, :] * gains
-        weight = weighting_power("A", MIDDLE_HZ)
+        coords = {
+            "speed": list(axes.speeds),
+            "option": list(axes.options),
+            "listener": list(listeners),
+            "sound_source": list(axes.sources),
+        }
         return cls(
-            gathered("total"),
-            rest_band @ weight,
-            np.moveaxis(gathered("alone"), 2, -1),
-            gathered("band") + rest_band,
-            gathered("power_band") + rest_power,
-            gathered("noise_band") + rest_band,
+            axes.gathered(sound, "total"),
+            rest_band @ weighting_power("A", MIDDLE_HZ),
+            np.moveaxis(axes.gathered(sound, "alone"), 2, -1),
+            axes.gathered(sound, "band") + rest_band,
+            axes.gathered(sound, "power_band") + rest_power,
+            axes.gathered(sound, "noise_band") + rest_band,
+            coords,
         )
 
     @property
@@ -86,31 +92,39 @@ class AirInRoom:
         return self.modelled + self.rest
 
 
-def air_variables(
+def room_variables(
     air: AirInRoom,
-    speeds: Sequence[float],
-    options: Sequence[str],
-    listeners: Sequence[str],
-    sources: Sequence[str],
+    sound: Mapping[CaseKey, RoomSound],
+    results: xr.Dataset,
+    receiver: str,
+    plate_per_power: Callable[[Array], Array],
 ) -> xr.Dataset:
-    """Levels by air with the values as given."""
-    cases: dict[str, Any] = {"speed": list(speeds), "option": list(options)}
-    coords = {**cases, "listener": list(listeners)}
-    bands = {"noise_band": [band.nominal_hz for band in BASELINE_BANDS]}
-    arrays = {
-        "room_level": stamp("room_level", level(air.total), coords),
-        "room_source_level": stamp(
-            "room_source_level", level(air.alone), {**coords, "sound_source": list(sources)}
-        ),
-        "room_band_level": stamp("room_band_level", level(air.band), coords | bands),
-        "room_noise_band_level": stamp(
-            "room_noise_band_level", level(air.noise_band), coords | bands
-        ),
-        "room_sound_power_level": stamp(
-            "room_sound_power_level", power_level(air.power_band), cases
-        ),
+    """Label the levels at the listeners by air, and where there is a plate by that too.
+
+    Parameters
+    ----------
+    air : mean squares by air
+    sound : of every case
+    results : levels at the microphones, of samples and of the plate
+    receiver : microphone of the published level
+    plate_per_power : see `plate_variables`
+    """
+    levels = air_variables(air)
+    levels = levels.merge(line_variables(sound, results.merge(levels)))
+    levels = levels.merge(drawn_band(air, results.merge(levels), receiver))
+    return levels.merge(plate_variables(results.merge(levels), plate_per_power))
+
+
+def air_variables(air: AirInRoom) -> xr.Dataset:
+    """Label the levels by air with the nominal values."""
+    values = {
+        "room_level": level(air.total),
+        "room_source_level": level(air.alone),
+        "room_band_level": level(air.band),
+        "room_noise_band_level": level(air.noise_band),
+        "room_sound_power_level": power_level(air.power_band),
     }
-    return check(xr.Dataset(arrays))
+    return stamped(values, {**air.coords, "noise_band": [one.nominal_hz for one in BASELINE_BANDS]})
 
 
 def line_variables(sound: Mapping[CaseKey, RoomSound], results: xr.Dataset) -> xr.Dataset:
@@ -128,8 +142,7 @@ def line_variables(sound: Mapping[CaseKey, RoomSound], results: xr.Dataset) -> x
         for o, option in enumerate(coords["option"]):
             one = sound[float(speed), str(option)]
             pressure[s, o][:, [column[name] for name in one.line]] = one.pressure
-    labelled = stamp("room_pressure_line", pressure, coords)
-    return check(xr.Dataset({"room_pressure_line": labelled}))
+    return stamped({"room_pressure_line": pressure}, coords)
 
 
 def power_level(power_band: Array) -> Array:
@@ -163,39 +176,36 @@ def drawn_band(air: AirInRoom, results: xr.Dataset, receiver: str) -> xr.Dataset
     weight = results["draw_weight"].isel(prior=0).values
     levels = level(np.nan_to_num(square))
     ends = weighted_quantiles(levels, weight, list(BAND_SHARES.values()))
-    coords = _coordinates(results["room_level"])
     names = [f"room_level_{end}" for end in BAND_SHARES]
-    arrays = {name: stamp(name, of, coords) for name, of in zip(names, ends, strict=True)}
-    return check(xr.Dataset(arrays))
+    return stamped(dict(zip(names, ends, strict=True)), _coordinates(results["room_level"]))
 
 
-def plate_variables(results: xr.Dataset, per_power: Array) -> xr.Dataset:
-    """Levels by the feet and the plate at the listeners; empty without a plate.
+def plate_variables(results: xr.Dataset, plate_per_power: Callable[[Array], Array]) -> xr.Dataset:
+    """Label the levels by the feet and the plate at the listeners; empty without a plate.
 
     Parameters
     ----------
     results : with the plate's powers and spans, `room_level` and, of draws, `room_level_middle`
-    per_power : mean square per power, shape (speed, listener, line), Pa²/W
+    plate_per_power : mean square per power of the plate, of frequencies, shape
+        (listener, frequency), Pa²/W
     """
+    if "structure_borne_power" not in results:
+        return xr.Dataset()
     power = results["structure_borne_power"].transpose("speed", "option", "line").values
     frequency = results["tone_frequency"].transpose("speed", "line").values
+    hertz = np.where(np.nan_to_num(frequency) > 0.0, frequency, MIDDLE_HZ[0])
+    per_power = np.array([plate_per_power(row) for row in hertz])
     of_lines = power[:, :, None] * per_power[:, None]
     by_plate = level(np.einsum("solf,sf->sol", of_lines, weight_of("A", frequency)))
     span = results["structure_borne_level"].sel(weighting="A").isel(receiver=0)
-    coords = _coordinates(results["room_level"])
-    by_line = {**coords, "line": results["line"].values}
-    arrays = {
-        "room_plate_level": stamp("room_plate_level", by_plate, coords),
-        "room_plate_line_level": stamp("room_plate_line_level", level(of_lines), by_line),
-    }
+    values = {"room_plate_level": by_plate, "room_plate_line_level": level(of_lines)}
     for end in ("low", "high"):
         of_end = results[f"structure_borne_level_{end}"].isel(receiver=0) - span
-        values = by_plate + of_end.transpose("speed", "option").values[..., None]
-        arrays[f"room_plate_level_{end}"] = stamp(f"room_plate_level_{end}", values, coords)
+        over = of_end.transpose("speed", "option").values[..., None]
+        values[f"room_plate_level_{end}"] = by_plate + over
     by_air = results["room_level_middle" if "room_level_middle" in results else "room_level"]
-    both = energy_sum(np.stack([by_air.values, by_plate]), axis=0)
-    arrays["room_level_both_ways"] = stamp("room_level_both_ways", both, coords)
-    return check(xr.Dataset(arrays))
+    values["room_level_both_ways"] = energy_sum(np.stack([by_air.values, by_plate]), axis=0)
+    return stamped(values, {**_coordinates(by_air), "line": results["line"].values})
 
 
 def _coordinates(array: xr.DataArray) -> dict[str, Any]:

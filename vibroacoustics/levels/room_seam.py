@@ -8,7 +8,7 @@ import xarray as xr
 from ..base.arrays import Array, IndexArray
 from ..base.constants import REFERENCE_POWER_W, REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level
-from ..base.vocabulary import check, stamp
+from ..base.vocabulary import stamped
 from .in_room import ROUNDED
 from .measured_points import BASELINE_BANDS, MIDDLE_HZ
 
@@ -38,17 +38,16 @@ def seam_variables(
     gains_db : which the diffuse field takes over, of the bands and of all above; no part of the
         curves, whose mean difference over the listeners they are
     """
-    bands = {"seam_band": [BASELINE_BANDS[number].nominal_hz for number in shown]}
-    coords = {"listener": list(listeners), **bands}
+    bands = [BASELINE_BANDS[number].nominal_hz for number in shown]
     by_waves, by_power = (
         mean_square_level(each * REFERENCE_POWER_W, REFERENCE_PRESSURE_PA)
         for each in (waves, diffuse)
     )
-    arrays = {
-        "room_gain_waves": stamp("room_gain_waves", by_waves, coords),
-        "room_gain_diffuse": stamp("room_gain_diffuse", by_power, coords),
-        "room_gain_difference": stamp("room_gain_difference", by_waves - by_power, coords),
-        "room_place_gain": stamp("room_place_gain", gains_db[:-1], bands),
-        "room_place_gain_above": stamp("room_place_gain_above", gains_db[-1]),
+    values = {
+        "room_gain_waves": by_waves,
+        "room_gain_diffuse": by_power,
+        "room_gain_difference": by_waves - by_power,
+        "room_place_gain": gains_db[:-1],
+        "room_place_gain_above": gains_db[-1],
     }
-    return check(xr.Dataset(arrays))
+    return stamped(values, {"listener": list(listeners), "seam_band": bands})

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.decibel import energy_mean, energy_sum, sound_pressure_level
-from ..base.vocabulary import VARIABLES, WEIGHTINGS, check, stamp
+from ..base.vocabulary import VARIABLES, WEIGHTINGS, stamp, stamped
 from ..study.sound_power import SoundPowerSettings
 from .sound_power import sound_power_level, stand_corrections_db, surface_area_m2
 from .weighting import WEIGHTING
@@ -76,26 +76,18 @@ def sound_power_variables(
     weighted = np.stack([power + WEIGHTING[name](hertz) for name in WEIGHTINGS], axis=-1)
     total = energy_sum(weighted[:, :, 1:], axis=2)  # order 0 is no sound
     coords = {name: ordered[name].values for name in ("speed", "option", "order")}
-    coords["weighting"] = np.array(WEIGHTINGS)
     arrays = {"order_sound_power_level": weighted, "sound_power_level": total}
-    labelled = {
-        name: stamp(
-            name,
-            level,
-            {dim: coords[dim] for dim in VARIABLES[name].dims},
-            arrangement=settings.arrangement,
-        )
-        for name, level in arrays.items()
-    }
-    return check(xr.Dataset(labelled))
+    labelled = stamped(arrays, {**coords, "weighting": np.array(WEIGHTINGS)})
+    for array in labelled.data_vars.values():
+        array.attrs["arrangement"] = settings.arrangement
+    return labelled
 
 
 def map_level(pressure: xr.DataArray) -> xr.Dataset:
     """Level of the first order on the map, from its pressure."""
     dims = VARIABLES["map_level"].dims
     level = sound_pressure_level(pressure.transpose(*dims).values)
-    coords = {name: pressure[name].values for name in dims}
-    return check(xr.Dataset({"map_level": stamp("map_level", level, coords)}))
+    return stamped({"map_level": level}, {name: pressure[name].values for name in dims})
 
 
 def line_difference(pressure: xr.DataArray, closed_form: xr.DataArray) -> xr.Dataset:
@@ -111,6 +103,4 @@ def line_difference(pressure: xr.DataArray, closed_form: xr.DataArray) -> xr.Dat
         sound_pressure_level(one.transpose(*dims).values) for one in (pressure, closed_form)
     )
     coords = {name: pressure[name].values for name in dims}
-    return check(
-        xr.Dataset({"line_difference": stamp("line_difference", computed - exact, coords)})
-    )
+    return stamped({"line_difference": computed - exact}, coords)

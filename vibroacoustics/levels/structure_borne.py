@@ -1,38 +1,24 @@
 """Levels of a plate under the feet at the microphones, labelled."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 import xarray as xr
+from numpy.typing import ArrayLike
 
 from ..base.arrays import Array
 from ..base.constants import AIR_IMPEDANCE_PA_S_PER_M, REFERENCE_PRESSURE_PA
 from ..base.decibel import energy_sum, mean_square_level
-from ..base.vocabulary import WEIGHTINGS, check, stamp
+from ..base.vocabulary import WEIGHTINGS, stamped
+from ..mechanics.received_sound import PlateSound
+from ..study.structure_borne import StructureBorne
 from .by_source import weighting_power
 
 _CHANCE: Final = 1.6448536269514722
 """Of a standard normal variable, passed once in 20."""
 
 
-@dataclass(frozen=True)
-class PlateSound:
-    """What a plate makes of the lines of all cases, shapes (speed, option, line).
-
-    Attributes
-    ----------
-    input_power_w, power_w : into it, and as sound to one side; zero where there is no line
-    variance : of the sound power by the plate's modes, over its squared mean
-    """
-
-    input_power_w: Array
-    power_w: Array
-    variance: Array
-
-
-def mean_square_per_power(distance_m: Array, absorption_area_m2: float | None) -> Array:
+def mean_square_per_power(distance_m: ArrayLike, absorption_area_m2: float | None) -> Array:
     """Mean square of pressure per sound power in front of a plate: ρ c (1/(2π r²) + 4/A), Pa²/W.
 
     A source in a wall, and the diffuse field of the room (Kuttruff, Room Acoustics, chapter on
@@ -49,25 +35,21 @@ def mean_square_per_power(distance_m: Array, absorption_area_m2: float | None) -
 
 
 def structure_borne_variables(
-    sound: PlateSound,
-    per_power: Array,
-    frequency_hz: Array,
-    spread: Mapping[str, tuple[Array, Array]],
-    level_total: xr.DataArray,
-    lines: Sequence[str],
+    settings: StructureBorne, sound: PlateSound, distance_m: ArrayLike, results: xr.Dataset
 ) -> xr.Dataset:
-    """Levels by the feet and the plate, told apart from what comes by air.
+    """Label the levels by the feet and the plate, apart from what comes by air.
 
     Parameters
     ----------
-    sound : of all cases
-    per_power : mean square per power at each receiver, shape (receiver,), Pa²/W
-    frequency_hz : of the lines, shape (speed, line); not a number where there is none
-    spread : `line`, shapes (speed, option, line), and `total`, (speed, option): levels that 5 % and
-        95 % lie below, over that of the mean power, dB
-    level_total : by air, (speed, option, receiver)
-    lines : their names
+    settings : absorption in front of the plate, and deviation of the method
+    sound : of all cases, shapes (speed, option, line)
+    distance_m : of each receiver from the middle of the feet, shape (receiver,)
+    results : levels by air, and the frequencies of the lines
     """
+    level_total = results["level_total"]
+    frequency_hz = results["tone_frequency"].transpose("speed", "line").values
+    per_power = mean_square_per_power(distance_m, settings.absorption_area_m2)
+    spread = spread_of_power(sound, frequency_hz, settings.deviation_db)
     power = sound.power_w[:, :, None, :] * per_power[:, None]
     by_weighting = np.stack([weight_of(name, frequency_hz) for name in WEIGHTINGS], axis=-1)
     weighted = power[..., None] * by_weighting[:, None, None]
@@ -76,20 +58,19 @@ def structure_borne_variables(
     by_air = level_total.transpose("speed", "option", "receiver").values
     low, high = (bound[..., None] for bound in spread["total"])
     coords = {name: level_total[name].values for name in ("speed", "option", "receiver")}
-    cases = {name: coords[name] for name in ("speed", "option")}
-    by_line, weightings = {"line": list(lines)}, {"weighting": list(WEIGHTINGS)}
-    values: dict[str, tuple[Array, dict[str, Any]]] = {
-        "structure_borne_input_power": (sound.input_power_w, {**cases, **by_line}),
-        "structure_borne_power": (sound.power_w, {**cases, **by_line}),
-        "structure_borne_line_level": (_level(weighted), {**coords, **by_line, **weightings}),
-        "structure_borne_line_low": (spread["line"][0], {**cases, **by_line}),
-        "structure_borne_line_high": (spread["line"][1], {**cases, **by_line}),
-        "structure_borne_level": (total, {**coords, **weightings}),
-        "structure_borne_level_low": (audible + low, coords),
-        "structure_borne_level_high": (audible + high, coords),
-        "level_both_ways": (energy_sum(np.stack([by_air, audible]), axis=0), coords),
+    values = {
+        "structure_borne_input_power": sound.input_power_w,
+        "structure_borne_power": sound.power_w,
+        "structure_borne_line_level": _level(weighted),
+        "structure_borne_line_low": spread["line"][0],
+        "structure_borne_line_high": spread["line"][1],
+        "structure_borne_level": total,
+        "structure_borne_level_low": audible + low,
+        "structure_borne_level_high": audible + high,
+        "level_both_ways": energy_sum(np.stack([by_air, audible]), axis=0),
     }
-    return check(xr.Dataset({name: stamp(name, *one) for name, one in values.items()}))
+    lines = results["line"].values
+    return stamped(values, {**coords, "line": lines, "weighting": list(WEIGHTINGS)})
 
 
 def spread_of_power(

@@ -1,1 +1,1 @@
-"""What measurements alone predict: levels after a change of mounts, masses or absorbers."""
+"""What measurements alone say: orders, levels, sound power, forces, and levels after a change."""

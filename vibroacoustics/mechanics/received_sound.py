@@ -1,6 +1,7 @@
 """Sound of all sources at the receivers in one case, before any weighting."""
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from ..base.arrays import Array, ComplexArray
 from .added import InsertionLoss
@@ -48,3 +49,18 @@ class ReceivedSound:
         ]
         pressure = self.pressure * loss.amplitude_factor(self.lines.frequency_hz)
         return ReceivedSound(self.lines, pressure, tuple(noise))
+
+
+class PlateSound(NamedTuple):
+    """Power of lines into a plate under the feet and from it, shape (..., line).
+
+    Attributes
+    ----------
+    input_power_w : into the plate
+    power_w : as sound to one side; zero where there is no line
+    variance : of the sound power by the plate's modes, over its squared mean
+    """
+
+    input_power_w: Array
+    power_w: Array
+    variance: Array

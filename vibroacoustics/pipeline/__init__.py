@@ -1,8 +1,7 @@
-"""The jobs: sole owner of the order of stages.
+"""The jobs on a study: sole owner of the order of stages."""
 
-They are imported when they are first asked for: one on a recording needs no radiation.
-"""
+from .radiating import radiate
+from .room_responses import impulse_responses
+from .study import run
 
-from ..base.lazy import public_names
-
-__getattr__, __dir__, __all__ = public_names(__name__, __file__)
+__all__ = ["impulse_responses", "radiate", "run"]

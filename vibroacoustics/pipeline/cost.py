@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Final
 
-from ..base.errors import ParameterError
 from ..base.progress import Progress, no_progress
 from ..radiation.cost import Cost, about
 from ..results.size import result_bytes
@@ -60,10 +59,7 @@ def run_cost(study: Study, progress: Progress = no_progress) -> RunCost:
     ParameterError, SolverError
         The machine cannot run, the result is too large, or memory does not suffice.
     """
-    try:
-        return surviving(study, partial(_run_cost, progress=progress))
-    except ParameterError as error:
-        raise ParameterError(f"{study.source_file}: {error}") from None
+    return surviving(study, partial(_run_cost, progress=progress))
 
 
 def _run_cost(study: Study, progress: Progress) -> RunCost:

@@ -6,9 +6,9 @@ from ..base.errors import ParameterError
 from ..base.progress import Progress, no_progress
 from ..base.vocabulary import check, label_coordinates
 from ..levels import sound_field as levels
-from ..radiation.given import Radiation
+from ..radiation.given import Radiation, radiated_by
 from ..results import provenance
-from ..stages.radiation import radiated_by, transfer_vectors
+from ..stages.radiation import transfer_vectors
 from ..stages.shell import shell_path
 from ..study.study import Study
 

@@ -1,14 +1,10 @@
 """Impulse responses from the machine of a study to the listeners in its room."""
 
-import numpy as np
 import xarray as xr
 
 from ..base.errors import ParameterError
 from ..base.progress import Progress, no_progress
-from ..base.vocabulary import RIGID_BODY_DOFS, check, stamp
-from ..sound.rendering import SAMPLE_RATE_HZ
-from ..sound.room_responses import room_responses
-from ..sound.room_ways import response_ways
+from ..sound.room_ways import labelled_responses
 from ..stages import room
 from ..study.study import Study
 
@@ -46,11 +42,4 @@ def impulse_responses(study: Study, progress: Progress = no_progress) -> xr.Data
     if settings is None:
         raise ParameterError("room: the study has none; impulse responses are those of a room")
     vectors, _ = room.vectors_of(study, settings, (), progress)
-    responses = room_responses(response_ways(settings, study.machine.shell, vectors))
-    coords = {
-        "listener": list(settings.listeners),
-        "dof": list(RIGID_BODY_DOFS),
-        "time": np.arange(responses.shape[-1]) / SAMPLE_RATE_HZ,
-    }
-    labelled = stamp("room_impulse_response", responses, coords)
-    return check(xr.Dataset({"room_impulse_response": labelled}))["room_impulse_response"]
+    return labelled_responses(settings, study.machine.shell, vectors)

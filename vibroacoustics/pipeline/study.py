@@ -4,18 +4,18 @@ from functools import partial
 
 import xarray as xr
 
-from ..base.errors import ParameterError
 from ..base.fault import collected
 from ..base.hashing import canonical_json
 from ..base.linear_algebra import one_thread_of_linear_algebra
 from ..base.progress import Progress, no_progress
 from ..base.vocabulary import check, label_coordinates
+from ..machine.cases import Cases
 from ..measured.floor import on_measured_floor
 from ..radiation.given import Radiation
 from ..results import provenance
 from ..results.left_out import keep_lines
 from ..results.words import words
-from ..stages.chain import Cases, Chain
+from ..stages.chain import Chain
 from ..stages.radiation import Radiated, transfer_vectors
 from ..stages.stage import STAGES, advanced, applying
 from ..study.failing import surviving
@@ -56,13 +56,10 @@ def run(
     >>> results["force_amplitude"].sel(option="none", order=1).round(1).values  # N
     array([45.3])
     """
-    try:
-        # What is large runs in threads of its own; two of linear algebra would wait in busy loops.
-        with one_thread_of_linear_algebra(), collected() as lines:
-            results = surviving(study, partial(_run, progress=progress, radiation=radiation))
-            return keep_lines(results, (*study.left_out, *lines))
-    except ParameterError as error:
-        raise ParameterError(f"{study.source_file}: {error}") from None
+    # What is large runs in threads of its own; two of linear algebra would wait in busy loops.
+    with one_thread_of_linear_algebra(), collected() as lines:
+        results = surviving(study, partial(_run, progress=progress, radiation=radiation))
+        return keep_lines(results, (*study.left_out, *lines))
 
 
 def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:

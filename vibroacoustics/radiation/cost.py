@@ -50,9 +50,9 @@ class Cost(NamedTuple):
     memory_bytes: float = 0.0
 
 
-def about(name: str, seconds: float, how: str) -> Cost:
-    """Cost of work whose time was measured once."""
-    return Cost(name, LOW * seconds, HIGH * seconds, how)
+def about(name: str, seconds: float, how: str, times: int = 1) -> Cost:
+    """Cost of work whose time was measured once, and that is done so many times."""
+    return Cost(name, LOW * times * seconds, HIGH * times * seconds, how)
 
 
 def processor_time_s(work: Callable[[], object]) -> float:

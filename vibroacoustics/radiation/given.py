@@ -12,6 +12,8 @@ from ..base.progress import Progress
 from ..base.vocabulary import RIGID_BODY_DOFS, stamp
 from ..study.study import Study
 from .patterns import SurfaceMotion
+from .receiver_methods import GIVEN, ReceiverMethod, with_methods
+from .transfer_vectors import frequencies_hz
 
 Radiation = Callable[[Study, Progress, Sequence[SurfaceMotion]], tuple[xr.Dataset, bool]]
 """From a study and the shell's modes to transfer vectors, and whether they were known already."""
@@ -67,6 +69,43 @@ def given_radiation(
         return _labelled(study, names, frequency, of_housing, of_modes), False
 
     return radiation
+
+
+def silent_radiation(study: Study, motions: Sequence[SurfaceMotion]) -> Radiation:
+    """Return radiation of no sound in the shape of a study's transfer vectors.
+
+    Parameters
+    ----------
+    study : with microphones and frequencies
+    motions : modes of the shell, where a source drives it
+    """
+    frequency, receivers = frequencies_hz(study.radiation), len(study.receivers)
+    counts = (len(RIGID_BODY_DOFS), len(motions))
+    of_housing, of_modes = (np.zeros((receivers, count, frequency.size)) for count in counts)
+    return given_radiation(of_housing, frequency, of_modes)
+
+
+def radiated_by(
+    radiation: Radiation,
+    study: Study,
+    progress: Progress,
+    motions: Sequence[SurfaceMotion],
+    method: ReceiverMethod = GIVEN,
+) -> tuple[xr.Dataset, bool]:
+    """Return transfer vectors with the method of each microphone, and whether they were known.
+
+    Parameters
+    ----------
+    radiation : gives the transfer vectors
+    study : with its microphones
+    progress : called with the advance
+    motions : modes of the shell
+    method : of microphones for which the transfer vectors name none
+    """
+    radiated, was_known = radiation(study, progress, motions)
+    if "radiation_method" not in radiated.coords:
+        radiated = with_methods(radiated, dict.fromkeys(study.receivers, method))
+    return radiated, was_known
 
 
 def _checked(name: str, values: ArrayLike, frequency_hz: Array) -> ComplexArray:

@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array, IndexArray
+from ..base.vocabulary import RIGID_BODY_DOFS, stamped
 from ..levels.in_room import RoomWays, blended_gains, wave_gains
 from ..levels.measured_points import MIDDLE_HZ
 from ..levels.room_seam import shown_bands
@@ -15,7 +16,8 @@ from ..radiation.rooms import DiffuseRoom
 from ..radiation.rooms import of_study as rooms
 from ..radiation.rooms.of_study import arrivals
 from ..study.room import StudyRoom
-from .room_responses import WaysOfRoom
+from .rendering import SAMPLE_RATE_HZ
+from .room_responses import WaysOfRoom, room_responses
 
 
 class BothMethods(NamedTuple):
@@ -96,3 +98,19 @@ def response_ways(settings: StudyRoom, shell: Shell, vectors: xr.Dataset) -> Way
         record_s=float(vectors.attrs["room_record_s"]),
         highest_hz=float(vectors["frequency"].values[-1]),
     )
+
+
+def labelled_responses(settings: StudyRoom, shell: Shell, vectors: xr.Dataset) -> xr.DataArray:
+    """Compute impulse responses to the listeners, `room_impulse_response` (listener, dof, time).
+
+    Parameters
+    ----------
+    settings, shell, vectors : see `response_ways`
+    """
+    responses = room_responses(response_ways(settings, shell, vectors))
+    coords = {
+        "listener": list(settings.listeners),
+        "dof": list(RIGID_BODY_DOFS),
+        "time": np.arange(responses.shape[-1]) / SAMPLE_RATE_HZ,
+    }
+    return stamped({"room_impulse_response": responses}, coords)["room_impulse_response"]

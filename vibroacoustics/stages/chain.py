@@ -2,49 +2,20 @@
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
+from fnmatch import fnmatchcase
 from typing import TypeVar, cast
 
 import xarray as xr
 
 from ..base.errors import PluginError
 from ..base.progress import Progress, no_progress
-from ..machine.source import Case, CaseKey
-from ..mechanics.loads import Loads, PortLoads
+from ..machine.cases import Cases
 from ..radiation.given import Radiation
 from ..study.sampling import Draw
 from ..study.study import Study
-from ..transfer.received import Transmission
 from ..uncertainty.drawn import drawn_cases
 
 Product = TypeVar("Product")
-
-
-@dataclass(frozen=True)
-class Cases:
-    """Speeds and options of a study with the loads of all sources.
-
-    Attributes
-    ----------
-    cases : by speed and option, without time series
-    loads : by speed and option, then by source, without wrenches, which the results hold
-    wrenches : lines of the wrenches over crank angle, by speed and option, then by source
-
-    Examples
-    --------
-    A stage reads the loads of a speed and an option:
-
-    >>> class GasTorque(va.Stage):
-    ...     name = "gas-torque"
-    ...     reads = (va.Cases,)
-    ...     def run(self, chain):
-    ...         by_source = chain[va.Cases].loads[2900.0, "none"]
-    ...         print(by_source["gas"].shaft_torque_n_m)
-    ...         return va.Given()
-    """
-
-    cases: dict[CaseKey, Case]
-    loads: dict[CaseKey, dict[str, Loads]]
-    wrenches: dict[CaseKey, dict[str, PortLoads]]
 
 
 @dataclass(frozen=True)
@@ -110,14 +81,14 @@ class Chain:
 
         Parameters
         ----------
-        reads : names of variables and types of products
+        reads : names or patterns of variables, and types of products
         """
-        others = [name for name in self.results.data_vars if name not in reads]
+        others = [name for name in self.results.data_vars if not is_among(str(name), reads)]
         products = {kind: product for kind, product in self.products.items() if kind in reads}
         return replace(self, results=self.results.drop_vars(others), products=products)
 
     def at(self, sample: Draw) -> "Chain":
-        """Return the chain with the cases, loads and paths of one sample, and nominal results.
+        """Return the chain with the cases and loads of one sample, and nominal results.
 
         Parameters
         ----------
@@ -128,8 +99,17 @@ class Chain:
         ParameterError, SolverError
             A machine cannot run so, an option cannot be built, or a source cannot act.
         """
-        path = self[Transmission]
-        of = drawn_cases(self[Cases].cases, self.study, sample)
-        wrenches = {**path.wrenches, **of.wrenches}
-        sampled = Cases(of.cases, of.loads, of.wrenches)
-        return self.having(sampled, replace(path, wrenches=wrenches), of)
+        return self.having(drawn_cases(self[Cases], self.study, sample))
+
+
+def is_among(thing: str | type, things: Collection[str | type]) -> bool:
+    """Return whether a variable or product is among others, by name or a pattern such as `room_*`.
+
+    Parameters
+    ----------
+    thing : name of a variable, or type of a product
+    things : names and patterns of variables, and types of products
+    """
+    if not isinstance(thing, str):
+        return thing in things
+    return any(fnmatchcase(thing, other) for other in things if isinstance(other, str))

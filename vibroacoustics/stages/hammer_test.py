@@ -1,15 +1,11 @@
 """The hammer test of the shell that a study names, against which samples are held."""
 
-import numpy as np
-
 from ..base.errors import ParameterError
 from ..base.registry import register
 from ..measured.shell_functions import read_shell_mobilities
 from ..study.study import Study
 from ..transfer.path import ShellPath
-from ..transfer.wall_mobility import wall_of
 from ..uncertainty.hammer_test import HammerTest
-from ..uncertainty.shell_features import features
 from .chain import Chain
 from .stage import Given, Stage
 
@@ -35,26 +31,12 @@ def hammer_test(study: Study, path: ShellPath | None) -> HammerTest:
     Raises
     ------
     ParameterError
-        No source drives an elastic shell, nothing is sampled, or a file does not fit.
+        The study names none, nothing to compare is sampled, or a file does not fit.
     StorageError
         A file cannot be read.
     """
     settings = None if study.measured is None else study.measured.shell
     if settings is None:
         raise ParameterError("measured.shell: the study has no such table")
-    if path is None:
-        raise ParameterError("measured.shell: no source drives an elastic shell")
-    if not study.ranges:
-        raise ParameterError("measured.shell: weighs draws, and no value has a range")
-    points = settings.wall.values()
-    try:
-        wall = wall_of(
-            path,
-            np.array([point.angle_rad for point in points]),
-            np.array([point.height_m for point in points]),
-        )
-    except ParameterError as error:
-        raise ParameterError(f"measured.shell.wall: {error}") from None
     mobilities = read_shell_mobilities(settings, study.radiation.maximum_frequency_hz)
-    measured = features(mobilities.mobility, mobilities.frequency_hz)
-    return HammerTest(study, path, settings, mobilities, measured, wall)
+    return HammerTest.of(study, path, settings, mobilities)

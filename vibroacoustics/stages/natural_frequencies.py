@@ -2,10 +2,11 @@
 
 from ..base.progress import stage
 from ..base.registry import register
+from ..machine.cases import Cases
 from ..study.study import Study
 from ..transfer.natural_frequencies import natural_variables
 from ..transfer.path import ShellPath
-from .chain import Cases, Chain
+from .chain import Chain
 from .stage import Given, Stage
 
 

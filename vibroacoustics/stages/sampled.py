@@ -1,17 +1,20 @@
 """Sound of every case with every sample."""
 
+import time
 from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 from ..base.arrays import Array
+from ..levels.nominal import NominalSound, Sound, by_source
+from ..machine.cases import Cases
 from ..machine.source import CaseKey
+from ..study.draws import batches_of_draws
 from ..study.sampling import Draw
+from ..study.study import Study
 from ..transfer.received import Transmission
-from ..uncertainty.drawn import DrawnCases
 from ..uncertainty.draws import of_every_draw
-from ..uncertainty.first_order import unknown_first_order
-from .chain import Cases, Chain
-from .levels import NominalSound, Sound, by_source
+from ..uncertainty.first_order import changed_first_order, unknown_first_order
+from .chain import Chain
 
 
 class SampledSound(NamedTuple):
@@ -38,14 +41,28 @@ def sounds_of(
     samples : values by table and field
     progress : called with the number of samples that are done
     """
-    nominal, cases = chain[NominalSound], chain[Cases].cases
+    nominal, cases, path = chain[NominalSound], chain[Cases], chain[Transmission]
 
     def sound_of(sample: Draw) -> SampledSound:
-        at = chain.at(sample)
-        received = at[Transmission].received(at[Cases].cases, at[Cases].loads)
-        sound = by_source(chain.study, nominal.axes, received)
-        return SampledSound(sound, at[DrawnCases].first_order)
+        sampled = chain.at(sample)[Cases]
+        sound = by_source(chain.study, nominal.axes, path.received(sampled))
+        return SampledSound(sound, changed_first_order(cases, sampled))
 
-    unknown = {key: nominal.sound[key].unknown for key in cases}
-    without = SampledSound(unknown, unknown_first_order(cases))
+    unknown = {key: nominal.sound[key].unknown for key in cases.cases}
+    without = SampledSound(unknown, unknown_first_order(unknown))
     return of_every_draw(samples, sound_of, without, progress)
+
+
+def timed_sounds(chain: Chain, study: Study, count: int) -> tuple[list[Sound], float]:
+    """Compute the sound of the first samples of a study; also the processor time, s.
+
+    Parameters
+    ----------
+    chain : at the first speed
+    study : with all speeds
+    count : number of samples
+    """
+    samples = next(batches_of_draws(study))[:count]
+    start = time.process_time()
+    sampled = sounds_of(chain, samples, lambda _: None)
+    return [each.sound for each in sampled], time.process_time() - start

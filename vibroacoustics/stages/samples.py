@@ -1,20 +1,22 @@
 """All cases with the samples that go on."""
 
+from typing import Final
+
 from ..base.registry import register
-from ..levels.labelled import draw_variables
-from ..levels.remainder import remainder_by_draw, remaining_by_draw
+from ..levels.nominal import NominalSound
+from ..machine.cases import Cases
 from ..study.study import Study
 from ..transfer.received import Transmission
 from ..uncertainty.bank import Bank
-from ..uncertainty.draws import drawn_values
-from ..uncertainty.first_order import first_order_by_draw
-from ..uncertainty.share_variables import change_shares
-from .chain import Cases, Chain
-from .cost_of_samples import cost_of_samples
-from .levels import NominalSound
-from .paths import PublishedCases, with_published
-from .sampled import sounds_of
+from ..uncertainty.cost import samples_cost
+from ..uncertainty.sample_variables import sample_variables
+from .chain import Chain
+from .forces import PublishedCases, with_published
+from .sampled import sounds_of, timed_sounds
 from .stage import Given, Stage, Trial
+
+_TIMED: Final = 2
+"""Number of samples that are timed."""
 
 
 @register
@@ -26,34 +28,25 @@ class Samples(Stage):
         Cases, PublishedCases, Transmission, NominalSound, Bank, "force_amplitude",
         "moment_amplitude", "foot_force_amplitude",
     )  # fmt: skip
-    gives = (
-        "level_total_by_draw", "level_modelled_by_draw", "level_remainder_by_draw",
-        "source_level_by_draw", "force_1x_by_draw", "moment_1x_by_draw", "foot_force_1x_by_draw",
-        "draw_weight", "drawn_value", "change_share", "change_share_quality", "change_variance",
-    )  # fmt: skip
+    gives = ("*_by_draw", "draw_weight", "drawn_value", "change_share*", "change_variance")
 
     def applies(self, study: Study) -> bool:
         return bool(study.ranges)
 
     def run(self, chain: Chain) -> Given:
-        study, ensemble, axes = chain.study, chain[Bank], chain[NominalSound].axes
-        if not ensemble.suffices:
+        bank, nominal = chain[Bank], chain[NominalSound]
+        if not bank.suffices:
             return Given()
-        index, weight = ensemble.chosen(study.uncertainty.seed)
-        samples = [ensemble.draws[number] for number in index]
+        chosen = bank.chosen(chain.study.uncertainty.seed)
+        samples = bank.some(chosen[0])
 
         def done(number: int) -> None:
             chain.progress("sources", number, len(samples))
 
         sampled = sounds_of(with_published(chain), samples, done)
-        sounds = [of_sample.sound for of_sample in sampled]
-        unmodelled = remainder_by_draw(study, ensemble.modelled_db[index])
-        left = remaining_by_draw(study, axes, sounds, samples, unmodelled[0])
-        levels = draw_variables(axes, sounds, left, unmodelled, weight, ensemble.prior_names)
-        of_first = [of_sample.first_order for of_sample in sampled]
-        levels = levels.merge(first_order_by_draw(of_first, chain.results))
-        levels = levels.merge(drawn_values(study.ranges, samples))
-        return Given(levels.merge(change_shares(study, levels)))
+        sounds, first_order = zip(*sampled, strict=True)
+        return Given(sample_variables(nominal, bank, chosen, sounds, first_order, chain.results))
 
     def tried(self, chain: Chain, study: Study) -> Trial:
-        return Trial(chain, (cost_of_samples(with_published(chain), study),))
+        sounds, seconds = timed_sounds(with_published(chain), study, _TIMED)
+        return Trial(chain, (samples_cost(study, len(sounds), seconds),))

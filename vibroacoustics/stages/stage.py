@@ -9,11 +9,11 @@ import xarray as xr
 
 from ..base.errors import PluginError
 from ..base.registry import Registry
-from ..base.vocabulary import check
+from ..base.vocabulary import VARIABLES, check
 from ..radiation.cost import Cost, about
 from ..results.run_variables import check_numbers
 from ..study.study import Study
-from .chain import Chain
+from .chain import Chain, is_among
 
 EVERYTHING: Final = "*"
 """Among what a stage reads: all variables that other stages give."""
@@ -43,8 +43,8 @@ class Given:
 class Stage:
     """A step of the chain, one file of `stages` or of a plug-in.
 
-    Names of variables and types of products say what it reads and gives; the order of all stages
-    follows from them. What it reads may be missing where no stage of the study gives it.
+    Names or patterns of variables and types of products say what it reads and gives; the order of
+    all stages follows from them. What it reads may be missing where no stage of the study gives it.
 
     Examples
     --------
@@ -139,22 +139,31 @@ def ordered(stages: Iterable[Stage]) -> list[Stage]:
 
 
 def _givers(stages: Iterable[Stage]) -> dict[str | type, str]:
+    """Name of the stage that gives each thing; a name goes before a pattern that it fits."""
     givers: dict[str | type, str] = {}
-    for stage in stages:
-        for thing in stage.gives:
-            other = givers.setdefault(thing, stage.name)
-            if other != stage.name:
-                raise PluginError(f"stage {stage.name}: {_word(thing)} is given by {other} already")
+    given = [(thing, stage.name) for stage in stages for thing in stage.gives]
+    for thing, name in given:
+        other = givers.setdefault(thing, name)
+        if other != name:
+            raise PluginError(f"stage {name}: {_word(thing)} is given by {other} already")
+    for variable in VARIABLES:
+        fitting = (name for thing, name in given if is_among(variable, (thing,)))
+        givers.setdefault(variable, next(fitting, ""))
     return givers
 
 
 def _before(stage: Stage, stages: Iterable[Stage], givers: Mapping[str | type, str]) -> set[str]:
     """Names of the stages that give what one reads."""
-    read = {givers[thing] for thing in stage.reads if thing in givers}
+    read = _read(stage, givers)
     if EVERYTHING in stage.reads:
-        gives = set(stage.gives)
-        read |= {other.name for other in stages if not gives & set(other.reads)}
+        read |= {other.name for other in stages if stage.name not in _read(other, givers)}
     return read - {stage.name}
+
+
+def _read(stage: Stage, givers: Mapping[str | type, str]) -> set[str]:
+    """Names of the stages that give what one names among its reads."""
+    named = [thing for thing in stage.reads if thing != EVERYTHING]
+    return {giver for thing, giver in givers.items() if is_among(thing, named)}
 
 
 def _word(thing: str | type) -> str:
@@ -182,9 +191,10 @@ def _advanced(chain: Chain, stage: Stage) -> Chain:
     given = stage.run(chain if EVERYTHING in stage.reads else chain.limited(stage.reads))
     if STAGES.origin(stage.name):
         _check_variables(given.results)
-    names = {str(name) for name in given.results.data_vars} | {type(one) for one in given.products}
-    for thing in names - set(stage.gives):
-        raise PluginError(f"stage {stage.name}: gives {_word(thing)}, which it does not name")
+    names: list[str | type] = [str(name) for name in given.results.data_vars]
+    for thing in names + [type(product) for product in given.products]:
+        if not is_among(thing, stage.gives):
+            raise PluginError(f"stage {stage.name}: gives {_word(thing)}, which it does not name")
     return chain.having(*given.products, results=chain.results.merge(given.results))
 
 
@@ -194,17 +204,17 @@ def _check_variables(given: xr.Dataset) -> None:
         check_numbers(array)
 
 
-def timed(chain: Chain, stage: Stage, study: Study, task: str) -> Trial:
+def timed(chain: Chain, stage: Stage, speeds: int = 1) -> Trial:
     """Run a stage at the first speed; at each further one it takes as long.
 
     Parameters
     ----------
     chain : at the first speed
     stage : to run
-    study : at all speeds
-    task : name of the cost
+    speeds : number of those at which a run computes
     """
-    start, speeds = time.process_time(), len(study.operation.speed_rpm)
+    start = time.process_time()
     after = advanced(chain, stage)
-    seconds = speeds * (time.process_time() - start)
-    return Trial(after, (about(task, seconds, f"{speeds} speeds, one measured"),))
+    seconds = time.process_time() - start
+    how = "measured" if speeds == 1 else f"{speeds} speeds, one measured"
+    return Trial(after, (about(stage.name, seconds, how, speeds),))

@@ -16,12 +16,7 @@ class Stopping(Stage):
 
     name = "stopping"
     reads = (ShellPath, "transfer_vector", "pattern_transfer_vector")
-    gives = (
-        "stopping_shaft_speed", "stopping_revolutions", "stopping_duration", "stopping_force",
-        "stopping_moment", "stopping_foot_force", "stopping_brake_force", "stopping_pressure",
-        "stopping_fast_level", "stopping_fast_maximum_level", "stopping_peak_level",
-        "stopping_order_map", "stopping_turned_back_angle",
-    )  # fmt: skip
+    gives = ("stopping_*",)
 
     def applies(self, study: Study) -> bool:
         return study.operation.stopping

@@ -10,7 +10,7 @@ from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level
 from ..base.units import shaft_frequency_hz
-from ..base.vocabulary import AXES, VARIABLES, check, stamp
+from ..base.vocabulary import AXES, stamped
 from ..machine.machine import Machine
 from ..radiation.pressure import pressure_per_shell_velocity
 from ..radiation.transfer_vectors import pressure_per_velocity
@@ -85,9 +85,9 @@ def stopping_variables(
         "stopping_phase": list(PHASES),
     }
     courses, phases = _courses(events), _phases(events, clock.time_s)
-    labelled = _labelled({**_of_runs(runs), **courses, **phases}, axes)
+    labelled = stamped({**_of_runs(runs), **courses, **phases}, axes)
     if turns_back:
-        labelled = labelled.merge(_labelled(_of_turning_back(runs), axes))
+        labelled = labelled.merge(stamped(_of_turning_back(runs), axes))
     return labelled.merge(stopping_order_map(stops, max(speeds)))
 
 
@@ -139,11 +139,3 @@ def _phases(events: Sequence[StoppingEvent], time_s: Array) -> dict[str, Array]:
 
 def _of_events(events: Sequence[StoppingEvent], part: str) -> Array:
     return np.stack([getattr(event, part) for event in events])
-
-
-def _labelled(arrays: dict[str, Any], axes: dict[str, Any]) -> xr.Dataset:
-    labelled = {
-        name: stamp(name, values, {dim: axes[dim] for dim in VARIABLES[name].dims})
-        for name, values in arrays.items()
-    }
-    return check(xr.Dataset(labelled))

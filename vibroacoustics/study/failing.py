@@ -22,12 +22,16 @@ def surviving(study: Study, job: Callable[[Study], Result]) -> Result:
     ------
     FaultError
         Something else of a plug-in failed.
+    ParameterError
+        That of the job, with the study's file.
     """
     while True:
         try:
             return job(study)
         except FaultError as fault:
             study = _without_options(study, fault)
+        except ParameterError as error:
+            raise ParameterError(f"{study.source_file}: {error}") from None
 
 
 def _without_options(study: Study, fault: FaultError) -> Study:

@@ -10,6 +10,7 @@ from ..base.errors import ParameterError
 from ..base.vocabulary import REFERENCE_OPTION
 from ..machine.option import Option
 from ..machine.source import CaseKey
+from .baseline import Baseline
 from .consistency import check_consistent
 from .replacing import replaced
 from .tables import StudyTables
@@ -59,6 +60,11 @@ class Study(StudyTables):
         elsewhere = self.catalogue_machine is not None
         name = AT_CATALOGUE_POINT if elsewhere else REFERENCE_OPTION
         return self.catalogue_speed_rpm, name
+
+    @property
+    def baseline(self) -> Baseline | None:
+        """Measured levels of the machine without an option, where there are some."""
+        return None if self.measured is None else self.measured.baseline
 
     def option_of(self, case: CaseKey) -> Option:
         """Option of a case: the reference at the point of the overall noise too."""

@@ -23,19 +23,17 @@ Named = dict[str, float]
 
 
 def natural_variables(
-    machine: Machine, path: ShellPath | None, loads: Mapping[str, Loads], highest_hz: float
+    machine: Machine, path: ShellPath, loads: Mapping[str, Loads], highest_hz: float
 ) -> xr.Dataset:
-    """`shell_frequency` and `gas_frequency`, without loss, up to a frequency; none without a shell.
+    """Label the natural frequencies of shell and gas, without loss, up to a frequency.
 
     Parameters
     ----------
     machine : as given
-    path : modes of its shell; none where no source drives it
+    path : modes of its shell
     loads : of all sources in one case; their ports say how fast sound is in the spaces of gas
     highest_hz : of the sound
     """
-    if path is None:
-        return xr.Dataset()
     named = {
         "shell": shell_frequencies(machine, path),
         "gas": gas_frequencies(machine, path, sound_speeds(loads)) if path.wall else {},

@@ -6,10 +6,11 @@ from functools import partial
 
 import numpy as np
 
+from ..machine.cases import Cases
 from ..machine.machine import Machine
-from ..machine.source import Case, CaseKey, Shared
+from ..machine.source import CaseKey, Shared
 from ..mechanics.contributions import Contributions
-from ..mechanics.loads import Lines, Loads, PortLoads, lines_of
+from ..mechanics.loads import Lines, Loads, lines_of
 from ..mechanics.received_sound import NoisePower, ReceivedSound
 from ..study.study import Study
 from .bending import bending_shell
@@ -30,53 +31,42 @@ class Transmission:
     microphones : pressure per velocity of the rigid motions and, where a source drives it, of the
         shell's modes
     shell : its modes and joints; none where no source drives it
-    wrenches : lines of the wrenches over crank angle, by case and source
     """
 
     study: Study
     microphones: Observers
     shell: ShellPath | None
-    wrenches: Mapping[CaseKey, Mapping[str, PortLoads]]
 
     def to(self, receivers: Sequence[int]) -> "Transmission":
         """To some of the receivers alone, the dimension kept."""
         return replace(self, microphones=self.microphones.to(list(receivers)))
 
-    def received(
-        self,
-        cases: Mapping[CaseKey, Case],
-        loads: Mapping[CaseKey, Mapping[str, Loads]],
-    ) -> dict[CaseKey, ReceivedSound]:
-        """Sound of every case behind its option's insertion loss.
+    def received(self, cases: Cases) -> dict[CaseKey, ReceivedSound]:
+        """Compute the sound of every case behind its option's insertion loss.
 
         Parameters
         ----------
-        cases : speeds and options, with the values of one draw
-        loads : of all sources in each
+        cases : speeds and options, with the values of one sample
         """
         known, sound = Shared(), {}
-        for key, case in cases.items():
-            path = self._path(known, case.machine, loads[key])
-            received = self._of_case(self._lines(key, case, loads[key]), loads[key], path)
+        for key, case in cases.cases.items():
+            path = self._path(known, case.machine, cases.loads[key])
+            received = self._of_case(self._lines(key, cases), cases.loads[key], path)
             sound[key] = received.behind(self.study.option_of(key).insertion_loss())
         return sound
 
-    def contributions(
-        self,
-        cases: Mapping[CaseKey, Case],
-        loads: Mapping[CaseKey, Mapping[str, Loads]],
-    ) -> Iterator[tuple[CaseKey, Contributions]]:
-        """Sound of every case by path, behind its option's insertion loss, one case at a time.
+    def contributions(self, cases: Cases) -> Iterator[tuple[CaseKey, Contributions]]:
+        """Compute the sound by path behind the option's insertion loss, one case at a time.
 
         Parameters
         ----------
-        cases, loads : as for `received`
+        cases : as for `received`
         """
         known = Shared()
-        for key, case in cases.items():
-            path = self._path(known, case.machine, loads[key])
-            lines = self._lines(key, case, loads[key])
-            split = contributions(path, self.microphones, lines, loads[key])
+        for key, case in cases.cases.items():
+            path = self._path(known, case.machine, cases.loads[key])
+            lines = self._lines(key, cases)
+            split = contributions(path, self.microphones, lines, cases.loads[key])
             yield key, split.behind(self.study.option_of(key).insertion_loss())
 
     def _path(self, known: Shared, machine: Machine, loads: Mapping[str, Loads]) -> LoadPath:
@@ -103,9 +93,10 @@ class Transmission:
         ]
         return ReceivedSound(lines, pressure, tuple(noise))
 
-    def _lines(self, key: CaseKey, case: Case, loads: Mapping[str, Loads]) -> Lines:
+    def _lines(self, key: CaseKey, cases: Cases) -> Lines:
         """With as many orders as the wrenches have; on a shell up to the highest frequency."""
+        case = cases.cases[key]
         highest = self.study.highest_order(case.speed_rpm)
         if self.study.drives_shell:
             highest = max(highest, case.maximum_order)
-        return lines_of(loads, case.shaft_frequency_hz, highest, self.wrenches[key])
+        return lines_of(cases.loads[key], case.shaft_frequency_hz, highest, cases.wrenches[key])

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array, IndexArray
-from ..base.vocabulary import check, stamp
+from ..base.vocabulary import stamped
 from ..levels.agreement import PRIOR_NAMES, Prior, agreement_of_points, effective_draws
 from ..study.sampling import Draw
 from ..study.uncertainty import Range
@@ -65,18 +65,23 @@ class Bank:
         weight = count * self.weight[:, index] / self.weight[0, index]
         return index, weight / weight.sum(axis=1, keepdims=True)
 
+    def some(self, index: IndexArray) -> list[Draw]:
+        """Return the draws of some numbers."""
+        return [self.draws[number] for number in index]
+
     def labelled(self, ranges: Sequence[Range], published_dba: float) -> xr.Dataset:
         """All draws, their weights, their level and their values."""
-        draws = {"bank_draw": np.arange(1, len(self.draws) + 1)}
-        names = {"drawn_parameter": [limits.name for limits in ranges]}
-        values = [[draw[limits.table, limits.field] for limits in ranges] for draw in self.draws]
-        priors = {"prior": list(self.prior_names)}
-        arrays = {
-            "bank_weight": stamp("bank_weight", self.weight, {**priors, **draws}),
-            "bank_level": stamp("bank_level", self.modelled_db + published_dba, draws),
-            "bank_value": stamp("bank_value", values, {**draws, **names}),
+        values = {
+            "bank_weight": self.weight,
+            "bank_level": self.modelled_db + published_dba,
+            "bank_value": [[draw[one.table, one.field] for one in ranges] for draw in self.draws],
         }
-        return check(xr.Dataset(arrays))
+        coords = {
+            "bank_draw": np.arange(1, len(self.draws) + 1),
+            "drawn_parameter": [limits.name for limits in ranges],
+            "prior": list(self.prior_names),
+        }
+        return stamped(values, coords)
 
 
 def bank_of(

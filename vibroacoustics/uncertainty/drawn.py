@@ -1,53 +1,33 @@
 """The cases of a study with drawn values: what moves otherwise turns anew."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from itertools import groupby
 from typing import Final
 
-from ..base.arrays import Array
 from ..base.errors import ParameterError
+from ..machine.cases import Cases
 from ..machine.machine import Machine
 from ..machine.source import Case, CaseKey, Shared
-from ..mechanics.loads import Loads, PortLoads
 from ..sources.cases import loads_of, without_time_series, wrench_lines
 from ..study.draws import with_draw
 from ..study.sampling import Draw
 from ..study.study import Study
-from .first_order import first_order
 
 _SHELL: Final = {"shell", "structure", "variation", "frame", "shaft", "overall_noise", "remainder"}
 """Tables that say nothing of the motion."""
 
 
-@dataclass(frozen=True)
-class DrawnCases:
-    """The cases of one draw.
-
-    Attributes
-    ----------
-    cases : with drawn values, without courses over crank angle
-    loads : of all sources in each
-    wrenches : lines of the cases whose motion is not that as given, by source
-    first_order : of the same, force, moment and foot force at 1x, N, N m, N
-    """
-
-    cases: dict[CaseKey, Case]
-    loads: dict[CaseKey, dict[str, Loads]]
-    wrenches: dict[CaseKey, dict[str, PortLoads]]
-    first_order: dict[CaseKey, Array]
-
-
-def drawn_cases(cases: Mapping[CaseKey, Case], study: Study, draw: Draw) -> DrawnCases:
-    """The cases with drawn values; they share no result with those of other draws.
+def drawn_cases(nominal: Cases, study: Study, draw: Draw) -> Cases:
+    """Compute the cases with drawn values; they share no result with those of other draws.
 
     Where a draw changes what moves, or the machine on its mounts, revolution and what an option
-    adds are computed anew, and what the wrenches of the moving parts sound like.
+    adds are computed anew, and what the wrenches of the moving parts sound like; other cases have
+    the nominal wrenches.
 
     Parameters
     ----------
-    cases : with the values as given, without their courses
+    nominal : with the nominal values
     study : with its machine and options
     draw : values by table and field
 
@@ -56,9 +36,9 @@ def drawn_cases(cases: Mapping[CaseKey, Case], study: Study, draw: Draw) -> Draw
     ParameterError, SolverError
         A machine cannot run so, an option not be built, a source not act.
     """
-    drawn = DrawnCases({}, {}, {}, {})
+    drawn = Cases({}, {}, {})
     shared = Shared()
-    for _, of_speed in groupby(cases.items(), key=lambda item: item[0][0]):
+    for _, of_speed in groupby(nominal.cases.items(), key=lambda item: item[0][0]):
         turned = Shared()  # let go with the speed: courses over crank angle are large
         for key, given in of_speed:
             machine = shared(
@@ -68,10 +48,10 @@ def drawn_cases(cases: Mapping[CaseKey, Case], study: Study, draw: Draw) -> Draw
             if moves_otherwise(machine, given.machine, study):
                 case = _turned(case, study, key, turned)
             loads = loads_of(study, case)
+            drawn.wrenches[key] = nominal.wrenches[key]
             if case.revolution.wrenches:
                 highest = study.highest_order(case.speed_rpm)
                 drawn.wrenches[key] = wrench_lines(case, loads, highest)
-                drawn.first_order[key] = first_order(case, drawn.wrenches[key])
             drawn.cases[key], drawn.loads[key] = without_time_series(case, loads)
     return drawn
 

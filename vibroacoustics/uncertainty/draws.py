@@ -12,7 +12,7 @@ from ..base.errors import ParameterError, SolverError
 from ..base.fault import FaultError
 from ..base.linear_algebra import one_thread_of_linear_algebra
 from ..base.threads import processors
-from ..base.vocabulary import check, stamp
+from ..base.vocabulary import stamped
 from ..study.sampling import Draw
 from ..study.uncertainty import Range
 
@@ -68,12 +68,11 @@ def drawn_values(ranges: Sequence[Range], draws: Sequence[Draw]) -> xr.Dataset:
     names = [limits.name for limits in ranges]
     values = [[draw[limits.table, limits.field] for limits in ranges] for draw in draws]
     coords = {"draw": np.arange(1, len(draws) + 1), "drawn_parameter": names}
-    return check(xr.Dataset({"drawn_value": stamp("drawn_value", values, coords)}))
+    return stamped({"drawn_value": values}, coords)
 
 
 def errors_of_projection(ranges: Sequence[Range], errors: Mapping[str, float]) -> xr.Dataset:
     """Errors of the values that are drawn by projection on modes, empty for others, labelled."""
     names = [limits.name for limits in ranges]
     values = [errors.get(name, np.nan) for name in names]
-    coords = {"drawn_parameter": names}
-    return check(xr.Dataset({"projection_error": stamp("projection_error", values, coords)}))
+    return stamped({"projection_error": values}, {"drawn_parameter": names})

@@ -9,7 +9,8 @@ import xarray as xr
 
 from ..base.arrays import Array
 from ..base.units import shaft_frequency_hz
-from ..base.vocabulary import check, stamp
+from ..base.vocabulary import stamped
+from ..machine.cases import Cases
 from ..machine.source import Case, CaseKey
 from ..mechanics.ellipse import semi_major_axis
 from ..mechanics.loads import PortLoads, summed
@@ -38,6 +39,15 @@ def first_order(case: Case, wrenches: Mapping[str, PortLoads]) -> Array:
     return np.array([*halves, semi_major_axis(foot_force[0], -1).max()])
 
 
+def changed_first_order(nominal: Cases, drawn: Cases) -> dict[CaseKey, Array]:
+    """Compute `first_order` of the cases that move otherwise than the nominal ones."""
+    return {
+        key: first_order(case, drawn.wrenches[key])
+        for key, case in drawn.cases.items()
+        if drawn.wrenches[key] is not nominal.wrenches[key]
+    }
+
+
 def unknown_first_order(cases: Iterable[CaseKey]) -> dict[CaseKey, Array]:
     """The same of a draw without solution: not a number."""
     return {key: np.full(len(_AMPLITUDES), np.nan) for key in cases}
@@ -63,8 +73,6 @@ def first_order_by_draw(drawn: Sequence[Mapping[CaseKey, Array]], given: xr.Data
         "speed": given["speed"].values,
         "option": given["option"].values,
     }
-    arrays = {
-        f"{name}_by_draw": stamp(f"{name}_by_draw", by_draw[..., number], coords)
-        for number, name in enumerate(_AMPLITUDES)
-    }
-    return check(xr.Dataset(arrays))
+    return stamped(
+        {f"{name}_by_draw": by_draw[..., n] for n, name in enumerate(_AMPLITUDES)}, coords
+    )

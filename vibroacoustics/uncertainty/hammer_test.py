@@ -10,14 +10,14 @@ import xarray as xr
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError, SolverError
 from ..base.progress import Progress
-from ..base.vocabulary import check, stamp
+from ..base.vocabulary import stamped
 from ..machine.machine import Machine
 from ..study.draws import with_draw
 from ..study.measured_shell import MeasuredShell
 from ..study.sampling import Draw
 from ..study.study import Study
 from ..transfer.path import ShellPath
-from ..transfer.wall_mobility import Reference, ShellMobilities, Wall, wall_mobility
+from ..transfer.wall_mobility import Reference, ShellMobilities, Wall, wall_mobility, wall_of
 from .shell_agreement import ShellAgreement, Tolerances, shell_agreement
 from .shell_features import Features, features
 
@@ -60,6 +60,33 @@ class HammerTest:
     agreements: list[ShellAgreement] = field(default_factory=list)
     weights: list[float] = field(default_factory=list)
     reference: float = 0.0
+
+    @classmethod
+    def of(
+        cls,
+        study: Study,
+        path: ShellPath | None,
+        settings: MeasuredShell,
+        mobilities: ShellMobilities,
+    ) -> "HammerTest":
+        """Prepare a hammer test to hold samples against.
+
+        Raises
+        ------
+        ParameterError
+            No source drives an elastic shell, nothing is sampled, or a point is not on the wall.
+        """
+        if path is None:
+            raise ParameterError("measured.shell: no source drives an elastic shell")
+        if not study.ranges:
+            raise ParameterError("measured.shell: weighs draws, and no value has a range")
+        points = [(point.angle_rad, point.height_m) for point in settings.wall.values()]
+        try:
+            wall = wall_of(path, *np.array(points).T)
+        except ParameterError as error:
+            raise ParameterError(f"measured.shell.wall: {error}") from None
+        measured = features(mobilities.mobility, mobilities.frequency_hz)
+        return cls(study, path, settings, mobilities, measured, wall)
 
     def agreeing(
         self, batches: Iterable[list[Draw]], wanted: int, progress: Progress
@@ -162,27 +189,27 @@ class HammerTest:
         gone : number of draws whose sound was computed
         """
         ranges = [one for one in self.study.ranges if one.table.split(".")[0] in OF_THE_SHELL]
-        draws = {"shell_draw": np.arange(1, len(self.tried) + 1)}
-        arrays = {
-            name: stamp(name, [getattr(one, part) for one in self.agreements], draws)
-            for name, part in {
-                "shell_likelihood": "likelihood",
-                "shell_gain": "gain_db",
-                "shell_frequency_ratio": "frequency_ratio",
-                "shell_loss_ratio": "loss_ratio",
-            }.items()
+        values = {
+            "shell_likelihood": [one.likelihood for one in self.agreements],
+            "shell_gain": [one.gain_db for one in self.agreements],
+            "shell_frequency_ratio": [one.frequency_ratio for one in self.agreements],
+            "shell_loss_ratio": [one.loss_ratio for one in self.agreements],
+            "shell_value": [[draw[one.table, one.field] for one in ranges] for draw in self.tried],
+            "shell_level_before": before_dba,
+            "shell_weight": self.likelihood(0, gone),
         }
-        values = [[draw[one.table, one.field] for one in ranges] for draw in self.tried]
-        named = {**draws, "shell_parameter": [one.name for one in ranges]}
-        arrays["shell_value"] = stamp("shell_value", values, named)
-        numbers = {"shell_level_draw": np.arange(1, len(before_dba) + 1)}
-        arrays["shell_level_before"] = stamp("shell_level_before", before_dba, numbers)
-        going = {"bank_draw": np.arange(1, gone + 1)}
-        arrays["shell_weight"] = stamp("shell_weight", self.likelihood(0, gone), going)
-        peaks = {"shell_peak": self.measured.peak_hz}
-        arrays["shell_peak_loss"] = stamp("shell_peak_loss", self.measured.loss_ratio, peaks)
+        if self.measured.peak_hz.size:
+            values["shell_peak_loss"] = self.measured.loss_ratio
+        coords = {
+            "shell_draw": np.arange(1, len(self.tried) + 1),
+            "shell_parameter": [one.name for one in ranges],
+            "shell_level_draw": np.arange(1, len(before_dba) + 1),
+            "bank_draw": np.arange(1, gone + 1),
+            "shell_peak": self.measured.peak_hz,
+        }
+        labelled = stamped(values, coords)
         settings, frequency = self.settings, self.mobilities.frequency_hz
-        arrays["shell_likelihood"].attrs |= {
+        labelled["shell_likelihood"].attrs |= {
             "mobilities": len(self.mobilities.mobility),
             "unused": self.mobilities.unused,
             "lowest_frequency_hz": float(frequency[0]),
@@ -191,6 +218,4 @@ class HammerTest:
             "frequency_tolerance_ratio": settings.frequency_tolerance_ratio,
             "loss_tolerance_ratio": settings.loss_tolerance_ratio,
         }
-        if not self.measured.peak_hz.size:
-            del arrays["shell_peak_loss"]
-        return check(xr.Dataset(arrays))
+        return labelled

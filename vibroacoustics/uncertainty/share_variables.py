@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
-from ..base.vocabulary import REFERENCE_OPTION, check, stamp
+from ..base.vocabulary import REFERENCE_OPTION, stamped
 from ..levels.agreement import ALL_ALIKE
 from ..study.sampling import position_in_range
 from ..study.study import Study
@@ -66,19 +66,15 @@ def change_shares(study: Study, levels: xr.Dataset) -> xr.Dataset:
     names = {"unknown": [*levels["drawn_parameter"].values.tolist(), REMAINDER]}
     coords = {"option": total["option"].values.tolist()}
     variance = [one.variance for one in shares]
-    of_options = xr.Dataset({"change_variance": stamp("change_variance", variance, coords)})
-    return check(_labelled("change_share", shares, coords, names).merge(of_options))
+    of_options = stamped({"change_variance": variance}, coords)
+    return _labelled("change_share", shares, coords, names).merge(of_options)
 
 
 def _labelled(
     name: str, shares: Sequence[Shares], coords: dict[str, list[str]], names: dict[str, list[str]]
 ) -> xr.Dataset:
     share, quality = [one.share for one in shares], [one.quality for one in shares]
-    arrays = {
-        name: stamp(name, share, {**coords, **names}),
-        f"{name}_quality": stamp(f"{name}_quality", quality, coords),
-    }
-    return check(xr.Dataset(arrays))
+    return stamped({name: share, f"{name}_quality": quality}, {**coords, **names})
 
 
 def _positions(ranges: Sequence[Range], values: Array) -> Array:

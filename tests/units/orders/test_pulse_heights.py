@@ -5,11 +5,11 @@ import warnings
 import numpy as np
 import pytest
 
+from vibroacoustics.measured.recorded_orders import analyse_orders
 from vibroacoustics.orders.pulse_edges import pulse_times
 from vibroacoustics.orders.pulse_heights import silent_parts
 from vibroacoustics.orders.recorded_speed import PulseWarning, recorded_speed
 from vibroacoustics.orders.tacho import tacho_motion
-from vibroacoustics.pipeline import analyse_orders
 from vibroacoustics.recordings import LabelledBlocks, label_recording
 from vibroacoustics.study.order_analysis import OrderAnalysis, SpeedChannel
 

@@ -8,7 +8,10 @@ import xarray as xr
 from support import ROOT, TINY, made_up_radiation
 
 from vibroacoustics import pipeline
+from vibroacoustics.radiation.of_study import inputs_of
 from vibroacoustics.radiation.receiver_methods import GIVEN
+from vibroacoustics.radiation.receiver_methods import receiver_methods as methods_by_settings
+from vibroacoustics.radiation.transfer_vectors import kwave_names
 from vibroacoustics.report.kwave_words import (
     kwave_difference_db,
     kwave_line,
@@ -16,7 +19,6 @@ from vibroacoustics.report.kwave_words import (
     receiver_methods,
 )
 from vibroacoustics.results import storage
-from vibroacoustics.stages.radiation import methods_of
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.study import Study
 
@@ -33,6 +35,12 @@ def _study(file: Path, folder: Path) -> Study:
     kept = [part for part in re.split(r"(?m)^(?=\[)", text) if "back-turning-weight" not in part]
     (folder / file.name).write_text("".join(kept).replace("../../..", str(ROOT)))
     return load_study(folder / file.name)
+
+
+def methods_of(study: Study) -> dict[str, tuple[str, str]]:
+    """Method and reason of each microphone, from the study alone."""
+    _, receivers, settings, *_, asked = inputs_of(study, ())
+    return methods_by_settings(receivers, settings, kwave_names(receivers, settings, asked))
 
 
 @pytest.mark.parametrize("folder", FOLDERS)

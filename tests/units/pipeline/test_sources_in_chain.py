@@ -24,6 +24,7 @@ from vibroacoustics.base.constants import REFERENCE_PRESSURE_PA
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.levels.agreement import agreement, priors_of
 from vibroacoustics.levels.by_source import SourceSound, filled_thirds, source_sound
+from vibroacoustics.machine.cases import Cases
 from vibroacoustics.machine.frame import (
     BEARING_HOUSING,
     FIXED_SCROLL,
@@ -46,7 +47,6 @@ from vibroacoustics.sources.oldham_keys.rattle import steady_key_forces
 from vibroacoustics.sources.oldham_keys.spectra import spectral_density
 from vibroacoustics.sources.part_loads import key_torque_n_m
 from vibroacoustics.stages import ensemble, samples
-from vibroacoustics.stages.chain import Cases
 from vibroacoustics.stages.sampled import SampledSound
 from vibroacoustics.study.draws import with_draw
 from vibroacoustics.study.loading import load_study

@@ -3,8 +3,9 @@
 import pytest
 
 from vibroacoustics.base.errors import PluginError
-from vibroacoustics.base.vocabulary import VARIABLES, stamp
-from vibroacoustics.stages.chain import Cases, Chain
+from vibroacoustics.base.vocabulary import stamp
+from vibroacoustics.machine.cases import Cases
+from vibroacoustics.stages.chain import Chain
 from vibroacoustics.stages.stage import (
     EVERYTHING,
     STAGES,
@@ -77,12 +78,20 @@ def test_products_are_found_by_type():
         chain[Given]
 
 
-def test_every_variable_that_a_stage_names_is_in_the_vocabulary():
-    every = [kind() for kind in STAGES.values()]
-    ordered(every)
-    for one in every:
-        words = [thing for thing in (*one.reads, *one.gives) if isinstance(thing, str)]
-        assert [word for word in words if word not in VARIABLES and word != EVERYTHING] == []
+def test_a_pattern_gives_what_fits_and_a_name_goes_before_it():
+    pattern, name = stage("c", (), ("room_*",)), stage("b", (), ("room_limit",))
+    assert names([stage("a", ("room_level",)), pattern, name]) == ["b", "c", "a"]
+    assert names([stage("a", ("room_*",)), pattern, name]) == ["b", "c", "a"]
+    assert names([stage("a", ("room_limit",)), pattern, name]) == ["b", "a", "c"]
+
+
+def test_a_pattern_lets_a_stage_give_and_read_what_fits_alone():
+    shown = stamp("level_remainder", 50.0).to_dataset()
+    chain = advanced(Chain(None, None), stage("a", (), ("level_*",), Given(shown)))
+    assert list(chain.limited(("level_rem*",)).results) == ["level_remainder"]
+    assert list(chain.limited(("room_*",)).results) == []
+    with pytest.raises(PluginError, match="stage a: gives level_remainder, which it does not name"):
+        advanced(Chain(None, None), stage("a", (), ("room_*",), Given(shown)))
 
 
 def test_the_room_follows_the_samples_whose_bands_it_gives():

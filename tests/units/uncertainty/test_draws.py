@@ -13,6 +13,7 @@ from sources_study import SOURCES_STUDY, case_of, made_up_modes, path_of, run_ma
 from support import MACHINE_FILE, ROOT
 
 from vibroacoustics.base.errors import ParameterError, SolverError
+from vibroacoustics.machine.cases import Cases
 from vibroacoustics.machine.machine import Machine
 from vibroacoustics.machine.source import Shared
 from vibroacoustics.radiation.pressure import wrench_pressure
@@ -30,6 +31,7 @@ from vibroacoustics.transfer.path import computed_path
 from vibroacoustics.transfer.study_path import projection_errors
 from vibroacoustics.uncertainty.drawn import drawn_cases, moves_otherwise
 from vibroacoustics.uncertainty.draws import of_every_draw
+from vibroacoustics.uncertainty.first_order import changed_first_order
 
 TEXT = SOURCES_STUDY.read_text(encoding="utf-8")
 MACHINE_TEXT = MACHINE_FILE.read_text(encoding="utf-8")
@@ -320,8 +322,8 @@ def drawn_pressure(study, rigid, draw, option="none"):
     case = case_of(study, option)
     bare, _ = without_time_series(replace(case, shared=Shared()), {})
     key = (case.speed_rpm, option)
-    drawn = drawn_cases({key: bare}, study, draw)
-    if key not in drawn.wrenches:
+    drawn = drawn_cases(Cases({key: bare}, {}, {key: {}}), study, draw)
+    if not drawn.wrenches[key]:
         return None
     path, moved = LoadPath(on_mounts(drawn.cases[key].machine)), drawn.wrenches[key]
     orders = np.arange(next(iter(moved["moving_parts"].values())).shape[-1])
@@ -353,7 +355,8 @@ def test_forces_at_1x_are_those_of_a_machine_with_the_drawn_values(study):
         case = case_of(study, option)
         bare, _ = without_time_series(replace(case, shared=Shared()), {})
         key = (case.speed_rpm, option)
-        drawn = drawn_cases({key: bare}, study, draw).first_order[key]
+        nominal = Cases({key: bare}, {}, {key: {}})
+        drawn = changed_first_order(nominal, drawn_cases(nominal, study, draw))[key]
         at = {"speed": 2900.0, "option": option, "order": 1}
         force, moment = (expected[f"{name}_amplitude"].sel(at) for name in ("force", "moment"))
         foot = expected["foot_force_amplitude"].sel(at).max()

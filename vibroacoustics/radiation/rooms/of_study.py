@@ -1,6 +1,6 @@
 """The room of a study, its machine and its listeners, and pressure at all that is asked for."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, Final
@@ -11,7 +11,8 @@ import xarray as xr
 from ...base.arrays import Array, ComplexArray
 from ...base.constants import AIR_IMPEDANCE_PA_S_PER_M
 from ...base.decibel import power_of_level
-from ...base.vocabulary import RIGID_BODY_DOFS
+from ...base.progress import Progress
+from ...base.vocabulary import RIGID_BODY_DOFS, stamped
 from ...machine.shell import Shell
 from ...study.room import StudyRoom
 from ...study.room_materials import Covering
@@ -29,8 +30,10 @@ from .diffuse import (
     line_of_sight,
     mean_square_per_power,
 )
-from .machine_in_room import green_of_foot, room_pressure_per_velocity
+from .machine_in_room import green_of_foot, room_pressure_per_velocity, room_vectors
+from .plane import plane_gains
 from .room import OCTAVES_HZ, Block, Material, Patch, Room
+from .wall_absorption import wall_absorption
 
 _KEPT: Final = 8
 """Sets of frequencies whose values are kept: rigid motions and modes ask for the same."""
@@ -98,6 +101,42 @@ def room_key(study: Study, settings: StudyRoom, motions: Sequence[SurfaceMotion]
     """Everything that shapes the room's vectors, as plain data to be hashed."""
     machine = cache_key_material(study.machine.shell, {}, study.radiation, motions=motions)
     return {"machine": machine, "room": settings.model_dump(exclude={"limits"})}
+
+
+def vectors_in_room(
+    study: Study, settings: StudyRoom, motions: Sequence[SurfaceMotion], progress: Progress
+) -> xr.Dataset:
+    """Compute `room_vectors` of a study's machine at the listeners in its room."""
+    return room_vectors(
+        study.machine.shell,
+        study.radiation,
+        room_of(settings),
+        foot_m(settings),
+        listeners_m(settings),
+        settings.maximum_frequency_hz,
+        motions,
+        progress,
+    )
+
+
+def map_height_m(settings: StudyRoom) -> float:
+    """Return the height of the ears of the first listener, in whose plane sound is mapped."""
+    return next(iter(settings.listeners.values())).height_m
+
+
+def plane_key(study: Study, settings: StudyRoom, bands_hz: Mapping[float, Array]) -> dict[str, Any]:
+    """Return everything that shapes `plane_in_room`, as plain data to be hashed."""
+    plane = [map_height_m(settings), *map(list, bands_hz.values())]
+    return {**room_key(study, settings, ()), "plane": plane}
+
+
+def plane_in_room(
+    study: Study, settings: StudyRoom, bands_hz: Mapping[float, Array], progress: Progress
+) -> xr.Dataset:
+    """Compute `plane_gains` of the middle of a study's machine."""
+    at, height_m = machine_middle_m(settings, study.machine.shell), map_height_m(settings)
+    above_m, highest_hz = float(at[2] - settings.standing_height_m), settings.maximum_frequency_hz
+    return plane_gains(room_of(settings), at, above_m, height_m, bands_hz, highest_hz, progress)
 
 
 def pressure_at_places(vectors: xr.Dataset) -> PressureAt:
@@ -261,9 +300,14 @@ def gain_over_frequency(gains_db: Array, middle_hz: Array) -> Callable[[Array], 
     )
 
 
-def absorption_by_octave(settings: StudyRoom) -> tuple[list[float], Array]:
-    """Octaves, Hz, and the equivalent absorption area of walls and furniture in them, m²."""
-    return list(OCTAVES_HZ), np.asarray(absorption_area_m2(room_of(settings)), dtype=np.float64)
+def surface_variables(settings: StudyRoom) -> xr.Dataset:
+    """Label the absorption of a room and of its surfaces, and the limits of its listeners."""
+    room, limits = room_of(settings), settings.limits.levels
+    values: dict[str, Any] = {"room_absorption_area": absorption_area_m2(room)}
+    if limits:
+        values["room_limit"] = list(limits.values())
+    coords = {"room_octave": list(OCTAVES_HZ), "room_limit_time": list(limits)}
+    return stamped(values, coords).merge(wall_absorption(room, settings.maximum_frequency_hz))
 
 
 def arrivals(settings: StudyRoom, source_m: Array) -> Arrivals:

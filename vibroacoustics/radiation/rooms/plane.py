@@ -15,7 +15,7 @@ from ...base.constants import (
 )
 from ...base.decibel import mean_square_level
 from ...base.progress import Progress, no_progress
-from ...base.vocabulary import check, stamp
+from ...base.vocabulary import stamped
 from .lattice import Lattice
 from .room import Room
 from .run import room_transfer
@@ -71,7 +71,7 @@ def plane_gains(
         mean = square.reshape(len(bands), -1, square.shape[1]).mean(axis=1)
         gain[j, row] = mean_square_level(mean.T * REFERENCE_POWER_W, REFERENCE_PRESSURE_PA)
     coords = {"room_map_y": y, "room_map_x": x, "seam_band": list(bands)}
-    return check(xr.Dataset({"room_map_gain": stamp("room_map_gain", gain, coords)}))
+    return stamped({"room_map_gain": gain}, coords)
 
 
 def _line(size_m: float) -> Array:

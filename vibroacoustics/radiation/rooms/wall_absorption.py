@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from ...base.vocabulary import stamp
+from ...base.vocabulary import stamped
 from ..arrays import Array
 from .impedance import fitted_absorption
 from .room import HARD, MOST_ABSORPTION, OCTAVES_HZ, SIDES, WAVE_OCTAVES, Material, Room
@@ -39,7 +39,7 @@ def wall_absorption(room: Room, highest_hz: float) -> xr.Dataset:
         "room_wall_absorption": [computed(one, highest_hz) for one in surfaces.values()],
         "room_wall_absorption_requested": [one.absorption for one in surfaces.values()],
     }
-    return xr.Dataset({name: stamp(name, np.array(rows), coords) for name, rows in values.items()})
+    return stamped(values, coords)
 
 
 def computed(material: Material, highest_hz: float) -> Array:

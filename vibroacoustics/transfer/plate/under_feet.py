@@ -1,12 +1,18 @@
 """A plate under the feet of a machine: power of the feet's forces into it, and its sound power."""
 
-from typing import Final, NamedTuple
+from collections.abc import Sequence
+from typing import Final
 
 import numpy as np
+import xarray as xr
 
 from ...base.arrays import Array, ComplexArray
+from ...machine.cases import Cases
+from ...machine.source import CaseKey
+from ...mechanics.received_sound import PlateSound
 from ...study.structure_borne import StructureBorne
-from ..machine import MachineOnMounts
+from ..foot_lines import force_at_lines
+from ..machine import MachineOnMounts, on_mounts
 from .driven import Plate, input_power, likeness, near_power, wave_power
 from .spread import modal_overlap, relative_variance
 
@@ -14,25 +20,39 @@ _NO_LINE: Final = 1.0
 """Frequency, Hz, where there is no line and no force."""
 
 
-class PlatePower(NamedTuple):
-    """Power of the lines of one case, shape (line,).
+def plate_sound(
+    settings: StructureBorne, cases: Cases, options: Sequence[str], frequency: xr.DataArray
+) -> PlateSound:
+    """Compute the power of the feet's vertical forces into the plate, and its sound power.
 
-    Attributes
+    Parameters
     ----------
-    input_w : into the plate
-    sound_w : radiated to one side; zero where there is no line
-    variance : of the sound power by the plate's modes, over its squared mean
-    """
+    settings : plate under the feet
+    cases : with their loads
+    options : in the order of the result
+    frequency : of the lines by their names, (speed, line), Hz; not a number where there is none
 
-    input_w: Array
-    sound_w: Array
-    variance: Array
+    Returns
+    -------
+    shapes (speed, option, line)
+    """
+    names = [str(name) for name in frequency["line"].values]
+
+    def of_case(key: CaseKey) -> PlateSound:
+        case = cases.cases[key]
+        force = force_at_lines(case, cases.loads[key], cases.wrenches[key], names)
+        hertz = np.nan_to_num(frequency.sel(speed=key[0]).values)
+        return plate_power(settings, on_mounts(case.machine), force, hertz)
+
+    speeds = frequency["speed"].values.tolist()
+    every = [[of_case((speed, option)) for option in options] for speed in speeds]
+    return PlateSound(*np.moveaxis(np.array(every), 2, 0))
 
 
 def plate_power(
     settings: StructureBorne, machine: MachineOnMounts, force: ComplexArray, frequency_hz: Array
-) -> PlatePower:
-    """Compute the power of the feet's vertical forces into the plate, and its sound power.
+) -> PlateSound:
+    """Compute the same of the lines of one case, shape (line,).
 
     Parameters
     ----------
@@ -65,7 +85,7 @@ def plate_power(
             settings.size_m[0] * settings.size_m[1],
         )
         variance = relative_variance(overlap) * by_modes**2
-    return PlatePower(power, total, variance)
+    return PlateSound(power, total, variance)
 
 
 def _input_power(

@@ -9,7 +9,7 @@ import xarray as xr
 from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.errors import ParameterError
-from ..base.vocabulary import check, label_coordinates, stamp
+from ..base.vocabulary import label_coordinates, stamped
 from ..levels.bands import measurable_bands
 from ..levels.measured_power import BANDS, MeasuredPower, measured_power, spread_dba
 from ..levels.signal_levels import band_levels
@@ -72,7 +72,7 @@ def sound_power(
         "spread_dba": spread_dba(measured_db),
         "positions_of_the_standard": list(surface.positions),
     }
-    return check(label_coordinates(labelled))
+    return label_coordinates(labelled)
 
 
 def _levels_of(recordings: Iterable[xr.Dataset]) -> dict[str, Array]:
@@ -118,24 +118,16 @@ def _by_band(given: float | Mapping[float, float]) -> Array:
 
 
 def _labelled(names: list[str], levels: Array, measured: MeasuredPower) -> xr.Dataset:
-    by_band = {"band": BAND_HZ}
-    of_bands = {
+    values = {
+        "position_level": levels,
         "mean_position_level": measured.mean_db,
         "background_margin": measured.margin_db,
         "background_correction": measured.background_db,
         "environment_correction": measured.environment_db,
         "measured_power_level": measured.power_db,
-    }
-    of_sums = {
         "measured_power_level_a": measured.power_dba,
         "background_margin_a": measured.margin_dba,
         "background_correction_a": measured.background_dba,
         "environment_correction_a": measured.environment_dba,
     }
-    return xr.Dataset(
-        {
-            "position_level": stamp("position_level", levels, {"channel": names, **by_band}),
-            **{name: stamp(name, values, by_band) for name, values in of_bands.items()},
-            **{name: stamp(name, value) for name, value in of_sums.items()},
-        }
-    )
+    return stamped(values, {"channel": names, "band": BAND_HZ})

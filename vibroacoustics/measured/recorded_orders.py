@@ -1,6 +1,7 @@
 """What is computed from a recording: orders and levels, tracked orders, a map over the speed."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 
 import xarray as xr
 
@@ -10,6 +11,7 @@ from ..base.vocabulary import check, label_coordinates
 from ..levels.block_levels import labelled_block_levels
 from ..orders import recorded as of_recording
 from ..orders.analysed import analysed_channels, channels_without_speed
+from ..orders.crank_motion import CrankMotion
 from ..orders.labelled_map import labelled_map, mapped_spectra
 from ..orders.recorded_speed import recorded_speed
 from ..orders.tracked import tracked_orders
@@ -106,14 +108,8 @@ def track_orders(
     >>> round(abs(at_2_s.item()), 2)
     3.0
     """
-    with provenance.naming(recording.attrs):
-        of_shaft = recorded_speed(LabelledBlocks(recording), speed)
-        signal = channels_without_speed(recording["signal"], speed)
-        rate_hz = float(recording.attrs["sample_rate_hz"])
-        tracked = tracked_orders(signal, rate_hz, of_shaft.motion, orders, bandwidth_hz, poles)
-        about = provenance.of_recording(recording.attrs, "tracked orders")
-        tracked.attrs = {**about, **of_shaft.attributes(), **tracked.attrs}
-        return check(label_coordinates(tracked))
+    tracked = partial(tracked_orders, orders=orders, bandwidth_hz=bandwidth_hz, poles=poles)
+    return _at_once(recording, speed, "tracked orders", tracked)
 
 
 def speed_frequency_map(
@@ -158,17 +154,28 @@ def speed_frequency_map(
     >>> mapped["block_level"].sel(channel="front", weighting="Z").mean().round(1).item()
     91.0
     """
+
+    def spectra(signal: xr.DataArray, rate_hz: float, motion: CrankMotion) -> xr.Dataset:
+        mapped = mapped_spectra(signal, rate_hz, motion, resolution_hz)
+        levels = labelled_block_levels(
+            mapped.amplitude, mapped.frequency_hz, mapped.resolution_hz, signal["channel_unit"]
+        )
+        return labelled_map(mapped, signal, maximum_frequency_hz).merge(levels)
+
+    return _at_once(recording, speed, "speed-frequency map", spectra)
+
+
+def _at_once(
+    recording: xr.Dataset,
+    speed: SpeedSource,
+    what: str,
+    compute: Callable[[xr.DataArray, float, CrankMotion], xr.Dataset],
+) -> xr.Dataset:
+    """What is computed from all channels but those of the speed, with where it comes from."""
     with provenance.naming(recording.attrs):
         of_shaft = recorded_speed(LabelledBlocks(recording), speed)
         signal = channels_without_speed(recording["signal"], speed)
-        rate_hz = float(recording.attrs["sample_rate_hz"])
-        mapped = mapped_spectra(signal, rate_hz, of_shaft.motion, resolution_hz)
-        spectra = labelled_map(mapped, signal, maximum_frequency_hz)
-        spectra = spectra.merge(
-            labelled_block_levels(
-                mapped.amplitude, mapped.frequency_hz, mapped.resolution_hz, signal["channel_unit"]
-            )
-        )
-        about = provenance.of_recording(recording.attrs, "speed-frequency map")
-        spectra.attrs = {**about, **of_shaft.attributes(), **spectra.attrs}
-        return check(label_coordinates(spectra))
+        computed = compute(signal, float(recording.attrs["sample_rate_hz"]), of_shaft.motion)
+        about = provenance.of_recording(recording.attrs, what)
+        computed.attrs = {**about, **of_shaft.attributes(), **computed.attrs}
+        return check(label_coordinates(computed))

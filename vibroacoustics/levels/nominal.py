@@ -1,0 +1,110 @@
+"""Sound and levels of a study with the nominal values."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array
+from ..base.vocabulary import REFERENCE_OPTION
+from ..machine.source import CaseKey
+from ..mechanics.received_sound import ReceivedSound
+from ..study.study import Study
+from .axes import LevelAxes
+from .baseline import baseline_variables, over_baseline, points_of, with_baseline
+from .by_source import Measured, SourceSound, sound_by_source
+from .continuous import noise_levels
+from .labelled import level_variables
+from .lines import line_pressure
+from .measured_points import BASELINE_BANDS, MeasuredPoint, PointKey, evidence
+from .published import published_of
+from .remainder import over_published, remainder, remaining
+
+Sound = dict[CaseKey, SourceSound]
+
+
+@dataclass(frozen=True)
+class NominalSound:
+    """Sound by source with the nominal values.
+
+    Attributes
+    ----------
+    study : with its options and published level
+    axes : of the levels
+    points : of a measured baseline
+    sound : mean squares by source of every case, that of the published level among them
+    """
+
+    study: Study
+    axes: LevelAxes
+    points: Mapping[PointKey, MeasuredPoint]
+    sound: Sound
+
+    @classmethod
+    def of(
+        cls, study: Study, axes: LevelAxes, received: Mapping[CaseKey, ReceivedSound]
+    ) -> "NominalSound":
+        """Compute mean squares by source from the sound of every case at the receivers."""
+        sound = by_source(study, axes, received)
+        return cls(study, axes, points_of(study, axes), sound)
+
+    def weighing(self) -> "NominalSound":
+        """Return the receivers and cases alone whose levels weigh samples."""
+        measured = evidence(self.points)
+        names = [self.study.catalogue_receiver, *(name for name, _ in measured)]
+        keys = [self.study.catalogue_case, *((speed, REFERENCE_OPTION) for _, speed in measured)]
+        axes = replace(self.axes, receivers=list(dict.fromkeys(names)))
+        return replace(self, axes=axes, sound={key: self.sound[key] for key in keys})
+
+    def over_evidence(self, sounds: Sequence[Sound]) -> Array:
+        """Compute levels of samples over the published one and the measured ones, dB.
+
+        Parameters
+        ----------
+        sounds : of the cases that weigh, by sample
+
+        Returns
+        -------
+        shape (1 + point, sample)
+        """
+        over = [
+            [over_baseline(self.axes, self.points, sound, key) for sound in sounds]
+            for key in evidence(self.points)
+        ]
+        return np.array([over_published(self.study, self.axes, sounds), *over])
+
+    @property
+    def deviation_db(self) -> float:
+        """Standard deviation of the levels that weigh samples: the published or measured ones."""
+        if self.study.baseline is not None and self.points:
+            return self.study.baseline.tolerance_db
+        return published_of(self.study).deviation_db
+
+    def levels(
+        self, received: Mapping[CaseKey, ReceivedSound], order_frequency: xr.DataArray
+    ) -> xr.Dataset:
+        """Compute levels of lines, noise, sources and totals, with the unmodelled noise.
+
+        Parameters
+        ----------
+        received : sound of every case at the receivers
+        order_frequency : (speed, order), Hz
+        """
+        study, axes, points, sound = self.study, self.axes, self.points, self.sound
+        replaced = any(receiver == study.catalogue_receiver for receiver, _ in points)
+        unmodelled = remainder(study, axes, sound, replaced or bool(study.ranges))
+        residual = remaining(study, axes, sound, study.machine, unmodelled)
+        lines, noise = line_pressure(axes, received), noise_levels(axes, received, residual)
+        residual = with_baseline(study, axes, points, sound, residual)
+        measured = baseline_variables(study, axes, points, sound)
+        levels = level_variables(
+            axes, sound, lines["pressure_line"], order_frequency, residual, unmodelled, measured
+        )
+        return levels.merge(lines).merge(measured).merge(noise)
+
+
+def by_source(study: Study, axes: LevelAxes, received: Mapping[CaseKey, ReceivedSound]) -> Sound:
+    """Compute mean squares by source of every case; with a baseline its orders too."""
+    measured = None if study.baseline is None else Measured(BASELINE_BANDS, axes.measured_orders)
+    return {key: sound_by_source(one, axes.bands, measured) for key, one in received.items()}

@@ -1,0 +1,69 @@
+"""What samples will cost, from the time that a few take."""
+
+from collections.abc import Sequence
+from math import ceil
+from typing import Final
+
+from ..levels.agreement import agreement, effective_draws
+from ..levels.nominal import NominalSound, Sound
+from ..levels.published import published_of
+from ..levels.remainder import over_published
+from ..radiation.cost import Cost
+from ..study.study import Study
+from .bank import MOST_DRAWS, MOST_ROUNDS
+
+_LEAST_BATCHES: Final = 2
+_MOST_BATCHES: Final = 10
+"""Of as many samples as shall be effective, with the studies of the package."""
+_LEAST_SHARE: Final = 0.3
+"""Share of the wanted samples that go on at least."""
+
+
+def ensemble_cost(
+    nominal: NominalSound, sounds: Sequence[Sound], seconds: float, known: bool
+) -> Cost:
+    """Estimate the cost of the samples at the published level.
+
+    Parameters
+    ----------
+    nominal : at the receivers and cases that weigh the samples
+    sounds : of a few samples
+    seconds : processor time that they took
+    known : whether the transfer vectors are computed already
+    """
+    one_s = seconds / len(sounds)
+    low, high = _expected(nominal, sounds, known)
+    how = f"{one_s:.2g} s for one of {low} to {high} draws, {len(sounds)} measured"
+    return Cost("draws at the published level", low * one_s, high * one_s, how)
+
+
+def samples_cost(study: Study, count: int, seconds: float) -> Cost:
+    """Estimate the cost of all cases of the samples that go on.
+
+    Parameters
+    ----------
+    study : with all speeds
+    count : number of samples that were timed, at one speed
+    seconds : processor time that they took
+    """
+    speeds, wanted = len(study.operation.speed_rpm), study.uncertainty.random_samples
+    all_s = speeds * seconds / count
+    how = f"{all_s:.2g} s for one of up to {wanted} draws, {count} measured at one speed"
+    return Cost("draws of all cases", _LEAST_SHARE * wanted * all_s, wanted * all_s, how)
+
+
+def _expected(nominal: NominalSound, sounds: Sequence[Sound], known: bool) -> tuple[int, int]:
+    """Number of samples until enough agree with the published level, at least and at most.
+
+    With computed transfer vectors, by how well the first few agree: half as many to twice as many.
+    """
+    wanted = nominal.study.uncertainty.random_samples
+    most = min(MOST_ROUNDS * wanted, MOST_DRAWS)
+    if not known:
+        return min(_LEAST_BATCHES * wanted, most), min(_MOST_BATCHES * wanted, most)
+    published = published_of(nominal.study)
+    level = over_published(nominal.study, nominal.axes, sounds)
+    weight = agreement(level, published.deviation_db, published.priors[0])
+    needed = len(sounds) / max(effective_draws(weight), 0.5)
+    low, high = (wanted * ceil(factor * needed) for factor in (0.5, 2.0))
+    return min(low, most), min(high, most)
