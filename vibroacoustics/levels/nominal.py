@@ -58,7 +58,7 @@ class NominalSound:
         return replace(self, axes=axes, sound={key: self.sound[key] for key in keys})
 
     def over_evidence(self, sounds: Sequence[Sound]) -> Array:
-        """Compute levels of samples over the published one and the measured ones, dB.
+        """Compute levels of samples relative to published and measured ones, dB.
 
         Parameters
         ----------
@@ -107,4 +107,6 @@ class NominalSound:
 def by_source(study: Study, axes: LevelAxes, received: Mapping[CaseKey, ReceivedSound]) -> Sound:
     """Compute mean squares by source of every case; with a baseline its orders too."""
     measured = None if study.baseline is None else Measured(BASELINE_BANDS, axes.measured_orders)
-    return {key: sound_by_source(one, axes.bands, measured) for key, one in received.items()}
+    return {
+        key: sound_by_source(of_case, axes.bands, measured) for key, of_case in received.items()
+    }

@@ -25,7 +25,7 @@ def passed_over(
 ) -> xr.Dataset:
     """Orders, average and levels of the channels, in one pass over the blocks of a recording.
 
-    Attributes: the resolution, what is left out.
+    Attributes: the resolution, what is omitted.
 
     Parameters
     ----------

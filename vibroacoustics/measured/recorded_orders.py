@@ -73,7 +73,7 @@ def track_orders(
     """Complex envelope of each order over the time of a recording, all orders together.
 
     A Vold-Kalman filter of the second generation (Vold, Mains and Blough 1997, SAE 972007). It
-    tells orders apart that lie close or cross, and follows them up to the ends of the recording.
+    separates orders that lie close or cross, and follows them up to the ends of the recording.
 
     Parameters
     ----------

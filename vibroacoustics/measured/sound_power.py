@@ -65,7 +65,9 @@ def sound_power(
     labelled.attrs = {
         **provenance.software_attributes("sound power of recordings"),
         "title": f"Sound power of {provenance.recording_name(recordings[0].attrs)}",
-        "source_files": ", ".join(provenance.recording_name(one.attrs) for one in recordings),
+        "source_files": ", ".join(
+            provenance.recording_name(recording.attrs) for recording in recordings
+        ),
         "surface": surface.name,
         "surface_m2": surface.area_m2,
         "grade": measured.grade or 0,
@@ -99,13 +101,13 @@ def _levels_of(recordings: Iterable[xr.Dataset]) -> dict[str, Array]:
                 measured_db, (0, len(BANDS) - len(bands)), constant_values=np.nan
             )
     if not levels:
-        files = ", ".join(provenance.recording_name(one.attrs) for one in recordings)
+        files = ", ".join(provenance.recording_name(recording.attrs) for recording in recordings)
         raise ParameterError(f"{files}: no channel is sound pressure")
     return levels
 
 
-def _by_band(given: float | Mapping[float, float]) -> Array:
-    by_band = given if isinstance(given, Mapping) else dict.fromkeys(BAND_HZ, given)
+def _by_band(area_m2: float | Mapping[float, float]) -> Array:
+    by_band = area_m2 if isinstance(area_m2, Mapping) else dict.fromkeys(BAND_HZ, area_m2)
     for band in BAND_HZ:
         if band not in by_band:
             raise ParameterError(f"absorption_area_m2: has no value at {band:g} Hz")

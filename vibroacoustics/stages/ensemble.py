@@ -22,7 +22,7 @@ from .radiation import Radiated
 from .sampled import sounds_of, timed_sounds
 from .stage import Given, Stage, Trial
 
-_WEIGHTED: Final = "draws at the published level"
+_WEIGHTED: Final = "samples at the published level"
 _TIMED: Final = 12
 """Number of samples that are timed."""
 

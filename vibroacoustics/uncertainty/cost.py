@@ -14,13 +14,13 @@ from .bank import MOST_DRAWS, MOST_ROUNDS
 
 _LEAST_BATCHES: Final = 2
 _MOST_BATCHES: Final = 10
-"""Of as many samples as shall be effective, with the studies of the package."""
+"""Batches of the samples that shall be effective, with the studies of the package."""
 _LEAST_SHARE: Final = 0.3
 """Share of the wanted samples that go on at least."""
 
 
 def ensemble_cost(
-    nominal: NominalSound, sounds: Sequence[Sound], seconds: float, known: bool
+    nominal: NominalSound, sounds: Sequence[Sound], seconds: float, was_cached: bool
 ) -> Cost:
     """Estimate the cost of the samples at the published level.
 
@@ -29,12 +29,12 @@ def ensemble_cost(
     nominal : at the receivers and cases that weigh the samples
     sounds : of a few samples
     seconds : processor time that they took
-    known : whether the transfer vectors are computed already
+    was_cached : whether the transfer vectors are computed already
     """
     one_s = seconds / len(sounds)
-    low, high = _expected(nominal, sounds, known)
-    how = f"{one_s:.2g} s for one of {low} to {high} draws, {len(sounds)} measured"
-    return Cost("draws at the published level", low * one_s, high * one_s, how)
+    low, high = _expected(nominal, sounds, was_cached)
+    how = f"{one_s:.2g} s for one of {low} to {high} samples, {len(sounds)} measured"
+    return Cost("samples at the published level", low * one_s, high * one_s, how)
 
 
 def samples_cost(study: Study, count: int, seconds: float) -> Cost:
@@ -48,18 +48,18 @@ def samples_cost(study: Study, count: int, seconds: float) -> Cost:
     """
     speeds, wanted = len(study.operation.speed_rpm), study.uncertainty.random_samples
     all_s = speeds * seconds / count
-    how = f"{all_s:.2g} s for one of up to {wanted} draws, {count} measured at one speed"
-    return Cost("draws of all cases", _LEAST_SHARE * wanted * all_s, wanted * all_s, how)
+    how = f"{all_s:.2g} s for one of up to {wanted} samples, {count} measured at one speed"
+    return Cost("samples of all cases", _LEAST_SHARE * wanted * all_s, wanted * all_s, how)
 
 
-def _expected(nominal: NominalSound, sounds: Sequence[Sound], known: bool) -> tuple[int, int]:
-    """Number of samples until enough agree with the published level, at least and at most.
+def _expected(nominal: NominalSound, sounds: Sequence[Sound], was_cached: bool) -> tuple[int, int]:
+    """Number of samples until enough are effective, at least and at most.
 
     With computed transfer vectors, by how well the first few agree: half as many to twice as many.
     """
     wanted = nominal.study.uncertainty.random_samples
     most = min(MOST_ROUNDS * wanted, MOST_DRAWS)
-    if not known:
+    if not was_cached:
         return min(_LEAST_BATCHES * wanted, most), min(_MOST_BATCHES * wanted, most)
     published = published_of(nominal.study)
     level = over_published(nominal.study, nominal.axes, sounds)

@@ -115,7 +115,7 @@ class HammerTest:
             self.agreements += [self._agreement(draw) for draw in batch]
             self.tried += batch
             progress("draws at the hammer test", len(self.tried), MOST_TRIED)
-            likelihood = np.array([one.likelihood for one in self.agreements])
+            likelihood = np.array([agreement.likelihood for agreement in self.agreements])
             least, fresh = CHANCE * likelihood.max(), likelihood[done:]
             is_last = len(self.tried) >= MOST_TRIED
             suffices = np.minimum(fresh, least).sum() >= wanted * least or is_last
@@ -190,10 +190,10 @@ class HammerTest:
         """
         ranges = [one for one in self.study.ranges if one.table.split(".")[0] in OF_THE_SHELL]
         values = {
-            "shell_likelihood": [one.likelihood for one in self.agreements],
-            "shell_gain": [one.gain_db for one in self.agreements],
-            "shell_frequency_ratio": [one.frequency_ratio for one in self.agreements],
-            "shell_loss_ratio": [one.loss_ratio for one in self.agreements],
+            "shell_likelihood": [agreement.likelihood for agreement in self.agreements],
+            "shell_gain": [agreement.gain_db for agreement in self.agreements],
+            "shell_frequency_ratio": [agreement.frequency_ratio for agreement in self.agreements],
+            "shell_loss_ratio": [agreement.loss_ratio for agreement in self.agreements],
             "shell_value": [[draw[one.table, one.field] for one in ranges] for draw in self.tried],
             "shell_level_before": before_dba,
             "shell_weight": self.likelihood(0, gone),

@@ -45,10 +45,10 @@ def posterior(
         prior_db = np.atleast_2d(over_evidence(first, 0, 2 * len(first)))[0]
         batches = test.agreeing(joined([first], batches), wanted, progress)
         likelihood = test.likelihood
-    bank = bank_of(batches, over_evidence, deviation_db, published.priors, wanted, likelihood)
-    results, weight = bank.labelled(study.ranges, published.level_dba), None
+    ensemble = bank_of(batches, over_evidence, deviation_db, published.priors, wanted, likelihood)
+    results, weight = ensemble.labelled(study.ranges, published.level_dba), None
     if test is not None:
-        count = len(bank.draws)
+        count = len(ensemble.draws)
         results = results.merge(test.labelled(prior_db + published.level_dba, count))
         weight = test.likelihood(0, count)
-    return bank, results.merge(level_shares(study.ranges, bank, weight))
+    return ensemble, results.merge(level_shares(study.ranges, ensemble, weight))

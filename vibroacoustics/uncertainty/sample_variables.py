@@ -17,7 +17,7 @@ from .share_variables import change_shares
 
 def sample_variables(
     nominal: NominalSound,
-    bank: Bank,
+    ensemble: Bank,
     chosen: tuple[IndexArray, Array],
     sounds: Sequence[Sound],
     first_order: Sequence[Mapping[CaseKey, Array]],
@@ -28,17 +28,17 @@ def sample_variables(
     Parameters
     ----------
     nominal : sound with the nominal values
-    bank : all samples
+    ensemble : all samples
     chosen : of `Bank.chosen`
     sounds : of all cases, by sample that goes on
     first_order : forces at 1x of the cases that move otherwise, by sample that goes on
     results : amplitudes with the nominal values
     """
     study, axes, (index, weight) = nominal.study, nominal.axes, chosen
-    samples = bank.some(index)
-    unmodelled = remainder_by_draw(study, bank.modelled_db[index])
+    samples = ensemble.some(index)
+    unmodelled = remainder_by_draw(study, ensemble.modelled_db[index])
     residual = remaining_by_draw(study, axes, sounds, samples, unmodelled[0])
-    levels = draw_variables(axes, sounds, residual, unmodelled, weight, bank.prior_names)
+    levels = draw_variables(axes, sounds, residual, unmodelled, weight, ensemble.prior_names)
     levels = levels.merge(first_order_by_draw(first_order, results))
     levels = levels.merge(drawn_values(study.ranges, samples))
     return levels.merge(change_shares(study, levels))

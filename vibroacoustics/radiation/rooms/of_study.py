@@ -134,9 +134,12 @@ def plane_in_room(
     study: Study, settings: StudyRoom, bands_hz: Mapping[float, Array], progress: Progress
 ) -> xr.Dataset:
     """Compute `plane_gains` of the middle of a study's machine."""
-    at, height_m = machine_middle_m(settings, study.machine.shell), map_height_m(settings)
-    above_m, highest_hz = float(at[2] - settings.standing_height_m), settings.maximum_frequency_hz
-    return plane_gains(room_of(settings), at, above_m, height_m, bands_hz, highest_hz, progress)
+    middle_m, height_m = machine_middle_m(settings, study.machine.shell), map_height_m(settings)
+    above_m = float(middle_m[2] - settings.standing_height_m)
+    return plane_gains(
+        room_of(settings), middle_m, above_m, height_m, bands_hz, settings.maximum_frequency_hz,
+        progress,
+    )  # fmt: skip
 
 
 def pressure_at_places(vectors: xr.Dataset) -> PressureAt:
