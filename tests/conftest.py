@@ -1,6 +1,5 @@
 """Fixtures that all tests share."""
 
-import io
 import os
 from collections.abc import Iterator
 
@@ -8,25 +7,74 @@ from collections.abc import Iterator
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
-from matplotlib.figure import Figure
-from matplotlib.layout_engine import ConstrainedLayoutEngine
-from PIL import Image
+from pictures import draw_nothing, draw_pixels, lay_out
+from reading_here import read_here
 from support import PIPELINES
 
+from vibroacoustics.recordings import blocks, modes, reading
+from vibroacoustics.recordings.child_process import read_in_child
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.study import Study
+
+READING = (blocks, modes, reading)
+SHARED = {"XDG_CACHE_HOME": "cache", "MPLCONFIGDIR": "matplotlib"}
 
 
 @pytest.fixture(autouse=True, scope="session")
 def _own_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """Keep the tests out of the user's cache; child processes inherit the setting.
 
-    matplotlib's list of fonts is made once, however many caches of their own tests have.
+    All workers share one cache, and one list of matplotlib's fonts: what one has computed is read
+    by the others.
+    """
+    base = tmp_path_factory.getbasetemp()
+    shared = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+    with pytest.MonkeyPatch.context() as patch:
+        for name, folder in SHARED.items():
+            (shared / folder).mkdir(exist_ok=True)
+            patch.setenv(name, str(shared / folder))
+        yield
+
+
+@pytest.fixture(autouse=True, scope="session")
+def _pictures_are_no_subject() -> Iterator[None]:
+    """Figures are painted, neither laid out nor drawn; the fixture `real_pictures` draws them."""
+    with pytest.MonkeyPatch.context() as patch:
+        draw_nothing(patch)
+        yield
+
+
+@pytest.fixture(scope="module")
+def real_pictures(_pictures_are_no_subject: None) -> Iterator[None]:
+    """From here to the end of the module pictures are those that a user sees."""
+    with pytest.MonkeyPatch.context() as patch:
+        draw_pixels(patch)
+        yield
+
+
+@pytest.fixture
+def laid_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Texts of figures find their room, as in a command; their files show one pixel."""
+    lay_out(monkeypatch)
+
+
+@pytest.fixture(autouse=True, scope="session")
+def _recordings_are_read_here() -> Iterator[None]:
+    """Recordings need no process of their own, whose start takes up to a second.
+
+    The fixture `own_process` gives it back; commands and scripts in processes have it anyway.
     """
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
-        patch.setenv("MPLCONFIGDIR", str(tmp_path_factory.mktemp("matplotlib")))
+        for module in READING:
+            patch.setattr(module, "read_in_child", read_here)
         yield
+
+
+@pytest.fixture
+def own_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every recording is read in a process of its own, as the user's are."""
+    for module in READING:
+        monkeypatch.setattr(module, "read_in_child", read_in_child)
 
 
 @pytest.fixture(scope="session")
@@ -37,18 +85,3 @@ def thesis_study() -> Study:
 @pytest.fixture(scope="session")
 def derived_study() -> Study:
     return load_study(PIPELINES / "copeland_derived.toml")
-
-
-@pytest.fixture
-def without_pixels(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Figures are painted; their file shows one white pixel."""
-    pixel = io.BytesIO()
-    Image.new("RGB", (1, 1), "white").save(pixel, "png")
-    content = pixel.getvalue()
-    monkeypatch.setattr(Figure, "savefig", lambda _, file, **__: file.write(content))
-
-
-@pytest.fixture
-def quick_figures(without_pixels: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    """For tests that look at no picture: pixels and layout take most of a report's time."""
-    monkeypatch.setattr(ConstrainedLayoutEngine, "execute", lambda *_: None)

@@ -12,6 +12,8 @@ from pathlib import Path
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 sys.path[:0] = [str(DOCS / "gallery"), str(DOCS.parent / "tests" / "helpers")]
 
+import pytest  # noqa: E402
+from pictures import draw_nothing  # noqa: E402
 from rough_radiation import rough_radiation  # noqa: E402
 from support import MACHINE_FILE, TINY  # noqa: E402
 
@@ -32,7 +34,8 @@ def main() -> None:
         data |= dict(DATA.findall(text))
         for file in files[page.stem]:
             va.load_plugin(DOCS / file)
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as patch:
+        draw_nothing(patch)
         print(json.dumps({"files": files, **one_study(Path(folder), tables, data)}))
 
 

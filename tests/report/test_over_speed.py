@@ -35,6 +35,7 @@ from vibroacoustics.report.page import Page, Part
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.results.figure_limits import Compared
 
+pytestmark = pytest.mark.usefixtures("real_pictures")
 TUNED_RPM = 3500.0
 SPRING_MASS = {
     "kind": "spring-mass", "stiffness_n_per_mm": 3.255, "tuned_speed_rpm": TUNED_RPM,
@@ -212,12 +213,18 @@ def test_speeds_to_avoid_of_a_tuned_mass(results):
         assert one.line_hz == pytest.approx(one.range.peak_rpm / 60.0)
         assert one.mode is None  # of the mass, which is none of the machine's
         assert one.range.to_rpm < TUNED_RPM
-    with_mode = results.assign(
-        natural_frequency=results["natural_frequency"] * 0.0 + of_quantity[LEVEL].line_hz * 1.04
-    )
-    (level, _) = speeds_to_avoid(with_mode, of=["spring-mass"])
-    assert level.mode is not None
-    assert level.mode.kind == "mounts"
+
+
+@pytest.mark.parametrize(
+    ("mode_over_line", "is_near"), [(0.94, False), (0.96, True), (1.04, True), (1.06, False)]
+)
+def test_a_mode_within_five_percent_of_the_line_is_named(results, mode_over_line, is_near):
+    line_hz = speeds_to_avoid(results, of=["spring-mass"])[0].line_hz
+    frequency_hz = mode_over_line * line_hz
+    with_mode = results.assign(natural_frequency=0.0 * results["natural_frequency"] + frequency_hz)
+    for one in speeds_to_avoid(with_mode, of=["spring-mass"]):
+        assert (one.mode is not None) == is_near
+        assert one.mode is None or one.mode.kind == "mounts"
 
 
 def test_the_section_of_the_report(results):

@@ -9,8 +9,10 @@ from test_report_sources import with_sources
 import vibroacoustics as va
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.report import render
+from vibroacoustics.report.figures.sources import _sources
 from vibroacoustics.report.figures.style import png
 
+pytestmark = pytest.mark.usefixtures("real_pictures")
 OF_A_RUN = (
     "force_over_revolution", "force_orders", "foot_force_orders", "level_orders",
     "mount_transmissibility", "green_difference", "levels", "scores",
@@ -55,6 +57,22 @@ def test_another_speed_is_drawn(results):
 def test_a_missing_variable_is_named(name):
     with pytest.raises(ParameterError, match=rf"^plot\.{name}: these results hold no \w+ \("):
         getattr(va.plot, name)(xr.Dataset())
+
+
+@pytest.mark.parametrize(("loudest_db", "is_drawn"), [(-8.0, True), (-12.0, False)])
+def test_a_source_below_minus_10_db_everywhere_is_not_drawn(results, loudest_db, is_drawn):
+    """The caption names it; of a source that is drawn, bands below are left out."""
+    changed = results.copy(deep=True)
+    keys = changed["source_band_level"].sel(sound_source="keys")
+    keys[...] = -12.0
+    keys[{"band": 0}] = loudest_db
+    figure = va.plot.source_third_octaves(changed)
+    drawn = [line.get_ydata() for line in figure.axes[0].lines]
+    quiet = [values for values in drawn if np.nanmax(values) < 0.0]
+    assert len(quiet) == is_drawn
+    assert all(np.isfinite(values).tolist() == [True, False, False, False] for values in quiet)
+    silent = _sources(changed).caption.partition("everywhere below −10 dB: ")[2]
+    assert ("key" in silent.lower()) == (not is_drawn)
 
 
 def test_third_octaves_of_sources_at_any_speed(results):

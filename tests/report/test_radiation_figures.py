@@ -40,6 +40,8 @@ from vibroacoustics.report.radiation_tables import radiation_figures, radiation_
 from vibroacoustics.results import storage
 from vibroacoustics.study.sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
 
+pytestmark = pytest.mark.usefixtures("real_pictures")
+
 FLOOR_Z_M = -0.225
 FREQUENCY_HZ = np.array([50.0, 100.0, 500.0, 2000.0])
 LINE_HZ = np.array([48.0, 58.0])

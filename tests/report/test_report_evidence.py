@@ -12,8 +12,6 @@ from vibroacoustics.base.vocabulary import stamp
 from vibroacoustics.report import render
 from vibroacoustics.report.evidence import evidence_table, rungs
 
-pytestmark = pytest.mark.usefixtures("quick_figures")
-
 MAKER = {"machine": "Scroll", "source": "Maker, page 1", "slow_rpm": 3000.0, "fast_rpm": 3600.0}
 FORCE = {"part": "oldham", "proportional_to": "ring.mass_kg ring.stroke_mm", "source": "Thesis"}
 

@@ -11,8 +11,6 @@ import vibroacoustics as va
 from vibroacoustics.balancers.rotating_counterweight import RotatingCounterweight
 from vibroacoustics.report import render
 
-pytestmark = pytest.mark.usefixtures("quick_figures")
-
 
 @pytest.fixture
 def given() -> xr.Dataset:

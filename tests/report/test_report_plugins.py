@@ -55,7 +55,6 @@ register(
     )
 )
 """
-quick = pytest.mark.usefixtures("quick_figures")
 BARE = "from vibroacoustics.base.registry import register\n"
 
 
@@ -85,6 +84,7 @@ def plugin(folder: Path, content: str, name: str = "mine.py") -> None:
     load_plugin(file)
 
 
+@pytest.mark.usefixtures("real_pictures")
 def test_section_and_column_are_shown_and_made_again_without_the_plugin(
     results: xr.Dataset,
     tmp_path: Path,
@@ -122,7 +122,6 @@ def _made_again_is_the_same(folder: Path) -> None:
         )
 
 
-@quick
 @pytest.mark.parametrize(
     ("blocks", "words"),
     [
@@ -143,7 +142,6 @@ def test_section_that_fails_is_named_in_one_line(
     assert "<h2>Provenance</h2>" in page
 
 
-@quick
 @pytest.mark.parametrize(
     ("values", "words"),
     [
@@ -164,7 +162,6 @@ def test_column_that_fails_is_named_in_one_line(
     assert "odd_n" not in files["comparison.csv"].decode()
 
 
-@quick
 def test_what_was_not_kept_is_named(results: xr.Dataset) -> None:
     origin = {"file": "mine.py", "version": "", "sha256": "0"}
     results.attrs["plugins"] = json.dumps({"section odd": origin, "column odd_n": origin})
@@ -173,7 +170,6 @@ def test_what_was_not_kept_is_named(results: xr.Dataset) -> None:
     assert "column odd_n is left out: mine.py is not loaded" in page
 
 
-@quick
 def test_section_that_does_not_apply_is_not_missed(
     results: xr.Dataset, tmp_path: Path, registries: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -188,7 +184,6 @@ def test_section_that_does_not_apply_is_not_missed(
     assert "is left out:" not in render(kept)["report.html"].decode()
 
 
-@quick
 def test_kept_columns_and_sections_outlive_a_second_run(
     results: xr.Dataset, tmp_path: Path, registries: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -223,7 +218,6 @@ def test_name_of_a_built_in_one_is_refused(
         plugin(tmp_path, f"{BARE}{content}")
 
 
-@quick
 def test_report_takes_a_plugin_that_the_run_did_not_have(
     results: xr.Dataset, tmp_path: Path, registries: None
 ) -> None:

@@ -19,8 +19,6 @@ from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.study import few_speeds, few_speeds_words, speeds
 from vibroacoustics.report.tables import Table
 
-pytestmark = pytest.mark.usefixtures("quick_figures")
-
 PNG = b"\x89PNG and so on"
 LIGHT = blocks.Light("not sure", "−7 to 0", (-0.07, 0.0), 0.05)
 EVERY_BLOCK = (

@@ -32,8 +32,6 @@ from vibroacoustics.sources.gas import ScrollGasForces
 from vibroacoustics.sources.keys import OldhamKeyForces
 from vibroacoustics.sources.motor import MotorPulsation
 
-pytestmark = pytest.mark.usefixtures("quick_figures")
-
 FIGURES = ["key_impacts_per_revolution", "key_force_peak_n", "foot_force_2x_line_n"]
 SOURCES = ["moving_parts", "gas", "keys", "motor"]
 PRIORS = {"prior": ["flat", "near"]}

@@ -265,9 +265,7 @@ CASES: Final = (
 
 
 @pytest.fixture(name="ground")
-def _ground(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, quick_figures: None
-) -> Iterator[Ground]:
+def _ground(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Ground]:
     """Folders, and an alarm for what waits for ever."""
     ground = Ground(tmp_path / "results", tmp_path / "outside")
     (ground.outside / "box").mkdir(parents=True)

@@ -56,18 +56,6 @@ def run(name: str = "rigid") -> xr.Dataset:
     return RUNS[name]()
 
 
-@pytest.fixture(name="laid_out")
-def _laid_out() -> None:
-    """Texts of figures find their room, as in a command."""
-
-
-@pytest.fixture(autouse=True)
-def quickly_drawn(request: pytest.FixtureRequest) -> None:
-    """Without pixels; laid out where a test says so."""
-    laid_out = "laid_out" in request.fixturenames
-    request.getfixturevalue("without_pixels" if laid_out else "quick_figures")
-
-
 def scored_here(path: Path) -> CompletedProcess[str]:
     """The command `score` but for its report, which `report` makes of the same results."""
     with patch.object(outputs, "write_report", lambda _, folder: folder):

@@ -338,7 +338,6 @@ def test_criterion_may_be_no_number_in_a_draw_that_does_not_count(counting):
         assert values._of_draws("odd_n", drawn, counts).shape == (2, 2)
 
 
-@pytest.mark.usefixtures("quick_figures")
 def test_run_goes_on_without_a_source(tmp_path, monkeypatch):
     """Which is said on the first screen; the exit code is that of a run as asked for."""
     study, run = study_with_source(tmp_path), partial(pipeline.run, radiation=made_up_radiation)

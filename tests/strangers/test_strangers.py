@@ -52,26 +52,40 @@ lone-rotor = lone_rotor:LoneRotor
 """
 
 
-def command(cache: Path, *words: object, path: Path | None = None):
+def command(*words: object, path: Path | None = None):
     """The command line in a process of its own, with installed packages of a folder."""
     searched = os.pathsep.join(filter(None, [str(path or ""), os.environ.get("PYTHONPATH", "")]))
     return subprocess.run(
         [sys.executable, "-m", "vibroacoustics", *map(str, words)],
         capture_output=True,
         text=True,
-        env={**os.environ, "XDG_CACHE_HOME": str(cache), "PYTHONPATH": searched},
+        env={**os.environ, "PYTHONPATH": searched},
         check=False,
         timeout=300,
     )
 
 
+def forgetful_command(*words: object, path: Path | None = None) -> subprocess.CompletedProcess[str]:
+    """The command line of this process, which forgets plug-ins and installed packages again."""
+    modules = set(sys.modules)
+    with pytest.MonkeyPatch.context() as patch:
+        for each in registry._REGISTRIES:
+            len(each)  # fills it
+            for name in ("_things", "_origins", "_faults"):
+                patch.setattr(each, name, dict(getattr(each, name)))
+            if path is not None:
+                patch.setattr(each, "_filled", False)
+        if path is not None:
+            patch.syspath_prepend(path)
+        outcome = command_here(*words)
+    for name in set(sys.modules) - modules:
+        if name.startswith("plugin_") or (path is not None and (path / f"{name}.py").is_file()):
+            del sys.modules[name]
+    return outcome
+
+
 def plugins(*names: str) -> list[object]:
     return [word for name in names for word in ("--plugin", STRANGERS / f"{name}.py")]
-
-
-@pytest.fixture(scope="module")
-def cache(tmp_path_factory) -> Path:
-    return tmp_path_factory.mktemp("cache")
 
 
 @pytest.fixture(scope="module")
@@ -87,10 +101,10 @@ def study(tmp_path_factory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def finished(study, cache, tmp_path_factory) -> Path:
+def finished(study, tmp_path_factory) -> Path:
     out = tmp_path_factory.mktemp("out")
     named = plugins("counter_shaft", "second_order", "force_table", "rumble")
-    outcome = command(cache, "run", study, "--out", out, *named)
+    outcome = forgetful_command("run", study, "--out", out, *named)
     assert outcome.returncode == 0, outcome.stderr
     return out
 
@@ -164,21 +178,11 @@ def test_the_report_is_made_again_without_the_files(finished, tmp_path):
 
 
 @pytest.fixture
-def refused(monkeypatch):
+def refused():
     """Asserts a refusal by the command line of this process, which forgets the strangers again."""
 
     def refused(words: list[object], *said: str) -> None:
-        modules = set(sys.modules)
-        with monkeypatch.context() as patch:
-            for each in registry._REGISTRIES:
-                len(each)  # fills it
-                patch.setattr(each, "_things", dict(each._things))
-                patch.setattr(each, "_origins", dict(each._origins))
-            outcome = command_here(*words)
-        for name in set(sys.modules) - modules:
-            if name.startswith("plugin_"):
-                del sys.modules[name]
-        assert_refused(outcome, *said)
+        assert_refused(forgetful_command(*words), *said)
 
     return refused
 
@@ -201,11 +205,11 @@ def test_refusal_names_key_unit_and_bounds(study, refused, tmp_path):
     refused(run, "options.counter-shaft.mass_g = 2000.0 g", "above 0 to 1000 g")
 
 
-def test_a_name_that_is_built_in_is_refused(study, cache, tmp_path):
+def test_a_name_that_is_built_in_is_refused(study, tmp_path):
     clash = tmp_path / "clash.py"
     text = (STRANGERS / "counter_shaft.py").read_text()
     clash.write_text(text.replace('"counter-shaft"', '"lanchester"'))
-    outcome = command(cache, "run", study, "--plugin", clash)
+    outcome = forgetful_command("run", study, "--plugin", clash)
     assert_refused(outcome, "clash.py: kind of option lanchester: is built in")
 
 
@@ -224,8 +228,8 @@ def installed(tmp_path_factory) -> Path:
 
 
 @pytest.mark.long
-def test_installed_packages_need_no_word_on_the_command_line(study, cache, installed, tmp_path):
-    outcome = command(cache, "run", study, "--out", tmp_path, path=installed)
+def test_installed_packages_need_no_word_on_the_command_line(study, installed, tmp_path):
+    outcome = command("run", study, "--out", tmp_path, path=installed)
     assert outcome.returncode == 0, outcome.stderr
     kept = json.loads(open_results(tmp_path / "results.nc").attrs["plugins"])
     assert kept["kind of option counter-shaft"]["version"] == "1.2"
@@ -254,10 +258,10 @@ def rotor_study(folder: Path) -> Path:
     return folder / "study.toml"
 
 
-def test_a_kind_of_machine_runs_to_the_report(cache, refused, tmp_path):
+def test_a_kind_of_machine_runs_to_the_report(refused, tmp_path):
     study = rotor_study(tmp_path)
     named = plugins("lone_rotor")
-    outcome = command(cache, "run", study, "--out", tmp_path / "out", *named)
+    outcome = forgetful_command("run", study, "--out", tmp_path / "out", *named)
     assert outcome.returncode == 0, outcome.stderr
     results = open_results(tmp_path / "out" / "results.nc")
     size = 0.005 * 0.02 * (2.0 * np.pi * 2900.0 / 60.0) ** 2

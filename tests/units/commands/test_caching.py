@@ -1,6 +1,5 @@
 """`vibroacoustics cache`, `--no-cache` and what `score`, `report` and `doctor` say of a folder."""
 
-import base64
 import json
 import os
 from pathlib import Path
@@ -12,19 +11,6 @@ from support import ROOT, TINY, assert_refused, command_here, tiny_run
 from vibroacoustics import open_results, write_report
 from vibroacoustics.base.hashing import sha256
 from vibroacoustics.results import cache, storage
-
-PIXEL = base64.b64decode(
-    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="
-)
-
-
-@pytest.fixture(autouse=True)
-def quick(monkeypatch) -> None:
-    """Figures of one pixel, not laid out."""
-    monkeypatch.setattr(
-        "matplotlib.figure.Figure.savefig", lambda _, content, **__: content.write(PIXEL)
-    )
-    monkeypatch.setattr("matplotlib.layout_engine.ConstrainedLayoutEngine.execute", lambda *_: None)
 
 
 @pytest.fixture

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from pictures import draw_pixels
 from support import ROOT, assert_refused, command, command_here, tiny_run
 
 from vibroacoustics import label_recording, open_results
@@ -37,7 +38,9 @@ def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def analysed(recording: Path) -> Path:
     """Folder of an analysis with everything that can be drawn."""
     out = recording.parent / "out"
-    outcome = command_here("orders", recording, "--speed", "tacho", "--map", "--out", out)
+    with pytest.MonkeyPatch.context() as patch:
+        draw_pixels(patch)
+        outcome = command_here("orders", recording, "--speed", "tacho", "--map", "--out", out)
     assert outcome.returncode == 0, outcome.stderr
     assert outcome.stderr == ""
     assert f"orders: {out / 'orders.nc'}" in outcome.stdout

@@ -18,8 +18,8 @@ TIME = r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d "
 
 
 @pytest.fixture(autouse=True)
-def quick(quick_figures: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Made-up radiation; figures are not looked at."""
+def quick(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Made-up radiation."""
     monkeypatch.setattr(
         pipeline,
         "run",

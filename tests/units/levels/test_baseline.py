@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+import xarray as xr
+from rooms_made_up import KITCHEN, RADIUS_M, made_up_vectors
 from sources_study import SOURCES_STUDY, run_made_up
 from support import ROOT
 
@@ -10,6 +12,7 @@ from vibroacoustics.levels.agreement import agreement, agreement_of_points, prio
 from vibroacoustics.levels.measured_points import evidence
 from vibroacoustics.levels.weighting import a_weighting
 from vibroacoustics.machine.remainder import Remainder
+from vibroacoustics.stages import room as room_stage
 
 FEW = dict.fromkeys(("sources.keys", "sources.gas", "options.twin-oldham", "options.damping"))
 BANDS = np.array([
@@ -101,6 +104,30 @@ def test_draws_are_weighed_by_what_was_measured(study, without, results):
         weight = results["bank_weight"].sel(prior=prior.name).values
         np.testing.assert_allclose(weight, agreement(over, 1.5, prior), rtol=0.03)
     assert abs(results["bank_weight"] / without["bank_weight"] - 1.0).max() > 0.1
+
+
+def test_measured_noise_is_in_the_room(tmp_path, study, without, monkeypatch):
+    """Its power by the hemisphere about the foot, and a room as loud as that hemisphere.
+
+    Below the crossover frequency. Gains are means over lines 1 Hz apart: in the lowest band, at
+    25 Hz, they err by 4.3 dB (1/25)² = 0.007 dB.
+    """
+    fewer = study.replace({"uncertainty": None, "operation.stopping": False})
+    baseline = measured(tmp_path, study, without)
+
+    def vectors(study, settings, motions, _):
+        highest = study.radiation.maximum_frequency_hz
+        return made_up_vectors(settings.listeners, motions, highest_hz=highest), False
+
+    monkeypatch.setattr(room_stage, "vectors_of", vectors)
+    monkeypatch.setattr(room_stage, "_map", lambda *_: xr.Dataset())
+    results = run_made_up(fewer.replace({"room": KITCHEN, **baseline}))
+    at = {"option": "none", "speed": fewer.operation.speed_rpm[0], "listener": "table"}
+    below = BANDS < 400.0
+    found = results["room_noise_band_level"].sel(at).sel(noise_band=BANDS[below]).values
+    away_m = fewer.receivers[fewer.catalogue_receiver].distance_m
+    louder_db = 20.0 * np.log10(away_m / RADIUS_M)
+    np.testing.assert_allclose(found, NOISE_DB[below] + louder_db, atol=0.007)
 
 
 def test_points_weigh_together_as_one_measurement():

@@ -30,8 +30,6 @@ from vibroacoustics.study.order_analysis import (
     TacholessSpeed,
 )
 
-pytestmark = pytest.mark.usefixtures("quick_figures")
-
 RATE_HZ = 4096.0
 DURATION_S = 23.0
 """Three transforms of the bands, ten of the meters."""

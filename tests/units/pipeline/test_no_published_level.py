@@ -14,8 +14,6 @@ from vibroacoustics.report.data_sheet.sheet import data_sheet
 from vibroacoustics.report.evidence import rungs
 from vibroacoustics.study.loading import load_study
 
-pytestmark = pytest.mark.usefixtures("quick_figures")
-
 NO_LEVEL = {"machine.without": ["frame", "overall_noise"], "catalogue_receiver": None}
 GAS_ALONE = {
     **{f"sources.{name}": None for name in ("keys", "torque_ripple", "motor")},

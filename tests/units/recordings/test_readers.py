@@ -42,6 +42,7 @@ def test_malformed_suffixes_are_refused(suffixes):
         Reader("mine", suffixes, "mine", nothing)
 
 
+@pytest.mark.usefixtures("own_process")
 def test_a_reader_of_this_session_alone_is_refused(tmp_path):
     register(Reader("mine", (".mine",), "mine", nothing))
     (tmp_path / "a.mine").write_bytes(b"x")

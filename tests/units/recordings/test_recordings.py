@@ -515,6 +515,7 @@ def test_tdms_channels_that_differ(tmp_path):
 
 
 @pytest.mark.parametrize(("package", "suffix"), [("soundfile", "flac"), ("nptdms", "tdms")])
+@pytest.mark.usefixtures("own_process")
 def test_missing_extra_is_named(tmp_path, monkeypatch, package, suffix):
     """The reading process finds a package that cannot be imported first."""
     (tmp_path / f"{package}.py").write_text(f"raise ModuleNotFoundError(name={package!r})")

@@ -19,8 +19,6 @@ from vibroacoustics.report import (
 from vibroacoustics.results.order_comparison import NEGLIGIBLE, channel_orders
 from vibroacoustics.study.order_analysis import OrderAnalysis, SpeedChannel
 
-pytestmark = pytest.mark.usefixtures("quick_figures")
-
 ROUNDING = 1e-12
 OF_A_STUDY = [
     "pressure front_1m",

@@ -26,8 +26,6 @@ from vibroacoustics.report import limits_csv, limits_text
 from vibroacoustics.results.order_limits import NOT_CHECKED, with_limits
 from vibroacoustics.results.storage import write_results
 
-pytestmark = pytest.mark.usefixtures("quick_figures")
-
 HEADER = "channel,order,limit,unit"
 RATE_HZ = 1024.0
 

@@ -18,8 +18,6 @@ from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.scoring import Scoring
 from vibroacoustics.study.study import Study
 
-pytestmark = pytest.mark.usefixtures("quick_figures")
-
 STRANGER = (ROOT / "tests" / "strangers" / "second_order.py").read_text()
 """The criterion that the tutorial shows."""
 SECOND_FORCE = "force_2x_n = { weight = 1.0, best = 0.0, worst = 50.0 }\n"

@@ -27,8 +27,6 @@ from vibroacoustics.study.study import Study
 from vibroacoustics.transfer import Isolation, MachineOnMounts
 from vibroacoustics.transfer.transient import LOAD_SAMPLES, RESULT_SAMPLES, transient
 
-pytestmark = pytest.mark.usefixtures("quick_figures")
-
 SPEED = 2900.0 * np.pi / 30.0
 ORBIT = """
 [machine.override.kinematics]

@@ -14,6 +14,7 @@ from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.stages.hammer_test import hammer_test
 from vibroacoustics.study.draws import batches_of_draws
 from vibroacoustics.transfer.wall_mobility import wall_of, wall_points
+from vibroacoustics.uncertainty.hammer_test import CHANCE
 from vibroacoustics.uncertainty.shell_agreement import Tolerances, shell_agreement
 from vibroacoustics.uncertainty.shell_features import clear_peaks, features
 
@@ -174,21 +175,28 @@ def test_a_run_tells_before_and_after(tmp_path):
 
 
 def test_weights_of_those_that_go_on_are_right_on_average(tmp_path):
-    """Russian roulette: the mean of any value by the weights is that by the likelihoods."""
+    """Russian roulette: unlikely samples keep the share of the weight that their likelihoods give.
+
+    A sample of likelihood L below c has the weight c with the probability L/c, hence the variance
+    L (c - L); the bound is four standard deviations of the share.
+    """
     study, path = study_and_path()
     file = write(tmp_path / "h.uff", mobilities(study, path, draws(4)[0]))
     test = hammer_test(study.replace({"measured.shell": table(file)}), path)
-    known = np.random.default_rng(1).uniform(size=(4000, 2)) ** [8.0, 1.0]
-    made = iter(known[:, 0])
+    likelihood = np.random.default_rng(1).uniform(size=4000) ** 8.0
     agreement = test.of_machine(study.machine)
+    made = iter(likelihood)
     test._agreement = lambda draw: replace(agreement, likelihood=float(next(made)))
-    batches = ([{("a", "b"): value} for value in part[:, 1]] for part in np.split(known, 40))
-    gone = [draw for batch in test.agreeing(batches, 20, lambda *_: None) for draw in batch]
-    weight = test.likelihood(0, len(gone))
-    values = np.array([draw["a", "b"] for draw in gone])
-    assert len(gone) < 2000
-    expected = np.average(known[:, 1], weights=known[:, 0])
-    assert np.average(values, weights=weight) == pytest.approx(expected, abs=0.03)
+    batches = ([{("a", "b"): value} for value in part] for part in np.split(likelihood, 40))
+    samples = [draw for batch in test.agreeing(batches, 20, lambda *_: None) for draw in batch]
+    weight = test.likelihood(0, len(samples))
+    least = CHANCE * likelihood.max()
+    unlikely = likelihood[likelihood < least]
+    share = unlikely.sum() / likelihood.sum()
+    deviation = (1.0 - share) * np.sqrt(np.sum(unlikely * (least - unlikely))) / likelihood.sum()
+    below = np.array([draw["a", "b"] < least for draw in samples])
+    assert len(samples) < 2000
+    assert np.average(below, weights=weight) == pytest.approx(share, abs=4.0 * deviation)
 
 
 WRONG = [
