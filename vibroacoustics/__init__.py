@@ -60,7 +60,8 @@ listening, tones, loudness and sharpness, `rooms` the sound of a source in a fur
 A `Stage` of a run gets the `Chain` with `Cases` and results so far, and returns what is `Given`.
 `Added`, `Case`, `Loads`, `MovingPart`, `Revolution`, `Wrench`, `OldhamRing`, `Slider` are what
 these get and return; `circling`, `constant_rotation` and `wrenches_of_parts` make forces of moving
-masses. Further results of an option are a `RingForce`, a `FurtherRing` and an `InsertionLoss`. A
+masses. Further results of an option are a `RingForce`, a `FurtherRing`, an `InsertionLoss` and
+`AttachedBodies`, each a `RigidBody` held by a `Bushing` or several. A
 machine has a `Rotation`, a `CrankFrame`, tables of `Parameters`, and for options each `Capability`,
 such as a slider with `BalancePlanes`; `Held` marks values that are not sampled. A `FileTable` takes
 values from a data file, by `read_columns` from CSV.

@@ -58,6 +58,9 @@ from .mechanics.added import Added as Added
 from .mechanics.added import FurtherRing as FurtherRing
 from .mechanics.added import InsertionLoss as InsertionLoss
 from .mechanics.added import RingForce as RingForce
+from .mechanics.bushings import AttachedBodies as AttachedBodies
+from .mechanics.bushings import Bushing as Bushing
+from .mechanics.bushings import RigidBody as RigidBody
 from .mechanics.capabilities import BalancePlanes as BalancePlanes
 from .mechanics.capabilities import Capability as Capability
 from .mechanics.capabilities import CrankFrame as CrankFrame

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from body_matrices import Mass, Spring, assembled, foot_forces, mass_of, natural_hz, on_feet, solved
 from support import ROOT, TINY, assert_refused, command_here
 
 from vibroacoustics.base import registry
@@ -24,6 +25,14 @@ OPTION = """
 kind = "counter-shaft"
 mass_g = { value = 10.0, source = "a test" }
 radius_mm = { value = 20.0, source = "a test" }
+
+[options.damper]
+kind = "tuned-damper"
+mass_g = { value = 800.0, source = "a test" }
+frequency_hz = { value = 48.333, source = "a test" }
+loss_factor_ratio = { value = 0.02, source = "a test" }
+position_mm = { value = [90.0, -20.0, 110.0], source = "a test" }
+directions = ["x", "y"]
 
 [receivers."""
 CRITERION = """[scoring.criteria]
@@ -42,6 +51,7 @@ force_n = 20.0
 """
 ENTRY_POINTS = """[vibroacoustics.options]
 counter-shaft = counter_shaft:CounterShaft
+tuned-damper = tuned_damper:TunedDamper
 [vibroacoustics.sources]
 force-table = force_table:ForceTable
 rumble = rumble:Rumble
@@ -103,7 +113,7 @@ def study(tmp_path_factory) -> Path:
 @pytest.fixture(scope="module")
 def finished(study, tmp_path_factory) -> Path:
     out = tmp_path_factory.mktemp("out")
-    named = plugins("counter_shaft", "second_order", "force_table", "rumble")
+    named = plugins("counter_shaft", "tuned_damper", "second_order", "force_table", "rumble")
     outcome = forgetful_command("run", study, "--out", out, *named)
     assert outcome.returncode == 0, outcome.stderr
     return out
@@ -164,6 +174,71 @@ def test_noise_on_the_rigid_machine_is_that_of_one_mass_on_its_mounts(finished):
     assert "rumble: housing tz" in ways
 
 
+def hand_made(machine) -> tuple[np.ndarray, np.ndarray]:
+    """Housing and damper of the study, mass and complex stiffness, (12, 12)."""
+    mass_kg, point = 0.8, np.array([0.09, -0.02, 0.11])
+    inertia = 0.4 * mass_kg * (mass_kg / (4.0 / 3.0 * np.pi * 7850.0)) ** (2.0 / 3.0)
+    guide, square = 1e4, (2.0 * np.pi * 48.333) ** 2
+    entries = [mass_kg, mass_kg, guide * mass_kg, *3 * [guide * inertia]]
+    spring = (1.0 + 0.02j) * square * np.diag(entries)
+    masses = [mass_of(machine.housing), Mass(mass_kg, inertia * np.eye(3), point)]
+    return assembled(masses, [*on_feet(machine), Spring(1, 0, point, spring)])
+
+
+def test_tuned_damper_is_two_rigid_bodies_solved_by_hand(finished):
+    """Housing, feet and natural frequencies to 1e-9 of the largest."""
+    results, machine = open_results(finished / "results.nc"), load_study(TINY).machine
+    mass, stiffness = hand_made(machine)
+    own = results.sel(option="damper", speed=2900.0).sum("source")
+    loads = np.concatenate([own["force_order"].transpose("axis", "order").values,
+                            own["moment_order"].transpose("axis", "order").values])  # fmt: skip
+    loads = np.concatenate([loads, np.zeros_like(loads)])
+    hertz = own["order_frequency"].values
+    moved = np.array(
+        [solved(mass, stiffness, load, f) for f, load in zip(hertz, loads.T, strict=True)]
+    )
+    velocity = 2j * np.pi * hertz[:, None] * moved[:, :6]
+    found = own["velocity_order"].transpose("order", "dof").values
+    np.testing.assert_allclose(found, velocity, rtol=0.0, atol=1e-9 * abs(velocity).max())
+    force = np.array([foot_forces(on_feet(machine), one) for one in moved[1:]])
+    feet = own["foot_force_order"].transpose("order", "foot", "axis").values[1:]
+    np.testing.assert_allclose(feet, force, rtol=0.0, atol=1e-9 * abs(force).max())
+    expected = natural_hz(mass, stiffness)
+    modes = results["option_natural_frequency"].sel(option="damper").values
+    np.testing.assert_allclose(modes, expected, rtol=0.0, atol=1e-9 * expected.max())
+    assert np.isnan(results["option_natural_frequency"].sel(option="none")).all()
+    passed_on = results["option_mount_transmissibility"].sel(option="damper")
+    unit = np.zeros(12)
+    unit[1] = 1.0
+    for hertz in passed_on["mount_frequency"].values[::50]:
+        feet = foot_forces(on_feet(machine), solved(mass, stiffness, unit, hertz))
+        along_y = passed_on.sel(axis="y", mount_frequency=hertz).item()
+        assert along_y == pytest.approx(feet[:, 1].sum(), rel=1e-9)
+
+
+def test_tuned_damper_lowers_its_line_where_it_is(finished):
+    """To the loss of its spring: without loss the point would not move along x and y."""
+    results = open_results(finished / "results.nc")
+    moved = {}
+    for option in ("none", "damper"):
+        own = results["velocity_order"].sel(option=option, speed=2900.0, order=1).sum("source")
+        turned = np.cross(own.values[3:], [0.09, -0.02, 0.11])
+        moved[option] = np.linalg.norm((own.values[:3] + turned)[:2])
+    assert moved["damper"] < 0.5 * moved["none"]
+
+
+def test_tuned_damper_is_in_report_and_figures(finished):
+    page = (finished / "report.html").read_text()
+    assert "Rigid-body modes on the mounts with attached bodies" in page
+    assert re.search("damper moves along [xy] [0-9]+ %", page)
+    assert "The ball of the tuned damper does not radiate sound" in page
+    results = open_results(finished / "results.nc")
+    added = results["reported_figure"].sel(figure="added_mass_kg", option="damper")
+    assert added.values == pytest.approx(0.8, rel=1e-12)
+    none, damper = (results["level_total"].sel(option=name) for name in ("none", "damper"))
+    assert abs(none - damper).max() > 1e-3
+
+
 def test_hashes_of_the_files_are_in_the_results(finished):
     kept = json.loads(open_results(finished / "results.nc").attrs["plugins"])
     assert kept["kind of option counter-shaft"]["file"] == "counter_shaft.py"
@@ -190,9 +265,9 @@ def refused():
 def test_without_the_files_the_study_is_refused(study, refused, tmp_path):
     run = ["run", study, "--out", tmp_path]
     refused(run, "options.counter-shaft.kind = counter-shaft: unknown", "allowed")
-    named = plugins("counter_shaft", "force_table", "rumble")
+    named = plugins("counter_shaft", "tuned_damper", "force_table", "rumble")
     refused([*run, *named], "force_2x_n", "unknown")
-    named = plugins("counter_shaft", "second_order", "rumble")
+    named = plugins("counter_shaft", "tuned_damper", "second_order", "rumble")
     refused([*run, *named], "sources.table.kind = force-table: unknown; allowed")
     assert not any(tmp_path.iterdir())
 
@@ -200,7 +275,7 @@ def test_without_the_files_the_study_is_refused(study, refused, tmp_path):
 def test_refusal_names_key_unit_and_bounds(study, refused, tmp_path):
     wrong = tmp_path / "wrong.toml"
     wrong.write_text(study.read_text().replace("mass_g = { value = 10.0", "mass_g = { value = 2e3"))
-    named = plugins("counter_shaft", "second_order", "force_table", "rumble")
+    named = plugins("counter_shaft", "tuned_damper", "second_order", "force_table", "rumble")
     run = ["run", wrong, "--out", tmp_path / "out", *named]
     refused(run, "options.counter-shaft.mass_g = 2000.0 g", "above 0 to 1000 g")
 

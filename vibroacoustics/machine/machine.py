@@ -4,15 +4,16 @@ Heights are those of the machine's frame: z up, zero at the centre of mass at re
 """
 
 from collections.abc import Iterable, Mapping
-from typing import Annotated, ClassVar, Final, TypeVar
+from typing import Annotated, ClassVar, Final, Self, TypeVar
 
-from pydantic import Field, SerializeAsAny
+from pydantic import Field, PrivateAttr, SerializeAsAny
 
 from ..base.arrays import Array
 from ..base.curves import Curve
 from ..base.errors import ParameterError
 from ..base.parameters import AnyOf, Contradictions, KindOfParameters, Parameters
 from ..base.registry import Registry
+from ..mechanics.bushings import NO_BODIES, AttachedBodies, check_joined
 from ..mechanics.capabilities import UPRIGHT, Capability, CrankFrame
 from ..mechanics.moving_parts import MovingPart, Revolution
 from ..mechanics.ports import HOUSING, BodyPort
@@ -86,6 +87,7 @@ class Machine(KindOfParameters):
     balance_quality: BalanceQuality | None = None
     """How well its rotor is balanced; a study that names no residual unbalance leaves it out."""
     errata: tuple[Erratum, ...] = ()
+    _attached: AttachedBodies = PrivateAttr(NO_BODIES)
 
     axes: ClassVar[str] = "x, y and z"
     """What x, y and z are on this machine."""
@@ -161,6 +163,33 @@ class Machine(KindOfParameters):
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
         """What the model of this kind leaves out, a sentence or two each."""
         return ()
+
+    @property
+    def attached(self) -> AttachedBodies:
+        """Bodies that an option attaches to it."""
+        return self._attached
+
+    def carrying(self, attached: AttachedBodies) -> Self:
+        """The machine with bodies of an option in place of those that it carries.
+
+        Raises
+        ------
+        ParameterError
+            They do not fit its own bodies.
+        """
+        if attached == self._attached:
+            return self
+        for bushing in attached.bushings:
+            if bushing.other_body is None:
+                raise ParameterError(
+                    f"bushing {bushing.name}: other_body = None: must be a body; only feet are on "
+                    "the ground"
+                )
+        ports = dict.fromkeys((HOUSING.name, self.mechanism_port.name))
+        check_joined([*ports, *(body.name for body in attached.bodies)], attached.bushings)
+        machine = self.model_copy()
+        machine._attached = attached
+        return machine
 
     @property
     def mechanism_port(self) -> BodyPort:

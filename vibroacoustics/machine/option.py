@@ -9,6 +9,7 @@ from ..base.arrays import Array
 from ..base.parameters import AnyOf, KindOfParameters
 from ..base.registry import Registry
 from ..mechanics.added import Added, InsertionLoss
+from ..mechanics.bushings import NO_BODIES, AttachedBodies
 from ..mechanics.capabilities import Capability
 from ..mechanics.moving_parts import Revolution
 from .machine import Machine
@@ -48,8 +49,24 @@ class Option(KindOfParameters):
         """The machine as the option leaves it: itself, but for a redesign."""
         return machine
 
+    def attached(self, machine: Machine) -> AttachedBodies:
+        """Rigid bodies on bushings, such as a tuned mass damper; none where it attaches nothing.
+
+        They move with the machine on its mounts. Their mass is added to the figure `added_mass_kg`.
+
+        Parameters
+        ----------
+        machine : as the option leaves it, with the values of a sample
+        """
+        return NO_BODIES
+
+    def built_into(self, machine: Machine) -> Machine:
+        """The machine as the option leaves it, with the bodies that it attaches."""
+        changed = self.applied_to(machine)
+        return changed.carrying(self.attached(changed))
+
     def added(self, machine: Machine, revolution: Revolution) -> Added:
-        """What the option adds, among it the figure `added_mass_kg`.
+        """What the option adds, among it the figure `added_mass_kg`; nothing where not overridden.
 
         Parameters
         ----------
@@ -61,7 +78,7 @@ class Option(KindOfParameters):
         ParameterError, SolverError
             It cannot be built so, or finds no steady motion.
         """
-        raise NotImplementedError
+        return Added(figures={"added_mass_kg": 0.0})
 
     def insertion_loss(self) -> InsertionLoss | None:
         """What it takes off the airborne sound; none where nothing."""

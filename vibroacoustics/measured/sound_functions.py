@@ -44,7 +44,7 @@ def force_sound_of(study: Study) -> ForceSound:
         )
     given = on_mounts(study.machine)
     for name, option in study.options.items():
-        if not settings.is_at_feet and on_mounts(option.applied_to(study.machine)) != given:
+        if not settings.is_at_feet and on_mounts(option.built_into(study.machine)) != given:
             raise ParameterError(
                 f"measured.sound: options.{name}: stands otherwise than the machine that was hit; "
                 "hit the floor under the feet, or leave the option out"

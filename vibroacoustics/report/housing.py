@@ -44,18 +44,45 @@ def modes_table(results: xr.Dataset) -> Table:
     return Table(caption, head, rows, frozenset({0, 2}))
 
 
+def attached_table(results: xr.Dataset) -> Table | None:
+    """Natural frequencies with the bodies that options attach; None where none attaches any."""
+    if "option_natural_frequency" not in results:
+        return None
+    frequency, energy = results["option_natural_frequency"], results["option_mode_energy"]
+    rows = tuple(
+        (
+            str(option),
+            str(mode).removeprefix("mode_"),
+            rounding.fixed(hertz.item()),
+            _energy_words(np.nan_to_num(energy.sel(at).values), energy),
+        )
+        for option in frequency["option"].values
+        for mode in frequency["option_mode"].values
+        if np.isfinite(hertz := frequency.sel(at := {"option": option, "option_mode": mode}))
+    )
+    head = ("Option", "Mode", "Natural frequency, Hz", "Motion by share of kinetic energy")
+    return Table(
+        "Rigid-body modes on the mounts with attached bodies", head, rows, frozenset({0, 3})
+    )
+
+
 def shape_words(results: xr.Dataset, mode: str) -> str:
     """The dominant motions of a mode, by their share of its kinetic energy."""
     shape = results["mode_shape"].sel(mode=mode)
     energy = np.array([_inertia(results, str(body)) for body in shape["body"].values])
     shares = energy * shape.values**2 / np.sum(energy * shape.values**2)
-    several = len(shape["body"]) > 1
+    return _energy_words(shares, shape)
+
+
+def _energy_words(shares: Array, shape: xr.DataArray) -> str:
+    """Dominant motions by their share of the energy, (body, motion), of the bodies of a shape."""
+    bodies, dofs = (shape[dim].values for dim in shape.dims[-2:])
     words = []
     for index in np.argsort(-shares, axis=None, kind="stable"):
         body, dof = np.unravel_index(index, shares.shape)
         if shares[body, dof] > DOMINANT:
-            who = f"{shape['body'].values[body]} " if several else ""
-            motion = labels.DOF_WORDS[str(shape["dof"].values[dof])]
+            who = f"{bodies[body]} " if len(bodies) > 1 else ""
+            motion = labels.DOF_WORDS[str(dofs[dof])]
             words.append(f"{who}{motion} {100.0 * shares[body, dof]:.0f} %")
     return ", ".join(words)
 

@@ -1,7 +1,7 @@
 """Words of machine, options and units, kept with the results: a report needs none to be there."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import xarray as xr
@@ -12,6 +12,11 @@ from ..machine.source import CaseKey
 from ..mechanics.loads import Loads
 from ..sources.cases import sources_of
 from ..study.study import Study
+
+_RIGID_UNDER_BODIES: Final = (
+    "Bodies that an option attaches act at the rigid motion of the housing; the elastic modes of "
+    "the shell do not move them."
+)
 
 
 def words(
@@ -31,6 +36,8 @@ def words(
         *study.machine.leaves_out(inner_sources),
         *(text for _, option in options for text in option.leaves_out(inner_sources)),
     ]
+    if study.drives_shell and "option_natural_frequency" in results:
+        left_out.append(_RIGID_UNDER_BODIES)
     return {
         "axes": study.machine.axes,
         "orders": study.machine.orders,

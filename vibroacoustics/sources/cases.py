@@ -13,7 +13,7 @@ from ..base.errors import ParameterError
 from ..base.progress import Progress
 from ..base.vocabulary import REFERENCE_OPTION
 from ..machine.machine import MACHINES, Machine
-from ..machine.option import OPTIONS
+from ..machine.option import OPTIONS, Option
 from ..machine.source import SOURCES, Case, CaseKey, Source
 from ..mechanics.added import Added
 from ..mechanics.loads import Loads, PortLoads
@@ -24,7 +24,7 @@ from ..study.study import Study
 
 MOVING_PARTS: Final = "moving_parts"
 """Name of the source that every study has."""
-_ADDED_MASS: Final = "added_mass_kg"
+ADDED_MASS: Final = "added_mass_kg"
 
 
 class MovingParts(Source):
@@ -48,8 +48,10 @@ def cases_of(study: Study, progress: Progress) -> dict[CaseKey, Case]:
     cases: dict[CaseKey, Case] = {}
     progress("forces", 0, len(points))
     for number, ((speed, supply), name) in enumerate(points):
-        machine = study.options[name].applied_to(study.machine)
-        shared = cases.get((speed, REFERENCE_OPTION)) if machine is study.machine else None
+        option = study.options[name]
+        is_changed = option.applied_to(study.machine) is not study.machine
+        shared = None if is_changed else cases.get((speed, REFERENCE_OPTION))
+        machine = option.built_into(study.machine)
         revolution, added = _revolution(study, name, machine, speed, shared)
         cases[speed, name] = Case(
             machine, added, revolution, supply, study.radiation.maximum_frequency_hz
@@ -66,12 +68,30 @@ def _revolution(
     try:
         steady = _turning(machine, speed_rpm, samples) if shared is None else shared.revolution
         option = study.options[name]
-        with OPTIONS.fenced(option.kind, ParameterError):
-            added = option.added(machine, steady)
-            check_added(added, samples)
-        return steady, added
+        return steady, added_by(option, machine, steady)
     except ParameterError as error:
         raise ParameterError(f"options.{name}: {error}") from None
+
+
+def added_by(option: Option, machine: Machine, revolution: Revolution) -> Added:
+    """What an option adds, with the mass of the bodies that it attaches.
+
+    Parameters
+    ----------
+    option : whose shapes are checked
+    machine : with the option built into it
+    revolution : of the machine
+
+    Raises
+    ------
+    ParameterError, SolverError
+        It cannot be built so, or finds no steady motion.
+    """
+    with OPTIONS.fenced(option.kind, ParameterError):
+        added = option.added(machine, revolution)
+        check_added(added, revolution.rotation.crank_angle.size)
+    mass_kg = added.figures[ADDED_MASS] + machine.attached.mass_kg
+    return replace(added, figures={**added.figures, ADDED_MASS: mass_kg})
 
 
 def _turning(machine: Machine, speed_rpm: float, samples: int) -> Revolution:
@@ -205,8 +225,8 @@ def check_added(added: Added, samples: int) -> None:
     ValueError
         Names the figure or the part.
     """
-    if not isfinite(added.figures.get(_ADDED_MASS, float("nan"))):
-        raise ValueError(f"figures: need a finite {_ADDED_MASS}")
+    if not isfinite(added.figures.get(ADDED_MASS, float("nan"))):
+        raise ValueError(f"figures: need a finite {ADDED_MASS}")
     for part in added.parts:
         _check_course(part.source, part.position_m, (3, samples))
 

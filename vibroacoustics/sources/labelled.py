@@ -105,7 +105,9 @@ def _figures_of(
     study: Study, key: CaseKey, case: Case, loads: Mapping[str, Loads]
 ) -> dict[str, float]:
     """Figures of the machine, as it is and where it is changed, of the option, of the sources."""
-    changed = key[1] == REFERENCE_OPTION or case.machine is not study.machine
+    option = study.options[key[1]]
+    is_changed = option.applied_to(study.machine) is not study.machine
+    changed = key[1] == REFERENCE_OPTION or is_changed
     figures = dict(case.revolution.figures) if changed else {}
     figures |= case.added.figures
     for load in loads.values():

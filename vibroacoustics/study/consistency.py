@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from typing import Final
 
+from ..base.errors import ParameterError
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import REFERENCE_OPTION
 from ..machine.cavities import SPACES
@@ -219,7 +220,10 @@ def _check_fits(study: StudyTables, name: str, option: Option) -> None:
             f"options.{name}.kind = {option.kind}: needs {needed.words}; the machine is "
             f"{study.machine.kind}"
         )
-    changed = option.applied_to(study.machine)
+    try:
+        changed = option.built_into(study.machine)
+    except ParameterError as error:
+        raise ValueError(f"options.{name}: {error}") from None
     for table in ("shell", "overall_noise"):
         if getattr(changed, table) != getattr(study.machine, table):
             raise ValueError(

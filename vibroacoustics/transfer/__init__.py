@@ -1,7 +1,7 @@
 """From forces on the housing to its velocity and to the forces in its feet."""
 
 from ..machine.feet import FOOT_NAMES
-from .bushings import Bushing, RigidBody
+from ..mechanics.bushings import Bushing, RigidBody
 from .isolation import Isolation
 from .machine import MachineOnMounts, on_mounts
 from .tube import tube_stiffness

@@ -10,7 +10,7 @@ from ..machine.feet import FOOT_NAMES, Feet, Foot
 from ..machine.floor import Floor, FloorMobility
 from ..machine.mount_stiffness import MountStiffness
 from ..machine.mounts import Mounts
-from .bushings import Bushing
+from ..mechanics.bushings import Bushing
 
 
 @dataclass(frozen=True)

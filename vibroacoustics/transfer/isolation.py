@@ -1,19 +1,14 @@
 """Motion of rigid bodies on bushings, and the forces that the bushings pass on."""
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Final
 
 import numpy as np
-from scipy.linalg import eigh
+from scipy.linalg import block_diag, eigh
 
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError, SolverError
-from .bushings import Bushing, RigidBody, motion_at
-
-FREE: Final = 1e-12
-"""A squared natural frequency below this part of the highest one is that of a free motion."""
+from ..mechanics.bushings import FREE, Bushing, RigidBody, check_joined, motion_at
 
 
 @dataclass(frozen=True)
@@ -37,27 +32,12 @@ class Isolation:
         names = [body.name for body in self.bodies]
         if not names:
             raise ParameterError("bodies: at least one is needed")
-        _check_unique("body", names)
-        _check_unique("bushing", [bushing.name for bushing in self.bushings])
-        for bushing in self.bushings:
-            ends = (bushing.body, bushing.other_body)
-            for end in ends:
-                if end is not None and end not in names:
-                    raise ParameterError(
-                        f"bushing {bushing.name}: no body {end}; there are {', '.join(names)}"
-                    )
-            if ends[0] == ends[1]:
-                raise ParameterError(f"bushing {bushing.name}: joins {ends[0]} to itself")
+        check_joined(names, self.bushings)
 
     @cached_property
     def mass_matrix(self) -> Array:
         """Shape (6 bodies, 6 bodies), kg and kg m²."""
-        matrix = np.zeros((6 * len(self.bodies), 6 * len(self.bodies)))
-        for number, body in enumerate(self.bodies):
-            first = 6 * number
-            matrix[first : first + 3, first : first + 3] = body.mass_kg * np.eye(3)
-            matrix[first + 3 : first + 6, first + 3 : first + 6] = body.inertia_kg_m2
-        return matrix
+        return np.asarray(block_diag(*(body.mass_matrix for body in self.bodies)))
 
     @cached_property
     def bushing_motion(self) -> Array:
@@ -216,11 +196,3 @@ class Isolation:
     def _assembled(self, matrices: Array) -> Array:
         motion = self.bushing_motion
         return np.asarray((motion.transpose(0, 2, 1) @ (matrices @ motion)).sum(axis=0))
-
-
-def _check_unique(what: str, names: Iterable[str]) -> None:
-    seen: set[str] = set()
-    for name in names:
-        if name in seen:
-            raise ParameterError(f"{what} {name}: named twice")
-        seen.add(name)

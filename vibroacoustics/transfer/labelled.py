@@ -19,6 +19,8 @@ from .machine import MachineOnMounts, Response, on_mounts
 
 MOUNT_FREQUENCY_HZ: Final[Array] = np.asarray(np.geomspace(1.0, 200.0, 400), dtype=np.float64)
 
+Labelled = dict[str, tuple[Any, dict[str, Any]]]
+"""Values and coordinates of variables by name."""
 _WRENCH: Final = ("force_order", "moment_order")
 _DOFS: Final = {"dof": list(RIGID_BODY_DOFS)}
 
@@ -29,7 +31,7 @@ def housing_variables(study: Study, results: xr.Dataset) -> xr.Dataset:
     Every option moves on its own mounts; the natural modes are those of the machine as it is.
     """
     machines = {
-        name: on_mounts(option.applied_to(study.machine)) for name, option in study.options.items()
+        name: on_mounts(option.built_into(study.machine)) for name, option in study.options.items()
     }
     reference = machines[REFERENCE_OPTION]
     responses = _responses(list(machines.values()), results)
@@ -41,14 +43,14 @@ def housing_variables(study: Study, results: xr.Dataset) -> xr.Dataset:
     velocities = {"velocity_order": [response.velocity for response in responses]}
     if reference.suspension is not None:
         velocities["block_velocity_order"] = [response.block_velocity for response in responses]
-    arrays: dict[str, tuple[Any, dict[str, Any]]] = {
+    arrays: Labelled = {
         name: (np.moveaxis(np.stack(velocity, axis=1), -1, -2), {**coords, **_DOFS})
         for name, velocity in velocities.items()
     }
     feet = {"foot": list(reference.stand.names)}
     arrays["foot_force_order"] = (foot_force, {**coords, **feet, "axis": list(AXES)})
     arrays["foot_force_amplitude"] = (total, {**by_foot, **feet})
-    arrays |= _of_mounts(reference)
+    arrays |= _of_mounts(reference) | _with_bodies(machines)
     return check(
         xr.Dataset(
             {name: stamp(name, values, at) for name, (values, at) in arrays.items()},
@@ -72,18 +74,50 @@ def _responses(machines: list[MachineOnMounts], results: xr.Dataset) -> list[Res
     return [by_row[row] for row in range(len(machines))]
 
 
-def _of_mounts(machine: MachineOnMounts) -> dict[str, tuple[Any, dict[str, Any]]]:
+def _of_mounts(machine: MachineOnMounts) -> Labelled:
     """Natural modes of a machine and what its mounts pass on, with coordinates."""
     frequencies, shapes = machine.natural_modes()
     mode = {"mode": [f"mode_{number}" for number in range(1, len(frequencies) + 1)]}
-    names = [body.name for body in machine.isolation.bodies]
     return {
         "natural_frequency": (frequencies, mode),
-        "mode_shape": (shapes, {**mode, "body": names, **_DOFS}),
+        "mode_shape": (shapes, {**mode, "body": machine.labels, **_DOFS}),
         "mount_transmissibility": (
             _transmissibility(machine),
             {"axis": list(AXES), "mount_frequency": MOUNT_FREQUENCY_HZ},
         ),
+    }
+
+
+def _with_bodies(machines: dict[str, MachineOnMounts]) -> Labelled:
+    """Natural modes of options that attach bodies, by option; nothing where none does.
+
+    Kinetic energy of a motion is φ (Mφ), whose sum over a mode is one. What a machine does not
+    have is NaN.
+    """
+    attaching = {name: one for name, one in machines.items() if one.attached.bodies}
+    if not attaching:
+        return {}
+    bodies = list(dict.fromkeys(label for one in attaching.values() for label in one.labels))
+    modes = 6 * max(len(one.labels) for one in attaching.values())
+    hertz = np.full((len(machines), modes), np.nan)
+    energy = np.full((len(machines), modes, len(bodies), 6), np.nan)
+    passed_on = np.full((len(machines), 3, MOUNT_FREQUENCY_HZ.size), np.nan, dtype=complex)
+    for row, machine in enumerate(machines.values()):
+        if machine.attached.bodies:
+            passed_on[row] = _transmissibility(machine)
+            frequencies, shapes = machine.natural_modes()
+            flat = shapes.reshape(len(shapes), -1)
+            shares = (flat * (flat @ machine.isolation.mass_matrix)).reshape(shapes.shape)
+            hertz[row, : len(frequencies)] = frequencies
+            columns = [bodies.index(label) for label in machine.labels]
+            energy[row, : len(frequencies), columns] = np.moveaxis(shares, 1, 0)
+    mode = {"option_mode": [f"mode_{number}" for number in range(1, modes + 1)]}
+    coords = {"option": list(machines), **mode}
+    at_mounts = {"axis": list(AXES), "mount_frequency": MOUNT_FREQUENCY_HZ}
+    return {
+        "option_natural_frequency": (hertz, coords),
+        "option_mount_transmissibility": (passed_on, {"option": list(machines), **at_mounts}),
+        "option_mode_energy": (energy, {**coords, "option_body": bodies, **_DOFS}),
     }
 
 

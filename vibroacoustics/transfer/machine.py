@@ -15,8 +15,8 @@ from ..machine.machine import Machine
 from ..machine.mount_stiffness import MountStiffness
 from ..machine.mounts import Mounts
 from ..machine.suspension import BLOCK, DischargeTube, Suspension
+from ..mechanics.bushings import NO_BODIES, AttachedBodies, Bushing, RigidBody
 from ..mechanics.ports import HOUSING, BodyPort
-from .bushings import Bushing, RigidBody
 from .feet import Stand, corners
 from .isolation import Isolation
 from .modes_over_frequency import modes_over_frequency
@@ -25,7 +25,7 @@ from .tube import tube_stiffness
 MACHINE, SHELL = "machine", "shell"
 """Names of the body on the feet, without and with a block on springs in it."""
 HIGHEST_MODE_HZ: Final = 1e5
-"""Above every natural frequency on mounts."""
+"""Above every natural frequency on the mounts alone."""
 KEPT_MACHINES: Final = 64
 """Machines whose bushings are kept assembled: cases of a study share their mounts."""
 
@@ -68,6 +68,7 @@ class MachineOnMounts:
     feet : anywhere, in place of four in a square
     mount_stiffness : of the mounts over frequency
     floor : that gives way under the feet; rigid where there is none
+    attached : further bodies, of an option
     """
 
     housing: Housing
@@ -77,6 +78,7 @@ class MachineOnMounts:
     feet: Feet | None = None
     mount_stiffness: MountStiffness | None = None
     floor: Floor | FloorMobility | None = None
+    attached: AttachedBodies = NO_BODIES
 
     @cached_property
     def stand(self) -> Stand:
@@ -97,16 +99,19 @@ class MachineOnMounts:
         return self._isolation(with_floor=True)
 
     def _isolation(self, with_floor: bool) -> Isolation:
-        bodies = [_rigid_body(self._on_feet, self.housing, np.zeros(3))]
-        bushings = self.stand.bushings(self._on_feet, with_floor)
+        name = HOUSING.name
+        bodies = (_rigid_body(name, self.housing, np.zeros(3)),)
+        all_of_it = AttachedBodies((), tuple(self.stand.bushings(name, with_floor)))
         if self.suspension is not None:
-            bodies.append(_block(self.suspension))
-            bushings += _suspension_bushings(self.suspension)
-        return Isolation(tuple(bodies), tuple(bushings))
+            all_of_it += _on_springs(self.suspension)
+        all_of_it += self.attached
+        return Isolation(bodies + all_of_it.bodies, all_of_it.bushings)
 
     @property
-    def _on_feet(self) -> str:
-        return MACHINE if self.suspension is None else SHELL
+    def labels(self) -> list[str]:
+        """Names of the bodies in results: the one on the feet is the shell round a block."""
+        on_feet = MACHINE if self.suspension is None else SHELL
+        return [on_feet, *(body.name for body in self.isolation.bodies[1:])]
 
     @property
     def mechanism_port(self) -> BodyPort:
@@ -122,10 +127,9 @@ class MachineOnMounts:
             The machine has no such port.
         """
         names = [body.name for body in self.isolation.bodies]
-        name = self._on_feet if port == HOUSING else port.name
-        if name not in names:
+        if port.name not in names:
             raise ParameterError(f"port {port.name}: the machine has none")
-        return names.index(name)
+        return names.index(port.name)
 
     def natural_modes(self) -> tuple[Array, Array]:
         """As `Isolation.natural_modes`, on a rigid floor, with the mounts' stiffness there."""
@@ -133,9 +137,14 @@ class MachineOnMounts:
             return self.isolation.natural_modes()
         isolation = self._isolation(with_floor=False)
         frequencies, shapes = modes_over_frequency(
-            isolation.real_stiffness, isolation.mass_matrix, HIGHEST_MODE_HZ
+            isolation.real_stiffness, isolation.mass_matrix, self._highest_mode_hz
         )
         return frequencies, shapes.reshape(-1, len(isolation.bodies), 6)
+
+    @property
+    def _highest_mode_hz(self) -> float:
+        """Above every natural frequency, also of bodies on stiff bushings."""
+        return max(HIGHEST_MODE_HZ, 2.0 * float(self.isolation.natural_modes()[0][-1]))
 
     def response(
         self,
@@ -168,6 +177,7 @@ def on_mounts(machine: Machine) -> MachineOnMounts:
     return _kept(
         machine.housing, machine.mounts, foot_height_m, machine.suspension,
         machine.feet, machine.mount_stiffness, machine.floor or machine.floor_mobility,
+        machine.attached,
     )  # fmt: skip
 
 
@@ -179,17 +189,14 @@ def _centre(suspension: Suspension) -> Array:
     return np.array([0.0, 0.0, suspension.height_m])
 
 
-def _block(suspension: Suspension) -> RigidBody:
-    return _rigid_body(BLOCK.name, suspension.block, _centre(suspension))
-
-
-def _suspension_bushings(suspension: Suspension) -> list[Bushing]:
+def _on_springs(suspension: Suspension) -> AttachedBodies:
+    """The block on its springs and tube in the shell."""
     springs, centre = suspension.springs, _centre(suspension)
     points = centre + corners(springs.pitch_m, suspension.springs_height_m)
-    bushings = _corner_bushings("spring", springs, points, (BLOCK.name, SHELL))
+    bushings = _corner_bushings("spring", springs, points, (BLOCK.name, HOUSING.name))
     if suspension.discharge_tube is not None:
         bushings.append(_tube_bushing(suspension.discharge_tube, centre))
-    return bushings
+    return AttachedBodies((_rigid_body(BLOCK.name, suspension.block, centre),), tuple(bushings))
 
 
 def _rigid_body(name: str, body: Housing, centre_of_mass_m: Array) -> RigidBody:
@@ -219,6 +226,6 @@ def _tube_bushing(tube: DischargeTube, block_centre_m: Array) -> Bushing:
         tube.poisson_ratio,
     )
     return Bushing(
-        "discharge_tube", BLOCK.name, SHELL, points[-1], stiffness,
+        "discharge_tube", BLOCK.name, HOUSING.name, points[-1], stiffness,
         loss_factor_ratio=tube.loss_factor_ratio,
     )  # fmt: skip

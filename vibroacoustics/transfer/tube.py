@@ -6,7 +6,7 @@ import numpy as np
 
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
-from .bushings import motion_at
+from ..mechanics.bushings import motion_at
 
 
 def tube_stiffness(

@@ -9,7 +9,7 @@ from ..base.errors import ParameterError
 from ..machine.cases import Cases
 from ..machine.machine import Machine
 from ..machine.source import Case, CaseKey, Shared
-from ..sources.cases import loads_of, without_time_series, wrench_lines
+from ..sources.cases import added_by, loads_of, without_time_series, wrench_lines
 from ..study.draws import with_draw
 from ..study.sampling import Draw
 from ..study.study import Study
@@ -41,9 +41,7 @@ def drawn_cases(nominal: Cases, study: Study, draw: Draw) -> Cases:
     for _, of_speed in groupby(nominal.cases.items(), key=lambda item: item[0][0]):
         turned = Shared()  # let go with the speed: courses over crank angle are large
         for key, given in of_speed:
-            machine = shared(
-                id(given.machine), partial(with_draw, given.machine, study.machine, draw)
-            )
+            machine = shared(id(given.machine), partial(_sampled, given, study, key, draw))
             case = replace(given, machine=machine, shared=shared)
             if moves_otherwise(machine, given.machine, study):
                 case = _turned(case, study, key, turned)
@@ -54,6 +52,12 @@ def drawn_cases(nominal: Cases, study: Study, draw: Draw) -> Cases:
                 drawn.wrenches[key] = wrench_lines(case, loads, highest)
             drawn.cases[key], drawn.loads[key] = without_time_series(case, loads)
     return drawn
+
+
+def _sampled(case: Case, study: Study, key: CaseKey, sample: Draw) -> Machine:
+    """The machine of a case with sampled values, and the bodies attached to this machine."""
+    machine = with_draw(case.machine, study.machine, sample)
+    return machine.carrying(study.option_of(key).attached(machine))
 
 
 def moves_otherwise(machine: Machine, given: Machine, study: Study) -> bool:
@@ -71,7 +75,7 @@ def _turned(case: Case, study: Study, key: CaseKey, turned: Shared) -> Case:
     turn = partial(case.machine.revolution, case.speed_rpm, study.operation.crank_angle_samples)
     revolution = turned(id(case.machine), turn)
     try:
-        added = study.option_of(key).added(case.machine, revolution)
+        added = added_by(study.option_of(key), case.machine, revolution)
     except ParameterError as error:
         raise ParameterError(f"options.{key[1]}: {error}") from None
     return replace(case, revolution=revolution, added=added)

@@ -16,9 +16,11 @@ from support import PIPELINES
 
 from vibroacoustics.base.registry import register
 from vibroacoustics.design.engine.seen import Need
-from vibroacoustics.machine.option import Option
+from vibroacoustics.machine.option import OPTIONS, Option
 from vibroacoustics.mechanics.added import Added
+from vibroacoustics.mechanics.bushings import AttachedBodies, Bushing, RigidBody
 from vibroacoustics.mechanics.moving_parts import circling
+from vibroacoustics.transfer import on_mounts
 
 CLOSE_DB = 1e-9
 DESIGNS = 2
@@ -134,6 +136,54 @@ def test_choice_among_options():
     assert all(routes(engine, "none").values())
 
 
+class Absorber(Option):
+    """A mass on a spring with a dashpot at a corner of the housing."""
+
+    kind: ClassVar[str] = "absorber"
+    mass_kg: float
+    stiffness_n_per_m: float
+    damping_ns_per_m: float
+
+    def attached(self, machine):
+        point, held = np.array([0.1, 0.02, 0.1]), np.array([1.0, 1.0, 1.0, 1e-2, 1e-2, 1e-2])
+        body = RigidBody("absorber", self.mass_kg, 1e-3 * np.eye(3), point)
+        spring = Bushing(
+            "dashpot", "absorber", "housing", point,
+            self.stiffness_n_per_m * np.diag(held), self.damping_ns_per_m * np.diag(held),
+        )  # fmt: skip
+        return AttachedBodies((body,), (spring,))
+
+
+@pytest.fixture
+def absorber():
+    register(Absorber)
+    yield
+    del OPTIONS._things["absorber"], OPTIONS._origins["absorber"]
+
+
+def test_attached_bodies_move_in_designs_as_in_runs(absorber):
+    """Natural frequencies too, which the dashpot leaves as they are."""
+    text = '[options.absorber]\nkind = "absorber"\nmass_kg = 0.5\n'
+    text += "stiffness_n_per_m = 5e4\ndamping_ns_per_m = 8.0\n"
+    variables = {
+        "options.absorber.mass_kg": "range = [0.2, 1.0]",
+        "options.absorber.stiffness_n_per_m": "range = [1e4, 1e5]",
+        "options.absorber.damping_ns_per_m": "range = [0.0, 20.0]",
+        "machine.mounts.loss_factor_ratio": "range = [0.02, 0.3]",
+    }
+    study = study_with(text + design_table('"absorber"', variables))
+    engine = engine_of(study)
+    designs = engine.space.sample("sobol", DESIGNS)
+    assert largest_difference_db(engine, study, designs) < CLOSE_DB
+    assert all(routes(engine, "absorber").values())
+    natural = engine_of(study, (Need("natural"),)).outcome(designs[:1]).seen[Need("natural")]
+    changed = study.replace(engine.space.written(designs[0]))
+    machine = changed.options["absorber"].built_into(changed.machine)
+    expected = on_mounts(machine).natural_modes()[0]
+    assert expected.size == 12
+    np.testing.assert_allclose(natural[0], expected, rtol=0.0, atol=1e-9 * expected.max())
+
+
 class Kinked(Option):
     """A weight that a stop holds at a radius."""
 
@@ -150,8 +200,6 @@ class Kinked(Option):
 
 @pytest.fixture
 def kinked():
-    from vibroacoustics.machine.option import OPTIONS
-
     register(Kinked)
     yield
     del OPTIONS._things["kinked"], OPTIONS._origins["kinked"]

@@ -74,7 +74,7 @@ def seen_of(
 
 
 def _natural_hz(body: Arrays, by_speed: Sequence[Arrays], n: int) -> Array:
-    if any("added" in arrays for arrays in by_speed):
+    if any("added" in arrays and arrays["added"].real.any() for arrays in by_speed):
         raise ParameterError(
             "resonance_margin_ratio: needs mounts of constant stiffness on a rigid floor"
         )
@@ -96,7 +96,8 @@ def _at_speed(need: Need, lines: Lines, arrays: Arrays, body: Arrays) -> Array:
     if need.what == "foot":
         added = {name: arrays[name] for name in ADDED if name in arrays}
         return foot_force(body, added, wrench, lines.frequency_hz, row)
-    return size_of_vector(wrench[:, :3] if need.what == "force" else wrench[:, 3:])
+    on_mechanism = wrench.reshape(len(wrench), -1, 6).sum(axis=1)  # no other body is loaded
+    return size_of_vector(on_mechanism[:, :3] if need.what == "force" else on_mechanism[:, 3:])
 
 
 def reported(arrays: Arrays, name: str) -> Array:

@@ -27,13 +27,13 @@ class Probe:
     frequency_hz : of the lines above 0 Hz, by speed, each of shape (line,)
     order : of the lines, 0 for tones that are none, likewise
     by_speed : arrays by name, one mapping a speed, of the shapes
-        wrench (order, 6): of the moving parts on the mechanism's body about its centre of mass
+        wrench (order, motion): load of the moving parts on the bodies
         load (line, motion): of all sources on the bodies, the one on the feet first
         other (line, receiver): pressure that does not come of the rigid motion, Pa
         noise (receiver,): A-weighted mean square of random loads, Pa²
         factor (line,): what the option's insertion loss leaves of the pressure
         and one of shape () for each reported figure
-        and, where stiffness changes over frequency, what is added to it:
+        and, where stiffness changes over frequency or loss is viscous, what is added to it:
         added (line, motion, motion), foot_added (line, foot, 3, motion)
     body : arrays by name, of the shapes
         mass, stiffness (motion, motion): complex with the structural loss
@@ -79,8 +79,7 @@ def probe(study: Study, option: str, way_of: Callable[[Study], SoundWay]) -> Pro
         number = np.arange(1, lines.frequency_hz.size)
         orders.append(np.where(number <= highest, number, 0))
         parts.append(_of_case(study, option, case, of_case, lines, wrenches, way))
-    machine = study.options[option].applied_to(study.machine)
-    body = on_mounts(machine)
+    body = on_mounts(study.options[option].built_into(study.machine))
     added = [_over_frequency(body, frequency) for frequency in frequencies]
     by_speed = tuple({**part, **more} for part, more in zip(parts, added, strict=True))
     return Probe(tuple(frequencies), tuple(orders), by_speed, body_matrices(body), way.key)
@@ -96,11 +95,6 @@ def _of_case(
     way: SoundWay,
 ) -> dict[str, ComplexArray]:
     body = on_mounts(case.machine)
-    load = np.zeros((lines.frequency_hz.size, len(body.isolation.bodies), 6), dtype=complex)
-    for of_source in lines.loads.values():
-        for port, amplitudes in of_source.items():
-            if isinstance(port, BodyPort):
-                load[:, body.row(port)] += amplitudes.T
     other, noise = way.besides_rigid(case.machine, lines, loads)
     loss = study.options[option].insertion_loss()
     factor: Array = np.ones(lines.frequency_hz.size)
@@ -111,13 +105,23 @@ def _of_case(
     for one in loads.values():
         figures |= one.figures
     return {
-        "wrench": summed(wrenches.values())[body.mechanism_port].T[1:],
-        "load": load[1:].reshape(len(load) - 1, -1),
+        "wrench": _loaded(body, summed(wrenches.values()))[1:],
+        "load": _loaded(body, summed(lines.loads.values()))[1:],
         "other": other[:, 1:].T,
         "noise": way.weighted(noise),
         "factor": factor[1:].astype(complex),
         **{name: np.asarray(complex(value)) for name, value in figures.items()},
     }
+
+
+def _loaded(body: MachineOnMounts, loads: PortLoads) -> ComplexArray:
+    """Loads on the bodies, about the centre of mass of each, shape (line, motion)."""
+    on_bodies = {port: load for port, load in loads.items() if isinstance(port, BodyPort)}
+    lines = next(iter(loads.values())).shape[-1]
+    load = np.zeros((lines, len(body.isolation.bodies), 6), dtype=complex)
+    for port, amplitudes in on_bodies.items():
+        load[:, body.row(port)] += amplitudes.T
+    return load.reshape(lines, -1)
 
 
 def body_matrices(body: MachineOnMounts) -> dict[str, ComplexArray]:
@@ -134,12 +138,13 @@ def body_matrices(body: MachineOnMounts) -> dict[str, ComplexArray]:
 
 
 def _over_frequency(body: MachineOnMounts, frequency_hz: Array) -> dict[str, ComplexArray]:
-    """Stiffness that is added at the lines; empty where it is constant."""
+    """Stiffness that is added at the lines, with jωC; empty where it is constant."""
     isolation, feet = body.isolation, len(body.stand.names)
     size = 6 * len(isolation.bodies)
-    if all(one.over_frequency is None for one in isolation.bushings):
+    viscous = isolation.damping_matrix
+    if all(one.over_frequency is None for one in isolation.bushings) and not viscous.any():
         return {}
-    added = np.zeros((frequency_hz.size, size, size), dtype=complex)
+    added = 2j * np.pi * frequency_hz[:, None, None] * viscous
     foot = np.zeros((frequency_hz.size, feet, 3, size), dtype=complex)
     for number, mount in enumerate(isolation.bushings):
         if mount.over_frequency is not None:

@@ -112,14 +112,12 @@ def foot_force(
     ----------
     body : mass, stiffness, foot
     added : of the lines, `added` and `foot_added`; empty where stiffness is constant
-    wrench : on the mechanism's body, shape (design or 1, 6)
+    wrench : on the bodies, shape (design or 1, motion)
     frequency_hz : shape (line,)
     line : its number, shape (1,)
     """
-    load = np.zeros((len(wrench), 1, body["mass"].shape[-1]), dtype=complex)
-    load[:, 0, -6:] = wrench
     more = added["added"][:, line] if added else None
-    motion = displacement(body, more, load, frequency_hz[line])[:, 0]
+    motion = displacement(body, more, wrench[:, None], frequency_hz[line])[:, 0]
     per_motion = body["foot"] + (added["foot_added"][:, line[0]] if added else 0.0)
     return size_of_vector(np.einsum("nfam,nm->nfa", *_alike(per_motion, motion)))
 

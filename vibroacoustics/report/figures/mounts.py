@@ -31,12 +31,21 @@ def mount_transmissibility(results: xr.Dataset) -> Figure:
     >>> va.plot.mount_transmissibility(results).savefig("mounts.png")
     """
     transmitted = abs(results["mount_transmissibility"])
+    attaching = []
+    if "option_mount_transmissibility" in results:
+        attaching = list(abs(results["option_mount_transmissibility"]).dropna("option"))
 
     def paint(axes: Axes) -> None:
         looks = zip(("-", "--", "-."), (COLOURS[3], COLOURS[2], COLOURS[5]), strict=True)
         for curve, (dash, colour) in zip(transmitted, looks, strict=True):
             label = f"along {curve['axis'].item()}"
             axes.loglog(curve["mount_frequency"], curve, dash, color=colour, label=label)
+            for option in attaching:
+                with_bodies = f"{label}, {option['option'].item()}"
+                own = option.sel(axis=curve["axis"])
+                axes.loglog(
+                    own["mount_frequency"], own, dash, color=colour, lw=0.7, label=with_bodies
+                )
         mark_first_order(axes, results, "black", "1× at the speeds of the study")
         axes.axhline(1.0, color="#888888", linewidth=0.8)
         frequency_ticks(axes, transmitted["mount_frequency"].values)

@@ -59,7 +59,7 @@ def machines_of(results: xr.Dataset) -> Machines | None:
     try:
         machine = _read(AnyMachine, kept["machine"])
         known = {name: _read(AnyOption, kept["options"][name]) for name in options(results)}
-        return Machines(known, {name: one.applied_to(machine) for name, one in known.items()})
+        return Machines(known, {name: one.built_into(machine) for name, one in known.items()})
     except (ValidationError, ParameterError, KeyError):
         return None
 

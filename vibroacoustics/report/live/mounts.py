@@ -15,8 +15,9 @@ class MountMatrices(NamedTuple):
     Attributes
     ----------
     mass, lateral, vertical, rest, rest_loss, damping : M, L, V, R, S and C, of all bodies, that on
-        the feet first and that with the mechanism last, shape (6 bodies, 6 bodies)
+        the feet first, shape (6 bodies, 6 bodies)
     values : k_l and k_v of one mount, N/m, and its loss factor η
+    mechanism : first row of the body with the mechanism
     """
 
     mass: Array
@@ -26,6 +27,7 @@ class MountMatrices(NamedTuple):
     rest_loss: Array
     damping: Array
     values: tuple[float, float, float]
+    mechanism: int
 
 
 def is_over_frequency(machine: MachineOnMounts) -> bool:
@@ -75,6 +77,7 @@ def mount_matrices(machine: Machine) -> MountMatrices:
         stand.isolation.structural_damping_matrix - values[2] * of_mounts,
         stand.isolation.damping_matrix,
         values,
+        6 * stand.row(stand.mechanism_port),
     )
 
 
@@ -83,7 +86,8 @@ def put_matrices(matrices: MountMatrices) -> dict[str, Any]:
     return {
         "size": len(matrices.mass),
         "values": matrices.values,
-        **{name: getattr(matrices, name).ravel().tolist() for name in matrices._fields[:-1]},
+        "mechanism": matrices.mechanism,
+        **{name: getattr(matrices, name).ravel().tolist() for name in matrices._fields[:-2]},
     }
 
 

@@ -5,7 +5,7 @@ import xarray as xr
 from ...base.registry import register
 from ..blocks import Block, Pictures, Text
 from ..figures import mount_figures
-from ..housing import block_table, isolation_sentence, modes_table
+from ..housing import attached_table, block_table, isolation_sentence, modes_table
 from ..speeds import chosen_speeds
 from ..study import few_speeds
 from . import Section
@@ -14,7 +14,7 @@ from . import Section
 def _blocks(results: xr.Dataset) -> list[Block]:
     return [
         Text(isolation_sentence(results)),
-        modes_table(results),
+        *filter(None, (modes_table(results), attached_table(results))),
         *_block(results),
         Pictures(tuple(mount_figures(results))),
     ]

@@ -15,9 +15,9 @@ from ...machine.frame import (
     RoundPart,
 )
 from ...mechanics.beam_rotor import NODE_FREEDOMS
+from ...mechanics.bushings import RigidBody, motion_at
 from ...mechanics.critical_speed import FreeShaft
 from ...mechanics.ports import WRENCH
-from ..bushings import RigidBody, motion_at
 from ..isolation import Isolation
 from .contacts import Contacts
 from .springs import springs_of

@@ -6,7 +6,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...machine.frame import Face, Frame
-from ..bushings import Bushing
+from ...mechanics.bushings import Bushing
 
 FACE_SPRINGS: Final = 8
 """Points that stand for an annular face; its tilting stiffness is exact from three on."""

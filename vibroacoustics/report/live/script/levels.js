@@ -128,7 +128,8 @@ class Model {
     if (stiffness) this.stiffen(stiffness[machine] + 42 * line, mounts, omega);
     c.fill(0);
     d.fill(0);
-    for (let i = 0; i < 6; i++) { c[n - 6 + i] = six[2 * i]; d[n - 6 + i] = six[2 * i + 1]; }
+    const first = mounts.mechanism;
+    for (let i = 0; i < 6; i++) { c[first + i] = six[2 * i]; d[first + i] = six[2 * i + 1]; }
     solve(n, a, b, c, d);
     for (let i = 0; i < 6; i++) { six[2 * i] = -omega * d[i]; six[2 * i + 1] = omega * c[i]; }
   }

@@ -1,10 +1,11 @@
 """Any number of rigid bodies and the bushings between them: grommets, springs, a tube."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import Final
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field, fields
+from typing import Any, Final
 
 import numpy as np
+from scipy.linalg import eigh
 
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
@@ -13,12 +14,35 @@ SYMMETRY: Final = 1e-9
 """Asymmetry and negative part of a matrix, relative to its largest entry, that pass as rounding."""
 
 
+FREE: Final = 1e-12
+"""A squared natural frequency below this part of the highest one is that of a free motion."""
+
+
 def _free() -> Array:
     return np.zeros((6, 6))
 
 
-@dataclass(frozen=True)
-class RigidBody:
+class _ByContent:
+    """Base of dataclasses with arrays, compared and hashed by their content."""
+
+    def _content(self) -> tuple[Any, ...]:
+        values = (getattr(self, each.name) for each in fields(self))  # type: ignore[arg-type]
+        return tuple(v.tobytes() if isinstance(v, np.ndarray) else v for v in values)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, type(self)) and self._content() == other._content()
+
+    def __hash__(self) -> int:
+        return hash(self._content())
+
+    def _read_arrays(self, *names: str) -> None:
+        """Turn fields into arrays; a tuple of numbers will do."""
+        for name in names:
+            object.__setattr__(self, name, np.asarray(getattr(self, name), dtype=float))
+
+
+@dataclass(frozen=True, eq=False)
+class RigidBody(_ByContent):
     """A rigid body at rest.
 
     Attributes
@@ -26,7 +50,13 @@ class RigidBody:
     name : unique among the bodies
     mass_kg : mass
     inertia_kg_m2 : inertia tensor about the centre of mass, shape (3, 3)
-    centre_of_mass_m : its place, shape (3,)
+    centre_of_mass_m : from the centre of mass of the housing at rest, z up, shape (3,)
+
+    Examples
+    --------
+    >>> body = va.RigidBody("damper", 0.2, 1e-5 * np.eye(3), (0.1, 0.0, 0.05))
+    >>> body.mass_matrix.shape
+    (6, 6)
     """
 
     name: str
@@ -35,6 +65,7 @@ class RigidBody:
     centre_of_mass_m: Array
 
     def __post_init__(self) -> None:
+        self._read_arrays("inertia_kg_m2", "centre_of_mass_m")
         _check_shape(self.inertia_kg_m2, (3, 3), f"body {self.name}: inertia_kg_m2")
         _check_shape(self.centre_of_mass_m, (3,), f"body {self.name}: centre_of_mass_m")
         if not (np.isfinite(self.mass_kg) and self.mass_kg > 0.0):
@@ -50,9 +81,16 @@ class RigidBody:
                 "the others"
             )
 
+    @property
+    def mass_matrix(self) -> Array:
+        """About the centre of mass, shape (6, 6), kg and kg m²."""
+        matrix = np.zeros((6, 6))
+        matrix[:3, :3], matrix[3:, 3:] = self.mass_kg * np.eye(3), self.inertia_kg_m2
+        return matrix
 
-@dataclass(frozen=True)
-class Bushing:
+
+@dataclass(frozen=True, eq=False)
+class Bushing(_ByContent):
     """A massless elastic link between two bodies, or between a body and the ground.
 
     The six relative displacements and rotations at its point, in its own axes, times the 6 x 6
@@ -62,14 +100,22 @@ class Bushing:
     ----------
     name : unique among the bushings
     body : name of the first body
-    other_body : name of the second body, none for the ground
-    position_m : its point, shape (3,)
+    other_body : name of the second body, such as that of a port; None for the ground
+    position_m : its point, from the centre of mass of the housing at rest, shape (3,)
     stiffness : symmetric, positive semidefinite, shape (6, 6), N/m, N and N m
     damping : viscous, symmetric, positive semidefinite, shape (6, 6), N s/m, N s and N m s
     loss_factor_ratio : structural loss factor of the stiffness
     axes : its own axes as columns, a rotation, shape (3, 3)
     over_frequency : of frequencies, shape (...), to complex stiffness along the axes of the frame,
         shape (..., 3), N/m, in place of stiffness and loss but in natural modes
+
+    Examples
+    --------
+    >>> stiffness = np.diag([1e5, 1e5, 2e4, 50.0, 50.0, 50.0])  # N/m, N m
+    >>> rubber = va.Bushing("rubber", "damper", va.HOUSING.name, (0.1, 0.0, 0.04), stiffness,
+    ...                     loss_factor_ratio=0.1)
+    >>> rubber.other_body
+    'housing'
     """
 
     name: str
@@ -84,6 +130,7 @@ class Bushing:
 
     def __post_init__(self) -> None:
         where = f"bushing {self.name}"
+        self._read_arrays("position_m", "stiffness", "damping", "axes")
         _check_shape(self.position_m, (3,), f"{where}: position_m")
         for name, matrix in (("stiffness", self.stiffness), ("damping", self.damping)):
             _check_shape(matrix, (6, 6), f"{where}: {name}")
@@ -121,6 +168,89 @@ class Bushing:
         turn = np.zeros((6, 6))
         turn[:3, :3] = turn[3:, 3:] = self.axes
         return np.asarray(turn @ matrix @ turn.T)
+
+
+@dataclass(frozen=True)
+class AttachedBodies:
+    """Rigid bodies with the bushings that hold them to a machine on its mounts.
+
+    A bushing names the machine's bodies by their ports, `HOUSING` or `BLOCK`.
+
+    Attributes
+    ----------
+    bodies : each held in all six directions
+    bushings : between these and the machine's bodies
+
+    Examples
+    --------
+    >>> body = va.RigidBody("damper", 0.2, 1e-5 * np.eye(3), (0.1, 0.0, 0.05))
+    >>> rubber = va.Bushing("rubber", "damper", va.HOUSING.name, body.centre_of_mass_m,
+    ...                     np.diag([1e5, 1e5, 2e4, 50.0, 50.0, 50.0]))
+    >>> va.AttachedBodies((body,), (rubber,)).mass_kg
+    0.2
+    """
+
+    bodies: tuple[RigidBody, ...] = ()
+    bushings: tuple[Bushing, ...] = ()
+
+    def __post_init__(self) -> None:
+        for body in self.bodies:
+            ends = [one for one in self.bushings if body.name in (one.body, one.other_body)]
+            held = np.zeros((6, 6))
+            for bushing in ends:
+                motion = motion_at(bushing.position_m, body.centre_of_mass_m)
+                held += motion.T @ bushing.in_frame(bushing.stiffness) @ motion
+            squares = eigh(held, body.mass_matrix, eigvals_only=True)
+            if squares[0] <= FREE * squares[-1]:
+                raise ParameterError(
+                    f"body {body.name}: its bushings leave it free to move; give stiffness along "
+                    "and about all three axes"
+                )
+
+    @property
+    def mass_kg(self) -> float:
+        """Mass of all bodies."""
+        return sum(body.mass_kg for body in self.bodies)
+
+    def __add__(self, other: "AttachedBodies") -> "AttachedBodies":
+        return AttachedBodies(self.bodies + other.bodies, self.bushings + other.bushings)
+
+
+NO_BODIES: Final = AttachedBodies()
+
+
+def check_joined(names: Sequence[str], bushings: Sequence[Bushing]) -> None:
+    """Refuse bodies or bushings with one name, and bushings that join no two bodies.
+
+    Parameters
+    ----------
+    names : of all bodies
+    bushings : between them and the ground
+
+    Raises
+    ------
+    ParameterError
+        Names the body or bushing.
+    """
+    _check_unique("body", names)
+    _check_unique("bushing", [bushing.name for bushing in bushings])
+    for bushing in bushings:
+        ends = (bushing.body, bushing.other_body)
+        for end in ends:
+            if end is not None and end not in names:
+                raise ParameterError(
+                    f"bushing {bushing.name}: no body {end}; there are {', '.join(names)}"
+                )
+        if ends[0] == ends[1]:
+            raise ParameterError(f"bushing {bushing.name}: joins {ends[0]} to itself")
+
+
+def _check_unique(what: str, names: Iterable[str]) -> None:
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            raise ParameterError(f"{what} {name}: named twice")
+        seen.add(name)
 
 
 def motion_at(point_m: Array, centre_m: Array) -> Array:
