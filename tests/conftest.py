@@ -7,6 +7,7 @@ from collections.abc import Iterator
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
+from kept_results import FOLDER
 from pictures import draw_nothing, draw_pixels, lay_out
 from reading_here import read_here
 from support import PIPELINES
@@ -17,15 +18,27 @@ from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.study import Study
 
 READING = (blocks, modes, reading)
-SHARED = {"XDG_CACHE_HOME": "cache", "MPLCONFIGDIR": "matplotlib"}
+LONGEST_FIRST = (
+    "test_doctests.py", "test_wrong_results.py", "test_draws.py", "test_gallery.py",
+    "test_shell_modes.py", "test_radiation_spectral_step.py", "test_radiation_scene.py",
+    "test_cli.py", "test_shell_agreement.py",
+)  # fmt: skip
+"""Files of more than ten seconds: a worker that begins one last keeps all others waiting."""
+SHARED = {"XDG_CACHE_HOME": "cache", "MPLCONFIGDIR": "matplotlib", FOLDER: "results"}
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Files that take long come first; the order is otherwise that of the folders."""
+    place = {name: number for number, name in enumerate(LONGEST_FIRST)}
+    items.sort(key=lambda item: place.get(item.path.name, len(place)))
 
 
 @pytest.fixture(autouse=True, scope="session")
 def _own_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """Keep the tests out of the user's cache; child processes inherit the setting.
 
-    All workers share one cache, and one list of matplotlib's fonts: what one has computed is read
-    by the others.
+    All workers share one cache, one list of matplotlib's fonts, and results of unchanged studies:
+    what one has computed is read by the others.
     """
     base = tmp_path_factory.getbasetemp()
     shared = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base

@@ -2,6 +2,7 @@
 
 import numpy as np
 import xarray as xr
+from kept_results import kept
 from support import ROOT, made_up_transfer_vectors
 
 from vibroacoustics import pipeline
@@ -11,6 +12,7 @@ from vibroacoustics.machine.source import Case
 from vibroacoustics.mechanics.loads import Lines, Loads, lines_of
 from vibroacoustics.sources.cases import cases_of
 from vibroacoustics.stages.shell import shell_path
+from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.study import Study
 from vibroacoustics.transfer.path import ShellPath
 
@@ -41,6 +43,11 @@ def path_of(study: Study) -> ShellPath:
 def run_made_up(study: Study, gain: float = 1.0) -> xr.Dataset:
     """Results with made-up transfer vectors."""
     return pipeline.run(study, radiation=lambda study, *_: (made_up_modes(study, gain), False))
+
+
+def sources_run() -> xr.Dataset:
+    """Results of the study as it is, with made-up transfer vectors."""
+    return kept("sources", lambda: run_made_up(load_study(SOURCES_STUDY)))
 
 
 def case_of(study: Study, option: str = REFERENCE_OPTION) -> Case:

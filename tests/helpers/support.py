@@ -13,6 +13,7 @@ from unittest.mock import patch
 
 import numpy as np
 import xarray as xr
+from kept_results import kept
 
 from vibroacoustics import pipeline
 from vibroacoustics.base.arrays import Array, ComplexArray
@@ -91,6 +92,12 @@ def made_up_radiation(study: Study, *_: object) -> tuple[xr.Dataset, bool]:
 
 def tiny_run(options: str = "", criteria: str = "") -> xr.Dataset:
     """Results of the tiny study with further options and criteria, radiation made up."""
+    if options or criteria:
+        return _tiny_run(options, criteria)
+    return kept("tiny", _tiny_run)
+
+
+def _tiny_run(options: str = "", criteria: str = "") -> xr.Dataset:
     text = TINY.read_text().replace("../../data", str(ROOT / "data"))
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "tiny.toml"

@@ -20,8 +20,10 @@ MACHINE_FILES = sorted(
     for file in (ROOT / "data" / "machines").glob("*.toml")
     if 'kind = "' in file.read_text(encoding="utf-8")
 )
+every_kind = pytest.mark.parametrize("kind", OPTIONS)
 
 
+@pytest.fixture(scope="module")
 def examples():
     """One option of every kind, from the studies where they have one."""
     machine = load_machine(ROOT / "data" / "machines" / "copeland_zp41k3e.toml")
@@ -38,15 +40,17 @@ def examples():
     return found
 
 
-EXAMPLES = examples()
+@pytest.fixture
+def option(kind, examples):
+    return examples[kind]
 
 
-def test_every_registered_thing_is_tested_here():
-    assert set(EXAMPLES) == set(OPTIONS)
+def test_every_registered_thing_is_tested_here(examples):
+    assert set(examples) == set(OPTIONS)
     assert {load_machine(file).kind for file in MACHINE_FILES} == set(MACHINES)
 
 
-@pytest.mark.parametrize("option", EXAMPLES.values(), ids=EXAMPLES)
+@every_kind
 def test_a_dump_of_an_option_gives_it_back(option):
     kind, values = split_kind(OPTIONS, option.model_dump())
     assert kind.model_validate(values) == option
@@ -54,7 +58,7 @@ def test_a_dump_of_an_option_gives_it_back(option):
     assert kind.model_validate_json(json.dumps(values)) == option
 
 
-@pytest.mark.parametrize("option", EXAMPLES.values(), ids=EXAMPLES)
+@every_kind
 def test_options_that_differ_in_one_value_differ_in_dump_and_hash(option):
     before = canonical_json(option.model_dump(mode="json"))
     for name in type(option).model_fields:
@@ -92,7 +96,7 @@ def test_schema_of_a_study_is_the_union_of_what_is_registered():
         assert f'{{"const": "{kind}"}}' in schema, kind
 
 
-@pytest.mark.parametrize("option", EXAMPLES.values(), ids=EXAMPLES)
+@every_kind
 def test_every_option_reports_its_mass_and_has_words(option, thesis_study, derived_study):
     machine = thesis_study.machine
     if option.kind == "spring-mass-printed":

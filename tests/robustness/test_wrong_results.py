@@ -11,7 +11,7 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 import xarray as xr
-from sources_study import SOURCES_STUDY, run_made_up
+from sources_study import sources_run
 from support import TINY, append_hash, assert_refused, command_here, made_up_radiation, tiny_run
 
 from vibroacoustics import pipeline, report
@@ -34,7 +34,7 @@ from vibroacoustics.study.loading import load_study
 
 RUNS: Final = {
     "rigid": tiny_run,
-    "sources": lambda: run_made_up(load_study(SOURCES_STUDY)),  # with draws and a stop
+    "sources": sources_run,  # with draws and a stop
 }
 ATTRIBUTES: Final = {"parameters": Parameters, "words": Words}
 GONE: Final = object()

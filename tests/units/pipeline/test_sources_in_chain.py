@@ -15,6 +15,7 @@ from sources_study import (
     on_parts,
     path_of,
     run_made_up,
+    sources_run,
     with_tables,
 )
 from support import ROOT, assert_refused, command_here
@@ -71,8 +72,8 @@ def study():
 
 
 @pytest.fixture(scope="module")
-def results(study):
-    return run_made_up(study)
+def results():
+    return sources_run()
 
 
 def loads_with(study, option):
