@@ -2,6 +2,7 @@
 # make test  sets up and runs every test, the slow physics included
 # make long  tests that take minutes; kills, full disks, flipped bits and signals for an hour
 # make coverage  400 synthetic machines: how often the bands hold the truth; some minutes
+# make faults  200 changes of formulas, signs, factors and thresholds: which do the tests see; about an hour
 # make docs  sets up and builds the site into docs/_build/html
 # Compiled modules are kept: without them each start takes two seconds more.
 unexport PYTHONDONTWRITEBYTECODE
@@ -11,7 +12,7 @@ BIN := $(VENV)/bin
 STUDY ?= pipelines/copeland_sources.toml
 MINUTES ?= 60
 
-.PHONY: run test long coverage docs check lock clean versions
+.PHONY: run test long coverage faults docs check lock clean versions
 
 run: $(VENV)/.core
 	$(BIN)/vibroacoustics run $(STUDY)
@@ -25,6 +26,11 @@ long: $(VENV)/.dev
 
 coverage: $(VENV)/.dev
 	$(BIN)/pytest -n 0 -s -m long tests/invariants/test_coverage.py
+
+# Goes on where it was stopped; SEED=2 changes other places.
+SEED ?= 1
+faults: $(VENV)/.dev
+	$(BIN)/python tests/robustness/seeded_faults.py --seed $(SEED) --jobs 2
 
 # Light tests on every Python that is promised, as far as it is here; not part of `make test`.
 versions:

@@ -9,6 +9,7 @@ from scipy.integrate import solve_bvp
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.mechanisms.hermetic.journal_bearing import (
+    COMPLEX_STEP,
     film_coordinates,
     highest_pressure_pa,
     linear_film,
@@ -164,6 +165,26 @@ def test_peak_pressure_of_a_steady_short_film():
     place = np.array([[15e-6 * eccentricity, 0.0]])
     found = highest_pressure_pa(BEARING, place, np.zeros((1, 2)), np.array([SPIN]))
     assert found[0] == pytest.approx(exact, rel=1e-5)
+
+
+def test_film_force_has_the_slope_of_a_complex_step():
+    """Central differences of 0.1 nm and 0.1 µm/s err by 1e-9 of a film of 15 µm, with rounding 1e-6.
+
+    The journal moves across its displacement and out, so that the film's half is in no axis.
+    """
+    place, velocity, spin = np.array([9e-6, 2e-6]), np.array([-3e-4, 5e-4]), np.array(SPIN)
+
+    def force(values):
+        return positive_film_force(BEARING, values[:2], values[2:], spin)
+
+    start = np.concatenate([place, velocity])
+    scale = np.linalg.norm(force(start))
+    for axis, step in enumerate((1e-10, 1e-10, 1e-7, 1e-7)):
+        move = np.eye(4)[axis]
+        differences = (force(start + step * move) - force(start - step * move)) / (2.0 * step)
+        slope = force(start + 1j * COMPLEX_STEP * move).imag / COMPLEX_STEP
+        of_place = scale / np.linalg.norm(start[:2] if axis < 2 else start[2:])
+        assert slope == pytest.approx(differences, abs=1e-5 * of_place)
 
 
 def test_linear_film_balances_its_load_and_meets_differences():

@@ -246,6 +246,17 @@ def test_memory_is_checked_before_the_run(box, monkeypatch):
         simulated(box, (0.5, 0.0, 0.0))
 
 
+def test_a_run_is_refused_from_the_memory_on_that_it_needs(box, monkeypatch):
+    place, mirrors = np.array([0.5, 0.0, 0.0]), (SIDE_WALL,)
+    monkeypatch.setattr(device, "array_namespace", lambda: np)
+    needed = room_green.memory_bytes(room_grid.room_grid(place, box, 0.03, mirrors), box, 100)
+    monkeypatch.setattr(device, "available_bytes", lambda: 1.01 * needed)
+    room_green.check_receiver("far", place, box, 0.03, mirrors, 100)
+    monkeypatch.setattr(device, "available_bytes", lambda: 0.99 * needed)
+    with pytest.raises(ParameterError, match=f"needs {needed / 2**30:.3g} GiB"):
+        room_green.check_receiver("far", place, box, 0.03, mirrors, 100)
+
+
 @pytest.mark.long
 @pytest.mark.skipif(
     sys.platform != "linux" or device.array_namespace() is not np,

@@ -58,6 +58,9 @@ def test_what_the_result_says(closed):
     assert closed.attrs["solver"] == "boundary elements, image sources"
     fine, coarse = map(int, closed.attrs["boundary_elements"].split(", coarser "))
     assert fine > coarse >= 20
+    meridian_m = SHELL.height_m + SHELL.outer_diameter_m  # its mean element is between the two
+    assert fine * closed.attrs["boundary_element_shortest_m"] < meridian_m
+    assert fine * closed.attrs["boundary_element_longest_m"] > meridian_m
     solved, asked = map(int, closed.attrs["frequencies_solved"].split(" of "))
     assert 5 < solved < asked == 22
     # Whole numbers would come back from a file as such that JSON does not take.

@@ -158,6 +158,31 @@ def test_jam_is_a_hertz_impact():
     assert run.brake_force_n.max() == pytest.approx(stiffness * depth**1.5, rel=0.01)
 
 
+def test_jam_rebounds_by_its_restitution():
+    """Flores's contact without other forces: β (1 + e) = ln((1 + β)/(1 - β e)) of both speeds.
+
+    While the contact is closed gas and friction turn backwards by at most 14 N m.
+    """
+    parts = [part for part in PARTS if part.source != "oldham"]
+    torque, friction = np.full(8, 10.0), 4.0
+    values = {"shift_rad": 0.0, "friction_torque_n_m": friction}
+    table = back(restitution_ratio=0.8, free_angle_rad=1.0)
+    run = stopped(table, torque=torque, parts=parts, **values)
+    pressed = np.flatnonzero(run.brake_force_n > 0.0)
+    last = pressed[np.flatnonzero(np.diff(pressed) > 1)[0]]
+    approach, rebound = -run.speed_rad_per_s[pressed[0] - 1], run.speed_rad_per_s[last + 1]
+    factor = 1.6 * (1.0 - 0.8) / 0.8
+    ratio = brentq(
+        lambda e: factor * (1.0 + e) - np.log((1.0 + factor) / (1.0 - factor * e)), 0.5, 0.99
+    )
+    coasting, _, _, _ = of_motion(run, parts, torque, **values)
+    inertia = coasting.fixed_inertia(0.0) + coasting.shifted_inertia(0.0)
+    closed_s = (last + 2 - pressed[0]) / RATE_HZ
+    lost = (10.0 + friction) * closed_s / inertia
+    assert ratio * approach - 2.0 * lost < rebound < ratio * approach
+    assert 2.0 * lost < 0.2 * approach
+
+
 def test_share_of_the_trapped_gas():
     shares = TRAPPED.share(np.array([0.0, 2.0 * np.pi, 100.0]))
     one_turn = (33.86 / (1.0 + 16.16 / 30.0) ** 1.05 - 9.98) / (33.86 - 9.98)

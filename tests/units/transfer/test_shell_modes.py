@@ -684,3 +684,6 @@ def test_joint_out_of_range(field, value):
 def test_welds_that_do_not_fit_around():
     with pytest.raises(ValidationError, match=r"4 welds cover 458\.366 °; at most 360 °"):
         Joint(height_m=0.1, welds=4, spread_rad=2.0)
+    with pytest.raises(ValidationError, match=r"4 welds cover 360\.36 °"):
+        Joint(height_m=0.1, welds=4, spread_rad=1.001 * 0.5 * np.pi)
+    assert Joint(height_m=0.1, welds=4, spread_rad=0.5 * np.pi).welds == 4

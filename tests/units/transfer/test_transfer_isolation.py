@@ -365,6 +365,14 @@ def test_bad_input_is_named(make, words):
         make()
 
 
+def test_rounding_of_a_rotation_is_no_asymmetry():
+    """Between bodies that are stiff along their axes alone: zeros beside what rounding leaves."""
+    rounded = np.eye(6)
+    rounded[0, 1] = np.finfo(float).eps
+    assert bushing(stiffness=rounded).stiffness[0, 1] > 0.0
+    assert body(inertia_kg_m2=rounded[:3, :3]).inertia_kg_m2[0, 1] > 0.0
+
+
 def test_undamped_resonance_is_refused():
     block = RigidBody("block", 1.0, np.eye(3), np.zeros(3))
     stiff = (2.0 * np.pi) ** 2 * np.eye(6)
