@@ -21,7 +21,7 @@ class TurningBack(Parameters):
     """From the shaft's axis to the wall against which the brake is pressed."""
     contact_stiffness_n_per_m1p5: Annotated[float, AS_GIVEN] = Field(gt=0.0, le=1e15)
     """Around the shaft, of brake and wall, as of a Hertz contact."""
-    restitution_ratio: Annotated[float, AS_GIVEN] = Field(gt=0.0, le=1.0)
+    restitution_ratio: Annotated[float, AS_GIVEN] = Field(ge=0.2, le=1.0)
     friction_ratio: Annotated[float, AS_GIVEN] = Field(gt=0.0, le=1.0)
     """Of brake and wall: the brake is pressed outwards by the tangential force over it."""
 

@@ -79,7 +79,17 @@ class Coasting:
         torque = torque + stopping.viscous_torque_n_m_s * speed + moved * shift.acceleration
         torque = torque + 0.5 * self.fixed_inertia(angle, 1) * speed**2
         torque = torque + 0.5 * self.shifted_inertia(ahead, 1) * (speed + shift.rate) ** 2
-        return np.asarray((push - torque) / (self.fixed_inertia(angle) + moved))
+        return np.asarray((push - torque) / self.inertia_kg_m2(time, angle))
+
+    def inertia_kg_m2(self, time: Array | float, angle: Array | float) -> Array:
+        """Return the reduced inertia of the shaft and its parts.
+
+        Parameters
+        ----------
+        time, angle : of the shaft, s and rad
+        """
+        ahead = angle + self.shift(np.asarray(time)).angle
+        return np.asarray(self.fixed_inertia(angle) + self.shifted_inertia(ahead))
 
     def slopes(self, time: float, state: Array) -> tuple[float, float]:
         """Of angle and speed while the shaft runs down."""

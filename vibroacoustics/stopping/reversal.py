@@ -10,15 +10,13 @@ from scipy.integrate import solve_ivp
 from ..base.arrays import Array
 from ..base.errors import SolverError
 from ..machine.stopping import TurningBack
-from ..sources.oldham_keys.equations import contact_force, flores
+from ..sources.oldham_keys.contact import contact_damping, dry_force
 from .equation import Coasting
 
 RELATIVE_TOLERANCE: Final = 1e-9
 LONGEST_S: Final = 60.0
 MOST_TURNS: Final = 2000
 """Changes of direction before rest."""
-LEAST_APPROACH_M_PER_S: Final = 0.01
-"""Below, the contact would damp without limit."""
 CREEP_RAD_PER_S: Final = 1e-4
 """A shaft that slows to this in a contact that damps more than it swings stands."""
 STUCK_RATIO: Final = 0.01
@@ -58,27 +56,24 @@ class TrappedGas:
 
 @dataclass(frozen=True)
 class Jamming:
-    """The brake as a one-sided contact behind its free angle, with hysteresis (Flores 2011).
+    """The brake as a dry one-sided contact behind its free angle.
 
     Attributes
     ----------
     table : brake and wall
     rest_angle : at which the shaft first came to rest, rad
-    approach_m_per_s : speed at which the contact was last closed
+    damping : η of the contact, N s/m^1.25
     """
 
     table: TurningBack
     rest_angle: float
-    approach_m_per_s: float = LEAST_APPROACH_M_PER_S
+    damping: float
 
     def force_n(self, angle: float, speed: float) -> float:
         """Around the shaft, forwards."""
-        table = self.table
-        depth = table.wall_radius_m * (self.rest_angle - angle - table.free_angle_rad)
-        closing = -table.wall_radius_m * speed / self.approach_m_per_s
-        hysteresis = flores(table.restitution_ratio)
-        stiffness = table.contact_stiffness_n_per_m1p5
-        return contact_force(depth, closing, stiffness, hysteresis)
+        radius, stiffness = self.table.wall_radius_m, self.table.contact_stiffness_n_per_m1p5
+        depth = max(-radius * self.gap(angle), 0.0)
+        return float(dry_force(depth, -radius * speed, stiffness, self.damping))
 
     def gap(self, angle: float) -> float:
         """Angle to go before the contact closes."""
@@ -135,7 +130,9 @@ def turn_back(
     SolverError
         The integration fails or the shaft finds no rest.
     """
-    jamming, time, state = Jamming(table, rest_angle), rest_s, np.array([rest_angle, 0.0])
+    mass = float(coasting.inertia_kg_m2(rest_s, rest_angle)) / table.wall_radius_m**2
+    damping = contact_damping(table.restitution_ratio, mass, table.contact_stiffness_n_per_m1p5)
+    jamming, time, state = Jamming(table, rest_angle, damping), rest_s, np.array([rest_angle, 0.0])
     stretches: list[Stretch] = []
     while len(stretches) < MOST_TURNS:
         turning = np.sign(state[1]) or _starts(coasting, jamming, gas, time, state[0])
@@ -144,10 +141,7 @@ def turn_back(
         stretch, closed = _stretch(coasting, jamming, gas, (time, state, turning))
         stretches.append(stretch)
         time, state = stretch.end_s, np.array(stretch.state(np.array(stretch.end_s)))
-        if closed:
-            approach = -table.wall_radius_m * float(state[1])
-            jamming = Jamming(table, rest_angle, max(approach, LEAST_APPROACH_M_PER_S))
-        else:
+        if not closed:
             state[1] = 0.0
     raise SolverError(f"turning back: the shaft finds no rest within {MOST_TURNS} swings")
 

@@ -6,22 +6,18 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from constant_film import crown_for, use_constant_film
 from machine_files import machine_of
 from pydantic import ValidationError
 from scipy.integrate import quad, solve_ivp
-from scipy.optimize import brentq
 from scipy.signal import csd
 from support import ROOT
 
 from vibroacoustics.base.errors import ParameterError, SolverError
 from vibroacoustics.base.units import shaft_frequency_hz
 from vibroacoustics.sources.oldham_keys import rattle
-from vibroacoustics.sources.oldham_keys.equations import (
-    CONTACT_LAWS,
-    Coupling,
-    flores,
-    lankarani_nikravesh,
-)
+from vibroacoustics.sources.oldham_keys.contact import Face, key_face
+from vibroacoustics.sources.oldham_keys.equations import Coupling
 from vibroacoustics.sources.oldham_keys.integration import integrate
 from vibroacoustics.sources.oldham_keys.parameters import OldhamKeys
 from vibroacoustics.sources.oldham_keys.rattle import contact_loss_speed_rpm, steady_key_forces
@@ -30,15 +26,17 @@ from vibroacoustics.sources.oldham_keys.spectra import (
     split_periodic,
 )
 
-# The assumed constants of data/validation/oldham_keys.csv as a file has them.
+# Keys as the machine file has them.
 KEYS_TOML = """
 radius_mm = { value = 55.0, source = "assumed", range = [45.0, 60.0] }
 clearance_um = { value = 15.0, source = "assumed: on each side of a key", range = [8.0, 40.0] }
-contact_law = "lankarani-nikravesh"
-contact_stiffness_n_per_m1p5 = { value = 5e10, source = "assumed", range = [1e10, 1e11] }
-restitution_ratio = { value = 0.7, source = "assumed", range = [0.4, 0.9] }
-least_approach_speed_mm_per_s = { value = 10.0, source = "assumed", range = [1.0, 50.0] }
-film_damping_ns_per_m = { value = 50.0, source = "assumed", range = [10.0, 200.0] }
+width_mm = { value = 6.0, source = "assumed", range = [4.0, 8.0] }
+length_mm = { value = 12.0, source = "assumed", range = [8.0, 16.0] }
+crown_radius_m = { value = 0.63, source = "assumed", range = [0.1, 4.0] }
+contact_modulus_gpa = { value = 58.0, source = "derived" }
+restitution_ratio = { value = 0.7, source = "assumed", range = [0.5, 0.9] }
+oil_viscosity_pa_s = { value = 0.0045, source = "assumed", range = [0.002, 0.01] }
+oil_layer_um = { value = 7.0, source = "assumed", range = [0.5, 100.0] }
 friction_ratio = { value = 0.1, source = "assumed", range = [0.02, 0.15] }
 ring_inertia_kg_m2 = { value = 1.8e-4, source = "assumed: ring", range = [1.4e-4, 2.2e-4] }
 scroll_inertia_kg_m2 = { value = 8e-4, source = "assumed: disc", range = [5e-4, 2e-3] }
@@ -91,8 +89,28 @@ def flat(value: float) -> np.ndarray:
 
 
 def integrated(start, samples, interval_s, steps, c):
-    """From keys that touch no face, from crank angle zero."""
-    return integrate(start.copy(), np.zeros((2, 4)), 0, samples, interval_s, steps, c)
+    """Normal forces and impacts from keys that touch no face, from crank angle zero."""
+    normal, _, impacts = integrate(start.copy(), np.zeros((2, 4)), 0, samples, interval_s, steps, c)
+    return normal, impacts
+
+
+def states(start, samples, interval_s, steps, c):
+    """Coordinates, rates at the same times and deflections of the faces after each interval."""
+    motion, deflections, found = start.copy(), np.zeros((2, 4)), []
+    for sample in range(samples):
+        integrate(motion, deflections, sample, 1, interval_s, steps, c)
+        rates = motion[1] - 0.5 * interval_s / steps * motion[2]
+        found.append([*motion[0], *rates, *deflections.ravel()])
+    return np.array(found)
+
+
+def moving(*speeds) -> np.ndarray:
+    """In the middle of the slots."""
+    return np.array([np.zeros(4), speeds, np.zeros(4)])
+
+
+def dry_face(restitution=1.0) -> Face:
+    return key_face(keys_with(oil_layer_m=0.0, restitution_ratio=restitution), MASS_KG)
 
 
 def coupling(**changes) -> Coupling:
@@ -105,10 +123,7 @@ def coupling(**changes) -> Coupling:
         "scroll_inertia": KEYS.scroll_inertia_kg_m2,
         "radius": KEYS.radius_m,
         "clearance": KEYS.clearance_m,
-        "stiffness": KEYS.contact_stiffness_n_per_m1p5,
-        "hysteresis": 0.0,
-        "least_approach": 1e-6,
-        "film": 0.0,
+        "face": dry_face(),
         "friction": 0.0,
         "sticking_speed": rattle.STICKING_SPEED_M_PER_S,
         "moment": flat(0.0),
@@ -150,19 +165,46 @@ def test_contact_loss_force_at_3500_rpm():
     assert force == pytest.approx(published("contact loss tangential force")["", "0", ""], abs=50.0)
 
 
-# The other simulation's lever arms, inertias, film in contact and damping of lasting contact are
-# not given. Over the machine file's ranges of restitution and film the figures here vary by 30 %
-# and more; 20 % says that two independent models agree to better than what is not known.
+# The other simulation has a constant film of 50 N s/m and contacts after Lankarani & Nikravesh. Its
+# lever arms, inertias, film in contact and damping of lasting contact are not given; 20 % says that
+# two independent models agree to better than what is not known.
 TABLE_TOLERANCE = 0.2
+CONSTANT_FILM = {"crown_radius_m": crown_for(5e10, 58e9)}
 
 
+@pytest.fixture
+def constant_film(monkeypatch):
+    """The integrator with the film that the present one replaces."""
+    use_constant_film(monkeypatch, 50.0)
+
+
+@pytest.mark.slow  # it compiles the integrator once more
+@pytest.mark.parametrize(("friction", "four_keys"), [(0.0, 13.905), (0.1, 14.787)])
+def test_constant_film_gives_its_old_figures(constant_film, friction, four_keys):
+    """Of an unloaded ring at 2900 rpm, N rms over 100 revolutions of the earlier integrator.
+
+    Within 2 %. With friction the double lets the film's force rub too, so that the net force on the
+    scroll is compared without.
+    """
+    forces = run(0.0, 2900.0, revolutions=30, friction_ratio=friction, **CONSTANT_FILM)
+    found = np.sqrt(np.sum(forces.normal_n**2) / forces.normal_n.shape[1])
+    assert found == pytest.approx(four_keys, rel=0.02)
+    if friction == 0.0:
+        net = forces.on_scroll_slots_n.sum(axis=0)[:1]
+        block = 4 * forces.normal_n.shape[1] // forces.revolutions
+        lines = spectral_density(net, forces.sample_rate_hz, block)
+        assert band_rms(*lines, 800.0, 4000.0) == pytest.approx([6.07], rel=0.02)
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "case", sorted({*published("peak force"), *published("impacts per revolution")})
 )
-def test_table_of_the_other_simulation(case):
+def test_table_of_the_other_simulation(constant_film, case):
     """Rated, light and unloaded load at 3500 rpm."""
     moment, friction, gap = map(float, case)
-    forces = run(moment, revolutions=20, friction_ratio=friction, clearance_m=gap * 1e-6)
+    values = {"friction_ratio": friction, "clearance_m": gap * 1e-6, **CONSTANT_FILM}
+    forces = run(moment, revolutions=20, **values)
     block = 4 * forces.normal_n.shape[1] // forces.revolutions
     whole = np.tile(forces.normal_n, 20 // forces.revolutions)  # one revolution that repeats
     lines = spectral_density(whole, forces.sample_rate_hz, block)
@@ -246,48 +288,15 @@ def test_preloaded_keys_follow_the_quasi_static_closed_form():
     np.testing.assert_allclose(forces.normal_n, expected, atol=0.03)
 
 
-def rebound_ratio(hysteresis: float) -> float:
-    """Speed after a free impact over speed before, whatever the mass and the stiffness.
-
-    m v dv = -K δ^1.5 (1 + β v/v₋) dδ separates; approach and rebound reach the same depth, so
-    β - ln(1 + β) = -β e - ln(1 - β e).
-    """
-    spent = hysteresis - np.log1p(hysteresis)
-    highest = min(1.0, 1.0 / hysteresis) * (1.0 - 1e-15)
-    return brentq(
-        lambda e: -hysteresis * e - np.log1p(-hysteresis * e) - spent, 0.0, highest, xtol=1e-15
-    )
-
-
-@pytest.mark.parametrize("law", CONTACT_LAWS)
-@pytest.mark.parametrize("restitution", [0.2, 0.4, 0.7, 0.9])
-def test_free_impact_rebounds_as_its_first_integral_says(law, restitution):
-    """The ring alone meets two faces at once; 1e-6 is the step's error, 0.5 µs."""
-    hysteresis = CONTACT_LAWS[law](restitution)
-    speed = 0.05
-    start = np.array([0.0, 0, 0, 0, speed, 0, 0, 0])
-    motion = integrated(start, 1000, 1e-6, 2, coupling(hysteresis=hysteresis))[0]
-    rebound = -motion[-1, 4] / speed
-    assert rebound == pytest.approx(rebound_ratio(hysteresis), rel=1e-6)
-
-
-def test_which_law_gives_the_restitution_that_it_is_told():
-    """Flores to 0.06 everywhere, Lankarani-Nikravesh near 1 only: told 0.2 it gives above 0.5."""
-    for restitution in np.linspace(0.1, 0.99, 20):
-        assert rebound_ratio(flores(restitution)) == pytest.approx(restitution, abs=0.06)
-    assert rebound_ratio(lankarani_nikravesh(0.99)) == pytest.approx(0.99, abs=1e-3)
-    assert rebound_ratio(lankarani_nikravesh(0.2)) > 0.5
-
-
 def test_elastic_impact_lasts_as_long_and_pushes_as_hard_as_hertz_says():
     """½ m v² = 2·⅖ K δ^2.5, T = 2 (δ/v) ∫ dz/√(1 - z^2.5) = 2.943 δ/v (Johnson 1985, ch. 11)."""
-    speed, interval = 0.05, 1e-7
-    start = np.array([KEYS.clearance_m - 1e-12, 0, 0, 0, speed, 0, 0, 0])
-    c = coupling()
-    _, normal, _, _ = integrated(start, 3000, interval, 1, c)
-    depth = (MASS_KG * speed**2 / (1.6 * c.stiffness)) ** 0.4
-    # The peak lies at most half an interval from a sample: 3e-6 of the force, F = K δ^1.5.
-    assert -normal[:, 0].min() == pytest.approx(c.stiffness * depth**1.5, rel=3e-6)
+    speed, interval, c = 0.05, 1e-7, coupling()
+    start = moving(speed, 0.0, 0.0, 0.0)
+    start[0, 0] = KEYS.clearance_m - 1e-12
+    normal, _ = integrated(start, 3000, interval, 1, c)
+    depth = (MASS_KG * speed**2 / (1.6 * c.face.stiffness)) ** 0.4
+    # The peak lies at most half an interval from a sample; the steps' own error is as small.
+    assert -normal[:, 0].min() == pytest.approx(c.face.stiffness * depth**1.5, rel=1e-4)
     integral = quad(lambda w: 2.0 * w / np.sqrt(1.0 - (1.0 - w**2) ** 2.5), 0.0, 1.0)[0]
     duration = 2.0 * depth / speed * integral  # z = 1 - w²
     assert np.count_nonzero(normal[:, 0]) * interval == pytest.approx(duration, abs=2.0 * interval)
@@ -296,64 +305,53 @@ def test_elastic_impact_lasts_as_long_and_pushes_as_hard_as_hertz_says():
 # --- energy and convergence ----------------------------------------------------------------------
 
 
-def energy_j(motion: np.ndarray, c: Coupling) -> np.ndarray:
-    """Kinetic energy and ⅖ K δ^2.5 of each contact, shaft at rest."""
-    u, y, ring, scroll = motion.T[:4]
+def energy_j(found: np.ndarray, c: Coupling) -> np.ndarray:
+    """Kinetic energy and ⅖ K d^2.5 of each face, shaft at rest."""
     inertias = np.array([c.mass, c.mass, c.ring_inertia, c.scroll_inertia])
-    shifts = [
-        u - c.radius * (ring - scroll),
-        u + c.radius * (ring - scroll),
-        y + c.radius * ring,
-        y - c.radius * ring,
-    ]
-    depths = np.maximum(np.abs(shifts) - c.clearance, 0.0)
-    return 0.5 * motion[:, 4:] ** 2 @ inertias + 0.4 * c.stiffness * np.sum(depths**2.5, axis=0)
+    kinetic = 0.5 * found[:, 4:8] ** 2 @ inertias
+    return kinetic + 0.4 * c.face.stiffness * np.sum(found[:, 8:] ** 2.5, axis=1)
 
 
 def free_start(seed: int) -> np.ndarray:
     """In the middle of the slots, keys at up to about 0.1 m/s in any direction."""
     speeds = np.random.default_rng(seed).uniform(-0.05, 0.05, 4)
-    return np.concatenate([np.zeros(4), speeds / [1.0, 1.0, KEYS.radius_m, KEYS.radius_m]])
+    return moving(*(speeds / [1.0, 1.0, KEYS.radius_m, KEYS.radius_m]))
 
 
-@pytest.mark.parametrize("seed", range(4))
-@pytest.mark.parametrize(
-    "changes", [{"film": 50.0}, {"hysteresis": flores(0.4)}, {"friction": 0.1}]
-)
-def test_energy_of_free_rattling_never_grows(seed, changes):
-    """From one sample to the next, 2 µs apart, by no more than rounding."""
-    c = coupling(**{"hysteresis": lankarani_nikravesh(0.7), **changes})
-    energy = energy_j(integrated(free_start(seed), 20000, 2e-6, 2, c)[0], c)
-    assert np.max(np.diff(energy)) < 1e-14 * energy[0]
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("layer", [0.0, 3e-6, 1.0])
+@pytest.mark.parametrize("friction", [0.0, 0.1])
+def test_energy_of_free_rattling_never_grows(seed, layer, friction):
+    """From one sample to the next, 4 µs apart; 1e-4 is the ripple of the leapfrog, (ω Δt)²/8."""
+    face = key_face(keys_with(oil_layer_m=layer), MASS_KG)
+    c = coupling(face=face, friction=friction)
+    energy = energy_j(states(free_start(seed), 10000, 4e-6, 8, c), c)
+    assert np.max(np.diff(energy)) < 1e-4 * energy[0]
     assert energy[-1] < 0.01 * energy[0]
 
 
 def test_energy_of_elastic_rattling_is_kept_to_the_order_of_the_integration():
-    """Fourth order but where δ^1.5 begins: h^2.5 there. Over 40 ms, some hundred impacts.
-
-    From steps of 8 µs, where 8 % of the energy is lost, to 0.5 µs.
-    """
-    c = coupling()
+    """Second order. Over 40 ms, some hundred impacts, by steps from 4 to 0.5 µs."""
+    c, steps = coupling(), (2, 4, 8, 16)
     drifts = []
-    for steps in (1, 2, 4, 8, 16):
-        energy = energy_j(integrated(free_start(1), 5000, 8e-6, steps, c)[0], c)
-        drifts.append(np.max(np.abs(energy / energy[0] - 1.0)))
-    order = -np.polyfit(np.log2([1, 2, 4, 8, 16]), np.log2(drifts), 1)[0]
-    assert order > 2.4
-    assert drifts[-1] < 5e-6
+    for number in steps:
+        energy = energy_j(states(free_start(1), 5000, 8e-6, number, c), c)
+        drifts.append(np.sqrt(np.mean((energy / energy[0] - 1.0) ** 2)))
+    assert -np.polyfit(np.log2(steps), np.log2(drifts), 1)[0] > 1.7
+    assert drifts[-1] < 1e-3
 
 
 def test_driven_rattle_converges_with_the_step(monkeypatch):
-    """Over one revolution from rest; at the step in use the forces are right to 0.1 N of 120 N."""
+    """Flooded, over one revolution from rest: steps of 0.3 and 0.05 rad agree within 0.2 N."""
     monkeypatch.setattr(rattle, "SETTLING_REVOLUTIONS", 1)
-    ratios = (0.02, 0.15, 0.3, 0.6)
+    ratios = (0.05, 0.3, 0.6)
     forces = []
     for ratio in ratios:
         monkeypatch.setattr(rattle, "STEP_RATIO", ratio)
-        forces.append(run(0.3, friction_ratio=0.1, revolutions=1).normal_n)
+        forces.append(run(RATED_N_M, revolutions=1, oil_layer_m=0.1, friction_ratio=0.1).normal_n)
     errors = [np.max(np.abs(other - forces[0])) for other in forces[1:]]
-    assert errors[0] < 0.1
-    assert np.log2(errors[2] / errors[0]) / 2.0 > 2.4
+    assert errors[0] < 0.2
+    assert errors[0] < errors[1]
 
 
 # --- second methods ------------------------------------------------------------------------------
@@ -362,8 +360,8 @@ def test_driven_rattle_converges_with_the_step(monkeypatch):
 class FiniteRotations:
     """The same coupling with finite turns and positions, every force at its own point."""
 
-    def __init__(self, moment_n_m: float, friction: float, film: float) -> None:
-        self.moment, self.friction, self.film = moment_n_m, friction, film
+    def __init__(self, moment_n_m: float, friction: float, face: Face) -> None:
+        self.moment, self.friction, self.face = moment_n_m, friction, face
 
     def loads(self, time, state):
         """Across and along each slot; on the ring's keys. Also their points and directions."""
@@ -389,10 +387,10 @@ class FiniteRotations:
             else:
                 across, along, lever = np.array([0.0, 1.0]), np.array([1.0, 0.0]), None
                 shift, rate = across @ point, across @ speed
-            push = (
-                KEYS.contact_stiffness_n_per_m1p5 * max(abs(shift) - KEYS.clearance_m, 0.0) ** 1.5
-            )
-            normal = -np.sign(shift) * push - self.film * rate
+            depth, side = max(abs(shift) - KEYS.clearance_m, 0.0), np.sign(shift)
+            damping = self.face.damping * depth**0.25 * side * rate
+            push = max(self.face.stiffness * depth**1.5 + damping, 0.0)
+            normal = -side * push
             slide = np.tanh(along @ speed / rattle.STICKING_SPEED_M_PER_S)
             yield normal, -self.friction * push * slide, across, along, arm, lever
 
@@ -409,33 +407,34 @@ class FiniteRotations:
 
 
 @pytest.mark.parametrize(
-    ("moment", "friction", "film", "samples"),
-    [(RATED_N_M, 0.1, 1000.0, 400), (0.3, 0.0, 50.0, 100)],
+    ("moment", "friction", "samples"),
+    [pytest.param(RATED_N_M, 0.1, 400, marks=pytest.mark.slow), (0.3, 0.0, 60)],
 )
-def test_another_integrator_and_finite_rotations_give_the_same_forces(
-    moment, friction, film, samples
-):
-    """Elastic contacts with film from rest, by scipy's DOP853: loaded for a fifth of a revolution.
+def test_another_integrator_and_finite_rotations_give_the_same_forces(moment, friction, samples):
+    """Dry damped contacts from rest, by scipy's DOP853: loaded for a fifth of a revolution.
 
     Small turns leave out φ = gap/R = 3e-4 of the forces. Unloaded only the first impacts are
     compared, as rattling without much damping multiplies any difference from impact to impact.
     """
-    omega = SPEED_RPM * np.pi / 30.0
+    omega, face = SPEED_RPM * np.pi / 30.0, dry_face(0.4)
     times = 5e-4 / shaft_frequency_hz(SPEED_RPM) * np.arange(1, samples + 1)
     c = coupling(
-        angular_speed=omega, stroke=STROKE_M, film=film, friction=friction, moment=flat(moment)
+        angular_speed=omega, stroke=STROKE_M, face=face, friction=friction, moment=flat(moment)
     )
-    _, normal, _, impacts = integrated(np.zeros(8), samples, times[0], 8, c)
-    other = FiniteRotations(moment, friction, film)
+    motion = moving(0.0, 0.0, 0.0, 0.0)
+    normal, impacts = integrated(motion, samples, times[0], 100, c)
+    other = FiniteRotations(moment, friction, face)
     start = [STROKE_M, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
     span = (0.0, times[-1])
     solved = solve_ivp(
         other, span, start, "DOP853", t_eval=times, rtol=1e-9, atol=1e-12, max_step=1e-5
     )
-    states = zip(times, solved.y.T, strict=True)
-    expected = np.array([[load[0] for load in other.loads(*state)] for state in states])
+    found = zip(times, solved.y.T, strict=True)
+    expected = np.array([[load[0] for load in other.loads(*state)] for state in found])
     assert np.count_nonzero(impacts) >= 4
-    np.testing.assert_allclose(normal, expected, atol=1e-3 * np.max(np.abs(expected)))
+    # The damping rises as the fourth root of the time: single samples are off by the step there.
+    error = np.sqrt(np.mean((normal - expected) ** 2))
+    assert error < 1e-3 * np.max(np.abs(expected))
 
 
 @pytest.mark.parametrize(("moment", "stepped"), [(RATED_N_M, 4), (0.0, 6)])
@@ -459,7 +458,7 @@ def test_a_revolution_that_repeats_is_not_stepped_through_again(monkeypatch, mom
     whole = forces()
     assert len(calls) == 6
     repeated = np.tile(short, whole.shape[1] // short.shape[1])
-    np.testing.assert_allclose(repeated, whole, atol=1e-9 * np.abs(whole).max())
+    np.testing.assert_allclose(repeated, whole, atol=1e-6 * np.abs(whole).max())
 
 
 def test_spectral_density_is_that_of_scipy():
@@ -475,8 +474,8 @@ def test_spectral_density_is_that_of_scipy():
 
 @pytest.fixture(scope="module")
 def rattling():
-    """A run that does not repeat."""
-    return run(0.3, revolutions=20, friction_ratio=0.1)
+    """A run of dry keys, which does not repeat."""
+    return run(0.3, revolutions=20, friction_ratio=0.1, oil_layer_m=0.0)
 
 
 def test_forces_on_both_parts_sum_to_the_change_of_the_rings_momentum(rattling):
@@ -533,8 +532,8 @@ def test_density_holds_the_power_and_the_phases():
 
 def test_parameters_in_the_units_of_a_file():
     assert MACHINE_KEYS.clearance_m == pytest.approx(15e-6)
-    assert MACHINE_KEYS.least_approach_speed_m_per_s == pytest.approx(0.01)
-    assert MACHINE_KEYS.contact_stiffness_n_per_m1p5 == 5e10
+    assert MACHINE_KEYS.oil_layer_m == pytest.approx(7e-6)
+    assert MACHINE_KEYS.contact_modulus_pa == pytest.approx(58e9)
 
 
 # --- bad input -----------------------------------------------------------------------------------
@@ -557,7 +556,7 @@ def test_refused_arguments(changes, message):
 
 
 @pytest.mark.parametrize(
-    "changes", [{"clearance_m": 0.0}, {"restitution_ratio": 1.1}, {"contact_law": "hertz"}]
+    "changes", [{"clearance_m": 0.0}, {"restitution_ratio": 1.1}, {"crown_radius_m": 0.0}]
 )
 def test_refused_parameters(changes):
     with pytest.raises(ValidationError, match=next(iter(changes))):
@@ -566,13 +565,13 @@ def test_refused_parameters(changes):
 
 def test_contacts_too_stiff_to_resolve():
     with pytest.raises(SolverError, match="too stiff"):
-        run(1e9)
+        run(1.0, ring_inertia_kg_m2=1e-12)
 
 
 def test_integration_that_diverges(monkeypatch):
     monkeypatch.setattr(rattle, "greatest_step_s", lambda c: 1.0)
     with pytest.raises(SolverError, match="diverged"):
-        run(1e3, film_damping_ns_per_m=1e5)
+        run(1e200)
 
 
 @pytest.mark.parametrize("block", [0, 3, 101, 2000])

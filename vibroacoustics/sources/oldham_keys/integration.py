@@ -1,41 +1,37 @@
-"""Integration in time that ends a step wherever a key meets or leaves a face."""
+"""Integration in time: leapfrog for ring and scroll, implicit for the deflection of each face."""
 
-from typing import Final, NamedTuple
+from typing import Final
 
 import numba
 import numpy as np
 
 from ...base.arrays import Array
+from .contact import Face, dry_force, film_mobility, series_force
 from .equations import (
-    APPROACH,
     COORDINATES,
     FRICTION,
     KEYS,
     NORMAL,
     RATE,
     SHIFT,
-    SIDE,
     Coupling,
     Drive,
+    accelerations,
     drive_at,
-    key_forces,
     key_motion,
-    state_rate,
+    slide_directions,
 )
 
-BISECTIONS: Final = 48
-"""Halvings of a step: to 4e-15 of it, its rounding."""
-
-
-class Work(NamedTuple):
-    """Arrays that the functions here overwrite: of keys, shape (4, 4), of states, shape (8,)."""
-
-    keys: Array
-    before: Array
-    after: Array
-    trial: Array
-    rate: Array
-    end: Array
+IMPLICIT: Final = 1.0 - np.sqrt(0.5)
+"""γ of the two-stage SDIRK method of second order that damps all stiff parts (Alexander 1977, SIAM
+J. Numer. Anal. 14, 1006)."""
+CLOSE: Final = 1e-6
+"""Last change of a deflection, of itself; the error of Newton's method is its square."""
+MOST_ITERATIONS: Final = 60
+EVALUATIONS: Final = 2
+"""Of the forces in a step: with the acceleration of the step before and with their own."""
+PLACE, SPEED, ACCELERATION = 0, 1, 2
+"""Rows of a motion, shape (3, 4): coordinates, their rates half a step later, accelerations."""
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy", inline="always")
@@ -46,153 +42,135 @@ def copy(source: Array, target: Array) -> None:
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def runge_kutta_step(
-    time: float,
-    step: float,
-    start: Drive,
-    end: Drive,
-    state: Array,
-    contacts: Array,
-    c: Coupling,
-    work: Work,
-) -> None:
-    """Classical Runge-Kutta step of fourth order, into `work.end`; contacts stay as they are.
+def deflected(
+    target: float, guess: float, gap: float, speed: float, step: float, face: Face
+) -> float:
+    """Deflection d that solves d + step F(d)/c = target, m, by Newton's method in a bracket.
 
     Parameters
     ----------
-    time, step : start and length of the step, s
-    start, end : at the ends of the step
-    state : coordinates and their rates, shape (8,)
-    contacts, c : see `key_forces`
-    work : it is changed
+    target : deflection without film force, m
+    guess : first try, m
+    gap, speed : of the undeformed faces and of their approach, m and m/s
+    step : of the implicit stage, s
+    face : constants
     """
-    copy(state, work.end)
-    copy(state, work.trial)
-    drive = start
-    for stage in range(4):
-        if stage == 1:
-            drive = drive_at(time + 0.5 * step, c)
-        elif stage == 3:
-            drive = end
-        weight = step / (3.0 if stage in (1, 2) else 6.0)
-        state_rate(drive, work.trial, contacts, c, work.keys, work.rate)
-        reach = step if stage == 2 else 0.5 * step
-        for n in range(state.size):
-            work.end[n] += weight * work.rate[n]
-            work.trial[n] = state[n] + reach * work.rate[n]
-
-
-@numba.njit(cache=True, nogil=True, error_model="numpy")
-def crossing(level: float, start: float, end: float, start_slope: float, end_slope: float) -> float:
-    """Share of a step at which a displacement passes a level, on its cubic Hermite polynomial.
-
-    Slopes are per step. 0 if it starts beyond the level, as rounding may leave it after an event.
-    """
-    outwards = 1.0 if end > level else -1.0
-    if outwards * (start - level) >= 0.0:
-        return 0.0
-    low, high = 0.0, 1.0
-    for _ in range(BISECTIONS):
-        s = 0.5 * (low + high)
-        value = (1.0 - s) ** 2 * ((1.0 + 2.0 * s) * start + s * start_slope)
-        value += s**2 * ((3.0 - 2.0 * s) * end + (s - 1.0) * end_slope)
-        if outwards * (value - level) >= 0.0:
-            high = s
+    low, high = max(-gap, 0.0), min(target, face.layer - gap)
+    if high <= low:
+        return low
+    d = guess if low < guess < high else 0.5 * (low + high)
+    for _ in range(MOST_ITERATIONS):
+        excess, slope = d - target, 1.0
+        push = dry_force(d, speed, face.stiffness, face.damping)
+        if push > 0.0:
+            root = np.sqrt(d)
+            damping = face.damping * np.sqrt(root)
+            mobility, by_thickness = film_mobility(gap + d, face)
+            stiffness = 1.5 * face.stiffness * root + 0.25 * damping * speed / d
+            whole = 1.0 + damping * mobility
+            rate = push * mobility / whole
+            excess += step * rate
+            slope += (
+                step
+                * ((stiffness - rate * 0.25 * damping / d) * mobility + push * by_thickness / whole)
+                / whole
+            )
+        if excess > 0.0:
+            high = d
         else:
-            low = s
-    return high
+            low = d
+        new = d - excess / slope
+        if not low < new < high:
+            new = 0.5 * (low + high)
+        if abs(new - d) <= CLOSE * new:
+            return new
+        d = new
+    return d
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def first_event(
-    step: float, before: Array, after: Array, contacts: Array, clearance: float
-) -> tuple[int, float, float]:
-    """Key that first meets or leaves a face in a step, -1 if none; share of the step; the face.
+def next_deflection(d: float, before: float, after: float, step: float, face: Face) -> float:
+    """Deflection of a face after a step, m: d' = V - F/c; a face at rest waits for an approach.
 
     Parameters
     ----------
-    step : length of the step, s
-    before, after : motion of the keys at its ends, shape (4, 4)
-    contacts : before the step, shape (2, 4)
-    clearance : m
+    d : before the step, m
+    before, after : gap of the undeformed faces at its ends, m; it changes evenly
+    step : s
+    face : constants
     """
-    first_key, earliest, face = -1, 2.0, 0.0
-    for key in range(KEYS):
-        side = contacts[SIDE, key]
-        towards = side if side != 0.0 else np.sign(after[SHIFT, key])
-        touches = towards * after[SHIFT, key] > clearance
-        if touches == (side != 0.0):
-            continue
-        share = crossing(
-            clearance,
-            towards * before[SHIFT, key],
-            towards * after[SHIFT, key],
-            towards * before[RATE, key] * step,
-            towards * after[RATE, key] * step,
-        )
-        if share < earliest:
-            first_key, earliest, face = key, share, towards
-    return first_key, earliest, face
+    speed = (before - after) / step
+    if d == 0.0 and (speed <= 0.0 or after >= face.layer):
+        return 0.0
+    part = IMPLICIT * step
+    middle = deflected(d + part * speed, d, before + IMPLICIT * (after - before), speed, part, face)
+    known = d + (1.0 / IMPLICIT - 1.0) * (middle - d)
+    return deflected(known + part * speed, middle, after, speed, part, face)
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def advance(
-    time: float,
-    duration: float,
-    state: Array,
-    contacts: Array,
-    c: Coupling,
-    impact_speed: Array,
-    work: Work,
-) -> None:
-    """Carry state and contacts over one step, in parts where a contact begins or ends.
+def deflect(shifts: Array, deflections: Array, impacts: Array, step: float, c: Coupling) -> None:
+    """Carry the deflections of all faces over a step and mark keys that meet a face.
 
     Parameters
     ----------
-    time : of the step's start from crank angle zero, s
-    duration : of the step, s
-    state, contacts : see `key_forces`; they are changed
+    shifts : of the keys before the step and after it, shape (2, 4), m
+    deflections : of the two faces of each key, shape (2, 4), m; they are changed
+    impacts : shape (4,); set to 1 where a key passes the place of an undeformed face
+    step : s
     c : constants
-    impact_speed : shape (4,), m/s; set to the speed of approach of keys that meet a face
-    work : it is changed
     """
-    done, last = 0.0, drive_at(time + duration, c)
-    while done < duration:
-        step = duration - done
-        start = drive_at(time + done, c)
-        end = last if done == 0.0 else drive_at(time + done + step, c)
-        key_motion(start, state, c, work.before)
-        runge_kutta_step(time + done, step, start, end, state, contacts, c, work)
-        key_motion(last, work.end, c, work.after)
-        key, share, face = first_event(step, work.before, work.after, contacts, c.clearance)
-        if key >= 0:
-            step *= share
-            end = drive_at(time + done + step, c)
-            runge_kutta_step(time + done, step, start, end, state, contacts, c, work)
-            key_motion(end, work.end, c, work.after)
-            if contacts[SIDE, key] == 0.0:
-                impact_speed[key] = face * work.after[RATE, key]
-                contacts[APPROACH, key] = max(impact_speed[key], c.least_approach)
-            contacts[SIDE, key] = face - contacts[SIDE, key]
-        copy(work.end, state)
-        done += step
+    for key in range(KEYS):
+        for face in range(2):
+            side = 1.0 - 2.0 * face
+            last, gap = c.clearance - side * shifts[0, key], c.clearance - side * shifts[1, key]
+            deflections[face, key] = next_deflection(
+                deflections[face, key], last, gap, step, c.face
+            )
+            if gap < 0.0 <= last:
+                impacts[key] = 1.0
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def key_forces(drive: Drive, rate: Array, deflections: Array, c: Coupling, keys: Array) -> None:
+    """Forces on the ring's keys, across and along the slots, into rows of `keys`.
+
+    Parameters
+    ----------
+    drive : of the time
+    rate : rates of the coordinates, shape (4,)
+    deflections : of the two faces of each key, shape (2, 4), m
+    c : constants
+    keys : with the motion of the keys, shape (4, 4); it is changed
+    """
+    friction_scroll, friction_housing = slide_directions(drive, rate, c)
+    for key in range(KEYS):
+        net, total = 0.0, 0.0
+        for face in range(2):
+            side = 1.0 - 2.0 * face
+            gap, speed = c.clearance - side * keys[SHIFT, key], side * keys[RATE, key]
+            push = series_force(deflections[face, key], gap, speed, c.face)
+            net, total = net - side * push, total + push
+        keys[NORMAL, key] = net
+        keys[FRICTION, key] = total * (friction_scroll if key < 2 else friction_housing)
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def integrate(
-    state: Array,
-    contacts: Array,
+    motion: Array,
+    deflections: Array,
     first: int,
     samples: int,
     sample_interval: float,
     steps: int,
     c: Coupling,
-) -> tuple[Array, Array, Array, Array]:
-    """Motion and key forces at equal intervals.
+) -> tuple[Array, Array, Array]:
+    """Key forces at equal intervals.
 
     Parameters
     ----------
-    state, contacts : see `key_forces`, at the start; they are changed to those at the end
+    motion : at the start, see `PLACE`, shape (3, 4); it is changed to that at the end
+    deflections : of the two faces of each key, shape (2, 4), m; likewise
     first : intervals from crank angle zero to the start
     samples : number of intervals
     sample_interval : s
@@ -201,22 +179,32 @@ def integrate(
 
     Returns
     -------
-    motion, normal, friction, impact_speed : at the end of each interval, shapes (samples, 8) and
-        three times (samples, 4); impact speeds are of the interval, 0 where no key met a face
+    normal, friction, impacts : at the end of each interval, shapes (samples, 4); impacts are 1
+        where in the interval a key passed the place of an undeformed face, otherwise 0
     """
-    motion = np.empty((samples, 2 * COORDINATES))
     normal, friction = np.empty((samples, KEYS)), np.empty((samples, KEYS))
-    impact_speed = np.zeros((samples, KEYS))
-    keys, spare = np.empty((3, 4, KEYS)), np.empty((3, 2 * COORDINATES))
-    work = Work(keys[0], keys[1], keys[2], spare[0], spare[1], spare[2])
+    impacts = np.zeros((samples, KEYS))
+    keys, shifts, middle = np.empty((4, KEYS)), np.empty((2, KEYS)), np.empty(COORDINATES)
     step = sample_interval / steps
+    drive = drive_at(first * sample_interval, c)
+    key_motion(drive, motion[PLACE], motion[SPEED], c, keys)
     for sample in range(samples):
         for part in range(steps):
-            time = ((first + sample) * steps + part) * step
-            advance(time, step, state, contacts, c, impact_speed[sample], work)
-        end = drive_at((first + sample + 1) * sample_interval, c)
-        key_forces(end, state, contacts, c, work.keys)
-        copy(state, motion[sample])
-        copy(work.keys[NORMAL], normal[sample])
-        copy(work.keys[FRICTION], friction[sample])
-    return motion, normal, friction, impact_speed
+            copy(keys[SHIFT], shifts[0])
+            drive = drive_at(((first + sample) * steps + part + 1) * step, c)
+            for n in range(COORDINATES):
+                motion[PLACE, n] += step * motion[SPEED, n]
+            for again in range(EVALUATIONS):
+                for n in range(COORDINATES):
+                    middle[n] = motion[SPEED, n] + 0.5 * step * motion[ACCELERATION, n]
+                key_motion(drive, motion[PLACE], middle, c, keys)
+                if again == 0:
+                    copy(keys[SHIFT], shifts[1])
+                    deflect(shifts, deflections, impacts[sample], step, c)
+                key_forces(drive, middle, deflections, c, keys)
+                accelerations(drive, keys, c, motion[ACCELERATION])
+            for n in range(COORDINATES):
+                motion[SPEED, n] += step * motion[ACCELERATION, n]
+        copy(keys[NORMAL], normal[sample])
+        copy(keys[FRICTION], friction[sample])
+    return normal, friction, impacts

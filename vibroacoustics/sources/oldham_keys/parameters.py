@@ -1,12 +1,11 @@
-"""Keys of an Oldham ring in their slots: contact, film, friction."""
-
-from typing import Literal
+"""Keys of an Oldham ring in their slots: geometry, oil, material, friction."""
 
 from pydantic import Field
 
 from ...base.parameters import Parameters
 
 INERTIA = Field(gt=0.0, le=10.0)
+SIDE = Field(ge=1e-3, le=0.1)
 
 
 class OldhamKeys(Parameters):
@@ -16,15 +15,19 @@ class OldhamKeys(Parameters):
     """Of the middle of each key from the ring's centre."""
     clearance_m: float = Field(ge=1e-6, le=1e-3)
     """Gap on each side of a key in the middle of its slot; the slot is wider by two gaps."""
-    contact_law: Literal["lankarani-nikravesh", "flores"]
-    contact_stiffness_n_per_m1p5: float = Field(ge=1e7, le=1e13)
-    """K of the contact force K δ^1.5."""
-    restitution_ratio: float = Field(ge=0.1, le=1.0)
-    """Speed of rebound over speed of approach."""
-    least_approach_speed_m_per_s: float = Field(ge=1e-3, le=10.0)
-    """Taken for contacts that begin slower: the damping of both laws grows without limit there."""
-    film_damping_ns_per_m: float = Field(ge=0.0, le=1e5)
-    """Squeeze film of a key in its slot, both sides together."""
+    width_m: float = SIDE
+    """Of a key's face, along the shaft."""
+    length_m: float = SIDE
+    """Of a key's face, along the slot."""
+    crown_radius_m: float = Field(ge=0.01, le=100.0)
+    """Of the spherical crown of a key's face."""
+    contact_modulus_pa: float = Field(ge=1e8, le=1e12)
+    """Effective modulus E* of both materials: 1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂."""
+    restitution_ratio: float = Field(ge=0.2, le=1.0)
+    """Speed of rebound over speed of approach of dry faces."""
+    oil_viscosity_pa_s: float = Field(ge=1e-5, le=1.0)
+    oil_layer_m: float = Field(ge=0.0, le=0.1)
+    """Thickness of the oil on key and slot face together; dry at 0, flooded beyond the slot."""
     friction_ratio: float = Field(ge=0.0, le=0.5)
     """Coulomb friction along the slot over the force of contact."""
     ring_inertia_kg_m2: float = INERTIA
