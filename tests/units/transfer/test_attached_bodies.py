@@ -291,7 +291,7 @@ def test_samples_reach_attached_bodies_and_their_mass():
     assert given.added.figures["added_mass_kg"] == pytest.approx(0.01 * mass, rel=1e-12)
     assert cases[2900.0, "none"].added.figures == {"added_mass_kg": 0.0}
     assert given.revolution is cases[2900.0, "none"].revolution
-    nominal = Cases(cases, {}, dict.fromkeys(cases, {}))
+    nominal = Cases(cases, {}, {key: {} for key in cases})
     sample = {("housing", "mass_kg"): 1.5 * mass}
     sampled = drawn_cases(nominal, study, sample).cases[2900.0, "follower"]
     assert sampled.machine.attached == attached(mass_kg=0.015 * mass)
