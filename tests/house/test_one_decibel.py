@@ -14,7 +14,7 @@ NO_LEVELS = {
     "radiation/rooms/diffuse.py": "a standard's formula for the air",
     "report/figures/style.py": "ticks of an axis",
     "sound/critical_bands.py": "powers and logarithms of a frequency",
-    "study/speeds.py": "rounding of a step",
+    "study/operation.py": "rounding of a step",
 }
 """Files that may, and why."""
 

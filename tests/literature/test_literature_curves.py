@@ -168,6 +168,15 @@ def test_largest_joint_forces_stand_close_to_top_dead_centre():
         assert 360.0 - degrees_of(line, lambda v: int(np.argmax(abs(v)))) < 45.0
 
 
+def test_both_pins_push_the_rod_by_its_inertia_alone():
+    """At most m r ω² (1 + r/l) along X, 30 g in a crank of 7.5 mm; the speed swings by 5 %."""
+    force = inner("estupinan_hermetic")["joint_force"].sel(axis="x")
+    bound = 0.03 * 7.5e-3 * (1.05 * 2.0 * np.pi * 2980.0 / 60.0) ** 2 * (1.0 + 7.5 / 40.0)
+    together = force.sum("joint")
+    assert float(abs(together).max()) < bound < 0.15 * float(abs(force).max())
+    assert float(abs(together).max()) > 0.5 * bound
+
+
 def test_bearing_forces_are_alike_in_all_cases_and_small_below():
     """Figures 8 and 11: the upper ones as the reactions of case I, the lower 'much lower'."""
     curves = inner("estupinan_hermetic")

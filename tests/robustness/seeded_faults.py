@@ -1,6 +1,6 @@
 """Seeded faults: one formula, sign, factor or threshold is changed; do the tests see it?
 
-    python tests/robustness/seeded_faults.py --seed 1 --number 200
+    python tests/robustness/seeded_faults.py [--seed S] [--number N]
 
 Works in a copy of the repository and goes on where a killed run stopped. The tests are collected
 once. A first child process runs the quick ones and writes down which of them execute the lines of

@@ -1,7 +1,7 @@
 """What every parameter object has in common."""
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Final, Self, TypeVar
 
@@ -21,7 +21,7 @@ from .errors import ParameterError
 from .registry import Registry
 
 FURTHER: Final = "others by --plugin"
-Contradictions = Iterator[str]
+Contradictions = Iterable[str]
 
 
 class Parameters(BaseModel):
@@ -54,8 +54,8 @@ class Parameters(BaseModel):
     @model_validator(mode="after")
     def _without_contradictions(self) -> Self:
         for owner in reversed(type(self).__mro__):
-            own = vars(owner).get("contradictions")
-            for problem in () if own is None else own(self):
+            method = vars(owner).get("contradictions")
+            for problem in () if method is None else method(self):
                 raise ValueError(problem)
         return self
 

@@ -1,6 +1,6 @@
 """Any number of rigid bodies and the bushings between them: grommets, springs, a tube."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, fields
 from typing import Any, Final
 
@@ -195,9 +195,10 @@ class AttachedBodies:
 
     def __post_init__(self) -> None:
         for body in self.bodies:
-            ends = [one for one in self.bushings if body.name in (one.body, one.other_body)]
             held = np.zeros((6, 6))
-            for bushing in ends:
+            for bushing in self.bushings:
+                if body.name not in (bushing.body, bushing.other_body):
+                    continue
                 motion = motion_at(bushing.position_m, body.centre_of_mass_m)
                 held += motion.T @ bushing.in_frame(bushing.stiffness) @ motion
             squares = eigh(held, body.mass_matrix, eigvals_only=True)
@@ -245,12 +246,10 @@ def check_joined(names: Sequence[str], bushings: Sequence[Bushing]) -> None:
             raise ParameterError(f"bushing {bushing.name}: joins {ends[0]} to itself")
 
 
-def _check_unique(what: str, names: Iterable[str]) -> None:
-    seen: set[str] = set()
-    for name in names:
-        if name in seen:
+def _check_unique(what: str, names: Sequence[str]) -> None:
+    for number, name in enumerate(names):
+        if name in names[:number]:
             raise ParameterError(f"{what} {name}: named twice")
-        seen.add(name)
 
 
 def motion_at(point_m: Array, centre_m: Array) -> Array:

@@ -54,11 +54,11 @@ def attached_table(results: xr.Dataset) -> Table | None:
             str(option),
             str(mode).removeprefix("mode_"),
             rounding.fixed(hertz.item()),
-            _energy_words(np.nan_to_num(energy.sel(at).values), energy),
+            _energy_words(np.nan_to_num(energy.sel(which).values), energy),
         )
         for option in frequency["option"].values
         for mode in frequency["option_mode"].values
-        if np.isfinite(hertz := frequency.sel(at := {"option": option, "option_mode": mode}))
+        if np.isfinite(hertz := frequency.sel(which := {"option": option, "option_mode": mode}))
     )
     head = ("Option", "Mode", "Natural frequency, Hz", "Motion by share of kinetic energy")
     return Table(

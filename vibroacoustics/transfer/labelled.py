@@ -94,11 +94,11 @@ def _with_bodies(machines: dict[str, MachineOnMounts]) -> Labelled:
     Kinetic energy of a motion is φ (Mφ), whose sum over a mode is one. What a machine does not
     have is NaN.
     """
-    attaching = {name: one for name, one in machines.items() if one.attached.bodies}
+    attaching = {name: body for name, body in machines.items() if body.attached.bodies}
     if not attaching:
         return {}
-    bodies = list(dict.fromkeys(label for one in attaching.values() for label in one.labels))
-    modes = 6 * max(len(one.labels) for one in attaching.values())
+    bodies = list(dict.fromkeys(label for body in attaching.values() for label in body.labels))
+    modes = 6 * max(len(body.labels) for body in attaching.values())
     hertz = np.full((len(machines), modes), np.nan)
     energy = np.full((len(machines), modes, len(bodies), 6), np.nan)
     passed_on = np.full((len(machines), 3, MOUNT_FREQUENCY_HZ.size), np.nan, dtype=complex)

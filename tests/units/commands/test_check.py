@@ -101,7 +101,8 @@ def test_time_with_draws_and_kwave_is_within_a_factor_of_two(tmp_path: Path) -> 
     assert 0.5 < taken_s / middle_s(cost, "start and study") < 2.0
 
 
-def test_lines_of_a_study(tmp_path: Path) -> None:
+def test_lines_of_a_study(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     closed = ("room_spacing_mm = 60.0", 'room_spacing_mm = 60.0\nroom_solver = "closed-form"')
     outcome = command_here("check", changed(tmp_path, closed))
     assert outcome.returncode == 0, outcome.stderr

@@ -23,6 +23,7 @@ from vibroacoustics.levels import (
     time_weighted_mean_square,
     weighted_signal,
 )
+from vibroacoustics.levels.band_meter import BandMeter
 from vibroacoustics.levels.level_meter import RUN_IN_S, LevelMeter, MeterPlan
 
 RATE = 51_200.0
@@ -235,6 +236,28 @@ def test_low_tone_leaves_nothing_in_high_bands():
         10.0 * np.log10(0.5) + WEIGHTING["A"](29.3), abs=0.1
     )
     assert levels[bands.index(bands_between(3, 1000.0, 1000.0)[0])] < levels.max() - 50.0
+
+
+def test_ramps_of_a_long_recording_do_not_leak():
+    """Of a tone a low band holds what its two ends leak: |Σ cos(ω₀ n + φ) e^(-iωn)|² each.
+
+    Each of 13 transforms would leak as much again at a step. The band's edges cut lines 0.1 Hz
+    apart: 0.1 % of it.
+    """
+    rate, tone_hz, seconds = 4000.0, 1000.033, 100.0
+    (band,) = bands_between(1, 125.0, 125.0)
+    turn = 2.0 * np.pi * tone_hz / rate
+    tone = np.cos(turn * np.arange(int(seconds * rate)))
+    meter = BandMeter(tone.size, rate, [band])
+    meter.add(tone)
+    hertz = np.linspace(band.lower_hz, band.upper_hz, 2001)
+    omega = 2.0 * np.pi * hertz / rate
+    energy = 0.0
+    for phase in (0.0, -turn * (tone.size - 1)):  # the end as a begin, in reversed time
+        there = np.exp(1j * phase) / (1.0 - np.exp(1j * (turn - omega)))
+        back = np.exp(-1j * phase) / (1.0 - np.exp(-1j * (turn + omega)))
+        energy += 2.0 * np.trapezoid(np.abs(0.5 * (there + back) / rate) ** 2, hertz)
+    assert meter.mean_square() == pytest.approx([energy / seconds], rel=0.01)
 
 
 def test_short_recordings_keep_their_middle():

@@ -18,7 +18,6 @@ from vibroacoustics import (
 )
 from vibroacoustics.base import recording_blocks
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.commands import reading
 from vibroacoustics.orders import recorded_speed
 from vibroacoustics.orders.rpm_channel import rpm_motion, rpm_motion_of
 from vibroacoustics.recordings.recorded import TooLargeError
@@ -110,7 +109,7 @@ def test_the_command_reads_a_large_file_in_blocks(run_up, tmp_path, monkeypatch)
 
     path = export_recording(run_up, tmp_path / "run_up.nc")
     once = analyse_orders(run_up, OrderAnalysis(SpeedChannel("tacho")))
-    monkeypatch.setattr(reading, "read_recording", refuse)
+    monkeypatch.setattr("vibroacoustics.recordings.read_recording", refuse)
     monkeypatch.setattr(recording_blocks, "READ_BYTES", 8 * 4 * 50_000)
     monkeypatch.setattr(recording_blocks, "BLOCK_BYTES", 8 * 4 * 6_000)
     outcome = command_here("orders", path, "--speed", "tacho", "--out", tmp_path / "out")

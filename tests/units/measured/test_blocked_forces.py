@@ -18,6 +18,7 @@ from typer.testing import CliRunner
 
 import vibroacoustics as va
 from vibroacoustics.commands import cli
+from vibroacoustics.measured.blocked_variables import validation_variables
 from vibroacoustics.measured.inversion import (
     condition_number,
     left_out_responses,
@@ -65,6 +66,25 @@ def test_four_forces_on_a_rigid_machine_are_one_of_many_with_its_force_and_momen
     blocked = va.blocked_forces(write(tmp_path, text))
     np.testing.assert_allclose(wrench(blocked), source(), rtol=1e-6)
     assert blocked["condition_number"].min() > 1e9
+
+
+def test_band_of_a_prediction_is_that_of_measurements_drawn_again():
+    """Far above noise of constant size |e| it is normal: |p| ± 1.645 |e| / √(2 ln 2)."""
+    frequency, size = np.array([100.0, 125.0]), 1e-5
+    predicted = np.array([[1e-9 + 2e-9j, 3e-3], [2e-9, 1e-3j]])
+    turns = np.exp(2j * np.pi * np.arange(8) / 8.0)[:, None, None]
+    coords = {"validation_point": ["a", "b"], "frequency": frequency}
+    found = validation_variables(
+        predicted, predicted, predicted * (1.0 + size * turns), np.stack([predicted] * 8),
+        ["m", "Pa"], coords,
+    )  # fmt: skip
+    half = 1.645 * size / np.sqrt(2.0 * np.log(2.0))
+    level = found["validation_predicted"].values
+    for name, sign in (("low", -1.0), ("high", 1.0)):
+        off_db = found[f"validation_predicted_{name}"].values - level
+        np.testing.assert_allclose(off_db, 20.0 * np.log10(1.0 + sign * half), rtol=1e-3)
+        off_db = found[f"validation_band_difference_{name}"].values
+        assert np.abs(off_db).max() < 20.0 * np.log10(1.0 + 2.0 * size)
 
 
 def test_with_three_percent_noise(tmp_path):

@@ -41,12 +41,14 @@ def test_no_truncation_and_one_that_cuts_nothing_are_the_same(truncation):
     np.testing.assert_allclose(changed, truth, rtol=1e-10)
 
 
-def test_truncation_leaves_out_small_singular_values():
-    y = np.diag([1.0, 1e-4])[None] - np.eye(2)  # I + y has the singular values 1 and 1e-4
+@pytest.mark.parametrize("largest", [1e-3, 1.0, 1e3])
+def test_truncation_leaves_out_small_singular_values(largest):
+    """A share of the largest: of I + y here the second one is 0.5 % of the first."""
+    y = largest * np.diag([1.0, 5e-3])[None] - np.eye(2)
     u = np.ones((1, 2), complex)
     kept = va.changed_response(np.zeros((1, 2), complex), np.eye(2)[None] + 0j, y + 0j, u,
                                np.eye(2)[None] + 0j, 0.01)  # fmt: skip
-    np.testing.assert_allclose(kept, [[-1.0, 0.0]], atol=1e-12)
+    np.testing.assert_allclose(kept, [[-1.0 / largest, 0.0]], rtol=1e-9, atol=1e-12 / largest)
 
 
 def test_a_resonance_without_damping_is_one_line():

@@ -83,9 +83,9 @@ def test_point_of_the_crank_moves_as_its_rotations_say(place, rates, second):
                          [np.sin(gamma), 0, np.cos(gamma)]])  # fmt: skip
         spin = np.array([[np.cos(theta), np.sin(theta), 0], [-np.sin(theta), np.cos(theta), 0],
                          [0, 0, 1]])  # fmt: skip
-        return np.array([x, y, 0.0]) + tilt.T @ turn.T @ spin.T @ np.array([0.75, 0.0, -1.0])
+        return np.array([x, y, 0.0]) + tilt.T @ turn.T @ spin.T @ np.array([0.75, 0.0, -0.6])
 
-    point = crank_point(place, rates, 0.75, 1.0)
+    point = crank_point(place, rates, 0.75, 0.6)
     assert point.position_m == pytest.approx(at(0.0), abs=1e-14)
     assert point.velocity(rates) == pytest.approx(at(1e-30j).imag / 1e-30, abs=1e-13)
     step = 1e-4

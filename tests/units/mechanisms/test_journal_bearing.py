@@ -168,7 +168,7 @@ def test_peak_pressure_of_a_steady_short_film():
 
 
 def test_film_force_has_the_slope_of_a_complex_step():
-    """Central differences of 0.1 nm and 0.1 µm/s err by 1e-9 of a film of 15 µm, with rounding 1e-6.
+    """Central differences of 0.1 nm and 0.1 µm/s err by 1e-9 of a 15 µm film, with rounding 1e-6.
 
     The journal moves across its displacement and out, so that the film's half is in no axis.
     """

@@ -12,7 +12,7 @@ from synthetic_machines import RATE_HZ, synthetic_machine
 from synthetic_run_ups import synthetic_run_up
 
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.orders.mains import mains_frequency_hz, without_mains
+from vibroacoustics.orders.mains import mains_frequency_hz, mains_of, without_mains
 from vibroacoustics.orders.recorded_speed import LEAST_CONFIDENCE
 from vibroacoustics.orders.tacholess import tacholess_motion
 
@@ -237,6 +237,15 @@ def test_mains_are_left_out():
     middle = slice(int(5.0 * SAMPLE_RATE_HZ), int(15.0 * SAMPLE_RATE_HZ))
     remains = np.sqrt(np.mean((left - tone - noise)[middle] ** 2))
     assert remains < 0.1 * np.sqrt(1.5)
+
+
+def test_only_a_speed_that_stays_at_the_mains_may_be_hum():
+    """Within 0.2 % all the time: a run-up crosses 50 Hz and is a shaft."""
+    wander = np.sin(np.linspace(0.0, 6.0, 200))
+    assert mains_of(50.0 * (1.0 + 0.0019 * wander)) == 50.0
+    assert mains_of(120.0 * (1.0 + 0.0019 * wander)) == 120.0
+    assert mains_of(50.0 * (1.0 + 0.0022 * wander)) is None
+    assert mains_of(np.linspace(40.0, 60.0, 201)) is None
 
 
 def test_mains_that_are_no_frequency_are_refused():

@@ -58,6 +58,9 @@ NOT_MADE_HERE = {
     "sound_power_level",
     "given_value",
     "column_value",  # of strangers only
+    "option_natural_frequency",  # with attached bodies
+    "option_mode_energy",
+    "option_mount_transmissibility",
     "baseline_share",  # with a measured baseline
     "baseline_band_level",
     "baseline_order_level",

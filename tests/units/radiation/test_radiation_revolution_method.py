@@ -1,11 +1,14 @@
 """Boundary elements as a study's method: its settings, microphones, maps and k-Wave's room."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from pydantic import ValidationError
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.machine.shell import Shell
+from vibroacoustics.radiation.revolution.method import join_box
 from vibroacoustics.radiation.sound_field import SoundField
 from vibroacoustics.radiation.transfer_vectors import transfer_vectors
 from vibroacoustics.study.body import BoxBody, SphereBody
@@ -71,6 +74,20 @@ def test_what_the_result_says(closed):
     )
     assert 0.0 < float(share.sel(receiver="side").max()) < 0.01
     assert not closed["transfer_vector"].sel(dof="rz").values.any()
+
+
+def test_box_of_kwaves_correction_has_cells_of_at_most_a_spacing():
+    """Closed, 40 mm off the body; on a floor without its bottom."""
+    points = np.array([[0.0, -0.2], [0.08, -0.2], [0.08, 0.2], [0.0, 0.2]])
+    radiator = SimpleNamespace(mesh=SimpleNamespace(points=points))
+    for floor_z_m, low in ((None, -0.24), (-0.22, -0.22)):
+        box = join_box(SimpleNamespace(radiators=[radiator], floor_z_m=floor_z_m), 0.05)
+        apart = np.linalg.norm(box.outer - box.inner, axis=1)
+        area = box.weights * apart
+        assert 0.025 < apart.min() <= apart.max() <= 0.05
+        assert area.max() <= 0.05**2
+        ends = 2.0 if floor_z_m is None else 1.0
+        assert area.sum() == pytest.approx(ends * 0.24**2 + 4.0 * 0.24 * (0.24 - low))
 
 
 def test_map_measurement_surface_and_directivity(closed):

@@ -241,6 +241,20 @@ def _local_frequencies(room, spacing, count):
     return np.sqrt(np.sort(squared)[1:]) / (2.0 * np.pi)
 
 
+@pytest.mark.parametrize(
+    ("point", "heard"),
+    [((2.03, 1.44, 0.67), (2.03, 1.44, 0.67)), ((0.62, 0.5, 0.6), (0.65, 0.5, 0.6))],
+)
+def test_second_method_hears_between_its_cells_and_in_air_alone(point, heard):
+    """Shares give a point back; beside the block, 0.6 m wide, its cells have none."""
+    grid = local_grid(_flat_l(1.2), 0.1)
+    cells, shares = grid.weights(np.array(point))
+    assert not shares[~grid.air.ravel()[cells]].any()
+    numbers = np.unravel_index(cells, grid.air.shape)
+    places = [0.1 * (number - 0.5) for number in numbers]  # a row of solid cells all around
+    np.testing.assert_allclose(places @ shares, heard, atol=1e-12)
+
+
 def _error_of_the_l(spacing, finest, count):
     room = _flat_l(0.9 * finest)  # one layer of cells
     coarse, fine = (_local_frequencies(room, h, count) for h in (2.0 * finest, finest))

@@ -27,6 +27,21 @@ def turned(body, angle):
     return Body(body.vertices @ turn.T, body.faces)
 
 
+def test_grid_of_a_body_has_no_length_of_its_own():
+    """All lengths times 50: the same planes, with a face of 144 mm² that is below 10 % of a unit's.
+
+    Planes are rounded to 1e-7 m.
+    """
+    lower, upper = np.zeros(3), np.array([0.3, 0.24, 0.18])
+    pin = block(np.array([0.04, 0.05, 0.18]), np.array([0.052, 0.062, 0.28]))
+    body = join_bodies([block(lower, upper), pin])
+    small = near_grid(body, 0.02, box_margin_m=0.04)
+    large = near_grid(Body(50.0 * body.vertices, body.faces), 1.0, box_margin_m=2.0)
+    for one, other in zip(small.edges, large.edges, strict=True):
+        np.testing.assert_allclose(50.0 * one, other, atol=1e-5)
+    assert (small.box_start, small.box_stop) == (large.box_start, large.box_stop)
+
+
 class TestAxes:
     @pytest.mark.parametrize(
         ("body", "axes"),

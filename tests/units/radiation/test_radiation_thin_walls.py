@@ -9,12 +9,13 @@ from vibroacoustics.base.errors import ParameterError, SolverError
 from vibroacoustics.radiation import near_grid as near_grid_module
 from vibroacoustics.radiation.bodies import block, cylinder, join_bodies, sphere
 from vibroacoustics.radiation.by_cut_cells import check_grids_agree
+from vibroacoustics.radiation.exact import Mirror
 from vibroacoustics.radiation.machine_side import Radiated, near_fields
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.near_grid import COURANT_NUMBER, near_grid
 from vibroacoustics.radiation.patterns import rigid_body
 from vibroacoustics.radiation.scene import Scene
-from vibroacoustics.radiation.thin_walls import check_walls
+from vibroacoustics.radiation.thin_walls import check_walls, solid_parts
 from vibroacoustics.study.radiation import RadiationSettings
 
 MACHINE = cylinder(0.0825, -0.19, 0.1)
@@ -79,6 +80,20 @@ def test_grids_that_disagree_are_refused():
     coarser_one[:, 2, :7] = 2.5
     with pytest.raises(ParameterError, match=r"mm = 24 mm: .* error of tz .* 70 % of its pressure"):
         check_grids_agree(Radiated(finer, coarser_one), settings)
+
+
+def test_parts_beside_an_upper_wall_mirror_those_beside_a_lower_one():
+    """The grid ends at the wall, less than the short way from the body."""
+    solids = []
+    for sign in (-1, 1):
+        wall = Mirror(axis=0, sign=sign, position_m=sign * 0.0925)
+        solid, start, parts = solid_parts(MACHINE, near_grid(MACHINE, 0.02, [wall]))
+        assert solid.shape[0] % parts == 0
+        assert start[0] >= 0
+        solids.append(solid)
+    # Rounding decides on parts that the wall of the can only touches.
+    unlike = np.count_nonzero(solids[1][::-1] != solids[0])
+    assert unlike < 0.01 * np.count_nonzero(solids[0])
 
 
 class TestNarrowCells:

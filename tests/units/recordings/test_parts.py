@@ -130,6 +130,8 @@ def test_blocks_of_a_file(tmp_path):
     assert (blocks.samples, blocks.sample_rate_hz) == (3000, 1000.0)
     assert blocks.channels == ("acceleration 1", "acceleration 2", "acceleration 3")
     assert blocks.channel_units == ["m/s²"] * 3
+    assert blocks.attributes["part_start_s"] == 2.0
+    assert "part_start_s" not in open_recording(path).attributes
     two = blocks.read(["acceleration 3", "acceleration 1"], 999, 1002)
     np.testing.assert_allclose(
         two, [[4.0, 5.0, 5.0], [2.0 * 9.80665, 3.0 * 9.80665, 3.0 * 9.80665]]

@@ -148,7 +148,8 @@ def test_soft_ring_hands_all_on_and_a_stiff_one_little(study):
 
 def test_yoke_that_is_no_ring_is_refused():
     with pytest.raises(ValueError, match="reaches into the yoke"):
-        ring(bore_radius_m=0.065)
+        ring(bore_radius_m=0.061)  # the yoke begins at 70 - 20 / 2 mm
+    assert ring(bore_radius_m=0.059).bore_radius_m == 0.059
 
 
 # --- sources -------------------------------------------------------------------------------------

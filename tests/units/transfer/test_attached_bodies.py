@@ -12,6 +12,7 @@ from support import MACHINE_FILE, ROOT, TINY
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.vocabulary import stamp
+from vibroacoustics.machine.cases import Cases
 from vibroacoustics.machine.mount_stiffness import MountStiffness
 from vibroacoustics.machine.option import Option
 from vibroacoustics.machine.suspension import BLOCK
@@ -290,11 +291,12 @@ def test_samples_reach_attached_bodies_and_their_mass():
     assert given.added.figures["added_mass_kg"] == pytest.approx(0.01 * mass, rel=1e-12)
     assert cases[2900.0, "none"].added.figures == {"added_mass_kg": 0.0}
     assert given.revolution is cases[2900.0, "none"].revolution
+    nominal = Cases(cases, {}, {key: {} for key in cases})
     sample = {("housing", "mass_kg"): 1.5 * mass}
-    sampled = drawn_cases(cases, study, sample).cases[2900.0, "follower"]
+    sampled = drawn_cases(nominal, study, sample).cases[2900.0, "follower"]
     assert sampled.machine.attached == attached(mass_kg=0.015 * mass)
     assert sampled.added.figures["added_mass_kg"] == pytest.approx(0.015 * mass, rel=1e-12)
-    other = drawn_cases(cases, study, {("mounts", "pitch_m"): 0.2}).cases[2900.0, "follower"]
+    other = drawn_cases(nominal, study, {("mounts", "pitch_m"): 0.2}).cases[2900.0, "follower"]
     assert other.machine.attached == given.machine.attached
 
 
@@ -308,12 +310,14 @@ def test_option_whose_bodies_do_not_fit_is_refused_with_its_name():
         type(study).model_validate({**dict(study), "options": {**study.options, "lost": Lost()}})
 
 
-@pytest.mark.parametrize("attaches", [True, False])
-def test_report_says_what_bodies_on_an_elastic_shell_do(attaches):
-    """One sentence, for studies with such bodies alone."""
-    study = load_study(SOURCES_STUDY)
+@pytest.mark.parametrize(
+    ("file", "attaches"), [(SOURCES_STUDY, True), (SOURCES_STUDY, False), (TINY, True)]
+)
+def test_report_says_what_bodies_on_an_elastic_shell_do(file, attaches):
+    """One sentence, where there are such bodies and a source drives the shell."""
+    study = load_study(file)
     study = study.model_copy(update={"options": {"none": study.options["none"]}})
-    assert study.drives_shell
+    assert study.drives_shell == (file == SOURCES_STUDY)
     speeds, options = list(study.operation.speed_rpm), list(study.options)
     figures = {"speed": speeds, "option": options, "figure": ["added_mass_kg"]}
     shape = (len(speeds), len(options), 1)
@@ -323,4 +327,6 @@ def test_report_says_what_bodies_on_an_elastic_shell_do(attaches):
         modes = {"option": options, "option_mode": ["mode_1"]}
         results = xr.merge([results, stamp("option_natural_frequency", hertz, modes)])
     said = words(study, {}, results)["leaves_out"]
-    assert sum("act at the rigid motion of the housing" in text for text in said) == attaches
+    assert sum("act at the rigid motion of the housing" in text for text in said) == (
+        attaches and study.drives_shell
+    )

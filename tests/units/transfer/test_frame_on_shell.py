@@ -13,6 +13,7 @@ from vibroacoustics.machine.frame import PARTS, Frame
 from vibroacoustics.machine.shell_structure import Joint
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer.frame import frame_on_shell
+from vibroacoustics.transfer.frame.contacts import rigid_rows
 from vibroacoustics.transfer.frame.natural import answers
 from vibroacoustics.transfer.frame.symmetric import solve_symmetric, upper_pairs
 from vibroacoustics.transfer.natural_frequencies import framed_hz
@@ -46,6 +47,22 @@ class Framed:
 def on_shell(path):
     seal = {"contacts": {"seal_n_per_m": 3e6}}
     return frame_on_shell(Framed(frame_with(**seal, axially_compliant=True)), path)
+
+
+@pytest.mark.parametrize("spread_rad", [0.0, 0.9])
+def test_welds_move_with_the_rigid_shell(spread_rad):
+    """u = t + ω × p out, up and around, mean over each weld by midpoints: (0.9 / 400)² / 24."""
+    joint = Joint(height_m=0.07, welds=3, first_angle_rad=0.4, spread_rad=spread_rad)
+    rows, radius = rigid_rows(joint, 0.08), 0.08
+    for weld in range(3):
+        around = 0.4 + weld * 2.0 * np.pi / 3.0 + spread_rad * ((np.arange(400) + 0.5) / 400 - 0.5)
+        cosine, sine, none = np.cos(around), np.sin(around), np.zeros(400)
+        place = np.stack([radius * cosine, radius * sine, none + 0.07], axis=-1)
+        axes = np.stack([[cosine, sine, none], [none, none, none + 1.0], [-sine, cosine, none]])
+        for number, unit in enumerate(np.eye(6)):
+            motion = unit[:3] + np.cross(unit[3:], place)
+            expected = np.einsum("acp,pc->ap", axes, motion).mean(axis=1)
+            assert rows[3 * weld : 3 * weld + 3, number] == pytest.approx(expected, abs=1e-6)
 
 
 FREQUENCY = np.array([0.0, 48.3, 517.0, 1333.0, 2900.0])

@@ -135,6 +135,17 @@ def test_radiation_efficiency_of_a_plate():
     assert np.all((everywhere > 0.0) & (everywhere <= 2.0))
 
 
+def test_first_mode_ends_the_piston():
+    """EN 12354-1, B.2: f11 = c²/(4 f_c) (1/l1² + 1/l2²), below it at most 4 l1 l2 f²/c²."""
+    length, width, hertz, c = 0.8, 0.5, 12000.0, SPEED_OF_SOUND_M_PER_S
+    first_hz = c**2 / (4.0 * hertz) * (1.0 / length**2 + 1.0 / width**2)
+    frequency = first_hz * np.array([0.5, 0.99, 1.01])
+    piston = 4.0 * length * width * (frequency / c) ** 2
+    found = radiation_efficiency(frequency, hertz, (length, width))
+    np.testing.assert_allclose(found[:2], piston[:2], rtol=1e-12)
+    assert found[2] > 2.0 * piston[2]
+
+
 def test_power_of_feet_together():
     """Close feet push as one, opposite ones cancel; far apart each for itself."""
     plate, frequency = plate_of(STEEL), np.array([100.0])

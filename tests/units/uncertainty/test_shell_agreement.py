@@ -37,6 +37,15 @@ def test_peaks_of_modes_far_apart():
     np.testing.assert_allclose(loss, 0.02, rtol=0.03)
 
 
+@pytest.mark.parametrize("top_hz", [99.7, 100.0, 100.4])
+def test_peak_between_lines_is_that_of_a_parabola(top_hz):
+    """A level of 0.3 dB/Hz² beside it, down to -60 dB: a parabola through three lines is exact."""
+    frequency = np.arange(50.0, 150.0, 1.0)
+    level_db = np.maximum(-0.3 * (frequency - top_hz) ** 2, -60.0)
+    natural, _ = clear_peaks(10.0 ** (level_db / 10.0), frequency)
+    assert natural == pytest.approx([top_hz], rel=1e-12)
+
+
 def test_ripple_is_no_clear_peak():
     frequency = np.arange(50.0, 500.0, 1.0)
     assert clear_peaks(2.0 + np.sin(frequency), frequency)[0].size == 0

@@ -42,9 +42,9 @@ def mount_transmissibility(results: xr.Dataset) -> Figure:
             axes.loglog(curve["mount_frequency"], curve, dash, color=colour, label=label)
             for option in attaching:
                 with_bodies = f"{label}, {option['option'].item()}"
-                own = option.sel(axis=curve["axis"])
+                along = option.sel(axis=curve["axis"])
                 axes.loglog(
-                    own["mount_frequency"], own, dash, color=colour, lw=0.7, label=with_bodies
+                    along["mount_frequency"], along, dash, color=colour, lw=0.7, label=with_bodies
                 )
         mark_first_order(axes, results, "black", "1× at the speeds of the study")
         axes.axhline(1.0, color="#888888", linewidth=0.8)
