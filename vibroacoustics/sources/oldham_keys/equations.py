@@ -74,7 +74,7 @@ def drive_at(time: float, c: Coupling) -> Drive:
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy", inline="always")
-def key_motion(drive: Drive, place: Array, rate: Array, c: Coupling, keys: Array) -> None:
+def key_motion(drive: Drive, position: Array, rate: Array, c: Coupling, keys: Array) -> None:
     """Displacement and velocity of each key across its slot, into rows of `keys`.
 
     The lever arm of the scroll's slots is counted from the scroll's centre, which orbits.
@@ -82,7 +82,7 @@ def key_motion(drive: Drive, place: Array, rate: Array, c: Coupling, keys: Array
     Parameters
     ----------
     drive : of the time
-    place, rate : coordinates and their rates, shape (4,)
+    position, rate : coordinates and their rates, shape (4,)
     c : constants
     keys : shape (4, 4); it is changed
     """
@@ -91,9 +91,9 @@ def key_motion(drive: Drive, place: Array, rate: Array, c: Coupling, keys: Array
     for key in range(2):
         arm = c.radius if key == 0 else -c.radius
         lever = arm - sway
-        keys[SHIFT, key] = place[0] - arm * place[2] + lever * place[3]
-        keys[RATE, key] = rate[0] - arm * rate[2] + lever * rate[3] - sway_rate * place[3]
-        keys[SHIFT, 2 + key] = place[1] + arm * place[2]
+        keys[SHIFT, key] = position[0] - arm * position[2] + lever * position[3]
+        keys[RATE, key] = rate[0] - arm * rate[2] + lever * rate[3] - sway_rate * position[3]
+        keys[SHIFT, 2 + key] = position[1] + arm * position[2]
         keys[RATE, 2 + key] = rate[1] + arm * rate[2]
 
 

@@ -29,8 +29,8 @@ CLOSE: Final = 1e-6
 """Last change of a deflection, of itself; the error of Newton's method is its square."""
 MOST_ITERATIONS: Final = 60
 EVALUATIONS: Final = 2
-"""Of the forces in a step: with the acceleration of the step before and with their own."""
-PLACE, SPEED, ACCELERATION = 0, 1, 2
+"""Evaluations of the forces in a step: with the acceleration of the step before, with their own."""
+POSITION, SPEED, ACCELERATION = 0, 1, 2
 """Rows of a motion, shape (3, 4): coordinates, their rates half a step later, accelerations."""
 
 
@@ -67,13 +67,16 @@ def deflected(
             damping = face.damping * np.sqrt(root)
             mobility, by_thickness = film_mobility(gap + d, face)
             stiffness = 1.5 * face.stiffness * root + 0.25 * damping * speed / d
-            whole = 1.0 + damping * mobility
-            rate = push * mobility / whole
+            series = 1.0 + damping * mobility
+            rate = push * mobility / series
             excess += step * rate
             slope += (
                 step
-                * ((stiffness - rate * 0.25 * damping / d) * mobility + push * by_thickness / whole)
-                / whole
+                * (
+                    (stiffness - rate * 0.25 * damping / d) * mobility
+                    + push * by_thickness / series
+                )
+                / series
             )
         if excess > 0.0:
             high = d
@@ -104,8 +107,8 @@ def next_deflection(d: float, before: float, after: float, step: float, face: Fa
         return 0.0
     part = IMPLICIT * step
     middle = deflected(d + part * speed, d, before + IMPLICIT * (after - before), speed, part, face)
-    known = d + (1.0 / IMPLICIT - 1.0) * (middle - d)
-    return deflected(known + part * speed, middle, after, speed, part, face)
+    explicit = d + (1.0 / IMPLICIT - 1.0) * (middle - d)
+    return deflected(explicit + part * speed, middle, after, speed, part, face)
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
@@ -116,7 +119,7 @@ def deflect(shifts: Array, deflections: Array, impacts: Array, step: float, c: C
     ----------
     shifts : of the keys before the step and after it, shape (2, 4), m
     deflections : of the two faces of each key, shape (2, 4), m; they are changed
-    impacts : shape (4,); set to 1 where a key passes the place of an undeformed face
+    impacts : shape (4,); set to 1 where a key passes the position of an undeformed face
     step : s
     c : constants
     """
@@ -169,7 +172,7 @@ def integrate(
 
     Parameters
     ----------
-    motion : at the start, see `PLACE`, shape (3, 4); it is changed to that at the end
+    motion : at the start, see `POSITION`, shape (3, 4); it is changed to that at the end
     deflections : of the two faces of each key, shape (2, 4), m; likewise
     first : intervals from crank angle zero to the start
     samples : number of intervals
@@ -180,24 +183,24 @@ def integrate(
     Returns
     -------
     normal, friction, impacts : at the end of each interval, shapes (samples, 4); impacts are 1
-        where in the interval a key passed the place of an undeformed face, otherwise 0
+        where in the interval a key passed the position of an undeformed face, otherwise 0
     """
     normal, friction = np.empty((samples, KEYS)), np.empty((samples, KEYS))
     impacts = np.zeros((samples, KEYS))
     keys, shifts, middle = np.empty((4, KEYS)), np.empty((2, KEYS)), np.empty(COORDINATES)
     step = sample_interval / steps
     drive = drive_at(first * sample_interval, c)
-    key_motion(drive, motion[PLACE], motion[SPEED], c, keys)
+    key_motion(drive, motion[POSITION], motion[SPEED], c, keys)
     for sample in range(samples):
         for part in range(steps):
             copy(keys[SHIFT], shifts[0])
             drive = drive_at(((first + sample) * steps + part + 1) * step, c)
             for n in range(COORDINATES):
-                motion[PLACE, n] += step * motion[SPEED, n]
+                motion[POSITION, n] += step * motion[SPEED, n]
             for again in range(EVALUATIONS):
                 for n in range(COORDINATES):
                     middle[n] = motion[SPEED, n] + 0.5 * step * motion[ACCELERATION, n]
-                key_motion(drive, motion[PLACE], middle, c, keys)
+                key_motion(drive, motion[POSITION], middle, c, keys)
                 if again == 0:
                     copy(keys[SHIFT], shifts[1])
                     deflect(shifts, deflections, impacts[sample], step, c)

@@ -12,15 +12,15 @@ class OldhamKeys(Parameters):
     """Two keys in the housing's slots, two in the slots of the orbiting scroll, all alike."""
 
     radius_m: float = Field(ge=1e-3, le=1.0)
-    """Of the middle of each key from the ring's centre."""
+    """Distance of the centre of each key from the ring's centre."""
     clearance_m: float = Field(ge=1e-6, le=1e-3)
     """Gap on each side of a key in the middle of its slot; the slot is wider by two gaps."""
     width_m: float = SIDE
-    """Of a key's face, along the shaft."""
+    """Size of a key's face along the shaft."""
     length_m: float = SIDE
-    """Of a key's face, along the slot."""
+    """Size of a key's face along the slot."""
     crown_radius_m: float = Field(ge=0.01, le=100.0)
-    """Of the spherical crown of a key's face."""
+    """Radius of the spherical crown of a key's face."""
     contact_modulus_pa: float = Field(ge=1e8, le=1e12)
     """Effective modulus E* of both materials: 1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂."""
     restitution_ratio: float = Field(ge=0.2, le=1.0)
