@@ -10,15 +10,16 @@ _BY_QUANTITY: Final = {
     "clearance_m": "um",
     "tip_gap_m": "um",
     "flank_gap_m": "um",
+    "oil_layer_m": "um",
+    "crown_radius_m": "m",
     "error_m": "um",
     "crankcase_pressure_pa": "mpa",
     "pressure_pa": "bar",
     "per_rad": "rad",
-    "youngs_modulus_pa": "gpa",
+    "_modulus_pa": "gpa",
     "bearing_stiffness_n_per_m": "n_per_m",
     "duration_s": "ms",
     "dead_time_s": "us",
-    "approach_speed_m_per_s": "mm_per_s",
     "grade_m_per_s": "mm_per_s",
 }
 """By the end of a field's name, the first that fits."""
