@@ -1,6 +1,6 @@
 # make run   sets up, runs the calibrated study, prints the table and where the report is; STUDY=… runs another
 # make test  sets up and runs every test, the slow physics included
-# make long  tests that take minutes; kills, full disks, flipped bits and signals for an hour
+# make long  tests that take longer; kills, full disks, flipped bits and signals for an hour
 # make coverage  400 synthetic machines: how often the bands hold the truth; some minutes
 # make faults  200 changes of formulas, signs, factors and thresholds: which do the tests see; about an hour
 # make docs  sets up and builds the site into docs/_build/html

@@ -62,7 +62,8 @@ sphinx_gallery_conf = {
     "within_subsection_order": "FileNameSortKey",
     "matplotlib_animations": False,
     "image_scrapers": ("matplotlib", "generators.figures.scraper"),
-    "reset_modules": ("matplotlib",),
+    "reset_modules": ("matplotlib", "generators.figures.warnings_are_errors"),
+    "reset_modules_order": "both",
     "download_all_examples": False,
     "show_signature": False,
     "show_memory": False,
@@ -109,7 +110,8 @@ def _readable_docstring(app, what, name, thing, options, lines: list[str]) -> No
 
 def _warn_of_missing_pictures(app, exception) -> None:
     if exception is None and app.builder.format == "html":
-        for line in import_module("generators.pictures").missing(Path(app.outdir)):
+        pictures = import_module("generators.pictures")
+        for line in [*pictures.missing(Path(app.outdir)), *pictures.without_any(DOCS / "examples")]:
             logging.getLogger(__name__).warning(line)
 
 

@@ -1,5 +1,6 @@
 """Figures of `va.plot` on the pages of the gallery: pyplot does not know them."""
 
+import warnings
 from typing import Any
 from weakref import WeakSet
 
@@ -7,6 +8,19 @@ from matplotlib.figure import Figure
 from sphinx_gallery.scrapers import figure_rst
 
 _shown: WeakSet[Figure] = WeakSet()
+_filters: list[Any] = []
+
+
+def warnings_are_errors(gallery_conf: dict[str, Any], page: str | None, when: str) -> None:
+    """Let a warning of Python end a page, and give Sphinx its own filters back after it."""
+    if page is None:
+        return
+    if when == "before":
+        _filters[:] = warnings.filters
+        warnings.simplefilter("error")
+        warnings.simplefilter("ignore", ResourceWarning)
+    else:
+        warnings.filters[:] = _filters
 
 
 def scraper(block: Any, block_vars: dict[str, Any], gallery_conf: dict[str, Any]) -> str:

@@ -15,3 +15,12 @@ def missing(folder: Path) -> list[str]:
         for source in _SOURCE.findall(page.read_text(encoding="utf-8"))
         if not (page.parent / unquote(source)).is_file()
     ]
+
+
+def without_any(gallery: Path) -> list[str]:
+    """A line for each page of the gallery that draws nothing."""
+    return [
+        f"{page.name}: draws no figure"
+        for page in sorted(gallery.glob("*.py"))
+        if not (gallery / "images" / f"sphx_glr_{page.stem}_001.png").is_file()
+    ]

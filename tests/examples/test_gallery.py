@@ -20,14 +20,6 @@ HELPERS = {"rough_radiation.py"}
 ELSEWHERE = {"doctor", "cache"}
 """They look after the machine's set-up: docs/start.md."""
 PAGES = sorted(page for page in GALLERY.glob("*.py") if page.name not in HELPERS)
-LONG = {
-    "a_heat_pump_in_the_kitchen", "designs_of_a_scroll", "designs_of_a_slider_link",
-    "heat_pump_on_a_terrace", "inner_curves", "machine_6_from_files", "orders_of_a_recording",
-    "radiation_and_directivity", "results_and_figures", "sources_with_uncertainty", "stopping",
-    "variable_speed",
-}  # fmt: skip
-"""They take more than three seconds each: `make docs` runs them too, and ends at an error."""
-RUN = [pytest.param(page, marks=[pytest.mark.long] * (page.stem in LONG)) for page in PAGES]
 
 
 @pytest.fixture(scope="module")
@@ -47,7 +39,8 @@ def outcomes(request: pytest.FixtureRequest) -> dict[str, dict[str, object]]:
     return json.loads(done.stdout)
 
 
-@pytest.mark.parametrize("page", RUN, ids=lambda page: page.stem)
+@pytest.mark.long  # `make docs` runs them too, and ends at an error, a warning or no figure
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_page_runs_and_draws(page, outcomes):
     outcome = outcomes[page.name]
     assert not outcome["error"], outcome["error"]

@@ -23,6 +23,8 @@ LISTS: Final = tomllib.loads(Path(__file__).with_name("language.toml").read_text
 HOLDS: Final = {entry["word"] for entry in LISTS["holds"]}
 IS: Final = {entry["word"] for entry in LISTS["is"]}
 PHRASES: Final = [re.compile(entry["pattern"], re.MULTILINE) for entry in LISTS["phrase"]]
+ANY_PHRASE: Final = re.compile("|".join(f"(?:{one.pattern})" for one in PHRASES), re.MULTILINE)
+"""Most lines hold none: one search tells it."""
 PROSE: Final = re.compile(r"[A-Za-z]+\s+[A-Za-z]+")
 """Strings without two words in a row are keys and formats."""
 QUOTED: Final = re.compile(r'"[^"]*"|#.*')
@@ -77,7 +79,7 @@ def faults_of_table(path: str, text: str) -> Iterator[Fault]:
 def faults_of_text(path: str, text: str, first: int = 1) -> Iterator[Fault]:
     """Faults of a text that begins at a line."""
     for number, line in enumerate(text.splitlines(), first):
-        for phrase in PHRASES:
+        for phrase in PHRASES if ANY_PHRASE.search(line.strip()) else ():
             yield from (Fault(path, number, match[0]) for match in phrase.finditer(line.strip()))
 
 

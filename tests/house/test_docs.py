@@ -53,6 +53,7 @@ def _unit_vectors(study, *_) -> tuple[xr.Dataset, bool]:
 
 
 @pytest.mark.parametrize("left_out", [("motor_half",), pytest.param((), marks=pytest.mark.long)])
+@pytest.mark.long
 def test_page_shows_what_comes_out(workplace, left_out):
     """But for commands that name a folder that is left out: each takes seconds."""
     namespace: dict[str, object] = {}

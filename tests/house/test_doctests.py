@@ -28,6 +28,8 @@ from vibroacoustics.results import storage
 PUBLIC = {f"va.{name}": getattr(va, name) for name in va.__all__}
 PUBLIC |= {f"va.plot.{name}": getattr(va.plot, name) for name in va.plot.__all__}
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
+LONG = {"va.impulse_responses"}
+"""Waves in a whole room."""
 REFUSE_NOTHING = {"va.circling", "va.constant_rotation", "va.wrenches_of_parts"}
 GRID = np.meshgrid(np.linspace(-1.0, 1.0, 5), np.linspace(0.0, 1.0, 4))
 LINE_HZ = np.array([48.0])
@@ -203,7 +205,9 @@ def _examples(name: str, thing: object) -> list[doctest.DocTest]:
 
 
 @pytest.mark.usefixtures("in_workplace")
-@pytest.mark.parametrize("name", PUBLIC)
+@pytest.mark.parametrize(
+    "name", [pytest.param(one, marks=[pytest.mark.long] * (one in LONG)) for one in PUBLIC]
+)
 def test_examples_run(name):
     tests = _examples(name, PUBLIC[name])
     assert tests[0].examples, "has no example"

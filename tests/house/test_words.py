@@ -21,9 +21,16 @@ def _names(tree: ast.Module) -> Iterator[tuple[int, str]]:
     for node in ast.walk(tree):
         for field in NAMES:
             name = getattr(node, field, None)
-            given = isinstance(node, ast.Attribute) and ast.unparse(node) in GIVEN
-            if isinstance(name, str) and not given:
+            if isinstance(name, str) and not _is_given(node):
                 yield getattr(node, "lineno", 0), name.strip("_").lower()
+
+
+def _is_given(node: ast.AST) -> bool:
+    return (
+        isinstance(node, ast.Attribute)
+        and node.attr in {name.rpartition(".")[2] for name in GIVEN}
+        and ast.unparse(node) in GIVEN
+    )
 
 
 def _faults(path: Path, code: str) -> list[str]:

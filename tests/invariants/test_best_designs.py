@@ -98,6 +98,7 @@ order = 1
 """
 
 
+@pytest.mark.long
 def test_best_sprung_mass_is_tuned_as_its_closed_form() -> None:
     """At the ring's height momentum m_ring + m X2/X1 is all that is left of the 1x line."""
     study = study_with(SPRUNG)

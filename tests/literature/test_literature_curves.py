@@ -69,6 +69,7 @@ def test_ring_force(speed, newtons):
 # --- Tsuji et al., figures 3 to 6 ----------------------------------------------------------------
 
 
+@pytest.mark.long
 def test_acceleration_and_gas_torque_peak_35_degrees_before_top_dead_centre():
     """Figures 3 (a), (d); a negative peak that falls with the bore; gas torque 'naturally
     independent of d'."""
@@ -158,6 +159,7 @@ def rms(force) -> float:
     return float(np.sqrt((force**2).sum("axis").mean()))
 
 
+@pytest.mark.long
 def test_largest_joint_forces_stand_close_to_top_dead_centre():
     """Figure 6, case I: dominated along X by the compression; ours 42° before, where our assumed
     discharge valve opens."""
@@ -168,6 +170,7 @@ def test_largest_joint_forces_stand_close_to_top_dead_centre():
         assert 360.0 - degrees_of(line, lambda v: int(np.argmax(abs(v)))) < 45.0
 
 
+@pytest.mark.long
 def test_both_pins_push_the_rod_by_its_inertia_alone():
     """At most m r ω² (1 + r/l) along X, 30 g in a crank of 7.5 mm; the speed swings by 5 %."""
     force = inner("estupinan_hermetic")["joint_force"].sel(axis="x")

@@ -110,6 +110,7 @@ def test_levels_of_both(study):
     assert len(table.head) == 4  # one run tells no uncertainty
 
 
+@pytest.mark.long
 def test_command_with_runs_options_and_limits(study, tmp_path):
     """All kinds of limits from one file; exit code 1 and a line for what is broken, else 0."""
     result = write_results(study, tmp_path / "results.nc")

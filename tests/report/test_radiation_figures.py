@@ -185,6 +185,7 @@ def test_table_tells_levels_error_and_sound_power(radiated):
     assert next(row for row in rows if row[:1] == ["tx"])[1] == f"{power[0]:.1f}"
 
 
+@pytest.mark.long
 def test_radiation_command(radiated, monkeypatch, tmp_path):
     monkeypatch.setattr(pipeline, "radiate", lambda study, progress: radiated)
     study = str(PIPELINES / "copeland_thesis.toml")

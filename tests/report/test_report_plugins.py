@@ -1,8 +1,6 @@
 """A stranger's section and column: shown, kept in the results, made again without the plug-in."""
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -84,7 +82,6 @@ def plugin(folder: Path, content: str, name: str = "mine.py") -> None:
     load_plugin(file)
 
 
-@pytest.mark.usefixtures("real_pictures")
 def test_section_and_column_are_shown_and_made_again_without_the_plugin(
     results: xr.Dataset,
     tmp_path: Path,
@@ -109,9 +106,11 @@ def test_section_and_column_are_shown_and_made_again_without_the_plugin(
 
 
 def _made_again_is_the_same(folder: Path) -> None:
-    """In a process that knows no plug-in."""
-    again = [sys.executable, "-m", "vibroacoustics", "report", folder / "run" / "results.nc"]
-    subprocess.run([*again, "--out", folder / "again"], check=True)
+    """Where no plug-in is known."""
+    for registry, name in ((SECTIONS, "prices"), (COLUMNS, "force_3x_n")):
+        del registry._things[name], registry._origins[name]
+    words = ("report", folder / "run" / "results.nc", "--out", folder / "again")
+    command_here(*words).check_returncode()
     files = sorted(path for path in (folder / "again").rglob("*.*") if path.is_file())
     assert (folder / "again" / "figures" / "_prices.png") in files
     for path in files:
@@ -218,6 +217,7 @@ def test_name_of_a_built_in_one_is_refused(
         plugin(tmp_path, f"{BARE}{content}")
 
 
+@pytest.mark.long
 def test_report_takes_a_plugin_that_the_run_did_not_have(
     results: xr.Dataset, tmp_path: Path, registries: None
 ) -> None:

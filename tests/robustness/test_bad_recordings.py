@@ -325,7 +325,7 @@ print(peak() - before, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 
 """
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_memory_of_a_recording_stays_within_the_cap(tmp_path):
     """The cap allows twice the recording, samples and time axis, in either process."""
     samples = 4_000_000

@@ -534,7 +534,7 @@ UNSHRUNK = (Phase.explicit, Phase.reuse, Phase.generate)
 
 
 @pytest.mark.slow
-@settings(max_examples=60, deadline=None, phases=UNSHRUNK)
+@settings(max_examples=20, deadline=None, phases=UNSHRUNK)
 @given(place=st.sampled_from(PATHS), value=anything, rename=st.booleans())
 def test_any_value_anywhere_loads_or_is_refused_in_lines(module_tree, place, value, rename):
     """Replace, remove or rename one value or table of the study or of its machine."""

@@ -21,6 +21,7 @@ QUICK = (
     [(QUICK, len(QUICK)), pytest.param((), 13, marks=pytest.mark.long)],
     ids=["quick", "all"],
 )
+@pytest.mark.long
 def test_of_storage(only: tuple[str, ...], trials: int) -> None:
     """In a process of its own, which has one thread and may fork.
 

@@ -133,8 +133,7 @@ def known_keys(results: xr.Dataset, attribute: str) -> Any:
     return model.model_dump(mode="json", exclude_unset=True)
 
 
-@laid_out
-@both
+@both_at_length
 def test_the_run_itself_is_made(name: str, tmp_path: Path) -> None:
     results = run(name)
     if name == "rigid":
@@ -143,7 +142,7 @@ def test_the_run_itself_is_made(name: str, tmp_path: Path) -> None:
     assert refused_or_made(results, tmp_path) == [0, 0]
 
 
-@both
+@both_at_length
 def test_what_is_checked_is_all_that_a_report_reads(name: str) -> None:
     """Without the variables and keys that no check knows it is the same."""
     results = run(name)
@@ -164,7 +163,7 @@ def test_what_is_checked_is_all_that_a_report_reads(name: str) -> None:
     assert "sources.csv" in files[0] or name == "rigid"
 
 
-@both
+@both_at_length
 def test_a_variable_is_missing(name: str, tmp_path: Path) -> None:
     results = run(name)
     for variable in needed_variables(results):
@@ -230,6 +229,7 @@ def test_all_that_may_be_so_holds_one_value(name: str, value: float, tmp_path: P
 @laid_out
 @pytest.mark.parametrize("value", [0.0, pytest.param(1e29, marks=pytest.mark.long)])
 @pytest.mark.parametrize("key", ["force_amplitude", "transfer_vector", "natural_frequency"])
+@pytest.mark.long
 def test_a_variable_holds_one_value(key: str, value: float, tmp_path: Path) -> None:
     refused_or_made(filled(run(), key, np.full((), value, run()[key].dtype)), tmp_path)
 
@@ -267,6 +267,7 @@ def test_no_draw_counts() -> None:
     check_run(unsolved)
 
 
+@pytest.mark.long
 def test_an_attribute_is_missing_or_wrong(tmp_path: Path) -> None:
     numbers = np.array([1.0, 2.0])
     for name in ("parameters", "words", "created_utc"):
@@ -373,6 +374,7 @@ def test_kept_columns_are_none(changed: dict[str, object], tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize("places", [10, pytest.param(20, marks=pytest.mark.long)])
+@pytest.mark.long
 def test_a_hashed_file_that_netcdf_cannot_read(places: int, tmp_path: Path) -> None:
     path = tmp_path / "results.nc"
     write_results(run(), path)
@@ -387,6 +389,7 @@ def test_a_hashed_file_that_netcdf_cannot_read(places: int, tmp_path: Path) -> N
             assert_refused(outcome, "results.nc")
 
 
+@pytest.mark.long
 def test_forces_that_all_vanish(tmp_path: Path) -> None:
     study = load_study(TINY).replace({"machine.oldham.mass_kg": 1e-30})
     results = pipeline.run(study, radiation=made_up_radiation)

@@ -99,6 +99,7 @@ def test_content_is_in_hash_cache_key_and_results(tmp_path):
     assert kept == {"file": "bench.csv", "force_n": list(first.sources["bench"].measured.force_n)}
 
 
+@pytest.mark.long
 def test_force_of_the_file_is_in_the_results_without_the_file(tmp_path):
     """Linear between 360 points a cosine of 1 kN lacks π²/(3·360²) = 2.5e-5 of its peak."""
     study = va.load_study(write_study(tmp_path / "study"))

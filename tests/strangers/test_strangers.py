@@ -245,6 +245,7 @@ def test_hashes_of_the_files_are_in_the_results(finished):
     assert all(re.fullmatch("[0-9a-f]{64}", own["sha256"]) for own in kept.values())
 
 
+@pytest.mark.long
 def test_the_report_is_made_again_without_the_files(finished, tmp_path):
     """In this process, which knows none of them."""
     outcome = command_here("report", finished / "results.nc", "--out", tmp_path)

@@ -9,6 +9,7 @@ import xarray as xr
 from ..base import rounding
 from ..base.decibel import level_of_power, power_of_level
 from ..base.quantiles import weighted_quantiles
+from ..base.remembered import remembered
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.agreement import effective_draws
 from .study import a_weighted, at_catalogue, has_draws, quoted_dba, quoted_speed
@@ -38,6 +39,7 @@ class Band(NamedTuple):
 QUANTILES: Final = (0.1, 0.5, 0.9)
 
 
+@remembered
 def quantiles(results: xr.Dataset, name: str) -> xr.DataArray:
     """Quantiles of an A-weighted level or its change over the draws, (quantile, ...).
 
@@ -87,6 +89,7 @@ def band(results: xr.Dataset, name: str, **at: Any) -> Band:
     return Band(*map(float, quantiles(results, name).sel(at).transpose("quantile").values))
 
 
+@remembered
 def bands_by_speed(results: xr.Dataset, name: str, **at: Any) -> tuple[Band, ...]:
     """Bands of a variable's quantiles at every speed, at an option and a receiver."""
     rows = quantiles(results, name).sel(at).transpose("speed", "quantile").values
@@ -126,6 +129,7 @@ def share_band(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> Band
     return Band(*map(float, over_draws(results, share, prior).values))
 
 
+@remembered
 def total_by_draw(results: xr.Dataset, prior: int) -> xr.DataArray:
     """Level of the whole machine without an option at the published speed, (draw,), dB(A)."""
     at = at_catalogue(results, speed=quoted_speed(results))

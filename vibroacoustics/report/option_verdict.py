@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
+from ..base.remembered import remembered
 from ..base.vocabulary import REFERENCE_OPTION
 from .quantities import JUDGED, LINE, TOLERANCE_DB, TOTAL
 from .shifts import Shift, shift
@@ -44,6 +45,7 @@ def table_words(results: xr.Dataset) -> dict[str, str]:
     return {REFERENCE_OPTION: rounding.NOTHING, **known}
 
 
+@remembered
 def option_verdict(results: xr.Dataset, option: str) -> OptionVerdict:
     """Judge one option by what can be measured: 1x force, moment, foot force and line, total.
 

@@ -9,6 +9,7 @@ import xarray as xr
 from ..base import rounding
 from ..base.arrays import Array, ComplexArray
 from ..base.decibel import amplitude_of_level, power_of_level, sound_pressure_level
+from ..base.remembered import remembered
 from ..base.vocabulary import REFERENCE_OPTION
 from .bands import percent
 from .labels import DOF_WORDS
@@ -48,6 +49,7 @@ def path_speed(results: xr.Dataset) -> float:
     return float(speeds[np.argmin(np.abs(speeds - quoted_speed(results)))])
 
 
+@remembered
 def at_path_speed(results: xr.Dataset, receiver: str, option: str = REFERENCE_OPTION) -> xr.Dataset:
     """Paths to a microphone at the speed that is shown."""
     names = [name for name in results.data_vars if "path_speed" in results[name].dims]

@@ -10,6 +10,7 @@ from ..base import rounding
 from ..base.arrays import Array
 from ..base.decibel import amplitude_of_level, level_of_amplitude
 from ..base.quantiles import weighted_quantiles
+from ..base.remembered import remembered
 from ..base.vocabulary import REFERENCE_OPTION
 from ..study.scoring import Measurable
 from .bands import QUANTILES, has_band
@@ -150,6 +151,7 @@ class Shift:
         return f"{verb} by {size} %"
 
 
+@remembered
 def shift(
     results: xr.Dataset, quantity: Quantity, option: str, receiver: str | None = None
 ) -> Shift:

@@ -7,6 +7,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.decibel import power_of_level
+from ..base.remembered import remembered
 from ..base.vocabulary import DERIVED_SUPPLY, REFERENCE_OPTION
 from ..levels.agreement import priors_of
 from ..machine.remainder import Remainder
@@ -127,6 +128,7 @@ def _shares(results: xr.Dataset, prior: int) -> str:
     )
 
 
+@remembered
 def source_share(results: xr.Dataset, source: str, prior: int = 0) -> Band:
     """Share of a source in the energy of the whole machine."""
     return share_band(results, at_published(results, "source_level", source), prior)

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
+from ..base.remembered import remembered
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import REFERENCE_OPTION
 
@@ -148,6 +149,7 @@ def over_speed(results: xr.Dataset) -> bool:
     return "pressure_line" in results and len(speeds(results)) >= FEWEST_OVER_SPEED
 
 
+@remembered
 def few_speeds(results: xr.Dataset) -> xr.Dataset:
     """The results at the speeds that are shown one by one: all, or six evenly chosen.
 

@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 from support import ROOT, TINY, assert_refused, command_here, tiny_run
 
-from vibroacoustics import open_results, write_report
+from vibroacoustics import open_results, report, write_report
 from vibroacoustics.base.hashing import sha256
 from vibroacoustics.results import cache, storage
 
@@ -64,6 +64,7 @@ def study(tmp_path) -> Path:
     return file
 
 
+@pytest.mark.long
 def test_no_cache(folder, study, tmp_path):
     outcome = command_here("radiation", study, "--no-cache", "--out", tmp_path / "out")
     assert (outcome.returncode, outcome.stderr) == (0, "")
@@ -80,6 +81,7 @@ def test_a_folder_whose_name_is_no_utf_8(tmp_path):
     assert_refused(outcome, "the name is no UTF-8")
 
 
+@pytest.mark.long
 def test_a_cache_that_cannot_be_written_costs_one_line(study, tmp_path, monkeypatch):
     (tmp_path / "file").write_text("in the way")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
@@ -104,6 +106,14 @@ def test_every_file_carries_the_hash_of_its_results(results, tmp_path):
     assert "files that belong together" in outcome.stdout
 
 
+@pytest.fixture
+def few_files(monkeypatch) -> None:
+    """A report of two small files: what they hold is no subject."""
+    names = ("report.html", "comparison.csv")
+    monkeypatch.setattr(report, "render", lambda _, digest: dict.fromkeys(names, digest.encode()))
+
+
+@pytest.mark.usefixtures("few_files")
 def test_a_mixed_folder_is_named_and_mended(results, tmp_path):
     write_report(results, tmp_path)
     (tmp_path / "comparison.csv").write_text("of another run\n")
@@ -117,7 +127,8 @@ def test_a_mixed_folder_is_named_and_mended(results, tmp_path):
     assert command_here("score", tmp_path / "results.nc").stderr == ""
 
 
-def test_a_file_of_an_older_run_is_named_by_readers(results, tmp_path, monkeypatch):
+@pytest.mark.usefixtures("few_files")
+def test_a_file_of_an_older_run_is_named_by_readers(results, tmp_path):
     """Left by a run that was killed before it removed what it no longer makes."""
     write_report(results, tmp_path)
     path, entry = tmp_path / "sources.csv", tmp_path / "files.json"

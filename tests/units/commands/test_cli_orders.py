@@ -274,6 +274,7 @@ def test_bad_recordings(name: str, tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == [file]
 
 
+@pytest.mark.long
 def test_a_refusal_is_no_traceback(tmp_path: Path) -> None:
     """In a process of its own; the other refusals are the same `main` in this one."""
     empty = tmp_path / "empty.csv"

@@ -37,6 +37,7 @@ def a_study(folder: Path, name: str, *changes: tuple[str, str]) -> Path:
     return folder / name
 
 
+@pytest.mark.long
 def test_several_studies_as_json(tmp_path: Path) -> None:
     files = [a_study(tmp_path, f"{name}.toml") for name in ("one", "two")]
     outcome = command_here("run", *files, "--out", tmp_path / "out", "--json")

@@ -53,6 +53,7 @@ def test_while_the_radiation_is_computed(tmp_path, number):
 
 
 @pytest.mark.parametrize("number", [long(signal.SIGINT), signal.SIGTERM])
+@pytest.mark.long
 def test_while_a_recording_is_read(tmp_path, number):
     """The child that reads ends with its parent."""
     recording = tmp_path / "long.csv"

@@ -51,6 +51,7 @@ def test_counterweights_of_the_scroll_compressor():
     assert engine.routes("weight")["options.weight.angle_deg"].reason == "an angle"
 
 
+@pytest.mark.long
 def test_mounts_of_the_scroll_compressor():
     study = study_with(LEFT + WEIGHT + design_table('"weight"', {**VARIABLES, **MOUNTS}))
     engine = engine_of(study)
@@ -124,6 +125,7 @@ damping_ratio = 0.02
     assert list(routes(engine, "pendulum").values()) == [False, True]
 
 
+@pytest.mark.long
 def test_choice_among_options():
     variables = {**VARIABLES, "options.counterweight-half.share_ratio": "range = [0, 1]"}
     table = design_table('["none", "weight", "counterweight-half"]', variables)

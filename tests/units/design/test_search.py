@@ -81,6 +81,7 @@ def test_no_design_meets_the_constraints() -> None:
         _ = searched.best
 
 
+@pytest.mark.long
 def test_front_of_zdt1_is_covered() -> None:
     """ZDT1 of five variables: hypervolume up to (1.1, 1.1) at least 99 % of the exact 0.8767."""
 

@@ -94,6 +94,7 @@ def test_damaged_chunk_is_evaluated_again(tmp_path: Path, damage: str) -> None:
 @pytest.mark.parametrize(
     "seed", [0, *(pytest.param(one, marks=pytest.mark.long) for one in (1, 2))]
 )
+@pytest.mark.long
 def test_search_killed_at_random_goes_on_to_the_same_bits(tmp_path: Path, seed: int) -> None:
     killed_and_gone_on(tmp_path, seed)
 

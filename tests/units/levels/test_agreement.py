@@ -76,6 +76,7 @@ def test_effective_draws():
 
 
 @pytest.mark.parametrize("machines", [pytest.param(400, marks=pytest.mark.long), 40])
+@pytest.mark.long
 def test_bands_hold_the_truth_as_often_as_they_say(machines):
     """Machines from the prior, their published level with noise, one bank of draws for all.
 

@@ -106,6 +106,7 @@ def test_draws_are_weighed_by_what_was_measured(study, without, results):
     assert abs(results["bank_weight"] / without["bank_weight"] - 1.0).max() > 0.1
 
 
+@pytest.mark.long
 def test_measured_noise_is_in_the_room(tmp_path, study, without, monkeypatch):
     """Its power by the hemisphere about the foot, and a room as loud as that hemisphere.
 

@@ -112,6 +112,7 @@ def obtained(results, option, rpm):
     return here["baseline_order_level"].values, bands.values
 
 
+@pytest.mark.long
 def test_steady_recording_changed_is_the_truth(tmp_path, study, model):
     generator = np.random.default_rng(1)
     machine = Machine(generator)
@@ -138,6 +139,7 @@ def test_steady_recording_changed_is_the_truth(tmp_path, study, model):
     assert total == pytest.approx(weighted, abs=0.02)
 
 
+@pytest.mark.long
 def test_run_up_changed_is_the_truth(tmp_path, study, model):
     """At a speed that was measured, between two, and with the noise that 8 s of it have."""
     generator = np.random.default_rng(2)

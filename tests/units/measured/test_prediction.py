@@ -126,6 +126,7 @@ def check_errors(errors):
             assert np.mean(np.array(of_lines) < 1.5) > 0.9, name
 
 
+@pytest.mark.long
 def test_with_three_percent_noise_nine_of_ten_lines_are_right_and_told(tmp_path):
     held, errors = held_and_errors(tmp_path, 0.03, 2)
     check_bands(held)

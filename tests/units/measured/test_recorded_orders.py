@@ -267,6 +267,7 @@ def test_speed_found_in_noise_is_warned_of():
         analyse_orders(recording, OrderAnalysis(TacholessSpeed("noise", 1000.0, 4000.0)))
 
 
+@pytest.mark.long
 def test_rival_of_a_speed_is_named():
     """Hum at 50, 100 and 150 Hz beside orders 1 to 3 of 1458 rpm: without its name a rival."""
     time_s = np.arange(int(15.0 * 6400.0)) / 6400.0

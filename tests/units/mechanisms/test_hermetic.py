@@ -326,7 +326,7 @@ def test_tangent_meets_differences(cycles, case):
         assert np.all(np.abs(slope / (2.0 * step) - tangent[..., column]) < 1e-4 * size), column
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_case_2_by_time_integration(machine, cycles):
     """SciPy's LSODA follows the cycle through compression, thinnest film and discharge."""
     equations, solution = cycles["II"]

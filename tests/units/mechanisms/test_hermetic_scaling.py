@@ -34,6 +34,7 @@ def scaled(table: Parameters, ratio: float) -> Parameters:
 
 
 @pytest.mark.parametrize("case", ["II", "III"])
+@pytest.mark.long
 def test_a_smaller_machine_has_the_scaled_solution(case, monkeypatch):
     """Exactly where gravity scales too; its own weight is all that else tells the sizes apart."""
     machine = load_machine(ROOT / "data" / "machines" / "estupinan_hermetic.toml")

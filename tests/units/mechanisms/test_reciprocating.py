@@ -244,6 +244,7 @@ def test_lagrange_multipliers_give_the_same_forces(cycle):
         np.testing.assert_allclose(crank_pin, cycle.forces.crank_pin_n[:, index], rtol=0, atol=1e-5)
 
 
+@pytest.mark.long
 def test_integration_in_time_repeats_the_cycle(cycle):
     """Marching of the multipliers' equations through a revolution ends where it began."""
     speeds = cycle.rotation.speed_rad_per_s

@@ -552,7 +552,7 @@ def test_lagrange_multipliers_agree(case):
             np.testing.assert_allclose(bearing[name], mine, atol=1e-8 * scale)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_time_integration_returns_after_one_revolution(machine, cycle):
     """SciPy integrates the Lagrange equations over time from our state at crank angle zero."""
     mean = cycle.motor_torque_n_m[0] + machine.motor.slope_n_m_s_per_rad * (

@@ -55,6 +55,7 @@ def assert_adds_up(results):
         np.testing.assert_allclose(part, other, atol=1e-9 * total.max().item())
 
 
+@pytest.mark.long
 def test_paths_of_several_sources_add_up(results):
     assert_adds_up(results)
     assert {"housing", "stator", "bearing_housing"} <= set(results["path_port"].values)

@@ -125,6 +125,7 @@ def test_pressures_of_dome_and_forces_add_as_phasors(study, without):
     np.testing.assert_allclose(both - bare, expected, atol=1e-9 * np.abs(bare).max())
 
 
+@pytest.mark.long
 def test_gas_is_drawn_and_left_out(study, without):
     names = {limits.name for limits in study.ranges}
     assert {"discharge_dome.port_offset_m", "suction_annulus.inlets"} <= names

@@ -142,6 +142,7 @@ def test_option_that_changes_the_machine_changes_its_curves():
     assert rigid.attrs["option"] == "one-rigid-minicrank"
 
 
+@pytest.mark.long
 def test_bores_without_a_best_one_leave_it_out():
     machine = va.load_machine(machine_file("mayekawa_wbhe"))
     pairs = machine.sliding_pairs.model_copy(update={"bearing_friction": 0.0})

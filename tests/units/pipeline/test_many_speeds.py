@@ -204,6 +204,7 @@ def driven(folder) -> xr.Dataset:
 @pytest.mark.parametrize(
     ("speed", "supply"), [pytest.param(2600.0, 45.0, marks=pytest.mark.long), (3500.0, 60.0)]
 )
+@pytest.mark.long
 def test_sources_at_few_speeds_agree_with_the_same_in_a_list(folder, driven, speed, supply):
     study = sources_at(
         folder,
@@ -216,6 +217,7 @@ def test_sources_at_few_speeds_agree_with_the_same_in_a_list(folder, driven, spe
     assert few["level_remainder"].item() == pytest.approx(driven["level_remainder"].item())
 
 
+@pytest.mark.long
 def test_supply_is_unknown_at_a_catalogue_speed_apart(folder):
     """One line; without supply frequencies other sources run at any speed."""
     apart = ("speed_rpm = [2900.0]", "speed_rpm = [2800.0]")

@@ -53,6 +53,7 @@ def test_first_microphone_and_speed_stand_for_the_catalogues(study):
     assert "front_1m and 3500 rpm" in said
 
 
+@pytest.mark.long
 def test_the_total_is_what_is_modelled(rigid, drawn):
     for results in (rigid, drawn):
         modelled = results["level_modelled"].sel(weighting="A")
@@ -73,6 +74,7 @@ def test_draws_count_alike(drawn, study):
     assert not any(name.startswith("remainder") for name in names)  # nothing hangs on it
 
 
+@pytest.mark.long
 def test_the_report_says_so(rigid, drawn):
     plain, of_draws = text_of(rigid), text_of(drawn)
     for text in (plain, of_draws):

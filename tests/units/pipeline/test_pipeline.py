@@ -197,6 +197,7 @@ def field(field_study):
     return pipeline.run(field_study)
 
 
+@pytest.mark.long
 def test_radiation_alone_is_what_the_run_uses(field, field_study):
     alone = pipeline.radiate(field_study)
     assert alone.attrs["transfer_vectors"] == "from the cache"

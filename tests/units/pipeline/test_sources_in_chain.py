@@ -597,6 +597,7 @@ def test_a_model_that_is_much_too_loud_has_no_bands(study, monkeypatch):
     assert np.isfinite(found["level_total"].values).all()
 
 
+@pytest.mark.long
 def test_same_study_gives_the_same_numbers(study, results):
     """Draws run side by side in threads; their order and numbers do not depend on that."""
     again = run_made_up(study)
@@ -802,6 +803,7 @@ def at_speeds_of(study, speeds, supplies):
     return study.model_copy(update={"operation": operation})
 
 
+@pytest.mark.long
 def test_a_speed_alone_and_in_a_list_agree_with_all_sources(study):
     """Fewer orders fit below the highest frequency at 3500 rpm: 20, and 24 at 2900 rpm."""
     both = run_made_up(at_speeds_of(study, (3500.0, 2900.0), (60.0, 50.0)))

@@ -22,7 +22,9 @@ SEAM_HZ = 600.0
 MACHINE_SIDE = {"revolution": "boundary elements", "cut-cells": "cut cells"}
 
 
-@pytest.fixture(params=["revolution", "cut-cells"], scope="module")
+@pytest.fixture(
+    params=["revolution", pytest.param("cut-cells", marks=pytest.mark.long)], scope="module"
+)
 def both(request):
     """k-Wave at one of two microphones, up to a seam; and the name of the method."""
     settings = RadiationSettings(

@@ -54,6 +54,7 @@ class TestCutCells:
             for other in {0, 1, 2} - {axis}:
                 assert abs(middles[:, other] @ force) < 1e-15
 
+    @pytest.mark.long
     def test_area_and_volume_converge_at_second_order(self):
         """Sphere; a plane replaces the wall in each cell: (h/a)²/24 of the area and less.
 

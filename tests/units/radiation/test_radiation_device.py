@@ -100,6 +100,7 @@ def test_memory_of_the_device_is_asked_for(box, monkeypatch):
         room_green.check_receiver("far", MICROPHONE, box, 0.03, (FLOOR,), 100)
 
 
+@pytest.mark.long
 def test_a_run_on_a_device_is_k_wave_s_own(box, monkeypatch):
     """With thin absorbing layers, which take less time."""
     for module in (room_grid, kwave):

@@ -148,7 +148,6 @@ def mirrored(node, walls):
     return nodes
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "walls",
     [
@@ -158,6 +157,7 @@ def mirrored(node, walls):
     ],
     ids=["free-field", "floor", "corner"],
 )
+@pytest.mark.long
 def test_source_and_microphone_change_places(walls):
     """Reciprocity to 1e-6 of the largest pressure.
 

@@ -186,6 +186,7 @@ def test_beside_the_foot_a_run_reads_what_a_source_there_sends(vectors):
         assert np.abs(got[ear] - sent).max() <= 5e-3 * np.abs(sent).max()
 
 
+@pytest.mark.long
 def test_another_box_gives_the_same_pressure():
     """By Green's theorem; the room's series obeys it but for its spacing: at 3.5 nodes to 4 %."""
     assert _off(_joined(0.0, 40.0), _joined(0.03, 40.0)) <= 0.02

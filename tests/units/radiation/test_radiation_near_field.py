@@ -72,6 +72,7 @@ def simulated():
     return of_patterns(range(4), 0.006, FREQUENCY_HZ)
 
 
+@pytest.mark.long
 def test_monopole_and_quadrupole_on_coarse_cells():
     """The short form of the default settings: cells of 12 mm, 0.1 dB and 0.012 rad to 1 kHz."""
     frequency = FREQUENCY_HZ[:6]
@@ -107,7 +108,7 @@ class TestDefaultSettings:
         assert np.abs(phase[loud]).max() < 0.012
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_error_falls_with_the_square_of_the_spacing():
     """Oscillating sphere, 1 m on the axis: complex error against the exact field.
 

@@ -120,6 +120,7 @@ def test_spectra_of_a_sphere():
     assert np.mean(covered) > 0.95
 
 
+@pytest.mark.long
 def test_few_frequencies_are_solved_and_the_rest_lies_between():
     """Wall motions on the floor: some of the table solved, the others within the tolerance."""
     patterns = [rigid_body(dof) for dof in ("tx", "tz", "ry")]

@@ -41,7 +41,7 @@ def closed():
     return transfer_vectors(SHELL, RECEIVERS, SETTINGS, SOUND_FIELD)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_agrees_with_cut_cells():
     """Sideways motions to 1 kHz: within 0.3 dB of cells of 24 mm, extrapolated."""
     settings = SETTINGS.model_copy(
@@ -57,6 +57,7 @@ def test_agrees_with_cut_cells():
         assert float(np.abs(difference).max()) < 0.3
 
 
+@pytest.mark.long
 def test_what_the_result_says(closed):
     assert closed.attrs["solver"] == "boundary elements, image sources"
     fine, coarse = map(int, closed.attrs["boundary_elements"].split(", coarser "))
@@ -90,6 +91,7 @@ def test_box_of_kwaves_correction_has_cells_of_at_most_a_spacing():
         assert area.sum() == pytest.approx(ends * 0.24**2 + 4.0 * 0.24 * (0.24 - low))
 
 
+@pytest.mark.long
 def test_map_measurement_surface_and_directivity(closed):
     """In the machine there is no number; a point of the map is what a microphone there gets."""
     field = closed["map_transfer_vector"].sel(dof="tz").isel(line_frequency=0)
@@ -108,7 +110,7 @@ def test_map_measurement_surface_and_directivity(closed):
     assert field.values.ravel()[row] == pytest.approx(complex(expected), rel=1e-6)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_kwave_room_is_the_boxs_correction(closed):
     """k-Wave's Green's function moves no level by more than it differs itself on the box."""
     receivers = {"side": RECEIVERS["side"]}

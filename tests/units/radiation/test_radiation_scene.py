@@ -147,7 +147,9 @@ class TestCabinet:
         volume = self.OUTER - self.INNER - hole
         np.testing.assert_allclose(self.volume(cabinet), volume, rtol=1e-6)
 
-    @pytest.mark.parametrize("side", ["-x", "+y", "top"])
+    @pytest.mark.parametrize(
+        "side", ["top", *(pytest.param(side, marks=pytest.mark.long) for side in ("-x", "+y"))]
+    )
     def test_opening(self, side):
         """0.2 m x 0.1 m, 20 mm deep, well inside of the panel: four blocks around it."""
         opening = Opening(along_m=0.05, up_m=0.15, width_m=0.2, height_m=0.1)

@@ -58,7 +58,9 @@ def test_the_lowest_and_the_highest_frequency_are_watched():
     assert watched.size < 30
 
 
-@pytest.mark.parametrize("dof", ["tx", "tz", "ry"])
+@pytest.mark.parametrize(
+    "dof", ["tx", *(pytest.param(dof, marks=pytest.mark.long) for dof in ("tz", "ry"))]
+)
 def test_ends_early_and_changes_no_level(dof, monkeypatch):
     """Against runs to 3e-8 of the peak: 0.01 dB at the loudest, fewer steps."""
     steps, results = [], []
@@ -81,6 +83,7 @@ def _side(patterns, progress=lambda *_: None):
     return MachineSide(scene, near, patterns, FREQUENCY_HZ, [Microphones(points)], progress)
 
 
+@pytest.mark.long
 def test_fields_are_joined_a_few_at_a_time(monkeypatch):
     """One pattern at a time gives what all at once give, and only some are asked for somewhere."""
     patterns = [rigid_body(dof) for dof in ("tx", "rz", "tz")]

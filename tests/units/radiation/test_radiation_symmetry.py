@@ -83,8 +83,7 @@ def everything(at):
 @pytest.mark.parametrize(
     "pattern",
     [
-        rigid_body("ry"),
-        pytest.param(rigid_body("tx"), marks=pytest.mark.long),
+        *(pytest.param(rigid_body(dof), marks=pytest.mark.long) for dof in ("tx", "ry")),
         Pattern("everything", everything),
     ],
     ids=lambda pattern: pattern.name,

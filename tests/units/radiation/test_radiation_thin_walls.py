@@ -60,7 +60,7 @@ class TestThinWalls:
         check_walls(body, coarser(body, 0.012), 0.012)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_machine_in_a_hard_cup_is_refused():
     """36 mm of wall, a gap of a cell and a half at 24 mm: sideways a mode rings on between them."""
     surroundings = Scene(MACHINE, (cup(0.036),), ())

@@ -147,7 +147,7 @@ def test_interpolation_is_exact_between_the_table(closed):
     np.testing.assert_allclose(20 * np.log10(np.abs(ours / direct)), 0.0, atol=0.05)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_absorbing_wall_adds_its_weaker_image(closed):
     """Its echo is not scattered again, so it adds what a microphone at the image hears.
 

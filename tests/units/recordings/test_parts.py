@@ -111,6 +111,7 @@ print(blocks.samples, total)
 """
 
 
+@pytest.mark.long
 def test_blocks_take_little_memory(tmp_path):
     """Blocks of 16 channels and 15 s, 94 MiB, of 22 GiB in 64-bit floats."""
     path = long_wave(tmp_path / "a.wav")

@@ -225,7 +225,9 @@ def test_failure_leaves_the_old_results_and_nothing_else(results, tmp_path, monk
     assert_only_the_old(results, tmp_path)
 
 
-@pytest.mark.parametrize("limit", [1000, 50_000, 120_000])
+@pytest.mark.parametrize(
+    "limit", [50_000, *(pytest.param(one, marks=pytest.mark.long) for one in (1000, 120_000))]
+)
 def test_disk_that_fills_up(tmp_path, limit):
     """The limit of a file's size stands for a full disk; netCDF meets it where it will."""
     old = xr.Dataset({"level_remainder": stamp("level_remainder", 55.99)})
@@ -310,6 +312,7 @@ def test_what_a_killed_writer_left_goes_with_the_next(results, tmp_path):
 @pytest.mark.parametrize(
     ("names", "rounds"), [("ab", 3), pytest.param("abcd", 6, marks=pytest.mark.long)]
 )
+@pytest.mark.long
 def test_readers_beside_several_writers(names, rounds, results, tmp_path):
     """No reader is refused, and in the end one of the writers' results lies there."""
     path = storage.write_results(results, tmp_path / "results.nc")

@@ -69,6 +69,7 @@ def judged() -> xr.Dataset:
 # --- a stranger's ---------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 def test_strangers_criterion_is_scored_and_reported_without_its_file(
     stranger: Path, tmp_path: Path
 ) -> None:

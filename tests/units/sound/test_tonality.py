@@ -190,6 +190,7 @@ def test_a_level_that_swings():
     assert found.swing_db == pytest.approx(2.0 * swing_db * np.sin(np.radians(72.0)), abs=0.8)
 
 
+@pytest.mark.long
 def test_a_slam_is_no_tone():
     """The steady tone is listed, not the second of noise that is 10 dB louder in its lines."""
     pressure = recorded([500.0], [60.0], 20.0)

@@ -169,6 +169,7 @@ def test_source_of_the_capacitor_motor(study):
     assert np.abs(forces.lines[STATOR][0, 1]) > 10.0  # the pull that turns with the shaft
 
 
+@pytest.mark.long
 def test_forces_sound_in_a_study(study):
     """With draws; the yoke is part of what tells one path from another."""
     fewer = {f"options.{name}": None for name in study.options if name != "none"}

@@ -408,7 +408,7 @@ class FiniteRotations:
 
 @pytest.mark.parametrize(
     ("moment", "friction", "samples"),
-    [pytest.param(RATED_N_M, 0.1, 400, marks=pytest.mark.slow), (0.3, 0.0, 80)],
+    [pytest.param(RATED_N_M, 0.1, 400, marks=pytest.mark.long), (0.3, 0.0, 80)],
 )
 def test_another_integrator_and_finite_rotations_give_the_same_forces(moment, friction, samples):
     """Dry damped contacts from rest, by scipy's DOP853: loaded for a fifth of a revolution.

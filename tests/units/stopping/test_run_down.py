@@ -249,6 +249,7 @@ def test_peak_against_steady_running():
     assert steady.roll_moment_n_m < 1e-6 < slow.roll_moment_n_m
 
 
+@pytest.mark.long
 def test_order_map_of_the_run_down():
     """An unloaded machine: its first order follows (speed)² through the analysis."""
     result = stopped(gas=NO_GAS, shift_duration_s=0.02, friction_torque_n_m=0.3)

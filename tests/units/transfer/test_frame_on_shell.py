@@ -224,6 +224,7 @@ def test_systems_side_by_side():
     np.testing.assert_allclose(np.moveaxis(got, -1, 0), expected, rtol=1e-9, atol=1e-12)
 
 
+@pytest.mark.long
 def test_steady_flexibility_is_the_sum_over_all_modes(path):
     """Of one order around, all modes that the elements have."""
     shell = path.wall.shell

@@ -166,6 +166,7 @@ def results():
     return pipeline.run(load_study(STUDY), radiation=made_up_radiation)
 
 
+@pytest.mark.long
 def test_each_redesign_moves_on_its_own_springs(results):
     study = load_study(STUDY)
     machine = study.options["softer-springs"].machine

@@ -289,6 +289,7 @@ def test_sources_have_their_say_on_a_draw(study, monkeypatch):
     assert all(draw["housing", "mass_kg"] >= 31.5 for draw in sample.draws)
 
 
+@pytest.mark.long
 def test_a_draw_without_solution_has_no_weight(study, monkeypatch):
     revolution = type(study.machine).revolution
 
@@ -374,6 +375,7 @@ def test_forces_at_1x_are_those_of_a_machine_with_the_drawn_values(study):
         assert abs(foot / given["foot_force_amplitude"].sel(at).max() - 1.0) > 0.1
 
 
+@pytest.mark.long
 def test_forces_by_draw_are_in_the_results_and_as_given_where_no_draw_moves(study):
     """Draws of the keys' friction leave the motion."""
     ranges = (Range(table="keys", field="friction_ratio", lowest=0.05, highest=0.15),)
@@ -490,6 +492,7 @@ def test_modes_reach_the_highest_frequency_with_the_thinnest_wall(study):
     assert audible <= names
 
 
+@pytest.mark.long
 def test_results_say_the_error_of_the_projection(study):
     results = run_made_up(within(study, "structure.thickness_m", "mounts.pitch_m"))
     error = results["projection_error"]

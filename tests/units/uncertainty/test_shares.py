@@ -95,6 +95,7 @@ def test_too_few_draws_tell_nothing():
         assert np.isnan(shares.quality)
 
 
+@pytest.mark.long
 def test_position_in_range_is_what_the_draws_were_made_of():
     wide = Range(table="gas", field="a", lowest=0.01, highest=1.0)
     narrow = Range(table="gas", field="b", lowest=-2.0, highest=2.0)

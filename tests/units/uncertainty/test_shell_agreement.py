@@ -142,6 +142,7 @@ def held_and_width(tmp_path, drawn, truths, tolerances=TOLERANCES):
     return np.reshape(held, (-1, 3)), np.reshape(width, (-1, 3))
 
 
+@pytest.mark.long
 def test_the_truth_stays_in_bands_that_become_narrower(tmp_path):
     """Of three unknowns with wide tolerances; all of them are in the long test."""
     drawn, truths = (
