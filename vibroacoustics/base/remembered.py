@@ -3,26 +3,23 @@
 import weakref
 from collections.abc import Callable
 from functools import wraps
-from typing import Any, Concatenate, ParamSpec, TypeVar
+from typing import Any, TypeVar, cast
 
 import xarray as xr
 
-Further = ParamSpec("Further")
-Value = TypeVar("Value")
+Function = TypeVar("Function", bound=Callable[..., Any])
 
 
-def remembered(
-    function: Callable[Concatenate[xr.Dataset, Further], Value],
-) -> Callable[Concatenate[xr.Dataset, Further], Value]:
-    """Compute a value once for the same dataset and hashable further arguments.
+def remembered(function: Function) -> Function:
+    """Compute a value once for the same dataset, the first argument, and hashable other ones.
 
     For datasets that nobody changes, such as the results of a run: they have no hash, so
     `functools.cache` refuses them. Values must not be changed either.
     """
-    values: dict[int, dict[Any, Value]] = {}
+    values: dict[int, dict[Any, Any]] = {}
 
     @wraps(function)
-    def once(dataset: xr.Dataset, *further: Further.args, **named: Further.kwargs) -> Value:
+    def once(dataset: xr.Dataset, *further: Any, **named: Any) -> Any:
         if id(dataset) not in values:
             values[id(dataset)] = {}
             weakref.finalize(dataset, values.pop, id(dataset))
@@ -34,4 +31,4 @@ def remembered(
             of_dataset[key] = value
         return of_dataset[key]
 
-    return once
+    return cast(Function, once)
