@@ -118,7 +118,7 @@ def _shares(results: xr.Dataset, prior: int) -> str:
     if overall_noise(results) is None:
         return "; ".join(shares)
     modelled = share_band(results, at_published(results, "level_modelled"), prior)
-    remainder = results["level_remainder_by_draw"].isel(prior=prior)
+    remainder = results["level_remainder_by_draw"]
     rest, there = share_band(results, remainder, prior), elsewhere(results)
     what = f"what is not modelled{there}" if there else "what is not modelled"
     return (
