@@ -92,13 +92,11 @@ class SourceSound:
         root = np.sqrt(gain)
         mutual = np.einsum("sri,tri,stri->sr", root, root, self.mutual)
         alone = np.einsum("sri,sri->sr", gain, self.energy)
+        scaled = SourceSound(self.band, alone, mutual[None])
+        if not self.beside.size:
+            return scaled
         order = self.order * root[..., gain_band_number(self.order_hz)]
-        beside = self.beside
-        if beside.size:
-            beside = root[:, None] * root[None] * beside
-        return replace(
-            self, alone=alone, part=mutual[None], mutual=_NO_BANDS, order=order, beside=beside
-        )
+        return replace(scaled, order=order, beside=root[:, None] * root * self.beside)
 
 
 def gain_band_number(frequency_hz: Array) -> IndexArray:

@@ -156,8 +156,10 @@ def draws(results: xr.Dataset) -> Draws:
     if not has_draws(results):
         return Draws(weight.size, effective, 0, 0)
     levels = results["level_modelled_by_draw"].transpose("draw", ...).values
-    unsolved = np.isnan(levels).reshape(len(levels), -1).any(axis=1).sum()
-    return Draws(weight.size, effective, len(levels), int(unsolved))
+    unsolved = np.isnan(levels).reshape(len(levels), -1).any(axis=1)
+    values = results["drawn_value"].transpose("draw", ...).values
+    computed = (len(np.unique(values[rows], axis=0)) for rows in (slice(None), unsolved))
+    return Draws(weight.size, effective, *computed)
 
 
 def band_words(results: xr.Dataset) -> str:

@@ -1,8 +1,9 @@
 """Results beside published values: error and its uncertainty, in the form of ASME V&V 20.
 
 Simulation S, data D, error E = S - D; validation uncertainty u = √(u_num² + u_input² + u_D²), all
-standard uncertainties (ASME V&V 20-2009, sections 1 and 6). What the model leaves out is within
-E ± k u; where |E| is not above k u, the comparison shows no error of the model.
+standard uncertainties (ASME V&V 20-2009, sections 1 and 6). With a tolerance T stated before, S
+agrees with D within T where |E| + 1.64 u <= T (equivalence test: Schuirmann 1987, J.
+Pharmacokinetics and Biopharmaceutics 15, 657); it differs where |E| > 2 u; else that is undecided.
 """
 
 from collections.abc import Iterable, Iterator
@@ -14,7 +15,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.arrays import Array
-from ..base.decibel import level_of_amplitude, level_of_power
+from ..base.decibel import level_of_amplitude
 from ..base.vocabulary import REFERENCE_OPTION
 from .study import (
     at_catalogue,
@@ -27,12 +28,17 @@ from .study import (
 from .tables import Table
 
 COVERAGE: Final = 2.0
-"""k: about 95 % of a normal distribution."""
+"""About 95 % of a normal distribution."""
+ONE_SIDED: Final = 1.64
+"""95 % of a normal distribution lie below it."""
+LEVEL_TOLERANCE_DB: Final = 5.0
+FORCE_TOLERANCE: Final = 0.1
+"""Relative to the published force."""
+AGREES: Final = "agrees"
+DIFFERS: Final = "differs"
+UNDECIDED: Final = "undecided"
 _OF_A_RANGE: Final = 1.0 / np.sqrt(12.0)
 """Standard uncertainty of what lies evenly in a range, over its width (JCGM 100:2008, 4.3.7)."""
-_ROUNDED_DB: Final = 1.0
-"""Makers round their levels to this."""
-_GROWTH: Final = "remainder.speed_growth_db"
 _DEVIATION_DB: Final = 2.0
 """Of the published level, where files of older versions give none."""
 
@@ -61,9 +67,17 @@ class Rung:
         return float(np.hypot(np.hypot(self.numerical, self.inputs), self.published))
 
     @property
-    def agrees(self) -> bool:
-        """Whether the error lies within k u."""
-        return abs(self.error) <= COVERAGE * self.uncertainty
+    def tolerance(self) -> float:
+        """Of the agreement, T."""
+        is_level = self.unit.startswith("dB")
+        return LEVEL_TOLERANCE_DB if is_level else FORCE_TOLERANCE * abs(self.data)
+
+    @property
+    def verdict(self) -> str:
+        """`AGREES`, `DIFFERS` or `UNDECIDED`."""
+        if abs(self.error) + ONE_SIDED * self.uncertainty <= self.tolerance:
+            return AGREES
+        return DIFFERS if abs(self.error) > COVERAGE * self.uncertainty else UNDECIDED
 
 
 def rungs(results: xr.Dataset) -> list[Rung]:
@@ -71,7 +85,6 @@ def rungs(results: xr.Dataset) -> list[Rung]:
     evidence = parameters(results).get("evidence") or {}
     return [
         *_catalogue_level(results),
-        *_growths(results, evidence.get("two_speed_levels", ())),
         *_forces(results, evidence.get("forces", ())),
     ]
 
@@ -112,29 +125,6 @@ def grid_error_db(results: xr.Dataset, receiver: str) -> float:
             error += float((results[f"{name}_error"].sel(receiver=receiver) ** 2).sum())
             size += float((np.abs(results[name].sel(receiver=receiver)) ** 2).sum())
     return level_of_amplitude(1.0 + np.sqrt(error / size)) if size > 0.0 else 0.0
-
-
-def _growths(results: xr.Dataset, rows: Iterable[dict[str, Any]]) -> Iterator[Rung]:
-    """Growth of the remainder with speed beside levels of other machines at two speeds."""
-    growth = parameters(results)["machine"].get("remainder", {}).get("speed_growth_db")
-    if growth is None:  # files of older versions
-        return
-    width = _relative_range(results, _GROWTH) * growth
-    for row in rows:
-        if min(row["slow_rpm"], row["fast_rpm"]) <= 0.0:
-            continue
-        decades = level_of_power(row["fast_rpm"] / row["slow_rpm"]) / 10.0
-        yield Rung(
-            f"Growth of the remainder from {row['slow_rpm']:g} to {row['fast_rpm']:g} rpm, beside "
-            f"{row['machine']}",
-            "dB",
-            growth * decades,
-            row["fast_level_dba"] - row["slow_level_dba"],
-            0.0,
-            width * decades,
-            float(np.sqrt(2.0)) * _ROUNDED_DB * _OF_A_RANGE,
-            row["source"],
-        )
 
 
 def _forces(results: xr.Dataset, rows: Iterable[dict[str, Any]]) -> Iterator[Rung]:
@@ -195,6 +185,23 @@ def _is_of(record: dict[str, Any], field: str) -> bool:
     return bool(record["field"] == field or record["field"].startswith(f"{field}_"))
 
 
+def agreement_sentence(results: xr.Dataset) -> str:
+    """Whether the modelled level agrees with the published one; empty where none is published."""
+    (level, *_) = (*_catalogue_level(results), None)
+    if level is None:
+        return ""
+    published, tolerance = f"{rounding.fixed(level.data)} dB(A)", f"{level.tolerance:g} dB"
+    words = {
+        AGREES: f"agrees with the published {published} within {tolerance}",
+        DIFFERS: f"differs from the published {published}",
+        UNDECIDED: f"is too uncertain to be compared with the published {published}",
+    }[level.verdict]
+    return (
+        f"The modelled level before any published datum {words}: E = "
+        f"{rounding.signed(level.error)} dB, u = {rounding.fixed(level.uncertainty)} dB."
+    )
+
+
 def evidence_table(results: xr.Dataset) -> Table:
     """All that is published of what the results hold."""
     return rungs_table("Results beside published values", rungs(results))
@@ -214,12 +221,8 @@ def _row(rung: Rung) -> tuple[str, ...]:
     spreads = (rung.numerical, rung.inputs, rung.published, rung.uncertainty)
     is_level = rung.unit.startswith("dB")
     write = rounding.fixed if is_level else rounding.significant
-    reach = f"{write(COVERAGE * rung.uncertainty)} {rung.unit.removesuffix('(A)')}"
-    verdict = (
-        f"agrees: no error above {reach} is seen"
-        if rung.agrees
-        else f"differs by more than {reach}"
-    )
+    tolerance = f"{write(rung.tolerance)} {rung.unit.removesuffix('(A)')}"
+    verdict = f"{AGREES} within {tolerance}" if rung.verdict == AGREES else rung.verdict
     return (
         rung.quantity,
         rung.unit,

@@ -57,7 +57,7 @@ def test_chosen_samples_are_as_many_as_their_weights_say():
 
 
 def test_weights_far_from_the_data_count_relative_to_one_another():
-    """All samples 100 dB too loud: which is nearest is known; that none agrees is the conflict's."""
+    """All samples 100 dB too loud: that is for the conflict with the prior to say."""
 
     def far(batch, before, expected):
         near = by_gain(batch, before, expected)

@@ -11,6 +11,7 @@ from . import Section
 
 def _blocks(results: xr.Dataset) -> list[Block]:
     published = overall_noise(results)
+    discrepancy = assumptions.discrepancy_sentence(results)
     assumed, recorded = assumptions.assumed_count(results)
     return [
         Heading("What is not modelled"),
@@ -18,6 +19,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         *([Text(assumptions.structure_borne_sentence(results))] if published else []),
         Heading("The remainder"),
         Text(assumptions.remainder_sentence(results)),
+        *([Heading("Model discrepancy"), Text(discrepancy)] if discrepancy else []),
         Heading("Inputs"),
         Text(
             f"{assumed} of {recorded} recorded values are assumed; they come first. Where a range "
