@@ -124,6 +124,11 @@ def _levels(
             np.zeros((weight.size, 1)),
             {**bank, "drawn_parameter": ["gas.polytropic_index"]},
         ),
+        "drawn_value": stamp(
+            "drawn_value",
+            draws["draw"][:, None].astype(float),
+            {**draws, "drawn_parameter": ["gas.polytropic_index"]},
+        ),
         "source_band_level": stamp("source_band_level", band, {**by_source, "band": BANDS_HZ}),
     }
     published = 10.0 ** (PUBLISHED_DBA / 10.0)
