@@ -108,7 +108,9 @@ class Evidence:
         rng = np.random.default_rng((self.nominal.study.uncertainty.seed, number, PAIRS))
         weights = self.log_weights(sound, machine, number, data, self.published.priors)
         flat = weights.reshape(len(weights), -1)
-        cell = rng.permutation(systematic(np.exp(flat[0] - flat[0].max()), PAIRS, rng.uniform()))
+        order = rng.permutation(flat.shape[1])  # else the picks would follow the grid
+        weight = np.exp(flat[0, order] - flat[0].max())
+        cell = order[systematic(weight, PAIRS, rng.uniform())]
         index, level = np.divmod(cell, LEVELS_DB.size)
         within_step = rng.uniform(-0.5, 0.5, PAIRS)
         weight = np.exp(flat[:, cell] - flat[0, cell])
