@@ -279,9 +279,12 @@ def ensemble():
     return Prepared.of(chain, draws, made_up_sounds(keys, rng, len(draws)))
 
 
-@pytest.mark.parametrize("number", range(5))
+@pytest.mark.parametrize("number", range(4))
 def test_coverage_of_made_up_sources(ensemble, number):
-    """Machines that are each inferred without its own sample."""
+    """Machines that are each inferred without its own sample.
+
+    All 15 dB quieter is a row of the chain only: 2.5 deviations of the made-up gas.
+    """
     name, world = list(worlds_of(ensemble.worlds).items())[number]
     truths = ensemble.truths(ensemble.draws, ensemble.sounds, world)
     rng = np.random.default_rng(4)

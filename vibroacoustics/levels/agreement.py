@@ -23,7 +23,7 @@ from ..base.decibel import level_of_power, power_of_level
 from ..machine.remainder import OverallNoise, Remainder
 from .by_source import GAIN_BANDS
 
-LEVELS_DB: Final[Array] = np.arange(-40.0, 10.5, 1.0)
+LEVELS_DB: Final[Array] = np.linspace(-40.0, 10.0, 51, dtype=np.float64)
 """Levels of unmodelled noise relative to the published one."""
 
 
@@ -147,8 +147,8 @@ def log_weights(modelled: Array, unmodelled: Array, data: Sequence[Datum], prior
     weights = np.broadcast_to(prior.log_density, bands.shape[:2]).copy()
     for datum in data:
         weights += datum.log_likelihood(bands)
-    solved = np.isfinite(modelled).all(axis=1)[:, None] & ~np.isnan(weights)
-    return np.where(solved, weights, -np.inf)
+    weights[np.isnan(bands).any(axis=2)] = -np.inf
+    return weights
 
 
 def log_weight_of_points(over_db: Array, deviation_db: float, prior: Prior) -> Array:

@@ -12,6 +12,7 @@ from ..base.arrays import Array, IndexArray
 from ..base.vocabulary import stamped
 from ..levels.agreement import PRIOR_NAMES, effective_samples
 from ..levels.nominal import Sound
+from ..machine.machine import Machine
 from ..study.sampling import Draw
 from ..study.uncertainty import Range
 from .evidence import systematic
@@ -28,13 +29,14 @@ class Weighted(NamedTuple):
 
     Attributes
     ----------
-    sounds : at the cases that weigh, by sample
+    sounds, machines : of each sample, sounds at the cases that weigh
     modelled_db : modelled level relative to the published one, shape (sample,); not a number
         without a solution
     log_weight : by prior of the unmodelled noise, shape (prior, sample)
     """
 
     sounds: list[Sound]
+    machines: list[Machine]
     modelled_db: Array
     log_weight: Array
 
@@ -65,7 +67,8 @@ class Bank:
     def weight(self) -> Array:
         """Weights by prior, the largest of each is 1, shape (prior, sample)."""
         largest = self.batch.log_weight.max(axis=1, keepdims=True, initial=-np.inf)
-        return np.exp(self.batch.log_weight - np.where(np.isfinite(largest), largest, 0.0))
+        weight = np.exp(self.batch.log_weight - np.where(np.isfinite(largest), largest, 0.0))
+        return np.asarray(weight)
 
     @property
     def effective(self) -> float:
@@ -119,7 +122,7 @@ def bank_of(
     prior_names : of the unmodelled noise, that of the intervals first
     wanted : number of samples that shall be effective
     """
-    empty = Weighted([], np.zeros(0), np.zeros((len(prior_names), 0)))
+    empty = Weighted([], [], np.zeros(0), np.zeros((len(prior_names), 0)))
     bank = Bank([], empty, wanted, prior_names)
     for hypercube in islice(batches, MOST_ROUNDS):
         before = len(bank.draws)
@@ -128,6 +131,7 @@ def bank_of(
         further = weigh(batch, before, max(round(expected), before + len(batch) + 1))
         joined = Weighted(
             bank.batch.sounds + further.sounds,
+            bank.batch.machines + further.machines,
             np.concatenate([bank.modelled_db, further.modelled_db]),
             np.concatenate([bank.batch.log_weight, further.log_weight], axis=1),
         )

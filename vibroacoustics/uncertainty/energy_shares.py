@@ -13,7 +13,6 @@ from ..base.quantiles import weighted_quantiles
 from ..base.vocabulary import stamped
 from ..levels.agreement import Datum, effective_samples
 from ..levels.nominal import Sound
-from ..levels.remainder import unmodelled_bands
 from ..machine.machine import Machine
 from .conflict import QUANTILES
 from .evidence import PAIRS, Evidence, with_gain
@@ -59,14 +58,16 @@ def _of_data(
 ) -> tuple[Array, Array, float]:
     """Quantiles of the shares (part, quantile), probabilities of a majority, effective samples."""
     first = evidence.published.priors[:1]
-    rows = list(zip(sounds, machines, strict=True))
     log_weight = [
-        logsumexp(evidence.log_weights(sound, machine, number, data, first))
-        for number, (sound, machine) in enumerate(rows)
+        logsumexp(evidence.log_weights(*sample, number, data, first))
+        for number, sample in enumerate(zip(sounds, machines, strict=True))
     ]
     weight = before * np.exp(np.array(log_weight) - max(log_weight))
     counting = np.flatnonzero(weight > _LEAST_WEIGHT * weight.max())
-    shares = [_shares(evidence, *rows[number], number, data) for number in counting.tolist()]
+    shares = [
+        _shares(evidence, sounds[number], machines[number], number, data)
+        for number in counting.tolist()
+    ]
     of_pairs, by_pair = np.concatenate(shares), np.repeat(weight[counting], PAIRS)
     ends = weighted_quantiles(of_pairs, by_pair, QUANTILES).T
     majority = np.average(of_pairs > _HALF, axis=0, weights=by_pair)
@@ -78,9 +79,8 @@ def _shares(
 ) -> Array:
     """Shares of each source and of unmodelled noise, shape (pair, part)."""
     pairs, mutual = evidence.pairs(sound, machine, number, data), evidence.mutual(sound)
-    gain = evidence.discrepancy(number).gain[pairs.index]
+    gain = evidence.discrepancy(number).gain[pairs.discrepancy]
     alone = np.einsum("ksi,ssi->ks", gain, mutual)
-    unmodelled = unmodelled_bands(evidence.nominal.study, machine).sum()
-    rest = unmodelled * power_of_level(pairs.unmodelled_db)
+    rest = evidence.unmodelled(machine).sum() * power_of_level(pairs.unmodelled_db)
     total = with_gain(mutual, gain).sum(axis=1) + rest
-    return np.column_stack([alone, rest]) / total[:, None]
+    return np.asarray(np.column_stack([alone, rest]) / total[:, None])

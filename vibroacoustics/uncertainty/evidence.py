@@ -24,12 +24,12 @@ class Pairs(NamedTuple):
 
     Attributes
     ----------
-    index : of the discrepancy, shape (pair,)
+    discrepancy : its number, shape (pair,)
     unmodelled_db : level of unmodelled noise relative to the published one, shape (pair,)
     weight : relative to the first prior, shape (prior, pair)
     """
 
-    index: IndexArray
+    discrepancy: IndexArray
     unmodelled_db: Array
     weight: Array
 
@@ -65,6 +65,10 @@ class Evidence:
         receiver = list(self.nominal.axes.receivers).index(study.catalogue_receiver)
         return sound[study.catalogue_case].mutual[:, :, receiver]
 
+    def unmodelled(self, machine: Machine) -> Array:
+        """Unmodelled noise of a sample at the published level, A-weighted, shape (band,), Pa²."""
+        return unmodelled_bands(self.nominal.study, machine)
+
     def log_weights(
         self,
         sound: Sound,
@@ -85,7 +89,7 @@ class Evidence:
         """
         of_sample, study = self.discrepancy(number), self.nominal.study
         modelled = with_gain(self.mutual(sound), of_sample.gain)
-        unmodelled = unmodelled_bands(study, machine)
+        unmodelled = self.unmodelled(machine)
         weights = np.array([log_weights(modelled, unmodelled, data, prior) for prior in priors])
         if study.baseline is None or not self.nominal.points:
             return weights
@@ -111,10 +115,9 @@ class Evidence:
         order = rng.permutation(flat.shape[1])  # else the picks would follow the grid
         weight = np.exp(flat[0, order] - flat[0].max())
         cell = order[systematic(weight, PAIRS, rng.uniform())]
-        index, level = np.divmod(cell, LEVELS_DB.size)
-        within_step = rng.uniform(-0.5, 0.5, PAIRS)
-        weight = np.exp(flat[:, cell] - flat[0, cell])
-        return Pairs(index, LEVELS_DB[level] + within_step, weight)
+        discrepancy, level = np.divmod(cell, LEVELS_DB.size)
+        level_db = LEVELS_DB[level] + rng.uniform(-0.5, 0.5, PAIRS)  # within the step
+        return Pairs(discrepancy, level_db, np.exp(flat[:, cell] - flat[0, cell]))
 
 
 def systematic(weight: Array, count: int, start: float) -> IndexArray:
@@ -130,7 +133,7 @@ def systematic(weight: Array, count: int, start: float) -> IndexArray:
     """
     share = np.cumsum(weight) / weight.sum()
     picks = np.searchsorted(share, (np.arange(count) + start) / count)
-    return np.minimum(picks, share.size - 1)
+    return np.asarray(np.minimum(picks, share.size - 1))
 
 
 def with_gain(mutual: Array, gain: Array) -> Array:

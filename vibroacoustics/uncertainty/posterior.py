@@ -7,12 +7,11 @@ import numpy as np
 import xarray as xr
 from scipy.special import logsumexp
 
+from ..base.arrays import Array
 from ..base.decibel import power_of_level
 from ..base.progress import Progress
 from ..levels.agreement import LEVELS_DB
 from ..levels.nominal import Sound
-from ..levels.remainder import unmodelled_bands
-from ..machine.machine import Machine
 from ..study.draws import batches_of_draws, with_draw
 from ..study.sampling import Draw
 from .bank import Bank, Weighted, bank_of
@@ -52,23 +51,20 @@ def posterior(
 
     def weigh(batch: list[Draw], before: int, expected: int) -> Weighted:
         sounds = sounds_of(batch, before, expected)
-        weighted = [
-            logsumexp(
-                evidence.log_weights(
-                    sound, machine_of(evidence, draw), before + n, published.data, published.priors
-                ),
-                axis=(1, 2),
-            )
-            for n, (sound, draw) in enumerate(zip(sounds, batch, strict=True))
+        machines = [with_draw(study.machine, study.machine, sample) for sample in batch]
+        weights = [
+            evidence.log_weights(sound, machine, before + n, published.data, published.priors)
+            for n, (sound, machine) in enumerate(zip(sounds, machines, strict=True))
         ]
-        log_weight = np.reshape(weighted, (len(batch), -1)).T
+        log_weight = np.reshape([logsumexp(one, axis=(1, 2)) for one in weights], (len(batch), -1))
         if test is not None:
-            log_weight = log_weight + np.log(test.likelihood(before, len(batch)))
-        return Weighted(sounds, evidence.modelled_db(sounds), log_weight)
+            log_weight = log_weight + np.log(test.likelihood(before, len(batch)))[:, None]
+        return Weighted(sounds, machines, evidence.modelled_db(sounds), log_weight.T)
 
     ensemble = bank_of(batches, weigh, [prior.name for prior in published.priors], wanted)
     count = len(ensemble.draws)
-    results, before = ensemble.labelled(study.ranges, published.level_dba), np.ones(count)
+    results = ensemble.labelled(study.ranges, published.level_dba)
+    before: Array = np.ones(count)
     if test is not None and prior_db is not None:
         results = results.merge(test.labelled(prior_db + published.level_dba, count))
         before = test.likelihood(0, count)
@@ -76,31 +72,22 @@ def posterior(
     return ensemble, results.merge(_beside_data(evidence, ensemble, before))
 
 
-def machine_of(evidence: Evidence, sample: Draw) -> Machine:
-    """Machine of a sample."""
-    machine = evidence.nominal.study.machine
-    return with_draw(machine, machine, sample)
-
-
-def _beside_data(evidence: Evidence, ensemble: Bank, before: np.ndarray) -> xr.Dataset:
+def _beside_data(evidence: Evidence, ensemble: Bank, before: Array) -> xr.Dataset:
     """Conflict of the prior with the data, and shares of the energy; empty without data."""
-    study, published = evidence.nominal.study, evidence.published
-    solved = np.flatnonzero(np.isfinite(ensemble.modelled_db))
+    published, (sounds, machines, modelled_db, _) = evidence.published, ensemble.batch
+    solved = np.flatnonzero(np.isfinite(modelled_db))
     if not published.data or not solved.size:
         return xr.Dataset()
-    generator = np.random.default_rng(study.uncertainty.seed)
-    machines = [machine_of(evidence, sample) for sample in ensemble.draws]
-    unmodelled_db = generator.choice(
-        LEVELS_DB, solved.size, p=np.exp(published.priors[0].log_density)
-    )
+    generator = np.random.default_rng(evidence.nominal.study.uncertainty.seed)
+    prior = np.exp(published.priors[0].log_density)
+    power = power_of_level(generator.choice(LEVELS_DB, len(sounds), p=prior))
     bands = np.array(
         [
-            evidence.mutual(ensemble.batch.sounds[number]).sum(axis=(0, 1))
-            + power_of_level(level_db) * unmodelled_bands(study, machines[number])
-            for number, level_db in zip(solved.tolist(), unmodelled_db.tolist(), strict=True)
+            evidence.mutual(sound).sum(axis=(0, 1)) + factor * evidence.unmodelled(machine)
+            for sound, factor, machine in zip(sounds, power.tolist(), machines, strict=True)
         ]
     )
-    conflict = conflict_variables(published.data, bands, before[solved], generator)
+    conflict = conflict_variables(published.data, bands[solved], before[solved], generator)
     if not ensemble.suffices:
         return conflict
-    return conflict.merge(energy_shares(evidence, ensemble.batch.sounds, machines, before))
+    return conflict.merge(energy_shares(evidence, sounds, machines, before))

@@ -16,7 +16,6 @@ from .bank import Bank
 from .draws import drawn_values
 from .evidence import PAIRS, Evidence
 from .first_order import first_order_by_draw
-from .posterior import machine_of
 from .share_variables import change_shares
 
 
@@ -46,19 +45,17 @@ def sample_variables(
     of_sample = first_order_by_draw(first_order, results)
     of_sample = of_sample.merge(drawn_values(study.ranges, samples))
     heard, machines, levels_db, weights = [], [], [], []
-    for number, count, sample, sound in zip(*map(list, chosen), samples, sounds, strict=True):
-        machine = machine_of(evidence, sample)
+    for number, count, sound in zip(*map(list, chosen), sounds, strict=True):
+        machine = ensemble.batch.machines[number]
         pairs = evidence.pairs(ensemble.batch.sounds[number], machine, number, published.data)
-        heard += evidence.discrepancy(number).some(pairs.index).heard(sound)
+        heard += evidence.discrepancy(number).some(pairs.discrepancy).heard(sound)
         machines += [machine] * PAIRS
         levels_db.append(pairs.unmodelled_db)
         weights.append(count * pairs.weight)
     weight = np.concatenate(weights, axis=1)
     weight = weight / weight.sum(axis=1, keepdims=True)
-    rest = np.zeros(len(heard))
-    if published.data:
-        rest = power_of_level(published.level_dba + np.concatenate(levels_db))
-        rest *= REFERENCE_PRESSURE_PA**2
+    level_db = published.level_dba + np.concatenate(levels_db)
+    rest = REFERENCE_PRESSURE_PA**2 * power_of_level(level_db) * bool(published.data)
     residual = remaining_by_draw(study, axes, heard, machines, rest)
     levels = draw_variables(axes, heard, residual, rest, weight, ensemble.prior_names)
     repeated = of_sample.isel(draw=np.repeat(np.arange(len(samples)), PAIRS))

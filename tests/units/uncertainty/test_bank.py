@@ -27,12 +27,14 @@ def by_gain(batch, before, expected):
     assert expected > before + len(batch)
     gain = np.array([draw["variation", "mobility_change_db"] for draw in batch])
     near = -0.5 * (gain / 2.0) ** 2
-    return Weighted([{}] * len(batch), gain, np.array([near, near - 0.1 * gain]))
+    return Weighted(
+        [{}] * len(batch), [None] * len(batch), gain, np.array([near, near - 0.1 * gain])
+    )
 
 
 def without_solution(batch, *_):
     none = np.full((2, len(batch)), -np.inf)
-    return Weighted([{}] * len(batch), np.full(len(batch), np.nan), none)
+    return Weighted([{}] * len(batch), [None] * len(batch), np.full(len(batch), np.nan), none)
 
 
 def test_samples_are_added_until_enough_are_effective():

@@ -41,7 +41,8 @@ def test_level_shares_before_and_after(study, draws):
     """The level is the gain, and the mounts' a little; without enough weight only before."""
     level = 10.0 * position(study, draws, GAIN) + 3.0 * position(study, draws, PITCH)
     alike, few = (
-        Bank(draws, Weighted([], level, np.full((2, DRAWS), one)), DRAWS) for one in (0.0, -np.inf)
+        Bank(draws, Weighted([], [], level, np.full((2, DRAWS), one)), DRAWS)
+        for one in (0.0, -np.inf)
     )
     labelled = level_shares(study.ranges, alike, np.ones(DRAWS))
     for knowledge in ("before", "flat", "near"):
