@@ -2,11 +2,9 @@
 
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from vibroacoustics.levels.axes import LevelAxes
 from vibroacoustics.levels.nominal import NominalSound
-from vibroacoustics.levels.remainder import over_published, remaining_by_draw
+from vibroacoustics.levels.remainder import over_published
 from vibroacoustics.machine.cases import Cases
 from vibroacoustics.stages.chain import Chain
 from vibroacoustics.stages.forces import with_published
@@ -14,6 +12,7 @@ from vibroacoustics.stages.radiation import transfer_vectors
 from vibroacoustics.stages.sampled import sounds_of
 from vibroacoustics.stages.stage import advanced, applying
 from vibroacoustics.study.draws import batches_of_draws
+from vibroacoustics.transfer.received import Transmission
 
 
 @dataclass(frozen=True)
@@ -29,7 +28,11 @@ class DrawnChain:
         stages = [stage.name for stage in applying(study)]
         for stage in applying(study)[: stages.index("levels") + 1]:
             chain = advanced(chain, stage)
-        return cls(with_published(chain))
+        nominal = chain[NominalSound]
+        row = nominal.axes.receivers.index(study.catalogue_receiver)
+        axes = replace(nominal.axes, receivers=[study.catalogue_receiver])
+        heard = chain.having(chain[Transmission].to([row]), replace(nominal, axes=axes))
+        return cls(with_published(heard))
 
     @property
     def study(self):
@@ -41,9 +44,10 @@ class DrawnChain:
         """Axes of the levels."""
         return self.chain[NominalSound].axes
 
-    def hypercube(self, count):
+    def hypercube(self, count, seed=6):
         """As many samples of all ranges, less those that contradict themselves."""
-        settings = self.study.uncertainty.model_copy(update={"random_samples": count})
+        update = {"random_samples": count, "seed": seed}
+        settings = self.study.uncertainty.model_copy(update=update)
         return next(batches_of_draws(self.study.model_copy(update={"uncertainty": settings})))
 
     def modelled_db(self, draws):
@@ -52,14 +56,9 @@ class DrawnChain:
         sounds = self._sounds(draws, [key])
         return over_published(self.study, self.axes, sounds)
 
-    def mean_squares(self, draws):
-        """Modelled mean squares and the remainder's factors, each (sample, speed, option)."""
-        sounds = self._sounds(draws, list(self.chain[Cases].cases))
-        receiver = list(self.axes.receivers).index(self.study.catalogue_receiver)
-        part = [self.axes.gathered(one, "part")[:, :, 0].sum(axis=2) for one in sounds]
-        one = np.ones(len(draws))
-        factor = remaining_by_draw(self.study, self.axes, sounds, draws, one)[..., 0]
-        return np.array(part)[..., receiver], factor
+    def sounds(self, draws):
+        """Sound of every case at the published level's receiver, by sample."""
+        return self._sounds(draws, list(self.chain[Cases].cases))
 
     def _sounds(self, draws, keys):
         of, nominal = self.chain[Cases], self.chain[NominalSound]

@@ -16,6 +16,10 @@ from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.study import Study
 from vibroacoustics.transfer.path import ShellPath
 
+NO_DISCREPANCY = {
+    f"uncertainty.{name}_deviation_db": 0.0 for name in ("path", "source", "band", "added")
+}
+"""Samples whose model is right but for the values of their ranges."""
 SOURCES_STUDY = ROOT / "tests" / "studies" / "sources_made_up.toml"
 
 

@@ -10,7 +10,15 @@ from test_report_sources import PUBLISHED_DBA, energy, with_parameters, with_sou
 
 from vibroacoustics.base.vocabulary import stamp
 from vibroacoustics.report import render
-from vibroacoustics.report.evidence import evidence_table, rungs
+from vibroacoustics.report.evidence import (
+    AGREES,
+    DIFFERS,
+    UNDECIDED,
+    Rung,
+    agreement_sentence,
+    evidence_table,
+    rungs,
+)
 
 SOURCE = "Thesis, page 1"
 FORCE = {"part": "oldham", "proportional_to": "ring.mass_kg ring.stroke_mm", "source": SOURCE}
@@ -66,16 +74,41 @@ def test_the_level_is_that_of_the_sources_with_the_spread_before_any_data(
     assert level.error == pytest.approx(level.simulation - PUBLISHED_DBA)
 
 
+def test_no_row_tests_a_range_against_the_data_that_made_it(results: xr.Dataset) -> None:
+    """The range of the growth with speed comes from other makers' levels at two speeds."""
+    assert [rung.quantity.split()[0] for rung in rungs(results)] == ["Level", "Force", "Force"]
+
+
+@pytest.mark.parametrize(
+    ("error", "uncertainty", "verdict"),
+    [
+        (1.7, 2.0, AGREES),  # 1.7 + 1.64 · 2.0 = 4.98
+        (-1.7, 2.0, AGREES),
+        (1.8, 2.0, UNDECIDED),
+        (5.5, 5.9, UNDECIDED),
+        (3.9, 2.0, UNDECIDED),
+        (-4.1, 2.0, DIFFERS),
+        (0.0, 3.1, UNDECIDED),
+        (4.0, 0.5, AGREES),  # 8 deviations off, but within the tolerance
+    ],
+)
+def test_levels_agree_within_five_decibels_differ_or_are_undecided(
+    error: float, uncertainty: float, verdict: str
+) -> None:
+    rung = Rung("Level", "dB(A)", 56.0 + error, 56.0, 0.0, uncertainty, 0.0, "maker")
+    assert rung.verdict == verdict
+
+
 def test_a_force_follows_the_ranges_that_it_is_proportional_to(results: xr.Dataset) -> None:
     near, far = rungs(results)[1:]  # that at 1000 rpm has no result
     assert near.simulation == pytest.approx(45.0)
     assert near.inputs == pytest.approx(45.0 * (2.0 / np.sqrt(12.0)) / 2.0)
     assert near.uncertainty == pytest.approx(np.hypot(near.inputs, 5.0))
-    assert near.agrees  # |-15| within twice 13.9
-    assert not far.agrees  # |-65| beyond
+    assert near.tolerance == pytest.approx(6.0)
+    assert near.verdict == UNDECIDED  # |-15| within twice 13.9
+    assert far.verdict == DIFFERS  # |-65| beyond
     rows = evidence_table(results).rows
-    assert rows[1][9].startswith("agrees: no error above 27.")
-    assert rows[2][9].startswith("differs by more than 27.")
+    assert [row[9] for row in rows[1:]] == [UNDECIDED, DIFFERS]
     assert rows[2][4] == "−65.0"
 
 
@@ -89,4 +122,11 @@ def test_without_any_more_the_catalogue_level_stands_alone() -> None:
     (level,) = rungs(make_results({"none": 1.0, "halved": 0.5}))
     assert "moving parts" in level.quantity
     assert level.inputs == 0.0
-    assert not level.agrees  # the rigid machine's orders are no machine's level
+    assert level.verdict == DIFFERS  # the rigid machine's orders are no machine's level
+
+
+def test_the_sentence_says_how_far_the_level_is_from_the_published_one(results: xr.Dataset) -> None:
+    text = agreement_sentence(results)
+    assert "is too uncertain to be compared with the published 56.0 dB(A)" in text
+    level = rungs(results)[0]
+    assert f"u = {level.uncertainty:.1f} dB" in text

@@ -124,6 +124,11 @@ def _levels(
             np.zeros((weight.size, 1)),
             {**bank, "drawn_parameter": ["gas.polytropic_index"]},
         ),
+        "drawn_value": stamp(
+            "drawn_value",
+            draws["draw"][:, None].astype(float),
+            {**draws, "drawn_parameter": ["gas.polytropic_index"]},
+        ),
         "source_band_level": stamp("source_band_level", band, {**by_source, "band": BANDS_HZ}),
     }
     published = 10.0 ** (PUBLISHED_DBA / 10.0)
@@ -144,9 +149,7 @@ def _levels(
     arrays["level_modelled"] = stamp("level_modelled", of_all, weighted)
     arrays["level_total"] = stamp("level_total", 10.0 * np.log10(total), place)
     remainder = 10.0 * np.log10(np.maximum(rest[:, 0, 0, 0], 1e-30))
-    arrays["level_remainder_by_draw"] = stamp(
-        "level_remainder_by_draw", [remainder, remainder], {**PRIORS, **draws}
-    )
+    arrays["level_remainder_by_draw"] = stamp("level_remainder_by_draw", remainder, draws)
     arrays["level_remainder"] = stamp(
         "level_remainder", 10.0 * np.log10(np.maximum(left, 1e-30)).item()
     )
@@ -527,7 +530,7 @@ def test_what_is_not_modelled_follows_the_study(results: xr.Dataset) -> None:
     assert "The shell is rigid" not in inside
     for word in ("bearings", "flanks", "oil", "pipes", "floor"):
         assert word in inside
-    rest = np.sort(results["level_remainder_by_draw"].values[0, : len(OF_DRAW)])
+    rest = np.sort(results["level_remainder_by_draw"].values[: len(OF_DRAW)])
     assert f"{rest[1]:.1f} to {rest[9]:.1f} dB(A)" in remainder_sentence(results)
 
 

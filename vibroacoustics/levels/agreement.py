@@ -1,57 +1,65 @@
-"""How well a draw agrees with the published level, and what remainder it then leaves.
+"""Published data as evidence: how well a sample agrees with them, whatever the unmodelled noise is.
 
-The level of the whole machine is that of what is modelled and of a remainder of unknown level r. A
-draw counts by its likelihood, in which the remainder is averaged over its prior p(r):
+The machine's A-weighted bands are those of all modelled sources, M, and of unmodelled noise of
+unknown level r. A sample and its discrepancy k count by
 
-    w = ∫ p(r) φ((L_published - L(m + r)) / s) dr
+    w(k, r) = p(r) Π φ((predicted(M(k) + U(r)) - published) / s)
 
-with s the standard deviation of the published level and φ the normal density over its largest
-value, so that w is 1 at best; its remainder has the density p(r) φ(...) / w. No draw is cut off.
+over all data, with p the prior of r on a grid of 1 dB, and φ the normal density over its largest
+value.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Final
 
 import numpy as np
+from scipy.special import logsumexp
 
 from ..base.arrays import Array
+from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import level_of_power, power_of_level
-from ..machine.remainder import Remainder
+from ..machine.remainder import OverallNoise, Remainder
+from .by_source import GAIN_BANDS
 
-_BELOW_DB: Final[Array] = np.linspace(-40.0, 10.0, 1001, dtype=np.float64)
-"""Levels of the remainder over the published one, at which the integral is summed."""
-_THREE_DEVIATIONS: Final = float(np.exp(-4.5))
-"""φ there."""
+LEVELS_DB: Final[Array] = np.linspace(-40.0, 10.0, 51, dtype=np.float64)
+"""Levels of unmodelled noise relative to the published one."""
 
 
 @dataclass(frozen=True)
 class Prior:
-    """What is held of the remainder before anything is computed.
+    """Prior of the level of unmodelled noise.
 
     Attributes
     ----------
-    name : as the results have it
-    words : of it, after "a remainder"
-    density : of its level over the published one, dB, of any size
+    name : in the results
+    words : after "a remainder"
+    density : at levels relative to the published one, dB, of any scale
     """
 
     name: str
     words: str
     density: Callable[[Array], Array]
 
+    @property
+    def log_density(self) -> Array:
+        """Logarithm of the density at `LEVELS_DB`, whose sum is one."""
+        density = self.density(LEVELS_DB)
+        with np.errstate(divide="ignore"):
+            return np.asarray(np.log(density / density.sum()))
+
 
 PRIOR_NAMES: Final = ("flat", "near")
-"""The first one is that of the bands; the others tell how much they hang on it."""
+"""The first one is that of all intervals; the second one shows how much they depend on it."""
 
 
 ALL_ALIKE: Final = Prior("even", "of none, as no level is published", np.ones_like)
-"""Where nothing is published that weighs draws."""
+"""Where no published datum weighs samples."""
 
 
 def priors_of(remainder: Remainder) -> tuple[Prior, ...]:
-    """The priors of a machine's remainder, in the order of their names."""
+    """Return the priors of a machine's unmodelled noise, in the order of their names."""
     lowest, highest = remainder.flat_lowest_db, remainder.flat_highest_db
     near, deviation = remainder.near_level_db, remainder.near_deviation_db
     flat = f"anywhere from {_beside(lowest)} to {_beside(highest)} the published level"
@@ -72,61 +80,96 @@ def _near(mean_db: float, deviation_db: float, level_db: Array) -> Array:
     return np.asarray(np.exp(-0.5 * ((level_db - mean_db) / deviation_db) ** 2))
 
 
-def agreement(modelled_db: Array, deviation_db: float, prior: Prior) -> Array:
-    """Weights of draws, shape (draw,), from 0 to 1; 0 where one has no solution.
+@dataclass(frozen=True)
+class Datum:
+    """A published figure of the machine.
+
+    Attributes
+    ----------
+    name : in the results
+    value, deviation : published value and its standard deviation
+    predicted : the figure from A-weighted `GAIN_BANDS` of the machine, (..., band) to (...), Pa²
+    """
+
+    name: str
+    value: float
+    deviation: float
+    predicted: Callable[[Array], Array]
+
+    def log_likelihood(self, bands: Array) -> Array:
+        """Logarithm of the likelihood of bands (..., band), at best 0, shape (...)."""
+        return np.asarray(-0.5 * ((self.predicted(bands) - self.value) / self.deviation) ** 2)
+
+
+LEVEL: Final = "level"
+SHARE: Final = "spectral share"
+
+
+def data_of(noise: OverallNoise | None) -> tuple[Datum, ...]:
+    """Return the published data of a machine, its level first."""
+    if noise is None:
+        return ()
+    level = Datum(LEVEL, noise.level_dba, noise.deviation_db, _level)
+    share = noise.spectral_share
+    if share is None:
+        return (level,)
+    predicted = partial(_share, _part_below(share.below_hz))
+    return (level, Datum(SHARE, share.share_ratio, share.deviation_ratio, predicted))
+
+
+def _level(bands: Array) -> Array:
+    return level_of_power(bands.sum(axis=-1) / REFERENCE_PRESSURE_PA**2)
+
+
+def _share(below: Array, bands: Array) -> Array:
+    total = bands.sum(axis=-1)
+    return np.asarray(bands @ below / np.where(total > 0.0, total, 1.0))
+
+
+def _part_below(frequency_hz: float) -> Array:
+    """Part of each of `GAIN_BANDS` below a frequency, on the logarithm of frequency."""
+    edges = np.log([(band.lower_hz, band.upper_hz) for band in GAIN_BANDS])
+    below = (np.log(frequency_hz) - edges[:, 0]) / (edges[:, 1] - edges[:, 0])
+    return np.asarray(np.clip(below, 0.0, 1.0))
+
+
+def log_weights(modelled: Array, unmodelled: Array, data: Sequence[Datum], prior: Prior) -> Array:
+    """Logarithm of prior times likelihood, shape (discrepancy, level of unmodelled noise).
 
     Parameters
     ----------
-    modelled_db : what is modelled over the published level, shape (draw,); not a number where a
-        draw has no solution
-    deviation_db : standard deviation of the published level
-    prior : of the remainder
+    modelled : A-weighted bands of all modelled sources, shape (discrepancy, band), Pa²
+    unmodelled : the same of unmodelled noise at the published level, shape (band,), Pa²
+    data : that weigh the sample
+    prior : of the level of unmodelled noise
     """
-    density = _density(modelled_db, deviation_db, prior)
-    return np.asarray(np.nan_to_num(density.sum(axis=1) / prior.density(_BELOW_DB).sum()))
+    bands = modelled[:, None] + power_of_level(LEVELS_DB)[:, None] * unmodelled
+    weights = np.broadcast_to(prior.log_density, bands.shape[:2]).copy()
+    for datum in data:
+        weights += datum.log_likelihood(bands)
+    weights[np.isnan(bands).any(axis=2)] = -np.inf
+    return weights
 
 
-def agreement_of_points(over_db: Array, deviation_db: float, prior: Prior) -> Array:
-    """Geometric mean of the weights of draws at several points, shape (draw,), from 0 to 1.
+def log_weight_of_points(over_db: Array, deviation_db: float, prior: Prior) -> Array:
+    """Mean of the logarithms of the weights at several measured points, shape (sample,).
 
-    Levels of one machine at several microphones and speeds are off together, by how much of them
-    is not known: their likelihoods to the power of one over their number count as one measurement
+    Levels of one machine at several microphones and speeds deviate together, by an unknown amount:
+    their likelihoods to the power of one over their number count as one measurement
     (composite likelihood: Varin, Reid and Firth 2011, Statistica Sinica 21, 5).
 
     Parameters
     ----------
-    over_db : what is modelled over each measured level, shape (point, draw)
-    deviation_db, prior : as of `agreement`
+    over_db : modelled relative to each measured level, shape (point, sample)
+    deviation_db : standard deviation of these levels
+    prior : of the level of unmodelled noise, relative to each measured one
     """
-    weights = np.array([agreement(one, deviation_db, prior) for one in over_db])
-    return np.asarray(np.prod(weights ** (1.0 / len(over_db)), axis=0))
+    power = power_of_level(over_db)[..., None] + power_of_level(LEVELS_DB)
+    log_likelihood = -0.5 * (level_of_power(power) / deviation_db) ** 2
+    weights = logsumexp(prior.log_density + log_likelihood, axis=-1).mean(axis=0)
+    return np.where(np.isnan(weights), -np.inf, weights)
 
 
-def remainder_level(modelled_db: Array, deviation_db: float, prior: Prior, share: Array) -> Array:
-    """Level of each draw's remainder over the published one, shape (draw,), dB.
-
-    Parameters
-    ----------
-    modelled_db, deviation_db, prior : as of `agreement`
-    share : of the density of each draw's remainder that lies below it, shape (draw,), from 0 to 1
-    """
-    rising = np.cumsum(np.nan_to_num(_density(modelled_db, deviation_db, prior)), axis=1)
-    below = rising <= share[:, None] * rising[:, -1:]
-    return np.asarray(_BELOW_DB[np.minimum(below.sum(axis=1), _BELOW_DB.size - 1)])
-
-
-def effective_draws(weight: Array) -> float:
-    """Number of equal draws that would be as good: (Σ w)² / Σ w² (Kish 1965).
-
-    Draws that all contradict the published level alike are no good: only those within three
-    deviations of it count.
-    """
-    agree = weight[weight >= _THREE_DEVIATIONS]
-    return float(agree.sum() ** 2 / (agree**2).sum()) if agree.size else 0.0
-
-
-def _density(modelled_db: Array, deviation_db: float, prior: Prior) -> Array:
-    """Prior times likelihood, shape (draw, level)."""
-    power = power_of_level(modelled_db)[:, None] + power_of_level(_BELOW_DB)
-    off = level_of_power(power) / deviation_db
-    return np.asarray(prior.density(_BELOW_DB) * np.exp(-0.5 * off**2))
+def effective_samples(weight: Array) -> float:
+    """Number of equal samples of the same worth: (Σ w)² / Σ w² (Kish 1965)."""
+    return float(weight.sum() ** 2 / (weight**2).sum()) if np.any(weight > 0.0) else 0.0

@@ -107,8 +107,8 @@ def over_baseline(
     none = sound[key[1], REFERENCE_OPTION]
     of_bands, of_orders = _a_weight(MIDDLE_HZ[point.band]), _a_weight(point.frequency_hz)
     chosen = _columns(axes, point)
-    modelled = none.beside[column, point.band] @ of_bands
-    modelled += 0.5 * np.abs(none.order[column, chosen]) ** 2 @ of_orders
+    modelled = none.beside_total[column, point.band] @ of_bands
+    modelled += 0.5 * np.abs(none.order_total[column, chosen]) ** 2 @ of_orders
     measured = point.rest @ of_bands + 0.5 * np.abs(point.peak) ** 2 @ of_orders
     if np.isnan(modelled):
         return float("nan")
@@ -172,18 +172,20 @@ def _changed(
     column, chosen = axes.receivers.index(key[0]), _columns(axes, point)
     cases = [sound[key[1], option] for option in axes.options]
     none = cases[list(axes.options).index(REFERENCE_OPTION)]
-    beside = np.array([case.beside[column, point.band] for case in cases])
-    order = np.array([case.order[column, chosen] for case in cases])
+    beside = np.array([case.beside_total[column, point.band] for case in cases])
+    order = np.array([case.order_total[column, chosen] for case in cases])
     losses = [study.options[name].insertion_loss() for name in axes.options]
     middle_hz, hertz = MIDDLE_HZ[point.band], point.frequency_hz
     by_band = [1.0 if one is None else one.power_factor(middle_hz) for one in losses]
     by_order = [1.0 if one is None else one.amplitude_factor(hertz) for one in losses]
-    rest = left_of_squares(point.rest, none.beside[column, point.band])
+    rest = left_of_squares(point.rest, none.beside_total[column, point.band])
     factor = np.array([one * np.ones(hertz.size) for one in by_order])
     return Changed(
         np.array([rest * one for one in by_band]),
         beside,
-        changed_orders(point.peak, none.order[column, chosen], order, factor, point.has_phase),
+        changed_orders(
+            point.peak, none.order_total[column, chosen], order, factor, point.has_phase
+        ),
         0.5 * np.abs(order) ** 2,
     )
 

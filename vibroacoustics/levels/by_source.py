@@ -6,14 +6,19 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from ..base.arrays import Array, ComplexArray
+from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.decibel import power_of_level
 from ..base.vocabulary import WEIGHTINGS
+from ..mechanics.added import third_octave_number
 from ..mechanics.received_sound import NoisePower, ReceivedSound
+from ..study.baseline import HIGHEST_HZ, LOWEST_HZ
 from .bands import Band, bands_between
 from .weighting import WEIGHTING
 
 LOWEST_BAND_HZ: Final = 20.0
+GAIN_BANDS: Final = bands_between(3, LOWEST_HZ, HIGHEST_HZ)
+"""Third octaves of discrepancies and of a baseline; the first and last hold what lies outside."""
+_NO_BANDS: Final[Array] = np.zeros((1, 1, 1, 0))
 A_FIRST: Final = tuple(sorted(WEIGHTINGS, key=lambda name: name != "A"))
 """Weightings of the totals of a study."""
 
@@ -35,17 +40,20 @@ class SourceSound:
     alone : A-weighted, of each source alone, shape (source, receiver), Pa²
     part : what each source adds to the total by weighting, shape (weighting, source, receiver),
         Pa²; where lines of two sources cancel a part can be negative. The sum is the total
-    order : shaft orders that were measured, of all sources together, complex peaks, shape
-        (receiver, order), Pa
-    beside : of all sources without these orders in the bands of a baseline, shape (receiver,
-        band), Pa²
+    mutual : A-weighted mean squares of each pair of sources in `GAIN_BANDS`, half the real part
+        of p q*, whose sum is the total, shape (source, source, receiver, gain band), Pa²
+    order : shaft orders that were measured, complex peaks, shape (source, receiver, order), Pa
+    order_hz : of these orders, shape (order,)
+    beside : as `mutual`, without weighting and these orders, Pa²; empty without a baseline
     """
 
     band: Array
     alone: Array
     part: Array
-    order: ComplexArray = field(default_factory=lambda: np.zeros((1, 0), dtype=complex))
-    beside: Array = field(default_factory=lambda: np.zeros((1, 0)))
+    mutual: Array = field(default_factory=lambda: _NO_BANDS)
+    order: ComplexArray = field(default_factory=lambda: np.zeros((1, 1, 0), dtype=complex))
+    order_hz: Array = field(default_factory=lambda: np.zeros(0))
+    beside: Array = field(default_factory=lambda: _NO_BANDS)
 
     @property
     def unknown(self) -> "SourceSound":
@@ -56,6 +64,46 @@ class SourceSound:
     def total(self) -> Array:
         """Mean square of all sources together by weighting, shape (weighting, receiver), Pa²."""
         return np.asarray(self.part.sum(axis=1))
+
+    @property
+    def order_total(self) -> ComplexArray:
+        """Measured orders of all sources together, complex peaks, (receiver, order), Pa."""
+        return np.asarray(self.order.sum(axis=0))
+
+    @property
+    def beside_total(self) -> Array:
+        """Mean squares of all sources without these orders, (receiver, band), Pa²."""
+        return np.asarray(self.beside.sum(axis=(0, 1)))
+
+    @property
+    def energy(self) -> Array:
+        """A-weighted mean squares of each source alone, shape (source, receiver, gain band)."""
+        return np.asarray(np.einsum("ssri->sri", self.mutual))
+
+    def scaled(self, gain: Array) -> "SourceSound":
+        """Return the sound with sources that are louder by factors on their power.
+
+        Phases stay: mutual terms of two sources change by the root of both factors.
+
+        Parameters
+        ----------
+        gain : shape (source, receiver, gain band)
+        """
+        root = np.sqrt(gain)
+        mutual = np.einsum("sri,tri,stri->sr", root, root, self.mutual)
+        alone = np.einsum("sri,sri->sr", gain, self.energy)
+        scaled = SourceSound(self.band, alone, mutual[None])
+        if not self.beside.size:
+            return scaled
+        order = self.order * root[..., gain_band_number(self.order_hz)]
+        return replace(scaled, order=order, beside=root[:, None] * root * self.beside)
+
+
+def gain_band_number(frequency_hz: Array) -> IndexArray:
+    """Column of `GAIN_BANDS` that holds a frequency, or the nearest one, shape (frequency,)."""
+    lowest = third_octave_number(np.array(GAIN_BANDS[0].middle_hz))
+    number = third_octave_number(frequency_hz) - lowest
+    return np.asarray(np.clip(number, 0, len(GAIN_BANDS) - 1).astype(np.intp))
 
 
 def filled_thirds(maximum_frequency_hz: float) -> tuple[Band, ...]:
@@ -81,17 +129,30 @@ def sound_by_source(
         return sound
     column = {name: number for number, name in enumerate(received.lines.names)}
     lines = [column.get(f"order {order:g}") for order in measured.orders]
-    order = np.zeros((received.pressure.shape[1], len(lines)), dtype=complex)
+    order = np.zeros((*received.pressure.shape[:2], len(lines)), dtype=complex)
+    order_hz = np.zeros(len(lines))
     for number, line in enumerate(lines):
         if line is not None:
-            order[:, number] = received.pressure[..., line].sum(axis=0)
+            order[..., number], order_hz[number] = received.pressure[..., line], hertz[line]
     others = hertz > 0.0
     others[[line for line in lines if line is not None]] = False
-    square = 0.5 * np.abs(received.pressure[..., others].sum(axis=0)) ** 2
-    beside = square @ membership(hertz[others], measured.bands)
+    beside = mutual_power(received.pressure[..., others]) @ membership(
+        hertz[others], measured.bands
+    )
     for random in received.noise:
-        beside += random.power @ membership(random.frequency_hz, measured.bands)
-    return replace(sound, order=order, beside=beside)
+        of_noise = random.power @ membership(random.frequency_hz, measured.bands)
+        beside[random.source, random.source] += of_noise
+    return replace(sound, order=order, order_hz=order_hz, beside=beside)
+
+
+def mutual_power(pressure: ComplexArray) -> Array:
+    """Half the real part of p q* of each pair of sources, shape (source, source, ...).
+
+    Parameters
+    ----------
+    pressure : complex peaks, shape (source, ...)
+    """
+    return np.asarray(0.5 * (pressure[:, None] * pressure[None].conj()).real)
 
 
 def source_sound(
@@ -112,11 +173,12 @@ def source_sound(
     weightings : of the totals, A first
     """
     alone = 0.5 * np.abs(pressure) ** 2
-    shared = 0.5 * (pressure * pressure.sum(axis=0).conj()).real
+    pairs = mutual_power(pressure)
     audible = frequency_hz > 0.0
     weight = np.stack([weighting_power(name, frequency_hz) * audible for name in weightings])
     band = alone @ membership(frequency_hz, bands)
-    weighted, part = alone @ weight[0], np.moveaxis(shared @ weight.T, -1, 0)
+    weighted, part = alone @ weight[0], np.moveaxis(pairs.sum(axis=1) @ weight.T, -1, 0)
+    mutual = pairs @ (_in_gain_band(frequency_hz) * weight[0][:, None])
     for random in noise:
         band[random.source] += random.power @ membership(random.frequency_hz, bands)
         loud = np.stack(
@@ -124,7 +186,15 @@ def source_sound(
         )
         weighted[random.source] += loud[0]
         part[:, random.source] += loud
-    return SourceSound(band, weighted, part)
+        a_weight = weighting_power("A", random.frequency_hz)[:, None]
+        in_band = _in_gain_band(random.frequency_hz) * a_weight
+        mutual[random.source, random.source] += random.power @ in_band
+    return SourceSound(band, weighted, part, mutual)
+
+
+def _in_gain_band(frequency_hz: Array) -> Array:
+    """1 in the gain band of a frequency, shape (frequency, gain band)."""
+    return np.eye(len(GAIN_BANDS))[gain_band_number(frequency_hz)]
 
 
 def weighting_power(weighting: str, frequency_hz: Array) -> Array:

@@ -105,7 +105,7 @@ def draw_variables(
     sounds : of every case, by draw
     remaining : mean square that each draw leaves unexplained, Pa², shape (draw, speed, option,
         receiver)
-    remainder : the same at the published point without an option, shape (prior, draw), Pa²
+    remainder : the same at the published point without an option, shape (draw,), Pa²
     weight : of the draws, shape (prior, draw)
     prior_names : of the remainder
     """

@@ -11,10 +11,11 @@ from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import amplitude_of_level, power_of_level
 from ..base.units import shaft_frequency_hz
 from ..mechanics.added import third_octave_number
-from ..study.baseline import HIGHEST_HZ, LOWEST_HZ, Baseline, BaselineOrders
+from ..study.baseline import Baseline, BaselineOrders
 from .bands import bands_between
+from .by_source import GAIN_BANDS
 
-BASELINE_BANDS: Final = bands_between(3, LOWEST_HZ, HIGHEST_HZ)
+BASELINE_BANDS: Final = GAIN_BANDS
 """Third octaves that a baseline may have."""
 REMAINDER_BANDS: Final = bands_between(3, 25.0, 10000.0)
 """Third octaves of the remainder, where no baseline stands."""

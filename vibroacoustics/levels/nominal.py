@@ -1,6 +1,6 @@
 """Sound and levels of a study with the nominal values."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,8 +18,7 @@ from .continuous import noise_levels
 from .labelled import level_variables
 from .lines import line_pressure
 from .measured_points import BASELINE_BANDS, MeasuredPoint, PointKey, evidence
-from .published import published_of
-from .remainder import over_published, remainder, remaining
+from .remainder import remainder, remaining
 
 Sound = dict[CaseKey, SourceSound]
 
@@ -57,29 +56,10 @@ class NominalSound:
         axes = replace(self.axes, receivers=list(dict.fromkeys(names)))
         return replace(self, axes=axes, sound={key: self.sound[key] for key in keys})
 
-    def over_evidence(self, sounds: Sequence[Sound]) -> Array:
-        """Compute levels of samples relative to published and measured ones, dB.
-
-        Parameters
-        ----------
-        sounds : of the cases that weigh, by sample
-
-        Returns
-        -------
-        shape (1 + point, sample)
-        """
-        over = [
-            [over_baseline(self.axes, self.points, sound, key) for sound in sounds]
-            for key in evidence(self.points)
-        ]
-        return np.array([over_published(self.study, self.axes, sounds), *over])
-
-    @property
-    def deviation_db(self) -> float:
-        """Standard deviation of the levels that weigh samples: the published or measured ones."""
-        if self.study.baseline is not None and self.points:
-            return self.study.baseline.tolerance_db
-        return published_of(self.study).deviation_db
+    def relative_to_measured(self, sound: Sound) -> Array:
+        """Compute levels of a sample relative to those measured that weigh, dB, shape (point,)."""
+        keys = evidence(self.points)
+        return np.array([over_baseline(self.axes, self.points, sound, key) for key in keys])
 
     def levels(
         self, received: Mapping[CaseKey, ReceivedSound], order_frequency: xr.DataArray
@@ -94,7 +74,7 @@ class NominalSound:
         study, axes, points, sound = self.study, self.axes, self.points, self.sound
         replaced = any(receiver == study.catalogue_receiver for receiver, _ in points)
         unmodelled = remainder(study, axes, sound, replaced or bool(study.ranges))
-        residual = remaining(study, axes, sound, study.machine, unmodelled)
+        residual = remaining(study, axes, study.machine, unmodelled)
         lines, noise = line_pressure(axes, received), noise_levels(axes, received, residual)
         residual = with_baseline(study, axes, points, sound, residual)
         measured = baseline_variables(study, axes, points, sound)

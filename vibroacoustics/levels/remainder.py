@@ -1,6 +1,7 @@
 """What the sources leave unexplained of the machine's published level, by speed and option."""
 
 from collections.abc import Mapping, Sequence
+from typing import Final
 
 import numpy as np
 
@@ -10,17 +11,16 @@ from ..base.decibel import mean_square_level, power_of_level
 from ..base.errors import ParameterError
 from ..machine.machine import Machine
 from ..machine.source import CaseKey
-from ..study.draws import with_draw
-from ..study.sampling import Draw
 from ..study.study import Study
-from .agreement import remainder_level
 from .axes import LevelAxes
 from .baseline import points_of, with_baseline
-from .by_source import SourceSound
+from .by_source import GAIN_BANDS, SourceSound, gain_band_number
 from .insertion_loss import remaining_factor
 from .measured_points import REMAINDER_BANDS
 from .published import published_of
-from .weighting import WEIGHTING
+
+REMAINDER_MIDDLE_HZ: Final[Array] = np.array([band.middle_hz for band in REMAINDER_BANDS])
+"""Of the third octaves of unmodelled noise."""
 
 
 def remainder(
@@ -57,77 +57,47 @@ def remainder(
     return float(max(rest, 0.0))
 
 
-def remaining(
-    study: Study,
-    axes: LevelAxes,
-    sound: Mapping[CaseKey, SourceSound],
-    machine: Machine,
-    rest: float,
-) -> Array:
-    """What there is of the remainder by third octave, A-weighted, (speed, option, band), Pa².
+def remaining(study: Study, axes: LevelAxes, machine: Machine, rest: float) -> Array:
+    """Unmodelled noise by third octave, A-weighted, (speed, option, band), Pa².
 
-    The bands are `REMAINDER_BANDS`. It grows with speed, and an option takes its insertion loss off
-    each band.
+    The bands are `REMAINDER_BANDS`. It grows with speed, and each band passes the insertion loss
+    of an option.
 
     Parameters
     ----------
-    study : options, speed and receiver of the published level
-    axes : speeds, bands and receivers
-    sound : of the case of the published level, and of others
-    machine : growth and spectrum of the remainder
-    rest : the remainder at the published speed without an option, Pa²
+    study : options and speed of the published level
+    axes : speeds
+    machine : growth and spectrum of the unmodelled noise
+    rest : the unmodelled noise at the published speed without an option, Pa²
     """
-    if rest == 0.0:
-        return np.zeros((len(axes.speeds), len(study.options), len(REMAINDER_BANDS)))
-    receiver = list(axes.receivers).index(study.catalogue_receiver)
-    middle_hz = np.array([band.middle_hz for band in REMAINDER_BANDS])
-    modelled = _a_weighted_bands(sound[study.catalogue_case].band[:, receiver].sum(axis=0), axes)
-    spectrum = spectrum_left(machine.remainder.spectrum(middle_hz), modelled, rest)
-    published_rpm = study.catalogue_speed_rpm
-    growth = machine.remainder.speed_factor(np.array(axes.speeds), published_rpm)
-    factor = remaining_factor(study.options, middle_hz)
+    growth = machine.remainder.speed_factor(np.array(axes.speeds), study.catalogue_speed_rpm)
+    factor = remaining_factor(study.options, REMAINDER_MIDDLE_HZ)
+    spectrum = rest * machine.remainder.spectrum(REMAINDER_MIDDLE_HZ)
     return np.asarray(growth[:, None, None] * factor * spectrum)
 
 
-def spectrum_left(expected: Array, modelled: Array, rest: float) -> Array:
-    """Bands of the remainder: those of the machine as expected, less what is modelled in each.
-
-    max(a e - m, 0) with the factor a for which the bands sum to the remainder.
-
-    Parameters
-    ----------
-    expected : spectrum of the whole machine, of any size, shape (band,)
-    modelled : mean squares, shape (band,), Pa²
-    rest : the remainder, Pa²
-    """
-    order = np.argsort(modelled / expected)  # the more is modelled, the later a band counts
-    factor = np.min((rest + np.cumsum(modelled[order])) / np.cumsum(expected[order]))
-    return np.asarray(np.maximum(factor * expected - modelled, 0.0))
-
-
-def _a_weighted_bands(mean_square: Array, axes: LevelAxes) -> Array:
-    """A-weighted mean squares of the bands of the remainder, from those of the levels."""
-    known = dict(zip(axes.bands, mean_square.tolist(), strict=True))
-    middle_hz = np.array([band.middle_hz for band in REMAINDER_BANDS])
-    modelled = np.array([known.get(band, 0.0) for band in REMAINDER_BANDS])
-    return modelled * power_of_level(np.asarray(WEIGHTING["A"](middle_hz)))
+def unmodelled_bands(study: Study, machine: Machine) -> Array:
+    """Unmodelled noise at the published level, A-weighted, in `GAIN_BANDS`, shape (band,), Pa²."""
+    bands = np.zeros(len(GAIN_BANDS))
+    square = REFERENCE_PRESSURE_PA**2 * power_of_level(published_of(study).level_dba)
+    columns = gain_band_number(REMAINDER_MIDDLE_HZ)
+    bands[columns] = square * machine.remainder.spectrum(REMAINDER_MIDDLE_HZ)
+    return bands
 
 
 def remaining_by_draw(
     study: Study,
     axes: LevelAxes,
     sounds: Sequence[Mapping[CaseKey, SourceSound]],
-    draws: Sequence[Draw],
+    machines: Sequence[Machine],
     rests: Array,
 ) -> Array:
-    """`remaining` of every draw with the baseline, shape (draw, speed, option, receiver), Pa²."""
-    machines = [with_draw(study.machine, study.machine, draw) for draw in draws]
-    rows = zip(sounds, machines, rests.tolist(), strict=True)
+    """`remaining` of every sample with the baseline, (sample, speed, option, receiver), Pa²."""
     points = points_of(study, axes)
     return np.array(
         [
-            with_baseline(study, axes, points, sound, remaining(study, axes, sound, machine, rest))
-            for sound, machine, rest in rows
+            with_baseline(study, axes, points, sound, remaining(study, axes, machine, rest))
+            for sound, machine, rest in zip(sounds, machines, rests.tolist(), strict=True)
         ]
     )
 
@@ -147,31 +117,5 @@ def over_published(
     """
     receiver = list(axes.receivers).index(study.catalogue_receiver)
     square = np.array([sound[study.catalogue_case].total[0, receiver] for sound in sounds])
-    over = mean_square_level(np.nan_to_num(square), REFERENCE_PRESSURE_PA)
-    return np.where(np.isnan(square), np.nan, over - published_of(study).level_dba)
-
-
-def remainder_by_draw(study: Study, modelled_db: Array) -> Array:
-    """One remainder of each draw by prior, drawn from what the published level leaves open, Pa².
-
-    None without a published level.
-
-    Parameters
-    ----------
-    study : with the published level
-    modelled_db : of `over_published`
-
-    Returns
-    -------
-    shape (prior, draw)
-    """
-    published, count = published_of(study), modelled_db.size
-    if study.machine.overall_noise is None:
-        return np.zeros((len(published.priors), count))
-    evenly = (np.arange(count) + 0.5) / count
-    share = np.random.default_rng(study.uncertainty.seed).permutation(evenly)
-    below = [
-        remainder_level(modelled_db, published.deviation_db, prior, share)
-        for prior in published.priors
-    ]
-    return REFERENCE_PRESSURE_PA**2 * power_of_level(published.level_dba + np.array(below))
+    level = mean_square_level(np.nan_to_num(square), REFERENCE_PRESSURE_PA)
+    return np.where(np.isnan(square), np.nan, level - published_of(study).level_dba)

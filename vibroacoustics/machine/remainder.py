@@ -18,6 +18,15 @@ OF_THE_REMAINDER: Final = frozenset(
 DATUM: Final = Held("are data that the model is compared to")
 
 
+class SpectralShare(Parameters):
+    """Share of the A-weighted energy of the machine below a frequency."""
+
+    below_hz: Annotated[float, DATUM] = Field(ge=50.0, le=10000.0)
+    share_ratio: Annotated[float, DATUM] = Field(ge=0.0, le=1.0)
+    deviation_ratio: Annotated[float, DATUM] = Field(ge=0.01, le=1.0)
+    """Standard deviation of the share."""
+
+
 class OverallNoise(Parameters):
     """The A-weighted sound pressure level of the whole machine, from a catalogue or assumed."""
 
@@ -26,6 +35,7 @@ class OverallNoise(Parameters):
     distance_m: Annotated[float, DATUM] = Field(ge=0.1, le=20.0)
     deviation_db: Annotated[float, DATUM] = Field(default=2.0, ge=0.1, le=10.0)
     """Standard deviation of the level."""
+    spectral_share: SpectralShare | None = None
     other_speed_rpm: Annotated[float | None, DATUM] = Field(default=None, ge=60.0, le=60000.0)
     """Second speed at which a level is published."""
     other_level_dba: Annotated[float | None, DATUM] = Field(default=None, ge=0.0, le=140.0)
@@ -39,10 +49,10 @@ class OverallNoise(Parameters):
 
 
 class Remainder(Parameters):
-    """Growth with speed and A-weighted third-octave spectrum of what is not modelled.
+    """Growth with speed and A-weighted third-octave spectrum of unmodelled noise.
 
     The level grows by so many decibels for ten times the speed; the spectrum falls from its peak
-    on both sides. Its level is weighed under two priors, each over the published level: one flat
+    on both sides. Its level has two priors, each relative to the published level: one flat
     in dB between two limits, one near a level.
     """
 
@@ -70,6 +80,7 @@ class Remainder(Parameters):
         return power_of_level(self.speed_growth_db * tenfold)
 
     def spectrum(self, frequency_hz: Array) -> Array:
-        """A-weighted mean square in third octaves over that at the peak."""
+        """A-weighted mean square in third octaves, relative to their sum."""
         octaves = np.abs(np.log2(frequency_hz / self.peak_frequency_hz))
-        return power_of_level(-self.slope_db * octaves)
+        spectrum = power_of_level(-self.slope_db * octaves)
+        return np.asarray(spectrum / spectrum.sum())

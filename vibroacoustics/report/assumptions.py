@@ -133,6 +133,24 @@ def remainder_sentence(results: xr.Dataset) -> str:
     )
 
 
+def discrepancy_sentence(results: xr.Dataset) -> str:
+    """Deviations of the model that no range covers; empty where nothing was sampled."""
+    settings = parameters(results).get("uncertainty") or {}
+    if not has_draws(results) or "path_deviation_db" not in settings:
+        return ""
+    path, source, band_db, added = (
+        f"{settings[f'{name}_deviation_db']:g} dB" for name in ("path", "source", "band", "added")
+    )
+    return (
+        f"Each sample deviates from the model by {path} common to all sources, {source} of each "
+        f"source, {band_db} of each third octave of a source (correlation exp(−octaves)) and "
+        f"{added} of what an option adds to a source (standard deviations). A deviation is the "
+        "same for all options, speeds and microphones. The four figures are judgement: chosen "
+        "among some 25 settings so that intervals hold the truth of machines that the model does "
+        "not describe."
+    )
+
+
 def _point_words(results: xr.Dataset) -> str:
     """Operating point of the overall noise, and where the machine runs elsewhere."""
     runs_at, point = operating_points(results)

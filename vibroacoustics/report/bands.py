@@ -11,7 +11,7 @@ from ..base.decibel import level_of_power, power_of_level
 from ..base.quantiles import weighted_quantiles
 from ..base.remembered import remembered
 from ..base.vocabulary import REFERENCE_OPTION
-from ..levels.agreement import effective_draws
+from ..levels.agreement import effective_samples
 from .study import a_weighted, at_catalogue, has_draws, quoted_dba, quoted_speed
 
 
@@ -54,8 +54,6 @@ def quantiles(results: xr.Dataset, name: str) -> xr.DataArray:
     if not has_draws(results):
         return over_draws(results, a_weighted(results[name]))
     level = results[f"{name.replace('change', 'level')}_by_draw"]
-    if "prior" in level.dims:
-        level = level.isel(prior=0, drop=True)
     if name.startswith("change"):
         level = level - level.sel(option=REFERENCE_OPTION, drop=True)
     return over_draws(results, level)
@@ -134,7 +132,7 @@ def total_by_draw(results: xr.Dataset, prior: int) -> xr.DataArray:
     """Level of the whole machine without an option at the published speed, (draw,), dB(A)."""
     at = at_catalogue(results, speed=quoted_speed(results))
     modelled = power_of_level(results["level_modelled_by_draw"].sel(at))
-    rest = power_of_level(results["level_remainder_by_draw"].isel(prior=prior, drop=True))
+    rest = power_of_level(results["level_remainder_by_draw"])
     return level_of_power(modelled + rest)
 
 
@@ -158,12 +156,14 @@ class Draws(NamedTuple):
 def draws(results: xr.Dataset) -> Draws:
     """How many draws the bands rest on."""
     weight = results["bank_weight"].values[0]
-    effective = effective_draws(weight)
+    effective = effective_samples(weight)
     if not has_draws(results):
         return Draws(weight.size, effective, 0, 0)
     levels = results["level_modelled_by_draw"].transpose("draw", ...).values
-    unsolved = np.isnan(levels).reshape(len(levels), -1).any(axis=1).sum()
-    return Draws(weight.size, effective, len(levels), int(unsolved))
+    unsolved = np.isnan(levels).reshape(len(levels), -1).any(axis=1)
+    values = results["drawn_value"].transpose("draw", ...).values
+    computed = (len(np.unique(values[rows], axis=0)) for rows in (slice(None), unsolved))
+    return Draws(weight.size, effective, *computed)
 
 
 def band_words(results: xr.Dataset) -> str:

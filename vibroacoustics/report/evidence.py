@@ -1,8 +1,9 @@
 """Results beside published values: error and its uncertainty, in the form of ASME V&V 20.
 
 Simulation S, data D, error E = S - D; validation uncertainty u = √(u_num² + u_input² + u_D²), all
-standard uncertainties (ASME V&V 20-2009, sections 1 and 6). What the model leaves out is within
-E ± k u; where |E| is not above k u, the comparison shows no error of the model.
+standard uncertainties (ASME V&V 20-2009, sections 1 and 6). With a tolerance T stated before, S
+agrees with D within T where |E| + 1.64 u <= T (equivalence test: Schuirmann 1987, J.
+Pharmacokinetics and Biopharmaceutics 15, 657); it differs where |E| > 2 u; else that is undecided.
 """
 
 from collections.abc import Iterable, Iterator
@@ -27,7 +28,15 @@ from .study import (
 from .tables import Table
 
 COVERAGE: Final = 2.0
-"""k: about 95 % of a normal distribution."""
+"""About 95 % of a normal distribution."""
+ONE_SIDED: Final = 1.64
+"""95 % of a normal distribution lie below it."""
+LEVEL_TOLERANCE_DB: Final = 5.0
+FORCE_TOLERANCE: Final = 0.1
+"""Relative to the published force."""
+AGREES: Final = "agrees"
+DIFFERS: Final = "differs"
+UNDECIDED: Final = "undecided"
 _OF_A_RANGE: Final = 1.0 / np.sqrt(12.0)
 """Standard uncertainty of what lies evenly in a range, over its width (JCGM 100:2008, 4.3.7)."""
 _DEVIATION_DB: Final = 2.0
@@ -58,9 +67,17 @@ class Rung:
         return float(np.hypot(np.hypot(self.numerical, self.inputs), self.published))
 
     @property
-    def agrees(self) -> bool:
-        """Whether the error lies within k u."""
-        return abs(self.error) <= COVERAGE * self.uncertainty
+    def tolerance(self) -> float:
+        """Of the agreement, T."""
+        is_level = self.unit.startswith("dB")
+        return LEVEL_TOLERANCE_DB if is_level else FORCE_TOLERANCE * abs(self.data)
+
+    @property
+    def verdict(self) -> str:
+        """`AGREES`, `DIFFERS` or `UNDECIDED`."""
+        if abs(self.error) + ONE_SIDED * self.uncertainty <= self.tolerance:
+            return AGREES
+        return DIFFERS if abs(self.error) > COVERAGE * self.uncertainty else UNDECIDED
 
 
 def rungs(results: xr.Dataset) -> list[Rung]:
@@ -168,6 +185,23 @@ def _is_of(record: dict[str, Any], field: str) -> bool:
     return bool(record["field"] == field or record["field"].startswith(f"{field}_"))
 
 
+def agreement_sentence(results: xr.Dataset) -> str:
+    """Whether the modelled level agrees with the published one; empty where none is published."""
+    (level, *_) = (*_catalogue_level(results), None)
+    if level is None:
+        return ""
+    published, tolerance = f"{rounding.fixed(level.data)} dB(A)", f"{level.tolerance:g} dB"
+    words = {
+        AGREES: f"agrees with the published {published} within {tolerance}",
+        DIFFERS: f"differs from the published {published}",
+        UNDECIDED: f"is too uncertain to be compared with the published {published}",
+    }[level.verdict]
+    return (
+        f"The modelled level before any published datum {words}: E = "
+        f"{rounding.signed(level.error)} dB, u = {rounding.fixed(level.uncertainty)} dB."
+    )
+
+
 def evidence_table(results: xr.Dataset) -> Table:
     """All that is published of what the results hold."""
     return rungs_table("Results beside published values", rungs(results))
@@ -187,12 +221,8 @@ def _row(rung: Rung) -> tuple[str, ...]:
     spreads = (rung.numerical, rung.inputs, rung.published, rung.uncertainty)
     is_level = rung.unit.startswith("dB")
     write = rounding.fixed if is_level else rounding.significant
-    reach = f"{write(COVERAGE * rung.uncertainty)} {rung.unit.removesuffix('(A)')}"
-    verdict = (
-        f"agrees: no error above {reach} is seen"
-        if rung.agrees
-        else f"differs by more than {reach}"
-    )
+    tolerance = f"{write(rung.tolerance)} {rung.unit.removesuffix('(A)')}"
+    verdict = f"{AGREES} within {tolerance}" if rung.verdict == AGREES else rung.verdict
     return (
         rung.quantity,
         rung.unit,

@@ -158,7 +158,7 @@ def _remainder_level(results: xr.Dataset) -> xr.DataArray:
     """Level of the remainder by draw, or as given."""
     if not has_draws(results):
         return results["level_remainder"]
-    return results["level_remainder_by_draw"].isel(prior=0, drop=True)
+    return results["level_remainder_by_draw"]
 
 
 def _row(

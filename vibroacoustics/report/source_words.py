@@ -29,6 +29,7 @@ from .study import (
     total_of,
     words,
 )
+from .tables import Table
 
 LINE_FIGURE: Final = "foot_force_2x_line_n"
 
@@ -109,6 +110,53 @@ def prior_words(results: xr.Dataset) -> list[str]:
     return [words_of.get(str(name), str(name)) for name in results["prior"].values]
 
 
+def spectrum_sentence(results: xr.Dataset) -> str:
+    """What the published spectral share does to the share of the loudest source; else empty."""
+    if results.sizes.get("evidence", 0) < 2:
+        return ""
+    source, _ = ranked(results, quoted_speed(results))[0]
+    name = source_name(results, source)
+    both, alone = (
+        f"{_energy_share(results, row, source)} of the energy, more than half of it with a "
+        f"probability of {percent(float(results['energy_majority'][row].sel(energy_part=source)))}"
+        for row in (0, 1)
+    )
+    return (
+        f"With the published spectral share {name} make {both}; with the level alone {alone}. The "
+        f"difference holds only if the modelled spectrum of {name} is right."
+    )
+
+
+def energy_table(results: xr.Dataset) -> Table | None:
+    """Shares of the energy by the published data that weigh; None without published data."""
+    if "energy_share" not in results:
+        return None
+    evidence = list(map(str, results["evidence"].values))
+    rows = [
+        (
+            source_name(results, part),
+            *(_energy_share(results, row, part) for row in range(len(evidence))),
+            *(
+                percent(float(results["energy_majority"][row].sel(energy_part=part)))
+                for row in range(len(evidence))
+            ),
+        )
+        for part in map(str, results["energy_part"].values)
+    ]
+    head = ("", *evidence, *(f"more than half, {name}" for name in evidence))
+    effective = ", ".join(
+        f"{count:.0f} with {name}"
+        for name, count in zip(evidence, results["evidence_effective"].values, strict=True)
+    )
+    caption = f"Shares of the energy by published data; effective samples: {effective}"
+    return Table(caption, head, tuple(rows))
+
+
+def _energy_share(results: xr.Dataset, row: int, part: str) -> str:
+    share = results["energy_share"][row].sel(energy_part=part).transpose("datum_quantile")
+    return Band(*map(float, share.values)).middle_and_ends(percent)
+
+
 def _shares(results: xr.Dataset, prior: int) -> str:
     """Shares of sources and remainder, one after another."""
     by_source = {
@@ -119,7 +167,7 @@ def _shares(results: xr.Dataset, prior: int) -> str:
     if overall_noise(results) is None:
         return "; ".join(shares)
     modelled = share_band(results, at_published(results, "level_modelled"), prior)
-    remainder = results["level_remainder_by_draw"].isel(prior=prior)
+    remainder = results["level_remainder_by_draw"]
     rest, there = share_band(results, remainder, prior), elsewhere(results)
     what = f"what is not modelled{there}" if there else "what is not modelled"
     return (

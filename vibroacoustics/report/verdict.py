@@ -8,17 +8,25 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
+from . import conflict
 from .baseline import not_measured
 from .column_values import column
 from .comparison import comparison
 from .drawn_words import not_drawn_sentence
+from .evidence import agreement_sentence
 from .option_verdict import MIXED, NO_CHANGE, WORSE, OptionVerdict
 from .quantities import FOOT_FORCE, FORCE, HEARD_DB, LINE, MOMENT, TOLERANCE_DB, TOTAL
 from .ranking_words import ranking_sentence
 from .remainder import growth_sentence, measured_rpm, remainder_band
 from .shifts import measurable, shift
 from .source_changes import changes_sentence
-from .source_words import carrier_sentence, left_out_sentence, shares_sentence, sure_sentence
+from .source_words import (
+    carrier_sentence,
+    left_out_sentence,
+    shares_sentence,
+    spectrum_sentence,
+    sure_sentence,
+)
 from .study import (
     at_catalogue,
     balancers,
@@ -65,10 +73,12 @@ def reasons(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> list[str]
     with_sources = has_sources(results)
     texts = [_as_it_is(results)]
     if with_sources:
-        texts += [shares_sentence(results), left_out_sentence(results)]
+        texts += [shares_sentence(results), spectrum_sentence(results)]
+        texts += [*_of_evidence(results), left_out_sentence(results)]
         texts[:0] = _of_sources(results)
     else:
         texts += filter(None, [_remainder(results), not_drawn_sentence(results)])
+    texts = [text for text in texts if text]
     if not verdicts:
         return texts
     return [*texts, _forces(results), *_warnings(verdicts), ranking_sentence(results, verdicts)]
@@ -81,6 +91,12 @@ def _of_sources(results: xr.Dataset) -> list[str]:
         return changes
     sentences = [*changes, carrier_sentence(results), measure_next_sentence(results)]
     return [sentence for sentence in sentences if sentence]
+
+
+def _of_evidence(results: xr.Dataset) -> list[str]:
+    """Whether the level agrees with the published one, and prior-data conflict."""
+    conflict_words = conflict.conflict_sentence(results) if conflict.applies(results) else ""
+    return [agreement_sentence(results), conflict_words]
 
 
 def options_table(verdicts: Sequence[OptionVerdict]) -> Table | None:

@@ -2,9 +2,8 @@
 
 from typing import Final
 
-from ..base.arrays import Array
 from ..base.registry import register
-from ..levels.nominal import NominalSound
+from ..levels.nominal import NominalSound, Sound
 from ..machine.cases import Cases
 from ..study.sampling import Draw
 from ..study.study import Study
@@ -14,6 +13,7 @@ from ..transfer.study_path import projection_errors
 from ..uncertainty.bank import Bank
 from ..uncertainty.cost import ensemble_cost
 from ..uncertainty.draws import errors_of_projection
+from ..uncertainty.evidence import Evidence
 from ..uncertainty.hammer_test import HammerTest
 from ..uncertainty.posterior import posterior
 from .chain import Chain
@@ -34,7 +34,8 @@ class PosteriorEnsemble(Stage):
     name = "ensemble"
     reads = (Cases, PublishedCases, Transmission, NominalSound, ShellPath, HammerTest)
     gives = (
-        Bank, "bank_*", "level_share*", "projection_error", "shell_likelihood", "shell_gain",
+        Bank, Evidence, "bank_*", "datum_*", "conflict_tail", "energy_*", "evidence_effective",
+        "level_share*", "projection_error", "shell_likelihood", "shell_gain",
         "shell_*_ratio", "shell_value", "shell_level_before", "shell_weight", "shell_peak_loss",
     )  # fmt: skip
 
@@ -43,24 +44,26 @@ class PosteriorEnsemble(Stage):
 
     def run(self, chain: Chain) -> Given:
         study, shell, weighing = chain.study, chain.get(ShellPath), _weighing(chain)
-        nominal = weighing[NominalSound]
+        evidence = Evidence(weighing[NominalSound])
 
-        def over_evidence(batch: list[Draw], before: int, expected: int) -> Array:
+        def sounds_at_evidence(batch: list[Draw], before: int, expected: int) -> list[Sound]:
             def done(number: int) -> None:
                 chain.progress(_WEIGHTED, before + number, expected)
 
-            return nominal.over_evidence([one.sound for one in sounds_of(weighing, batch, done)])
+            return [one.sound for one in sounds_of(weighing, batch, done)]
 
         test = chain.get(HammerTest)
-        bank, results = posterior(study, over_evidence, nominal.deviation_db, test, chain.progress)
+        bank, results = posterior(evidence, sounds_at_evidence, test, chain.progress)
         chain.progress(_WEIGHTED, len(bank.draws), len(bank.draws))
         errors = {} if shell is None else projection_errors(study, shell, chain.progress)
-        return Given(results.merge(errors_of_projection(study.ranges, errors)), (bank,))
+        return Given(results.merge(errors_of_projection(study.ranges, errors)), (bank, evidence))
 
     def tried(self, chain: Chain, study: Study) -> Trial:
         weighing, known = _weighing(chain), chain[Radiated].was_cached
         sounds, seconds = timed_sounds(weighing, study, _TIMED)
-        return Trial(chain, (ensemble_cost(weighing[NominalSound], sounds, seconds, known),))
+        return Trial(
+            chain, (ensemble_cost(Evidence(weighing[NominalSound]), sounds, seconds, known),)
+        )
 
 
 def _weighing(chain: Chain) -> Chain:

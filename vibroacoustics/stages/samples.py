@@ -9,6 +9,7 @@ from ..study.study import Study
 from ..transfer.received import Transmission
 from ..uncertainty.bank import Bank
 from ..uncertainty.cost import samples_cost
+from ..uncertainty.evidence import Evidence
 from ..uncertainty.sample_variables import sample_variables
 from .chain import Chain
 from .forces import PublishedCases, with_published
@@ -25,7 +26,7 @@ class Samples(Stage):
 
     name = "samples"
     reads = (
-        Cases, PublishedCases, Transmission, NominalSound, Bank, "force_amplitude",
+        Cases, PublishedCases, Transmission, NominalSound, Bank, Evidence, "force_amplitude",
         "moment_amplitude", "foot_force_amplitude",
     )  # fmt: skip
     gives = ("*_by_draw", "draw_weight", "drawn_value", "change_share*", "change_variance")
@@ -38,14 +39,18 @@ class Samples(Stage):
         if not bank.suffices:
             return Given()
         chosen = bank.chosen(chain.study.uncertainty.seed)
-        samples = bank.some(chosen[0])
+        samples = [bank.draws[number] for number in chosen[0].tolist()]
 
         def done(number: int) -> None:
             chain.progress("sources", number, len(samples))
 
         sampled = sounds_of(with_published(chain), samples, done)
         sounds, first_order = zip(*sampled, strict=True)
-        return Given(sample_variables(nominal, bank, chosen, sounds, first_order, chain.results))
+        return Given(
+            sample_variables(
+                nominal, chain[Evidence], bank, chosen, sounds, first_order, chain.results
+            )
+        )
 
     def tried(self, chain: Chain, study: Study) -> Trial:
         sounds, seconds = timed_sounds(with_published(chain), study, _TIMED)

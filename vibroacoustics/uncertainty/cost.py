@@ -4,13 +4,15 @@ from collections.abc import Sequence
 from math import ceil
 from typing import Final
 
-from ..levels.agreement import agreement, effective_draws
-from ..levels.nominal import NominalSound, Sound
-from ..levels.published import published_of
-from ..levels.remainder import over_published
+import numpy as np
+from scipy.special import logsumexp
+
+from ..levels.agreement import effective_samples
+from ..levels.nominal import Sound
 from ..radiation.cost import Cost
 from ..study.study import Study
 from .bank import MOST_DRAWS, MOST_ROUNDS
+from .evidence import Evidence
 
 _LEAST_BATCHES: Final = 2
 _MOST_BATCHES: Final = 10
@@ -20,19 +22,19 @@ _LEAST_SHARE: Final = 0.3
 
 
 def ensemble_cost(
-    nominal: NominalSound, sounds: Sequence[Sound], seconds: float, was_cached: bool
+    evidence: Evidence, sounds: Sequence[Sound], seconds: float, was_cached: bool
 ) -> Cost:
     """Estimate the cost of the samples at the published level.
 
     Parameters
     ----------
-    nominal : at the receivers and cases that weigh the samples
+    evidence : what weighs the samples
     sounds : of a few samples
     seconds : processor time that they took
     was_cached : whether the transfer vectors are computed already
     """
     one_s = seconds / len(sounds)
-    low, high = _expected(nominal, sounds, was_cached)
+    low, high = _expected(evidence, sounds, was_cached)
     how = f"{one_s:.2g} s for one of {low} to {high} samples, {len(sounds)} measured"
     return Cost("samples at the published level", low * one_s, high * one_s, how)
 
@@ -52,18 +54,23 @@ def samples_cost(study: Study, count: int, seconds: float) -> Cost:
     return Cost("samples of all cases", _LEAST_SHARE * wanted * all_s, wanted * all_s, how)
 
 
-def _expected(nominal: NominalSound, sounds: Sequence[Sound], was_cached: bool) -> tuple[int, int]:
+def _expected(evidence: Evidence, sounds: Sequence[Sound], was_cached: bool) -> tuple[int, int]:
     """Number of samples until enough are effective, at least and at most.
 
     With computed transfer vectors, by how well the first few agree: half as many to twice as many.
     """
-    wanted = nominal.study.uncertainty.random_samples
+    wanted = evidence.nominal.study.uncertainty.random_samples
     most = min(MOST_ROUNDS * wanted, MOST_DRAWS)
     if not was_cached:
         return min(_LEAST_BATCHES * wanted, most), min(_MOST_BATCHES * wanted, most)
-    published = published_of(nominal.study)
-    level = over_published(nominal.study, nominal.axes, sounds)
-    weight = agreement(level, published.deviation_db, published.priors[0])
-    needed = len(sounds) / max(effective_draws(weight), 0.5)
+    published, machine = evidence.published, evidence.nominal.study.machine
+    log_weight = np.array(
+        [
+            logsumexp(evidence.log_weights(sound, machine, n, published.data, published.priors[:1]))
+            for n, sound in enumerate(sounds)
+        ]
+    )
+    weight = np.exp(log_weight - log_weight.max()) if np.isfinite(log_weight).any() else 0.0
+    needed = len(sounds) / max(effective_samples(weight * np.ones(len(sounds))), 0.5)
     low, high = (wanted * ceil(factor * needed) for factor in (0.5, 2.0))
     return min(low, most), min(high, most)

@@ -1,36 +1,40 @@
-"""Samples of a study's ranges, weighted by the published level and by measurements."""
+"""Samples of a study's ranges, weighted by published data and by measurements."""
 
 from collections.abc import Callable
 from itertools import chain as joined
 
 import numpy as np
 import xarray as xr
+from scipy.special import logsumexp
 
 from ..base.arrays import Array
+from ..base.decibel import power_of_level
 from ..base.progress import Progress
-from ..levels.published import published_of
-from ..study.draws import batches_of_draws
+from ..levels.agreement import LEVELS_DB
+from ..levels.nominal import Sound
+from ..study.draws import batches_of_draws, with_draw
 from ..study.sampling import Draw
-from ..study.study import Study
-from .bank import Bank, bank_of
+from .bank import Bank, Weighted, bank_of
+from .conflict import conflict_variables
+from .energy_shares import energy_shares
+from .evidence import Evidence
 from .hammer_test import HammerTest
 from .share_variables import level_shares
 
 
 def posterior(
-    study: Study,
-    over_evidence: Callable[[list[Draw], int, int], Array],
-    deviation_db: float,
+    evidence: Evidence,
+    sounds_of: Callable[[list[Draw], int, int], list[Sound]],
     test: HammerTest | None,
     progress: Progress,
 ) -> tuple[Bank, xr.Dataset]:
-    """Weigh as many samples as a study wants to be effective.
+    """Weight as many samples as a study wants to be effective.
 
     Parameters
     ----------
-    study : with its ranges and published level
-    over_evidence : see `bank_of`
-    deviation_db : standard deviation of the levels that weigh
+    evidence : published data and measurements
+    sounds_of : of samples at the cases that weigh, given how many were before them and how many
+        are expected in all
     test : of the shell, where there is one; samples that do not agree with it do not go on
     progress : called with the number of samples that were held against the test
 
@@ -38,17 +42,52 @@ def posterior(
     -------
     weighted samples, and their variables with the shares of the values in the level
     """
-    published, wanted = published_of(study), study.uncertainty.random_samples
-    batches, likelihood, prior_db = batches_of_draws(study), None, np.zeros(0)
+    study, published = evidence.nominal.study, evidence.published
+    wanted, batches, prior_db = study.uncertainty.random_samples, batches_of_draws(study), None
     if test is not None:
         first = next(batches)
-        prior_db = np.atleast_2d(over_evidence(first, 0, 2 * len(first)))[0]
+        prior_db = evidence.modelled_db(sounds_of(first, 0, 2 * len(first)))
         batches = test.agreeing(joined([first], batches), wanted, progress)
-        likelihood = test.likelihood
-    ensemble = bank_of(batches, over_evidence, deviation_db, published.priors, wanted, likelihood)
-    results, weight = ensemble.labelled(study.ranges, published.level_dba), None
-    if test is not None:
-        count = len(ensemble.draws)
+
+    def weigh(batch: list[Draw], before: int, expected: int) -> Weighted:
+        sounds = sounds_of(batch, before, expected)
+        machines = [with_draw(study.machine, study.machine, sample) for sample in batch]
+        weights = [
+            evidence.log_weights(sound, machine, before + n, published.data, published.priors)
+            for n, (sound, machine) in enumerate(zip(sounds, machines, strict=True))
+        ]
+        log_weight = np.reshape([logsumexp(one, axis=(1, 2)) for one in weights], (len(batch), -1))
+        if test is not None:
+            log_weight = log_weight + np.log(test.likelihood(before, len(batch)))[:, None]
+        return Weighted(sounds, machines, evidence.modelled_db(sounds), log_weight.T)
+
+    ensemble = bank_of(batches, weigh, [prior.name for prior in published.priors], wanted)
+    count = len(ensemble.draws)
+    results = ensemble.labelled(study.ranges, published.level_dba)
+    before: Array = np.ones(count)
+    if test is not None and prior_db is not None:
         results = results.merge(test.labelled(prior_db + published.level_dba, count))
-        weight = test.likelihood(0, count)
-    return ensemble, results.merge(level_shares(study.ranges, ensemble, weight))
+        before = test.likelihood(0, count)
+    results = results.merge(level_shares(study.ranges, ensemble, before))
+    return ensemble, results.merge(_beside_data(evidence, ensemble, before))
+
+
+def _beside_data(evidence: Evidence, ensemble: Bank, before: Array) -> xr.Dataset:
+    """Conflict of the prior with the data, and shares of the energy; empty without data."""
+    published, (sounds, machines, modelled_db, _) = evidence.published, ensemble.batch
+    solved = np.flatnonzero(np.isfinite(modelled_db))
+    if not published.data or not solved.size:
+        return xr.Dataset()
+    generator = np.random.default_rng(evidence.nominal.study.uncertainty.seed)
+    prior = np.exp(published.priors[0].log_density)
+    power = power_of_level(generator.choice(LEVELS_DB, len(sounds), p=prior))
+    bands = np.array(
+        [
+            evidence.mutual(sound).sum(axis=(0, 1)) + factor * evidence.unmodelled(machine)
+            for sound, factor, machine in zip(sounds, power.tolist(), machines, strict=True)
+        ]
+    )
+    conflict = conflict_variables(published.data, bands[solved], before[solved], generator)
+    if not ensemble.suffices:
+        return conflict
+    return conflict.merge(energy_shares(evidence, sounds, machines, before))

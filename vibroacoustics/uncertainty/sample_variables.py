@@ -2,43 +2,62 @@
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array, IndexArray
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.decibel import power_of_level
 from ..levels.labelled import draw_variables
 from ..levels.nominal import NominalSound, Sound
-from ..levels.remainder import remainder_by_draw, remaining_by_draw
+from ..levels.remainder import remaining_by_draw
 from ..machine.source import CaseKey
 from .bank import Bank
 from .draws import drawn_values
+from .evidence import PAIRS, Evidence
 from .first_order import first_order_by_draw
 from .share_variables import change_shares
 
 
 def sample_variables(
     nominal: NominalSound,
+    evidence: Evidence,
     ensemble: Bank,
-    chosen: tuple[IndexArray, Array],
+    chosen: tuple[IndexArray, IndexArray],
     sounds: Sequence[Sound],
     first_order: Sequence[Mapping[CaseKey, Array]],
     results: xr.Dataset,
 ) -> xr.Dataset:
-    """Label the sound and the forces of the samples that go on.
+    """Label the sound and the forces of the samples that go on, each with `PAIRS` pairs.
 
     Parameters
     ----------
     nominal : sound with the nominal values
+    evidence : what weighs the samples
     ensemble : all samples
     chosen : of `Bank.chosen`
     sounds : of all cases, by sample that goes on
     first_order : forces at 1x of the cases that move otherwise, by sample that goes on
     results : amplitudes with the nominal values
     """
-    study, axes, (index, weight) = nominal.study, nominal.axes, chosen
-    samples = ensemble.some(index)
-    unmodelled = remainder_by_draw(study, ensemble.modelled_db[index])
-    residual = remaining_by_draw(study, axes, sounds, samples, unmodelled[0])
-    levels = draw_variables(axes, sounds, residual, unmodelled, weight, ensemble.prior_names)
-    levels = levels.merge(first_order_by_draw(first_order, results))
-    levels = levels.merge(drawn_values(study.ranges, samples))
-    return levels.merge(change_shares(study, levels))
+    study, axes, published = nominal.study, nominal.axes, evidence.published
+    samples = [ensemble.draws[number] for number in chosen[0].tolist()]
+    of_sample = first_order_by_draw(first_order, results)
+    of_sample = of_sample.merge(drawn_values(study.ranges, samples))
+    heard, machines, levels_db, weights = [], [], [], []
+    for number, count, sound in zip(*map(list, chosen), sounds, strict=True):
+        machine = ensemble.batch.machines[number]
+        pairs = evidence.pairs(ensemble.batch.sounds[number], machine, number, published.data)
+        heard += evidence.discrepancy(number).some(pairs.discrepancy).heard(sound)
+        machines += [machine] * PAIRS
+        levels_db.append(pairs.unmodelled_db)
+        weights.append(count * pairs.weight)
+    weight = np.concatenate(weights, axis=1)
+    weight = weight / weight.sum(axis=1, keepdims=True)
+    level_db = published.level_dba + np.concatenate(levels_db)
+    rest = REFERENCE_PRESSURE_PA**2 * power_of_level(level_db) * bool(published.data)
+    residual = remaining_by_draw(study, axes, heard, machines, rest)
+    levels = draw_variables(axes, heard, residual, rest, weight, ensemble.prior_names)
+    repeated = of_sample.isel(draw=np.repeat(np.arange(len(samples)), PAIRS))
+    levels = levels.merge(repeated.assign_coords(draw=levels["draw"]))
+    return levels.merge(change_shares(study, levels.isel(draw=slice(None, None, PAIRS))))

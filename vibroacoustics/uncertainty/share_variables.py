@@ -21,21 +21,20 @@ REMAINDER: Final = "remainder.level_db"
 """Level of what is not modelled, an unknown beside the drawn values."""
 
 
-def level_shares(ranges: Sequence[Range], bank: Bank, before: Array | None = None) -> xr.Dataset:
+def level_shares(ranges: Sequence[Range], bank: Bank, before: Array) -> xr.Dataset:
     """Shares of the drawn values in the modelled level, before and by prior of the remainder.
 
     Parameters
     ----------
     ranges : of the drawn values
     bank : all draws; where they do not suffice the priors' shares are empty
-    before : weights of the draws before the published level, shape (draw,); none for equal ones
+    before : weights of the draws before the published level, shape (draw,)
     """
-    equal = np.ones(len(bank.draws)) if before is None else before
     values = [[draw[limits.table, limits.field] for limits in ranges] for draw in bank.draws]
     unit = _positions(ranges, np.array(values))
     weighed = list(bank.prior_names) != [ALL_ALIKE.name]  # else after is as before
     after = bank.weight if bank.suffices else 0.0 * bank.weight
-    weights = [equal, *(after if weighed else ())]
+    weights = [before, *(after if weighed else ())]
     shares = [shares_of(unit, bank.modelled_db, weight) for weight in weights]
     names = {"drawn_parameter": [limits.name for limits in ranges]}
     coords = {"knowledge": [BEFORE, *(bank.prior_names if weighed else ())]}
@@ -60,7 +59,7 @@ def change_shares(study: Study, levels: xr.Dataset) -> xr.Dataset:
     total = there["level_total_by_draw"].transpose("option", "draw")
     change = (total - total.sel(option=REFERENCE_OPTION)).values
     weight = levels["draw_weight"].values[0]
-    rest = levels["level_remainder_by_draw"].values[0]
+    rest = levels["level_remainder_by_draw"].values
     unit = np.column_stack([_positions(study.ranges, levels["drawn_value"].values), _evenly(rest)])
     shares = [shares_of(unit, one, weight) for one in change]
     names = {"unknown": [*levels["drawn_parameter"].values.tolist(), REMAINDER]}

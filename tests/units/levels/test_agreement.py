@@ -1,40 +1,89 @@
-"""Weights of draws by the published level, and the remainder that they leave."""
+"""Weights of samples by published data, whatever the unmodelled noise is."""
 
 import numpy as np
 import pytest
 from scipy.integrate import quad
 
 from vibroacoustics.levels.agreement import (
-    Prior,
-    agreement,
-    effective_draws,
+    LEVELS_DB,
+    data_of,
+    effective_samples,
+    log_weight_of_points,
+    log_weights,
     priors_of,
-    remainder_level,
 )
-from vibroacoustics.machine.remainder import Remainder
+from vibroacoustics.levels.by_source import GAIN_BANDS
+from vibroacoustics.machine.remainder import OverallNoise, Remainder, SpectralShare
 
 DEVIATION_DB = 2.0
+NOISE = OverallNoise(level_dba=56.0, speed_rpm=2900.0, distance_m=1.0, deviation_db=DEVIATION_DB)
+WITH_SHARE = NOISE.model_copy(
+    update={"spectral_share": SpectralShare(below_hz=900.0, share_ratio=0.3, deviation_ratio=0.15)}
+)
 PRIORS = priors_of(Remainder())
 FLAT, NEAR = PRIORS
-EDGES = [-26.0, 4.0]
+SQUARE = 4e-10 * 10.0**5.6
+"""Of 56 dB(A), Pa²."""
+MIDDLE_HZ = np.array([band.middle_hz for band in GAIN_BANDS])
+LOW, HIGH = (np.argmin(np.abs(MIDDLE_HZ - hertz)) for hertz in (500.0, 2000.0))
 
 
-def integrand(level_db, modelled_db, prior):
-    total = 10.0 * np.log10(10.0 ** (modelled_db / 10.0) + 10.0 ** (level_db / 10.0))
-    return float(prior.density(np.array(level_db))) * np.exp(-0.5 * (total / DEVIATION_DB) ** 2)
+def bands_at(column, *relative_db):
+    """Energy in one band, relative to the published level."""
+    bands = np.zeros((len(relative_db), len(GAIN_BANDS)))
+    bands[:, column] = SQUARE * 10.0 ** (np.array(relative_db) / 10.0)
+    return bands
+
+
+def weights(relative_db, prior=FLAT, noise=NOISE):
+    """Of samples whose sound is low, with unmodelled noise that is high."""
+    found = log_weights(bands_at(LOW, *relative_db), bands_at(HIGH, 0.0)[0], data_of(noise), prior)
+    return np.exp(found)
+
+
+def integrand(level_db, modelled_db, prior, share):
+    low, high = 10.0 ** (modelled_db / 10.0), 10.0 ** (level_db / 10.0)
+    off = 10.0 * np.log10(low + high) / DEVIATION_DB
+    if share is not None:
+        off = np.hypot(off, (low / (low + high) - share) / 0.15)
+    return float(prior.density(np.array(level_db))) * np.exp(-0.5 * off**2)
 
 
 @pytest.mark.parametrize("prior", PRIORS, ids=lambda prior: prior.name)
-def test_weights_are_the_integrals_over_the_prior(prior):
-    modelled = np.array([-40.0, -10.0, -3.0, 0.0, 2.0, 6.0])
-    exact = [
-        quad(integrand, -40.0, 10.0, (level, prior), points=EDGES, limit=200)[0]
-        for level in modelled
-    ]
-    weight = agreement(modelled, DEVIATION_DB, prior)
-    # a step of 0.05 dB; the edges of the flat prior lie on it
-    assert weight / weight[0] == pytest.approx(np.array(exact) / exact[0], rel=5e-3)
-    assert np.all((weight > 0.0) & (weight < 1.0))
+@pytest.mark.parametrize("noise", [NOISE, WITH_SHARE], ids=["level", "both"])
+def test_weights_are_the_integrals_over_the_prior(prior, noise):
+    """The step of 1 dB, half a deviation, costs the trapezium rule the ends of the flat prior:
+    half a step of thirty, where the likelihood is not nothing."""
+    modelled = [-40.0, -10.0, -3.0, 0.0, 2.0, 6.0]
+    share = None if noise.spectral_share is None else 0.3
+    exact = np.array(
+        [
+            quad(integrand, -26.5, 4.5, (level, prior, share), points=[-26.0, 4.0], limit=200)[0]
+            for level in modelled
+        ]
+    )
+    lowest, highest = (-26.0, 4.0) if prior is FLAT else (-40.0, 10.0)
+    scale = quad(lambda level: float(prior.density(np.array(level))), lowest, highest)[0]
+    weight = weights(modelled, prior, noise).sum(axis=1)
+    assert weight == pytest.approx(exact / scale, rel=0.06, abs=1e-6)
+
+
+def test_share_is_that_below_its_frequency():
+    """The third octave at 1 kHz lies from 891 to 1122 Hz; 4 % of it below 900 Hz."""
+    _, share = data_of(WITH_SHARE)
+    one_khz = int(np.argmin(np.abs(MIDDLE_HZ - 1000.0)))
+    assert share.predicted(bands_at(LOW, 0.0) + bands_at(HIGH, 0.0)) == pytest.approx(0.5)
+    assert share.predicted(bands_at(LOW + 2, 0.0)) == pytest.approx(1.0)
+    part = np.log(900.0 / 891.25) / np.log(1122.02 / 891.25)
+    assert share.predicted(bands_at(one_khz, 0.0)) == pytest.approx(part, rel=1e-4)
+
+
+def test_the_share_moves_energy_from_the_sample_to_unmodelled_noise():
+    """A low sample at the published level: the level alone allows it, the share does not."""
+    alone, both = (weights([0.0], noise=noise)[0] for noise in (NOISE, WITH_SHARE))
+    assert both.sum() < 0.1 * alone.sum()
+    quiet = weights([-5.2], noise=WITH_SHARE)[0]  # 0.3 of the energy
+    assert LEVELS_DB[quiet.argmax()] == pytest.approx(-1.5, abs=1.0)
 
 
 def test_priors_are_settings_of_the_machine():
@@ -46,66 +95,35 @@ def test_priors_are_settings_of_the_machine():
     level = np.array([-11.0, -9.0, 1.0])
     assert flat.density(level).tolist() == [0.0, 1.0, 0.0]
     assert near.density(level).argmax() == 2
+    assert np.exp(flat.log_density).sum() == pytest.approx(1.0)
     with pytest.raises(ValueError, match=r"flat_lowest_db = 3\.5 dB: must be at least 1 dB below"):
         Remainder(flat_lowest_db=3.5)
 
 
-def test_a_loud_draw_counts_less_and_one_without_solution_not_at_all():
-    weight = agreement(np.array([0.0, 4.0, 8.0, np.nan]), DEVIATION_DB, FLAT)
+def test_a_loud_sample_counts_less_and_one_without_solution_not_at_all():
+    weight = weights([0.0, 4.0, 8.0, np.nan]).sum(axis=1)
     assert np.all(np.diff(weight) < 0.0)
     assert weight[3] == 0.0
 
 
-def test_remainder_completes_a_draw_to_the_published_level():
-    """Its middle; of one that reaches the level alone it is anywhere below."""
-    share = np.full(3, 0.5)
-    level = remainder_level(np.array([-40.0, -3.0, 0.0]), 0.2, FLAT, share)
-    assert level[0] == pytest.approx(0.0, abs=0.1)
-    assert level[1] == pytest.approx(10.0 * np.log10(1.0 - 10.0**-0.3), abs=0.1)
-    assert level[2] < -12.0
-    low, high = (remainder_level(np.zeros(1), 2.0, NEAR, np.array([s]))[0] for s in (0.0, 1.0))
-    assert low < -8.0 < 0.0 < high
+def test_unmodelled_noise_completes_a_sample_to_the_published_level():
+    weight = weights([-40.0, -3.0])
+    assert LEVELS_DB[weight[0].argmax()] == pytest.approx(0.0)
+    assert LEVELS_DB[weight[1].argmax()] == pytest.approx(-3.0)
 
 
-def test_effective_draws():
-    assert effective_draws(np.ones(7)) == pytest.approx(7.0)
-    assert effective_draws(np.array([0.5, 0.0])) == pytest.approx(1.0)
-    alike = agreement(np.full(5, 12.0), DEVIATION_DB, FLAT)  # all six deviations too loud
-    assert effective_draws(alike) == 0.0
-    assert effective_draws(np.zeros(3)) == 0.0
+def test_points_weigh_together_as_one_measurement():
+    over = np.array([-10.0, -1.0, 3.0, np.nan])
+    alone = log_weight_of_points(over[None], 2.0, FLAT)
+    np.testing.assert_allclose(log_weight_of_points(np.array([over] * 30), 2.0, FLAT), alone)
+    np.testing.assert_allclose(np.exp(alone), weights(over).sum(axis=1))
+    other = over[::-1] - 2.0
+    pair = log_weight_of_points(np.array([over, other]), 2.0, FLAT)
+    np.testing.assert_allclose(pair, 0.5 * (alone + log_weight_of_points(other[None], 2.0, FLAT)))
 
 
-@pytest.mark.parametrize("machines", [pytest.param(400, marks=pytest.mark.long), 40])
-@pytest.mark.long
-def test_bands_hold_the_truth_as_often_as_they_say(machines):
-    """Machines from the prior, their published level with noise, one bank of draws for all.
-
-    Modelled 56 ± 6 dB(A), a flat remainder of 30 to 60: bands of 90 % of both, and of the total.
-    Within three deviations of a binomial count.
-    """
-    rng = np.random.default_rng(11)
-    bank = rng.normal(56.0, 6.0, 2000)
-    modelled, rest = rng.normal(56.0, 6.0, machines), rng.uniform(30.0, 60.0, machines)
-    total = 10.0 * np.log10(10.0 ** (modelled / 10.0) + 10.0 ** (rest / 10.0))
-    published = total + rng.normal(0.0, DEVIATION_DB, machines)
-    held = np.zeros(3)
-    for truth in zip(modelled, rest, total, published, strict=True):
-        prior = Prior("fixed", "", lambda level, at=truth[3]: fixed(level + at))
-        weight = agreement(bank - truth[3], DEVIATION_DB, prior)
-        share = rng.permutation((np.arange(bank.size) + 0.5) / bank.size)
-        left = truth[3] + remainder_level(bank - truth[3], DEVIATION_DB, prior, share)
-        whole = 10.0 * np.log10(10.0 ** (bank / 10.0) + 10.0 ** (left / 10.0))
-        for number, values in enumerate((bank, left, whole)):
-            low, high = weighted_quantiles(values, weight, (0.05, 0.95))
-            held[number] += low <= truth[number] <= high
-    spread = 3.0 * np.sqrt(machines * 0.9 * 0.1)
-    assert np.all(np.abs(held - 0.9 * machines) <= spread), held
-
-
-def fixed(level_db):
-    return np.where((level_db >= 30.0) & (level_db <= 60.0), 1.0, 0.0)
-
-
-def weighted_quantiles(values, weight, shares):
-    order = np.argsort(values)
-    return values[order][np.searchsorted(np.cumsum(weight[order]) / weight.sum(), shares)]
+def test_effective_samples():
+    assert effective_samples(np.ones(7)) == pytest.approx(7.0)
+    assert effective_samples(np.array([0.5, 0.0])) == pytest.approx(1.0)
+    assert effective_samples(np.full(5, 1e-9)) == pytest.approx(5.0)
+    assert effective_samples(np.zeros(3)) == 0.0

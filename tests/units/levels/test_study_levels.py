@@ -8,17 +8,16 @@ import xarray as xr
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.levels.axes import LevelAxes
-from vibroacoustics.levels.bands import bands_between
-from vibroacoustics.levels.by_source import SourceSound
+from vibroacoustics.levels.by_source import SourceSound, gain_band_number
 from vibroacoustics.levels.insertion_loss import airborne_factor, remaining_factor
 from vibroacoustics.levels.lines import line_pressure
 from vibroacoustics.levels.remainder import (
     over_published,
     remainder,
     remaining,
-    spectrum_left,
+    unmodelled_bands,
 )
-from vibroacoustics.machine.remainder import Remainder
+from vibroacoustics.machine.remainder import OverallNoise, Remainder
 from vibroacoustics.mechanics.added import InsertionLoss
 from vibroacoustics.mechanics.loads import Lines
 from vibroacoustics.mechanics.received_sound import ReceivedSound
@@ -32,7 +31,9 @@ HOODED = {
 }
 STUDY = SimpleNamespace(
     machine=SimpleNamespace(
-        overall_noise=SimpleNamespace(level_dba=94.0, speed_rpm=3000.0, deviation_db=2.0),
+        overall_noise=OverallNoise(
+            level_dba=94.0, speed_rpm=3000.0, distance_m=1.0, deviation_db=2.0
+        ),
         remainder=Remainder(),
     ),
     measured=None,
@@ -88,34 +89,26 @@ def test_remainder_fills_up_to_the_published_level():
         remainder(STUDY, AXES, sound(2.0), False)
 
 
-def test_remainder_grows_with_speed_and_passes_a_hood_band_by_band():
-    """30 dB for ten times the speed; a spectrum that is even but for a band full of the model."""
-    even = Remainder(speed_growth_db=30.0, slope_db=0.0)
-    machine = SimpleNamespace(remainder=even)
-    bands = bands_between(3, 50.0, 63.0)
-    axes = LevelAxes([3000.0, 1500.0], ["none", "hood"], ["keys"], ["front"], bands)
+def test_unmodelled_noise_grows_with_speed_and_passes_a_hood_band_by_band():
+    """30 dB for ten times the speed; an even spectrum."""
+    machine = SimpleNamespace(remainder=Remainder(speed_growth_db=30.0, slope_db=0.0))
+    axes = LevelAxes([3000.0, 1500.0], ["none", "hood"], ["keys"], ["front"], ())
     study = SimpleNamespace(**{**vars(STUDY), "options": HOODED})
-    silent = {(3000.0, "none"): SourceSound(np.zeros((1, 1, 2)), np.zeros((1, 1)), None)}
-    left = remaining(study, axes, silent, machine, 0.81).sum(axis=2)
+    left = remaining(study, axes, machine, 0.81).sum(axis=2)
     bands_of_remainder = 27  # 25 Hz to 10 kHz, of which the hood takes 20 dB off that at 50 Hz
     assert left[0] == pytest.approx([0.81, 0.81 * (1.0 - 0.99 / bands_of_remainder)])
     assert left[1] == pytest.approx(left[0] / 8.0)
-    loud = SourceSound(np.array([[[1e9, 0.0]]]), np.zeros((1, 1)), None)
-    beside = remaining(study, axes, {(3000.0, "none"): loud}, machine, 0.81).sum(axis=2)
-    assert beside[0] == pytest.approx([0.81, 0.81])
-    assert np.all(remaining(study, axes, silent, machine, 0.0) == 0.0)
+    assert np.all(remaining(study, axes, machine, 0.0) == 0.0)
 
 
-def test_spectrum_left_sums_to_the_remainder_and_is_nowhere_negative():
-    rng = np.random.default_rng(0)
-    expected, modelled = rng.uniform(0.1, 1.0, (2, 20))
-    for rest in (1e-6, 0.3, 50.0):
-        left = spectrum_left(expected, modelled, rest)
-        assert left.sum() == pytest.approx(rest)
-        assert left.min() >= 0.0
-        factors = (left + modelled)[left > 0.0] / expected[left > 0.0]
-        assert factors == pytest.approx(np.full(factors.size, factors[0]))
-        assert np.all(modelled[left == 0.0] >= factors[0] * expected[left == 0.0] * (1.0 - 1e-12))
+def test_unmodelled_noise_has_the_shape_and_level_that_its_machine_gives():
+    peak_hz, slope_db = 2000.0, 5.0
+    given = Remainder(peak_frequency_hz=peak_hz, slope_db=slope_db)
+    bands = unmodelled_bands(STUDY, SimpleNamespace(remainder=given))
+    assert bands.sum() == pytest.approx(4e-10 * 10.0**9.4)
+    columns = [gain_band_number(np.array(hertz)) for hertz in (500.0, 1000.0, 8000.0)]
+    fall = 10.0 * np.log10(bands[columns] / bands.max())
+    assert fall == pytest.approx([-10.0, -5.0, -10.0], abs=0.1)  # 10^0.3, not 2
 
 
 def test_a_draw_is_told_over_the_published_level():

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import pyuff
 from sources_study import (
+    NO_DISCREPANCY,
     SOURCES_STUDY,
     all_lines,
     case_of,
@@ -23,8 +24,8 @@ from support import ROOT, assert_refused, command_here
 from vibroacoustics import levels
 from vibroacoustics.base.constants import REFERENCE_PRESSURE_PA
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.levels.agreement import agreement, priors_of
-from vibroacoustics.levels.by_source import SourceSound, filled_thirds, source_sound
+from vibroacoustics.levels.agreement import log_weight_of_points, priors_of
+from vibroacoustics.levels.by_source import GAIN_BANDS, SourceSound, filled_thirds, source_sound
 from vibroacoustics.machine.cases import Cases
 from vibroacoustics.machine.frame import (
     BEARING_HOUSING,
@@ -471,6 +472,9 @@ def test_sources_do_not_change_the_moving_parts(results, without):
     heard |= {"first_place_share", "noise_band_level", "remainder_band_level"}
     heard |= {name for name, array in without.data_vars.items() if "path_speed" in array.dims}
     same = set(without.data_vars) - heard
+    places = (one["rank_acceptability"].values for one in (without, results))
+    np.testing.assert_allclose(*places, rtol=SUMS)
+    same -= {"rank_acceptability"}  # a sum over the weights of the samples
     assert {"force", "force_order", "velocity_order", "foot_force_order", "mode_shape"} <= same
     for name in same:
         np.testing.assert_array_equal(without[name].values, results[name].values, err_msg=name)
@@ -544,6 +548,8 @@ def run_with_draws(study, monkeypatch, squares):
     receivers, bands = len(study.receivers), len(filled_thirds(1200.0))
     gas = np.zeros(1 + len(study.sources))
     gas[1] = 1.0
+    mutual = np.zeros((gas.size, gas.size, receivers, len(GAIN_BANDS)))
+    mutual[1, 1, :, 20] = 1.0
     by_draw: dict[tuple[float, ...], float] = {}
 
     def sounds(chain, draws, done):
@@ -556,6 +562,7 @@ def run_with_draws(study, monkeypatch, squares):
                         np.tile(square * gas[:, None, None], (1, receivers, bands)),
                         np.tile(square * gas[:, None], (1, receivers)),
                         np.tile(square * gas[:, None], (3, 1, receivers)),
+                        square * mutual,
                     )
                     for key in chain[Cases].cases
                 },
@@ -566,8 +573,8 @@ def run_with_draws(study, monkeypatch, squares):
 
     for stage in (ensemble, samples):
         monkeypatch.setattr(stage, "sounds_of", sounds)
-    settings = study.uncertainty.model_copy(update={"random_samples": len(squares)})
-    return run_made_up(study.model_copy(update={"uncertainty": settings}))
+    few = NO_DISCREPANCY | {"uncertainty.random_samples": len(squares)}
+    return run_made_up(with_tables(study.replace(few), overall_noise={"spectral_share": None}))
 
 
 def test_draws_count_by_how_well_they_agree_with_the_published_level(study, monkeypatch):
@@ -577,21 +584,30 @@ def test_draws_count_by_how_well_they_agree_with_the_published_level(study, monk
     found = run_with_draws(study, monkeypatch, [*quiet, *loud])
     level = found["bank_level"].values
     flat, _ = priors_of(study.machine.remainder)
-    expected = agreement(level - published, study.machine.overall_noise.deviation_db, flat)
-    assert found["bank_weight"].values[0] == pytest.approx(expected)
+    deviation_db = study.machine.overall_noise.deviation_db
+    expected = np.exp(log_weight_of_points((level - published)[None], deviation_db, flat))
+    assert found["bank_weight"].values[0] == pytest.approx(expected / expected.max())
     assert expected[level > published + 30.0].max() < 1e-12 * expected.max()
     at = {"option": "none", "receiver": "front_1m", "speed": 2900.0}
     modelled = found["level_modelled_by_draw"].sel(at).values
     assert modelled.max() < published + 30.0
     # The remainder as drawn completes each draw's total.
     whole = 10.0 ** (found["level_total_by_draw"].sel(at).values / 10.0)
-    rest = 10.0 ** (found["level_remainder_by_draw"].values[0] / 10.0)
+    rest = 10.0 ** (found["level_remainder_by_draw"].values / 10.0)
     assert whole == pytest.approx(10.0 ** (modelled / 10.0) + rest)
     assert found["draw_weight"].sum("draw").values == pytest.approx([1.0, 1.0])
 
 
-def test_a_model_that_is_much_too_loud_has_no_bands(study, monkeypatch):
+def test_a_model_that_is_much_too_loud_is_in_conflict_with_the_level(study, monkeypatch):
+    """Its samples are alike, and so are their weights."""
     found = run_with_draws(study, monkeypatch, [1.0, 1.0, 1.0, 1.0])
+    assert found.sizes["bank_draw"] == 4
+    assert found["datum_tail"].sel(datum="level") < 1e-12
+    assert found["conflict_tail"] == 0.0
+
+
+def test_samples_without_solution_give_no_intervals(study, monkeypatch):
+    found = run_with_draws(study, monkeypatch, [np.nan] * 4)
     assert "draw_weight" not in found
     assert found.sizes["bank_draw"] == 4 * MOST_ROUNDS
     assert np.isfinite(found["level_total"].values).all()

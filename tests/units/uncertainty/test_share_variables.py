@@ -8,7 +8,7 @@ from sources_study import SOURCES_STUDY
 from vibroacoustics.base.vocabulary import stamp
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.sampling import latin_hypercubes, position_in_range
-from vibroacoustics.uncertainty.bank import Bank
+from vibroacoustics.uncertainty.bank import Bank, Weighted
 from vibroacoustics.uncertainty.draws import drawn_values
 from vibroacoustics.uncertainty.share_variables import REMAINDER, change_shares, level_shares
 
@@ -40,14 +40,17 @@ def one_key(name):
 def test_level_shares_before_and_after(study, draws):
     """The level is the gain, and the mounts' a little; without enough weight only before."""
     level = 10.0 * position(study, draws, GAIN) + 3.0 * position(study, draws, PITCH)
-    weight = np.ones((2, DRAWS))
-    labelled = level_shares(study.ranges, Bank(draws, level, weight, DRAWS))
+    alike, few = (
+        Bank(draws, Weighted([], [], level, np.full((2, DRAWS), one)), DRAWS)
+        for one in (0.0, -np.inf)
+    )
+    labelled = level_shares(study.ranges, alike, np.ones(DRAWS))
     for knowledge in ("before", "flat", "near"):
         share = labelled["level_share"].sel(knowledge=knowledge)
         assert float(share.sel(drawn_parameter=GAIN)) == pytest.approx(100.0 / 109.0, abs=0.02)
         assert float(share.sel(drawn_parameter=PITCH)) == pytest.approx(9.0 / 109.0, abs=0.02)
         assert float(labelled["level_share_quality"].sel(knowledge=knowledge)) > 0.99
-    few = level_shares(study.ranges, Bank(draws, level, 0.0 * weight, DRAWS))
+    few = level_shares(study.ranges, few, np.ones(DRAWS))
     assert np.isfinite(few["level_share_quality"].values).tolist() == [True, False, False]
 
 
@@ -61,7 +64,7 @@ def test_change_shares_know_the_remainder_too(study, draws):
     prior = {"prior": ["flat", "near"], "draw": axes["draw"]}
     made = {
         "level_total_by_draw": stamp("level_total_by_draw", total, axes),
-        "level_remainder_by_draw": stamp("level_remainder_by_draw", [rest, rest], prior),
+        "level_remainder_by_draw": stamp("level_remainder_by_draw", rest, {"draw": axes["draw"]}),
         "draw_weight": stamp("draw_weight", np.full((2, DRAWS), 1.0 / DRAWS), prior),
     }
     labelled = change_shares(study, xr.Dataset(made).merge(drawn_values(study.ranges, draws)))

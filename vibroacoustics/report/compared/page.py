@@ -7,8 +7,17 @@ import xarray as xr
 
 from ...results.figure_limits import CheckedFigure, Compared
 from ...results.mean_of_runs import runs_of
+from ..bands import percent
 from ..blocks import Block, Details, Pictures, Text
-from ..evidence import COVERAGE, Rung, rungs_table
+from ..evidence import (
+    AGREES,
+    COVERAGE,
+    DIFFERS,
+    FORCE_TOLERANCE,
+    LEVEL_TOLERANCE_DB,
+    Rung,
+    rungs_table,
+)
 from ..figures.compared_orders import difference_picture
 from ..figures.style import Picture
 from ..html import html
@@ -65,9 +74,11 @@ def _verdict(compared: Compared, figures: Sequence[CheckedFigure]) -> list[Block
 
 
 def _agreement(rungs: Sequence[Rung]) -> str:
-    agree, known = sum(rung.agrees for rung in rungs), sum(rung.uncertainty > 0.0 for rung in rungs)
+    agree, differ = (sum(rung.verdict == word for rung in rungs) for word in (AGREES, DIFFERS))
+    known = sum(rung.uncertainty > 0.0 for rung in rungs)
     return (
-        f"Of {len(rungs)} figures of the study beside the recordings {agree} differ by less than "
+        f"Of {len(rungs)} figures of the study beside the recordings {agree} agree within "
+        f"{LEVEL_TOLERANCE_DB:g} dB or {percent(FORCE_TOLERANCE)} and {differ} differ by more than "
         f"{COVERAGE:g} times the validation uncertainty; it is known, in part at least, of {known}."
     )
 

@@ -18,6 +18,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         *([Text(assumptions.structure_borne_sentence(results))] if published else []),
         Heading("The remainder"),
         Text(assumptions.remainder_sentence(results)),
+        *_of_discrepancy(results),
         Heading("Inputs"),
         Text(
             f"{assumed} of {recorded} recorded values are assumed; they come first. Where a range "
@@ -26,6 +27,11 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         ),
         assumptions.records_table(results),
     ]
+
+
+def _of_discrepancy(results: xr.Dataset) -> list[Block]:
+    sentence = assumptions.discrepancy_sentence(results)
+    return [Heading("Model discrepancy"), Text(sentence)] if sentence else []
 
 
 register(Section("assumptions", "Assumptions", _blocks, position=100.0))

@@ -3,8 +3,17 @@
 import xarray as xr
 
 from ...base.registry import register
+from .. import conflict
+from ..bands import percent
 from ..blocks import Block, Text
-from ..evidence import COVERAGE, evidence_table, rungs
+from ..evidence import (
+    COVERAGE,
+    FORCE_TOLERANCE,
+    LEVEL_TOLERANCE_DB,
+    ONE_SIDED,
+    evidence_table,
+    rungs,
+)
 from . import Section
 
 
@@ -14,13 +23,21 @@ def _blocks(results: xr.Dataset) -> list[Block]:
             "Simulation S beside data D, in the form of ASME V&V 20: the error E = S − D, and the "
             "standard uncertainties of the numerics, of the inputs (all values with a range, drawn "
             "evenly before any data are used) and of the data; u is the root of the sum of their "
-            f"squares. Where |E| is not above {COVERAGE:g} u the comparison shows no error of the "
-            "model: the larger u is, the less that says. A force that is printed is no "
-            "measurement.",
+            f"squares. S agrees with D within a tolerance T where |E| + {ONE_SIDED:g} u ≤ T, with "
+            f"T = {LEVEL_TOLERANCE_DB:g} dB for levels and {percent(FORCE_TOLERANCE)} for forces; "
+            f"it differs where |E| > {COVERAGE:g} u; else that is undecided. A force that "
+            "is printed is no measurement.",
             "note",
         ),
         evidence_table(results),
+        *_conflict(results),
     ]
+
+
+def _conflict(results: xr.Dataset) -> list[Block]:
+    if not conflict.applies(results):
+        return []
+    return [Text(conflict.conflict_sentence(results)), conflict.conflict_table(results)]
 
 
 def _applies(results: xr.Dataset) -> bool:

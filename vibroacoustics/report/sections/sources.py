@@ -21,6 +21,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
     return [
         Text(source_words.carrier_sentence(results), "strong"),
         Text(source_words.shares_sentence(results)),
+        *filter(None, [source_words.energy_table(results)]),
         Heading("How sure that is"),
         Bullets(tuple(source_words.certainty_sentences(results))),
         Heading("Sources without a balancer"),

@@ -1,0 +1,92 @@
+"""Model discrepancy: errors of the model that no range of a value covers.
+
+The level of source s in third octave i deviates by
+
+    D = d_path + d_s + e_s,i dB
+
+with normal deviations of zero mean: one common to all sources, one of each source, and one of each
+band with the correlation exp(-octaves). They are the same for all options, speeds and microphones
+of a sample, so that most of them cancels in changes. What an option adds to the sound of a source
+deviates by d_r besides (Kennedy and O'Hagan 2001, J. R. Stat. Soc. B 63, 425).
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ..base.arrays import Array, IndexArray
+from ..base.decibel import power_of_level
+from ..base.vocabulary import REFERENCE_OPTION
+from ..levels.by_source import GAIN_BANDS, SourceSound
+from ..machine.source import CaseKey
+from ..study.uncertainty import Uncertainty
+
+DISCREPANCIES: Final = 50
+"""Number of a sample."""
+_OCTAVES: Final[Array] = np.arange(len(GAIN_BANDS)) / 3.0
+_CORRELATED: Final[Array] = np.linalg.cholesky(np.exp(-np.abs(_OCTAVES[:, None] - _OCTAVES)))
+"""Factor of the correlation of the bands."""
+
+
+@dataclass(frozen=True)
+class Discrepancy:
+    """Discrepancies of a sample.
+
+    Attributes
+    ----------
+    gain : factors on the power of sources, shape (discrepancy, source, band)
+    added : factors on what options add, shape (discrepancy,)
+    """
+
+    gain: Array
+    added: Array
+
+    @classmethod
+    def of(cls, settings: Uncertainty, sources: int, number: int) -> "Discrepancy":
+        """Return the discrepancies of the sample of a number, the same at each call.
+
+        Parameters
+        ----------
+        settings : standard deviations and seed
+        sources : number of sources of sound
+        number : of the sample
+        """
+        normal = np.random.default_rng((settings.seed, number)).standard_normal
+        path = settings.path_deviation_db * normal((DISCREPANCIES, 1, 1))
+        source = settings.source_deviation_db * normal((DISCREPANCIES, sources, 1))
+        white = normal((DISCREPANCIES, sources, len(GAIN_BANDS)))
+        band = settings.band_deviation_db * (white @ _CORRELATED.T)
+        added = settings.added_deviation_db * normal(DISCREPANCIES)
+        return cls(power_of_level(path + source + band), power_of_level(added))
+
+    def some(self, index: IndexArray) -> "Discrepancy":
+        """Return the discrepancies of some numbers."""
+        return Discrepancy(self.gain[index], self.added[index])
+
+    def heard(self, sound: Mapping[CaseKey, SourceSound]) -> list[dict[CaseKey, SourceSound]]:
+        """Return the sound of a sample with each discrepancy.
+
+        Parameters
+        ----------
+        sound : of every case, without discrepancy
+        """
+        added = {key: _added_part(sound, key) for key in sound}
+        gains = zip(self.gain[:, :, None], self.added.tolist(), strict=True)
+        return [
+            {
+                key: one.scaled(gain * (1.0 + (factor - 1.0) * added[key]))
+                for key, one in sound.items()
+            }
+            for gain, factor in gains
+        ]
+
+
+def _added_part(sound: Mapping[CaseKey, SourceSound], key: CaseKey) -> Array:
+    """Part of each source's energy that the option of a case adds, (source, receiver, band)."""
+    energy = sound[key].energy
+    reference = sound.get((key[0], REFERENCE_OPTION))
+    before = energy if reference is None else reference.energy
+    more = np.maximum(energy - before, 0.0)
+    return np.asarray(np.divide(more, energy, out=np.zeros_like(more), where=energy > 0.0))
