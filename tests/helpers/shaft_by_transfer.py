@@ -17,16 +17,16 @@ from vibroacoustics.transfer.isolation import Isolation
 CELLS = 88
 
 
-def flexibility(shaft, omega):
+def flexibility(shaft, omega, loss_factor):
     """Deflection of a free shaft at lower bearing, main bearing and pin per force there, m/N."""
     at = np.array([0.0, shaft.main_bearing_height_m, shaft.length_m])
     edges = np.linspace(0.0, shaft.length_m, CELLS + 1)
     states = [np.eye(4)]
     for low, high in pairwise(edges):
-        states.append(expm(cell(shaft, low, high, omega) * (high - low)) @ states[-1])
+        states.append(expm(cell(shaft, low, high, omega, loss_factor) * (high - low)) @ states[-1])
     nodes = np.searchsorted(edges, at - 1e-9)
     assert abs(edges[nodes] - at).max() < 1e-9
-    result = np.zeros((3, 3))
+    result = np.zeros((3, 3), dtype=complex)
     for column, node in enumerate(nodes):
         # A unit force at a node jumps the shear; moment and shear vanish at both ends.
         jump = states[-1] @ np.linalg.inv(states[node]) @ [0.0, 0.0, 0.0, 1.0]
@@ -39,7 +39,7 @@ def flexibility(shaft, omega):
     return result
 
 
-def cell(shaft, low, high, omega):
+def cell(shaft, low, high, omega, loss_factor):
     """Change of the state per length; the ring's share of the cell is spread over it."""
     d, outer = shaft.diameter_m, shaft.rotor_diameter_m
     area, moment = np.pi * d**2 / 4.0, np.pi * d**4 / 64.0
@@ -48,8 +48,9 @@ def cell(shaft, low, high, omega):
     share = max(min(high, ends[1]) - max(low, ends[0]), 0.0) / (high - low)
     ring = share * shaft.rotor_mass_kg / shaft.rotor_length_m
     mass, rotary = mass + ring, rotary + ring * (d**2 + outer**2) / 16.0
-    matrix = np.zeros((4, 4))
-    matrix[0, 1], matrix[1, 2] = 1.0, 1.0 / (shaft.youngs_modulus_pa * moment)
+    bending = shaft.youngs_modulus_pa * (1.0 + 1j * loss_factor) * moment
+    matrix = np.zeros((4, 4), dtype=complex)
+    matrix[0, 1], matrix[1, 2] = 1.0, 1.0 / bending
     matrix[2, 3], matrix[2, 1] = 1.0, -rotary * omega**2
     matrix[3, 0] = mass * omega**2
     return matrix
@@ -91,7 +92,7 @@ def forces_on_rigid_wall(frame, shaft, contacts, bearings, frequency_hz):
         moved = motion_at(np.array([0.0, 0.0, height]), middles[number])[:2]
         at_bearings[:, row, 6 * number : 6 * number + 6] = moved
     springs = np.diag(1.0 / np.array(bearings)[::-1])
-    joined = np.linalg.inv(springs + flexibility(shaft, omega))
+    joined = np.linalg.inv(springs + flexibility(shaft, omega, frame.metal_loss_factor_ratio))
     for plane in at_bearings:
         dynamic += plane.T @ joined @ plane
     loads = np.zeros((len(dynamic), len(PARTS), 6))
