@@ -164,7 +164,8 @@ class FrameOnShell:
         shares = np.concatenate(
             [shell[order[first]], parts, bearings, -still / omega**2, still, 1j * still]
         )
-        return self._pairs @ shares.real, self._pairs @ shares.imag
+        # Contiguous parts: strided ones are multiplied without the library of linear algebra.
+        return self._pairs @ shares.real.copy(), self._pairs @ shares.imag.copy()
 
     @cached_property
     def _pairs(self) -> Array:
