@@ -2,11 +2,16 @@
 
 from dataclasses import dataclass
 from math import pi, sqrt
+from typing import Final
 
 import numpy as np
 from scipy.optimize import brentq
 
 from ..base.arrays import Array, ComplexArray
+from ..base.errors import ParameterError
+
+DEEPEST: Final = 0.999
+"""Eccentricity ratio up to which an equilibrium is sought."""
 
 
 @dataclass(frozen=True)
@@ -58,33 +63,48 @@ def short_bearing(
     clearance_m : radial
     viscosity_pa_s : of the oil
     speed_rad_per_s : of the journal
-    load_n : constant, turning with the journal or at rest
+    load_n : constant, turning with the journal or at rest, along the first axis
+
+    Raises
+    ------
+    ParameterError
+        The film cannot carry the load.
     """
     scale = viscosity_pa_s * speed_rad_per_s * diameter_m * length_m**3 / (8.0 * clearance_m**2)
-    ratio = float(brentq(lambda e: load_n / scale * (1.0 - e * e) ** 2 - _force(e), 0.0, 1.0))
+    most = scale * _force(DEEPEST) / (1.0 - DEEPEST**2) ** 2
+    if not 0.0 < load_n <= most:
+        raise ParameterError(
+            f"load_n = {load_n:g} N: must be above 0 and at most {most:g} N, what the film carries "
+            f"at an eccentricity ratio of {DEEPEST:g}"
+        )
+    ratio = float(brentq(_excess, 0.0, DEEPEST, (load_n / scale,), 1e-15))
     e2, rest = ratio**2, 1.0 - ratio**2
     common, cross = (pi**2 * rest + 16.0 * e2) ** -1.5, ratio * sqrt(rest)
     swirl = pi**2 * (1.0 + 2.0 * e2) - 16.0 * e2
     stiffness = np.array(
         [
             [
-                4.0 * (pi**2 * (2.0 - e2) + 16.0 * e2),
-                pi * (pi**2 * rest**2 - 16.0 * e2**2) / cross,
+                4.0 * (pi**2 * (1.0 + 2.0 * e2) + 32.0 * e2 * (1.0 + e2) / rest),
+                pi * (pi**2 * rest * (1.0 + 2.0 * e2) + 32.0 * e2 * (1.0 + e2)) / cross,
             ],
             [
-                -pi * (pi**2 * rest * (1.0 + 2.0 * e2) + 32.0 * e2 * (1.0 + e2)) / cross,
-                4.0 * (pi**2 * (1.0 + 2.0 * e2) + 32.0 * e2 * (1.0 + e2) / rest),
+                -pi * (pi**2 * rest**2 - 16.0 * e2**2) / cross,
+                4.0 * (pi**2 * (2.0 - e2) + 16.0 * e2),
             ],
         ]
     )
     damping = np.array(
         [
-            [2.0 * pi * sqrt(rest) * swirl / ratio, -8.0 * swirl],
-            [-8.0 * swirl, 2.0 * pi * (pi**2 * rest**2 + 48.0 * e2) / cross],
+            [2.0 * pi * (pi**2 * rest**2 + 48.0 * e2) / cross, 8.0 * swirl],
+            [8.0 * swirl, 2.0 * pi * sqrt(rest) * swirl / ratio],
         ]
     )
     per_length = common * load_n / clearance_m
     return JournalFilm(ratio, per_length * stiffness, per_length / speed_rad_per_s * damping)
+
+
+def _excess(ratio: float, load: float) -> float:
+    return _force(ratio) - load * (1.0 - ratio**2) ** 2
 
 
 def _force(ratio: float) -> float:

@@ -73,7 +73,7 @@ def test_series_of_film_and_metal():
     assert loss_factor(film, metal)[0] == pytest.approx(0.03, abs=0.02)
 
 
-@pytest.mark.parametrize("load_n", [1e-6, 1.0, 3e3, 1e6])
+@pytest.mark.parametrize("load_n", [1e-6, 1.0, 3e3, 1e5])
 def test_load_is_carried(load_n):
     """The film's force at the eccentricity that it states is the load."""
     film = short_bearing(DIAMETER, 0.022, CLEARANCE, VISCOSITY, SPEED, load_n)
