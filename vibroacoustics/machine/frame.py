@@ -110,18 +110,18 @@ class Frame(Parameters):
     keys_stiffness_n_per_m: float = STIFFNESS
     """Of the keys between orbiting scroll and standing slots, around the shaft."""
     pin_stiffness_n_per_m: float = STIFFNESS
-    """Of the metal of bushing and pin; the oil film is in series."""
+    """Metal of bushing and pin; the oil film is in series."""
     pin_load_n: float = Field(gt=0.0, le=1e6)
     """Mean force of gas and unbalance, which turns with the crank; journals by the lever."""
     pin_film: PlainBearing
     main_film: PlainBearing
     lower_film: PlainBearing
     oil_viscosity_pa_s: float = Field(gt=0.0, le=10.0)
-    """Of the films of pin and journals."""
+    """Oil of pin and journals."""
     film_speed_rpm: float = Field(gt=0.0, le=1e5)
     """Shaft speed at which the films are computed."""
     metal_loss_factor_ratio: float = LOSS
-    """Of shaft, pin and bearing seats."""
+    """Steel of shaft, pin and bearing seats."""
     joint_loss_factor_ratio: float = LOSS
     """Of bolts, faces, keys and contacts with the shell."""
     contacts: ContactStiffness

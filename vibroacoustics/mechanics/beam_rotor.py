@@ -170,10 +170,10 @@ def with_ring(
 
 def _add(total: RotorMatrices, first: int, element: RotorMatrices) -> None:
     """Add the matrices of the element after a node, in place."""
-    at = slice(NODE_FREEDOMS * first, NODE_FREEDOMS * (first + 2))
-    total.mass[at, at] += element.mass
-    total.gyroscopic[at, at] += element.gyroscopic
-    total.stiffness[at, at] += element.stiffness
+    rows = slice(NODE_FREEDOMS * first, NODE_FREEDOMS * (first + 2))
+    total.mass[rows, rows] += element.mass
+    total.gyroscopic[rows, rows] += element.gyroscopic
+    total.stiffness[rows, rows] += element.stiffness
 
 
 def with_disc(

@@ -78,25 +78,25 @@ def short_bearing(
             f"at an eccentricity ratio of {DEEPEST:g}"
         )
     ratio = float(brentq(_excess, 0.0, DEEPEST, (load_n / scale,), 1e-15))
-    e2, rest = ratio**2, 1.0 - ratio**2
-    common, cross = (pi**2 * rest + 16.0 * e2) ** -1.5, ratio * sqrt(rest)
+    e2, gap = ratio**2, 1.0 - ratio**2
+    common, cross = (pi**2 * gap + 16.0 * e2) ** -1.5, ratio * sqrt(gap)
     swirl = pi**2 * (1.0 + 2.0 * e2) - 16.0 * e2
     stiffness = np.array(
         [
             [
-                4.0 * (pi**2 * (1.0 + 2.0 * e2) + 32.0 * e2 * (1.0 + e2) / rest),
-                pi * (pi**2 * rest * (1.0 + 2.0 * e2) + 32.0 * e2 * (1.0 + e2)) / cross,
+                4.0 * (pi**2 * (1.0 + 2.0 * e2) + 32.0 * e2 * (1.0 + e2) / gap),
+                pi * (pi**2 * gap * (1.0 + 2.0 * e2) + 32.0 * e2 * (1.0 + e2)) / cross,
             ],
             [
-                -pi * (pi**2 * rest**2 - 16.0 * e2**2) / cross,
+                -pi * (pi**2 * gap**2 - 16.0 * e2**2) / cross,
                 4.0 * (pi**2 * (2.0 - e2) + 16.0 * e2),
             ],
         ]
     )
     damping = np.array(
         [
-            [2.0 * pi * (pi**2 * rest**2 + 48.0 * e2) / cross, 8.0 * swirl],
-            [8.0 * swirl, 2.0 * pi * sqrt(rest) * swirl / ratio],
+            [2.0 * pi * (pi**2 * gap**2 + 48.0 * e2) / cross, 8.0 * swirl],
+            [8.0 * swirl, 2.0 * pi * sqrt(gap) * swirl / ratio],
         ]
     )
     per_length = common * load_n / clearance_m
