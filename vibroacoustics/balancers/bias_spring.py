@@ -25,7 +25,7 @@ class BiasSpring(Option):
     kind: ClassVar[str] = "bias-spring"
     needs: ClassVar[type[Capability]] = OldhamRing
     preload_n: float = Field(ge=0.0, le=1e5)
-    """Force in the middle of the stroke."""
+    """Force at half stroke."""
     stiffness_n_per_m: float = Field(ge=0.0, le=1e8)
     twin: TwinRing | None = None
     """Second ring, on which the spring acts; without it, the machine's ring."""
