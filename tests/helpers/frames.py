@@ -3,6 +3,7 @@
 from vibroacoustics.machine.frame import Frame
 from vibroacoustics.machine.shell_structure import Joint
 
+FILM = {"diameter_m": 0.025, "length_m": 0.02, "radial_clearance_m": 12e-6}
 BASE = {
     "keys_on": "fixed-scroll",
     "radially_compliant": True,
@@ -29,7 +30,13 @@ BASE = {
     "keys_radius_m": 0.055,
     "keys_stiffness_n_per_m": 1e8,
     "pin_stiffness_n_per_m": 1e8,
-    "bearing_loss_factor_ratio": 0.1,
+    "pin_load_n": 2960.0,
+    "oil_viscosity_pa_s": 0.0045,
+    "film_speed_rpm": 2900.0,
+    "metal_loss_factor_ratio": 0.01,
+    "pin_film": FILM,
+    "main_film": FILM,
+    "lower_film": FILM,
     "joint_loss_factor_ratio": 0.03,
     "contacts": {
         "weld_n_per_m": 1e9, "leg_n_per_m": 1e9, "seal_n_per_m": 0.0, "land_n_per_m": 1e9,

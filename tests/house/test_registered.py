@@ -27,7 +27,10 @@ every_kind = pytest.mark.parametrize("kind", OPTIONS)
 def examples():
     """One option of every kind, from the studies where they have one."""
     machine = load_machine(ROOT / "data" / "machines" / "copeland_zp41k3e.toml")
+    twin = {"mass_kg": 0.07, "stroke_ratio": 1.0, "distance_below_ring_m": 0.2}
     found = {
+        "torsion-spring": OPTIONS["torsion-spring"](preload_n_m=2.0, twin=twin),
+        "bias-spring": OPTIONS["bias-spring"](preload_n=5.0, stiffness_n_per_m=1e3, twin=twin),
         "counterweight": OPTIONS["counterweight"](
             mass_kg=0.1, radius_m=0.02, angle_rad=np.pi, height_m=0.0
         ),

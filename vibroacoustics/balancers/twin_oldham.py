@@ -6,16 +6,67 @@ from typing import ClassVar
 import numpy as np
 from pydantic import Field
 
+from ..base.parameters import Parameters
 from ..base.registry import register
 from ..machine.machine import Machine
 from ..machine.option import Option
-from ..mechanics.added import Added, FurtherRing
+from ..mechanics.added import Added, FurtherRing, RingForce
 from ..mechanics.capabilities import Capability, OldhamRing
 from ..mechanics.moving_parts import MovingPart, Revolution, path
 
 
+class TwinRing(Parameters):
+    """A second ring with the piece that it keeps from turning."""
+
+    mass_kg: float = Field(gt=0.0, le=100.0)
+    stroke_ratio: float = Field(gt=0.0, le=10.0)
+    """Stroke amplitude of the twin over that of the ring."""
+    distance_below_ring_m: float = Field(ge=-2.0, le=2.0)
+    driven_inertia_kg_m2: float | None = Field(default=None, gt=0.0, le=10.0)
+    """Piece on the eccentric about its centre; as the orbiting scroll where it is none."""
+    drag_n_m: float = Field(default=0.0, ge=0.0, le=100.0)
+    """Torque of the eccentric's oil film on the piece."""
+
+    def beside(
+        self,
+        machine: Machine,
+        revolution: Revolution,
+        moment_n_m: float = 0.0,
+        on_ring: RingForce | None = None,
+    ) -> Added:
+        """Second ring, 180° out of phase, at the other end of the shaft (thesis eq. 7.21).
+
+        The force cancels; force times the distance of the two rings remains as a couple. The piece
+        that drives the twin is taken as balanced on the shaft.
+
+        Parameters
+        ----------
+        machine : with a ring
+        revolution : of it
+        moment_n_m : of a spring on the driven piece
+        on_ring : force of a spring on the twin
+        """
+        ring = machine.require(OldhamRing)
+        amplitude = self.stroke_ratio * ring.stroke_m
+        height_m = ring.height_m - self.distance_below_ring_m
+        course = path(-amplitude * np.cos(revolution.rotation.crank_angle), 0.0, height_m)
+        twin = FurtherRing(
+            self.mass_kg,
+            amplitude,
+            height_m,
+            self.driven_inertia_kg_m2,
+            self.drag_n_m + moment_n_m,
+            on_ring,
+        )
+        return Added(
+            (MovingPart("balancer", self.mass_kg, course),),
+            {"added_mass_kg": self.mass_kg},
+            rings=(twin,),
+        )
+
+
 @register
-class TwinOldham(Option):
+class TwinOldham(TwinRing, Option):
     """A second Oldham ring in opposite phase at the other end of the shaft (thesis 7.3)."""
 
     kind: ClassVar[str] = "twin-oldham"
@@ -24,26 +75,10 @@ class TwinOldham(Option):
         "twin_key_impacts_per_revolution": "Impacts of the second ring's keys per revolution",
         "twin_key_force_peak_n": "Largest force on a key of the second ring",
     }
-    mass_kg: float = Field(gt=0.0, le=100.0)
-    stroke_ratio: float = Field(gt=0.0, le=10.0)
-    """Stroke amplitude of the twin over that of the ring."""
-    distance_below_ring_m: float = Field(ge=-2.0, le=2.0)
 
     def added(self, machine: Machine, revolution: Revolution) -> Added:
-        """Second ring, 180° out of phase, at the other end of the shaft (thesis eq. 7.21).
-
-        The force cancels; force times the distance of the two rings remains as a couple. The piece
-        that drives the twin is taken as balanced on the shaft.
-        """
-        ring = machine.require(OldhamRing)
-        amplitude = self.stroke_ratio * ring.stroke_m
-        height_m = ring.height_m - self.distance_below_ring_m
-        course = path(-amplitude * np.cos(revolution.rotation.crank_angle), 0.0, height_m)
-        return Added(
-            (MovingPart("balancer", self.mass_kg, course),),
-            {"added_mass_kg": self.mass_kg},
-            rings=(FurtherRing(self.mass_kg, amplitude, height_m),),
-        )
+        """The second ring without a spring; see `TwinRing.beside`."""
+        return self.beside(machine, revolution)
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
         """Keys without gas load, where they are not simulated."""

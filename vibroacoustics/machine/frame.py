@@ -64,6 +64,14 @@ class Face(Parameters):
     """Of the face around."""
 
 
+class PlainBearing(Parameters):
+    """A plain bearing with an oil film."""
+
+    diameter_m: float = RADIUS
+    length_m: float = RADIUS
+    radial_clearance_m: float = Field(gt=0.0, le=1e-3)
+
+
 class ContactStiffness(Parameters):
     """Of each contact of the frame with the shell, alike in all directions."""
 
@@ -102,8 +110,18 @@ class Frame(Parameters):
     keys_stiffness_n_per_m: float = STIFFNESS
     """Of the keys between orbiting scroll and standing slots, around the shaft."""
     pin_stiffness_n_per_m: float = STIFFNESS
-    bearing_loss_factor_ratio: float = LOSS
-    """Of bearings and pin."""
+    """Metal of bushing and pin; the oil film is in series."""
+    pin_load_n: float = Field(gt=0.0, le=1e6)
+    """Mean force of gas and unbalance, which turns with the crank; journals by the lever."""
+    pin_film: PlainBearing
+    main_film: PlainBearing
+    lower_film: PlainBearing
+    oil_viscosity_pa_s: float = Field(gt=0.0, le=10.0)
+    """Oil of pin and journals."""
+    film_speed_rpm: float = Field(gt=0.0, le=1e5)
+    """Shaft speed at which the films are computed."""
+    metal_loss_factor_ratio: float = LOSS
+    """Steel of shaft, pin and bearing seats."""
     joint_loss_factor_ratio: float = LOSS
     """Of bolts, faces, keys and contacts with the shell."""
     contacts: ContactStiffness

@@ -43,6 +43,10 @@ class FurtherRing:
     mass_kg : mass
     stroke_m : amplitude of its stroke
     height_m : from the centre of mass at rest
+    driven_inertia_kg_m2 : of the piece that it keeps from turning, about its centre; that of the
+        orbiting scroll where it is none
+    moment_n_m : turns this piece against the housing: a spring, drag
+    on_ring : force along its stroke, towards its own crank pin at crank angle zero
 
     Examples
     --------
@@ -54,6 +58,9 @@ class FurtherRing:
     mass_kg: float
     stroke_m: float
     height_m: float
+    driven_inertia_kg_m2: float | None = None
+    moment_n_m: float = 0.0
+    on_ring: RingForce | None = None
 
 
 @dataclass(frozen=True)
@@ -66,6 +73,7 @@ class Added:
     figures : to report of it, by name; the unit is the suffix of the name
     on_ring : force of what hangs on the machine's Oldham ring; none where nothing does
     rings : further Oldham rings
+    on_scroll_n_m : moment between housing and the part that the machine's ring keeps from turning
 
     Examples
     --------
@@ -79,6 +87,7 @@ class Added:
     figures: Mapping[str, float] = field(default_factory=dict)
     on_ring: RingForce | None = None
     rings: tuple[FurtherRing, ...] = ()
+    on_scroll_n_m: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 Each node has x, y, θx, θy; M q̈ + Ω G q̇ + K q = f. Slopes are dx/dz = θy and dy/dz = -θx.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -12,6 +12,8 @@ from ..base.arrays import Array
 from ..base.errors import ParameterError
 
 NODE_FREEDOMS: Final = 4
+_SAME_NODE_M: Final = 1e-9
+"""Distance below which positions are those of one node."""
 X_PLANE: Final = np.eye(8)[[0, 3, 4, 7]]
 """x1, dx1/dz, x2, dx2/dz from the element's eight displacements."""
 Y_PLANE: Final = np.array([[1.0], [-1.0], [1.0], [-1.0]]) * np.eye(8)[[1, 2, 5, 6]]
@@ -92,12 +94,27 @@ def bending_matrix(length_m: float) -> Array:
 
 def beam_element(section: Section, length_m: float) -> RotorMatrices:
     """Matrices of one element, both planes (Nelson & McVaugh 1976, eq. 23 and appendix)."""
-    density = section.density_kg_per_m3
-    plane_mass = density * section.area_m2 * translation_matrix(length_m)
-    rotary = density * section.second_moment_m4 * rotation_matrix(length_m)
-    bending = section.youngs_modulus_pa * section.second_moment_m4 * bending_matrix(length_m)
-    half = X_PLANE.T @ (2.0 * rotary) @ Y_PLANE  # polar second moment: twice that about a diameter
-    return RotorMatrices(_both_planes(plane_mass + rotary), half - half.T, _both_planes(bending))
+    density, moment = section.density_kg_per_m3, section.second_moment_m4
+    element = inertia_element(density * section.area_m2, density * moment, length_m)
+    bending = section.youngs_modulus_pa * moment * bending_matrix(length_m)
+    return replace(element, stiffness=_both_planes(bending))
+
+
+def inertia_element(
+    mass_kg_per_m: float, rotary_inertia_kg_m: float, length_m: float
+) -> RotorMatrices:
+    """Matrices of an element without stiffness, both planes.
+
+    Parameters
+    ----------
+    mass_kg_per_m : mass per length
+    rotary_inertia_kg_m : moment of inertia about a diameter per length; about the axis twice that
+    length_m : length of the element
+    """
+    rotary = rotary_inertia_kg_m * rotation_matrix(length_m)
+    half = X_PLANE.T @ (2.0 * rotary) @ Y_PLANE
+    mass = _both_planes(mass_kg_per_m * translation_matrix(length_m) + rotary)
+    return RotorMatrices(mass, half - half.T, np.zeros_like(mass))
 
 
 def _both_planes(plane: Array) -> Array:
@@ -123,12 +140,40 @@ def assemble(section: Section, node_positions_m: Array) -> RotorMatrices:
     size = NODE_FREEDOMS * (lengths.size + 1)
     total = RotorMatrices(*(np.zeros((size, size)) for _ in range(3)))
     for first, length in enumerate(lengths):
-        at = slice(NODE_FREEDOMS * first, NODE_FREEDOMS * (first + 2))
-        element = beam_element(section, float(length))
-        total.mass[at, at] += element.mass
-        total.gyroscopic[at, at] += element.gyroscopic
-        total.stiffness[at, at] += element.stiffness
+        _add(total, first, beam_element(section, float(length)))
     return total
+
+
+def with_ring(
+    rotor: RotorMatrices, node_positions_m: Array, ends_m: tuple[float, float],
+    mass_kg: float, diameters_m: tuple[float, float],
+) -> RotorMatrices:  # fmt: skip
+    """The rotor with a thick ring that follows the shaft without stiffening it.
+
+    Parameters
+    ----------
+    rotor : between the nodes
+    node_positions_m : along the shaft, both ends of the ring among them, shape (nodes,)
+    ends_m : lower and upper end of the ring
+    mass_kg : of the ring
+    diameters_m : inner and outer diameter
+    """
+    total = RotorMatrices(rotor.mass.copy(), rotor.gyroscopic.copy(), rotor.stiffness.copy())
+    mass_kg_per_m = mass_kg / (ends_m[1] - ends_m[0])
+    rotary = mass_kg_per_m * (diameters_m[0] ** 2 + diameters_m[1] ** 2) / 16.0
+    first, last = np.searchsorted(node_positions_m, np.array(ends_m) - _SAME_NODE_M)
+    for element in range(int(first), int(last)):
+        length = float(node_positions_m[element + 1] - node_positions_m[element])
+        _add(total, element, inertia_element(mass_kg_per_m, rotary, length))
+    return total
+
+
+def _add(total: RotorMatrices, first: int, element: RotorMatrices) -> None:
+    """Add the matrices of the element after a node, in place."""
+    rows = slice(NODE_FREEDOMS * first, NODE_FREEDOMS * (first + 2))
+    total.mass[rows, rows] += element.mass
+    total.gyroscopic[rows, rows] += element.gyroscopic
+    total.stiffness[rows, rows] += element.stiffness
 
 
 def with_disc(

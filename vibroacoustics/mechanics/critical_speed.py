@@ -9,13 +9,13 @@ from scipy.linalg import eigh
 
 from ..base.arrays import Array
 from ..base.constants import STANDARD_GRAVITY_M_PER_S2
-from .beam_rotor import NODE_FREEDOMS, RotorMatrices, Section, assemble, with_disc
+from .beam_rotor import NODE_FREEDOMS, RotorMatrices, Section, assemble, with_disc, with_ring
 from .scroll_shaft import ScrollShaft
 
 ELEMENT_LENGTH_M: Final = 0.01
 """Ten elements or more over half a wave of the highest mode of interest."""
-ROTOR_SLICES: Final = 4
-"""The motor's rotor as discs in the middle of slices of equal length."""
+_ROUNDING: Final = 1e-6
+"""Of an element's length: spans so short are none."""
 
 
 def rule_of_thumb_rpm(deflection_cm: float) -> float:
@@ -64,7 +64,7 @@ class FreeShaft:
 
     Attributes
     ----------
-    rotor : beam with the motor's rotor
+    rotor : beam with the motor's rotor, whose mass is spread over its length
     heights_m : of the nodes above the lower bearing, the first's, shape (node,)
     main_node, pin_node : at the main bearing and at the crank pin
     bearing_stiffness_n_per_m : of each bearing
@@ -85,15 +85,13 @@ def free_scroll_shaft(shaft: ScrollShaft, element_length_m: float = ELEMENT_LENG
     shaft : sizes, rotor, bearings
     element_length_m : at most
     """
-    slices = shaft.rotor_length_m * (np.arange(ROTOR_SLICES) + 0.5) / ROTOR_SLICES
-    discs = shaft.rotor_height_m - 0.5 * shaft.rotor_length_m + slices
-    fixed = np.array([0.0, *discs, shaft.main_bearing_height_m, shaft.length_m])
+    bottom = shaft.rotor_height_m - 0.5 * shaft.rotor_length_m
+    ring = bottom, bottom + shaft.rotor_length_m
+    fixed = np.array([0.0, *ring, shaft.main_bearing_height_m, shaft.length_m])
     nodes = _nodes(fixed, element_length_m)
     section = Section(shaft.diameter_m, shaft.youngs_modulus_pa, shaft.density_kg_per_m3)
-    rotor = assemble(section, nodes)
-    mass, inertias = _slice_of_rotor(shaft)
-    for height in discs:
-        rotor = with_disc(rotor, _node_at(nodes, height), mass, *inertias)
+    diameters = shaft.diameter_m, shaft.rotor_diameter_m
+    rotor = with_ring(assemble(section, nodes), nodes, ring, shaft.rotor_mass_kg, diameters)
     main = _node_at(nodes, shaft.main_bearing_height_m)
     return FreeShaft(rotor, nodes, main, nodes.size - 1, shaft.bearing_stiffness_n_per_m)
 
@@ -118,18 +116,12 @@ def sag_under_weight_m(rotor: RotorMatrices) -> Array:
     return np.asarray(sag[::NODE_FREEDOMS])
 
 
-def _slice_of_rotor(shaft: ScrollShaft) -> tuple[float, tuple[float, float]]:
-    """Mass, and transverse and axial moment of inertia, of one slice as a thick ring."""
-    mass = shaft.rotor_mass_kg / ROTOR_SLICES
-    squares = 0.25 * (shaft.rotor_diameter_m**2 + shaft.diameter_m**2)
-    length = shaft.rotor_length_m / ROTOR_SLICES
-    return mass, (mass * (0.25 * squares + length**2 / 12.0), 0.5 * mass * squares)
-
-
 def _nodes(fixed: Array, element_length_m: float) -> Array:
     """Nodes at the given places and no farther apart than an element's length."""
     spans = [
-        np.linspace(start, end, int(np.ceil((end - start) / element_length_m)), endpoint=False)
+        np.linspace(
+            start, end, int(np.ceil((end - start) / element_length_m - _ROUNDING)), endpoint=False
+        )
         for start, end in pairwise(fixed)
     ]
     return np.append(np.concatenate(spans), fixed[-1])

@@ -20,7 +20,7 @@ class ScrollShaft(Parameters):
     density_kg_per_m3: float = Field(gt=0.0, le=1e5)
     main_bearing_height_m: float = LENGTH
     bearing_stiffness_n_per_m: float = Field(gt=0.0, le=1e13)
-    """Of each bearing, alike in all directions."""
+    """Metal of each bearing, alike in all directions; an oil film is in series."""
     rotor_height_m: float = LENGTH
     """Middle of the motor's rotor."""
     rotor_length_m: float = LENGTH

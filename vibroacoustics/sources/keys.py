@@ -43,12 +43,13 @@ NOTHING_HUNG: Final = RingForce(np.zeros(1))
 
 @dataclass(frozen=True)
 class _Ring:
-    """A ring at one speed: its mass, its stroke, what turns the scroll, what hangs on it."""
+    """A ring at one speed, with the moment on the part that it keeps from turning."""
 
+    keys: OldhamKeys
     mass_kg: float
     stroke_m: float
     moment_n_m: Array
-    hung_n: Array
+    force: RingForce
 
 
 _Spectra = tuple[dict[Port, ComplexArray], ComplexArray, Noise]
@@ -85,12 +86,13 @@ class OldhamKeyForces(Source):
     def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
         """Loads of the keys on housing and scroll, of a second ring's on the lower bearing."""
         ring, keys = case.machine.require(OldhamRing), case.machine.table(OldhamKeys)
-        turning, hung = _turning(case), case.added.on_ring or NOTHING_HUNG
+        turning = _turning(case)
+        hung = turning.force
         moment = turning.moment_n_m
         forces = self._forces(case, turning)
         standing = _standing(case.machine)
         on_parts = key_parts(standing, ORBITING_SCROLL, ring.height_m)
-        spectra = [_spectra(case, keys, turning, forces, on_parts)]
+        spectra = [_spectra(case, turning, forces, on_parts)]
         if case.machine.has_table(Frame):  # the gas source turns the scroll against the keys
             spectra[0][0][standing][5] -= order_spectrum(turning.moment_n_m, case.maximum_order)
         figures = {
@@ -98,8 +100,6 @@ class OldhamKeyForces(Source):
             "key_force_peak_n": float(forces.peak_n.max()),
         }
         first = order_spectrum(hung.force_n, 1)[1] if hung.force_n.size > 1 else 0.0j
-        if hung.from_housing:
-            spectra[0][0][standing][[0, 4], 1] -= first * np.array([1.0, ring.height_m])
         if hung.inertial:
             omega = 2.0 * np.pi * case.shaft_frequency_hz
             carried = ring.mass_kg + first.real / (ring.stroke_m * omega**2)
@@ -124,24 +124,33 @@ class OldhamKeyForces(Source):
 
     def _further(self, case: Case, ring: FurtherRing) -> tuple[_Spectra, dict[str, float]]:
         """Spectra and figures of the keys of a second ring, which no gas presses."""
-        free = _Ring(ring.mass_kg, ring.stroke_m, np.zeros(1), np.zeros(1))
-        forces, keys = self._forces(case, free), case.machine.table(OldhamKeys)
+        keys, inertia = case.machine.table(OldhamKeys), ring.driven_inertia_kg_m2
+        if inertia is not None:
+            keys = keys.model_copy(update={"scroll_inertia_kg_m2": inertia})
+        moment = np.array([ring.moment_n_m])
+        free = _Ring(keys, ring.mass_kg, ring.stroke_m, moment, ring.on_ring or NOTHING_HUNG)
+        forces = self._forces(case, free)
         on_parts = key_parts(LOWER_BEARING, LOWER_BEARING, ring.height_m)
         # In opposite phase: all is turned by half a turn about the shaft.
         on_parts[LOWER_BEARING][:5] *= -1.0
-        return _spectra(case, keys, free, forces, on_parts), {
+        return _spectra(case, free, forces, on_parts), {
             "twin_key_impacts_per_revolution": forces.impacts_per_revolution,
             "twin_key_force_peak_n": float(forces.peak_n.max()),
         }
 
     def _forces(self, case: Case, ring: _Ring) -> KeyForces:
         """Simulated forces of one ring's keys, once for all cases that share them."""
-        keys, numbers = case.machine.table(OldhamKeys), (ring.mass_kg, ring.stroke_m)
-        courses = (ring.moment_n_m.tobytes(), ring.hung_n.tobytes())
+        keys, numbers = ring.keys, (ring.mass_kg, ring.stroke_m)
+        courses = (ring.moment_n_m.tobytes(), ring.force.force_n.tobytes())
         return case.shared(
             ("keys", keys, *numbers, case.speed_rpm, self.revolutions, *courses),
             lambda: steady_key_forces(
-                keys, *numbers, case.speed_rpm, ring.moment_n_m, ring.hung_n, self.revolutions
+                keys,
+                *numbers,
+                case.speed_rpm,
+                ring.moment_n_m,
+                ring.force.force_n,
+                self.revolutions,
             ),
         )
 
@@ -156,13 +165,13 @@ def _standing(machine: Machine) -> Port:
 def _turning(case: Case) -> _Ring:
     """The machine's ring with the gas moment that presses its keys and what hangs on it."""
     ring = case.machine.require(OldhamRing)
-    moment = gas_cycle(case.machine, case.shared, case.speed_rpm).self_rotation_moment_n_m
-    return _Ring(ring.mass_kg, ring.stroke_m, moment, (case.added.on_ring or NOTHING_HUNG).force_n)
+    gas = gas_cycle(case.machine, case.shared, case.speed_rpm).self_rotation_moment_n_m
+    moment, force = gas + case.added.on_scroll_n_m, case.added.on_ring or NOTHING_HUNG
+    return _Ring(case.machine.table(OldhamKeys), ring.mass_kg, ring.stroke_m, moment, force)
 
 
 def _spectra(
     case: Case,
-    keys: OldhamKeys,
     ring: _Ring,
     forces: KeyForces,
     on_parts: Mapping[Port, Array],
@@ -172,12 +181,12 @@ def _spectra(
     Parameters
     ----------
     case : for the highest frequency
-    keys, ring : that made the forces
+    ring : that made the forces
     forces : of all four keys
     on_parts : load on each part per unit of each resultant
     """
     highest = case.maximum_order
-    resultants = key_resultants(forces, keys.radius_m, ring.stroke_m)
+    resultants = key_resultants(forces, ring.keys.radius_m, ring.stroke_m)
     mean, rest = split_periodic(resultants, forces.revolutions)
     torque_n_m = key_torque_n_m(forces, ring.stroke_m)
     torque = order_spectrum(split_periodic(torque_n_m, forces.revolutions)[0], highest)
@@ -187,4 +196,6 @@ def _spectra(
     kept = frequency <= case.maximum_frequency_hz
     noise = Noise(on_parts, frequency[kept], density[..., kept])
     orders = order_spectrum(mean, highest)
+    if ring.force.from_housing and ring.force.force_n.size > 1:
+        orders[0] -= order_spectrum(ring.force.force_n, highest)
     return {part: per_force @ orders for part, per_force in on_parts.items()}, torque, noise

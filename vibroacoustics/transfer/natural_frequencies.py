@@ -63,17 +63,21 @@ def framed_hz(frame: FrameOnShell) -> Array:
     """Of shell and parts joined at their contacts, without loss, free in space, Hz, rising.
 
     Coordinates are the shell's modes, its six rigid motions and the freedoms of the parts; the
-    gaps at the contacts are held by their springs in series with what the modes leave out. At
-    these frequencies the compliance of the contacts has no inverse.
+    gaps at the contacts are held by their springs in series with what the modes leave out, those
+    at the bearings by the metal: above the shaft's speed a film is many times as stiff.
     """
+    inner = frame.inner
     squares = (2.0 * np.pi * frame.natural_hz) ** 2
     rigid = np.zeros((6, 6))
-    gaps = np.hstack([frame.modal_forces.T, frame.contacts.rigid, -frame.inner.contacts])
+    shell = np.hstack([frame.modal_forces.T, frame.contacts.rigid])
+    gaps = np.hstack([np.pad(shell, ((0, len(inner.gaps) - len(shell)), (0, 0))), -inner.gaps])
     held = np.linalg.inv(np.diag(1.0 / frame.contacts.stiffness.real) + frame.residual)
+    metal = np.repeat([bearing.metal_stiffness.real for bearing in inner.bearings], 2)
+    held = block_diag(held, np.diag(metal))
     stiffness = block_diag(
-        np.diag(frame.modal_mass_kg * squares), rigid, frame.inner.stiffness.real
+        np.diag(frame.modal_mass_kg * squares), rigid, inner.bodies.stiffness, inner.shaft.stiffness
     )
-    mass = block_diag(np.diag(frame.modal_mass_kg), frame.shell_mass, frame.inner.mass)
+    mass = block_diag(np.diag(frame.modal_mass_kg), frame.shell_mass, inner.mass)
     stiffness += gaps.T @ held @ gaps
     values = eigh(stiffness, mass, eigvals_only=True, check_finite=False)
     hertz = np.sqrt(np.maximum(values, 0.0)) / (2.0 * np.pi)

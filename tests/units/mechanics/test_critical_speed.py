@@ -1,6 +1,7 @@
 """Critical speeds: exact cases, the thesis's figures, another package."""
 
 import csv
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ from vibroacoustics.mechanics.beam_rotor import (
     assemble,
     whirl_frequencies_hz,
     with_disc,
+    with_ring,
 )
 from vibroacoustics.mechanics.critical_speed import (
     forward_critical_speeds,
@@ -156,18 +158,44 @@ def oracle():
 
 @pytest.mark.parametrize("row", oracle())
 def test_scroll_shaft_of_another_package(row):
-    """ROSS 2.3.0, tests/oracles/rotor; iterated to 1e-8."""
-    shaft = SHAFT.model_copy(
-        update={
-            "diameter_m": float(row["diameter_m"]),
-            "bearing_stiffness_n_per_m": float(row["bearing_n_per_m"]),
-            "rotor_mass_kg": float(row["rotor_kg"]),
-            "pin_mass_kg": float(row["pin_kg"]),
-        }
+    """ROSS 2.3.0, tests/oracles/rotor; iterated to 1e-8. The motor's rotor is four discs there."""
+    diameter, mass = float(row["diameter_m"]), float(row["rotor_kg"]) / 4.0
+    discs = 0.065 + 0.085 * (np.arange(4) + 0.5) / 4.0
+    fixed = [0.0, *discs, 0.185, 0.220]
+    nodes = np.unique(
+        np.concatenate(
+            [np.linspace(a, b, 1 + int(np.ceil((b - a) / 0.01))) for a, b in pairwise(fixed)]
+        )
     )
+    rotor = assemble(Section(diameter, 2.06e11, 7850.0), nodes)
+    squares = 0.25 * (0.07**2 + diameter**2)
+    inertias = mass * (0.25 * squares + (0.085 / 4.0) ** 2 / 12.0), 0.5 * mass * squares
+    for disc in discs:
+        rotor = with_disc(rotor, int(np.argmin(abs(nodes - disc))), mass, *inertias)
+    rotor = with_disc(rotor, nodes.size - 1, float(row["pin_kg"]), 0.0, 0.0)
+    bearings = np.array([0, int(np.argmin(abs(nodes - 0.185)))])
+    found = forward_critical_speeds(on_bearings(rotor, bearings, float(row["bearing_n_per_m"])))
     expected = [float(row["first"]), float(row["second"])]
-    found = forward_critical_speeds(scroll_shaft_rotor(shaft))[:2]
-    assert found == pytest.approx(expected, rel=1e-6)
+    assert found[:2] == pytest.approx(expected, rel=1e-6)
+
+
+def test_ring_follows_the_shaft():
+    """Mass, moments about both ends and the spin's moment of a rigid ring; it has no stiffness."""
+    nodes, ends, mass = np.linspace(0.0, LENGTH, 9), (0.05, 0.125), 2.3
+    shaft = assemble(LIGHT, nodes)
+    ring = with_ring(shaft, nodes, ends, mass, (0.02, 0.07))
+    moved = np.zeros((len(ring.mass), 4))
+    moved[0::4, 0], moved[1::4, 1] = 1.0, 1.0
+    moved[1::4, 2], moved[2::4, 2] = -nodes, 1.0
+    moved[0::4, 3], moved[3::4, 3] = nodes, 1.0
+    middle, length = np.mean(ends), ends[1] - ends[0]
+    squares = 0.25 * (0.02**2 + 0.07**2)
+    about_end = mass * (0.25 * squares + length**2 / 12.0 + middle**2)
+    got = moved.T @ ring.mass @ moved
+    assert np.diag(got) == pytest.approx([mass, mass, about_end, about_end], rel=1e-6)
+    assert got[0, 3] == pytest.approx(mass * middle, rel=1e-6)
+    assert (moved.T @ ring.gyroscopic @ moved)[2, 3] == pytest.approx(0.5 * mass * squares)
+    np.testing.assert_array_equal(ring.stiffness, shaft.stiffness)
 
 
 def test_scroll_shaft_runs_below_its_critical_speed():

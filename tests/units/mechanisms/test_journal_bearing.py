@@ -194,17 +194,17 @@ def test_linear_film_balances_its_load_and_meets_differences():
     def force(place, velocity):
         return positive_film_force(BEARING, place, velocity, spin)
 
-    radial, transverse = short_bearing_force(BEARING, film.eccentricity, 0.0, SPIN)
+    radial, transverse = short_bearing_force(BEARING, film.eccentricity_ratio, 0.0, SPIN)
     assert np.hypot(radial, transverse) == pytest.approx(50.0, rel=1e-9)
     attitude = np.pi - np.arctan2(transverse, radial)
-    place = 15e-6 * film.eccentricity * np.array([np.cos(attitude), np.sin(attitude)])
+    place = 15e-6 * film.eccentricity_ratio * np.array([np.cos(attitude), np.sin(attitude)])
     assert force(place, np.zeros(2)) == pytest.approx([-50.0, 0.0], abs=1e-8)
     for axis, (step, rate) in enumerate(zip(1e-10 * np.eye(2), 1e-7 * np.eye(2), strict=True)):
         slope = (force(place + step, np.zeros(2)) - force(place - step, np.zeros(2))) / 2e-10
         # Central differences: 1e-10 m of 3 µm of film leave about (1e-10 / 3e-6)², and rounding.
-        assert -slope == pytest.approx(film.stiffness_n_per_m[:, axis], rel=1e-6)
+        assert -slope == pytest.approx(film.stiffness[:, axis], rel=1e-6)
         drag = (force(place, rate) - force(place, -rate)) / 2e-7
-        assert -drag == pytest.approx(film.damping_ns_per_m[:, axis], rel=1e-6)
+        assert -drag == pytest.approx(film.damping[:, axis], rel=1e-6)
 
 
 def test_journal_beyond_its_clearance_is_refused():

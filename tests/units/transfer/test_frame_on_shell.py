@@ -11,6 +11,7 @@ from support import ROOT
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.machine.frame import PARTS, Frame
 from vibroacoustics.machine.shell_structure import Joint
+from vibroacoustics.mechanics.journal_film import JournalFilm
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer.frame import frame_on_shell
 from vibroacoustics.transfer.frame.contacts import rigid_rows
@@ -68,6 +69,28 @@ def test_welds_move_with_the_rigid_shell(spread_rad):
 FREQUENCY = np.array([0.0, 48.3, 517.0, 1333.0, 2900.0])
 
 
+def with_bearings(inner, frequency_hz):
+    """Stiffness of bodies, shaft and bearings with loss, shape (freedom, freedom)."""
+    lossy = [
+        part.stiffness * (1.0 + 1j * part.loss_factor_ratio) for part in (inner.bodies, inner.shaft)
+    ]
+    flexibility = inner.flexibility(np.array([2.0 * np.pi * frequency_hz]))[:, 0]
+    between = inner.gaps[-flexibility.size :]
+    return block_diag(*lossy) + between.T @ (between / flexibility[:, None])
+
+
+def at_contacts(on_shell):
+    """Motion at the contacts per freedom of the parts, shape (contact, freedom)."""
+    return on_shell.inner.gaps[: len(on_shell.contacts.part)]
+
+
+def with_rigid_films(on_shell):
+    """Bearings of metal alone."""
+    rigid = JournalFilm(0.0, 1e30 * np.eye(2), np.zeros((2, 2)))
+    bearings = tuple(replace(bearing, film=rigid) for bearing in on_shell.inner.bearings)
+    return replace(on_shell, inner=replace(on_shell.inner, bearings=bearings))
+
+
 def velocities(on_shell, frequency_hz):
     """Of the shell's modes and then its rigid motions per load, (motion, load, frequency)."""
     count = on_shell.natural_hz.size + 6
@@ -79,8 +102,8 @@ def motion_of_parts(on_shell, frequency_hz):
     """Freedoms per load on a part, with the shell's forces put on as loads."""
     inner, omega = on_shell.inner, 2.0 * np.pi * frequency_hz
     forces = on_shell.contact_forces(np.array([frequency_hz]))[0]
-    dynamic = inner.stiffness - omega**2 * inner.mass
-    return np.linalg.solve(dynamic, inner.loads - inner.contacts.T @ forces), forces
+    dynamic = with_bearings(inner, frequency_hz) - omega**2 * inner.mass
+    return np.linalg.solve(dynamic, inner.loads - at_contacts(on_shell).T @ forces), forces
 
 
 def test_forces_on_the_shell_are_its_mass_times_its_acceleration(on_shell):
@@ -133,11 +156,17 @@ def test_motion_under_loads_is_what_receivers_of_each_motion_hear(on_shell):
 
 def test_natural_frequencies_make_the_contacts_infinitely_compliant(on_shell):
     """Without loss: there the compliance of the gaps has no inverse, or a mode moves no contact."""
-    still = replace(on_shell, loss_factor_ratio=0.0)
-    still = replace(
-        still, contacts=replace(still.contacts, stiffness=still.contacts.stiffness.real)
+    still = replace(with_rigid_films(on_shell), loss_factor_ratio=0.0)
+    inner, stiff = still.inner, still.contacts.stiffness.real
+    inner = replace(
+        inner,
+        bodies=replace(inner.bodies, loss_factor_ratio=0.0),
+        shaft=replace(inner.shaft, loss_factor_ratio=0.0),
+        bearings=tuple(
+            replace(each, metal_stiffness=each.metal_stiffness.real) for each in inner.bearings
+        ),
     )
-    still = replace(still, inner=replace(still.inner, stiffness=still.inner.stiffness.real))
+    still = replace(still, inner=inner, contacts=replace(still.contacts, stiffness=stiff))
     hertz = framed_hz(on_shell)
     hertz = hertz[hertz < 1500.0]
     alone = [*still.natural_hz, *np.sqrt(np.abs(still.motions.squares)) / (2.0 * np.pi)]
@@ -148,7 +177,7 @@ def test_natural_frequencies_make_the_contacts_infinitely_compliant(on_shell):
         omega = np.array([2.0 * np.pi * frequency_hz])
         shell = answers(still._squares, omega) / still.modal_mass_kg[:, None]
         pairs, _ = still._compliance(shell, answers(still.motions.squares, omega), omega)
-        full = np.zeros((len(still.contacts.part),) * 2)
+        full = np.zeros((len(still.inner.gaps),) * 2)
         rows, columns = upper_pairs(len(full))
         full[rows, columns] = full[columns, rows] = pairs[:, 0]
         return abs(np.linalg.eigvalsh(full)).min()
@@ -169,8 +198,9 @@ def test_contacts_give_what_elimination_of_the_parts_gives(on_shell):
         compliance += on_shell.residual / (1.0 + 1j * loss)
         compliance -= rows @ np.linalg.solve(on_shell.shell_mass, rows.T) / omega**2
         weighted = np.eye(len(held)) + held * compliance
-        through = np.linalg.solve(weighted, held * inner.contacts)
-        dynamic = inner.stiffness - omega**2 * inner.mass + inner.contacts.T @ through
+        gaps = at_contacts(on_shell)
+        through = np.linalg.solve(weighted, held * gaps)
+        dynamic = with_bearings(inner, frequency) - omega**2 * inner.mass + gaps.T @ through
         expected = through @ np.linalg.solve(dynamic, inner.loads)
         got = on_shell.contact_forces(at)[0]
         assert got == pytest.approx(expected, abs=1e-9 * abs(expected).max())
@@ -181,21 +211,23 @@ def test_contacts_give_what_elimination_of_the_parts_gives(on_shell):
 
 def test_contacts_give_what_natural_motions_of_all_together_give(on_shell):
     """K x = ω² M x with the contacts in K; loads freed of what moves the machine as one body."""
+    on_shell = with_rigid_films(on_shell)
     inner, count = on_shell.inner, on_shell.natural_hz.size
     shell = np.concatenate([on_shell.modal_forces.T, on_shell.contacts.rigid], axis=1)
-    stretch = np.concatenate([inner.contacts, -shell], axis=1)
+    stretch = np.concatenate([at_contacts(on_shell), -shell], axis=1)
     wall = on_shell.residual / (1.0 + 1j * on_shell.loss_factor_ratio)
     held = np.linalg.inv(np.diag(1.0 / on_shell.contacts.stiffness) + wall)
     lossy = (2.0 * np.pi * on_shell.natural_hz) ** 2 * (1.0 + 1j * on_shell.loss_factor_ratio)
     elastic = np.diag(on_shell.modal_mass_kg * lossy)
-    stiffness = block_diag(inner.stiffness, elastic, np.zeros((6, 6)))
+    stiffness = block_diag(with_bearings(inner, 1.0), elastic, np.zeros((6, 6)))
     stiffness = stiffness + stretch.T @ held @ stretch
     mass = block_diag(inner.mass, np.diag(on_shell.modal_mass_kg), on_shell.shell_mass)
     free = np.concatenate([inner.rigid, np.zeros((count, 6)), np.eye(6)])
     together = free @ np.linalg.solve(free.T @ mass @ free, free.T)
-    squares, shapes = np.linalg.eig(np.linalg.solve(mass, stiffness))
+    root = np.linalg.inv(np.linalg.cholesky(mass))
+    squares, unit = np.linalg.eig(root @ stiffness @ root.T)
     freed = np.eye(len(mass)) - mass @ together
-    drives = np.linalg.solve(shapes, np.linalg.solve(mass, freed))
+    shapes, drives = root.T @ unit, np.linalg.solve(unit, root @ freed)
     loads = np.concatenate([inner.loads, np.zeros((count + 6, inner.loads.shape[1]))])
     for frequency in FREQUENCY[1:]:
         omega = 2.0 * np.pi * frequency

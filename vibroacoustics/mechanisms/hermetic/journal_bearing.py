@@ -5,16 +5,15 @@ force on the journal has the component ξ towards the thinnest film and η ahead
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from ...base.arrays import Array
 from ...base.errors import ParameterError
 from ...mechanics.beam_rotor import RotorMatrices
+from ...mechanics.journal_film import JournalFilm, short_bearing
 from .parameters import JournalBearing
 
 Values = NDArray[Any]
@@ -25,23 +24,6 @@ FilmForce = Callable[[JournalBearing, Values, Values, Values], Values]
 """Force on the journal, N, from its displacement, velocity (..., 2) and spin (...)."""
 COMPLEX_STEP: Final = 1e-30
 """A complex step has no cancellation; it need only be small beside a displacement of 1 nm."""
-DEEPEST: Final = 0.999
-"""Eccentricity up to which an equilibrium is sought."""
-
-
-@dataclass(frozen=True)
-class LinearFilm:
-    """A film about its equilibrium: force f = f0 - K x - D v on the journal.
-
-    Attributes
-    ----------
-    eccentricity : ε
-    stiffness_n_per_m, damping_ns_per_m : shape (2, 2); the load acts along x
-    """
-
-    eccentricity: float
-    stiffness_n_per_m: Array
-    damping_ns_per_m: Array
 
 
 def short_bearing_force(
@@ -200,7 +182,7 @@ def _angle(x: Values, y: Values) -> Values:
     return np.asarray(base + np.arctan(turned_y / turned_x))
 
 
-def linear_film(bearing: JournalBearing, load_n: float, spin_rad_per_s: float) -> LinearFilm:
+def linear_film(bearing: JournalBearing, load_n: float, spin_rad_per_s: float) -> JournalFilm:
     """Short half-Sommerfeld film about the equilibrium of a steady load along x.
 
     Parameters
@@ -214,39 +196,12 @@ def linear_film(bearing: JournalBearing, load_n: float, spin_rad_per_s: float) -
     ParameterError
         The film cannot carry the load.
     """
-
-    def force(eccentricity: float) -> tuple[float, float]:
-        values = short_bearing_force(
-            bearing, np.array(eccentricity), np.array(0.0), np.array(spin_rad_per_s)
-        )
-        return float(values[0]), float(values[1])
-
-    def excess(eccentricity: float) -> float:
-        return float(np.hypot(*force(eccentricity))) - load_n
-
-    if not 0.0 < load_n < load_n + excess(DEEPEST):
-        raise ParameterError(
-            f"load_n = {load_n:g} N: must be above 0 and below {load_n + excess(DEEPEST):g} N, "
-            f"what the film carries at an eccentricity of {DEEPEST:g}"
-        )
-    eccentricity = float(brentq(excess, 1e-9, DEEPEST, xtol=1e-15))
-    radial, transverse = force(eccentricity)
-    # The film's force stands at (π - its angle) from ξ; the load opposes it along +x.
-    attitude = np.pi - np.arctan2(transverse, radial)
-    position = bearing.clearance_m * eccentricity * np.array([np.cos(attitude), np.sin(attitude)])
-    stiffness, damping = (np.zeros((2, 2)) for _ in range(2))
-    for axis in range(2):
-        step = 1j * COMPLEX_STEP * np.eye(2)[axis]
-        spin = np.array(spin_rad_per_s)
-        moved = positive_film_force(bearing, position + step, np.zeros(2), spin)
-        moving = positive_film_force(bearing, position + 0j, step, spin)
-        stiffness[:, axis] = -moved.imag / COMPLEX_STEP
-        damping[:, axis] = -moving.imag / COMPLEX_STEP
-    return LinearFilm(eccentricity, stiffness, damping)
+    size = 2.0 * bearing.radius_m, bearing.width_m, bearing.clearance_m
+    return short_bearing(*size, bearing.viscosity_pa_s, spin_rad_per_s, load_n)
 
 
 def damped_modes(
-    rotor: RotorMatrices, films: dict[int, LinearFilm], spin_rad_per_s: float
+    rotor: RotorMatrices, films: dict[int, JournalFilm], spin_rad_per_s: float
 ) -> tuple[Array, Array]:
     """Damped natural frequencies, ascending, and damping ratios of a rotor on linear films.
 
@@ -262,8 +217,8 @@ def damped_modes(
     """
     damping, stiffness = spin_rad_per_s * rotor.gyroscopic, rotor.stiffness.copy()
     for at, film in films.items():
-        stiffness[at : at + 2, at : at + 2] += film.stiffness_n_per_m
-        damping[at : at + 2, at : at + 2] += film.damping_ns_per_m
+        stiffness[at : at + 2, at : at + 2] += film.stiffness
+        damping[at : at + 2, at : at + 2] += film.damping
     zero, one = np.zeros_like(stiffness), np.eye(len(stiffness))
     lower = -np.linalg.solve(rotor.mass, np.hstack((stiffness, damping)))
     values = np.linalg.eigvals(np.vstack((np.hstack((zero, one)), lower)))

@@ -6,20 +6,15 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from ...base.arrays import Array, ComplexArray
-from ...machine.frame import (
-    BEARING_HOUSING,
-    LOWER_BEARING,
-    ORBITING_SCROLL,
-    PARTS,
-    Frame,
-    RoundPart,
-)
+from ...machine.frame import PARTS, Frame, RoundPart
 from ...mechanics.beam_rotor import NODE_FREEDOMS
 from ...mechanics.bushings import RigidBody, motion_at
 from ...mechanics.critical_speed import FreeShaft
 from ...mechanics.ports import WRENCH
 from ..isolation import Isolation
+from .bearings import Bearing, bearings_of
 from .contacts import Contacts
+from .natural import Elastic
 from .springs import springs_of
 
 BODY_FREEDOMS = len(WRENCH) * len(PARTS)
@@ -31,18 +26,35 @@ class InnerSet:
 
     Attributes
     ----------
-    mass : shape (freedom, freedom)
-    stiffness : with loss, shape (freedom, freedom)
-    contacts : motion at the contacts with the shell per freedom, shape (contact, freedom)
+    bodies : with bolts, faces and keys
+    shaft : free
+    bearings : between shaft and bodies
+    gaps : motion at the contacts with the shell, then of the bodies at the bearings less that of
+        the shaft, along x and y, per freedom, shape (contact and bearing's direction, freedom)
     loads : on the freedoms per load on each part, shape (freedom, part times component)
     rigid : freedoms per motion of all about the centre of mass, shape (freedom, 6)
     """
 
-    mass: Array
-    stiffness: ComplexArray
-    contacts: Array
+    bodies: Elastic
+    shaft: Elastic
+    bearings: tuple[Bearing, ...]
+    gaps: Array
     loads: Array
     rigid: Array
+
+    @property
+    def mass(self) -> Array:
+        """Mass of bodies and shaft, shape (freedom, freedom)."""
+        return np.asarray(block_diag(self.bodies.mass, self.shaft.mass))
+
+    def flexibility(self, omega: Array) -> ComplexArray:
+        """Flexibility of the bearings' directions, shape (bearing's direction, frequency), m/N.
+
+        Parameters
+        ----------
+        omega : shape (frequency,), rad/s
+        """
+        return np.repeat([bearing.flexibility(omega) for bearing in self.bearings], 2, axis=0)
 
     @property
     def rigid_mass(self) -> Array:
@@ -58,17 +70,13 @@ def inner_set(frame: Frame, shaft: FreeShaft, contacts: Contacts) -> InnerSet:
 
     Parameters
     ----------
-    frame : bodies and springs
-    shaft : free, with its bearings' stiffness
+    frame : bodies, springs, bearings
+    shaft : free
     contacts : with the shell
     """
     bodies = [_body(part.name, getattr(frame, part.name)) for part in PARTS]
     middles = [body.centre_of_mass_m for body in bodies]
     held = Isolation(tuple(bodies), springs_of(frame))
-    stiffness = block_diag(
-        held.stiffness_matrix + 1j * held.structural_damping_matrix, shaft.rotor.stiffness
-    )
-    stiffness += _bearings(frame, shaft, middles)
     to_middle = np.stack([motion_at(middle, np.zeros(3)) for middle in middles])
     nodes = shaft.rotor.mass.shape[0]
     loads = np.zeros((BODY_FREEDOMS + nodes, BODY_FREEDOMS))
@@ -78,9 +86,17 @@ def inner_set(frame: Frame, shaft: FreeShaft, contacts: Contacts) -> InnerSet:
     for row, (part, rigid) in enumerate(zip(contacts.part, contacts.rigid, strict=True)):
         first = len(WRENCH) * part
         at_contacts[row, first : first + 6] = rigid @ np.linalg.inv(to_middle[part])
-    rigid = np.concatenate([to_middle.reshape(-1, 6), _shaft_rigid(frame, shaft)])
-    mass = block_diag(held.mass_matrix, shaft.rotor.mass)
-    return InnerSet(mass, stiffness, at_contacts, loads, rigid)
+    bearings = bearings_of(frame, shaft)
+    heights = frame.lower_bearing_height_m + shaft.heights_m
+    at_bearings = [_at_bearing(bearing, heights, middles) for bearing in bearings]
+    return InnerSet(
+        Elastic(held.mass_matrix, held.stiffness_matrix, frame.joint_loss_factor_ratio),
+        Elastic(shaft.rotor.mass, shaft.rotor.stiffness, frame.metal_loss_factor_ratio),
+        bearings,
+        np.concatenate([at_contacts, *at_bearings]),
+        loads,
+        np.concatenate([to_middle.reshape(-1, 6), _shaft_rigid(heights)]),
+    )
 
 
 def _body(name: str, part: RoundPart) -> RigidBody:
@@ -88,31 +104,20 @@ def _body(name: str, part: RoundPart) -> RigidBody:
     return RigidBody(name, part.mass_kg, part.inertia_kg_m2, middle)
 
 
-def _bearings(frame: Frame, shaft: FreeShaft, middles: list[Array]) -> ComplexArray:
-    """Springs along x and y between the shaft and what carries it."""
-    size = BODY_FREEDOMS + shaft.rotor.mass.shape[0]
-    total = np.zeros((size, size), dtype=complex)
-    for part, node, stiffness in (
-        (ORBITING_SCROLL, shaft.pin_node, frame.pin_stiffness_n_per_m),
-        (BEARING_HOUSING, shaft.main_node, shaft.bearing_stiffness_n_per_m),
-        (LOWER_BEARING, 0, shaft.bearing_stiffness_n_per_m),
-    ):
-        height = frame.lower_bearing_height_m + shaft.heights_m[node]
-        between = np.zeros((2, size))
-        number, last = PARTS.index(part), BODY_FREEDOMS + NODE_FREEDOMS * node
-        first = len(WRENCH) * number
-        point = np.array([0.0, 0.0, height])
-        between[:, first : first + 6] = motion_at(point, middles[number])[:2]
-        between[:, last : last + 2] = -np.eye(2)
-        lossy = stiffness * (1.0 + 1j * frame.bearing_loss_factor_ratio)
-        total += lossy * between.T @ between
-    return total
+def _at_bearing(bearing: Bearing, heights: Array, middles: list[Array]) -> Array:
+    """Motion of the part less that of the shaft along x and y per freedom, shape (2, freedom)."""
+    between = np.zeros((2, BODY_FREEDOMS + NODE_FREEDOMS * heights.size))
+    number, node = PARTS.index(bearing.part), BODY_FREEDOMS + NODE_FREEDOMS * bearing.node
+    first = len(WRENCH) * number
+    point = np.array([0.0, 0.0, heights[bearing.node]])
+    between[:, first : first + 6] = motion_at(point, middles[number])[:2]
+    between[:, node : node + 2] = -np.eye(2)
+    return between
 
 
-def _shaft_rigid(frame: Frame, shaft: FreeShaft) -> Array:
+def _shaft_rigid(heights: Array) -> Array:
     """Freedoms of the nodes per motion about the origin, shape (freedom, 6)."""
-    rows = np.zeros((len(shaft.heights_m), NODE_FREEDOMS, 6))
+    rows = np.zeros((heights.size, NODE_FREEDOMS, 6))
     rows[:, [0, 1, 2, 3], [0, 1, 3, 4]] = 1.0
-    rows[:, 0, 4] = frame.lower_bearing_height_m + shaft.heights_m
-    rows[:, 1, 3] = -rows[:, 0, 4]
+    rows[:, 0, 4], rows[:, 1, 3] = heights, -heights
     return rows.reshape(-1, 6)

@@ -1,11 +1,11 @@
-"""Natural motions of a system with loss, and what modes answer to forces at any frequency."""
+"""Natural motions of elastic systems with one loss factor each, and their response to forces."""
 
 from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_triangular
+from scipy.linalg import block_diag, eigh
 
 from ...base.arrays import Array, ComplexArray
 
@@ -14,40 +14,44 @@ _FREE: Final = 1e-13
 
 
 @dataclass(frozen=True)
+class Elastic:
+    """A system whose stiffness has the same loss factor everywhere.
+
+    Attributes
+    ----------
+    mass, stiffness : shape (freedom, freedom)
+    loss_factor_ratio : of the stiffness
+    """
+
+    mass: Array
+    stiffness: Array
+    loss_factor_ratio: float
+
+
+@dataclass(frozen=True)
 class NaturalMotions:
-    """Motions that keep their shape.
+    """Motions that keep their shape, of unit modal mass.
 
     Attributes
     ----------
     squares : ω² of each with loss, shape (motion,), rad²/s²; zero of those without strain
     shapes : displacement of the freedoms in each, shape (freedom, motion)
-    drives : of each motion per force on the freedoms, shape (motion, freedom)
     """
 
     squares: ComplexArray
-    shapes: ComplexArray
-    drives: ComplexArray
+    shapes: Array
 
 
-def natural_motions(mass: Array, stiffness: ComplexArray) -> NaturalMotions:
-    """Eigenvectors of K x = ω² M x, K complex symmetric: structural loss is exact.
+def natural_motions(*systems: Elastic) -> NaturalMotions:
+    """Eigenvectors of K x = ω² M x of systems apart, their freedoms one after another."""
+    squares, shapes = zip(*(_motions(system) for system in systems), strict=True)
+    return NaturalMotions(np.concatenate(squares), block_diag(*shapes))
 
-    Motions without strain are split off first, so that rounding does not hold them.
 
-    Parameters
-    ----------
-    mass : M, positive definite, shape (freedom, freedom)
-    stiffness : K, shape (freedom, freedom)
-    """
-    back = solve_triangular(np.linalg.cholesky(mass), np.eye(len(mass)), lower=True)
-    of_unit_mass = back @ stiffness @ back.T
-    strain, axes = np.linalg.eigh(of_unit_mass.real)
-    still = strain < _FREE * strain[-1]
-    squares, vectors = np.linalg.eig(axes[:, ~still].T @ of_unit_mass @ axes[:, ~still])
-    free, held = axes[:, still].T @ back, axes[:, ~still].T @ back
-    shapes = np.concatenate([free.T, held.T @ vectors], axis=1)
-    drives = np.concatenate([free, np.linalg.solve(vectors, held)])
-    return NaturalMotions(np.concatenate([np.zeros(len(free)), squares]), shapes, drives)
+def _motions(system: Elastic) -> tuple[ComplexArray, Array]:
+    values, shapes = eigh(system.stiffness, system.mass)
+    values[values < _FREE * values[-1]] = 0.0
+    return values * (1.0 + 1j * system.loss_factor_ratio), shapes
 
 
 def answers(squares: Array | ComplexArray, omega: Array) -> ComplexArray:

@@ -1,7 +1,7 @@
 """A machine's frame in its elastic shell: what loads on the parts do to the shell.
 
-Parts and shell, each free, answer by their natural motions; the forces at the contacts are those
-that close the gaps between them, frequency by frequency, for many frequencies at once.
+Bodies, shaft and shell, each free, answer by their natural motions; the forces at bearings and
+contacts are those that close the gaps between them, for many frequencies at once.
 """
 
 from collections.abc import Callable
@@ -82,15 +82,15 @@ class FrameOnShell:
         shell = answers(self._squares, omega) / self.modal_mass_kg[:, None]
         parts = answers(self.motions.squares, omega)
         # By reciprocity: motions of the contacts as the receivers drive the shell.
-        moved = times(self.modal_forces.T, modes * (turning * shell))
-        moved -= times(self._of_contacts.T, rigid) / omega**2
+        moved = times(self._on_modes.T, modes * (turning * shell))
+        moved -= times(self._of_gaps.T, rigid) / omega**2
         forces = np.moveaxis(self._joined(shell, parts, omega, np.moveaxis(moved, 0, 1)), 0, 1)
-        through = (self._at_contacts.T @ forces) * parts
+        through = times(self._at_gaps.T, forces) * parts
         of_loads = times(self._together.T, rigid) / omega**2
-        of_loads += self._drives_of_parts.T @ through
+        of_loads += times(self._of_motions.T, through)
 
         def of_modes(some: IndexArray) -> ComplexArray:
-            moved = times(self.modal_forces, forces[..., some])
+            moved = times(self._on_modes, forces[..., some])
             return np.asarray((modes[..., some] * turning[some] - moved) * shell[:, some])
 
         return SoundPerForce(of_loads, of_modes)
@@ -111,11 +111,11 @@ class FrameOnShell:
         omega = 2.0 * np.pi * np.where(frequency_hz > 0.0, frequency_hz, 1.0)
         shell = answers(self._squares, omega) / self.modal_mass_kg[:, None]
         parts = answers(self.motions.squares, omega)
-        moved = self._at_contacts @ (parts * (self._drives_of_parts @ on_parts))
-        moved -= times(self.modal_forces.T, shell * on_modes)
+        moved = times(self._at_gaps, parts * times(self._of_motions, on_parts))
+        moved -= times(self._on_modes.T, shell * on_modes)
         forces = self._joined(shell, parts, omega, moved[:, None])[:, 0]
-        modes = shell * (on_modes + times(self.modal_forces, forces))
-        rigid = times(self._together, on_parts) - times(self._of_contacts, forces)
+        modes = shell * (on_modes + times(self._on_modes, forces))
+        rigid = times(self._together, on_parts) - times(self._of_gaps, forces)
         motion = np.concatenate([modes, rigid / omega**2])
         return np.asarray(2j * np.pi * frequency_hz * motion)
 
@@ -131,14 +131,14 @@ class FrameOnShell:
         omega = 2.0 * np.pi * np.where(frequency_hz > 0.0, frequency_hz, 1.0)
         shell = answers(self._squares, omega) / self.modal_mass_kg[:, None]
         parts = answers(self.motions.squares, omega)
-        moved = np.einsum("cn,nf,nl->clf", self._at_contacts, parts, self._drives_of_parts)
+        moved = np.einsum("cn,nf,nl->clf", self._at_gaps, parts, self._of_motions)
         forces = self._joined(shell, parts, omega, moved) * (frequency_hz > 0.0)
-        return np.moveaxis(forces, -1, 0)
+        return np.moveaxis(forces[: len(self.contacts.part)], -1, 0)
 
     def _joined(
         self, shell: ComplexArray, parts: ComplexArray, omega: Array, moved: ComplexArray
     ) -> ComplexArray:
-        """Forces that close the gaps of the contacts, shape (contact, side, frequency).
+        """Forces that close the gaps, shape (gap, side, frequency).
 
         Parameters
         ----------
@@ -157,37 +157,36 @@ class FrameOnShell:
     def _compliance(
         self, shell: ComplexArray, parts: ComplexArray, omega: Array
     ) -> tuple[Array, Array]:
-        """Of gaps per force between contacts, m/N, real and imaginary part, (pair, frequency)."""
+        """Of gaps per force between them, m/N, real and imaginary part, (pair, frequency)."""
         order, first = self._alike
-        shell, still = shell[order[first]], np.ones((1, omega.size))
-        rest = np.concatenate([still, -1.0 / omega[None] ** 2])
-        real = np.concatenate([shell.real, parts.real, -parts.imag, rest])
-        imaginary = np.concatenate([shell.imag, parts.imag, parts.real, rest])
-        per_real, per_imaginary = self._pairs
-        return per_real @ real, per_imaginary @ imaginary
+        still = np.ones((1, omega.size))
+        bearings = self.inner.flexibility(omega)
+        shares = np.concatenate(
+            [shell[order[first]], parts, bearings, -still / omega**2, still, 1j * still]
+        )
+        # Contiguous parts: strided ones are multiplied without the library of linear algebra.
+        return self._pairs @ shares.real.copy(), self._pairs @ shares.imag.copy()
 
     @cached_property
-    def _pairs(self) -> tuple[Array, Array]:
-        """Real and imaginary part of the gap of a contact per force on another, (pair, share).
+    def _pairs(self) -> Array:
+        """Gap per force on another, shape (pair, share).
 
-        Shares of modes that differ, of the parts' motions twice, of springs with the wall's
-        residual, of the shell's rigid motion.
+        Shares of modes that differ, of the parts' motions, of the bearings, of the shell's rigid
+        motion, of springs with the wall's residual: real part, imaginary part.
         """
-        rows, columns = upper_pairs(len(self.contacts.part))
+        gaps, held = len(self.inner.gaps), len(self.contacts.part)
+        rows, columns = upper_pairs(gaps)
         order, first = self._alike
-        modes = self.modal_forces.T[:, order]
+        modes = self._on_modes.T[:, order]
         shell = np.add.reduceat(modes[rows] * modes[columns], first, axis=1)
-        driven = (self.motions.drives @ self.inner.contacts.T).T
-        parts = self._at_contacts[rows] * driven[columns]
-        springs = np.diag(1.0 / self.contacts.stiffness)
-        springs = (springs + self.residual / (1.0 + 1j * self.loss_factor_ratio))[rows, columns]
-        rigid = self.contacts.rigid @ self._of_contacts
-        rest = np.stack([springs.real, rigid[rows, columns]], axis=1)
-        lost = np.stack([springs.imag, np.zeros(rows.size)], axis=1)
-        return (
-            np.concatenate([shell, parts.real, parts.imag, rest], axis=1),
-            np.concatenate([shell, parts.real, parts.imag, lost], axis=1),
-        )
+        parts = self._at_gaps[rows] * self._at_gaps[columns]
+        bearings = np.equal(rows, columns)[:, None] & np.equal(rows[:, None], range(held, gaps))
+        springs = np.zeros((gaps, gaps), dtype=complex)
+        springs[:held, :held] = np.diag(1.0 / self.contacts.stiffness)
+        springs[:held, :held] += self.residual / (1.0 + 1j * self.loss_factor_ratio)
+        rigid = _padded(self.contacts.rigid, gaps) @ self._of_gaps
+        rest = [each[rows, columns] for each in (rigid, springs.real, springs.imag)]
+        return np.concatenate([shell, parts, bearings, np.stack(rest, axis=1)], axis=1)
 
     @cached_property
     def _alike(self) -> tuple[IndexArray, IndexArray]:
@@ -200,8 +199,8 @@ class FrameOnShell:
 
     @cached_property
     def motions(self) -> NaturalMotions:
-        """Of the parts, free of the shell."""
-        return natural_motions(self.inner.mass, self.inner.stiffness)
+        """Of bodies and shaft, free of each other and of the shell."""
+        return natural_motions(self.inner.bodies, self.inner.shaft)
 
     @property
     def _squares(self) -> ComplexArray:
@@ -216,16 +215,27 @@ class FrameOnShell:
         return np.asarray(np.linalg.solve(self.machine_mass, loads))
 
     @property
-    def _of_contacts(self) -> Array:
-        """Acceleration of the shell as a rigid body per force on a contact, shape (6, contact)."""
-        return np.asarray(np.linalg.solve(self.shell_mass, self.contacts.rigid.T))
+    def _on_modes(self) -> Array:
+        """Generalised force of the shell's modes per force in a gap, shape (mode, gap)."""
+        return _padded(self.modal_forces.T, len(self.inner.gaps)).T
 
     @property
-    def _at_contacts(self) -> ComplexArray:
-        """Motion of the contacts per motion of the parts, shape (contact, motion)."""
-        return np.asarray(self.inner.contacts @ self.motions.shapes)
+    def _of_gaps(self) -> Array:
+        """Acceleration of the shell as a rigid body per force in a gap, shape (6, gap)."""
+        rigid = _padded(self.contacts.rigid, len(self.inner.gaps))
+        return np.asarray(np.linalg.solve(self.shell_mass, rigid.T))
 
-    @property
-    def _drives_of_parts(self) -> ComplexArray:
+    @cached_property
+    def _at_gaps(self) -> Array:
+        """Gap per motion of the parts, shape (gap, motion)."""
+        return self.inner.gaps @ self.motions.shapes
+
+    @cached_property
+    def _of_motions(self) -> Array:
         """Of each motion of the parts per load on a part, shape (motion, part times component)."""
-        return np.asarray(self.motions.drives @ self.inner.loads)
+        return self.motions.shapes.T @ self.inner.loads
+
+
+def _padded(rows: Array, number: int) -> Array:
+    """Rows of the contacts followed by zeros for the bearings, which the shell does not touch."""
+    return np.pad(rows, ((0, number - len(rows)), (0, 0)))
