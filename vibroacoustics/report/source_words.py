@@ -116,13 +116,13 @@ def spectrum_sentence(results: xr.Dataset) -> str:
         return ""
     source, _ = ranked(results, quoted_speed(results))[0]
     name = source_name(results, source)
-    both, alone = (
+    with_share, alone = (
         f"{_energy_share(results, row, source)} of the energy, more than half of it with a "
         f"probability of {percent(float(results['energy_majority'][row].sel(energy_part=source)))}"
         for row in (0, 1)
     )
     return (
-        f"With the published spectral share {name} make {both}; with the level alone {alone}. The "
+        f"With the published spectral share {name} make {with_share}; with the level alone {alone}. The "
         f"difference holds only if the modelled spectrum of {name} is right."
     )
 
