@@ -72,7 +72,7 @@ class Ensemble:
         for number, (draw, sound) in enumerate(zip(draws, sounds, strict=True)):
             machine = with_draw(study.machine, study.machine, draw)
             of_sample = discrepancy_of(number)
-            heard = of_sample.heard(sound)
+            heard = of_sample.sounds(sound)
             modelled = [[[one[s, o].total[0, 0] for o in options] for s in speeds] for one in heard]
             mutual = sound[study.catalogue_case].mutual[:, :, 0]
             bands = with_gain(mutual, of_sample.gain)

@@ -39,13 +39,13 @@ class Uncertainty(Parameters):
     random_samples: int = Field(default=24, ge=4, le=1000)
     seed: int = Field(default=6, ge=0, lt=2**63)
     path_deviation_db: float = Field(default=8.0, ge=0.0, le=30.0)
-    """Of what is common to all sources."""
+    """What is common to all sources."""
     source_deviation_db: float = Field(default=5.0, ge=0.0, le=30.0)
-    """Of each source."""
+    """Each source."""
     band_deviation_db: float = Field(default=6.0, ge=0.0, le=30.0)
-    """Of each third octave of a source; the correlation falls as exp(-octaves)."""
+    """Each third octave of a source; the correlation falls as exp(-octaves)."""
     added_deviation_db: float = Field(default=8.0, ge=0.0, le=30.0)
-    """Of what an option adds to the sound of a source."""
+    """What an option adds to the sound of a source."""
 
 
 class MeasuredModes(Parameters):
