@@ -1,7 +1,7 @@
 # make run   sets up, runs the calibrated study, prints the table and where the report is; STUDY=… runs another
 # make test  sets up and runs every test, the slow physics included
 # make long  tests that take longer; kills, full disks, flipped bits and signals for an hour
-# make coverage  400 synthetic machines: how often the bands hold the truth; some minutes
+# make coverage  400 synthetic machines a world: how often intervals hold the truth; half an hour
 # make faults  200 changes of formulas, signs, factors and thresholds: which do the tests see; about an hour
 # make docs  sets up and builds the site into docs/_build/html
 # Compiled modules are kept: without them each start takes two seconds more.

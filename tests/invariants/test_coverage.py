@@ -15,12 +15,13 @@ from drawn_chain import DrawnChain
 from sources_study import SOURCES_STUDY
 from support import ROOT
 
+from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.levels.agreement import LEVELS_DB, Prior, data_of, log_weights
 from vibroacoustics.levels.by_source import GAIN_BANDS, SourceSound
 from vibroacoustics.levels.remainder import unmodelled_bands
 from vibroacoustics.study.draws import fitting, with_draw
 from vibroacoustics.study.loading import load_study
-from vibroacoustics.study.sampling import latin_hypercubes
+from vibroacoustics.study.sampling import draw_at, latin_hypercubes
 from vibroacoustics.uncertainty.discrepancy import Discrepancy
 from vibroacoustics.uncertainty.evidence import with_gain
 
@@ -72,7 +73,7 @@ class Ensemble:
         for number, (draw, sound) in enumerate(zip(draws, sounds, strict=True)):
             machine = with_draw(study.machine, study.machine, draw)
             of_sample = discrepancy_of(number)
-            heard = of_sample.heard(sound)
+            heard = of_sample.sounds(sound)
             modelled = [[[one[s, o].total[0, 0] for o in options] for s in speeds] for one in heard]
             mutual = sound[study.catalogue_case].mutual[:, :, 0]
             bands = with_gain(mutual, of_sample.gain)
@@ -293,14 +294,19 @@ def test_coverage_of_made_up_sources(ensemble, number):
     assert_holds(found, inside, len(truths.gas), name)
 
 
-def at_ends(study, draws, rng):
-    """Samples whose values are all at an end of their ranges."""
-    ends = [(limits, rng.integers(0, 2, len(draws))) for limits in study.ranges]
-    rows = [
-        {(one.table, one.field): (one.lowest, one.highest)[end[n]] for one, end in ends}
-        for n in range(len(draws))
-    ]
-    return [fitting(study, row) for row in rows]
+def at_ends(study, rng, count):
+    """Samples whose values are all at an end of their ranges, where these fit together."""
+    ends = rng.integers(0, 2, (count, len(study.ranges)))
+    rows = [fitting(study, draw_at(study.ranges, np.clip(one, 0.0, 1.0 - 1e-9))) for one in ends]
+    return [row for row in rows if fits(study, row)]
+
+
+def fits(study, draw):
+    try:
+        with_draw(study.machine, study.machine, draw)
+    except ParameterError:
+        return False
+    return True
 
 
 def with_oil(draws, factor):
@@ -321,7 +327,7 @@ def test_coverage_of_the_inner_sources():
     worlds, fresh = prepared.worlds, chain.hypercube(MACHINES, seed=11)
     sounds = chain.sounds(fresh)
     rows = {name: (fresh, sounds, world) for name, world in worlds_of(worlds).items()}
-    ends = at_ends(study, fresh, np.random.default_rng(5))
+    ends = at_ends(study, np.random.default_rng(5), MACHINES)
     for name, draws in (
         ("ends of the ranges", ends),
         ("oil layer / 10", with_oil(fresh, 0.1)),

@@ -44,9 +44,10 @@ def conflict_table(results: xr.Dataset) -> Table:
     head = ("Datum", "Published", "Expected by the model", "Tail of the prior predictive", "")
     rows = []
     for name, tail in _tails(results).items():
-        is_datum = name != _ALL
-        expected = _expected(results, name).middle_and_ends(_number(name)) if is_datum else ""
-        published = _published(results, name) if is_datum else ""
+        expected = published = ""
+        if name != _ALL:
+            published = _published(results, name)
+            expected = _expected(results, name).middle_and_ends(_number(name))
         word = "conflict" if tail < CONFLICT else "no conflict"
         rows.append((name, published, expected, rounding.fixed(tail, 3), word))
     return Table("Published data before they weigh samples", head, tuple(rows), frozenset({0, 4}))

@@ -68,7 +68,7 @@ class Rung:
 
     @property
     def tolerance(self) -> float:
-        """Of the agreement, T."""
+        """Tolerance T of the agreement."""
         is_level = self.unit.startswith("dB")
         return LEVEL_TOLERANCE_DB if is_level else FORCE_TOLERANCE * abs(self.data)
 

@@ -39,7 +39,7 @@ def conflict_variables(
     )
     share = weight / weight.sum()
     below = ndtr((values[:, None] - expected) / deviations[:, None]) @ share
-    found = {
+    labelled = {
         "datum_value": values,
         "datum_deviation": deviations,
         "datum_expected": [weighted_quantiles(row, weight, QUANTILES) for row in expected],
@@ -49,7 +49,7 @@ def conflict_variables(
         ),
     }
     names = {"datum": [datum.name for datum in data], "datum_quantile": list(QUANTILES)}
-    return stamped(found, names)
+    return stamped(labelled, names)
 
 
 def _tail_of_all(

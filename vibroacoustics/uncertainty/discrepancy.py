@@ -65,7 +65,7 @@ class Discrepancy:
         """Return the discrepancies of some numbers."""
         return Discrepancy(self.gain[index], self.added[index])
 
-    def heard(self, sound: Mapping[CaseKey, SourceSound]) -> list[dict[CaseKey, SourceSound]]:
+    def sounds(self, sound: Mapping[CaseKey, SourceSound]) -> list[dict[CaseKey, SourceSound]]:
         """Return the sound of a sample with each discrepancy.
 
         Parameters

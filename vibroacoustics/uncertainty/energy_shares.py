@@ -36,8 +36,10 @@ def energy_shares(
     """
     data = evidence.published.data
     subsets = {"all data": data, "level alone": data[:1]} if len(data) > 1 else {"all data": data}
-    found = [_of_data(evidence, sounds, machines, before, subset) for subset in subsets.values()]
-    share, majority, effective = zip(*found, strict=True)
+    by_subset = [
+        _of_data(evidence, sounds, machines, before, subset) for subset in subsets.values()
+    ]
+    share, majority, effective = zip(*by_subset, strict=True)
     values = {
         "energy_share": share, "energy_majority": majority, "evidence_effective": effective,
     }  # fmt: skip

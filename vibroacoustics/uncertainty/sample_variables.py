@@ -44,11 +44,11 @@ def sample_variables(
     samples = [ensemble.draws[number] for number in chosen[0].tolist()]
     of_sample = first_order_by_draw(first_order, results)
     of_sample = of_sample.merge(drawn_values(study.ranges, samples))
-    heard, machines, levels_db, weights = [], [], [], []
+    pair_sounds, machines, levels_db, weights = [], [], [], []
     for number, count, sound in zip(*map(list, chosen), sounds, strict=True):
         machine = ensemble.batch.machines[number]
         pairs = evidence.pairs(ensemble.batch.sounds[number], machine, number, published.data)
-        heard += evidence.discrepancy(number).some(pairs.discrepancy).heard(sound)
+        pair_sounds += evidence.discrepancy(number).some(pairs.discrepancy).sounds(sound)
         machines += [machine] * PAIRS
         levels_db.append(pairs.unmodelled_db)
         weights.append(count * pairs.weight)
@@ -56,8 +56,8 @@ def sample_variables(
     weight = weight / weight.sum(axis=1, keepdims=True)
     level_db = published.level_dba + np.concatenate(levels_db)
     rest = REFERENCE_PRESSURE_PA**2 * power_of_level(level_db) * bool(published.data)
-    residual = remaining_by_draw(study, axes, heard, machines, rest)
-    levels = draw_variables(axes, heard, residual, rest, weight, ensemble.prior_names)
+    residual = remaining_by_draw(study, axes, pair_sounds, machines, rest)
+    levels = draw_variables(axes, pair_sounds, residual, rest, weight, ensemble.prior_names)
     repeated = of_sample.isel(draw=np.repeat(np.arange(len(samples)), PAIRS))
     levels = levels.merge(repeated.assign_coords(draw=levels["draw"]))
     return levels.merge(change_shares(study, levels.isel(draw=slice(None, None, PAIRS))))

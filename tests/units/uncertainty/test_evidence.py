@@ -97,7 +97,7 @@ def test_what_an_option_adds_deviates_besides_and_what_it_takes_away_does_not():
         (SPEED, "quieter"): sound_at(1.0, 2.0),
     }
     discrepancy = Discrepancy(np.full((1, 2, len(GAIN_BANDS)), 10.0), np.array([100.0]))
-    (heard,) = discrepancy.heard(sound)
+    (heard,) = discrepancy.sounds(sound)
     assert heard[SPEED, REFERENCE_OPTION].alone[:, 0] == pytest.approx([40.0, 20.0])
     assert heard[SPEED, "louder"].alone[:, 0] == pytest.approx([40.0, 10.0 * (2.0 + 300.0)])
     assert heard[SPEED, "quieter"].alone[:, 0] == pytest.approx([10.0, 20.0])
