@@ -28,6 +28,7 @@ from .mount_stiffness import MountStiffness
 from .mounts import Mounts
 from .remainder import OF_THE_REMAINDER, OverallNoise, Remainder
 from .shell import Shell
+from .speed_growth import Growth
 from .suspension import BLOCK, Suspension
 
 PART_MASS = Field(gt=0.0, le=100.0)
@@ -97,6 +98,10 @@ class Machine(KindOfParameters):
     """Plain words for its reported figures, where the name does not say it."""
     derived: ClassVar[tuple[Derived, ...]] = INERTIAS
     """Values that follow from others, where they are not drawn themselves."""
+
+    speed_growth: ClassVar[Growth | None] = None
+    """Growth of the level of such machines with speed, where a file gives none; none where
+    nothing is known of the kind."""
 
     reads: ClassVar[frozenset[str]] = frozenset(
         {

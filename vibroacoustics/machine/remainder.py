@@ -26,6 +26,16 @@ class OverallNoise(Parameters):
     distance_m: Annotated[float, DATUM] = Field(ge=0.1, le=20.0)
     deviation_db: Annotated[float, DATUM] = Field(default=2.0, ge=0.1, le=10.0)
     """Standard deviation of the level."""
+    other_speed_rpm: Annotated[float | None, DATUM] = Field(default=None, ge=60.0, le=60000.0)
+    """Second speed at which a level is published."""
+    other_level_dba: Annotated[float | None, DATUM] = Field(default=None, ge=0.0, le=140.0)
+    """Level at the second speed; both give the growth of unmodelled noise with speed."""
+
+    def contradictions(self) -> Contradictions:
+        if (self.other_speed_rpm is None) != (self.other_level_dba is None):
+            yield "other_speed_rpm, other_level_dba: give both or none"
+        if self.other_speed_rpm == self.speed_rpm:
+            yield f"other_speed_rpm = {self.speed_rpm:g} rpm: must differ from speed_rpm"
 
 
 class Remainder(Parameters):

@@ -14,7 +14,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.arrays import Array
-from ..base.decibel import level_of_amplitude, level_of_power
+from ..base.decibel import level_of_amplitude
 from ..base.vocabulary import REFERENCE_OPTION
 from .study import (
     at_catalogue,
@@ -30,9 +30,6 @@ COVERAGE: Final = 2.0
 """k: about 95 % of a normal distribution."""
 _OF_A_RANGE: Final = 1.0 / np.sqrt(12.0)
 """Standard uncertainty of what lies evenly in a range, over its width (JCGM 100:2008, 4.3.7)."""
-_ROUNDED_DB: Final = 1.0
-"""Makers round their levels to this."""
-_GROWTH: Final = "remainder.speed_growth_db"
 _DEVIATION_DB: Final = 2.0
 """Of the published level, where files of older versions give none."""
 
@@ -71,7 +68,6 @@ def rungs(results: xr.Dataset) -> list[Rung]:
     evidence = parameters(results).get("evidence") or {}
     return [
         *_catalogue_level(results),
-        *_growths(results, evidence.get("two_speed_levels", ())),
         *_forces(results, evidence.get("forces", ())),
     ]
 
@@ -112,29 +108,6 @@ def grid_error_db(results: xr.Dataset, receiver: str) -> float:
             error += float((results[f"{name}_error"].sel(receiver=receiver) ** 2).sum())
             size += float((np.abs(results[name].sel(receiver=receiver)) ** 2).sum())
     return level_of_amplitude(1.0 + np.sqrt(error / size)) if size > 0.0 else 0.0
-
-
-def _growths(results: xr.Dataset, rows: Iterable[dict[str, Any]]) -> Iterator[Rung]:
-    """Growth of the remainder with speed beside levels of other machines at two speeds."""
-    growth = parameters(results)["machine"].get("remainder", {}).get("speed_growth_db")
-    if growth is None:  # files of older versions
-        return
-    width = _relative_range(results, _GROWTH) * growth
-    for row in rows:
-        if min(row["slow_rpm"], row["fast_rpm"]) <= 0.0:
-            continue
-        decades = level_of_power(row["fast_rpm"] / row["slow_rpm"]) / 10.0
-        yield Rung(
-            f"Growth of the remainder from {row['slow_rpm']:g} to {row['fast_rpm']:g} rpm, beside "
-            f"{row['machine']}",
-            "dB",
-            growth * decades,
-            row["fast_level_dba"] - row["slow_level_dba"],
-            0.0,
-            width * decades,
-            float(np.sqrt(2.0)) * _ROUNDED_DB * _OF_A_RANGE,
-            row["source"],
-        )
 
 
 def _forces(results: xr.Dataset, rows: Iterable[dict[str, Any]]) -> Iterator[Rung]:

@@ -153,15 +153,6 @@ class Scoring(Part):
     measurable: Measurable | None = None
 
 
-class TwoSpeedLevel(Part):
-    machine: str
-    slow_rpm: Number
-    slow_level_dba: Number
-    fast_rpm: Number
-    fast_level_dba: Number
-    source: str
-
-
 class PublishedForce(Part):
     part: str
     speed_rpm: Number
@@ -172,7 +163,6 @@ class PublishedForce(Part):
 
 
 class Evidence(Part):
-    two_speed_levels: list[TwoSpeedLevel] = []
     forces: list[PublishedForce] = []
 
 

@@ -5,17 +5,6 @@ from pydantic import Field
 from ..base.parameters import Parameters
 
 
-class TwoSpeedLevel(Parameters):
-    """Levels of one machine at two speeds, as its maker prints them, each rounded to 1 dB."""
-
-    machine: str
-    slow_rpm: float = Field(gt=0.0)
-    slow_level_dba: float
-    fast_rpm: float = Field(gt=0.0)
-    fast_level_dba: float
-    source: str
-
-
 class PublishedForce(Parameters):
     """Force of a moving part at once per revolution, peak."""
 
@@ -32,5 +21,4 @@ class PublishedForce(Parameters):
 class Evidence(Parameters):
     """Published values beside which a report sets its results."""
 
-    two_speed_levels: tuple[TwoSpeedLevel, ...] = ()
     forces: tuple[PublishedForce, ...] = ()

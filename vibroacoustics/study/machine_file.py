@@ -8,13 +8,15 @@ from ..base.errors import ParameterError
 from ..base.units import si_key
 from ..machine.machine import MACHINES, Machine
 from ..machine.option import OPTIONS
+from ..machine.speed_growth import SOURCE, Growth, LevelPair, growth_of_pair
 from .file_names import resolve_file_names
 from .kinds import of_kind
 from .reader import Reader
 from .record import ParameterRecord
-from .toml_files import leaves, read_toml
+from .toml_files import is_quantity, leaves, read_toml
 from .wording import validated
 
+GROWTH: Final = "speed_growth_db"
 POINTS: Final = "operating_points"
 """Table of a machine file: by name, tables of values that stand in place of the machine's."""
 
@@ -51,6 +53,7 @@ def read_machine(
         del content[name]
     reader = Reader(path, {}, sources_required=True)
     points = _taken_points(content, path)
+    _fill_in_growth(content)
     reader.origin = dict.fromkeys(leaves(content), path)
     if point is not None:
         _apply(content, (POINTS, point), points[point], reader, Reader(path, {}))
@@ -61,6 +64,34 @@ def read_machine(
     model, values = of_kind(MACHINES, in_si, f"{path}: machine")
     with MACHINES.fenced(model.kind, ParameterError):
         return validated(model, values, reader), reader
+
+
+def _fill_in_growth(content: dict[str, Any]) -> None:
+    """Give unmodelled noise the growth of two published levels, else that of the machine's kind."""
+    noise, table = content.get("overall_noise"), content.get("remainder", {})
+    if not isinstance(noise, dict) or not isinstance(table, dict) or GROWTH in table:
+        return
+    growth, source = _growth_of(noise), "overall_noise, at two speeds"
+    kind = content.get("kind")
+    if growth is None and isinstance(kind, str) and kind in MACHINES:
+        growth, source = MACHINES[kind].speed_growth, SOURCE
+    if growth is not None:
+        lowest, highest = (round(end, 1) for end in growth.range_db)
+        filled = {"value": round(growth.mean_db, 1), "source": source, "range": [lowest, highest]}
+        content["remainder"] = {**table, GROWTH: filled}
+
+
+def _growth_of(noise: Mapping[str, Any]) -> Growth | None:
+    """The growth of two published levels; none where not both are numbers at two speeds."""
+    numbers = []
+    for name in ("speed_rpm", "level_dba", "other_speed_rpm", "other_level_dba"):
+        value: Any = noise.get(name)
+        number = value["value"] if is_quantity(value) else value
+        if not isinstance(number, int | float) or number <= 0.0:
+            return None  # absent, or refused with the other values of the file
+        numbers.append(float(number))
+    pair = LevelPair(*numbers)
+    return growth_of_pair(pair) if pair.decades else None
 
 
 def operating_points(path: Path) -> tuple[str, ...]:

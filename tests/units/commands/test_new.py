@@ -105,7 +105,7 @@ def test_study_says_what_the_shipped_one_says(kind: str, tmp_path: Path) -> None
     assert (new.machine.overall_noise is None) == is_assumed
     assert new.catalogue_receiver == shipped.catalogue_receiver
     assert new.ranges == shipped.ranges
-    assert not new.evidence.two_speed_levels
+    assert not new.evidence.forces
     assert "../" not in (tmp_path / "study.toml").read_text()
 
 

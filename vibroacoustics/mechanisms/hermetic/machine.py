@@ -6,6 +6,7 @@ from typing import ClassVar, Final
 from ...base.curves import Curve
 from ...base.registry import register
 from ...machine.gas_in_shell import GAS_PATH_PARTLY
+from ...machine.speed_growth import RECIPROCATING, Growth
 from ...mechanics.capabilities import Capability, Slider
 from ...mechanics.moving_parts import Revolution
 from .parameters import HermeticTables
@@ -16,6 +17,7 @@ class HermeticCompressor(HermeticTables):
     """The cylinder lies along x, the shaft stands upright with the motor below the crank."""
 
     kind: ClassVar[str] = "hermetic-reciprocating"
+    speed_growth: ClassVar[Growth] = RECIPROCATING
 
     @property
     def capabilities(self) -> tuple[Capability, ...]:

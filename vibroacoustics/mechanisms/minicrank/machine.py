@@ -7,6 +7,7 @@ from ...base.curves import Curve
 from ...base.registry import register
 from ...machine.limits import Limit
 from ...machine.machine import Machine
+from ...machine.speed_growth import SCROLL_OR_SCREW, Growth
 from ...mechanics.moving_parts import Revolution
 from .links import CLOSING
 from .parameters import MiniCrankTables
@@ -17,6 +18,7 @@ class MiniCrankMachine(MiniCrankTables):
     """The shaft lies along y and the bracket's line along x, as the weight in (15) has it."""
 
     kind: ClassVar[str] = "minicrank-scroll"
+    speed_growth: ClassVar[Growth] = SCROLL_OR_SCREW
     labels: ClassVar[Mapping[str, str]] = {
         "minicrank_swing_deg": "Swing of the mini-crank, which does not turn",
         "minicrank_pin_force_n": "Largest force at the rigid pin of the mini-crank",

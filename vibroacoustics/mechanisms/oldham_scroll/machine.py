@@ -8,6 +8,7 @@ from ...base.curves import Curve
 from ...base.registry import register
 from ...machine.derived import ROUND_INERTIAS, Derived, in_proportion
 from ...machine.machine import Machine
+from ...machine.speed_growth import SCROLL_OR_SCREW, Growth
 from ...mechanics.capabilities import UPRIGHT, Capability, OldhamRing, Slider
 from ...mechanics.moving_parts import MovingPart, Revolution
 from .parameters import OldhamScrollTables
@@ -18,6 +19,7 @@ class OldhamScroll(OldhamScrollTables):
     """The shaft stands upright, the ring slides along x."""
 
     kind: ClassVar[str] = "oldham-scroll"
+    speed_growth: ClassVar[Growth] = SCROLL_OR_SCREW
     axes: ClassVar[str] = "the Oldham stroke (x), across (y) and along the shaft (z)"
     orders: ClassVar[str] = (
         "The stroke of the ring is a pure cosine of the crank angle, so order 2 of the ring "

@@ -7,6 +7,7 @@ from typing import ClassVar, Final
 from ...base.curves import Curve
 from ...base.registry import register
 from ...machine.machine import Machine
+from ...machine.speed_growth import RECIPROCATING, Growth
 from ...mechanics.capabilities import Capability, Slider
 from ...mechanics.moving_parts import Revolution
 from .parameters import ReciprocatingTables
@@ -17,6 +18,7 @@ class ReciprocatingMachine(ReciprocatingTables):
     """One upright cylinder, or banks of them; the shaft lies along y under the centre of mass."""
 
     kind: ClassVar[str] = "reciprocating"
+    speed_growth: ClassVar[Growth] = RECIPROCATING
     axes: ClassVar[str] = "across the shaft (x), along it (y) and upright (z)"
     orders: ClassVar[str] = (
         "The tilt of the connecting rod makes the even orders, the swing of the shaft's speed "

@@ -9,6 +9,7 @@ from ...base.registry import register
 from ...machine.gas_in_shell import GAS_PATH_PARTLY
 from ...machine.limits import Limit
 from ...machine.machine import Machine
+from ...machine.speed_growth import RECIPROCATING, Growth
 from ...mechanics.capabilities import Capability, Slider
 from ...mechanics.moving_parts import Revolution
 from .parameters import SliderLinkTables
@@ -41,6 +42,7 @@ class SliderLinkMachine(SliderLinkTables):
     """
 
     kind: ClassVar[str] = "slider-link"
+    speed_growth: ClassVar[Growth] = RECIPROCATING
     axes: ClassVar[str] = "along the cylinder (x), across (y) and along the shaft (z)"
     orders: ClassVar[str] = (
         "Link and slider move the piston by a pure cosine of the crank angle: only the swing of "
