@@ -10,10 +10,18 @@ from types import FunctionType
 import numba
 
 from vibroacoustics.sources.oldham_keys import integration, rattle
+from vibroacoustics.sources.oldham_keys.equations import (
+    FRICTION,
+    KEYS,
+    NORMAL,
+    RATE,
+    SHIFT,
+    slide_directions,
+)
 
 COMPILED = {"nogil": True, "error_model": "numpy"}
 LEAST_APPROACH, HYSTERESIS = 0.01, 0.75 * (1.0 - 0.7**2)
-STEPPED = ("deflect", "key_forces", "integrate")
+STEPPED = ("deflect", "integrate")
 """Functions that call the replaced ones, from the inside outwards."""
 ORIGINALS = {name: getattr(integration, name).py_func for name in STEPPED}
 
@@ -37,14 +45,24 @@ def doubles(film_ns_per_m: float) -> dict[str, object]:
         return approach if approach > 0.0 else max((before - after) / step, LEAST_APPROACH)
 
     @numba.njit(**COMPILED)
-    def series_force(approach, gap, speed, face):
-        push = film_ns_per_m * max(speed, 0.0)
-        if approach > 0.0:
-            push += max(face.stiffness * (-gap) ** 1.5 * (1.0 + HYSTERESIS * speed / approach), 0.0)
-        return push
+    def push(approach, gap, speed, face):
+        if approach <= 0.0:
+            return 0.0
+        return max(face.stiffness * (-gap) ** 1.5 * (1.0 + HYSTERESIS * speed / approach), 0.0)
+
+    @numba.njit(**COMPILED)
+    def key_forces(drive, rate, approaches, c, keys):
+        """A film resists both ways, as a key always approaches one face; only contacts rub."""
+        scroll, housing = slide_directions(drive, rate, c)
+        for key in range(KEYS):
+            shift, speed = keys[SHIFT, key], keys[RATE, key]
+            ahead = push(approaches[0, key], c.clearance - shift, speed, c.face)
+            behind = push(approaches[1, key], c.clearance + shift, -speed, c.face)
+            keys[NORMAL, key] = behind - ahead - film_ns_per_m * speed
+            keys[FRICTION, key] = (ahead + behind) * (scroll if key < 2 else housing)
 
     stepped = {name: numba.njit(**COMPILED)(renamed(name)) for name in STEPPED}
-    return {"next_deflection": next_deflection, "series_force": series_force, **stepped}
+    return {"next_deflection": next_deflection, "key_forces": key_forces, **stepped}
 
 
 def use_constant_film(monkeypatch, film_ns_per_m: float) -> None:

@@ -54,7 +54,8 @@ def test_prior_stands_beside_posterior_for_each_unknown_that_matters():
     table = unknowns_table(with_unknowns())
     gain, index, others = ([plain(cell) for cell in row] for row in table.rows)
     assert gain[0] == "path through the shell mobility change, dB"
-    assert gain[1:] == ["0 (−4 to 4)", "−2.5 (−4.5 to −0.5)", "−2.5 (−4.5 to −0.5)", *gain[4:]]
+    # Six to eleven samples: the ends, −4.5 and −0.5 dB, are open by about 1 dB.
+    assert gain[1:] == ["0 (−4 to 4)", "−2 (−4 to 0)", "−2 (−4 to 0)", *gain[4:]]
     assert gain[4:] == ["80 %", "70 %", "60 %"]
     assert index[4:] == ["15 %", "25 %", "30 %"]
     assert others[0] == "1 other, less than 1 % each"
@@ -128,3 +129,27 @@ def test_one_column_says_that_no_share_is_resolved():
     assert table.head[4:] == ("share of the variance",)
     assert {row[4:] for row in table.rows} == {(NOT_RESOLVED,)}
     assert {len(row) for row in table.rows} == {len(table.head)}
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "write", "text"),
+    [
+        (47.6, 0.0, rounding.level, "47.6"),
+        (47.64, 0.1, rounding.level, "47.6"),
+        (47.6, 1.0, rounding.level, "48"),
+        (47.6, 10.0, rounding.level, "50"),
+        (0.04, 0.1, rounding.signed, "0.0"),
+        (-2.6, 1.0, rounding.signed, "−3"),
+        (1.6, 1.0, rounding.signed, "+2"),
+        (0.0234, 0.001, rounding.three_digits, "0.023"),
+        (1.24e10, 1e9, rounding.three_digits, "1.2·10¹⁰"),
+        (np.nan, 1.0, rounding.level, rounding.NOTHING),
+    ],
+)
+def test_digits_follow_the_unit(value, unit, write, text):
+    assert rounding.to_unit(value, unit, write) == text
+
+
+def test_each_end_of_a_span_has_its_unit():
+    assert rounding.span([16.4, 1.93], rounding.signed, [1.0, 0.1]) == "+1.9 to +16"
+    assert rounding.span([0.3, -0.4], rounding.signed, [1.0, 1.0]) == "0"

@@ -1,6 +1,8 @@
 """Numbers as a reader sees them: rounded, with a true minus sign, never rounding noise."""
 
+import re
 from collections.abc import Callable, Iterable
+from itertools import repeat
 from typing import Final
 
 import numpy as np
@@ -14,6 +16,7 @@ FORCE_FLOOR: Final = 1e-6
 NOTHING: Final = "–"
 _SMALL: Final = 1e-3
 _LARGE: Final = 1e6
+_DECIMALS: Final = re.compile(r"\.(\d+)(?!\d*·)")
 _RAISED: Final = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -65,12 +68,23 @@ def level_change(change_db: float, level_db: float, reference_db: float) -> str:
     return "silent" if level_db < LEVEL_FLOOR_DB else signed(change_db)
 
 
-def span(values: Iterable[float], write: Callable[[float], str]) -> str:
-    """`1.6 to 24.5`, or one number where both ends read the same."""
-    finite = [value for value in values if np.isfinite(value)]
+def to_unit(value: float, unit: float, write: Callable[[float], str]) -> str:
+    """A number rounded to a power of ten, without finer decimals; as `write` has it for unit 0."""
+    if unit == 0.0 or not np.isfinite(value):
+        return write(value)
+    decimals = max(-round(np.log10(unit)), 0)
+    text = write(float(unit * np.round(value / unit)) + 0.0)
+    return _DECIMALS.sub(lambda found: f".{found[1][:decimals]}".rstrip("."), text)
+
+
+def span(
+    values: Iterable[float], write: Callable[[float], str], units: Iterable[float] = repeat(0.0)
+) -> str:
+    """`1.6 to 24.5`, each end in its unit, or one number where both ends read the same."""
+    finite = sorted(pair for pair in zip(values, units, strict=False) if np.isfinite(pair[0]))
     if not finite:
         return NOTHING
-    lowest, highest = write(min(finite)), write(max(finite))
+    lowest, highest = (to_unit(value, unit, write) for value, unit in (finite[0], finite[-1]))
     return lowest if lowest == highest else f"{lowest} to {highest}"
 
 

@@ -56,8 +56,8 @@ class Remainder(Parameters):
     in dB between two limits, one near a level.
     """
 
-    speed_growth_db: float = Field(default=30.0, ge=0.0, le=100.0)
-    """For ten times the speed."""
+    speed_growth_db: float = Field(default=30.0, ge=-100.0, le=200.0)
+    """For ten times the speed; below zero where a resonance makes the slower speed the louder."""
     peak_frequency_hz: float = Field(default=1600.0, ge=100.0, le=10000.0)
     """Of the A-weighted spectrum in third octaves."""
     slope_db: float = Field(default=4.0, ge=0.0, le=30.0)

@@ -48,9 +48,9 @@ class Growth(NamedTuple):
 
     @property
     def range_db(self) -> tuple[float, float]:
-        """Evenly sampled range with the same 80 % interval, dB; no machine becomes quieter."""
+        """Evenly sampled range with the same 80 % interval, dB; below zero a level falls."""
         half = QUANTILE_90 * self.deviation_db / EVENLY
-        return max(self.mean_db - half, 0.0), self.mean_db + half
+        return self.mean_db - half, self.mean_db + half
 
 
 def growth_of_series(series: Collection[Collection[LevelPair]]) -> Growth:

@@ -1,42 +1,61 @@
 """Bands of the draws: what the ranges of the assumed values leave open."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 import xarray as xr
 
 from ..base import rounding
+from ..base.arrays import Array
 from ..base.decibel import level_of_power, power_of_level
 from ..base.quantiles import weighted_quantiles
 from ..base.remembered import remembered
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.agreement import effective_samples
+from ..uncertainty.interval_digits import bootstrap_weights, quantile_errors, unit_of_digits
 from .study import a_weighted, at_catalogue, has_draws, quoted_dba, quoted_speed
+
+Units = tuple[float, float, float]
+"""Powers of ten to which lowest, middle and highest are written; 0 where nothing was sampled."""
+NOT_SAMPLED: Final = (0.0, 0.0, 0.0)
 
 
 class Band(NamedTuple):
-    """Lowest, middle and highest of the quantiles over the draws that are kept."""
+    """Lowest, middle and highest of the quantiles over the draws that are kept, and their units."""
 
     lowest: float
     middle: float
     highest: float
+    units: Units = NOT_SAMPLED
 
     def ends(self, write: Callable[[float], str]) -> str:
         """`44.7 to 51.2`."""
-        return rounding.span((self.lowest, self.highest), write)
+        return rounding.span((self.lowest, self.highest), write, self.units[::2])
 
     def middle_and_ends(self, write: Callable[[float], str]) -> str:
         """`48.9 (44.7 to 51.2)`; the middle alone where nothing was drawn."""
-        ends, middle = self.ends(write), write(self.middle)
+        ends, middle = self.ends(write), self.middle_text(write)
         return middle if ends == middle else f"{middle} ({ends})"
+
+    def middle_text(self, write: Callable[[float], str]) -> str:
+        """`48.9`."""
+        return rounding.to_unit(self.middle, self.units[1], write)
+
+    def in_percent(self) -> str:
+        """`20 % (3 % to 59 %)`, of shares."""
+        return self.middle_and_ends(_whole_percent)
 
     def share_of(self, level_db: float) -> "Band":
         """Energies of levels as shares of the energy of another; quantiles stay quantiles."""
-        return Band(*(energy_share(level, level_db) for level in self))
+        lowest, middle, highest = (energy_share(level, level_db) for level in self[:3])
+        return Band(lowest, middle, highest)
 
 
 QUANTILES: Final = (0.1, 0.5, 0.9)
+FINEST_DB: Final = 0.1
+FINEST_RATIO: Final = 0.01
+"""Of an amount, and of a share."""
 
 
 @remembered
@@ -51,12 +70,18 @@ def quantiles(results: xr.Dataset, name: str) -> xr.DataArray:
     name : `source_level`, `level_modelled`, `level_total`, `level_remainder`, `change_modelled`
         or `change_total`; `force_1x`, `moment_1x` or `foot_force_1x` where they were drawn
     """
+    return over_draws(results, _by_draw(results, name))
+
+
+@remembered
+def _by_draw(results: xr.Dataset, name: str) -> xr.DataArray:
+    """A variable by draw, as given where nothing was drawn; names as of `quantiles`."""
     if not has_draws(results):
-        return over_draws(results, a_weighted(results[name]))
+        return a_weighted(results[name])
     level = results[f"{name.replace('change', 'level')}_by_draw"]
     if name.startswith("change"):
         level = level - level.sel(option=REFERENCE_OPTION, drop=True)
-    return over_draws(results, level)
+    return level
 
 
 def has_band(results: xr.Dataset, name: str) -> bool:
@@ -82,16 +107,85 @@ def over_draws(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> xr.D
     return like.copy(data=values)
 
 
-def band(results: xr.Dataset, name: str, **at: Any) -> Band:
-    """Band of a variable's quantiles at a speed, option, receiver or source."""
-    return Band(*map(float, quantiles(results, name).sel(at).transpose("quantile").values))
+def band_over(
+    results: xr.Dataset, values: xr.DataArray, finest: float | None = FINEST_DB, prior: int = 0
+) -> Band:
+    """Band of a value over the draws, to the digits that their number allows.
+
+    Parameters
+    ----------
+    results : with the weights
+    values : shape (draw,), or one value where nothing was drawn
+    finest : least standard error that sets the digits; none for that of an amount
+    prior : number of the prior of the remainder
+    """
+    if "draw" not in values.dims:
+        return Band(*[values.item()] * 3)
+    weight = results["draw_weight"].values[prior]
+    return band_of(values.values, weight, resampled(results, prior), finest)
+
+
+def band_of(
+    values: Array, weight: Array, weights: Array | None = None, finest: float | None = None
+) -> Band:
+    """Band of weighted values.
+
+    Parameters
+    ----------
+    values, weight : shape (draw,)
+    weights : of the draws in resampled ensembles; none where each draw is a sample of its own
+    finest : least standard error that sets the digits; none for that of an amount
+    """
+    lowest, middle, highest = map(float, weighted_quantiles(values, weight, QUANTILES))
+    if weights is None:
+        weights = bootstrap_weights(weight, np.arange(weight.size))
+    least = FINEST_RATIO * abs(middle) if finest is None else finest
+    return Band(lowest, middle, highest, units_of(values, weights, least))
+
+
+def units_of(values: Array, weights: Array, finest: float) -> Units:
+    """Units in which the quantiles of values are written, by their sampling errors.
+
+    Parameters
+    ----------
+    values : shape (draw,)
+    weights : of the draws in resampled ensembles, shape (ensemble, draw)
+    finest : least standard error that sets the digits
+    """
+    errors = quantile_errors(values, weights, QUANTILES).tolist()
+    lowest, middle, highest = (unit_of_digits(error, finest) for error in errors)
+    return lowest, middle, highest
 
 
 @remembered
+def resampled(results: xr.Dataset, prior: int) -> Array:
+    """Weights of the draws in resampled ensembles; draws of the same values are one sample."""
+    values = results["drawn_value"].transpose("draw", ...).values
+    _, sample = np.unique(values, axis=0, return_inverse=True)
+    return bootstrap_weights(results["draw_weight"].values[prior], sample.ravel())
+
+
+@remembered
+def band(results: xr.Dataset, name: str, **at: Any) -> Band:
+    """Band of a variable at a speed, option, source and, where it depends on it, a receiver."""
+    by_draw = _by_draw(results, name)
+    values = by_draw.sel({dim: key for dim, key in at.items() if dim in by_draw.dims})
+    is_level = name.startswith(("level", "change", "source_level"))
+    return band_over(results, values, FINEST_DB if is_level else None)
+
+
 def bands_by_speed(results: xr.Dataset, name: str, **at: Any) -> tuple[Band, ...]:
-    """Bands of a variable's quantiles at every speed, at an option and a receiver."""
-    rows = quantiles(results, name).sel(at).transpose("speed", "quantile").values
-    return tuple(Band(*row) for row in rows.tolist())
+    """Bands of a variable at every speed, at an option and a receiver."""
+    return tuple(band(results, name, speed=speed, **at) for speed in results["speed"].values)
+
+
+def hull(bands: Sequence[Band]) -> Band:
+    """Lowest and highest of the ends of several bands; those that are not numbers do not count."""
+    known = [band for band in bands if np.isfinite([band.lowest, band.highest]).all()] or bands
+    low = min(known, key=lambda band: band.lowest)
+    high = max(known, key=lambda band: band.highest)
+    units = (low.units[0], high.units[1], high.units[2])
+    return Band(low.lowest, high.middle, high.highest, units)
 
 
 def energy_share(level_db: float, of_level_db: float) -> float:
@@ -110,6 +204,11 @@ def percent(share: float) -> str:
     return f"{number}\u00a0%"
 
 
+def _whole_percent(share: float) -> str:
+    """A share in percent without decimals, as the ends of an interval have it."""
+    return f"{rounding.fixed(100.0 * share, 0)}\u00a0%"
+
+
 def share_band(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> Band:
     """Energy of a level as a share of that of the whole machine where its level is published.
 
@@ -122,9 +221,9 @@ def share_band(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> Band
     prior : number of the prior of the remainder
     """
     if not has_draws(results):
-        return Band(*map(float, over_draws(results, level).values)).share_of(quoted_dba(results))
+        return band_over(results, level).share_of(quoted_dba(results))
     share = power_of_level(level - total_by_draw(results, prior))
-    return Band(*map(float, over_draws(results, share, prior).values))
+    return band_over(results, share, FINEST_RATIO, prior)
 
 
 @remembered

@@ -9,12 +9,11 @@ import xarray as xr
 from ..base import rounding
 from ..base.arrays import Array
 from ..base.vocabulary import REFERENCE_OPTION
-from .bands import Band, band_words, has_band, quantiles
+from .bands import Band, band, band_words, has_band
 from .columns import Column
 from .kept_columns import columns_of
 from .option_verdict import table_words
 from .remainder import total_sentence
-from .shifts import at_receiver
 from .study import (
     catalogue_receiver,
     few_speeds,
@@ -120,13 +119,13 @@ class _Cells:
     ----------
     results : with the speeds that are shown
     numbers : by column, shape (option, speed)
-    bands : of the columns that have one, shape (option, speed, quantile)
+    receiver : the microphone
     ends_only : whether a band is shown without its middle
     """
 
     results: xr.Dataset
     numbers: dict[str, Array]
-    bands: dict[str, Array]
+    receiver: str
     ends_only: bool
 
     @classmethod
@@ -135,17 +134,7 @@ class _Cells:
     ) -> "_Cells":
         compared = _joined(results, columns).sel(receiver=receiver)
         numbers = {str(name): array.values for name, array in compared.data_vars.items()}
-        drawn = {
-            column.name: quantiles(results, column.band)
-            for column in columns
-            if column.band and has_band(results, column.band)
-        }
-        order = ("option", "speed", "quantile")
-        bands = {
-            name: at_receiver(array, receiver).transpose(*order).values
-            for name, array in drawn.items()
-        }
-        return cls(results, numbers, bands, ends_only)
+        return cls(results, numbers, receiver, ends_only)
 
     def text(self, column: Column, option: int, speed: int) -> str:
         """Text of a value or its band; a change of a silent level is none."""
@@ -156,11 +145,15 @@ class _Cells:
                 return rounding.NOTHING
             if level[option] < rounding.LEVEL_FLOOR_DB:
                 return "silent"
-        if column.name in self.bands:
-            band = Band(*self.bands[column.name][option, speed].tolist())
+        if column.band and has_band(self.results, column.band):
+            drawn = self._band(column.band, option, speed)
             write = partial(_write, column, self.results)
-            return band.ends(write) if self.ends_only else band.middle_and_ends(write)
+            return drawn.ends(write) if self.ends_only else drawn.middle_and_ends(write)
         return column.write(value, self.results)
+
+    def _band(self, name: str, option: int, speed: int) -> Band:
+        at = {"option": options(self.results)[option], "speed": speeds(self.results)[speed]}
+        return band(self.results, name, **at, receiver=self.receiver)
 
 
 def _write(column: Column, results: xr.Dataset, value: float) -> str:

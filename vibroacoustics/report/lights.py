@@ -10,7 +10,7 @@ from .bands import QUANTILES
 from .blocks import Light, LightRow, Lights
 from .option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, judge, option_verdicts
 from .quantities import FOOT_FORCE, FORCE, LINE, MOMENT, TOTAL
-from .shifts import Shift, measurable, shift
+from .shifts import Shift, extent, measurable, shift
 from .study import balancers, catalogue_receiver, has_draws, other_receivers
 
 FULL_SCALE: Final = {"%": 100.0, "dB": 20.0}
@@ -50,9 +50,8 @@ def light(shifts: Sequence[Shift]) -> Light:
     the draws reaches beyond what could be measured.
     """
     full = FULL_SCALE[shifts[0].unit]
-    extent = np.concatenate([one.extent for one in shifts])
-    known = extent[np.isfinite(extent)] if np.isfinite(extent).any() else np.zeros(1)
-    ends = np.clip(np.array([known.min(), known.max()]) / full, -1.0, 1.0)
+    changes = extent(shifts)
+    ends = np.clip(np.nan_to_num([changes.lowest, changes.highest]) / full, -1.0, 1.0)
     least = shifts[0].least
     zone = least.level_db if shifts[0].quantity.is_level else 100.0 * least.force_ratio
     band = (float(ends[0]), float(ends[1]))
@@ -80,7 +79,7 @@ def _change(shifts: Sequence[Shift]) -> str:
         return "appears" if first.after.max() >= first.quantity.floor else "0"
     if len(shifts) == 1 and first.after.max() < first.quantity.floor:
         return "vanishes"
-    return first.span_of(np.concatenate([one.extent for one in shifts]))
+    return first.written(extent(shifts))
 
 
 def _note(results: xr.Dataset) -> str:

@@ -8,7 +8,7 @@ import xarray as xr
 from ..base import rounding
 from ..base.decibel import level_of_power, power_of_level
 from ..base.vocabulary import REFERENCE_OPTION
-from .bands import Band, over_draws
+from .bands import Band, band_over
 from .study import (
     a_weighted,
     at_catalogue,
@@ -35,7 +35,7 @@ def remainder_band(results: xr.Dataset, speed: float) -> Band:
     )
     left = (power_of_level(total) - power_of_level(modelled)).clip(min=0.0).fillna(0.0)
     level = xr.apply_ufunc(level_of_power, left)
-    return Band(*map(float, over_draws(results, level).values))
+    return band_over(results, level)
 
 
 def measured_rpm(results: xr.Dataset) -> float | None:

@@ -9,7 +9,7 @@ import xarray as xr
 from ..base import rounding
 from ..base.arrays import Array
 from ..base.quantiles import weighted_quantiles
-from .bands import QUANTILES, Band, band_words
+from .bands import QUANTILES, band_of, band_words
 from .drawn_words import named
 from .labels import unit
 from .study import catalogue_receiver
@@ -111,7 +111,7 @@ def _row(
 def _band(values: Array, weight: Array, write: Callable[[float], str]) -> str:
     if not values.size:
         return rounding.NOTHING
-    return Band(*map(float, weighted_quantiles(values, weight, QUANTILES))).middle_and_ends(write)
+    return band_of(values, weight).middle_and_ends(write)
 
 
 def _narrowed(values: Array, weight: Array) -> float:

@@ -1,6 +1,8 @@
 """How an option shifts one quantity against the reference, as numbers and in words."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Final
 
 import numpy as np
@@ -9,11 +11,10 @@ import xarray as xr
 from ..base import rounding
 from ..base.arrays import Array
 from ..base.decibel import amplitude_of_level, level_of_amplitude
-from ..base.quantiles import weighted_quantiles
 from ..base.remembered import remembered
 from ..base.vocabulary import REFERENCE_OPTION
 from ..study.scoring import Measurable
-from .bands import QUANTILES, has_band
+from .bands import FINEST_DB, FINEST_RATIO, Band, band_of, has_band, hull, resampled
 from .column_values import column
 from .quantities import LINE, TOLERANCE_DB, Quantity
 from .study import catalogue_receiver, parameters
@@ -34,6 +35,8 @@ class Shift:
         quantity is not drawn
     weight : of the draws, of sum one
     least : smallest changes that could be measured
+    weights : of the draws in resampled ensembles, shape (ensemble, draw); none where each draw is
+        a sample of its own
     """
 
     quantity: Quantity
@@ -42,6 +45,7 @@ class Shift:
     drawn_db: Array
     weight: Array
     least: Measurable
+    weights: Array | None = None
 
     @property
     def gain_db(self) -> Array:
@@ -99,22 +103,26 @@ class Shift:
 
     def size(self) -> str:
         """`+22 to +24 %` of forces, `+2.2 to +25.2 dB` of levels: over draws and speeds."""
-        return f"{self.span_of(self.extent)} {self.unit}"
+        return f"{self.written(extent([self]))} {self.unit}"
 
-    def span_of(self, changes: Array) -> str:
+    def written(self, changes: Band) -> str:
         """`+22 to +24`, of changes in their unit."""
-        return rounding.span(changes, rounding.signed if self.quantity.is_level else _percent)
+        return changes.ends(rounding.signed if self.quantity.is_level else _percent)
 
     @property
     def unit(self) -> str:
         """Of a change."""
         return "dB" if self.quantity.is_level else "%"
 
-    @property
-    def extent(self) -> Array:
-        """Quantiles of the change over the draws at every speed: dB of levels, % of forces."""
-        drawn = weighted_quantiles(self.drawn_db, self.weight, QUANTILES).ravel()
-        return drawn if self.quantity.is_level else 100.0 * (amplitude_of_level(drawn) - 1.0)
+    @cached_property
+    def bands(self) -> list[Band]:
+        """Band of the change at every speed: dB of levels, % of forces."""
+        if self.quantity.is_level:
+            drawn, finest = self.drawn_db, FINEST_DB
+        else:
+            drawn = np.asarray(100.0 * (amplitude_of_level(self.drawn_db) - 1.0))
+            finest = 100.0 * FINEST_RATIO
+        return [band_of(one, self.weight, self.weights, finest) for one in drawn.T]
 
     def sentence(self) -> str:
         """`grows by 81 % (to at most 120 N)` and the like, without the quantity's name."""
@@ -161,10 +169,15 @@ def shift(
     before = values.sel(option=REFERENCE_OPTION).values
     after = values.sel(option=option).values
     if quantity.drawn and has_band(results, quantity.drawn):
-        drawn_db, weight = _drawn_change(results, quantity, option, at)
+        drawn_db, weight, weights = _drawn_change(results, quantity, option, at)
     else:
-        drawn_db, weight = _gain(quantity, before, after)[None], np.ones(1)
-    return Shift(quantity, before, after, drawn_db, weight, measurable(results))
+        drawn_db, weight, weights = _gain(quantity, before, after)[None], np.ones(1), None
+    return Shift(quantity, before, after, drawn_db, weight, measurable(results), weights)
+
+
+def extent(shifts: Sequence[Shift]) -> Band:
+    """Band of a change over the draws, speeds and microphones of shifts of one quantity."""
+    return hull([band for one in shifts for band in one.bands])
 
 
 def measurable(results: xr.Dataset) -> Measurable:
@@ -185,16 +198,16 @@ def _gain(quantity: Quantity, before: Array, after: Array) -> Array:
 
 def _drawn_change(
     results: xr.Dataset, quantity: Quantity, option: str, receiver: str
-) -> tuple[Array, Array]:
+) -> tuple[Array, Array, Array]:
     """Change in the draws that count, shape (draw, speed), dB, and their weights."""
-    weight = results["draw_weight"].values[0]
+    weight, weights = results["draw_weight"].values[0], resampled(results, 0)
     drawn = at_receiver(results[f"{quantity.drawn}_by_draw"], receiver).isel(draw=weight > 0.0)
     before, after = (
         drawn.sel(option=name).transpose("draw", "speed").values
         for name in (REFERENCE_OPTION, option)
     )
     counting = weight[weight > 0.0]
-    return _gain(quantity, before, after), counting / counting.sum()
+    return _gain(quantity, before, after), counting / counting.sum(), weights[:, weight > 0.0]
 
 
 def _percent(value: float) -> str:

@@ -8,7 +8,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.arrays import Array
-from .bands import Band, band_words, bands_by_speed
+from .bands import Band, band_words, bands_by_speed, hull
 from .quantities import TOLERANCE_DB, TOTAL
 from .shifts import shift
 from .study import at_catalogue, balancers, has_draws, many_speeds, speeds, total_of
@@ -44,14 +44,12 @@ def changes_sentence(results: xr.Dataset) -> str:
     ]
     if rest:
         which = "no other option" if louder or quieter else "no option"
-        ends = [
-            end for option in rest for band in source_change(results, option).total for end in band
-        ]
+        bands = [band for option in rest for band in source_change(results, option).total]
         drawn = "In most draws " if has_draws(results) else "As assumed "
         parts.append(
             f"{drawn}{which} changes the level of {of} by what could be "
             f"measured: {', '.join(rest)} by "
-            f"{change_words(Band(min(ends), 0.0, max(ends)))}."
+            f"{change_words(hull(bands))}."
         )
     return " ".join(filter(None, parts))
 
@@ -84,8 +82,7 @@ def _by_speed(results: xr.Dataset, bands: tuple[Band, ...]) -> str:
     if len(set(words)) == 1:
         return words[0]
     if many_speeds(results):
-        lowest, highest = min(band.lowest for band in bands), max(band.highest for band in bands)
-        return f"{change_words(Band(lowest, lowest, highest))}, depending on the speed"
+        return f"{change_words(hull(bands))}, depending on the speed"
     return " and ".join(
         f"{text} at {speed:g} rpm" for text, speed in zip(words, speeds(results), strict=True)
     )

@@ -165,7 +165,7 @@ def _row(
     name: str, level_dba: float, drawn: Band, share: str, of_machine: Band | None
 ) -> tuple[str, ...]:
     cells = (name, rounding.level(level_dba), drawn.middle_and_ends(rounding.level), share)
-    return cells if of_machine is None else (*cells, of_machine.middle_and_ends(percent))
+    return cells if of_machine is None else (*cells, of_machine.in_percent())
 
 
 def _change_row(results: xr.Dataset, option: str, speed: float) -> tuple[str, ...]:

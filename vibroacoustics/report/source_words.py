@@ -71,10 +71,10 @@ def carrier_sentence(results: xr.Dataset) -> str:
     return (
         f"At {catalogue_receiver(results)} and {speed:g} rpm, without a balancer, the loudest "
         f"modelled source is: {source_name(results, source)}, "
-        f"{rounding.level(level.middle)} dB(A) in the middle of the draws "
+        f"{level.middle_text(rounding.level)} dB(A) in the middle of the draws "
         f"({band_words(results)} {level.ends(rounding.level)}) or "
         f"{rounding.level(assumed)} dB(A) at the assumed values; "
-        f"{' or '.join(share.middle_and_ends(percent) for share in shares)} of the energy of "
+        f"{' or '.join(share.in_percent() for share in shares)} of the energy of "
         f"{total_of(results)} is its{rest}."
     )
 
@@ -163,7 +163,7 @@ def _shares(results: xr.Dataset, prior: int) -> str:
         source_name(results, source): source_share(results, source, prior)
         for source, _ in ranked(results, quoted_speed(results))
     }
-    shares = [f"{name} {share.middle_and_ends(percent)}" for name, share in by_source.items()]
+    shares = [f"{name} {share.in_percent()}" for name, share in by_source.items()]
     if overall_noise(results) is None:
         return "; ".join(shares)
     modelled = share_band(results, at_published(results, "level_modelled"), prior)
@@ -171,8 +171,8 @@ def _shares(results: xr.Dataset, prior: int) -> str:
     rest, there = share_band(results, remainder, prior), elsewhere(results)
     what = f"what is not modelled{there}" if there else "what is not modelled"
     return (
-        f"{'; '.join(shares)}; all modelled sources together {modelled.middle_and_ends(percent)}; "
-        f"{what} {rest.middle_and_ends(percent)}"
+        f"{'; '.join(shares)}; all modelled sources together {modelled.in_percent()}; "
+        f"{what} {rest.in_percent()}"
     )
 
 

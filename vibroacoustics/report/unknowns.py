@@ -8,7 +8,7 @@ import xarray as xr
 from ..base import rounding
 from ..base.quantiles import weighted_quantiles
 from ..base.vocabulary import REFERENCE_OPTION
-from .bands import QUANTILES, Band, band_words, draws, percent
+from .bands import QUANTILES, band_of, band_words, draws, percent
 from .drawn_words import file_unit, named
 from .study import catalogue_receiver, has_draws, quoted_speed, speeds
 from .tables import Table
@@ -149,8 +149,7 @@ def _values(results: xr.Dataset, name: str, prior: int) -> str:
     values = results["bank_value"].sel(drawn_parameter=name).values / file_unit(results, name)[1]
     before = results["shell_weight"].values if "shell_weight" in results else np.ones(values.size)
     weight = before if prior < 0 else results["bank_weight"].values[prior]
-    ends = Band(*map(float, weighted_quantiles(values, weight, QUANTILES)))
-    return ends.middle_and_ends(rounding.three_digits)
+    return band_of(values, weight).middle_and_ends(rounding.three_digits)
 
 
 def _width(results: xr.Dataset, option: int, speed: float) -> float:

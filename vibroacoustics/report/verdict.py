@@ -189,7 +189,7 @@ def _remainder(results: xr.Dataset) -> str:
     )
     speed = measured_rpm(results)
     if speed is not None:
-        rest = rounding.fixed(remainder_band(results, speed).middle)
+        rest = remainder_band(results, speed).middle_text(rounding.fixed)
         how = (
             "most of it assumed in bands that were not measured"
             if not_measured(results) > _HALF
