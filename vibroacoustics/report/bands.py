@@ -1,4 +1,4 @@
-"""Bands of the draws: what the ranges of the assumed values leave open."""
+"""Bands of the samples: what the ranges of the assumed values leave open."""
 
 from collections.abc import Callable, Sequence
 from typing import Any, Final, NamedTuple
@@ -22,7 +22,7 @@ NOT_SAMPLED: Final = (0.0, 0.0, 0.0)
 
 
 class Band(NamedTuple):
-    """Lowest, middle and highest of the quantiles over the draws that are kept, and their units."""
+    """Lowest, middle and highest quantile over the samples, and their units."""
 
     lowest: float
     middle: float
@@ -34,7 +34,7 @@ class Band(NamedTuple):
         return rounding.span((self.lowest, self.highest), write, self.units[::2])
 
     def middle_and_ends(self, write: Callable[[float], str]) -> str:
-        """`48.9 (44.7 to 51.2)`; the middle alone where nothing was drawn."""
+        """`48.9 (44.7 to 51.2)`; the middle alone where nothing was sampled."""
         ends, middle = self.ends(write), self.middle_text(write)
         return middle if ends == middle else f"{middle} ({ends})"
 
@@ -55,27 +55,27 @@ class Band(NamedTuple):
 QUANTILES: Final = (0.1, 0.5, 0.9)
 FINEST_DB: Final = 0.1
 FINEST_RATIO: Final = 0.01
-"""Of an amount, and of a share."""
+"""Finest ratio of an amount, and of a share."""
 
 
 @remembered
 def quantiles(results: xr.Dataset, name: str) -> xr.DataArray:
-    """Quantiles of an A-weighted level or its change over the draws, (quantile, ...).
+    """Quantiles of an A-weighted level or its change over the samples, (quantile, ...).
 
-    Where nothing was drawn all are the value as given.
+    Where nothing was sampled all are the nominal value.
 
     Parameters
     ----------
     results : of a run
     name : `source_level`, `level_modelled`, `level_total`, `level_remainder`, `change_modelled`
-        or `change_total`; `force_1x`, `moment_1x` or `foot_force_1x` where they were drawn
+        or `change_total`; `force_1x`, `moment_1x` or `foot_force_1x` where they were sampled
     """
     return over_draws(results, _by_draw(results, name))
 
 
 @remembered
 def _by_draw(results: xr.Dataset, name: str) -> xr.DataArray:
-    """A variable by draw, as given where nothing was drawn; names as of `quantiles`."""
+    """A variable by sample, nominal where nothing was sampled; names as of `quantiles`."""
     if not has_draws(results):
         return a_weighted(results[name])
     level = results[f"{name.replace('change', 'level')}_by_draw"]
@@ -85,18 +85,18 @@ def _by_draw(results: xr.Dataset, name: str) -> xr.DataArray:
 
 
 def has_band(results: xr.Dataset, name: str) -> bool:
-    """Whether a variable was drawn; names as of `quantiles`, and `force_1x` and the like."""
+    """Whether a variable was sampled; names as of `quantiles`, and `force_1x` and the like."""
     return has_draws(results) and f"{name.replace('change', 'level')}_by_draw" in results
 
 
 def over_draws(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> xr.DataArray:
-    """Quantiles of a level over the draws by their weights, (quantile, ...); itself without draws.
+    """Quantiles of a level over the weighted samples, (quantile, ...); itself without samples.
 
     Parameters
     ----------
     results : with the weights
-    level : by draw
-    prior : number of the prior of the remainder
+    level : by sample
+    prior : number of the prior of unmodelled noise
     """
     if "draw" not in level.dims:
         return level.expand_dims(quantile=list(QUANTILES))
@@ -110,14 +110,14 @@ def over_draws(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> xr.D
 def band_over(
     results: xr.Dataset, values: xr.DataArray, finest: float | None = FINEST_DB, prior: int = 0
 ) -> Band:
-    """Band of a value over the draws, to the digits that their number allows.
+    """Band of a value over the samples, to the digits that their number allows.
 
     Parameters
     ----------
     results : with the weights
-    values : shape (draw,), or one value where nothing was drawn
+    values : shape (sample,), or a single value where nothing was sampled
     finest : least standard error that sets the digits; none for that of an amount
-    prior : number of the prior of the remainder
+    prior : number of the prior of unmodelled noise
     """
     if "draw" not in values.dims:
         return Band(*[values.item()] * 3)
@@ -132,8 +132,8 @@ def band_of(
 
     Parameters
     ----------
-    values, weight : shape (draw,)
-    weights : of the draws in resampled ensembles; none where each draw is a sample of its own
+    values, weight : shape (sample,)
+    weights : of the samples in resampled ensembles; none where each sample is a sample of its own
     finest : least standard error that sets the digits; none for that of an amount
     """
     lowest, middle, highest = map(float, weighted_quantiles(values, weight, QUANTILES))
@@ -148,8 +148,8 @@ def units_of(values: Array, weights: Array, finest: float) -> Units:
 
     Parameters
     ----------
-    values : shape (draw,)
-    weights : of the draws in resampled ensembles, shape (ensemble, draw)
+    values : shape (sample,)
+    weights : of the samples in resampled ensembles, shape (ensemble, sample)
     finest : least standard error that sets the digits
     """
     errors = quantile_errors(values, weights, QUANTILES).tolist()
@@ -159,7 +159,7 @@ def units_of(values: Array, weights: Array, finest: float) -> Units:
 
 @remembered
 def resampled(results: xr.Dataset, prior: int) -> Array:
-    """Weights of the draws in resampled ensembles; draws of the same values are one sample."""
+    """Weights of the samples in resampled ensembles; samples of the same values are one sample."""
     values = results["drawn_value"].transpose("draw", ...).values
     _, sample = np.unique(values, axis=0, return_inverse=True)
     return bootstrap_weights(results["draw_weight"].values[prior], sample.ravel())
@@ -181,9 +181,9 @@ def bands_by_speed(results: xr.Dataset, name: str, **at: Any) -> tuple[Band, ...
 
 def hull(bands: Sequence[Band]) -> Band:
     """Lowest and highest of the ends of several bands; those that are not numbers do not count."""
-    known = [band for band in bands if np.isfinite([band.lowest, band.highest]).all()] or bands
-    low = min(known, key=lambda band: band.lowest)
-    high = max(known, key=lambda band: band.highest)
+    finite = [band for band in bands if np.isfinite([band.lowest, band.highest]).all()] or bands
+    low = min(finite, key=lambda band: band.lowest)
+    high = max(finite, key=lambda band: band.highest)
     units = (low.units[0], high.units[1], high.units[2])
     return Band(low.lowest, high.middle, high.highest, units)
 
@@ -212,13 +212,13 @@ def _whole_percent(share: float) -> str:
 def share_band(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> Band:
     """Energy of a level as a share of that of the whole machine where its level is published.
 
-    Without draws of that of the published level; without one of that of all that is modelled.
+    Without samples of that of the published level; without one of that of all that is modelled.
 
     Parameters
     ----------
     results : of a run
-    level : by draw, dB(A)
-    prior : number of the prior of the remainder
+    level : by sample, dB(A)
+    prior : number of the prior of unmodelled noise
     """
     if not has_draws(results):
         return band_over(results, level).share_of(quoted_dba(results))
@@ -228,7 +228,7 @@ def share_band(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> Band
 
 @remembered
 def total_by_draw(results: xr.Dataset, prior: int) -> xr.DataArray:
-    """Level of the whole machine without an option at the published speed, (draw,), dB(A)."""
+    """Level of the whole machine without an option at the published speed, (sample,), dB(A)."""
     at = at_catalogue(results, speed=quoted_speed(results))
     modelled = power_of_level(results["level_modelled_by_draw"].sel(at))
     rest = power_of_level(results["level_remainder_by_draw"])
@@ -236,7 +236,7 @@ def total_by_draw(results: xr.Dataset, prior: int) -> xr.DataArray:
 
 
 class Draws(NamedTuple):
-    """How many draws there are.
+    """How many samples there are.
 
     Attributes
     ----------
@@ -253,7 +253,7 @@ class Draws(NamedTuple):
 
 
 def draws(results: xr.Dataset) -> Draws:
-    """How many draws the bands rest on."""
+    """How many samples the bands rest on."""
     weight = results["bank_weight"].values[0]
     effective = effective_samples(weight)
     if not has_draws(results):

@@ -61,7 +61,7 @@ def _tails(results: xr.Dataset) -> dict[str, float]:
 
 def _expected(results: xr.Dataset, name: str) -> Band:
     of_datum = results["datum_expected"].sel(datum=name).transpose("datum_quantile")
-    return Band(*map(float, of_datum.values))
+    return Band(*of_datum.values.tolist())
 
 
 def _published(results: xr.Dataset, name: str) -> str:

@@ -20,7 +20,7 @@ from .quantities import LINE, TOLERANCE_DB, Quantity
 from .study import catalogue_receiver, parameters
 
 _ALL: Final = 0.995
-"""Share of the draws that reads as all of them."""
+"""Share of the samples that reads as all of them."""
 
 
 @dataclass(frozen=True)
@@ -30,13 +30,13 @@ class Shift:
     Attributes
     ----------
     quantity : which
-    before, after : values as given, shape (speed,)
-    drawn_db : change in each draw, shape (draw, speed); that of the values as given where the
-        quantity is not drawn
-    weight : of the draws, of sum one
+    before, after : nominal values, shape (speed,)
+    drawn_db : change in each sample, shape (sample, speed); that of the nominal values where the
+        quantity is not sampled
+    weight : of the samples, of sum one
     least : smallest changes that could be measured
-    weights : of the draws in resampled ensembles, shape (ensemble, draw); none where each draw is
-        a sample of its own
+    weights : of the samples in resampled ensembles, shape (ensemble, sample); none where each
+        sample is its own
     """
 
     quantity: Quantity
@@ -54,27 +54,27 @@ class Shift:
 
     @property
     def worsens(self) -> bool:
-        """Whether it grows by what could be measured in most draws, at a speed at least."""
+        """Whether it grows by what could be measured in most samples, at a speed at least."""
         return self.grown > self.least.draws_ratio
 
     @property
     def improves(self) -> bool:
-        """Whether it falls by what could be measured in most draws, at a speed at least."""
+        """Whether it falls by what could be measured in most samples, at a speed at least."""
         return self.fallen > self.least.draws_ratio
 
     @property
     def grown(self) -> float:
-        """Share of the draws in which it grows by what could be measured; of all speeds most."""
+        """Share of the samples in which it grows by what could be measured; of all speeds most."""
         return self._share(np.where(self._relative > self._threshold, 1.0, 0.0))
 
     @property
     def fallen(self) -> float:
-        """Share of the draws in which it falls by what could be measured; of all speeds most."""
+        """Share of the samples in which it falls by what could be measured; of all speeds most."""
         return self._share(np.where(self._relative < -self._threshold, 1.0, 0.0))
 
     @property
     def _relative(self) -> Array:
-        """Changes in dB of levels, as ratios of forces, shape (draw, speed)."""
+        """Changes in dB of levels, as ratios of forces, shape (sample, speed)."""
         if self.quantity == LINE:
             quietest = self.least.quietest_line_db
             gain = np.maximum(self.after, quietest) - np.maximum(self.before, quietest)
@@ -102,7 +102,7 @@ class Shift:
         return f"{size} (measurable in {100.0 * share:.0f} % of the draws at a speed)"
 
     def size(self) -> str:
-        """`+22 to +24 %` of forces, `+2.2 to +25.2 dB` of levels: over draws and speeds."""
+        """`+22 to +24 %` of forces, `+2.2 to +25.2 dB` of levels: over samples and speeds."""
         return f"{self.written(extent([self]))} {self.unit}"
 
     def written(self, changes: Band) -> str:
@@ -111,7 +111,7 @@ class Shift:
 
     @property
     def unit(self) -> str:
-        """Of a change."""
+        """Unit of a change."""
         return "dB" if self.quantity.is_level else "%"
 
     @cached_property
@@ -122,7 +122,7 @@ class Shift:
         else:
             drawn = np.asarray(100.0 * (amplitude_of_level(self.drawn_db) - 1.0))
             finest = 100.0 * FINEST_RATIO
-        return [band_of(one, self.weight, self.weights, finest) for one in drawn.T]
+        return [band_of(change, self.weight, self.weights, finest) for change in drawn.T]
 
     def sentence(self) -> str:
         """`grows by 81 % (to at most 120 N)` and the like, without the quantity's name."""
@@ -176,7 +176,7 @@ def shift(
 
 
 def extent(shifts: Sequence[Shift]) -> Band:
-    """Band of a change over the draws, speeds and microphones of shifts of one quantity."""
+    """Band of a change over the samples, speeds and microphones of shifts of one quantity."""
     return hull([band for one in shifts for band in one.bands])
 
 
@@ -199,7 +199,7 @@ def _gain(quantity: Quantity, before: Array, after: Array) -> Array:
 def _drawn_change(
     results: xr.Dataset, quantity: Quantity, option: str, receiver: str
 ) -> tuple[Array, Array, Array]:
-    """Change in the draws that count, shape (draw, speed), dB, and their weights."""
+    """Change in the samples that count, shape (sample, speed), dB, and their weights."""
     weight, weights = results["draw_weight"].values[0], resampled(results, 0)
     drawn = at_receiver(results[f"{quantity.drawn}_by_draw"], receiver).isel(draw=weight > 0.0)
     before, after = (

@@ -122,8 +122,8 @@ def spectrum_sentence(results: xr.Dataset) -> str:
         for row in (0, 1)
     )
     return (
-        f"With the published spectral share {name} make {with_share}; with the level alone {alone}. The "
-        f"difference holds only if the modelled spectrum of {name} is right."
+        f"With the published spectral share {name} make {with_share}; with the level alone "
+        f"{alone}. The difference holds only if the modelled spectrum of {name} is right."
     )
 
 
@@ -154,7 +154,7 @@ def energy_table(results: xr.Dataset) -> Table | None:
 
 def _energy_share(results: xr.Dataset, row: int, part: str) -> str:
     share = results["energy_share"][row].sel(energy_part=part).transpose("datum_quantile")
-    return Band(*map(float, share.values)).middle_and_ends(percent)
+    return Band(*share.values.tolist()).middle_and_ends(percent)
 
 
 def _shares(results: xr.Dataset, prior: int) -> str:

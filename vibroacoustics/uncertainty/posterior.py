@@ -56,7 +56,9 @@ def posterior(
             evidence.log_weights(sound, machine, before + n, published.data, published.priors)
             for n, (sound, machine) in enumerate(zip(sounds, machines, strict=True))
         ]
-        log_weight = np.reshape([logsumexp(one, axis=(1, 2)) for one in weights], (len(batch), -1))
+        log_weight = np.reshape(
+            [logsumexp(weight, axis=(1, 2)) for weight in weights], (len(batch), -1)
+        )
         if test is not None:
             log_weight = log_weight + np.log(test.likelihood(before, len(batch)))[:, None]
         return Weighted(sounds, machines, evidence.modelled_db(sounds), log_weight.T)
