@@ -270,7 +270,7 @@ def test_none_of_another_kind(tree):
 
 def test_unknown_option_kind(tree):
     message = refuse_study(tree, 'kind = "twin-oldham"', 'kind = "antigravity"')
-    says(message, "copeland_thesis.toml", "options.twin-oldham", "antigravity", "rotating-counter")
+    says(message, "copeland_thesis.toml", "options.twin-oldham", "antigravity", "bias-spring")
 
 
 def test_unknown_catalogue_receiver(tree):

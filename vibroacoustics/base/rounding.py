@@ -68,13 +68,28 @@ def level_change(change_db: float, level_db: float, reference_db: float) -> str:
     return "silent" if level_db < LEVEL_FLOOR_DB else signed(change_db)
 
 
+def unit_of_digits(error: float, finest: float) -> float:
+    """Power of ten to which a value is written, 10^round(lg of its error); 0 without error.
+
+    The first digit that the sampling leaves open is the last one written (Song & Schmeiser 2009,
+    Operations Research 57, 1).
+
+    Parameters
+    ----------
+    error : standard error
+    finest : error that counts where the sampling error is smaller
+    """
+    counting = max(error, finest)
+    return 10.0 ** round(np.log10(counting)) if counting > 0.0 else 0.0
+
+
 def to_unit(value: float, unit: float, write: Callable[[float], str]) -> str:
     """A number rounded to a power of ten, without finer decimals; as `write` has it for unit 0."""
     if unit == 0.0 or not np.isfinite(value):
         return write(value)
     decimals = max(-round(np.log10(unit)), 0)
     text = write(float(unit * np.round(value / unit)) + 0.0)
-    return _DECIMALS.sub(lambda found: f".{found[1][:decimals]}".rstrip("."), text)
+    return _DECIMALS.sub(lambda match: f".{match[1][:decimals]}".rstrip("."), text)
 
 
 def span(

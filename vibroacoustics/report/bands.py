@@ -13,7 +13,7 @@ from ..base.quantiles import weighted_quantiles
 from ..base.remembered import remembered
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.agreement import effective_samples
-from ..uncertainty.interval_digits import bootstrap_weights, quantile_errors, unit_of_digits
+from ..uncertainty.interval_digits import bootstrap_weights, quantile_errors
 from .study import a_weighted, at_catalogue, has_draws, quoted_dba, quoted_speed
 
 Units = tuple[float, float, float]
@@ -22,7 +22,7 @@ NOT_SAMPLED: Final = (0.0, 0.0, 0.0)
 
 
 class Band(NamedTuple):
-    """Lowest, middle and highest quantile over the samples, and their units."""
+    """Lowest, middle and highest of the quantiles over the samples, and their units."""
 
     lowest: float
     middle: float
@@ -55,7 +55,7 @@ class Band(NamedTuple):
 QUANTILES: Final = (0.1, 0.5, 0.9)
 FINEST_DB: Final = 0.1
 FINEST_RATIO: Final = 0.01
-"""Finest ratio of an amount, and of a share."""
+"""Least relative error of an amount, least error of a share."""
 
 
 @remembered
@@ -70,12 +70,12 @@ def quantiles(results: xr.Dataset, name: str) -> xr.DataArray:
     name : `source_level`, `level_modelled`, `level_total`, `level_remainder`, `change_modelled`
         or `change_total`; `force_1x`, `moment_1x` or `foot_force_1x` where they were sampled
     """
-    return over_draws(results, _by_draw(results, name))
+    return over_draws(results, _by_sample(results, name))
 
 
 @remembered
-def _by_draw(results: xr.Dataset, name: str) -> xr.DataArray:
-    """A variable by sample, nominal where nothing was sampled; names as of `quantiles`."""
+def _by_sample(results: xr.Dataset, name: str) -> xr.DataArray:
+    """A variable by sample, its nominal value without samples; names as of `quantiles`."""
     if not has_draws(results):
         return a_weighted(results[name])
     level = results[f"{name.replace('change', 'level')}_by_draw"]
@@ -115,7 +115,7 @@ def band_over(
     Parameters
     ----------
     results : with the weights
-    values : shape (sample,), or a single value where nothing was sampled
+    values : shape (sample,), or the nominal value
     finest : least standard error that sets the digits; none for that of an amount
     prior : number of the prior of unmodelled noise
     """
@@ -133,7 +133,7 @@ def band_of(
     Parameters
     ----------
     values, weight : shape (sample,)
-    weights : of the samples in resampled ensembles; none where each sample is a sample of its own
+    weights : of bootstraps, shape (ensemble, sample); none where all samples are independent
     finest : least standard error that sets the digits; none for that of an amount
     """
     lowest, middle, highest = map(float, weighted_quantiles(values, weight, QUANTILES))
@@ -149,17 +149,17 @@ def units_of(values: Array, weights: Array, finest: float) -> Units:
     Parameters
     ----------
     values : shape (sample,)
-    weights : of the samples in resampled ensembles, shape (ensemble, sample)
+    weights : of bootstraps, shape (ensemble, sample)
     finest : least standard error that sets the digits
     """
     errors = quantile_errors(values, weights, QUANTILES).tolist()
-    lowest, middle, highest = (unit_of_digits(error, finest) for error in errors)
+    lowest, middle, highest = (rounding.unit_of_digits(error, finest) for error in errors)
     return lowest, middle, highest
 
 
 @remembered
 def resampled(results: xr.Dataset, prior: int) -> Array:
-    """Weights of the samples in resampled ensembles; samples of the same values are one sample."""
+    """Weights of bootstraps, (ensemble, sample); what has the same values is chosen together."""
     values = results["drawn_value"].transpose("draw", ...).values
     _, sample = np.unique(values, axis=0, return_inverse=True)
     return bootstrap_weights(results["draw_weight"].values[prior], sample.ravel())
@@ -168,8 +168,8 @@ def resampled(results: xr.Dataset, prior: int) -> Array:
 @remembered
 def band(results: xr.Dataset, name: str, **at: Any) -> Band:
     """Band of a variable at a speed, option, source and, where it depends on it, a receiver."""
-    by_draw = _by_draw(results, name)
-    values = by_draw.sel({dim: key for dim, key in at.items() if dim in by_draw.dims})
+    samples = _by_sample(results, name)
+    values = samples.sel({dim: key for dim, key in at.items() if dim in samples.dims})
     is_level = name.startswith(("level", "change", "source_level"))
     return band_over(results, values, FINEST_DB if is_level else None)
 

@@ -35,8 +35,7 @@ class Shift:
         quantity is not sampled
     weight : of the samples, of sum one
     least : smallest changes that could be measured
-    weights : of the samples in resampled ensembles, shape (ensemble, sample); none where each
-        sample is its own
+    weights : of bootstraps, shape (ensemble, sample); none where all samples are independent
     """
 
     quantity: Quantity
@@ -117,12 +116,11 @@ class Shift:
     @cached_property
     def bands(self) -> list[Band]:
         """Band of the change at every speed: dB of levels, % of forces."""
-        if self.quantity.is_level:
-            drawn, finest = self.drawn_db, FINEST_DB
-        else:
-            drawn = np.asarray(100.0 * (amplitude_of_level(self.drawn_db) - 1.0))
+        changes, finest = self.drawn_db, FINEST_DB
+        if not self.quantity.is_level:
+            changes = np.asarray(100.0 * (amplitude_of_level(changes) - 1.0))
             finest = 100.0 * FINEST_RATIO
-        return [band_of(change, self.weight, self.weights, finest) for change in drawn.T]
+        return [band_of(changed, self.weight, self.weights, finest) for changed in changes.T]
 
     def sentence(self) -> str:
         """`grows by 81 % (to at most 120 N)` and the like, without the quantity's name."""
@@ -176,8 +174,8 @@ def shift(
 
 
 def extent(shifts: Sequence[Shift]) -> Band:
-    """Band of a change over the samples, speeds and microphones of shifts of one quantity."""
-    return hull([band for one in shifts for band in one.bands])
+    """Band of a change over the speeds and microphones of shifts of one quantity."""
+    return hull([band for shifted in shifts for band in shifted.bands])
 
 
 def measurable(results: xr.Dataset) -> Measurable:

@@ -94,7 +94,7 @@ class Evidence:
         if study.baseline is None or not self.nominal.points:
             return weights
         relative = np.array(
-            [self.nominal.relative_to_measured(heard) for heard in of_sample.sounds(sound)]
+            [self.nominal.relative_to_measured(each) for each in of_sample.sounds(sound)]
         )
         tolerance = study.baseline.tolerance_db
         measured = [log_weight_of_points(relative.T, tolerance, prior) for prior in priors]

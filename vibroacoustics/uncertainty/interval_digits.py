@@ -1,7 +1,6 @@
 """Sampling errors of quantiles, which set the digits that a reader sees."""
 
 from collections.abc import Sequence
-from math import log10
 from typing import Final
 
 import numpy as np
@@ -47,8 +46,8 @@ def quantile_errors(values: Array, weights: Array, shares: Sequence[float]) -> A
         return np.zeros(len(shares))
     order = np.argsort(values)
     rising, sizes = values[order], weights[:, order]
-    found = [_quantile(rising, sizes, share) for share in shares]
-    return np.asarray(np.std(found, axis=1, ddof=1))
+    quantiles = [_quantile(rising, sizes, share) for share in shares]
+    return np.asarray(np.std(quantiles, axis=1, ddof=1))
 
 
 def _quantile(rising: Array, sizes: Array, share: float) -> Array:
@@ -59,23 +58,8 @@ def _quantile(rising: Array, sizes: Array, share: float) -> Array:
     end = last - held[:, ::-1].argmax(axis=1)
     sought = (1.0 - share) * middle[row, first] + share * middle[row, end]
     below = held & (middle <= sought[:, None])
-    left = last - below[:, ::-1].argmax(axis=1)
-    right = np.where(left < end, (held & ~below).argmax(axis=1), left)
-    width = middle[row, right] - middle[row, left]
-    part = (sought - middle[row, left]) / np.where(width > 0.0, width, 1.0)
-    return np.asarray(rising[left] + part * (rising[right] - rising[left]))
-
-
-def unit_of_digits(error: float, finest: float) -> float:
-    """Power of ten to which a value is written, 10^round(lg of its error); 0 without error.
-
-    The first digit that the sampling leaves open is the last one written (Song & Schmeiser 2009,
-    Operations Research 57, 1).
-
-    Parameters
-    ----------
-    error : standard error
-    finest : error that counts where the sampling error is smaller
-    """
-    counting = max(error, finest)
-    return 10.0 ** round(log10(counting)) if counting > 0.0 else 0.0
+    lower = last - below[:, ::-1].argmax(axis=1)
+    upper = np.where(lower < end, (held & ~below).argmax(axis=1), lower)
+    width = middle[row, upper] - middle[row, lower]
+    part = (sought - middle[row, lower]) / np.where(width > 0.0, width, 1.0)
+    return np.asarray(rising[lower] + part * (rising[upper] - rising[lower]))

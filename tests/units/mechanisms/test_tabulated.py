@@ -10,6 +10,7 @@ from support import ROOT, made_up_radiation
 import vibroacoustics as va
 from vibroacoustics import pipeline
 from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.mechanisms.oldham_scroll.machine import OldhamScroll
 from vibroacoustics.mechanisms.tabulated.csv_layout import forces_csv
 from vibroacoustics.mechanisms.tabulated.shaft_axes import ShaftAxes, axes_lines
 from vibroacoustics.mechanisms.tabulated.spectra import Spectra, orders_of, over_revolution
@@ -36,6 +37,9 @@ def table_machine(folder: Path, name: str, more: str = AXES, forces: str = "") -
     keep = ("housing", "counterweights", "mounts", "shell", "overall_noise", "remainder")
     blocks = text.split("\n[")[1:]
     tables = ["\n[" + block for block in blocks if block.split("]")[0] in keep]
+    growth = OldhamScroll.speed_growth.mean_db  # a table has no kind that knows it
+    line = f'speed_growth_db = {{ value = {growth}, source = "a test" }}'
+    tables = [table.replace("[remainder]\n", f"[remainder]\n{line}\n") for table in tables]
     file = folder / "machine.toml"
     file.write_text(
         'name = "Copeland ZP41K3E-PFJ"\nkind = "table"\n'

@@ -5,11 +5,11 @@ import pytest
 from scipy.stats import norm
 
 from vibroacoustics.base.quantiles import weighted_quantiles
+from vibroacoustics.base.rounding import unit_of_digits
 from vibroacoustics.uncertainty.interval_digits import (
     BOOTSTRAPS,
     bootstrap_weights,
     quantile_errors,
-    unit_of_digits,
 )
 
 SHARES = (0.1, 0.5, 0.9)
