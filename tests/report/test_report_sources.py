@@ -13,7 +13,7 @@ from test_report import PUBLISHED_DBA, make_results
 from vibroacoustics.base.vocabulary import DERIVED_SUPPLY, GIVEN_SUPPLY, WEIGHTINGS, check, stamp
 from vibroacoustics.report import comparison_text, render
 from vibroacoustics.report.assumptions import not_modelled, remainder_sentence
-from vibroacoustics.report.bands import Band, draws, percent
+from vibroacoustics.report.bands import Band, draws, percent, resampled
 from vibroacoustics.report.drawn_words import drawn_sentences, held_sentence
 from vibroacoustics.report.extremes import extremes_table
 from vibroacoustics.report.option_verdict import option_verdict, option_verdicts
@@ -405,6 +405,14 @@ def test_tables_markdown_and_csv_have_the_same_verdicts(
                 reason = verdicts[cell.split(": ")[1]][1]
                 better, _, worse = reason.partition("; worse: ")
                 assert quantity in (better if improves else worse or better)
+
+
+def test_rows_of_the_same_values_are_one_sample(results: xr.Dataset) -> None:
+    paired = results.copy(deep=True)
+    paired["drawn_value"][1] = paired["drawn_value"][0]
+    weights = resampled(paired, 0)
+    np.testing.assert_array_equal(weights[:, 0], weights[:, 1])
+    assert (resampled(results, 0)[:, 0] != resampled(results, 0)[:, 1]).any()
 
 
 def test_the_tables_show_bands_in_place_of_single_levels(results: xr.Dataset) -> None:
