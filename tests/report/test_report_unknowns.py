@@ -35,6 +35,7 @@ def with_unknowns(quality=(0.95, 0.92, 0.91), change=(0.75, 0.1, 0.0, 0.05)):
     kept["bank_weight"] = kept["bank_weight"] * np.where(draws <= 6, 1.0, 0.0)
     return kept.assign(
         bank_value=stamp("bank_value", values, {"bank_draw": draws, **by_name}),
+        drawn_value=stamp("drawn_value", values, {"draw": draws, **by_name}),
         level_share=stamp("level_share", share, {**known, **by_name}),
         level_share_quality=stamp("level_share_quality", np.array(quality), known),
         change_share=stamp(
