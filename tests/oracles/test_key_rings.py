@@ -88,10 +88,12 @@ def test_first_impact_of_a_flooded_ring():
 def test_four_revolutions(case):
     """Root mean squares to 1e-3, third octaves of the net force to 0.2 dB."""
     found, expected = (forces[:, SAMPLES:] for forces in both(case, 4.0))
-    assert rms(found) == pytest.approx(rms(expected), rel=1e-3)
     levels = 10.0 * np.log10(third_octaves(found) / third_octaves(expected))
     loud = third_octaves(expected) > 1e-6 * rms(expected).max() ** 2
-    assert np.abs(levels[loud]).max() < 0.2
+    off = np.abs(rms(found) / rms(expected) - 1.0).max(), np.abs(levels[loud]).max()
+    print(f"{case}: root mean squares {off[0]:.1e}, thirds {off[1]:.3f} dB, {loud.sum()} loud")
+    assert off[0] < 1e-3
+    assert off[1] < 0.2
 
 
 # --- independence of the start -------------------------------------------------------------------

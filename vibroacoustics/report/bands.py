@@ -140,21 +140,9 @@ def band_of(
     if weights is None:
         weights = bootstrap_weights(weight, np.arange(weight.size))
     least = FINEST_RATIO * abs(middle) if finest is None else finest
-    return Band(lowest, middle, highest, units_of(values, weights, least))
-
-
-def units_of(values: Array, weights: Array, finest: float) -> Units:
-    """Units in which the quantiles of values are written, by their sampling errors.
-
-    Parameters
-    ----------
-    values : shape (sample,)
-    weights : of bootstraps, shape (ensemble, sample)
-    finest : least standard error that sets the digits
-    """
-    errors = quantile_errors(values, weights, QUANTILES).tolist()
-    lowest, middle, highest = (rounding.unit_of_digits(error, finest) for error in errors)
-    return lowest, middle, highest
+    errors = quantile_errors(values, weight, weights, QUANTILES).tolist()
+    low, mid, high = (rounding.unit_of_digits(error, least) for error in errors)
+    return Band(lowest, middle, highest, (low, mid, high))
 
 
 @remembered
