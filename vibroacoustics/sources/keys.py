@@ -162,6 +162,22 @@ def _standing(machine: Machine) -> Port:
     return BEARING_HOUSING
 
 
+def resolved_orders(signal: Array, highest: int) -> ComplexArray:
+    """Orders 0 to the highest of one revolution, shape (order,); zero where samples are too few.
+
+    An option gives its force at the crank angles of the forces, a study its highest order.
+
+    Parameters
+    ----------
+    signal : shape (sample,)
+    highest : order
+    """
+    resolved = min(highest, (signal.size - 1) // 2)
+    spectrum = np.zeros(highest + 1, dtype=complex)
+    spectrum[: resolved + 1] = order_spectrum(signal, resolved)
+    return spectrum
+
+
 def _turning(case: Case) -> _Ring:
     """The machine's ring with the gas moment that presses its keys and what hangs on it."""
     ring = case.machine.require(OldhamRing)
@@ -197,5 +213,5 @@ def _spectra(
     noise = Noise(on_parts, frequency[kept], density[..., kept])
     orders = order_spectrum(mean, highest)
     if ring.force.from_housing and ring.force.force_n.size > 1:
-        orders[0] -= order_spectrum(ring.force.force_n, highest)
+        orders[0] -= resolved_orders(ring.force.force_n, highest)
     return {part: per_force @ orders for part, per_force in on_parts.items()}, torque, noise

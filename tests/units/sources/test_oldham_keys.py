@@ -15,6 +15,7 @@ from support import ROOT
 
 from vibroacoustics.base.errors import ParameterError, SolverError
 from vibroacoustics.base.units import shaft_frequency_hz
+from vibroacoustics.sources.keys import resolved_orders
 from vibroacoustics.sources.oldham_keys import rattle
 from vibroacoustics.sources.oldham_keys.contact import Face, key_face
 from vibroacoustics.sources.oldham_keys.equations import Coupling
@@ -581,3 +582,12 @@ def test_integration_that_diverges(monkeypatch):
 def test_refused_blocks(block):
     with pytest.raises(ParameterError, match="block_samples"):
         spectral_density(np.zeros((1, 1000)), 1e4, block)
+
+
+@pytest.mark.parametrize("highest", [3, 12])
+def test_orders_above_those_that_the_samples_resolve_are_zero(highest):
+    angle = np.linspace(0.0, 2.0 * np.pi, 16, endpoint=False)
+    orders = resolved_orders(2.0 + 3.0 * np.cos(2.0 * angle), highest)
+    expected = np.zeros(highest + 1)
+    expected[[0, 2]] = 2.0, 3.0
+    np.testing.assert_allclose(orders, expected, atol=1e-14)
