@@ -139,7 +139,7 @@ def log_weights(modelled: Array, unmodelled: Array, data: Sequence[Datum], prior
     Parameters
     ----------
     modelled : A-weighted bands of all modelled sources, shape (discrepancy, band), Pa²
-    unmodelled : the same of unmodelled noise at the published level, shape (band,), Pa²
+    unmodelled : A-weighted bands of unmodelled noise at the published level, shape (band,), Pa²
     data : that weigh the sample
     prior : of the level of unmodelled noise
     """

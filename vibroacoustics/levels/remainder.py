@@ -20,7 +20,7 @@ from .measured_points import REMAINDER_BANDS
 from .published import published_of
 
 REMAINDER_MIDDLE_HZ: Final[Array] = np.array([band.middle_hz for band in REMAINDER_BANDS])
-"""Of the third octaves of unmodelled noise."""
+"""Middle frequencies of the third octaves of unmodelled noise."""
 
 
 def remainder(

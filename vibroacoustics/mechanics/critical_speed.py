@@ -15,7 +15,7 @@ from .scroll_shaft import ScrollShaft
 ELEMENT_LENGTH_M: Final = 0.01
 """Ten elements or more over half a wave of the highest mode of interest."""
 _ROUNDING: Final = 1e-6
-"""Of an element's length: spans so short are none."""
+"""Share of an element's length below which a span counts as zero."""
 
 
 def rule_of_thumb_rpm(deflection_cm: float) -> float:

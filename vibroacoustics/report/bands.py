@@ -193,7 +193,9 @@ def percent(share: float) -> str:
 
 
 def _whole_percent(share: float) -> str:
-    """A share in percent without decimals, as the ends of an interval have it."""
+    """A share in percent without decimals; one that rounds to none, but is some, is `<1 %`."""
+    if 0.0 < share < 0.5 * FINEST_RATIO:
+        return "<1\u00a0%"
     return f"{rounding.fixed(100.0 * share, 0)}\u00a0%"
 
 

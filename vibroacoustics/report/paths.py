@@ -13,8 +13,7 @@ from ..base.remembered import remembered
 from ..base.vocabulary import REFERENCE_OPTION
 from .bands import percent
 from .labels import DOF_WORDS
-from .source_words import source_name
-from .study import options, quoted_speed
+from .study import options, quoted_speed, source_name
 from .tables import Table, dataset_csv
 
 LEADING: Final = 10

@@ -14,7 +14,7 @@ from .bands import QUANTILES, Band, band, band_words, percent, quantiles, share_
 from .column_values import column
 from .remainder import remainder_band
 from .source_changes import key_figure
-from .source_words import at_published, ranked, source_name, source_share
+from .source_words import at_published, ranked, source_share
 from .study import (
     a_weighted,
     at_catalogue,
@@ -24,6 +24,7 @@ from .study import (
     options,
     overall_noise,
     quoted_speed,
+    source_name,
     speeds,
     total_of,
     words,

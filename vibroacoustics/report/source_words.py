@@ -13,6 +13,7 @@ from ..levels.agreement import priors_of
 from ..machine.remainder import Remainder
 from .bands import Band, band, band_words, draws, energy_share, percent, share_band, total_by_draw
 from .drawn_words import drawn_sentences
+from .energy_words import UNMODELLED, energy_band, has_energy_shares, majority
 from .study import (
     a_weighted,
     at_catalogue,
@@ -25,19 +26,12 @@ from .study import (
     parameters,
     quoted_dba,
     quoted_speed,
+    source_name,
     speeds,
     total_of,
-    words,
 )
-from .tables import Table
 
 LINE_FIGURE: Final = "foot_force_2x_line_n"
-
-
-def source_name(results: xr.Dataset, source: str) -> str:
-    """Plain words for a source of sound."""
-    label = words(results)["sources"].get(source, source.replace("_", " "))
-    return str(label)
 
 
 def ranked(results: xr.Dataset, speed: float) -> list[tuple[str, Band]]:
@@ -110,53 +104,6 @@ def prior_words(results: xr.Dataset) -> list[str]:
     return [words_of.get(str(name), str(name)) for name in results["prior"].values]
 
 
-def spectrum_sentence(results: xr.Dataset) -> str:
-    """What the published spectral share does to the share of the loudest source; else empty."""
-    if results.sizes.get("evidence", 0) < 2:
-        return ""
-    source, _ = ranked(results, quoted_speed(results))[0]
-    name = source_name(results, source)
-    with_share, alone = (
-        f"{_energy_share(results, row, source)} of the energy, more than half of it with a "
-        f"probability of {percent(float(results['energy_majority'][row].sel(energy_part=source)))}"
-        for row in (0, 1)
-    )
-    return (
-        f"With the published spectral share {name} make {with_share}; with the level alone "
-        f"{alone}. The difference holds only if the modelled spectrum of {name} is right."
-    )
-
-
-def energy_table(results: xr.Dataset) -> Table | None:
-    """Shares of the energy by the published data that weigh; None without published data."""
-    if "energy_share" not in results:
-        return None
-    evidence = list(map(str, results["evidence"].values))
-    rows = [
-        (
-            source_name(results, part),
-            *(_energy_share(results, row, part) for row in range(len(evidence))),
-            *(
-                percent(float(results["energy_majority"][row].sel(energy_part=part)))
-                for row in range(len(evidence))
-            ),
-        )
-        for part in map(str, results["energy_part"].values)
-    ]
-    head = ("", *evidence, *(f"more than half, {name}" for name in evidence))
-    effective = ", ".join(
-        f"{count:.0f} with {name}"
-        for name, count in zip(evidence, results["evidence_effective"].values, strict=True)
-    )
-    caption = f"Shares of the energy by published data; effective samples: {effective}"
-    return Table(caption, head, tuple(rows))
-
-
-def _energy_share(results: xr.Dataset, row: int, part: str) -> str:
-    share = results["energy_share"][row].sel(energy_part=part).transpose("datum_quantile")
-    return Band(*share.values.tolist()).middle_and_ends(percent)
-
-
 def _shares(results: xr.Dataset, prior: int) -> str:
     """Shares of sources and remainder, one after another."""
     by_source = {
@@ -166,9 +113,8 @@ def _shares(results: xr.Dataset, prior: int) -> str:
     shares = [f"{name} {share.in_percent()}" for name, share in by_source.items()]
     if overall_noise(results) is None:
         return "; ".join(shares)
-    modelled = share_band(results, at_published(results, "level_modelled"), prior)
-    remainder = results["level_remainder_by_draw"]
-    rest, there = share_band(results, remainder, prior), elsewhere(results)
+    modelled, rest = _modelled_and_rest(results, prior)
+    there = elsewhere(results)
     what = f"what is not modelled{there}" if there else "what is not modelled"
     return (
         f"{'; '.join(shares)}; all modelled sources together {modelled.in_percent()}; "
@@ -176,9 +122,26 @@ def _shares(results: xr.Dataset, prior: int) -> str:
     )
 
 
+def _modelled_and_rest(results: xr.Dataset, prior: int) -> tuple[Band, Band]:
+    """Shares of all modelled sources and of unmodelled noise."""
+    if _is_of_all_samples(results, prior):
+        rest = energy_band(results, UNMODELLED)
+        lowest, middle, highest = (1.0 - share for share in rest[2::-1])
+        return Band(lowest, middle, highest), rest
+    modelled = share_band(results, at_published(results, "level_modelled"), prior)
+    return modelled, share_band(results, results["level_remainder_by_draw"], prior)
+
+
+def _is_of_all_samples(results: xr.Dataset, prior: int) -> bool:
+    """Whether shares are those of all samples at the published level, not of those that go on."""
+    return prior == 0 and has_energy_shares(results)
+
+
 @remembered
 def source_share(results: xr.Dataset, source: str, prior: int = 0) -> Band:
-    """Share of a source in the energy of the whole machine."""
+    """Share of a source in the energy of the machine."""
+    if _is_of_all_samples(results, prior):
+        return energy_band(results, source)
     return share_band(results, at_published(results, "source_level", source), prior)
 
 
@@ -360,7 +323,9 @@ def sure_sentence(results: xr.Dataset) -> str:
 
 
 def _carries(results: xr.Dataset, source: str, prior: int) -> float:
-    """Probability that a source makes more than half of the energy of the whole machine."""
+    """Probability that a source makes more than half of the energy of the machine."""
+    if _is_of_all_samples(results, prior):
+        return majority(results, source)
     level = at_published(results, "source_level", source).transpose("draw").values
     total = total_by_draw(results, prior).transpose("draw").values
     weight = results["draw_weight"].values[prior]

@@ -28,6 +28,12 @@ def words(results: xr.Dataset) -> dict[str, Any]:
     return dict(_decoded(results.attrs["words"]))
 
 
+def source_name(results: xr.Dataset, source: str) -> str:
+    """Plain words for a source of sound."""
+    label = words(results)["sources"].get(source, source.replace("_", " "))
+    return str(label)
+
+
 @lru_cache(maxsize=4)
 def _decoded(attribute: str) -> dict[str, Any]:
     """Kept, as a report reads it some thousand times."""

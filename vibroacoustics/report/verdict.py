@@ -13,6 +13,7 @@ from .baseline import not_measured
 from .column_values import column
 from .comparison import comparison
 from .drawn_words import not_drawn_sentence
+from .energy_words import spectrum_sentence
 from .evidence import agreement_sentence
 from .option_verdict import MIXED, NO_CHANGE, WORSE, OptionVerdict
 from .quantities import FOOT_FORCE, FORCE, HEARD_DB, LINE, MOMENT, TOLERANCE_DB, TOTAL
@@ -24,7 +25,6 @@ from .source_words import (
     carrier_sentence,
     left_out_sentence,
     shares_sentence,
-    spectrum_sentence,
     sure_sentence,
 )
 from .study import (

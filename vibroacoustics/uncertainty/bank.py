@@ -19,9 +19,9 @@ from .evidence import systematic
 
 MOST_DRAWS: Final = 4096
 MOST_ROUNDS: Final = 41
-"""Of as many samples as shall be effective: 100 reach the most samples."""
+"""Number of batches, each of as many samples as shall be effective."""
 LEAST_SHARE: Final = 0.5
-"""Of them that must be effective for intervals and shares."""
+"""Share of the wanted samples that must be effective for intervals and shares."""
 
 
 class Weighted(NamedTuple):

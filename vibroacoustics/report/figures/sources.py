@@ -12,13 +12,13 @@ from ...base.arrays import Array
 from ...base.decibel import level_of_power, power_of_level
 from ...base.vocabulary import REFERENCE_OPTION
 from ..quantities import HEARD_DB
-from ..source_words import source_name
 from ..study import (
     balancers,
     catalogue_receiver,
     few_speeds,
     has_sources,
     quoted_speed,
+    source_name,
     speeds,
 )
 from ..titles import chosen

@@ -9,8 +9,7 @@ import xarray as xr
 from ...base.arrays import Array
 from ...base.vocabulary import REFERENCE_OPTION
 from ..bands import quantiles
-from ..source_words import source_name
-from ..study import a_weighted, catalogue_receiver, has_draws, options
+from ..study import a_weighted, catalogue_receiver, has_draws, options, source_name
 from ..titles import chosen
 
 MOST_CURVES: Final = 8

@@ -5,7 +5,7 @@ from typing import Final
 import xarray as xr
 
 from ...base.registry import register
-from .. import source_tables, source_words
+from .. import energy_words, source_tables, source_words
 from ..blocks import Block, Bullets, Heading, Pictures, Text
 from ..figures import source_figures
 from ..remainder import total_sentence
@@ -21,7 +21,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
     return [
         Text(source_words.carrier_sentence(results), "strong"),
         Text(source_words.shares_sentence(results)),
-        *filter(None, [source_words.energy_table(results)]),
+        *filter(None, [energy_words.energy_table(results)]),
         Heading("How sure that is"),
         Bullets(tuple(source_words.certainty_sentences(results))),
         Heading("Sources without a balancer"),

@@ -157,7 +157,7 @@ class FrameOnShell:
     def _compliance(
         self, shell: ComplexArray, parts: ComplexArray, omega: Array
     ) -> tuple[Array, Array]:
-        """Of gaps per force between them, m/N, real and imaginary part, (pair, frequency)."""
+        """Compliance of gaps, m/N, real and imaginary part, shape (pair, frequency)."""
         order, first = self._alike
         still = np.ones((1, omega.size))
         bearings = self.inner.flexibility(omega)
@@ -199,7 +199,7 @@ class FrameOnShell:
 
     @cached_property
     def motions(self) -> NaturalMotions:
-        """Of bodies and shaft, free of each other and of the shell."""
+        """Natural motions of bodies and shaft, free of each other and of the shell."""
         return natural_motions(self.inner.bodies, self.inner.shaft)
 
     @property
