@@ -61,7 +61,7 @@ $(VENV)/.dev: requirements-dev.lock $(VENV)/.core
 
 # Needs uv. The locks hold hashes and no address of any package index.
 LOCK := uv pip compile pyproject.toml --universal --generate-hashes --no-header --no-annotate \
-	--no-emit-index-url --no-emit-find-links --quiet
+	--no-emit-index-url --no-emit-find-links --no-strip-extras --quiet
 lock:
 	$(LOCK) -o requirements.lock
 	$(LOCK) --extra dev --extra docs -o requirements-dev.lock

@@ -44,7 +44,11 @@ class Band(NamedTuple):
 
     def in_percent(self) -> str:
         """`20 % (3 % to 59 %)`, of shares."""
-        return self.middle_and_ends(_whole_percent)
+        small = [0.0 < share < 0.5 * FINEST_RATIO for share in self[:3]]
+        low, middle, high = (
+            0.0 if is_small else unit for is_small, unit in zip(small, self.units, strict=True)
+        )
+        return self._replace(units=(low, middle, high)).middle_and_ends(_whole_percent)
 
     def share_of(self, level_db: float) -> "Band":
         """Energies of levels as shares of the energy of another; quantiles stay quantiles."""
