@@ -1,4 +1,4 @@
-"""What the level hangs on, in words: shares where they are resolved, what to measure next."""
+"""Unknowns in words: shares where they are resolved, what to measure next."""
 
 import json
 
@@ -13,7 +13,7 @@ from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.unknowns import (
     NOT_RESOLVED,
     measure_next_sentence,
-    quality_sentence,
+    resolved_sentence,
     unknowns_table,
 )
 
@@ -21,28 +21,34 @@ NAMES = ["variation.mobility_change_db", "gas.polytropic_index", "mounts.pitch_m
 KNOWLEDGE = ["before", "flat", "near"]
 
 
-def with_unknowns(quality=(0.95, 0.92, 0.91), change=(0.75, 0.1, 0.0, 0.05)):
+def with_unknowns(floors=(0.1, 0.1, 0.1), gain=(0.5, 0.2, 0.0), votes=(5, 0, 0), perfect=0.9):
     """Results of eleven draws of a rising gain, the loud ones of no weight."""
     results = with_sources({"none": 40.0, "rattles": 62.0, "idle": 40.0})
     draws = np.arange(1, results.sizes["bank_draw"] + 1)
     values = np.stack([draws - 6.0, 1.0 + 0.01 * draws, 0.1 + 0.0 * draws], axis=1)
-    share = [[0.8, 0.15, 0.004], [0.7, 0.25, 0.004], [0.6, 0.3, 0.004]]
+    share = np.array([[0.8, 0.15, 0.004], [0.7, 0.25, 0.004], [0.6, 0.3, 0.004]])
     by_name = {"drawn_parameter": NAMES}
     known = {"knowledge": KNOWLEDGE}
-    options = {"option": results["option"].values}
-    of_options = np.array([np.full(4, np.nan), change, np.zeros(4)])
+    choices = {"choice": ["sound", "sound and foot force"]}
+    chosen = {"choice_option": ["none", "idle"]}
     kept = results.drop_dims("drawn_parameter")
     kept["bank_weight"] = kept["bank_weight"] * np.where(draws <= 6, 1.0, 0.0)
+    ends = {"level_share": share, "level_share_low": 0.8 * share, "level_share_high": 1.1 * share}
+    both = {"parameter_information": gain, "parameter_information_votes": votes}
     return kept.assign(
         bank_value=stamp("bank_value", values, {"bank_draw": draws, **by_name}),
         drawn_value=stamp("drawn_value", values, {"draw": draws, **by_name}),
-        level_share=stamp("level_share", share, {**known, **by_name}),
-        level_share_quality=stamp("level_share_quality", np.array(quality), known),
-        change_share=stamp(
-            "change_share", of_options, {**options, "unknown": [*NAMES, "remainder.level_db"]}
+        level_share_floor=stamp("level_share_floor", np.array(floors), known),
+        **{name: stamp(name, value, {**known, **by_name}) for name, value in ends.items()},
+        choice_utility=stamp("choice_utility", np.zeros((2, 2)), {**choices, **chosen}),
+        perfect_information=stamp("perfect_information", np.array([0.02, perfect]), choices),
+        parameter_information_floor=stamp(
+            "parameter_information_floor", np.array([0.4, 0.4]), choices
         ),
-        change_share_quality=stamp("change_share_quality", np.array([np.nan, 0.5, 0.0]), options),
-        change_variance=stamp("change_variance", np.array([0.0, 4.0, 1.0]), options),
+        **{
+            name: stamp(name, np.array([[0.0, 0.0, 0.0], value]), {**choices, **by_name})
+            for name, value in both.items()
+        },
     )
 
 
@@ -52,52 +58,64 @@ def plain(text):
 
 def test_prior_stands_beside_posterior_for_each_unknown_that_matters():
     table = unknowns_table(with_unknowns())
-    gain, index, others = ([plain(cell) for cell in row] for row in table.rows)
+    gain, index = ([plain(cell) for cell in row] for row in table.rows)
     assert gain[0] == "path through the shell mobility change, dB"
     # Six to eleven samples: the ends, −4.5 and −0.5 dB, are open by about 1 dB.
     assert gain[1:] == ["0 (−4 to 4)", "−2 (−4 to 0)", "−2 (−4 to 0)", *gain[4:]]
-    assert gain[4:] == ["80 %", "70 %", "60 %"]
-    assert index[4:] == ["15 %", "25 %", "30 %"]
-    assert others[0] == "1 other, less than 1 % each"
-    assert others[4:] == ["0.40 %", "0.40 %", "0.40 %"]
+    assert gain[4:] == ["80 % (64 % to 88 %)", "70 % (56 % to 77 %)", "60 % (48 % to 66 %)"]
+    assert index[4:] == ["15 % (12 % to 16 %)", "25 % (20 % to 28 %)", "30 % (24 % to 33 %)"]
 
 
-def test_shares_are_told_only_where_they_are_resolved():
-    nothing = with_unknowns(quality=(0.95, 0.5, -0.1))
-    assert "nothing with the published level, prior near" in quality_sentence(nothing)
-    results = with_unknowns(quality=(0.95, 0.5, np.nan))
-    first, *_ = unknowns_table(results).rows
-    assert first[5:] == (NOT_RESOLVED, NOT_RESOLVED)
-    text = plain(quality_sentence(results))
-    assert "95 % by the ranges alone, 50 % with the published level, prior flat." in text
-    assert "Below 90 % shares are not resolved" in text
-    assert NOT_RESOLVED not in quality_sentence(with_unknowns())
-    assert "too few" in quality_sentence(with_unknowns(quality=[np.nan] * 3))
+def test_shares_are_given_only_where_their_interval_lies_above_chance():
+    """The lower ends are 0.12, 0.2 and 0.24."""
+    results = with_unknowns(floors=(0.121, 0.3, 0.9))
+    gain, *others = unknowns_table(results).rows
+    assert not others
+    assert plain(gain[4]) == "80 % (64 % to 88 %)"
+    assert plain(gain[5]) == "70 % (56 % to 77 %)"
+    assert len(gain) == 6  # no column of the prior with which nothing is resolved
+    text = plain(resolved_sentence(results))
+    assert text.startswith("Of 3 unknowns so many have a resolved share")
+    assert "1 by the ranges alone, 1 with the published data, prior flat, 0 with" in text
+    index = unknowns_table(with_unknowns(floors=(0.121, 0.1, 0.9))).rows[1]
+    assert plain(index[4]) == NOT_RESOLVED
+    nothing = with_unknowns(floors=(0.9, 0.9, 0.9))
+    assert unknowns_table(nothing) is None
+    nothing["level_share"][:] = np.nan
+    assert "too few" in resolved_sentence(nothing)
 
 
-def test_the_unknown_that_would_narrow_the_changes_most_is_named():
-    """0.75 of 4 in a sum of 5 dB²; half the band of the option is left."""
-    results = with_unknowns()
-    text = plain(measure_next_sentence(results))
-    assert text.startswith("Measure next, as far as 11 draws tell: path through the shell mobility")
-    assert "take about 60 % of the variance" in text
-    change = results["level_total_by_draw"].sel(receiver="front_1m", speed=2900.0)
-    change = (change.sel(option="rattles") - change.sel(option="none")).values
-    low, high = np.quantile(change, (0.1, 0.9))
-    assert f"from {high - low:.1f} to about {0.5 * (high - low):.1f} dB." in text
-    rest = plain(measure_next_sentence(with_unknowns(change=(0.1, 0.1, 0.0, 0.3))))
-    assert ": the level of what is not modelled. To know it" in rest
-    assert "do not tell" in measure_next_sentence(with_unknowns(change=(0.0, 0.0, 0.0, 0.0)))
-    assert measure_next_sentence(results.isel(option=[0])) == ""
+def test_the_unknown_worth_a_measurement_is_named():
+    text = measure_next_sentence(with_unknowns())
+    assert text == (
+        "No measurement would change the choice on sound. Before an option is chosen on sound and "
+        "foot force, measure path through the shell mobility change: its value is worth 0.5 dB in "
+        "the mean, all values 0.9 dB."
+    )
 
 
-@pytest.mark.parametrize("quality", [(0.95, 0.92, 0.91), (np.nan, np.nan, np.nan)])
-def test_the_report_has_the_section(quality):
-    results = with_unknowns(quality)
+@pytest.mark.parametrize("told", [{"votes": (4, 1, 0)}, {"gain": (0.39, 0.2, 0.0)}])
+def test_no_unknown_is_named_by_four_of_five_or_below_chance(told):
+    text = measure_next_sentence(with_unknowns(**told))
+    assert "worth 0.9 dB for a choice on sound and foot force; which one to measure, 11" in text
+    assert "Before" not in text
+
+
+def test_no_measurement_where_all_values_are_worth_nothing():
+    results = with_unknowns(perfect=0.09)
+    assert measure_next_sentence(results) == (
+        "No measurement would change the choice on sound or on sound and foot force."
+    )
+    assert measure_next_sentence(results.drop_vars("parameter_information")) == ""
+
+
+@pytest.mark.parametrize("floors", [(0.1, 0.1, 0.1), (0.9, 0.9, 0.9)])
+def test_the_report_has_the_section(floors):
+    results = with_unknowns(floors)
     section = SECTIONS["unknowns"]
     assert section.applies(results)
     first, *_ = section.blocks(results)
-    assert first.words.startswith("Measure next")
+    assert first.words.startswith("No measurement would")
     assert not section.applies(results.drop_vars("level_share"))
 
 
@@ -110,6 +128,7 @@ def test_values_are_in_the_units_of_the_file():
     )
     assert file_unit(results, "mounts.pitch_m") == ("m", 1.0)
     assert file_unit(of_file, "mounts.pitch_m") == ("mm", 1e-3)
+    of_file["level_share_low"][:, 2] = 0.3
     of_file["level_share"][:, 2] = 0.3
     row = next(row for row in unknowns_table(of_file).rows if row[0] == "mounts pitch, mm")
     assert row[1] == "100"
@@ -122,13 +141,6 @@ def test_values_are_in_the_units_of_the_file():
 )  # fmt: skip
 def test_three_digits_of_any_size(value, text):
     assert rounding.three_digits(value) == text
-
-
-def test_one_column_says_that_no_share_is_resolved():
-    table = unknowns_table(with_unknowns(quality=(0.1, 0.2, np.nan)))
-    assert table.head[4:] == ("share of the variance",)
-    assert {row[4:] for row in table.rows} == {(NOT_RESOLVED,)}
-    assert {len(row) for row in table.rows} == {len(table.head)}
 
 
 @pytest.mark.parametrize(

@@ -93,6 +93,7 @@ class SpringMassPrinted(SprungMass):
     """The sprung mass of equation (7.20) as printed, which has a sign error."""
 
     kind: ClassVar[str] = "spring-mass-printed"
+    to_be_built: ClassVar[bool] = False
 
     def mass_kg(self, ring_mass_kg: float) -> float:
         """The mass as printed, which the springs move as they really do; see `printed_mass`."""

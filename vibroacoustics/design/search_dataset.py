@@ -13,6 +13,7 @@ from ..base.units import split_key
 from ..base.vocabulary import check, stamp
 from ..results.provenance import software_attributes
 from ..study.design import Constraint, Objective, Wanted
+from ..uncertainty.share_variables import labelled_shares
 from ..uncertainty.shares import shares_of
 from .evaluation import Evaluation
 from .figure import DesignFigure
@@ -104,16 +105,13 @@ def with_shares(
     evaluation : of these
     """
     values = problem.in_units(evaluation.objectives, evaluation.constraints)
-    low, high = problem.space.limits.T
-    unit = 2.0 * (designs - low) / (high - low) - 1.0
-    shares = [shares_of(unit, column, np.ones(len(designs))) for column in values.T]
+    shares = [shares_of(designs, column, np.ones(len(designs))) for column in values.T]
     data = {
         "spread_value": _as_in_files(problem, designs),
         "spread_wanted": values,
-        "design_share": np.array([one.share for one in shares]),
-        "design_share_quality": np.array([one.quality for one in shares]),
+        **labelled_shares("design_share", shares),
     }
-    spread = xr.Dataset({name: stamp(name, one) for name, one in data.items()})
+    spread = xr.Dataset({name: stamp(name, np.array(one)) for name, one in data.items()})
     numbers = {"spread_design": np.arange(len(designs))}
     return dataset.merge(spread.assign_coords(numbers)).assign_attrs(dataset.attrs)
 

@@ -42,6 +42,8 @@ class Option(KindOfParameters):
     """What a machine must have for it."""
     changes_machine: ClassVar[bool] = False
     """Whether its table `change` gives values of the machine, filled in as the field `machine`."""
+    to_be_built: ClassVar[bool] = True
+    """Whether somebody would build it; not one that shows an error of a source."""
     labels: ClassVar[Mapping[str, str]] = {}
     """Plain words for its reported figures, where the name does not say it."""
 

@@ -29,7 +29,10 @@ class Samples(Stage):
         Cases, PublishedCases, Transmission, NominalSound, Bank, Evidence, "force_amplitude",
         "moment_amplitude", "foot_force_amplitude",
     )  # fmt: skip
-    gives = ("*_by_draw", "draw_weight", "drawn_value", "change_share*", "change_variance")
+    gives = (
+        "*_by_draw", "draw_weight", "drawn_value", "choice_utility", "perfect_information",
+        "parameter_information*",
+    )  # fmt: skip
 
     def applies(self, study: Study) -> bool:
         return bool(study.ranges)

@@ -4,7 +4,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from math import exp, log
 from typing import Final
 
-import numpy as np
 import scipy  # loads its subpackages when they are needed
 
 from ..base.arrays import Array
@@ -61,14 +60,6 @@ def narrowed(limits: Range, value: float, least: float, greatest: float) -> floa
         return lowest * exp(share * log(highest / lowest))
     share = (value - limits.lowest) / (limits.highest - limits.lowest)
     return lowest + share * (highest - lowest)
-
-
-def position_in_range(limits: Range, values: Array) -> Array:
-    """Where values lie in their range, from -1 to 1, as evenly as they are drawn."""
-    lowest, highest = limits.lowest, limits.highest
-    if _is_wide(limits):
-        return np.asarray(2.0 * np.log(values / lowest) / log(highest / lowest) - 1.0)
-    return 2.0 * (values - lowest) / (highest - lowest) - 1.0
 
 
 def _is_wide(limits: Range) -> bool:

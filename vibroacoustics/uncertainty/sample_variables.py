@@ -13,10 +13,10 @@ from ..levels.nominal import NominalSound, Sound
 from ..levels.remainder import remaining_by_draw
 from ..machine.source import CaseKey
 from .bank import Bank
+from .choices import choice_information
 from .draws import drawn_values
 from .evidence import PAIRS, Evidence
 from .first_order import first_order_by_draw
-from .share_variables import change_shares
 
 
 def sample_variables(
@@ -60,4 +60,4 @@ def sample_variables(
     levels = draw_variables(axes, pair_sounds, residual, rest, weight, ensemble.prior_names)
     repeated = of_sample.isel(draw=np.repeat(np.arange(len(samples)), PAIRS))
     levels = levels.merge(repeated.assign_coords(draw=levels["draw"]))
-    return levels.merge(change_shares(study, levels.isel(draw=slice(None, None, PAIRS))))
+    return levels.merge(choice_information(study, levels, PAIRS))

@@ -1,82 +1,166 @@
-"""Shares of unknowns in the variance of a quantity, of first order, from weighed draws."""
+"""What single unknowns decide, from the samples at hand.
 
-from dataclasses import dataclass
-from typing import Final
+Samples are sorted into bins of about equal weight of one unknown after another; means in a bin
+are those of all samples in which the unknown has such a value. Chance fills bins unequally too:
+the permutation floor is what the largest of as many unknowns reaches that decide nothing.
+"""
+
+from typing import Final, NamedTuple
 
 import numpy as np
+from scipy import sparse
 
 from ..base.arrays import Array
-from .additive import HIGHEST_DEGREE, additive_fit, legendre_columns, quality
+from ..base.quantiles import weighted_quantiles
+from .interval_digits import bootstrap_weights
 
-LEAST_DRAWS: Final = 16
-"""Effective ones, from which anything can be told."""
-MOST_DRAWS: Final = 1024
-"""That are used, those of the largest weights; of many draws most hardly count."""
+BINS: Final = 10
+PERMUTATIONS: Final = 200
+FLOOR: Final = 0.95
+"""Share of the permutations in which no unknown that decides nothing lies above the floor."""
+ENDS: Final = (0.1, 0.9)
+"""Ends of the bootstrap interval of a share."""
+ASKED: Final = 5
+"""Number of bootstraps that are asked which unknown to measure."""
+_SEED: Final = 0
+_NOTHING: Final = 1e-12
+"""Variance, of the square of the largest value, of a quantity that does not vary."""
 
-_ROUNDING: Final = 1e-6
-"""A quantity that varies less does not vary."""
 
-
-@dataclass(frozen=True)
-class Shares:
+class Shares(NamedTuple):
     """Shares of first order, Var(E[quantity | unknown]) / Var(quantity).
 
     Attributes
     ----------
-    share : shape (unknown,); not a number where there are too few draws
-    quality : Q² of the additive fit that they come from, not a number likewise
-    variance : of the quantity over the draws that count
+    share : shape (unknown,)
+    low, high : ends of their bootstrap intervals, likewise
+    floor : permutation floor
     """
 
     share: Array
-    quality: float
-    variance: float
+    low: Array
+    high: Array
+    floor: float
 
 
-def shares_of(unit: Array, value: Array, weight: Array) -> Shares:
-    """Shares of unknowns in the variance of a quantity over weighed draws.
+class Information(NamedTuple):
+    """Expected gain in utility from knowing an unknown before choosing an option.
 
-    What an unknown adds itself, and what it tells of the others where weights have made them hang
-    together. Of independent unknowns the first alone: Sobol's indices of first order.
+    Attributes
+    ----------
+    gain : of each unknown, shape (unknown,)
+    votes : number of the bootstraps in which it has the largest gain, likewise
+    floor : permutation floor
+    """
+
+    gain: Array
+    votes: Array
+    floor: float
+
+
+def shares_of(unknown: Array, value: Array, weight: Array) -> Shares:
+    """Shares of unknowns in the variance of a quantity over weighted samples.
+
+    Estimated from given data (Plischke, Borgonovo and Smith 2013, European Journal of Operational
+    Research 226, 536), less what chance adds to the variance between bins (Kelley 1935, PNAS 21,
+    554). Where weights make unknowns depend on one another, a share includes what one tells of
+    the others.
 
     Parameters
     ----------
-    unit : unknowns from -1 to 1, shape (draw, unknown)
-    value : the quantity, shape (draw,); not a number where a draw has no solution
-    weight : of the draws, shape (draw,)
+    unknown : shape (sample, unknown)
+    value : the quantity, shape (sample,); not a number where a sample has no solution
+    weight : of the samples, shape (sample,)
+
+    Returns
+    -------
+    Shares; not a number where no sample has a weight
     """
-    counting = np.where(np.isfinite(value), weight, 0.0)
-    used = np.argsort(-counting, kind="stable")[: min(np.count_nonzero(counting), MOST_DRAWS)]
-    unit, value, weight = unit[used], value[used], weight[used]
-    none = np.full(unit.shape[1], np.nan)
-    if used.size == 0 or weight.sum() ** 2 / (weight**2).sum() < LEAST_DRAWS:
-        return Shares(none, float("nan"), float("nan"))
-    variance = float(_covariance(value, value, weight))
-    if variance <= _ROUNDING**2:
-        return Shares(none, float("nan"), variance)
-    columns = legendre_columns(unit)
-    fit = additive_fit(columns, value, weight, columns.shape[1])
-    effects = fit.effects(columns)
-    others = np.stack(
-        [_of_others(columns, effects, weight, number) for number in range(unit.shape[1])], axis=1
-    )
-    # Chance makes effects of independent unknowns hang together: what is not told by `others` is 0.
-    together = _covariance(effects, effects + others, weight).sum()
-    spread = together + _covariance(rest := value - fit.at(columns), rest, weight)
-    expected = effects + others
-    share = _covariance(expected, expected, weight) / spread
-    return Shares(share, quality(columns, value, weight), variance)
+    weight = np.where(np.isfinite(value), weight, 0.0)
+    if not weight.any():
+        none = np.full(unknown.shape[1], np.nan)
+        return Shares(none, none, none, float("nan"))
+    value = np.nan_to_num(value)
+    member, order = _members(unknown, weight), _permutations(len(value))
+    resampled = bootstrap_weights(weight, np.arange(len(value))).T
+    low, high = np.quantile(_first_order(member, resampled, value[:, None]), ENDS, axis=1)
+    permuted = _first_order(member, weight[order], value[order])
+    (share,) = _first_order(member, weight[:, None], value[:, None]).T
+    return Shares(share, low, high, float(np.quantile(permuted.max(axis=0), FLOOR)))
 
 
-def _of_others(columns: Array, effects: Array, weight: Array, number: int) -> Array:
-    """What an unknown tells of the effects of the others, shape (draw,)."""
-    others = effects.sum(axis=1) - effects[:, number]
-    alone = columns[:, number * HIGHEST_DEGREE : (number + 1) * HIGHEST_DEGREE]
-    fit = additive_fit(alone, others, weight, columns.shape[1] ** 2)  # of all pairs
-    return fit.at(alone)
+def information_of(unknown: Array, utility: Array, weight: Array) -> Information:
+    """Expected value of knowing one unknown perfectly (EVPPI) for a choice among options.
+
+    E[max E[utility | unknown]] − max E[utility], from given data (Strong and Oakley 2013, Medical
+    Decision Making 33, 755).
+
+    Parameters
+    ----------
+    unknown : shape (sample, unknown)
+    utility : of the options, shape (sample, option)
+    weight : of the samples, shape (sample,); some are above zero
+    """
+    member, order = _members(unknown, weight), _permutations(len(weight))
+    resampled = bootstrap_weights(weight, np.arange(len(weight)))[:ASKED].T
+    votes = _gain(member, resampled, utility[..., None]).argmax(axis=0)
+    permuted = _gain(member, weight[order], np.moveaxis(utility[order], 1, 2))
+    (gain,) = _gain(member, weight[:, None], utility[..., None]).T
+    counts = np.bincount(votes, minlength=unknown.shape[1]).astype(float)
+    return Information(gain, counts, float(np.quantile(permuted.max(axis=0), FLOOR)))
 
 
-def _covariance(first: Array, second: Array, weight: Array) -> Array:
-    """Of weighed draws, along the first axis."""
-    middle = np.average(first, axis=0, weights=weight)
-    return np.asarray(np.average((first - middle) * second, axis=0, weights=weight))
+def _members(unknown: Array, weight: Array) -> sparse.csr_array:
+    """Ones where a sample is in a bin, shape (unknown and bin, sample); equal values share one."""
+    limits = weighted_quantiles(unknown, weight, (np.arange(1, BINS) / BINS).tolist())
+    number = (unknown > limits[:, None]).sum(axis=0) + BINS * np.arange(unknown.shape[1])
+    sample = np.broadcast_to(np.arange(len(unknown))[:, None], unknown.shape)
+    shape = (BINS * unknown.shape[1], len(unknown))
+    return sparse.csr_array((np.ones(unknown.size), (number.ravel(), sample.ravel())), shape=shape)
+
+
+def _permutations(count: int) -> Array:
+    """Orders of the samples, shape (sample, permutation)."""
+    rows = np.tile(np.arange(count), (PERMUTATIONS, 1))
+    return np.asarray(np.random.default_rng(_SEED).permuted(rows, axis=1).T)
+
+
+def _first_order(member: sparse.csr_array, weight: Array, value: Array) -> Array:
+    """Shares of first order, shape (unknown, ensemble).
+
+    Parameters
+    ----------
+    member : of `_members`
+    weight, value : shape (sample, ensemble)
+    """
+    weight = weight / weight.sum(axis=0)
+    value = value - (weight * value).sum(axis=0)
+    variance = (weight * value**2).sum(axis=0)
+    of_bin = member @ weight
+    of_bin[of_bin == 0.0] = 1.0
+    between = _summed((member @ (weight * value)) ** 2 / of_bin)
+    chance = _summed((member @ weight**2) / of_bin)  # of the variance within bins
+    within = (variance - between) / np.maximum(1.0 - chance, _NOTHING)
+    unbiased = between - (chance - (weight**2).sum(axis=0)) * within
+    size = np.maximum(unbiased + within, _NOTHING * (1.0 + (value**2).max(axis=0)))
+    return np.asarray(np.clip(unbiased / size, 0.0, 1.0))
+
+
+def _gain(member: sparse.csr_array, weight: Array, utility: Array) -> Array:
+    """Expected gain of knowing each unknown, shape (unknown, ensemble).
+
+    Parameters
+    ----------
+    member : of `_members`
+    weight : shape (sample, ensemble)
+    utility : shape (sample, option, ensemble)
+    """
+    weighted = (weight / weight.sum(axis=0))[:, None] * utility
+    of_bin = member @ weighted.reshape(len(weighted), -1)
+    best = of_bin.reshape(-1, *weighted.shape[1:]).max(axis=1)
+    return np.asarray(_summed(best) - weighted.sum(axis=0).max(axis=0))
+
+
+def _summed(of_bin: Array) -> Array:
+    """Sum over the bins of each unknown, shape (unknown, ensemble)."""
+    return np.asarray(of_bin.reshape(-1, BINS, of_bin.shape[-1]).sum(axis=1))

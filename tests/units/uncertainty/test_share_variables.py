@@ -1,4 +1,4 @@
-"""Shares of unknowns, labelled: of the level of a bank, of changes over its draws."""
+"""Shares of unknowns in the level of a bank, and their information for a choice, labelled."""
 
 import numpy as np
 import pytest
@@ -7,12 +7,17 @@ from sources_study import SOURCES_STUDY
 
 from vibroacoustics.base.vocabulary import stamp
 from vibroacoustics.study.loading import load_study
-from vibroacoustics.study.sampling import latin_hypercubes, position_in_range
+from vibroacoustics.study.sampling import latin_hypercubes
 from vibroacoustics.uncertainty.bank import Bank, Weighted
+from vibroacoustics.uncertainty.choices import (
+    SOUND,
+    SOUND_AND_FOOT_FORCE,
+    choice_information,
+)
 from vibroacoustics.uncertainty.draws import drawn_values
-from vibroacoustics.uncertainty.share_variables import REMAINDER, change_shares, level_shares
+from vibroacoustics.uncertainty.share_variables import level_shares
 
-DRAWS = 100
+DRAWS = 400
 GAIN, PITCH = "variation.mobility_change_db", "mounts.pitch_m"
 
 
@@ -27,50 +32,83 @@ def draws(study):
     return next(latin_hypercubes(study.ranges, settings))
 
 
-def position(study, draws, name):
+def values(study, draws, name):
+    """From -1 to 1 in its range."""
     (limits,) = (one for one in study.ranges if one.name == name)
-    return position_in_range(limits, np.array([draw[one_key(name)] for draw in draws]))
-
-
-def one_key(name):
-    table, _, field = name.rpartition(".")
-    return table, field
+    drawn = np.array([draw[limits.table, limits.field] for draw in draws])
+    return 2.0 * (drawn - limits.lowest) / (limits.highest - limits.lowest) - 1.0
 
 
 def test_level_shares_before_and_after(study, draws):
     """The level is the gain, and the mounts' a little; without enough weight only before."""
-    level = 10.0 * position(study, draws, GAIN) + 3.0 * position(study, draws, PITCH)
+    level = 10.0 * values(study, draws, GAIN) + 3.0 * values(study, draws, PITCH)
     alike, few = (
         Bank(draws, Weighted([], [], level, np.full((2, DRAWS), one)), DRAWS)
         for one in (0.0, -np.inf)
     )
     labelled = level_shares(study.ranges, alike, np.ones(DRAWS))
     for knowledge in ("before", "flat", "near"):
-        share = labelled["level_share"].sel(knowledge=knowledge)
-        assert float(share.sel(drawn_parameter=GAIN)) == pytest.approx(100.0 / 109.0, abs=0.02)
-        assert float(share.sel(drawn_parameter=PITCH)) == pytest.approx(9.0 / 109.0, abs=0.02)
-        assert float(labelled["level_share_quality"].sel(knowledge=knowledge)) > 0.99
+        here = labelled.sel(knowledge=knowledge)
+        share = here["level_share"]
+        assert float(share.sel(drawn_parameter=GAIN)) == pytest.approx(100.0 / 109.0, abs=0.03)
+        # A deviation of a share s of n samples: √(4 s (1 − s)² / n) = 0.026.
+        assert float(share.sel(drawn_parameter=PITCH)) == pytest.approx(9.0 / 109.0, abs=0.06)
+        assert float(here["level_share_low"].sel(drawn_parameter=GAIN)) > here["level_share_floor"]
     few = level_shares(study.ranges, few, np.ones(DRAWS))
-    assert np.isfinite(few["level_share_quality"].values).tolist() == [True, False, False]
+    assert np.isfinite(few["level_share_floor"].values).tolist() == [True, False, False]
 
 
-def test_change_shares_know_the_remainder_too(study, draws):
-    """At the speed nearest to that of the published level, in whatever order the speeds are."""
-    rest = np.random.default_rng(3).permutation(np.linspace(30.0, 50.0, DRAWS))
-    axes = {"draw": np.arange(1, DRAWS + 1), "speed": [3500.0, 2950.0, 3200.0]}
-    axes |= {"option": ["none", "damping"], "receiver": ["front_1m"]}
-    total = np.full((DRAWS, 3, 2, 1), 56.0)
-    total[:, 1, 1, 0] += 4.0 * position(study, draws, GAIN) + 0.2 * (rest - 40.0)
-    prior = {"prior": ["flat", "near"], "draw": axes["draw"]}
-    made = {
+def test_information_for_the_choice_among_options_to_be_built(study, draws):
+    """Each choice at the worst speed: sound by one unknown, sound and foot force by another."""
+    pairs, names = 2, ["none", "ring", "printed"]
+    study = study.replace(
+        {
+            f"options.{name}": {
+                "kind": kind,
+                "stiffness_n_per_mm": 14.65,
+                "tuned_speed_rpm": 3500.0,
+                "damping_ratio": 0.05,
+                "height_below_ring_mm": 0.0,
+            }
+            for name, kind in (("ring", "spring-mass"), ("printed", "spring-mass-printed"))
+        }
+    )
+    axes = {"draw": np.arange(1, pairs * DRAWS + 1), "speed": [3500.0, 2950.0]}
+    axes |= {"option": names, "receiver": ["front_1m"]}
+    gain, pitch = (np.repeat(values(study, draws, one), pairs) for one in (GAIN, PITCH))
+    total = np.full((pairs * DRAWS, 2, 3, 1), 56.0)
+    total[:, :, 1, 0] += np.stack([4.0 * gain, 4.0 * gain - 1.0], axis=1)
+    total[:, 0, 1, 0] += np.tile([0.5, -0.5], DRAWS)  # evens out over the pairs of a sample
+    total[:, :, 2, 0] -= 40.0
+    force = np.full(total.shape[:3], 20.0)
+    force[:, 1, 1] *= 10.0 ** ((8.0 * pitch + 1.0) / 20.0)
+    force[:, 0, 1] *= 1e-4
+    weight = np.full((2, pairs * DRAWS), 1.0 / (pairs * DRAWS))
+    of_draws = {
         "level_total_by_draw": stamp("level_total_by_draw", total, axes),
-        "level_remainder_by_draw": stamp("level_remainder_by_draw", rest, {"draw": axes["draw"]}),
-        "draw_weight": stamp("draw_weight", np.full((2, DRAWS), 1.0 / DRAWS), prior),
+        "foot_force_1x_by_draw": stamp(
+            "foot_force_1x_by_draw", force, {key: axes[key] for key in ("draw", "speed", "option")}
+        ),
+        "draw_weight": stamp(
+            "draw_weight", weight, {"prior": ["flat", "near"], "draw": axes["draw"]}
+        ),
     }
-    labelled = change_shares(study, xr.Dataset(made).merge(drawn_values(study.ranges, draws)))
-    share = labelled["change_share"].sel(option="damping")
-    assert float(share.sel(unknown=GAIN)) == pytest.approx(0.8, abs=0.03)  # 16/3 beside 4/3
-    assert float(share.sel(unknown=REMAINDER)) == pytest.approx(0.2, abs=0.03)
-    assert float(labelled["change_variance"].sel(option="damping")) == pytest.approx(6.67, rel=0.2)
-    assert float(labelled["change_variance"].sel(option="none")) == 0.0
-    assert np.isnan(labelled["change_share"].sel(option="none")).all()
+    sampled = drawn_values(study.ranges, draws).isel(draw=np.repeat(np.arange(DRAWS), pairs))
+    levels = xr.Dataset(of_draws).merge(sampled.assign_coords(draw=axes["draw"]))
+    told = choice_information(study, levels, pairs)
+    assert told["choice_option"].values.tolist() == ["none", "ring"]
+    sound, both = (told.sel(choice=name) for name in (SOUND, SOUND_AND_FOOT_FORCE))
+    # E max(-4 x, 0) of x from -1 to 1 is 1; at the other speed the option is 1 dB quieter.
+    assert float(sound["parameter_information"].sel(drawn_parameter=GAIN)) == pytest.approx(
+        1.0, abs=0.1
+    )
+    assert float(sound["parameter_information_votes"].sel(drawn_parameter=GAIN)) == 5.0
+    # A quarter of a decibel of ±0.5 is known only with the pair: ±0.5 and 4 x overlap in 1/8.
+    assert float(sound["perfect_information"]) == pytest.approx(1.0, abs=0.1)
+    # 4 x + 8 y at the speed of the louder foot force, -1 + 1 + ...: y decides, E max = 2.
+    assert float(both["parameter_information"].sel(drawn_parameter=PITCH)) == pytest.approx(
+        2.0, abs=0.25
+    )
+    assert float(both["choice_utility"].sel(choice_option="ring")) == pytest.approx(0.0, abs=0.3)
+    alone = choice_information(study, levels.sel(option=["none", "printed"]), pairs)
+    assert not alone.data_vars

@@ -13,6 +13,7 @@ from ..html import html
 from ..page import Page, Part
 from ..study import parameters
 from ..tables import Table, to_text
+from ..unknowns import NOT_RESOLVED, share_words
 from .best import best_tables, limiting, shown
 from .csv import designs_csv
 from .evaluated import Column, Evaluated
@@ -163,26 +164,18 @@ def _effects(variables: Sequence[Column], objective: Column, number: int) -> Ite
 
 
 def _shares(search: xr.Dataset) -> Table:
-    """Share of each variable in the variance of each wanted value, and how good the fit is."""
+    """Share of each variable in the variance of each wanted value, where chance gives less."""
     keys = [variable_label(str(key)) for key in search["design_variable"].values]
     rows = [
-        (
-            str(search["wanted"].values[number]),
-            _ratio(float(search["design_share_quality"].values[number])),
-            *(_ratio(float(share)) for share in search["design_share"].values[number]),
-        )
-        for number in range(search.sizes["wanted"])
+        (str(name), *(share_words(search, "design_share", number, at) for at in range(len(keys))))
+        for number, name in enumerate(search["wanted"].values)
     ]
     return Table(
-        "Share of each variable alone in the variance over the design space; below Q² = 0.5 the "
-        "shares are not to be trusted",
-        ("Wanted", "Q²", *keys),
+        f"Share of each variable alone in the variance over the design space; "
+        f"{NOT_RESOLVED}: no more than chance gives",
+        ("Wanted", *keys),
         tuple(rows),
     )
-
-
-def _ratio(share: float) -> str:
-    return f"{share:.2f}" if np.isfinite(share) else "–"
 
 
 def _searched(search: xr.Dataset, designs: Evaluated) -> Sequence[Block]:

@@ -1,4 +1,4 @@
-"""What the band of the level hangs on, and what to measure next."""
+"""Unknowns that the level depends on, and what to measure next."""
 
 import xarray as xr
 
@@ -16,13 +16,15 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         "level, after by their weights."
     )
     sentence = unknowns.measure_next_sentence(results)
+    table = unknowns.unknowns_table(results)
     return [
         *([Text(sentence, "strong")] if sentence else []),
-        Text(unknowns.quality_sentence(results)),
-        unknowns.unknowns_table(results),
+        Text(unknowns.resolved_sentence(results)),
+        *([table] if table else []),
         Text(
             "A share is what the variance is expected to lose once the unknown is known (first "
-            f"order). {draws}",
+            "order), with its 80 % bootstrap interval. It is resolved where this interval lies "
+            f"above what chance gives the largest share. {draws}",
             "note",
         ),
     ]
@@ -32,4 +34,4 @@ def _applies(results: xr.Dataset) -> bool:
     return "level_share" in results
 
 
-register(Section("unknowns", "What the level hangs on", _blocks, _applies, 35.0))
+register(Section("unknowns", "What the level depends on", _blocks, _applies, 35.0))

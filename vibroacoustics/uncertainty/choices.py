@@ -1,0 +1,82 @@
+"""Which unknown is worth a measurement before an option is chosen, labelled."""
+
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array
+from ..base.decibel import level_of_amplitude
+from ..base.vocabulary import REFERENCE_OPTION, stamped
+from ..study.study import Study
+from .shares import Information, information_of
+
+SOUND: Final = "sound"
+SOUND_AND_FOOT_FORCE: Final = "sound and foot force"
+_LEAST_RATIO: Final = 0.01
+"""Of a foot force to that without a balancer; less is of no further use."""
+
+
+def choice_information(study: Study, levels: xr.Dataset, pairs: int) -> xr.Dataset:
+    """Value of knowing each sampled value for the choice among options that somebody would build.
+
+    The utility is −(change of the total at the microphone of the published level), dB, or that
+    less 20 lg of the ratio of the largest foot forces at 1×; at the speed where it is worst.
+
+    Parameters
+    ----------
+    study : options and published level
+    levels : of `draw_variables`, `first_order_by_draw` and `drawn_values`
+    pairs : number of successive pairs of each sample
+    """
+    names = [name for name in levels["option"].values.tolist() if study.options[name].to_be_built]
+    weight = levels["draw_weight"].values[0]
+    if len(names) < 2 or not weight.any():
+        return xr.Dataset()
+    loss = _losses(levels.sel(receiver=study.catalogue_receiver))
+    utility = -np.nan_to_num(loss.sel(option=names).max("speed").values)
+    values = levels["drawn_value"].values[::pairs]
+    information = [_of_samples(values, one, weight, pairs) for one in utility]
+    expected = weight @ utility
+    perfect = utility.max(axis=2) @ weight - expected.max(axis=1)
+    return stamped(
+        {
+            "choice_utility": expected,
+            "perfect_information": perfect,
+            "parameter_information": [one.gain for one in information],
+            "parameter_information_votes": [one.votes for one in information],
+            "parameter_information_floor": [one.floor for one in information],
+        },
+        {
+            "choice": loss["choice"].values.tolist(),
+            "choice_option": names,
+            "drawn_parameter": levels["drawn_parameter"].values.tolist(),
+        },
+    )
+
+
+def _losses(levels: xr.Dataset) -> xr.DataArray:
+    """What an option loses by each choice, dB, dims choice, draw, option, speed."""
+    axes = ("draw", "option", "speed")
+    total = levels["level_total_by_draw"].transpose(*axes)
+    force = levels["foot_force_1x_by_draw"].transpose(*axes)
+    change = total - total.sel(option=REFERENCE_OPTION)
+    ratio = (force / force.sel(option=REFERENCE_OPTION)).clip(min=_LEAST_RATIO)
+    both = change + level_of_amplitude(ratio)
+    return xr.concat([change, both], xr.Variable("choice", [SOUND, SOUND_AND_FOOT_FORCE]))
+
+
+def _of_samples(values: Array, utility: Array, weight: Array, pairs: int) -> Information:
+    """Information for a choice; pairs of a sample have its values and their mean utility.
+
+    Parameters
+    ----------
+    values : shape (sample, unknown)
+    utility : shape (sample and pair, option)
+    weight : shape (sample and pair,)
+    """
+    of_pairs = weight.reshape(-1, pairs)
+    of_sample = of_pairs.sum(axis=1)
+    together = np.einsum("sp,spo->so", of_pairs, utility.reshape(*of_pairs.shape, -1))
+    return information_of(values, together / np.where(of_sample > 0.0, of_sample, 1.0)[:, None],
+                          of_sample)  # fmt: skip
