@@ -50,7 +50,7 @@ def both(case: str, revolutions: float) -> tuple[np.ndarray, np.ndarray]:
     time = PERIOD_S / SAMPLES * np.arange(1, round(revolutions * SAMPLES) + 1)
     along = force * np.cos(2.0 * np.pi * np.arange(256) / 256)
     c = rattle._coupling(keys, MASS_KG, STROKE_M, SPEED_RPM, np.array([moment]), along)
-    steps = int(np.ceil(time[0] / rattle.greatest_step_s(c)))
+    steps = int(np.ceil(time[0] / (rattle.STEP_RATIO * rattle.contact_time_s(c))))
     # Rates are those after half a step of what pulls at crank angle zero.
     pull = (SPEED_RPM * np.pi / 30.0) ** 2 * STROKE_M + force / MASS_KG
     motion = np.zeros((3, 4))
@@ -110,7 +110,7 @@ def levels_from(start: np.ndarray, layer: float, moment: float, force: float) ->
     along = force * np.cos(2.0 * np.pi * np.arange(256) / 256)
     c = rattle._coupling(keys, MASS_KG, STROKE_M, SPEED_RPM, np.array([moment]), along)
     interval = PERIOD_S / SAMPLES
-    steps = int(np.ceil(interval / rattle.greatest_step_s(c)))
+    steps = int(np.ceil(interval / (rattle.STEP_RATIO * rattle.contact_time_s(c))))
     motion, settling = np.zeros((3, 4)), rattle.SETTLING_REVOLUTIONS * SAMPLES
     motion[1] = start
     count = settling + 8 * SAMPLES

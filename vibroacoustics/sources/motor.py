@@ -22,6 +22,8 @@ TWICE_LINE_FIGURE: Final = "foot_force_2x_line_n"
 _FIGURE: Final = {TWICE_LINE: TWICE_LINE_FIGURE}
 LOWEST_LINE_HZ: Final = 10.0
 """Sidebands below are no sound."""
+LEAST_SIDEBAND: Final = 1e-4
+"""Of the torque of the largest line; weaker sidebands are omitted."""
 
 
 class _MotorTorque(Source):
@@ -65,9 +67,11 @@ class MotorPulsation(_MotorTorque):
     def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
         """Tones from LOWEST_LINE_HZ to the highest frequency."""
         balance = _balance(case, before)
+        least = LEAST_SIDEBAND * max(abs(line.motor_torque_n_m) for line in balance.line)
+        strong = (line for line in balance.sidebands if abs(line.motor_torque_n_m) > least)
         kept = [
             line
-            for line in (*balance.line, *balance.sidebands)
+            for line in (*balance.line, *strong)
             if LOWEST_LINE_HZ <= line.frequency_hz <= case.maximum_frequency_hz
         ]
         return Loads(tones=_tones(case.machine.mechanism_port, kept))

@@ -19,7 +19,13 @@ from vibroacoustics.sources.scroll_gas.chambers import (
     swept_volume_m3,
 )
 from vibroacoustics.sources.scroll_gas.cycle import scroll_gas_cycle
-from vibroacoustics.sources.scroll_gas.opening import STEPS, opening_constants, steady_opening
+from vibroacoustics.sources.scroll_gas.opening import (
+    REPEATED,
+    STEPS,
+    STEPS_PER_S,
+    opening_constants,
+    steady_opening,
+)
 from vibroacoustics.sources.scroll_gas.opening_equations import density
 from vibroacoustics.sources.scroll_gas.pressures import built_in_pressure_pa, pocket_pressure
 
@@ -89,7 +95,7 @@ def test_course_converges_with_the_step():
     print("60 000 against 200 000 steps:", off_fine, f"{STEPS}:", off_taken)
     assert off_fine.max() < 1e-9
     assert off_taken[:3].max() < 1e-5
-    assert off_taken[3:].max() < 1e-4
+    assert off_taken[3:].max() < 5e-4
 
 
 @pytest.mark.parametrize("speed_rpm", [60.0, 20000.0])
@@ -99,7 +105,7 @@ def test_slow_and_fast_shafts_have_a_course(speed_rpm):
     over = np.abs(opened.chamber_pa[-1] / GAS.discharge_pressure_pa - 1.0)
     assert np.all(np.isfinite(opened.pair_pa))
     assert over < (1e-3 if speed_rpm < 100.0 else 0.2)
-    assert opened.since_opening.size - 1 >= max(STEPS, 200_000.0 * 60.0 / speed_rpm)
+    assert opened.since_opening.size - 1 >= max(STEPS, STEPS_PER_S * 60.0 / speed_rpm)
 
 
 @pytest.mark.parametrize("point", POINTS)
@@ -111,11 +117,11 @@ def test_mass_and_state_are_the_same_after_a_turn(point):
     built_in = built_in_pressure_pa(WRAPS, gas)
     assert opened.pair_pa[0] == pytest.approx(built_in, rel=1e-12)
     for pressure in (opened.chamber_pa, opened.plenum_pa):
-        assert pressure[-1] == pytest.approx(pressure[0], rel=1e-7)
+        assert abs(pressure[-1] - pressure[0]) < REPEATED * GAS.discharge_pressure_pa
     mass = density(built_in, constants) * float(pair_volume_m3(WRAPS, np.zeros(())))
     flow = opened.port_flow_kg_per_s
     mean = float(np.trapezoid(flow, opened.since_opening)) / TURN
-    assert mean == pytest.approx(mass * SPEED_RPM / 60.0, rel=1e-6)
+    assert mean == pytest.approx(mass * SPEED_RPM / 60.0, rel=REPEATED)
     cycle = scroll_gas_cycle(WRAPS, gas, ANGLE, opened)
     assert cycle.port_flow_kg_per_s.mean() == pytest.approx(mean, rel=1e-5)
 
