@@ -169,3 +169,12 @@ def test_a_map_that_is_too_large_is_refused(run_up, monkeypatch):
     settings = OrderAnalysis(SpeedChannel("tacho"), with_map=True)
     with pytest.raises(ParameterError, match=r"order map: \d+ blocks of 4 channels take .* from_s"):
         analyse_orders(run_up, settings)
+
+
+def test_a_map_may_take_one_gibibyte():
+    """16 B a line, block and channel: 2^26 of them, and not one more."""
+    from vibroacoustics.orders.block_orders import _check_map
+
+    _check_map(2, 2**12, 2**13)
+    with pytest.raises(ParameterError, match=r"blocks of 1 channels take .* at most 1 GiB"):
+        _check_map(1, 1, 2**26 + 1)

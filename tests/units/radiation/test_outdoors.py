@@ -139,6 +139,22 @@ def test_monopole_in_the_body_by_quadrature(height):
         assert abs(decibels(joined, by_quadrature(PASTURE, height, FAR, hertz))) < 0.07
 
 
+def test_motion_along_y_is_that_along_x_turned():
+    """cos θ at a point is sin θ at that point turned by 90°, and nothing across; 52 angles."""
+    shape = mesh(capped_cylinder(0.08, 0.03, 0.42, 0.0), 0.02, 1)
+    scene = SimpleNamespace(outdoors=PASTURE, walls=(FLOOR,), upright_walls=())
+    nothing = np.zeros((len(shape.points), 0))
+    order_0 = SimpleNamespace(pattern=np.array([], int), sine=np.array([], int), velocity=nothing)
+    wave = np.repeat(shape.points[:, :1] + 1j * shape.points[:, 1:], 2, axis=1)
+    order_1 = SimpleNamespace(pattern=np.array([0, 1]), sine=np.array([0, 1]), velocity=wave)
+    radiator = SimpleNamespace(mesh=shape, orders=2, patterns=2, by_order=[order_0, order_1])
+    pressure = WallPressure(250.0, [nothing, 400.0 * wave])
+    points = np.array([[2.0, 0.0, 1.5], [0.0, 2.0, 1.5]])
+    along_x, along_y = over_ground(scene, points)(radiator, pressure).T
+    np.testing.assert_allclose(along_y, along_x[::-1], rtol=1e-9, atol=1e-9 * abs(along_x[0]))
+    assert abs(along_x[1]) < 1e-9 * abs(along_x[0])
+
+
 def test_monopole_in_the_box_needs_the_ground_under_it():
     """With the side on the floor the box brings the field over the ground; without, not quite."""
     lines = [np.linspace(-0.18, 0.18, 49), np.linspace(-0.18, 0.18, 49), np.linspace(0.0, 0.5, 69)]

@@ -21,6 +21,7 @@ from vibroacoustics.radiation.patterns import (
     rigid_body,
     rigid_body_velocity,
 )
+from vibroacoustics.radiation.pulse import RunningTransform, transform_bytes
 from vibroacoustics.radiation.scene import Scene
 from vibroacoustics.radiation.task import Microphones
 
@@ -239,6 +240,24 @@ def test_memory_is_checked_before_the_run(monkeypatch):
     near = near_fields(Scene(sphere(0.1), (), ()), 0.0125, 1000.0)
     with pytest.raises(ParameterError, match=r"near_field_spacing_mm: the grid of \d+×\d+×\d+"):
         check_memory(near, 6, 10)
+
+
+def test_a_running_transform_is_the_sum_over_all_samples():
+    """Of 200 samples, more than three blocks of 64; asked for between, it goes on."""
+    time_s, hertz = 1e-4 * np.arange(200), np.array([25.0, 130.0, 900.0])
+    signals = np.random.default_rng(3).standard_normal((200, 5))
+    running = RunningTransform(hertz, 5)
+    for number, (at_s, samples) in enumerate(zip(time_s, signals, strict=True)):
+        running.next_row(at_s)[...] = samples
+        if number == 100:
+            running.spectrum()
+    expected = np.exp(-2j * np.pi * hertz[:, None] * time_s) @ signals
+    np.testing.assert_allclose(running.spectrum(), expected, atol=1e-11)
+
+
+def test_memory_of_a_running_transform():
+    """Real and imaginary sums of 240 frequencies, twice, and 64 samples, 8 B each."""
+    assert transform_bytes(240, 1000) == 8 * 1000 * (2 * 2 * 240 + 64)
 
 
 def test_green_functions_of_the_room_count():

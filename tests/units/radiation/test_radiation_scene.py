@@ -197,6 +197,12 @@ class TestCabinet:
             refused(r"cabinet: the machine is [\d.]+ mm off the panels; needed at least 10 mm",
                     cabinet=CABINET.model_copy(update=changed))  # fmt: skip
 
+    def test_panels_through_a_wall_are_refused(self):
+        """The outer face is 0.3 + 0.02 m from the shell's axis; it may touch the wall."""
+        refused(r"cabinet: its panels reach through a wall",
+                cabinet=CABINET, walls={"+y": Wall(distance_m=0.319)})  # fmt: skip
+        scene(SHELL, settings(cabinet=CABINET, walls={"+y": Wall(distance_m=0.32)}))
+
     def test_cabinet_without_a_floor_is_refused(self):
         with pytest.raises(ValidationError, match="cabinet: stands on the floor"):
             Surroundings(floor=False, cabinet=CABINET)

@@ -12,6 +12,7 @@ from vibroacoustics.radiation.exact import Mirror
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.near_grid import near_grid
 from vibroacoustics.radiation.patterns import Pattern, rigid_body
+from vibroacoustics.radiation.recording import Recording
 from vibroacoustics.radiation.symmetry import symmetric_axes
 
 CAN = cylinder(0.083, -0.11, 0.14, 0.03)
@@ -102,6 +103,18 @@ def test_equals_the_whole_grid(walls, pattern):
         largest = np.abs(expected).max(axis=1)
         error = np.abs(field - expected).max(axis=1) / largest
         assert np.all(error < 1e-4), error
+
+
+@pytest.mark.parametrize("parity", [1, -1])
+def test_join_takes_images_with_the_sign_of_their_parity(parity):
+    """Three pairs, the third the image of the first: sum of w (p_i G_o - p_o G_i), by hand."""
+    columns = np.array([[0, 1, 0], [2, 3, 2]])
+    across = np.array([[[False, False, True], [False, False, True]]])
+    recorded = Recording(np.arange(4), columns, across, np.array([2.0, 3.0, 5.0]))
+    pressure, inner, outer = np.array([7.0, 11.0, 13.0, 17.0]), [1.0, -4.0, 6.0], [9.0, 8.0, -2.0]
+    expected = 2.0 * (7.0 * 9.0 - 13.0 * 1.0) + 3.0 * (11.0 * 8.0 + 17.0 * 4.0)
+    expected += 5.0 * parity * (7.0 * -2.0 - 13.0 * 6.0)
+    assert pressure @ (recorded.join_matrix((parity,)) @ [*inner, *outer]) == expected
 
 
 def test_one_run_for_a_motion_along_an_axis():

@@ -142,6 +142,17 @@ def test_units_of_mean_squares(tmp_path, unit, factor):
     np.testing.assert_allclose(read.values, np.array([1.0, 2.0]) * factor, rtol=1e-14)
 
 
+def test_unit_of_an_auto_spectrum_counts_squared(tmp_path):
+    """A universal file states the unit of the quantity: 1 of mm/s is 1e-6 m²/s²."""
+    file = by_pyuff(
+        tmp_path, func_type=2, data=abs(VALUES) + 0j, ordinate_spec_data_type=11,
+        ordinate_axis_units_lab="mm/s",
+    )  # fmt: skip
+    (read,) = va.read_functions(file)
+    assert (read.kind, read.response_unit, read.reference_unit) == ("auto spectrum", "m/s", "m/s")
+    np.testing.assert_allclose(read.values, 1e-6 * abs(VALUES), rtol=1e-10)
+
+
 def test_a_missing_unit_is_given_by_quantity(tmp_path):
     file = by_pyuff(tmp_path, binary=1, ordinate_axis_units_lab="NONE")
     (read,) = va.read_functions(file, units={"acceleration": "g"})

@@ -31,7 +31,7 @@ from vibroacoustics.recordings.recorded import Request
 from vibroacoustics.recordings.remarks import RecordingWarning
 from vibroacoustics.recordings.riff import with_comment
 from vibroacoustics.recordings.stated_scale import scale_comment, stated_scales
-from vibroacoustics.recordings.time_axis import even_rate_hz
+from vibroacoustics.recordings.time_axis import even_part, even_rate_hz
 from vibroacoustics.results import storage
 
 MOTOR = ROOT / "data" / "recordings" / "electric_motor_vibration.uff"
@@ -156,6 +156,28 @@ def test_uneven_times():
     with pytest.raises(ParameterError, match=r"sample 51 lies 0\.06 .* give sample_rate_hz"):
         even_rate_hz(times, Request(Path("x")))
     assert even_rate_hz(times, Request(Path("x"), None, 1000.0)) == 1000.0
+
+
+def test_a_part_begins_and_ends_at_the_nearest_samples():
+    """Samples 0.1 s apart over 10 s: a time belongs to the one up to 0.05 s away."""
+    times = 12.5 + 0.1 * np.arange(101)
+
+    def part(from_s, to_s):
+        request = Request(Path("x"), from_s=from_s, to_s=to_s)
+        return even_part(lambda first, last: times[first:last], times.size, request)[:2]
+
+    assert part(2.04, 4.06) == (20, 41)
+    assert part(1.96, 3.94) == (20, 39)
+
+
+def test_gaps_all_over_are_uneven_times():
+    """One step of five is double: no part is without a gap, so none is advised."""
+    times = 1e-3 * np.cumsum([0, *([1, 1, 1, 1, 2] * 20)])
+    with pytest.raises(ParameterError, match="time is not even"):
+        even_rate_hz(times, Request(Path("x")))
+    times = 1e-3 * np.cumsum([0, *([1, 1, 1, 1, 2] + [1] * 95)])
+    with pytest.raises(ParameterError, match=r"time has 1 gap, the first of 0\.002 s behind"):
+        even_rate_hz(times, Request(Path("x")))
 
 
 # --- WAV -----------------------------------------------------------------------------------------

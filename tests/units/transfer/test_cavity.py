@@ -7,10 +7,12 @@ from scipy.optimize import brentq
 from scipy.special import jnp_zeros, jvp, yvp
 from support import ROOT
 
+from vibroacoustics.machine.cavities import DischargeDome
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer.cavity.elements import interpolation, matrices
 from vibroacoustics.transfer.cavity.in_shell import GasInShell, Mouth
 from vibroacoustics.transfer.cavity.modes import GasOrder
+from vibroacoustics.transfer.cavity.of_machine import spaces_of
 from vibroacoustics.transfer.cavity.profile import annulus_profile, disc_profile
 from vibroacoustics.transfer.cavity.response import DrivenGas
 from vibroacoustics.transfer.cavity.wall import WallPressure
@@ -157,6 +159,26 @@ def test_a_pressure_that_rises_across_pushes_with_its_gradient_times_the_volume(
     assert volume == pytest.approx(np.pi * RADIUS**2 * (DEPTH + 2.0 * CAP / 3.0), rel=1e-5)
     assert force == pytest.approx(volume, rel=2e-3)
     assert moment == pytest.approx(mass.sum(axis=0) @ space.nodes[..., 1].ravel(), rel=5e-3)
+
+
+@pytest.mark.parametrize("dome_m", [0.04, 0.0])
+def test_gas_of_the_dome_ends_a_walls_thickness_below_the_top(path, dome_m):
+    """Its rim is that of the cap, or the inner face of a flat one."""
+    study = load_study(ROOT / "tests" / "studies" / "sources_made_up.toml")
+    shell = study.machine.shell.model_copy(update={"dome_height_m": dome_m})
+    dome = DischargeDome(
+        depth_m=DEPTH, port_offset_m=0.0, tube_diameter_m=0.01, tube_height_m=0.01,
+        quality_ratio=60.0,
+    )  # fmt: skip
+    machine = study.machine.model_copy(update={"shell": shell, "discharge_dome": dome})
+    path.gas.clear()
+    profile = spaces_of(machine, path)["discharge_dome"].profile
+    top = shell.height_m - shell.centre_of_mass_height_m
+    thickness = study.machine.structure.thickness_m
+    assert profile.upper[0] == pytest.approx(top - thickness)
+    assert profile.upper[-1] == pytest.approx(top - max(dome_m, thickness))
+    assert profile.lower == pytest.approx(profile.upper[-1] - DEPTH)
+    path.gas.clear()
 
 
 # --- response ---

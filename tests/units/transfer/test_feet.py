@@ -143,6 +143,21 @@ def test_natural_frequency_is_where_the_stiffness_belongs_to_it(tmp_path):
     assert frequencies[bounce] == pytest.approx(roots.max(), rel=1e-9)
 
 
+def test_natural_frequency_of_constant_mounts_beside_others_over_frequency(tmp_path):
+    """Two opposite mounts k0 (1 + f/f0), two k0: m (2πf)² = 2 k0 (1 + f/f0) + 2 k0 in bounce."""
+    (tmp_path / "k.csv").write_text(HEAD + "0,20,50,0.1\n400,420,1050,0.4\n")
+    table = MountStiffness(file=str(tmp_path / "k.csv"))
+    places = [(0.1, 0.0), (0.0, 0.1), (-0.1, 0.0), (0.0, -0.1)]
+    feet = {f"foot_{n + 1}": {"x_m": x, "y_m": y} for n, (x, y) in enumerate(places)}
+    for name in ("foot_1", "foot_3"):
+        feet[name]["stiffness"] = table
+    body = MachineOnMounts(HOUSING, MOUNTS, 0.0, feet=Feet.model_validate(feet))
+    roots = np.roots([4.0 * np.pi**2 * 35.0, -2.0 * 5e4 / 20.0, -4.0 * 5e4])
+    frequencies, shapes = body.natural_modes()
+    bounce = int(np.argmax(np.abs(shapes[:, 0, 2])))
+    assert frequencies[bounce] == pytest.approx(roots.max(), rel=1e-9)
+
+
 @pytest.mark.parametrize("form", ["mobility", "receptance"])
 def test_measured_floor_equals_the_mass_on_a_spring_that_it_is(tmp_path, form):
     floor = Floor(mass_kg=20.0, stiffness_n_per_m=4e5, loss_factor_ratio=0.05)

@@ -34,6 +34,7 @@ from vibroacoustics.transfer.shell_modes import (
     elastic_shell,
     joint_forces,
     modal_forces,
+    patch_forces,
 )
 from vibroacoustics.transfer.shell_modes.elements import (
     NODE_FREEDOMS,
@@ -445,6 +446,21 @@ def test_joint_is_the_sum_of_forces_at_points(flat, joint):
     assert moment[3, 2] == pytest.approx(1.0)
     expected = [np.einsum("pi,pil->l", mode.velocity(points), forces) for mode in flat.modes]
     found = modal_forces(flat, JointLoads(joint))
+    assert np.abs(found - expected).max() < 1e-12 * np.abs(expected).max()
+
+
+def test_equal_forces_on_the_welds_are_the_load_of_their_joint(flat):
+    """x̂ = r̂ cos θ - θ̂ sin θ and ŷ = r̂ sin θ + θ̂ cos θ at each weld; a torque has the arm R."""
+    joint = Joint(height_m=0.11, welds=3, first_angle_rad=0.3)
+    angle = 0.3 + 2.0 * np.pi * np.arange(3) / 3.0
+    cos, sin, none = np.cos(angle), np.sin(angle), np.zeros(3)
+    arm = np.full(3, 1.0 / flat.meridian.wall_radius_m)
+    loads = np.array([
+        [cos, none, -sin], [sin, none, cos], [none, none + 1.0, none], [none, none, arm],
+    ])  # fmt: skip
+    shares = loads.transpose(2, 1, 0).reshape(9, 4) / 3.0
+    expected = modal_forces(flat, JointLoads(joint))
+    found = patch_forces(flat, joint) @ shares
     assert np.abs(found - expected).max() < 1e-12 * np.abs(expected).max()
 
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.stats import norm
 
 from vibroacoustics.base.vocabulary import REFERENCE_OPTION
-from vibroacoustics.levels.agreement import LEVELS_DB, Datum
+from vibroacoustics.levels.agreement import LEVELS_DB, Datum, log_weight_of_points
 from vibroacoustics.levels.by_source import GAIN_BANDS, SourceSound, gain_band_number, source_sound
 from vibroacoustics.mechanics.received_sound import NoisePower
 from vibroacoustics.study.uncertainty import Uncertainty
@@ -136,6 +136,24 @@ def test_pairs_are_picked_as_their_weights_say():
     assert levels.mean() == pytest.approx(mean, abs=4.0 * deviation / np.sqrt(levels.size))
     assert levels.std() == pytest.approx(np.hypot(deviation, 1.0 / np.sqrt(12.0)), rel=0.05)
     assert drawn[0].weight[0].tolist() == [1.0] * PAIRS
+
+
+def test_a_sample_without_solution_has_no_weight_beside_a_baseline():
+    """Its bands are not numbers; beside it, one whose weights sum to its likelihood."""
+    evidence, machine = evidence_of(NONE)
+    evidence.nominal.points = {"front": None}
+    evidence.nominal.relative_to_measured = lambda _: np.array([0.0])
+    evidence.nominal.study.baseline = SimpleNamespace(tolerance_db=2.0)
+    data, priors = evidence.published.data, evidence.published.priors
+    weight = {}
+    for energy in (np.nan, 0.25 * SQUARE):
+        sound = {(SPEED, REFERENCE_OPTION): sound_at(energy, 0.0)}
+        weight[energy] = np.exp(evidence.log_weights(sound, machine, 0, data, priors))
+    found, without = weight[0.25 * SQUARE], weight[np.nan]
+    assert without.tolist() == np.zeros(without.shape).tolist()
+    measured = [np.exp(log_weight_of_points(np.zeros((1, 1)), 2.0, prior)) for prior in priors]
+    expected = np.broadcast_to(measured, found.shape[:2])
+    np.testing.assert_allclose(found.sum(axis=2), expected, rtol=1e-12)
 
 
 def test_systematic_picks_count_as_the_weights():
