@@ -227,6 +227,14 @@ def test_ring_damping_power(thesis_study):
     assert facts["dissipated_power_w"] == pytest.approx(15.302, abs=5e-4)
 
 
+def test_ring_damping_pushes_against_the_velocity(thesis_study):
+    """c ω r sin θ on a ring at r cos θ."""
+    force = balancing(thesis_study, "damping", 3500.0).on_ring
+    expected = 5.0 * 2.0 * np.pi * 3500.0 / 60.0 * 6.75e-3 * np.sin(CRANK_ANGLE)
+    np.testing.assert_allclose(force.force_n, expected, rtol=1e-12, atol=1e-12)
+    assert force.from_housing
+
+
 def test_twin_ring_moves_in_opposite_phase(thesis_study):
     (twin,) = balancing(thesis_study, "twin-oldham", 3500.0).parts
     np.testing.assert_allclose(twin.position_m[0], -6.75e-3 * np.cos(CRANK_ANGLE), atol=1e-18)

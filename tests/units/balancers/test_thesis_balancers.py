@@ -121,6 +121,22 @@ def test_motion_in_pieces_is_that_of_an_integration(pulled, ratio):
     np.testing.assert_allclose(found.y[:, -1], start, atol=1e-7)
 
 
+class SettlesInRateAlone:
+    """A stretch that stays zero; a rate v that a revolution moves by (1 - v²)/1000, to 1."""
+
+    def steps(self, start, steps, count):
+        state = start
+        for _ in range(count // steps):
+            rate = state[1]
+            state = np.array([0.5 * state[0], rate + 1e-3 * (1.0 - rate**2)])
+            yield state, np.diag([0.5, 1.0 - 2e-3 * rate])
+
+
+def test_motion_is_settled_when_stretch_and_rate_are():
+    """Newton's steps change the rate alone, and the first one throws it far past 1."""
+    assert settled_start(SettlesInRateAlone()) == pytest.approx((0.0, 1.0), abs=1e-10)
+
+
 @pytest.mark.parametrize(("pulled", "pushed"), [(4.0, 1.0), (9.0, 0.04)])
 def test_free_vibration_has_half_a_period_on_each_side(pulled, pushed):
     """Shaw & Holmes 1983: ω = 2 ω1 ω2/(ω1 + ω2)."""

@@ -12,6 +12,7 @@ from vibroacoustics import pipeline
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.mechanisms.oldham_scroll.machine import OldhamScroll
 from vibroacoustics.mechanisms.tabulated.csv_layout import forces_csv
+from vibroacoustics.mechanisms.tabulated.other_files import read_spectra
 from vibroacoustics.mechanisms.tabulated.shaft_axes import ShaftAxes, axes_lines
 from vibroacoustics.mechanisms.tabulated.spectra import Spectra, orders_of, over_revolution
 from vibroacoustics.orders.spectrum import order_spectrum_at_speed
@@ -220,6 +221,15 @@ def test_spectra_of_a_universal_file_are_orders_of_their_nodes(tmp_path):
     file.write_text(text.replace("3000.0", "3010.0"))
     with pytest.raises(ParameterError, match=r"50 Hz is order 0.9967|150 Hz is order 2.99"):
         load_machine(file)
+
+
+def test_one_line_of_a_universal_file_off_the_orders_is_refused(tmp_path):
+    """120 Hz at 3000 rpm, between two whole orders."""
+    hertz, force = np.array([50.0, 120.0, 150.0]), np.array([1.0, 2.0j, 3.0])
+    function = va.MeasuredFunction("spectrum", hertz, force, va.Node(7, "+z"), None, "N")
+    va.export_functions([function], tmp_path / "s.uff")
+    with pytest.raises(ParameterError, match=r"120 Hz is order 2\.4 at 3000 rpm: must be a whole"):
+        read_spectra(tmp_path / "s.uff", 3000.0)
 
 
 ROW = "3000,0,crank,1,0,0,0,0,0\n"

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from vibroacoustics.sound import of_results
 from vibroacoustics.sound.ingredients import ingredients
@@ -36,3 +37,13 @@ def test_tone_excess_is_that_of_the_most_prominent_tone(results):
     assert of_results.excess_db(quiet) == -60.0
     assert of_results.excess_db(alone) == 60.0
     assert of_results.most_prominent([by_noise, by_bands, quiet]) == by_bands
+
+
+def test_tone_excess_is_the_worst_over_microphones_and_speeds(monkeypatch):
+    """The most prominent tone stands at another microphone than the others of its speed."""
+    excess = [[[-3.0, 1.0], [4.0, -2.0]], [[0.0, -1.0], [-5.0, 2.0]]]
+    of_cases = xr.DataArray(excess, dims=("option", "receiver", "speed"))
+    monkeypatch.setattr(of_results, "tone_excess", lambda _: of_cases)
+    value = CRITERIA["tone_excess_db"]().value(xr.Dataset())
+    assert value.dims == ("option",)
+    assert value.values.tolist() == [4.0, 2.0]

@@ -22,7 +22,7 @@ from vibroacoustics.stopping.coasting import (
 from vibroacoustics.stopping.equation import Coasting, path_derivatives
 from vibroacoustics.stopping.labelled import stopping_variables
 from vibroacoustics.stopping.reversal import STUCK_RATIO, TrappedGas
-from vibroacoustics.stopping.through_shell import brake_on_parts
+from vibroacoustics.stopping.through_shell import _height_of_brake, brake_on_parts
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer import on_mounts
 
@@ -221,6 +221,12 @@ def test_brake_is_a_pair():
     # At angle zero the wall is dragged towards -y and pressed towards +x.
     assert loads[BEARING_HOUSING][:2, 0] == pytest.approx([500.0, -100.0])
     assert loads[ORBITING_SCROLL][:2, 0] == pytest.approx([-500.0, 100.0])
+
+
+def test_brake_pushes_at_its_own_height():
+    """95 mm above the shaft's origin."""
+    machine = load_study(PIPELINES / "copeland_derived.toml").machine
+    assert _height_of_brake(machine) == pytest.approx(0.095)
 
 
 @pytest.mark.parametrize("step_s", [1e-3, 1e-4, 1e-6])

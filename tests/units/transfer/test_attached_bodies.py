@@ -249,6 +249,16 @@ def test_body_held_along_one_axis_alone_is_free():
         AttachedBodies(attached().bodies, (spring,))
 
 
+def test_body_is_free_where_a_stiffness_is_rounding_beside_the_others():
+    """ω² about z is 1e-13 of that along the axes: 1e-9 of 1e4 1/s²."""
+    along, about = 2.0 * 1e4, 4e-3 * 1e4
+    body = RigidBody("damper", 2.0, 4e-3 * np.eye(3), CENTRE)
+    held = np.diag([along, along, along, about, about, 1e-13 * about])
+    spring = Bushing("spring", "damper", HOUSING.name, CENTRE, held)
+    with pytest.raises(ParameterError, match="its bushings leave it free to move"):
+        AttachedBodies((body,), (spring,))
+
+
 def test_modes_on_mounts_over_frequency_with_a_stiff_bushing(tmp_path):
     """Far above the highest mode on mounts; a table of constants gives the constant's modes."""
     mounts = MACHINE.mounts
