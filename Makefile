@@ -53,6 +53,7 @@ $(VENV)/.core: requirements.lock pyproject.toml
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --require-hashes -r requirements.lock
 	$(BIN)/python -m pip install --quiet --no-deps -e .
+	$(BIN)/vibroacoustics check pipelines/copeland_sources.toml > /dev/null  # compiles for all runs
 	touch $@
 
 $(VENV)/.dev: requirements-dev.lock $(VENV)/.core

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Final
 
+from ..base.linear_algebra import one_thread_of_linear_algebra
 from ..base.progress import Progress, no_progress
 from ..radiation.cost import Cost, about
 from ..results.size import result_bytes
@@ -59,7 +60,8 @@ def run_cost(study: Study, progress: Progress = no_progress) -> RunCost:
     ParameterError, SolverError
         The machine cannot run, the result is too large, or memory does not suffice.
     """
-    return surviving(study, partial(_run_cost, progress=progress))
+    with one_thread_of_linear_algebra():  # as in a run
+        return surviving(study, partial(_run_cost, progress=progress))
 
 
 def _run_cost(study: Study, progress: Progress) -> RunCost:
