@@ -23,7 +23,7 @@ _FIGURE: Final = {TWICE_LINE: TWICE_LINE_FIGURE}
 LOWEST_LINE_HZ: Final = 10.0
 """Sidebands below are no sound."""
 LEAST_SIDEBAND: Final = 1e-4
-"""Of the torque of the largest line; weaker sidebands are omitted."""
+"""Least torque of a sideband over that of the largest line; weaker ones are omitted."""
 
 
 class _MotorTorque(Source):
