@@ -53,7 +53,7 @@ def resolved_sentence(results: xr.Dataset) -> str:
         for name, count in zip(shares["knowledge"].values, counts, strict=True)
     ]
     return (
-        f"Of {shares.sizes['drawn_parameter']} unknowns so many have a resolved share in the "
+        f"Number of the {shares.sizes['drawn_parameter']} unknowns with a resolved share in the "
         f"variance of the modelled level at {catalogue_receiver(results)} without a balancer: "
         f"{', '.join(words)}."
     )
