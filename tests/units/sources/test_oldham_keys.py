@@ -18,7 +18,7 @@ from vibroacoustics.base.units import shaft_frequency_hz
 from vibroacoustics.sources.keys import resolved_orders
 from vibroacoustics.sources.oldham_keys import rattle
 from vibroacoustics.sources.oldham_keys.contact import Face, key_face
-from vibroacoustics.sources.oldham_keys.equations import Coupling
+from vibroacoustics.sources.oldham_keys.equations import NORMAL, Coupling, Drive, accelerations
 from vibroacoustics.sources.oldham_keys.integration import integrate
 from vibroacoustics.sources.oldham_keys.parameters import OldhamKeys
 from vibroacoustics.sources.oldham_keys.rattle import contact_loss_speed_rpm, steady_key_forces
@@ -538,6 +538,33 @@ def test_parameters_in_the_units_of_a_file():
     assert MACHINE_KEYS.clearance_m == pytest.approx(15e-6)
     assert MACHINE_KEYS.oil_layer_m == pytest.approx(7e-6)
     assert MACHINE_KEYS.contact_modulus_pa == pytest.approx(58e9)
+
+
+@pytest.mark.parametrize("angle", [0.3, 1.9, 4.4])
+def test_a_moment_on_the_ring_loads_the_pair_in_the_housing_alone(angle):
+    """Quasi-static and without friction, such as by a torsional spring at the ring.
+
+    A moment M changes the forces of the keys in the housing by ∓M/(2 R); those of the pair in the
+    scroll follow from the balances of the scroll's turn and of the ring along x.
+    """
+    speed = SPEED_RPM * np.pi / 30.0
+    c, moment = coupling(stroke=STROKE_M, angular_speed=speed), 0.7
+    drive = Drive(np.sin(angle), np.cos(angle), 0.0, RATED_N_M)
+
+    def balance(normal):
+        keys, result = np.zeros((4, 4)), np.empty(4)
+        keys[NORMAL] = normal
+        accelerations(drive, keys, c, result)
+        return result
+
+    free = balance(np.zeros(4))
+    by_force = np.transpose([balance(one) - free for one in np.eye(4)])
+    alone = np.linalg.solve(by_force, -free)
+    turned = np.array([0.0, 0.0, moment / c.ring_inertia, 0.0])
+    change = np.linalg.solve(by_force, -free - turned) - alone
+    assert change[:2] == pytest.approx([0.0, 0.0], abs=1e-9)
+    half = 0.5 * moment / c.radius
+    assert change[2:] == pytest.approx([-half, half], rel=1e-9)
 
 
 # --- bad input -----------------------------------------------------------------------------------
