@@ -47,7 +47,7 @@ def quantile_errors(values: Array, weight: Array, weights: Array, shares: Sequen
     """
     if not np.isfinite(values[weight > 0.0]).all():
         return np.zeros(len(shares))
-    below = values[:, None] <= weighted_quantiles(values, weight, shares)
+    below = (values[:, None] <= weighted_quantiles(values, weight, shares)).astype(float)
     spread = np.std(weights @ below, axis=0, ddof=1)
     ends = np.clip([shares - spread, shares + spread], 0.0, 1.0)
     lower, upper = weighted_quantiles(values, weight, ends.ravel().tolist()).reshape(2, -1)
