@@ -52,6 +52,8 @@ for rank in search["best_rank"].values:
 # %%
 # What decides
 # ------------
-# Share of each variable alone in the variance over the whole space; below Q² = 0.5 they say little.
+# Share of each variable alone in the variance over the whole space, with the lower end of its
+# bootstrap interval; below the floor it is no more than chance gives.
 print(search["design_share"].to_pandas().T.round(2).to_string())
-print(search["design_share_quality"].to_pandas().round(2).to_string())
+print(search["design_share_low"].to_pandas().T.round(2).to_string())
+print(search["design_share_floor"].to_pandas().round(3).to_string())

