@@ -7,14 +7,13 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.arrays import Array
+from ..uncertainty.shares import ASKED
 from .bands import band_of, band_words, draws, percent
 from .drawn_words import file_unit, named
 from .study import catalogue_receiver, has_draws
 from .tables import Table
 
 NOT_RESOLVED: Final = "not resolved"
-ASKED: Final = 5
-"""Number of bootstraps that must name the same unknown."""
 SMALLEST_DB: Final = 0.1
 """Information worth less changes no choice."""
 BEFORE: Final = "before"

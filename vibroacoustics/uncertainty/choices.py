@@ -14,7 +14,7 @@ from .shares import Information, information_of
 SOUND: Final = "sound"
 SOUND_AND_FOOT_FORCE: Final = "sound and foot force"
 _LEAST_RATIO: Final = 0.01
-"""Of a foot force to that without a balancer; less is of no further use."""
+"""Least ratio of a foot force to that without a balancer; smaller ones are worth no more."""
 
 
 def choice_information(study: Study, levels: xr.Dataset, pairs: int) -> xr.Dataset:

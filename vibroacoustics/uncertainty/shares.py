@@ -63,8 +63,8 @@ def shares_of(unknown: Array, value: Array, weight: Array) -> Shares:
 
     Estimated from given data (Plischke, Borgonovo and Smith 2013, European Journal of Operational
     Research 226, 536), less what chance adds to the variance between bins (Kelley 1935, PNAS 21,
-    554). Where weights make unknowns depend on one another, a share includes what one tells of
-    the others.
+    554). Where weights make unknowns depend on one another, a share includes what one
+    implies about the others.
 
     Parameters
     ----------

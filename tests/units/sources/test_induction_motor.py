@@ -1,6 +1,7 @@
 """Induction motors: published examples, closed forms, the motor simulated in time."""
 
 import csv
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,7 +14,9 @@ from support import ROOT
 
 from vibroacoustics.base.errors import ParameterError, SolverError
 from vibroacoustics.mechanics.crankshaft import steady_rotation
+from vibroacoustics.mechanics.ports import HOUSING
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
+from vibroacoustics.sources import motor as motor_source
 from vibroacoustics.sources.induction_motor.parameters import CapacitorMotor
 from vibroacoustics.sources.induction_motor.revolving_fields import (
     breakdown_slip,
@@ -24,11 +27,13 @@ from vibroacoustics.sources.induction_motor.revolving_fields import (
     supply_frequency_hz,
 )
 from vibroacoustics.sources.induction_motor.torque_lines import (
+    TorqueLine,
     rotor_in_motor,
     speed_response,
     torque_lines,
     two_axis_motor,
 )
+from vibroacoustics.sources.motor import MotorPulsation
 
 VALUES = values_of(machine_file("copeland_zp41k3e"))["motor"]
 MOTOR = CapacitorMotor(**VALUES)
@@ -458,3 +463,19 @@ def test_motor_at_the_same_flux_draws_the_same_current_at_the_same_frequency_of_
 def test_load_beyond_breakdown_has_no_supply():
     with pytest.raises(ParameterError, match=r"torque = 500 N m: the motor gives .* at 2900 rpm"):
         supply_frequency_hz(MOTOR, 2900.0, 500.0)
+
+
+def test_sidebands_below_a_ten_thousandth_of_the_largest_line_are_omitted(monkeypatch):
+    """Lines themselves stay, however weak; a sideband below `LOWEST_LINE_HZ` is no sound."""
+    torques = {"2 x line": (100.0, 2.0), "4 x line": (200.0, 1e-9)}
+    beside = {"kept": (70.0, 2.1e-4), "weak": (130.0, 1.9e-4), "low": (9.0, 1.0)}
+    lines, sidebands = (
+        tuple(TorqueLine(name, hertz, torque, torque, 0.0) for name, (hertz, torque) in one.items())
+        for one in (torques, beside)
+    )
+    balance = SimpleNamespace(line=lines, sidebands=sidebands)
+    monkeypatch.setattr(motor_source, "_balance", lambda case, before: balance)
+    machine = SimpleNamespace(mechanism_port=HOUSING)
+    case = SimpleNamespace(machine=machine, maximum_frequency_hz=1000.0)
+    tones = MotorPulsation().loads(case, {}).tones
+    assert [tone.name for tone in tones] == ["2 x line", "4 x line", "kept"]

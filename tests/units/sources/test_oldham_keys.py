@@ -465,6 +465,26 @@ def test_a_revolution_that_repeats_is_not_stepped_through_again(monkeypatch, mom
     np.testing.assert_allclose(repeated, whole, atol=repeated_to * np.abs(whole).max())
 
 
+@pytest.mark.parametrize("moment", [RATED_N_M, 0.0])
+def test_steps_are_fine_from_the_first_settled_impact_on(monkeypatch, moment):
+    """Loaded keys keep their long steps; those that rattle have short ones in all that is kept."""
+    steps = []
+
+    def counted(*arguments):
+        steps.append(arguments[5])
+        return integrate(*arguments)
+
+    monkeypatch.setattr(rattle, "integrate", counted)
+    arguments = (KEYS, MASS_KG, STROKE_M, SPEED_RPM, np.array([moment]), np.zeros(1), 2)
+    impacts = steady_key_forces(*arguments).impacts.any()
+    assert impacts == (moment == 0.0)
+    settling, kept = steps[: rattle.SETTLING_REVOLUTIONS], steps[rattle.SETTLING_REVOLUTIONS :]
+    assert len(set(settling)) == 1
+    ratio = rattle.LOADED_STEP_RATIO / rattle.STEP_RATIO
+    assert all(one > (ratio - 1.0) * settling[0] for one in kept)
+    assert bool(kept) == impacts
+
+
 def test_spectral_density_is_that_of_scipy():
     signals = np.random.default_rng(3).normal(size=(3, 10000))
     frequency, density = spectral_density(signals, 5e4, 512)

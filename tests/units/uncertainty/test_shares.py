@@ -96,7 +96,7 @@ def weights(first, second):
 
 
 def test_chance_has_no_share_in_the_mean():
-    """Unclipped by the others' noise: the mean over many unknowns that do nothing is small.
+    """The mean over many unknowns that do nothing is small.
 
     Without the correction of Kelley it is 9/200 = 0.045; clipped at zero, half of a deviation
     of √18/200 = 0.021 is left, 0.4 of it.
