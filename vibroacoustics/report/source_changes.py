@@ -105,7 +105,6 @@ def _impacts(results: xr.Dataset, option: str) -> list[str]:
 
 def key_figure(results: xr.Dataset, option: str, name: str) -> Array:
     """A figure of the sources at every speed; NaN where the option has none."""
-    figures = results["reported_figure"]
-    if name not in figures["figure"].values:
+    if name not in results.variables["figure"].values:
         return np.full(len(speeds(results)), np.nan)
-    return np.asarray(figures.sel(option=option, figure=name).values)
+    return np.asarray(results["reported_figure"].sel(option=option, figure=name).values)
