@@ -51,6 +51,6 @@ def unsendable(_: int) -> object:
     return lambda: None
 
 
-def leave(_: object) -> NoReturn:
+def leave(*_: object) -> NoReturn:
     """Stand in for a worker that cannot begin."""
     os._exit(7)

@@ -1,6 +1,7 @@
 """Processes of this machine that apply a function to many items: a pool that survives its workers.
 
-Every worker is started afresh (spawn) and shares one unnamed pair of sockets with this process.
+Every worker is started afresh (spawn), or is a copy of this process (fork) that knows a function
+of any kind. It shares one unnamed pair of sockets with this process.
 Nothing listens: there is no port, file or name that another process could open. A worker ends with
 this process, however that ends.
 """
@@ -9,6 +10,7 @@ import multiprocessing
 import os
 import pickle
 import signal
+import sys
 import threading
 import traceback
 from collections.abc import Callable, Generator, Iterable, Iterator
@@ -23,6 +25,7 @@ Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 _SPAWN: Final = multiprocessing.get_context("spawn")
+_FORK: Final = multiprocessing.get_context("fork") if sys.platform == "linux" else None
 _READY, _BEGUN, _DONE, _FAILED = range(4)
 """Kinds of messages of a worker."""
 _MOST_DEATHS: Final = 2
@@ -45,6 +48,8 @@ class ProcessPool:
     Parameters
     ----------
     number : of processes, at least 1
+    inherited : function of any kind that forked workers know, where `can_fork`; without it
+        workers are started afresh
 
     Examples
     --------
@@ -55,8 +60,9 @@ class ProcessPool:
     [1.0, 2.0]
     """
 
-    def __init__(self, number: int) -> None:
+    def __init__(self, number: int, inherited: Callable[[Any], Any] | None = None) -> None:
         self._number = number
+        self._inherited = inherited
         self._workers: list[_Worker] = []
         self._idle_deaths = 0
 
@@ -78,7 +84,8 @@ class ProcessPool:
 
         Parameters
         ----------
-        function : of a module, not a lambda; functools.partial of one is allowed
+        function : the inherited one, or one of a module, not a lambda; functools.partial of one
+            is allowed
         items : anything that pickle takes
         on_loss : result of an item that ended two workers, from the item and how the second one
             ended; an error by default
@@ -144,9 +151,9 @@ class ProcessPool:
         waiting = [task for task in tasks.unfinished.values() if task not in given]
         idle = [worker for worker in self._workers if worker.ready and not worker.task]
         for worker, task in zip(idle, waiting, strict=False):
-            worker.take(function, task)
+            worker.take(None if function is self._inherited else function, task)
         while len(self._workers) < len(tasks.unfinished):
-            self._workers.append(_Worker())
+            self._workers.append(_Worker(self._inherited))
 
     def _receive(
         self, tasks: "_Tasks[Item]", on_loss: Callable[[Item, str], Result]
@@ -236,10 +243,11 @@ class _Tasks(Generic[Item]):
 class _Worker:
     """A process, and this end of the pipe that leads to it."""
 
-    def __init__(self) -> None:
+    def __init__(self, inherited: Callable[[Any], Any] | None) -> None:
+        context: Any = _SPAWN if inherited is None else _FORK
         try:
-            self.connection, far_end = _SPAWN.Pipe()
-            self._process = _SPAWN.Process(target=_serve, args=(far_end,), daemon=True)
+            self.connection, far_end = context.Pipe()
+            self._process = context.Process(target=_serve, args=(far_end, inherited), daemon=True)
             with _interrupts_blocked(), far_end:  # closed here: else its end would go unnoticed
                 self._process.start()
         except OSError as error:
@@ -248,8 +256,8 @@ class _Worker:
         self.task: _Task[Any] | None = None
         self.reason = ""
 
-    def take(self, function: Callable[[Item], Result], task: _Task[Item]) -> None:
-        """Send a task."""
+    def take(self, function: Callable[[Item], Result] | None, task: _Task[Item]) -> None:
+        """Send a task; None is the inherited function."""
         content = pickle.dumps((function, task.item))
         self.task, self.begun = task, False
         with suppress(OSError):  # it is dead, which `receive` reports
@@ -285,7 +293,17 @@ class _Worker:
         self._process.close()
 
 
-def _serve(pipe: "connection.Connection[Any, Any]") -> None:
+def can_fork() -> bool:
+    """Return whether this process can be copied: on Linux, without a thread beside this one.
+
+    A copy has the calling thread alone: a lock that another one holds would stay closed for ever.
+    """
+    return _FORK is not None and threading.active_count() == 1
+
+
+def _serve(
+    pipe: "connection.Connection[Any, Any]", inherited: Callable[[Any], Any] | None
+) -> None:
     """Answer items in a worker until the other end of the pipe is closed."""
     threading.Thread(target=_end_with_parent, daemon=True).start()
     with suppress(EOFError, OSError):
@@ -293,7 +311,7 @@ def _serve(pipe: "connection.Connection[Any, Any]") -> None:
         while True:
             content = pipe.recv_bytes()
             pipe.send((_BEGUN, None))
-            pipe.send_bytes(_answer(content))
+            pipe.send_bytes(_answer(content, inherited))
 
 
 def _end_with_parent() -> None:
@@ -304,11 +322,11 @@ def _end_with_parent() -> None:
     os._exit(1)
 
 
-def _answer(content: bytes) -> bytes:
+def _answer(content: bytes, inherited: Callable[[Any], Any] | None) -> bytes:
     """Apply the function to the item of a message; gives the result or the error as a message."""
     try:
         function, item = pickle.loads(content)  # noqa: S301 - of the process that started this one
-        return pickle.dumps((_DONE, function(item)))
+        return pickle.dumps((_DONE, (function or inherited)(item)))
     except BaseException as error:
         error.add_note(f"In a worker process:\n{traceback.format_exc()}")
         return pickle.dumps((_FAILED, _portable(error)))

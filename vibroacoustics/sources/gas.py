@@ -22,7 +22,7 @@ from .part_loads import gas_loads
 from .scroll_gas.curves import discharge_line_curves, scroll_gas_curves
 from .scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
 from .scroll_gas.opened_gas import OpenedGas
-from .scroll_gas.opening import steady_opening, why_no_opening
+from .scroll_gas.opening import steady_opening, steps_of_turn, why_no_opening
 from .scroll_gas.parameters import (
     ScrollGas,
     ScrollLeakage,
@@ -34,7 +34,8 @@ from .scroll_gas.suction import SuctionFlow, suction_flow
 
 GAS_SAMPLES: Final = 8192
 """Crank angles a revolution: the step of the force where a pocket opens makes an error of the
-step over the samples, below 1 % of the order at 4 kHz."""
+step over the samples, below 1 % of the order at 4 kHz. Where it opens without a step they are
+those of the opening: four times as many change the level by 0.0009 dB rms."""
 
 ORBIT_TOLERANCE: Final = 0.01
 _WITH_INERTIA: Final[Mapping[str, type[Parameters]]] = {
@@ -170,7 +171,7 @@ def _of_frame(machine: Machine) -> tuple[float, bool]:
 
 
 def gas_cycle(machine: Machine, shared: Shared, speed_rpm: float) -> ScrollGasCycle:
-    """One revolution of the machine's gas, over GAS_SAMPLES crank angles.
+    """One revolution of the machine's gas, over uniform crank angles.
 
     Parameters
     ----------
@@ -186,11 +187,11 @@ def gas_cycle(machine: Machine, shared: Shared, speed_rpm: float) -> ScrollGasCy
     wraps, gas = machine.table(ScrollWraps), machine.table(ScrollGas)
     tables = (machine.table(table) for table in gas_tables(machine).values())
     with_inertia = (*tables, speed_rpm) if gas.opens_with_inertia else ()
+    samples = steps_of_turn(speed_rpm) if gas.opens_with_inertia else GAS_SAMPLES
+    angle = uniform_crank_angle(samples)
     return shared(
         ("gas cycle", wraps, gas, *with_inertia),
-        lambda: scroll_gas_cycle(
-            wraps, gas, uniform_crank_angle(GAS_SAMPLES), opened_gas(machine, shared, speed_rpm)
-        ),
+        lambda: scroll_gas_cycle(wraps, gas, angle, opened_gas(machine, shared, speed_rpm)),
     )
 
 
@@ -209,9 +210,10 @@ def gas_on_parts(machine: Machine, speed_rpm: float, angle: Array) -> dict[Port,
         As `steady_opening`.
     """
     cycle = gas_cycle(machine, Shared(), speed_rpm)
-    at, part = np.divmod(np.mod(angle, 2.0 * np.pi) * GAS_SAMPLES / (2.0 * np.pi), 1.0)
-    before = at.astype(int) % GAS_SAMPLES
-    after = (before + 1) % GAS_SAMPLES
+    samples = cycle.crank_angle.size
+    at, part = np.divmod(np.mod(angle, 2.0 * np.pi) * samples / (2.0 * np.pi), 1.0)
+    before = at.astype(int) % samples
+    after = (before + 1) % samples
     return {
         port: (1.0 - part) * load[:, before] + part * load[:, after]
         for port, load in gas_loads(cycle, *_of_frame(machine)).items()

@@ -208,9 +208,10 @@ def _spectra(
     torque = order_spectrum(split_periodic(torque_n_m, forces.revolutions)[0], highest)
     torque[0] = 0.0  # all friction is left out of the mean
     block = 2 * mean.shape[-1] if forces.revolutions > 1 else mean.shape[-1]
-    frequency, density = spectral_density(rest, forces.sample_rate_hz, block)
-    kept = frequency <= case.maximum_frequency_hz
-    noise = Noise(on_parts, frequency[kept], density[..., kept])
+    highest_hz = case.maximum_frequency_hz
+    noise = Noise(
+        on_parts, *spectral_density(rest, forces.sample_rate_hz, block, highest_hz)
+    )
     orders = order_spectrum(mean, highest)
     if ring.force.from_housing and ring.force.force_n.size > 1:
         orders[0] -= resolved_orders(ring.force.force_n, highest)

@@ -1,7 +1,7 @@
 """All draws side by side, and their values."""
 
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
 
@@ -11,6 +11,7 @@ import xarray as xr
 from ..base.errors import ParameterError, SolverError
 from ..base.fault import FaultError
 from ..base.linear_algebra import one_thread_of_linear_algebra
+from ..base.processes import ProcessPool, can_fork
 from ..base.threads import processors
 from ..base.vocabulary import stamped
 from ..study.sampling import Draw
@@ -25,12 +26,15 @@ def of_every_draw(
     without_solution: Result,
     progress: Callable[[int], None],
 ) -> list[Result]:
-    """What is computed of every draw, in their order; one warning tells of draws without solution.
+    """Compute a result of every draw, in their order; one warning counts draws without solution.
+
+    Results do not depend on the number of processors: a draw shares nothing with others.
 
     Parameters
     ----------
     draws : sets of values
-    compute : called with one of them, in several threads at once
+    compute : called with one of them, in several processes or threads at once; gives what pickle
+        takes
     without_solution : in place of the result of a draw with which the machine cannot run
     progress : called with the number of draws that are done
     """
@@ -48,12 +52,10 @@ def of_every_draw(
     results: list[Result] = []
     failures: list[str] = []
     progress(0)
-    # The keys run without the interpreter's lock.
-    with one_thread_of_linear_algebra(), ThreadPoolExecutor(processors()) as pool:
-        for result, failure in pool.map(solved, draws):
-            results.append(result)
-            failures += [] if failure is None else [f"draw {len(results)}: {failure}"]
-            progress(len(results))
+    for result, failure in _side_by_side(solved, draws):
+        results.append(result)
+        failures += [] if failure is None else [f"draw {len(results)}: {failure}"]
+        progress(len(results))
     if failures:
         warnings.warn(
             f"{len(failures)} of {len(draws)} draws have no solution and are left out, such as: "
@@ -61,6 +63,17 @@ def of_every_draw(
             stacklevel=2,
         )
     return results
+
+
+def _side_by_side(compute: Callable[[Draw], Result], draws: Sequence[Draw]) -> Iterator[Result]:
+    """Compute in processes, which share no interpreter's lock; in threads where none can fork."""
+    with one_thread_of_linear_algebra():
+        if can_fork():
+            with ProcessPool(processors(), inherited=compute) as processes:
+                yield from processes.in_order(compute, draws)
+        else:
+            with ThreadPoolExecutor(processors()) as threads:
+                yield from threads.map(compute, draws)
 
 
 def drawn_values(ranges: Sequence[Range], draws: Sequence[Draw]) -> xr.Dataset:

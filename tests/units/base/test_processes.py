@@ -39,7 +39,7 @@ def wait_for(condition, seconds: float = 20.0) -> None:
 
 
 def workers_of(parent: psutil.Process) -> list[psutil.Process]:
-    return [one for one in parent.children() if "spawn_main" in " ".join(one.cmdline())]
+    return [one for one in parent.children() if "resource_tracker" not in " ".join(one.cmdline())]
 
 
 def test_results_are_in_order_and_by_two_processes(pool):
@@ -177,7 +177,8 @@ PARENT = """
     def main():
         from process_work import pause
         from vibroacoustics.base.processes import ProcessPool
-        with ended_by_signals(), ProcessPool(2) as pool:
+        inherited = pause if sys.argv[1:] else None
+        with ended_by_signals(), ProcessPool(2, inherited) as pool:
             for index, _ in pool.as_completed(pause, [0.0, 0.0, 60.0, 60.0]):
                 print(index, flush=True)
     if __name__ == "__main__":
@@ -185,12 +186,13 @@ PARENT = """
 """
 
 
-def started(folder: Path) -> tuple[subprocess.Popen[str], list[psutil.Process]]:
+@pytest.fixture(params=[(), ("forked",)], ids=["afresh", "forked"])
+def started(request, tmp_path) -> tuple[subprocess.Popen[str], list[psutil.Process]]:
     """A group of processes, as a terminal makes one, and all that the first one started."""
-    script = folder / "parent.py"
+    script = tmp_path / "parent.py"
     script.write_text(textwrap.dedent(PARENT))
     parent = subprocess.Popen(
-        [sys.executable, str(script)],
+        [sys.executable, str(script), *request.param],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
@@ -201,9 +203,9 @@ def started(folder: Path) -> tuple[subprocess.Popen[str], list[psutil.Process]]:
     return parent, psutil.Process(parent.pid).children(recursive=True)
 
 
-def test_interrupt_of_the_group_ends_all_with_one_line(tmp_path):
+def test_interrupt_of_the_group_ends_all_with_one_line(started):
     """While workers start and work they take no notice; none prints a traceback."""
-    parent, children = started(tmp_path)
+    parent, children = started
     workers = workers_of(psutil.Process(parent.pid))
     lines = Thread(target=lambda: [parent.stdout.readline() for _ in range(2)])
     lines.start()
@@ -219,15 +221,48 @@ def test_interrupt_of_the_group_ends_all_with_one_line(tmp_path):
     assert not psutil.wait_procs(children, timeout=10)[1]
 
 
-def test_workers_end_with_a_parent_that_is_killed(tmp_path):
+def test_workers_end_with_a_parent_that_is_killed(started):
     """In the middle of an item of a minute."""
-    parent, children = started(tmp_path)
+    parent, children = started
     assert parent.stdout is not None
     parent.stdout.readline(), parent.stdout.readline()
     parent.kill()
     _, errors = parent.communicate(timeout=20)
     assert not psutil.wait_procs(children, timeout=10)[1]
     assert errors == ""
+
+
+FORKED = """
+    import sys
+    from functools import partial
+    from pathlib import Path
+    from threading import Event, Thread
+    from process_work import end_once
+    from vibroacoustics.base.processes import ProcessPool, can_fork
+    known = {"squares": partial(end_once, Path(sys.argv[1]), 1)}
+    square = lambda number: known["squares"](number)
+    assert can_fork()
+    with ProcessPool(2, inherited=square) as pool:
+        print(*pool.in_order(square, range(12)))
+    stop = Event()
+    other = Thread(target=stop.wait)
+    other.start()
+    print(can_fork())
+    stop.set()
+    other.join()
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="workers are copies on Linux alone")
+def test_forked_workers_know_what_pickle_does_not_take(tmp_path):
+    """Killed ones are replaced; nothing is forked beside another thread."""
+    done = subprocess.run(
+        [sys.executable, "-c", textwrap.dedent(FORKED), str(tmp_path)],
+        capture_output=True, text=True, check=True, timeout=60,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, (ROOT, ROOT / "tests/helpers")))},
+    )  # fmt: skip
+    assert done.stdout.split() == [*map(str, SQUARES[:12]), "False"]
+    assert len(list(tmp_path.iterdir())) == 4
 
 
 INTRUDER = """

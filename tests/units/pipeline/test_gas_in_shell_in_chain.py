@@ -19,9 +19,9 @@ from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.orders import order_spectrum
 from vibroacoustics.radiation.pressure import pressure_per_shell_velocity
 from vibroacoustics.sources.cases import loads_of
-from vibroacoustics.sources.gas import GAS_SAMPLES, gas_cycle
+from vibroacoustics.sources.gas import gas_cycle
 from vibroacoustics.sources.scroll_gas.cycle import scroll_gas_cycle
-from vibroacoustics.sources.scroll_gas.opening import steady_opening
+from vibroacoustics.sources.scroll_gas.opening import steady_opening, steps_of_turn
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer.cavity.of_machine import gas_of
 from vibroacoustics.transfer.frame import frame_on_shell
@@ -148,7 +148,7 @@ def test_leakage_and_filling_are_drawn_and_left_out(study, tmp_path):
     assert not any(limits.name.startswith("leakage") for limits in tight.ranges)
     machine, case = tight.machine, case_of(tight)
     opened = steady_opening(machine.wraps, machine.gas, machine.opening, case.speed_rpm)
-    angle = uniform_crank_angle(GAS_SAMPLES)
+    angle = uniform_crank_angle(steps_of_turn(case.speed_rpm))
     cycle = scroll_gas_cycle(machine.wraps, machine.gas, angle, opened)
     expected = order_spectrum(cycle.torque_n_m, case.maximum_order)
     obtained, leaking = (

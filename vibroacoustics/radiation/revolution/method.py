@@ -20,6 +20,7 @@ from .sampling import Sampled
 from .side import Addition, RevolutionSide
 
 _NAME: Final = "boundary elements"
+_ON_BOX: Final = "boundary elements at the box of k-Wave"
 _BOX_MARGIN_M: Final = 0.04
 """From the body to its box."""
 
@@ -49,16 +50,18 @@ class ByRevolution:
         task, side = self._task, self.side
         points, table_hz = task.receivers.points, task.table_hz
         over_ground = self._over_ground(points, table_hz)
-        closed = by_name(side.spectrum(points, table_hz, _NAME, progress, over_ground))
+        closed = side.spectrum(points, table_hz, _NAME, progress, over_ground)
         if not task.kwave:
-            return closed
+            return by_name(closed)
         box = join_box(side, task.resolving_spacing_m)
         greens, expected = room_greens(box, task, progress), list(closed_greens(box, task))
         asked = task.kwave_microphones
         table_hz = task.frequency_hz[asked.frequencies]
         added = addition(side, box, table_hz, greens, expected)
-        kwave = by_name(side.spectrum(asked.points, table_hz, _NAME, progress, added))
-        return with_kwave(task, closed, kwave, differences_db(greens, iter(expected)))
+        exact = closed.at(asked.frequencies, task.kwave_rows)
+        kwave = side.with_small(exact, added, asked.points, table_hz, _ON_BOX, progress)
+        differences = differences_db(greens, iter(expected))
+        return with_kwave(task, by_name(closed), by_name(kwave), differences)
 
     def _at(self, asked: Microphones, progress: Progress) -> ComplexArray:
         """Pressures (point, pattern, frequency); those of the table are interpolated."""

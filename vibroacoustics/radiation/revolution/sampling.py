@@ -5,7 +5,7 @@ smooth and conjugate symmetric about 0 Hz: splines of fifth degree run through i
 Leaving out every other solved frequency shows the error of splines twice as coarse there.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -36,6 +36,11 @@ class Sampled:
     solved: IndexArray
     """Indices of the solved frequencies."""
 
+    def at(self, frequencies: slice, receivers: Sequence[int]) -> "Sampled":
+        """Return the pressures at the first frequencies and at some receivers."""
+        pressure, error = self.pressure[frequencies, receivers], self.error[frequencies, receivers]
+        return Sampled(pressure, error, self.solved[self.solved < len(pressure)])
+
 
 def sample(table_hz: Array, delay_s: Array, solve: Solve) -> Sampled:
     """Solve as few of evenly spaced frequencies as `TOLERANCE` allows; `delay_s` (receiver,)."""
@@ -65,6 +70,14 @@ def first_solved(table_hz: Array) -> IndexArray:
     below = [step // 4 - 1, step // 2 - 1]
     steps = [0, *(i for i in below if i > 0), *range(step - 1, last, step), last]
     return np.unique(np.array(steps, dtype=np.intp))
+
+
+def interpolated(
+    table_hz: Array, delay_s: Array, solved: IndexArray, pressure: ComplexArray
+) -> ComplexArray:
+    """Pressures at all frequencies from those at solved ones, (frequency, receiver, pattern)."""
+    smooth = pressure / _trend(table_hz[solved], delay_s)
+    return _spline(table_hz[solved], smooth, table_hz) * _trend(table_hz, delay_s)
 
 
 def _between(solved: IndexArray, wrong: IndexArray) -> IndexArray:

@@ -1,6 +1,7 @@
 """All patterns of a body of revolution on two meshes, at every tabulated frequency."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from threading import Lock
 from typing import Final
@@ -19,7 +20,7 @@ from .mesh import mesh
 from .over_ground import AtFrequency
 from .profile import Profile, above_floor
 from .radiator import Radiator, WallPressure
-from .sampling import Sampled, first_solved, sample
+from .sampling import Sampled, first_solved, interpolated, sample
 
 _ELEMENTS: Final = 20
 """On the meridian, at least."""
@@ -148,6 +149,31 @@ class RevolutionSide:
         sampled = sample(table_hz, delay_s, solve)
         progress(name, len(done), len(done))
         return sampled
+
+    def with_small(
+        self,
+        pressure: Sampled,
+        addition: Addition,
+        points: Array,
+        table_hz: Array,
+        name: str,
+        progress: Progress,
+    ) -> Sampled:
+        """Add to pressures at points (point, 3) what is small beside them: few frequencies do.
+
+        Parameters
+        ----------
+        pressure : of `spectrum`
+        addition : to them
+        points, table_hz : those of the pressures
+        name, progress : of the advance
+        """
+        indices = first_solved(table_hz)
+        progress(name, 0, indices.size)
+        added = np.array(in_threads([partial(addition, int(index)) for index in indices]))
+        progress(name, indices.size, indices.size)
+        everywhere = interpolated(table_hz, self.delays_s(points), indices, added)
+        return replace(pressure, pressure=pressure.pressure + everywhere)
 
     def delays_s(self, points: Array) -> Array:
         """Travel time to points (point, 3), the mean of that from the body and from its image."""

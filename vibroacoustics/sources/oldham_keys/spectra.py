@@ -27,7 +27,7 @@ def split_periodic(force_n: Array, revolutions: int) -> tuple[Array, Array]:
 
 
 def spectral_density(
-    force_n: Array, sample_rate_hz: float, block_samples: int
+    force_n: Array, sample_rate_hz: float, block_samples: int, highest_hz: float = np.inf
 ) -> tuple[Array, ComplexArray]:
     """One-sided spectral densities of forces and of their pairs (Welch 1967): N²/Hz.
 
@@ -39,6 +39,7 @@ def spectral_density(
     force_n : shape (forces, samples)
     sample_rate_hz : samples a second
     block_samples : length of a block, even; several revolutions resolve the orders
+    highest_hz : lines up to here
 
     Returns
     -------
@@ -55,9 +56,10 @@ def spectral_density(
         )
     window = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(block_samples) / block_samples)
     blocks = sliding_window_view(force_n, block_samples, axis=-1)[:, :: block_samples // 2]
-    spectra = np.fft.rfft(blocks * window, axis=-1)
-    products = np.einsum("ibf,jbf->ijf", spectra.conj(), spectra, optimize=True)
-    density = products * (2.0 / (sample_rate_hz * np.sum(window**2) * blocks.shape[1]))
-    density[..., [0, -1]] /= 2.0
     frequency = np.fft.rfftfreq(block_samples, 1.0 / sample_rate_hz).astype(float)
-    return frequency, np.asarray(density)
+    share = np.where((frequency > 0.0) & (np.arange(frequency.size) < block_samples // 2), 2.0, 1.0)
+    kept = frequency <= highest_hz
+    spectra = np.fft.rfft(blocks * window, axis=-1)[..., kept]
+    products = np.einsum("ibf,jbf->ijf", spectra.conj(), spectra, optimize=True)
+    density = products * (share[kept] / (sample_rate_hz * np.sum(window**2) * blocks.shape[1]))
+    return frequency[kept], np.asarray(density)

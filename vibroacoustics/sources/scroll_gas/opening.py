@@ -42,6 +42,11 @@ REPEATED: Final = 1e-5
 """Change of the state over a turn, of its own size, below which it repeats."""
 
 
+def steps_of_turn(speed_rpm: float) -> int:
+    """Return how many steps of a turn the gas needs at a speed, a multiple of `STEPS`."""
+    return STEPS * math.ceil(STEPS_PER_S / shaft_frequency_hz(speed_rpm) / STEPS)
+
+
 def opening_constants(
     wraps: ScrollWraps, gas: ScrollGas, opening: ScrollOpening, speed_rpm: float
 ) -> OpeningConstants:
@@ -122,7 +127,7 @@ def steady_opening(
         The gas does not come to a course that repeats.
     """
     constants = opening_constants(wraps, gas, opening, speed_rpm)
-    steps = steps or STEPS * math.ceil(STEPS_PER_S / shaft_frequency_hz(speed_rpm) / STEPS)
+    steps = steps or steps_of_turn(speed_rpm)
     pockets: TightPockets | LeakingPockets = TightPockets(wraps, gas, filling)
     if leakage is not None:
         pockets = LeakingPockets(wraps, gas, leakage, constants, filling)

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve, eigh
@@ -50,11 +50,10 @@ class GasOrder:
         source : its share of each node, shape (node,)
         """
         squares, shapes = self.modes
-        free, given, moved = shapes[self._free], source[self._free], self._moved
-        left = given - moved @ (free.T @ given)
-        steady = cho_solve(self._held, left, check_finite=False)
-        steady -= free @ (moved.T @ steady)
-        size = float(steady @ self._matrices[1] @ steady)
+        given, (response, its_mass) = source[self._free], self._steady
+        left = given - self._moved @ (shapes[self._free].T @ given)
+        steady = response @ given
+        size = float(steady @ its_mass @ given)
         if size <= 0.0 or not np.any(given):
             return squares, shapes
         column = np.zeros((self._count, 1))
@@ -84,9 +83,17 @@ class GasOrder:
         return stiffness[at], mass[at]
 
     @cached_property
-    def _held(self) -> Any:
-        """Factor of the stiffness, with some for the uniform pressure that order 0 has."""
+    def _steady(self) -> tuple[Array, Array]:
+        """Steady response of each node to a source at each, without the modes; mass times it.
+
+        Kept whole, as sampled sources differ in their places. The uniform pressure, which order 0
+        has, gets some stiffness.
+        """
         stiffness, mass = self._matrices
         squares, shapes = self.modes
-        uniform = mass @ shapes[self._free][:, squares < _UNIFORM * squares[-1]]
-        return cho_factor(stiffness + squares[-1] * uniform @ uniform.T)
+        free, moved = shapes[self._free], self._moved
+        uniform = moved[:, squares < _UNIFORM * squares[-1]]
+        held = cho_factor(stiffness + squares[-1] * uniform @ uniform.T)
+        response = cho_solve(held, np.eye(len(mass)) - moved @ free.T)
+        response -= free @ (moved.T @ response)
+        return response, mass @ response
