@@ -1,6 +1,6 @@
 """Bands of the samples: what the ranges of the assumed values leave open."""
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -130,7 +130,8 @@ def _band_of_samples(
     results: xr.Dataset, values: Array, finest: float | None, prior: int = 0
 ) -> Band:
     if values.ndim == 0:
-        return Band(*[values.item()] * 3)
+        nominal = float(values)
+        return Band(nominal, nominal, nominal)
     weight = results.variables["draw_weight"].values[prior]
     return band_of(values, weight, resampled(results, prior), finest)
 
@@ -175,11 +176,11 @@ def band(results: xr.Dataset, name: str, **at: Any) -> Band:
 @remembered
 def _samples_and_positions(
     results: xr.Dataset, name: str
-) -> tuple[Array, dict[Hashable, dict[Any, int]]]:
+) -> tuple[Array, dict[str, dict[Any, int]]]:
     """Values by sample, samples last, and the position of each coordinate by dimension."""
     samples = _by_sample(results, name)
     samples = samples.transpose(..., "draw", missing_dims="ignore")
-    dims = [dim for dim in samples.dims if dim != "draw"]
+    dims = [str(dim) for dim in samples.dims if dim != "draw"]
     positions = {dim: {at: n for n, at in enumerate(samples[dim].values.tolist())} for dim in dims}
     return samples.values, positions
 
