@@ -6,6 +6,7 @@ import xarray as xr
 
 from ..base.fault import collected
 from ..base.hashing import canonical_json
+from ..base.linear_algebra import one_thread_of_linear_algebra
 from ..base.registry import plugins
 from .blocked_forces import (
     blocked_csv,
@@ -123,6 +124,11 @@ def render(results: xr.Dataset, results_sha256: str = "") -> dict[str, bytes]:
     results : dataset of a finished run, its attributes included
     results_sha256 : hash of its file, which the page then names
     """
+    with one_thread_of_linear_algebra():  # small products, which threads slow down
+        return _rendered(results, results_sha256)
+
+
+def _rendered(results: xr.Dataset, results_sha256: str) -> dict[str, bytes]:
     page = page_of(results)
     return {
         "report.html": html(page, results_sha256),

@@ -1,6 +1,6 @@
 """Bands of the samples: what the ranges of the assumed values leave open."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -123,10 +123,16 @@ def band_over(
     finest : least standard error that sets the digits; none for that of an amount
     prior : number of the prior of unmodelled noise
     """
-    if "draw" not in values.dims:
+    return _band_of_samples(results, values.values, finest, prior)
+
+
+def _band_of_samples(
+    results: xr.Dataset, values: Array, finest: float | None, prior: int = 0
+) -> Band:
+    if values.ndim == 0:
         return Band(*[values.item()] * 3)
-    weight = results["draw_weight"].values[prior]
-    return band_of(values.values, weight, resampled(results, prior), finest)
+    weight = results.variables["draw_weight"].values[prior]
+    return band_of(values, weight, resampled(results, prior), finest)
 
 
 def band_of(
@@ -160,10 +166,22 @@ def resampled(results: xr.Dataset, prior: int) -> Array:
 @remembered
 def band(results: xr.Dataset, name: str, **at: Any) -> Band:
     """Band of a variable at a speed, option, source and, where it depends on it, a receiver."""
-    samples = _by_sample(results, name)
-    values = samples.sel({dim: key for dim, key in at.items() if dim in samples.dims})
+    samples, positions = _samples_and_positions(results, name)
+    cell = tuple(position[at[dim]] for dim, position in positions.items())
     is_level = name.startswith(("level", "change", "source_level"))
-    return band_over(results, values, FINEST_DB if is_level else None)
+    return _band_of_samples(results, samples[cell], FINEST_DB if is_level else None)
+
+
+@remembered
+def _samples_and_positions(
+    results: xr.Dataset, name: str
+) -> tuple[Array, dict[Hashable, dict[Any, int]]]:
+    """Values by sample, samples last, and the position of each coordinate by dimension."""
+    samples = _by_sample(results, name)
+    samples = samples.transpose(..., "draw", missing_dims="ignore")
+    dims = [dim for dim in samples.dims if dim != "draw"]
+    positions = {dim: {at: n for n, at in enumerate(samples[dim].values.tolist())} for dim in dims}
+    return samples.values, positions
 
 
 def bands_by_speed(results: xr.Dataset, name: str, **at: Any) -> tuple[Band, ...]:

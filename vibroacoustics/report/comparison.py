@@ -1,6 +1,6 @@
 """The comparison of the options: one value per option, speed and microphone."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
@@ -8,6 +8,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.arrays import Array
+from ..base.remembered import remembered
 from ..base.vocabulary import REFERENCE_OPTION
 from .bands import Band, band, band_words, has_band
 from .columns import Column
@@ -29,13 +30,17 @@ from .tables import Table, dataset_csv, to_text
 _DIMENSIONS = ("option", "speed", "receiver")
 
 
+@remembered
 def comparison(results: xr.Dataset) -> xr.Dataset:
     """The columns of `comparison.csv` as variables over (option, speed, receiver).
 
     Forces in N and moments in N m are semi-major axes, peak; the foot force is the largest over
     the feet; levels in dB re 20 µPa.
     """
-    return _joined(results, columns_of(results).columns)
+    columns = columns_of(results).columns
+    arrays = {column.name: column.values(results).reset_coords(drop=True) for column in columns}
+    coordinates = xr.Dataset(coords={dim: results[dim] for dim in _DIMENSIONS})
+    return xr.Dataset(arrays).broadcast_like(coordinates).transpose(*_DIMENSIONS)
 
 
 def comparison_csv(results: xr.Dataset) -> bytes:
@@ -77,18 +82,12 @@ def _no_total(results: xr.Dataset) -> str:
     return total_sentence(results) if overall_noise(results) is None else ""
 
 
-def _joined(results: xr.Dataset, columns: Sequence[Column]) -> xr.Dataset:
-    arrays = {column.name: column.values(results).reset_coords(drop=True) for column in columns}
-    coordinates = xr.Dataset(coords={dim: results[dim] for dim in _DIMENSIONS})
-    return xr.Dataset(arrays).broadcast_like(coordinates).transpose(*_DIMENSIONS)
-
-
 def _tables(
     results: xr.Dataset, receiver: str, head_of: Callable[[Column], str | None], ends_only: bool
 ) -> list[Table]:
     shown = few_speeds(results)
     columns = columns_of(shown).columns
-    cells = _Cells.of(shown, columns, receiver, ends_only)
+    cells = _Cells.of(shown, receiver, ends_only)
     heads = {column.name: head for column in columns if (head := head_of(column)) is not None}
     verdicts = table_words(results)
     return [
@@ -129,10 +128,8 @@ class _Cells:
     ends_only: bool
 
     @classmethod
-    def of(
-        cls, results: xr.Dataset, columns: Sequence[Column], receiver: str, ends_only: bool
-    ) -> "_Cells":
-        compared = _joined(results, columns).sel(receiver=receiver)
+    def of(cls, results: xr.Dataset, receiver: str, ends_only: bool) -> "_Cells":
+        compared = comparison(results).sel(receiver=receiver)
         numbers = {str(name): array.values for name, array in compared.data_vars.items()}
         return cls(results, numbers, receiver, ends_only)
 

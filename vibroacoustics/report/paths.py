@@ -51,14 +51,15 @@ def path_speed(results: xr.Dataset) -> float:
 @remembered
 def at_path_speed(results: xr.Dataset, receiver: str, option: str = REFERENCE_OPTION) -> xr.Dataset:
     """Paths to a microphone at the speed that is shown."""
-    names = [name for name in results.data_vars if "path_speed" in results[name].dims]
+    names = [name for name in results.data_vars if "path_speed" in results.variables[name].dims]
     return results[names].sel(path_speed=path_speed(results), option=option, receiver=receiver)
 
 
 def path_words(results: xr.Dataset, row: int) -> tuple[str, str]:
     """Source of a path, and where it acts in which direction, in plain words."""
     source, port, direction = (
-        str(results[f"path_{field}"].values[row]) for field in ("source", "port", "direction")
+        str(results.variables[f"path_{field}"].values[row])
+        for field in ("source", "port", "direction")
     )
     kind = _KINDS.get(direction[0]) if len(direction) == 2 else None
     words = DOF_WORDS.get(direction) or (f"{kind} {direction[1]}" if kind else direction)

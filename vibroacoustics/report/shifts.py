@@ -198,14 +198,22 @@ def _drawn_change(
     results: xr.Dataset, quantity: Quantity, option: str, receiver: str
 ) -> tuple[Array, Array, Array]:
     """Change in the samples that count, shape (sample, speed), dB, and their weights."""
-    weight, weights = results["draw_weight"].values[0], resampled(results, 0)
-    drawn = at_receiver(results[f"{quantity.drawn}_by_draw"], receiver).isel(draw=weight > 0.0)
+    counting, weight, weights = _counting(results)
+    drawn = at_receiver(results[f"{quantity.drawn}_by_draw"], receiver)
     before, after = (
-        drawn.sel(option=name).transpose("draw", "speed").values
+        drawn.sel(option=name).transpose("draw", "speed").values[counting]
         for name in (REFERENCE_OPTION, option)
     )
-    counting = weight[weight > 0.0]
-    return _gain(quantity, before, after), counting / counting.sum(), weights[:, weight > 0.0]
+    return _gain(quantity, before, after), weight, weights
+
+
+@remembered
+def _counting(results: xr.Dataset) -> tuple[Array, Array, Array]:
+    """Which samples count, their weights of sum one, and those of their bootstraps."""
+    weight = results["draw_weight"].values[0]
+    counting = weight > 0.0
+    of_counting = weight[counting]
+    return counting, of_counting / of_counting.sum(), resampled(results, 0)[:, counting]
 
 
 def _percent(value: float) -> str:

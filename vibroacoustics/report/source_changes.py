@@ -8,10 +8,11 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.arrays import Array
+from ..base.remembered import remembered
 from .bands import Band, band_words, bands_by_speed, hull
 from .quantities import TOLERANCE_DB, TOTAL
 from .shifts import shift
-from .study import at_catalogue, balancers, has_draws, many_speeds, speeds, total_of
+from .study import at_catalogue, balancers, has_draws, many_speeds, options, speeds, total_of
 
 
 class SourceChange(NamedTuple):
@@ -105,7 +106,14 @@ def _impacts(results: xr.Dataset, option: str) -> list[str]:
 
 def key_figure(results: xr.Dataset, option: str, name: str) -> Array:
     """A figure of the sources at every speed; NaN where the option has none."""
-    figures = results["reported_figure"]
-    if name not in figures["figure"].values:
-        return np.full(len(speeds(results)), np.nan)
-    return np.asarray(figures.sel(option=option, figure=name).values)
+    nothing = np.full(len(speeds(results)), np.nan)
+    return np.asarray(_figures(results)[option].get(name, nothing))
+
+
+@remembered
+def _figures(results: xr.Dataset) -> dict[str, dict[str, Array]]:
+    """Figures of the sources at every speed, by option and name."""
+    figures = results["reported_figure"].transpose("option", "figure", "speed")
+    names = figures["figure"].values.tolist()
+    of_options = zip(options(results), figures.values, strict=True)
+    return {option: dict(zip(names, rows, strict=True)) for option, rows in of_options}

@@ -47,12 +47,12 @@ def catalogue_receiver(results: xr.Dataset) -> str:
 
 def speeds(results: xr.Dataset) -> list[float]:
     """Shaft speeds in rpm."""
-    return [float(speed) for speed in results["speed"].values]
+    return [float(speed) for speed in results.variables["speed"].values]
 
 
 def options(results: xr.Dataset) -> list[str]:
     """Names of all options, the reference among them."""
-    return [str(option) for option in results["option"].values]
+    return [str(option) for option in results.variables["option"].values]
 
 
 def balancers(results: xr.Dataset) -> list[str]:
@@ -62,7 +62,7 @@ def balancers(results: xr.Dataset) -> list[str]:
 
 def other_receivers(results: xr.Dataset) -> list[str]:
     """Microphones apart from the catalogue's."""
-    names = [str(receiver) for receiver in results["receiver"].values]
+    names = [str(receiver) for receiver in results.variables["receiver"].values]
     return [name for name in names if name != catalogue_receiver(results)]
 
 

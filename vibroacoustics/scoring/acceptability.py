@@ -3,14 +3,13 @@
 from collections.abc import Iterable, Iterator
 from typing import Final
 
+import numba
 import numpy as np
 
 from ..base.arrays import Array
 
 _ROUNDING: Final = 1e-9
 """Sums that differ by less tie."""
-_AT_ONCE: Final = 4096
-"""Weightings that are compared in one array."""
 
 
 def any_weights(criteria: int, number: int, seed: int) -> Iterator[Array]:
@@ -21,8 +20,9 @@ def any_weights(criteria: int, number: int, seed: int) -> Iterator[Array]:
     for one draw after another, without an end, other ones: shape (weighting, criterion)
     """
     generator = np.random.default_rng(seed)
-    while True:
-        yield generator.dirichlet(np.ones(criteria), size=number)
+    while True:  # Dirichlet's distribution of ones
+        parts = generator.standard_exponential((number, criteria))
+        yield parts / parts.sum(axis=1, keepdims=True)
 
 
 def rank_acceptability(utility: Array, draw_weight: Array, shares: Iterable[Array]) -> Array:
@@ -42,23 +42,28 @@ def rank_acceptability(utility: Array, draw_weight: Array, shares: Iterable[Arra
     probability = np.zeros((options, options))
     for values, weight, weights in zip(utility, draw_weight, shares, strict=False):
         if weight > 0.0:
-            probability += weight * _positions(values @ weights.T)
+            probability += weight * _positions(weights @ values.T)
     return np.asarray(probability / draw_weight.sum())
 
 
+# With its types, so that it is compiled where it is imported: a check does not rank.
+@numba.njit("float64[:, ::1](float64[:, ::1])", cache=True, nogil=True, error_model="numpy")
 def _positions(sums: Array) -> Array:
     """Share of the weightings in which an option takes a position, (option, position).
 
     Parameters
     ----------
-    sums : of each option by each weighting, shape (option, weighting)
+    sums : of each option by each weighting, shape (weighting, option)
     """
-    position = np.arange(len(sums))
-    taken = np.zeros((len(sums), len(sums)))
-    for start in range(0, sums.shape[1], _AT_ONCE):
-        some = sums[:, start : start + _AT_ONCE]
-        lead = some[None] - some[:, None]  # of the others over the option
-        better = (lead > _ROUNDING).sum(axis=1)[..., None]
-        tied = (np.abs(lead) <= _ROUNDING).sum(axis=1)[..., None]
-        taken += (((position >= better) & (position < better + tied)) / tied).sum(axis=1)
-    return taken / sums.shape[1]
+    weightings, options = sums.shape
+    taken = np.zeros((options, options))
+    for row in range(weightings):
+        for option in range(options):
+            better, tied = 0, 0
+            for other in range(options):
+                lead = sums[row, other] - sums[row, option]
+                better += lead > _ROUNDING
+                tied += abs(lead) <= _ROUNDING
+            for position in range(better, better + tied):
+                taken[option, position] += 1.0 / tied
+    return np.asarray(taken / weightings)

@@ -130,7 +130,7 @@ def ingredients(results: xr.Dataset, option: str, microphone: str, speed: float)
 
 def _microphones_and_listeners(results: xr.Dataset) -> list[str]:
     """Names of the microphones, then of the listeners in a room."""
-    names = results["receiver"].values.tolist()
+    names = results.variables["receiver"].values.tolist()
     if "room_level" in results:
         names += results["listener"].values.tolist()
     return list(dict.fromkeys(names))
@@ -140,9 +140,9 @@ def _case(results: xr.Dataset, option: str, microphone: str, speed: float) -> xr
     if "noise_band_level" not in results:
         raise SchemaError("the results hold no noise of third octaves: run the study again")
     for word, value, there in (
-        ("option", option, results["option"].values),
+        ("option", option, results.variables["option"].values),
         ("microphone", microphone, _microphones_and_listeners(results)),
-        ("speed", speed, results["speed"].values),
+        ("speed", speed, results.variables["speed"].values),
     ):
         if value not in there:
             unit = " rpm" if word == "speed" else ""
@@ -150,7 +150,9 @@ def _case(results: xr.Dataset, option: str, microphone: str, speed: float) -> xr
             raise ParameterError(
                 f"{word} = {value}{unit}: the results hold no such one; there are {known}"
             )
-    in_room = microphone not in results["receiver"].values  # of one name the microphone counts
+    in_room = (
+        microphone not in results.variables["receiver"].values
+    )  # of one name the microphone counts
     if in_room and "room_pressure_line" not in results:
         raise SchemaError("the results hold no sound in the room: run the study again")
     names = _IN_ROOM if in_room else _AT_MICROPHONE

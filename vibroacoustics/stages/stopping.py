@@ -7,7 +7,7 @@ from ..study.study import Study
 from ..transfer import on_mounts
 from ..transfer.path import ShellPath
 from .chain import Chain
-from .stage import Given, Stage
+from .stage import Given, Stage, Trial, timed
 
 
 @register
@@ -27,3 +27,6 @@ class Stopping(Stage):
             return Given(
                 stopping_variables(chain.study, machine, on_mounts(machine), chain.results, path)
             )
+
+    def tried(self, chain: Chain, study: Study) -> Trial:
+        return timed(chain, self, len(study.operation.speed_rpm))

@@ -2,20 +2,19 @@
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
 from ..base.arrays import Array
-from ..base.errors import ParameterError, SolverError
+from ..base.errors import ParameterError
 from ..machine.stopping import CheckValve, Stopping, TurningBack
 from ..mechanics.moving_parts import MovingPart
 from .course import Course, course_of
 from .equation import Coasting, Shift, wrench_along
+from .integration import coast
 from .reversal import Reversal, TrappedGas, turn_back
 
-RELATIVE_TOLERANCE: Final = 1e-10
 LONGEST_S: Final = 60.0
 """A compressor that coasts longer has the wrong drag."""
 VALVE: Final = "check_valve"
@@ -118,20 +117,18 @@ def run_down(
     ParameterError
         A source is unknown, the speed is not above zero, or nothing slows the shaft.
     SolverError
-        The integration fails.
+        The integration of the reversal fails.
     """
     _check(parts, shifted, speed_rad_per_s)
     coasting = Coasting.of(stopping, parts, shifted, gas_torque_n_m)
-    solution = _coast(coasting, speed_rad_per_s)
-    rest = float(solution.t_events[0][0])
+    motion, rest, rest_angle = _coast(coasting, speed_rad_per_s, sample_rate_hz)
     reversal = None
     if after is not None:
-        there = float(solution.sol(rest)[0])
-        reversal = turn_back(coasting, after.table, after.gas, rest, there)
+        reversal = turn_back(coasting, after.table, after.gas, rest, rest_angle)
     first = -int(steady_revolutions * 2.0 * np.pi / speed_rad_per_s * sample_rate_hz)
     end = _end_s(rest, reversal, after)
     time = np.arange(first, np.ceil(end * sample_rate_hz)) / sample_rate_hz
-    course = course_of(coasting, solution.sol, reversal, time, rest, speed_rad_per_s)
+    course = course_of(coasting, motion, reversal, time, rest_angle, speed_rad_per_s)
     shift = coasting.shift(np.maximum(time, 0.0))
     unshifted = course.angle, course.speed, course.acceleration
     ahead = tuple(one + turned for one, turned in zip(unshifted, shift, strict=True))
@@ -173,27 +170,19 @@ def _end_s(rest_s: float, reversal: Reversal | None, after: AfterStop | None) ->
     return max(ends)
 
 
-def _coast(coasting: Coasting, speed_rad_per_s: float) -> Any:
-    """Integrate angle and speed to the first rest."""
-    solution = solve_ivp(
-        coasting.slopes,
-        (0.0, LONGEST_S),
-        (0.0, speed_rad_per_s),
-        method="DOP853",
-        rtol=RELATIVE_TOLERANCE,
-        atol=RELATIVE_TOLERANCE,
-        events=_at_rest,
-        dense_output=True,
-    )
-    if not solution.success:
-        raise SolverError(f"run-down: {solution.message}")
-    if not solution.t_events[0].size:
+def _coast(
+    coasting: Coasting, speed_rad_per_s: float, rate_hz: float
+) -> tuple[Array, float, float]:
+    """Angle, speed and acceleration from switch-off to the first rest, its time and angle."""
+    motion = np.empty((3, int(LONGEST_S * rate_hz)))
+    samples, rest, angle = coast(speed_rad_per_s, 1.0 / rate_hz, motion, coasting.constants)
+    if np.isnan(rest):
         friction = coasting.stopping.friction_torque_n_m
         raise ParameterError(
             f"friction_torque_n_m = {friction:g} N m: does not stop the shaft within "
             f"{LONGEST_S:g} s"
         )
-    return solution
+    return motion[:, :samples], rest, angle
 
 
 def _check(parts: Sequence[MovingPart], shifted: Collection[str], speed: float) -> None:
@@ -202,13 +191,6 @@ def _check(parts: Sequence[MovingPart], shifted: Collection[str], speed: float) 
         raise ParameterError(f"shifted = {', '.join(unknown)}: no such moving part")
     if not 0.0 < speed < np.inf:
         raise ParameterError(f"speed = {speed * 30.0 / np.pi:.4g} rpm: must be positive and finite")
-
-
-def _at_rest(_: float, state: Array) -> float:
-    return float(state[1])
-
-
-_at_rest.terminal = True  # type: ignore[attr-defined]
 
 
 def flight_s(valve: CheckValve) -> float:

@@ -1,12 +1,11 @@
 """Motion of the shaft at uniform times: steady, coasting, turning back, standing."""
 
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from ..base.arrays import Array
-from .equation import Coasting
+from .equation import Coasting, acceleration
 from .reversal import Reversal
 
 
@@ -22,10 +21,10 @@ class Course(NamedTuple):
 
 def course_of(
     coasting: Coasting,
-    coasts: Callable[[Array], Any],
+    motion: Array,
     reversal: Reversal | None,
     time_s: Array,
-    rest_s: float,
+    rest_angle: float,
     speed_rad_per_s: float,
 ) -> Course:
     """Course of the shaft from steady running to the last rest.
@@ -33,20 +32,20 @@ def course_of(
     Parameters
     ----------
     coasting : equation of motion
-    coasts : angle and speed from switch-off to the first rest
+    motion : angle, speed and acceleration from switch-off to the first rest, shape (3, samples)
     reversal : what follows it; none where the shaft stays
     time_s : from switch-off, before it at constant speed
-    rest_s : first rest
+    rest_angle : at the first rest, rad
     speed_rad_per_s : before switch-off
     """
-    running = np.clip(time_s, 0.0, rest_s)
-    angle, speed = coasts(running)
-    angle += speed_rad_per_s * np.minimum(time_s, 0.0)
-    acceleration = np.where(time_s < 0.0, 0.0, coasting.acceleration(running, angle, speed))
-    share = np.where(time_s < 0.0, 1.0, coasting.stopping.gas_share_ratio)
-    course = Course(angle, speed, acceleration, share, np.zeros_like(time_s))
-    stands = time_s > rest_s
-    course.speed[stands] = course.acceleration[stands] = 0.0
+    before = time_s < 0.0
+    angle = np.where(before, speed_rad_per_s * time_s, rest_angle)
+    speed = np.where(before, speed_rad_per_s, 0.0)
+    share = np.where(before, 1.0, coasting.stopping.gas_share_ratio)
+    course = Course(angle, speed, np.zeros_like(time_s), share, np.zeros_like(time_s))
+    coasts = np.flatnonzero(~before)[: motion.shape[1]]
+    for values, of_motion in zip(course, motion, strict=False):
+        values[coasts] = of_motion[: coasts.size]
     if reversal is not None:
         _add_reversal(coasting, reversal, time_s, course)
     return course
@@ -62,9 +61,11 @@ def _add_reversal(coasting: Coasting, reversal: Reversal, time_s: Array, course:
         share = gas.share(jamming.rest_angle - angle)
         force = np.array([jamming.force_n(*each) for each in zip(angle, speed, strict=True)])
         course.angle[during], course.speed[during] = angle, speed
-        course.acceleration[during] = coasting.acceleration(
-            time_s[during], angle, speed, share, stretch.turning, radius * force
-        )
+        given = zip(time_s[during], angle, speed, share, radius * force, strict=True)
+        course.acceleration[during] = [
+            acceleration(time, turned, rate, coasting.constants, left, stretch.turning, push)
+            for time, turned, rate, left, push in given
+        ]
         course.gas_share[during], course.brake_force_n[during] = final * share, force
     if reversal.stretches:
         last = reversal.stretches[-1]

@@ -2,8 +2,10 @@
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from typing import Final, NamedTuple
+from functools import cached_property
+from typing import Any, Final, NamedTuple
 
+import numba
 import numpy as np
 from scipy.interpolate import CubicSpline
 
@@ -23,6 +25,90 @@ class Shift(NamedTuple):
     angle: Array
     rate: Array
     acceleration: Array
+
+
+class Constants(NamedTuple):
+    """Constants of the equation in SI units; numba takes named tuples, not dataclasses.
+
+    The last three are periodic cubic splines over the angle, shape (4, pieces).
+    """
+
+    friction: float
+    viscous: float
+    gas_share: float
+    shift: float
+    shift_duration: float
+    fixed_inertia: Array
+    shifted_inertia: Array
+    gas_torque: Array
+
+
+def brake_shift(time_s: Array, shift_rad: float, duration_s: float) -> Shift:
+    """A turn from rest to rest with the least jerk, δ (10u³ - 15u⁴ + 6u⁵) with u = t/duration.
+
+    The thesis gives neither course nor size ("a few degrees"); the course is assumed.
+
+    Parameters
+    ----------
+    time_s : from switch-off, any shape
+    shift_rad : δ reached at the end
+    duration_s : of the turn
+    """
+    u = np.minimum(np.maximum(time_s / duration_s, 0.0), 1.0)
+    return Shift(
+        shift_rad * u**3 * (10.0 - 15.0 * u + 6.0 * u**2),
+        shift_rad / duration_s * 30.0 * u**2 * (1.0 - u) ** 2,
+        shift_rad / duration_s**2 * 60.0 * u * (1.0 - u) * (1.0 - 2.0 * u),
+    )
+
+
+_shift_at: Any = numba.njit(cache=True, nogil=True, error_model="numpy")(brake_shift)
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def value_and_slope(spline: Array, angle: float) -> tuple[float, float]:
+    """Value and slope of a periodic cubic spline of equal pieces over one turn."""
+    pieces = spline.shape[1]
+    turn = angle / (2.0 * np.pi)
+    position = (turn - np.floor(turn)) * pieces
+    piece = min(int(position), pieces - 1)
+    step = (position - piece) * (2.0 * np.pi / pieces)
+    value, slope = 0.0, 0.0
+    for power in range(4):
+        slope = slope * step + value
+        value = value * step + spline[power, piece]
+    return value, slope
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def acceleration(
+    time: float,
+    angle: float,
+    speed: float,
+    constants: Constants,
+    share: float = 1.0,
+    turning: float = 1.0,
+    push: float = 0.0,
+) -> float:
+    """Angular acceleration of the shaft, rad/s².
+
+    Parameters
+    ----------
+    time, angle, speed : of the shaft
+    constants : of the equation
+    share : of the gas's torque that is left
+    turning : sense in which friction is overcome; 0 leaves it out
+    push : torque forwards, N m
+    """
+    shift, rate, shift_acceleration = _shift_at(time, constants.shift, constants.shift_duration)
+    ahead = angle + shift
+    fixed, fixed_slope = value_and_slope(constants.fixed_inertia, angle)
+    moved, moved_slope = value_and_slope(constants.shifted_inertia, ahead)
+    gas, _ = value_and_slope(constants.gas_torque, ahead)
+    torque = constants.gas_share * share * gas + constants.friction * turning
+    torque += constants.viscous * speed + moved * shift_acceleration
+    torque += 0.5 * fixed_slope * speed**2 + 0.5 * moved_slope * (speed + rate) ** 2
+    return float((push - torque) / (fixed + moved))
 
 
 @dataclass(frozen=True)
@@ -49,39 +135,26 @@ class Coasting:
         curves = fixed + stopping.shaft_inertia_kg_m2, moved, gas_torque_n_m
         return cls(stopping, *(_periodic(curve) for curve in curves))
 
+    @cached_property
+    def constants(self) -> Constants:
+        """Constants as the compiled equation takes them."""
+        stopping = self.stopping
+        return Constants(
+            stopping.friction_torque_n_m,
+            stopping.viscous_torque_n_m_s,
+            stopping.gas_share_ratio,
+            stopping.shift_rad,
+            stopping.shift_duration_s,
+            self.fixed_inertia.c,
+            self.shifted_inertia.c,
+            self.gas_torque.c,
+        )
+
     def shift(self, time: Array) -> Shift:
         """Of the set against the crank pin."""
         return brake_shift(time, self.stopping.shift_rad, self.stopping.shift_duration_s)
 
-    def acceleration(
-        self,
-        time: Array,
-        angle: Array,
-        speed: Array | float,
-        share: Array | float = 1.0,
-        turning: Array | float = 1.0,
-        push: Array | float = 0.0,
-    ) -> Array:
-        """θ̈ of the shaft.
-
-        Parameters
-        ----------
-        time, angle, speed : of the shaft
-        share : of the gas's torque that is left
-        turning : sense in which friction is overcome; 0 leaves it out
-        push : torque forwards, N m
-        """
-        stopping, shift = self.stopping, self.shift(time)
-        ahead = angle + shift.angle
-        moved = self.shifted_inertia(ahead)
-        gas = stopping.gas_share_ratio * share * self.gas_torque(ahead)
-        torque = gas + stopping.friction_torque_n_m * turning
-        torque = torque + stopping.viscous_torque_n_m_s * speed + moved * shift.acceleration
-        torque = torque + 0.5 * self.fixed_inertia(angle, 1) * speed**2
-        torque = torque + 0.5 * self.shifted_inertia(ahead, 1) * (speed + shift.rate) ** 2
-        return np.asarray((push - torque) / self.inertia_kg_m2(time, angle))
-
-    def inertia_kg_m2(self, time: Array | float, angle: Array | float) -> Array:
+    def inertia_kg_m2(self, time: float, angle: float) -> float:
         """Return the reduced inertia of the shaft and its parts.
 
         Parameters
@@ -89,36 +162,12 @@ class Coasting:
         time, angle : of the shaft, s and rad
         """
         ahead = angle + self.shift(np.asarray(time)).angle
-        return np.asarray(self.fixed_inertia(angle) + self.shifted_inertia(ahead))
-
-    def slopes(self, time: float, state: Array) -> tuple[float, float]:
-        """Of angle and speed while the shaft runs down."""
-        angle, speed = state
-        return speed, float(self.acceleration(np.asarray(time), angle, speed))
+        return float(self.fixed_inertia(angle) + self.shifted_inertia(ahead))
 
 
 def _periodic(values: Array) -> CubicSpline:
     angle = np.linspace(0.0, 2.0 * np.pi, values.size + 1)
     return CubicSpline(angle, np.append(values, values[0]), bc_type="periodic")
-
-
-def brake_shift(time_s: Array, shift_rad: float, duration_s: float) -> Shift:
-    """A turn from rest to rest with the least jerk, δ (10u³ - 15u⁴ + 6u⁵) with u = t/duration.
-
-    The thesis gives neither course nor size ("a few degrees"); the course is assumed.
-
-    Parameters
-    ----------
-    time_s : from switch-off, any shape
-    shift_rad : δ reached at the end
-    duration_s : of the turn
-    """
-    u = np.clip(np.asarray(time_s) / duration_s, 0.0, 1.0)
-    return Shift(
-        shift_rad * u**3 * (10.0 - 15.0 * u + 6.0 * u**2),
-        shift_rad / duration_s * 30.0 * u**2 * (1.0 - u) ** 2,
-        shift_rad / duration_s**2 * 60.0 * u * (1.0 - u) * (1.0 - 2.0 * u),
-    )
 
 
 def path_derivatives(position_m: Array, angle: Array) -> tuple[Array, Array, Array]:

@@ -11,7 +11,7 @@ from ..base.arrays import Array
 from ..base.errors import SolverError
 from ..machine.stopping import TurningBack
 from ..sources.oldham_keys.contact import contact_damping, dry_force
-from .equation import Coasting
+from .equation import Coasting, acceleration
 
 RELATIVE_TOLERANCE: Final = 1e-9
 LONGEST_S: Final = 60.0
@@ -130,7 +130,7 @@ def turn_back(
     SolverError
         The integration fails or the shaft finds no rest.
     """
-    mass = float(coasting.inertia_kg_m2(rest_s, rest_angle)) / table.wall_radius_m**2
+    mass = coasting.inertia_kg_m2(rest_s, rest_angle) / table.wall_radius_m**2
     damping = contact_damping(table.restitution_ratio, mass, table.contact_stiffness_n_per_m1p5)
     jamming, time, state = Jamming(table, rest_angle, damping), rest_s, np.array([rest_angle, 0.0])
     stretches: list[Stretch] = []
@@ -150,11 +150,10 @@ def _starts(
     coasting: Coasting, jamming: Jamming, gas: TrappedGas, time: float, angle: float
 ) -> float:
     """Sense in which a standing shaft starts; 0 where friction holds it."""
-    share = gas.share(jamming.rest_angle - angle)
+    share = float(gas.share(jamming.rest_angle - angle))
     push = jamming.table.wall_radius_m * jamming.force_n(angle, 0.0)
-    at, there = np.asarray(time), np.asarray(angle)
     free, rubbed, empty = (
-        coasting.acceleration(at, there, 0.0, left, turning, push)
+        acceleration(time, angle, 0.0, coasting.constants, left, turning, push)
         for left, turning in ((share, 0.0), (share, 1.0), (0.0, 0.0))
     )
     held = abs(free - rubbed) + STUCK_RATIO * abs(free - empty)
@@ -174,11 +173,10 @@ def _stretch(
 
     def slopes(time: float, now: Array) -> tuple[float, float]:
         angle, speed = float(now[0]), float(now[1])
-        share = gas.share(jamming.rest_angle - angle)
+        share = float(gas.share(jamming.rest_angle - angle))
         # A trial step beyond the closing must not meet the wall: the stretch ends there.
         push = 0.0 if open_yet else radius * jamming.force_n(angle, speed)
-        at = np.asarray(time)
-        return speed, float(coasting.acceleration(at, now[0], speed, share, turning, push))
+        return speed, acceleration(time, angle, speed, coasting.constants, share, turning, push)
 
     def stands(_: float, now: Array) -> float:
         return turning * float(now[1]) - CREEP_RAD_PER_S

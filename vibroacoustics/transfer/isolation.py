@@ -85,7 +85,8 @@ class Isolation:
         """
         frequency = np.asarray(frequency_hz, dtype=float)
         moving = (frequency > 0.0)[..., None, None]
-        stiffness = self.stiffness_matrix + 1j * moving * self.structural_damping_matrix
+        lossy = self.stiffness_matrix + 1j * self.structural_damping_matrix
+        stiffness = np.where(moving, lossy, self.stiffness_matrix)
         for _, motion, bushing in self._over_frequency:
             added = bushing.added_stiffness(frequency)
             stiffness += np.einsum("ki,...k,kj->...ij", motion, added, motion)
@@ -119,7 +120,9 @@ class Isolation:
         if np.any(frequency == 0.0) and self.natural_modes()[0][0] == 0.0:
             raise SolverError("frequency 0 Hz: a body can move freely, there is no static response")
         omega = 2.0 * np.pi * frequency[..., None, None]
-        dynamic = self.complex_stiffness(frequency) + 1j * omega * self.damping_matrix
+        dynamic = self.complex_stiffness(frequency)
+        if self.damping_matrix.any():
+            dynamic += 1j * omega * self.damping_matrix
         dynamic -= omega**2 * self.mass_matrix
         try:
             return np.asarray(np.linalg.inv(dynamic))

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from ...base.arrays import Array
 from ...base.decibel import level_of_power, power_of_level
+from ...base.remembered import remembered
 from ...base.vocabulary import REFERENCE_OPTION
 from ..quantities import HEARD_DB
 from ..study import (
@@ -192,6 +193,7 @@ def _changing_options(results: xr.Dataset) -> list[str]:
     return changing
 
 
+@remembered
 def _inner_level(results: xr.Dataset) -> xr.DataArray:
     """Energy sum of all sources but the moving parts, at the catalogue's microphone, dB."""
     levels = results["source_band_level"].sel(receiver=catalogue_receiver(results))
