@@ -25,7 +25,7 @@ from .equations import (
 IMPLICIT: Final = 1.0 - np.sqrt(0.5)
 """γ of the two-stage SDIRK method of second order that damps all stiff parts (Alexander 1977, SIAM
 J. Numer. Anal. 14, 1006)."""
-CLOSE: Final = 1e-6
+CLOSE: Final = 1e-4
 """Last change of a deflection, of itself; the error of Newton's method is its square."""
 MOST_ITERATIONS: Final = 60
 EVALUATIONS: Final = 2
@@ -108,7 +108,8 @@ def next_deflection(d: float, before: float, after: float, step: float, face: Fa
     part = IMPLICIT * step
     middle = deflected(d + part * speed, d, before + IMPLICIT * (after - before), speed, part, face)
     explicit = d + (1.0 / IMPLICIT - 1.0) * (middle - d)
-    return deflected(explicit + part * speed, middle, after, speed, part, face)
+    guess = d + (middle - d) / IMPLICIT
+    return deflected(explicit + part * speed, guess, after, speed, part, face)
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
