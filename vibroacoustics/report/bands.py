@@ -181,7 +181,9 @@ def _samples_and_positions(
     samples = _by_sample(results, name)
     samples = samples.transpose(..., "draw", missing_dims="ignore")
     dims = [str(dim) for dim in samples.dims if dim != "draw"]
-    positions = {dim: {at: n for n, at in enumerate(samples[dim].values.tolist())} for dim in dims}
+    positions = {
+        dim: {key: n for n, key in enumerate(samples[dim].values.tolist())} for dim in dims
+    }
     return samples.values, positions
 
 
