@@ -13,11 +13,11 @@ import signal
 import sys
 import threading
 import traceback
-from collections.abc import Callable, Generator, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass
 from multiprocessing import connection, resource_tracker
-from typing import Any, Final, Generic, NoReturn, Self, TypeVar
+from typing import Any, Final, Generic, NoReturn, Self, TypeAlias, TypeVar
 
 from .errors import SolverError
 
@@ -26,6 +26,7 @@ Result = TypeVar("Result")
 
 _SPAWN: Final = multiprocessing.get_context("spawn")
 _FORK: Final = multiprocessing.get_context("fork") if sys.platform == "linux" else None
+_Connection: TypeAlias = "connection.Connection[Any, Any]"
 _READY, _BEGUN, _DONE, _FAILED = range(4)
 """Kinds of messages of a worker."""
 _MOST_DEATHS: Final = 2
@@ -153,7 +154,8 @@ class ProcessPool:
         for worker, task in zip(idle, waiting, strict=False):
             worker.take(None if function is self._inherited else function, task)
         while len(self._workers) < len(tasks.unfinished):
-            self._workers.append(_Worker(self._inherited))
+            ends = [worker.connection for worker in self._workers]
+            self._workers.append(_Worker(self._inherited, ends))
 
     def _receive(
         self, tasks: "_Tasks[Item]", on_loss: Callable[[Item, str], Result]
@@ -161,7 +163,7 @@ class ProcessPool:
         """Wait for messages of workers; gives what they finished."""
         workers = {worker.connection: worker for worker in self._workers}
         for source in connection.wait(list(workers)):
-            worker = workers[source]  # type: ignore[index]
+            worker = workers[source]
             task = worker.task
             try:
                 kind, content = worker.receive()
@@ -243,11 +245,15 @@ class _Tasks(Generic[Item]):
 class _Worker:
     """A process, and this end of the pipe that leads to it."""
 
-    def __init__(self, inherited: Callable[[Any], Any] | None) -> None:
+    def __init__(self, inherited: Callable[[Any], Any] | None, ends: Sequence[_Connection]) -> None:
         context: Any = _SPAWN if inherited is None else _FORK
         try:
             self.connection, far_end = context.Pipe()
-            self._process = context.Process(target=_serve, args=(far_end, inherited), daemon=True)
+            # A copy has this process's ends too, and would never see them closed.
+            copied = () if inherited is None else (*ends, self.connection)
+            self._process = context.Process(
+                target=_serve, args=(far_end, inherited, copied), daemon=True
+            )
             with _interrupts_blocked(), far_end:  # closed here: else its end would go unnoticed
                 self._process.start()
         except OSError as error:
@@ -302,9 +308,11 @@ def can_fork() -> bool:
 
 
 def _serve(
-    pipe: "connection.Connection[Any, Any]", inherited: Callable[[Any], Any] | None
+    pipe: _Connection, inherited: Callable[[Any], Any] | None, copied: Sequence[_Connection]
 ) -> None:
     """Answer items in a worker until the other end of the pipe is closed."""
+    for end in copied:
+        end.close()
     threading.Thread(target=_end_with_parent, daemon=True).start()
     with suppress(EOFError, OSError):
         pipe.send((_READY, None))
@@ -322,7 +330,7 @@ def _end_with_parent() -> None:
     os._exit(1)
 
 
-def _answer(content: bytes, inherited: Callable[[Any], Any] | None) -> bytes:
+def _answer(content: bytes, inherited: Any) -> bytes:
     """Apply the function to the item of a message; gives the result or the error as a message."""
     try:
         function, item = pickle.loads(content)  # noqa: S301 - of the process that started this one

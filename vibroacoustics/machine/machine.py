@@ -3,7 +3,7 @@
 Heights are those of the machine's frame: z up, zero at the centre of mass at rest.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Annotated, ClassVar, Final, Self, TypeVar
 
 from pydantic import Field, PrivateAttr, SerializeAsAny
@@ -229,19 +229,21 @@ class Machine(KindOfParameters):
         ParameterError
             The machine has none.
         """
-        for table in self._tables:
-            if isinstance(table, wanted):
-                return table
-        raise ParameterError(f"machine {self.name}: has no table of {wanted.__name__}")
+        table = self._table(wanted)
+        if table is None:
+            raise ParameterError(f"machine {self.name}: has no table of {wanted.__name__}")
+        return table
 
     def has_table(self, wanted: type[Parameters]) -> bool:
         """Whether the machine has a table of a type."""
-        return any(isinstance(table, wanted) for table in self._tables)
+        return self._table(wanted) is not None
 
-    @property
-    def _tables(self) -> Iterator[Parameters]:
-        """Values that are tables; past pydantic's attributes, as all sources of a case ask."""
-        return (value for value in self.__dict__.values() if isinstance(value, Parameters))
+    def _table(self, wanted: type[T]) -> T | None:
+        """The machine's table of a type; a plain loop, as sources ask a thousand times a sample."""
+        for value in self.__dict__.values():
+            if isinstance(value, wanted):
+                return value
+        return None
 
     def require(self, needed: type[C]) -> C:
         """The part of a type that options can work on.
