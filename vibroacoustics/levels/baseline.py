@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 import xarray as xr
@@ -25,6 +26,9 @@ from .measured_points import (
     measured_points,
 )
 from .weighting import WEIGHTING
+
+_OF_REMAINDER: Final = [BASELINE_BANDS.index(band) for band in REMAINDER_BANDS]
+"""Their columns among the bands of a baseline."""
 
 
 @dataclass(frozen=True)
@@ -75,11 +79,10 @@ def with_baseline(
     remaining : the remainder in `REMAINDER_BANDS`, shape (speed, option, band), Pa²
     """
     left = np.repeat(remaining.sum(axis=2)[:, :, None], len(axes.receivers), axis=2)
-    numbers = [BASELINE_BANDS.index(band) for band in REMAINDER_BANDS]
     for (receiver, speed), point in points.items():
         at = axes.speeds.index(speed), slice(None), axes.receivers.index(receiver)
         changed = _changed(study, axes, (receiver, speed), point, sound)
-        elsewhere = ~np.isin(numbers, point.band)
+        elsewhere = ~np.isin(_OF_REMAINDER, point.band)
         left[at] = remaining[at[0]] @ elsewhere + changed.rest @ _a_weight(MIDDLE_HZ[point.band])
         weight = _a_weight(point.frequency_hz)
         left[at] += (changed.order - changed.modelled_order) @ weight

@@ -209,9 +209,7 @@ def _spectra(
     torque[0] = 0.0  # all friction is left out of the mean
     block = 2 * mean.shape[-1] if forces.revolutions > 1 else mean.shape[-1]
     highest_hz = case.maximum_frequency_hz
-    noise = Noise(
-        on_parts, *spectral_density(rest, forces.sample_rate_hz, block, highest_hz)
-    )
+    noise = Noise(on_parts, *spectral_density(rest, forces.sample_rate_hz, block, highest_hz))
     orders = order_spectrum(mean, highest)
     if ring.force.from_housing and ring.force.force_n.size > 1:
         orders[0] -= resolved_orders(ring.force.force_n, highest)

@@ -12,6 +12,7 @@ deviates by d_r besides (Kennedy and O'Hagan 2001, J. R. Stat. Soc. B 63, 425).
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -25,6 +26,8 @@ from ..study.uncertainty import Uncertainty
 
 DISCREPANCIES: Final = 50
 """Number of a sample."""
+_KEPT: Final = 512
+"""Samples whose discrepancies are kept, 75 kB each: several steps ask for them in turn."""
 _OCTAVES: Final[Array] = np.arange(len(GAIN_BANDS)) / 3.0
 _CORRELATED: Final[Array] = np.linalg.cholesky(np.exp(-np.abs(_OCTAVES[:, None] - _OCTAVES)))
 """Factor of the correlation of the bands."""
@@ -44,6 +47,7 @@ class Discrepancy:
     added: Array
 
     @classmethod
+    @lru_cache(maxsize=_KEPT)
     def of(cls, settings: Uncertainty, sources: int, number: int) -> "Discrepancy":
         """Return the discrepancies of the sample of a number, the same at each call.
 

@@ -60,27 +60,28 @@ def _of_data(
 ) -> tuple[Array, Array, float]:
     """Quantiles of the shares (part, quantile), probabilities of a majority, effective samples."""
     first = evidence.published.priors[:1]
-    log_weight = [
-        logsumexp(evidence.log_weights(*sample, number, data, first))
+    of_pairs = [
+        evidence.log_weights(*sample, number, data, first)
         for number, sample in enumerate(zip(sounds, machines, strict=True))
     ]
+    log_weight = [logsumexp(each) for each in of_pairs]
     weight = before * np.exp(np.array(log_weight) - max(log_weight))
     counting = np.flatnonzero(weight > _LEAST_WEIGHT * weight.max())
     shares = [
-        _shares(evidence, sounds[number], machines[number], number, data)
+        _shares(evidence, sounds[number], machines[number], of_pairs[number], number)
         for number in counting.tolist()
     ]
-    of_pairs, by_pair = np.concatenate(shares), np.repeat(weight[counting], PAIRS)
-    ends = weighted_quantiles(of_pairs, by_pair, QUANTILES).T
-    majority = np.average(of_pairs > _HALF, axis=0, weights=by_pair)
+    share, by_pair = np.concatenate(shares), np.repeat(weight[counting], PAIRS)
+    ends = weighted_quantiles(share, by_pair, QUANTILES).T
+    majority = np.average(share > _HALF, axis=0, weights=by_pair)
     return ends, majority, effective_samples(weight)
 
 
 def _shares(
-    evidence: Evidence, sound: Sound, machine: Machine, number: int, data: Sequence[Datum]
+    evidence: Evidence, sound: Sound, machine: Machine, log_weights: Array, number: int
 ) -> Array:
     """Shares of each source and of unmodelled noise, shape (pair, part)."""
-    pairs, mutual = evidence.pairs(sound, machine, number, data), evidence.mutual(sound)
+    pairs, mutual = evidence.pairs(log_weights, number), evidence.mutual(sound)
     gain = evidence.discrepancy(number).gain[pairs.discrepancy]
     alone = np.einsum("ksi,ssi->ks", gain, mutual)
     rest = evidence.unmodelled(machine).sum() * power_of_level(pairs.unmodelled_db)

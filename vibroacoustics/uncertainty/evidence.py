@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -45,7 +46,7 @@ class Evidence:
 
     nominal: NominalSound
 
-    @property
+    @cached_property
     def published(self) -> Published:
         """Published data of the machine."""
         return published_of(self.nominal.study)
@@ -102,16 +103,16 @@ class Evidence:
             weights -= logsumexp(weights, axis=2, keepdims=True)
         return np.nan_to_num(weights, nan=-np.inf) + np.array(measured)[..., None]
 
-    def pairs(self, sound: Sound, machine: Machine, number: int, data: Sequence[Datum]) -> Pairs:
+    def pairs(self, log_weights: Array, number: int) -> Pairs:
         """Return pairs in proportion to their weights with the first prior, in random order.
 
         Parameters
         ----------
-        sound, machine, number, data : as of `log_weights`
+        log_weights : of the sample, see `log_weights`
+        number : of the sample
         """
         rng = np.random.default_rng((self.nominal.study.uncertainty.seed, number, PAIRS))
-        weights = self.log_weights(sound, machine, number, data, self.published.priors)
-        flat = weights.reshape(len(weights), -1)
+        flat = log_weights.reshape(len(log_weights), -1)
         order = rng.permutation(flat.shape[1])  # else the picks would follow the grid
         weight = np.exp(flat[0, order] - flat[0].max())
         cell = order[systematic(weight, PAIRS, rng.uniform())]

@@ -47,7 +47,9 @@ def sample_variables(
     pair_sounds, machines, levels_db, weights = [], [], [], []
     for number, count, sound in zip(*map(list, chosen), sounds, strict=True):
         machine = ensemble.batch.machines[number]
-        pairs = evidence.pairs(ensemble.batch.sounds[number], machine, number, published.data)
+        at_evidence = ensemble.batch.sounds[number], machine
+        of_pairs = evidence.log_weights(*at_evidence, number, published.data, published.priors)
+        pairs = evidence.pairs(of_pairs, number)
         pair_sounds += evidence.discrepancy(number).some(pairs.discrepancy).sounds(sound)
         machines += [machine] * PAIRS
         levels_db.append(pairs.unmodelled_db)

@@ -128,7 +128,11 @@ def test_pairs_are_picked_as_their_weights_say():
     sound = {(SPEED, REFERENCE_OPTION): sound_at(0.25 * SQUARE, 0.0)}
     data, prior = evidence.published.data, evidence.published.priors[:1]
     exact = np.exp(evidence.log_weights(sound, machine, 0, data, prior))[0].sum(axis=0)
-    drawn = [evidence.pairs(sound, machine, number, data) for number in range(200)]
+    priors = evidence.published.priors
+    drawn = [
+        evidence.pairs(evidence.log_weights(sound, machine, number, data, priors), number)
+        for number in range(200)
+    ]
     levels = np.concatenate([one.unmodelled_db for one in drawn])
     mean = np.average(LEVELS_DB, weights=exact)
     deviation = np.sqrt(np.average((LEVELS_DB - mean) ** 2, weights=exact))
