@@ -1,10 +1,10 @@
 """Tests on every Python that pyproject.toml promises; a version that is not here is named.
 
-    python tests/on_every_python.py [--newest] [--folder FOLDER OF THE ENVIRONMENTS]
+    python tests/on_every_python.py [--newest] [--folder FOLDER OF THE ENVIRONMENTS] [3.12 …]
 
 With the locked packages the light tests. With the newest ones, beside k-Wave without its pins, the
-tests of the radiation as well, and a table of versions and outcomes. Interpreters are looked for
-on the path and among pyenv's; each environment needs the package index once.
+tests of the radiation as well. A table shows versions and outcomes. Interpreters are looked for on
+the path and among pyenv's; each environment needs the package index once, the newest each time.
 """
 
 import argparse
@@ -78,11 +78,11 @@ def environment(version: str, python: Path, folder: Path, newest: bool) -> Path:
     return inner
 
 
-def outcomes(python: Path, tests: list[str]) -> Counter[str]:
+def outcomes(python: Path, tests: list[object]) -> Counter[str]:
     """Number of tests that passed, failed and were skipped; a crash counts as a failure."""
     record = python.parents[1] / "tests.xml"
     record.unlink(missing_ok=True)
-    command = [python, "-m", "pytest", "-q", "-n", "0", "-m", "not slow and not long"]
+    command = [python, "-m", "pytest", "-q", "-n", "0"]
     options = ["-p", "no:cacheprovider", f"--junitxml={record}"]
     variables = {**os.environ, "PYTHONPATH": str(ROOT)}
     passed = _runs([*command, *options, *tests], cwd=ROOT, env=variables)
@@ -122,10 +122,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--newest", action="store_true", help="newest packages, and the radiation")
     parser.add_argument("--folder", type=Path, default=ROOT / ".venv-versions")
+    parser.add_argument("versions", nargs="*", default=promised(), help="of Python; default: all")
     asked = parser.parse_args()
-    tests = LIGHT + RADIATION if asked.newest else LIGHT
+    tests = LIGHT + RADIATION if asked.newest else [*LIGHT, "-m", "not slow and not long"]
     rows, failing = [], False
-    for version in promised():
+    for version in asked.versions:
         python = interpreter(version)
         print(f"== Python {version}: {python or 'is not here'}", flush=True)
         if python is None:
