@@ -89,13 +89,13 @@ def _waves_in_room(study: Study) -> _Change:
 
 def _grid(study: Study) -> _Change:
     settings = study.radiation
-    given = settings.near_field_spacing_m
-    spacing = given or settings.wave_spacing_m
+    automatic = settings.near_field_spacing_m is None
+    spacing = settings.near_field_spacing_m or settings.wave_spacing_m
     largest = SPEED_OF_SOUND_M_PER_S / settings.maximum_frequency_hz / _NODES_PER_WAVE
     coarser = 1e-4 * int(1e4 * min(_COARSER_GRID * spacing, largest, 0.05))
     cabinet = settings.surroundings.cabinet
     # The body decides on an automatic grid below 4 kHz, which is coarse already.
-    by_body = given is None and spacing > BODY_SPACING_M
+    by_body = automatic and spacing > BODY_SPACING_M
     if settings.revolution or cabinet is not None or by_body or coarser <= spacing:
         return None
     words = (

@@ -17,14 +17,14 @@ _NODES_PER_WAVE: Final = 3.5
 _CELLS_PER_WAVE: Final = 8.0
 """Fewest cells of the cut-cell grid in a wavelength."""
 _AUTOMATIC_CELLS_PER_WAVE: Final = 14.5
-"""Of an automatic grid: 5.9 mm at 4 kHz."""
+"""Cells of an automatic grid in a wavelength: 5.9 mm at 4 kHz."""
 BODY_SPACING_M: Final = 0.006
 """Cell size that resolves every body well enough, as far as an automatic grid decides."""
 _LARGEST_SPACING_M: Final = 0.05
 _TABLE_STEP_HZ: Final = 25.0
-"""Of an automatic table without walls: for a compressor's shell cubic splines err by 0.01 dB."""
+"""Step of an automatic table without walls: splines err by 0.01 dB for a compressor's shell."""
 _TURNS_PER_STEP: Final = 0.13
-"""Of an echo's phase: cubic splines err by (2π 0.13)⁴/384 of it, which is 0.01 dB."""
+"""Turns of an echo's phase in a step: cubic splines err by (2π 0.13)⁴/384 of it, 0.01 dB."""
 
 
 class RadiationSettings(Parameters):
