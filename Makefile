@@ -12,7 +12,7 @@ BIN := $(VENV)/bin
 STUDY ?= pipelines/copeland_sources.toml
 MINUTES ?= 60
 
-.PHONY: run test long coverage faults docs check lock clean versions
+.PHONY: run test long coverage faults docs check lock clean versions newest
 
 run: $(VENV)/.core
 	$(BIN)/vibroacoustics run $(STUDY)
@@ -36,6 +36,10 @@ faults: $(VENV)/.dev
 versions:
 	$(PYTHON) tests/on_every_python.py
 
+# The same and the radiation with the newest numpy, scipy, h5py, … beside k-Wave, which pins older ones.
+newest:
+	$(PYTHON) tests/on_every_python.py --newest
+
 # Offline; the pages of the gallery are run. A warning is an error.
 docs: $(VENV)/.dev
 	$(BIN)/sphinx-build -W --keep-going --quiet -b html docs docs/_build/html
@@ -49,9 +53,10 @@ check: $(VENV)/.dev
 	$(BIN)/lint-imports
 	$(BIN)/python tests/house/acyclic.py vibroacoustics
 
-$(VENV)/.core: requirements.lock pyproject.toml
+$(VENV)/.core: requirements.lock requirements-kwave.lock pyproject.toml
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --require-hashes -r requirements.lock
+	$(BIN)/python -m pip install --quiet --require-hashes --no-deps -r requirements-kwave.lock
 	$(BIN)/python -m pip install --quiet --no-deps -e .
 	$(BIN)/vibroacoustics check pipelines/copeland_sources.toml > /dev/null  # compiles for all runs
 	touch $@
@@ -60,12 +65,14 @@ $(VENV)/.dev: requirements-dev.lock $(VENV)/.core
 	$(BIN)/python -m pip install --quiet --require-hashes -r requirements-dev.lock
 	touch $@
 
-# Needs uv. The locks hold hashes and no address of any package index.
-LOCK := uv pip compile pyproject.toml --universal --generate-hashes --no-header --no-annotate \
+# Needs uv. The locks hold hashes and no address of any package index. k-Wave has one of its own: where
+# its pins have no wheels it is installed without them.
+LOCK := uv pip compile --universal --python-version 3.11 --generate-hashes --no-header --no-annotate \
 	--no-emit-index-url --no-emit-find-links --no-strip-extras --quiet
 lock:
-	$(LOCK) -o requirements.lock
-	$(LOCK) --extra dev --extra docs -o requirements-dev.lock
+	$(LOCK) pyproject.toml -o requirements.lock
+	$(LOCK) pyproject.toml --extra dev --extra docs -o requirements-dev.lock
+	grep -o 'k-wave-python==[0-9.]*' pyproject.toml | $(LOCK) --no-deps - -o requirements-kwave.lock
 
 clean:
 	rm -rf docs/_build docs/examples docs/generated

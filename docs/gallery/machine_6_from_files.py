@@ -71,7 +71,6 @@ height_mm = 410.0
 
 [radiation]
 maximum_frequency_hz = 400.0
-frequency_step_hz = 10.0
 """)
 study = va.load_study(folder / "study.toml")
 model = va.run(study, radiation=rough_radiation)

@@ -39,6 +39,16 @@ class Body:
         a, b, c = np.moveaxis(self.triangles, 1, 0)
         return np.asarray(0.5 * np.cross(b - a, c - a))
 
+    @property
+    def volume_m3(self) -> float:
+        """Enclosed volume, negative where the normals point inwards."""
+        return float(np.einsum("fi,fi->", self.triangles[:, 0], self.area_vectors()) / 3.0)
+
+    @property
+    def volume_per_area_m(self) -> float:
+        """A third of the radius of a sphere, half the thickness of a plate, m."""
+        return self.volume_m3 / float(np.linalg.norm(self.area_vectors(), axis=1).sum())
+
     def bounds(self) -> tuple[Array, Array]:
         """Lower and upper corner of the bounding box, m."""
         return self.vertices.min(axis=0), self.vertices.max(axis=0)
@@ -169,10 +179,10 @@ def checked_mesh(body: Body, name: str) -> Body:
         )
     if np.any(forward[1] > 1):
         raise ParameterError(f"{name}: {np.sum(forward[1] > 1)} edges are shared by many triangles")
-    volume = float(np.einsum("fi,fi->", body.triangles[:, 0], body.area_vectors()) / 3.0)
-    if volume <= 0.0:
+    if body.volume_m3 <= 0.0:
         raise ParameterError(
-            f"{name}: the mesh is inverted: its normals point inwards (volume {volume:.3g} m³)"
+            f"{name}: the mesh is inverted: its normals point inwards "
+            f"(volume {body.volume_m3:.3g} m³)"
         )
     return body
 

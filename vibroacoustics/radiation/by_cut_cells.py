@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..base.errors import ParameterError
 from ..base.progress import Progress
 from ..base.vocabulary import RIGID_BODY_DOFS
-from ..study.radiation import RadiationSettings
+from ..study.radiation import BODY_SPACING_M, RadiationSettings
 from .arrays import Array, ComplexArray
 from .at_kwave import Vectors, closed_greens, differences_db, solver, with_kwave
 from .machine_side import (
@@ -25,6 +25,7 @@ from .near_field import NearField
 from .near_memory import check_memory
 from .neglected_echo import SAFETY, neglected_echo
 from .room_greens import check_receivers, room_greens
+from .scene import Scene
 from .task import Microphones, Task
 from .thin_walls import check_walls
 
@@ -33,6 +34,9 @@ _LARGEST_MEAN_ERROR: Final = 0.3
 
 _LOUD: Final = 0.1
 """Share of the loudest translation's pressure above which a translation is loud."""
+
+_BODY_SHARE: Final = 0.5
+"""Cell size over volume per area: a fifth of the radius of a compressor's shell."""
 
 
 class ByCutCells:
@@ -46,14 +50,12 @@ class ByCutCells:
     """
 
     def __init__(self, task: Task) -> None:
-        settings = task.settings
         self._task = task
-        self.near = near_fields(
-            task.scene, settings.near_field_spacing_m, settings.maximum_frequency_hz
-        )
+        self._spacing_m = near_spacing_m(task.scene, task.settings)
+        self.near = near_fields(task.scene, self._spacing_m, task.settings.maximum_frequency_hz)
         check_memory(self.near, len(task.patterns), task.frequency_hz.size, len(task.kwave))
         _check_receivers(task, self.near)
-        check_walls(task.scene.body, self.near[-1].grid, settings.near_field_spacing_m)
+        check_walls(task.scene.body, self.near[-1].grid, self._spacing_m)
 
     def clear(self, points: Array) -> NDArray[np.bool_]:
         """Whether points (point, 3) lie outside the boxes and in front of every wall."""
@@ -85,7 +87,7 @@ class ByCutCells:
             room if task.kwave else None,
         )
         closed, *others = side.closed
-        check_grids_agree(closed, task.settings)
+        check_grids_agree(closed, self._spacing_m)
         vectors: Vectors = {
             "transfer_vector": closed.pressure,
             "transfer_vector_error": with_neglected_echo(closed, task),
@@ -111,6 +113,20 @@ class ByCutCells:
         }
 
 
+def near_spacing_m(scene: Scene, settings: RadiationSettings) -> float:
+    """Cell size of the finer grid, m: the study's, or automatic.
+
+    The automatic one resolves the shortest wave, the machine's body and a cabinet's panels, which
+    no cell of the coarser grid reaches across.
+    """
+    if settings.near_field_spacing_m is not None:
+        return settings.near_field_spacing_m
+    body_m = max(_BODY_SHARE * scene.machine.volume_per_area_m, BODY_SPACING_M)
+    spacing_m = min(settings.wave_spacing_m, body_m)
+    cabinet = settings.surroundings.cabinet
+    return spacing_m if cabinet is None else min(spacing_m, cabinet.panel_thickness_m / COARSENING)
+
+
 def with_neglected_echo(closed: Radiated, task: Task) -> Array:
     """Return the estimated error at the microphones, (receiver, pattern, frequency), Pa."""
     share = neglected_echo(task.scene, task.patterns, task.table_hz, task.receivers.points)
@@ -129,7 +145,7 @@ def _check_receivers(task: Task, near: list[NearField]) -> None:
             )
 
 
-def check_grids_agree(radiated: Radiated, settings: RadiationSettings) -> None:
+def check_grids_agree(radiated: Radiated, spacing_m: float) -> None:
     """Refuse the strong motions of which the finer and the coarser grid tell different things.
 
     A motion counts at the frequencies at which it is loud at the microphones: by symmetry, one
@@ -149,7 +165,7 @@ def check_grids_agree(radiated: Radiated, settings: RadiationSettings) -> None:
         shares = np.minimum(error[loud] / pressure[loud], 1.0)
         if shares.size and shares.mean() > _LARGEST_MEAN_ERROR:
             raise ParameterError(
-                f"radiation.near_field_spacing_mm = {1e3 * settings.near_field_spacing_m:g} mm: "
+                f"radiation.near_field_spacing_mm = {1e3 * spacing_m:g} mm: "
                 f"resolves walls or gaps too badly: the estimated error of {dof} is in the mean "
                 f"over the frequencies {100.0 * shares.mean():.0f} % of its pressure, must be at "
                 f"most {100.0 * _LARGEST_MEAN_ERROR:g} %"

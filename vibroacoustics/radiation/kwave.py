@@ -50,7 +50,9 @@ def _bare_package() -> Any:
     """k-Wave's package, its `__init__` not executed."""
     specification = importlib.util.find_spec("kwave")
     if specification is None or specification.origin is None:
-        raise SolverError("k-Wave is not installed; run: pip install k-wave-python==0.6.2")
+        raise SolverError(
+            "k-Wave is not installed; run: pip install --no-deps k-wave-python==0.6.2"
+        )
     bare: Any = importlib.util.module_from_spec(specification)
     bare.__version__ = kwave_version()
     bare.PLATFORM = platform.system().lower()

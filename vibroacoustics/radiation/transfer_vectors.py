@@ -213,7 +213,7 @@ def _hash(content: bytes) -> str:
 
 def frequencies_hz(settings: RadiationSettings) -> Array:
     """Tabulated frequencies: whole multiples of the step, the last one at or above the maximum."""
-    step = settings.frequency_step_hz
+    step = settings.table_step_hz
     count = int(np.ceil(settings.maximum_frequency_hz / step - 1e-9))
     return np.asarray(step * np.arange(1.0, count + 1.0))
 

@@ -4,6 +4,7 @@ from math import sqrt
 from typing import Any, Final
 
 from ..base.constants import SPEED_OF_SOUND_M_PER_S
+from .radiation import BODY_SPACING_M
 from .study import Study
 
 MOST_SPEEDS: Final = 7
@@ -88,14 +89,17 @@ def _waves_in_room(study: Study) -> _Change:
 
 def _grid(study: Study) -> _Change:
     settings = study.radiation
-    spacing = settings.near_field_spacing_m
+    automatic = settings.near_field_spacing_m is None
+    spacing = settings.near_field_spacing_m or settings.wave_spacing_m
     largest = SPEED_OF_SOUND_M_PER_S / settings.maximum_frequency_hz / _NODES_PER_WAVE
     coarser = 1e-4 * int(1e4 * min(_COARSER_GRID * spacing, largest, 0.05))
     cabinet = settings.surroundings.cabinet
-    if settings.revolution or cabinet is not None or coarser <= spacing:
+    # The body decides on an automatic grid below 4 kHz, which is coarse already.
+    by_body = automatic and spacing > BODY_SPACING_M
+    if settings.revolution or cabinet is not None or by_body or coarser <= spacing:
         return None
     words = (
-        f"cut cells of {1e3 * coarser:g} instead of {1e3 * spacing:g} mm: their error grows "
+        f"cut cells of {1e3 * coarser:g} instead of {1e3 * spacing:.3g} mm: their error grows "
         f"{(coarser / spacing) ** 2:.2g} times; what is estimated of it stands under Radiation"
     )
     return {"radiation.near_field_spacing_mm": 1e3 * coarser}, words

@@ -1,5 +1,6 @@
 """Settings of the radiation step: body, surroundings, grids, frequencies."""
 
+from math import ceil, hypot
 from typing import Final, Literal
 
 from pydantic import Field
@@ -15,6 +16,15 @@ _NODES_PER_WAVE: Final = 3.5
 """Fewest nodes of the k-Wave grid in a wavelength."""
 _CELLS_PER_WAVE: Final = 8.0
 """Fewest cells of the cut-cell grid in a wavelength."""
+_AUTOMATIC_CELLS_PER_WAVE: Final = 14.5
+"""Cells of an automatic grid in a wavelength: 5.9 mm at 4 kHz."""
+BODY_SPACING_M: Final = 0.006
+"""Cell size that resolves every body well enough, as far as an automatic grid decides."""
+_LARGEST_SPACING_M: Final = 0.05
+_TABLE_STEP_HZ: Final = 25.0
+"""Step of an automatic table without walls: splines err by 0.01 dB for a compressor's shell."""
+_TURNS_PER_STEP: Final = 0.13
+"""Turns of an echo's phase in a step: cubic splines err by (2π 0.13)⁴/384 of it, 0.01 dB."""
 
 
 class RadiationSettings(Parameters):
@@ -29,19 +39,39 @@ class RadiationSettings(Parameters):
     """How sound travels from the box to the receivers of `kwave_receivers`, up to 4 kHz."""
     kwave_receivers: Literal["catalogue", "all"] = "catalogue"
     """Where k-Wave computes the room: at the microphone of the catalogue's noise, or at all."""
-    near_field_spacing_m: float = Field(default=0.006, ge=0.002, le=0.05)
-    """Cell size of the finer cut-cell grid around the body; the coarser one has 1.5 times it."""
+    near_field_spacing_m: float | None = Field(default=None, ge=0.002, le=_LARGEST_SPACING_M)
+    """Cell size of the finer cut-cell grid around the body; the coarser one has 1.5 times it.
+    Without it automatic: the largest that resolves the wave, the body and a cabinet's panels."""
     room_spacing_m: float | None = Field(default=None, ge=0.005, le=0.1)
     """Largest node spacing of the k-Wave grid; it shrinks to fit the walls. Without it automatic:
     the largest that resolves the wave and that the microphone's distance allows."""
     maximum_frequency_hz: float = Field(default=4000.0, ge=50.0, le=10000.0)
-    frequency_step_hz: float = Field(default=25.0, ge=1.0, le=100.0)
-    """Spacing of the frequencies at which the transfer vectors are tabulated."""
+    frequency_step_hz: float | None = Field(default=None, ge=1.0, le=100.0)
+    """Spacing of the frequencies at which the transfer vectors are tabulated. Without it automatic:
+    25 Hz, or a whole part of it that follows the echoes of walls."""
 
     @property
     def revolution(self) -> bool:
         """Whether boundary elements on the meridian take the place of cut cells."""
         return self.method == "revolution" or (self.method == "automatic" and self._turned)
+
+    @property
+    def wave_spacing_m(self) -> float:
+        """Cell size of an automatic grid that resolves the shortest wave, m."""
+        shortest_m = SPEED_OF_SOUND_M_PER_S / self.maximum_frequency_hz
+        return min(shortest_m / _AUTOMATIC_CELLS_PER_WAVE, _LARGEST_SPACING_M)
+
+    @property
+    def table_step_hz(self) -> float:
+        """Spacing of the tabulated frequencies: the study's, or automatic.
+
+        The farthest image of the machine is twice as far from it as the corner of the walls.
+        """
+        if self.frequency_step_hz is not None:
+            return self.frequency_step_hz
+        detour_m = 2.0 * hypot(*(wall.distance_m for wall in self.surroundings.walls.values()))
+        turns = _TABLE_STEP_HZ * detour_m / SPEED_OF_SOUND_M_PER_S
+        return _TABLE_STEP_HZ / max(1, ceil(turns / _TURNS_PER_STEP))
 
     @property
     def _turned(self) -> bool:
@@ -73,7 +103,7 @@ class RadiationSettings(Parameters):
                     f"{name} = {1e3 * spacing_m:g} mm: fewer than {nodes:g} nodes per wavelength "
                     f"at {highest_hz:g} Hz; allowed up to {1e3 * largest_m:.4g} mm"
                 )
-        cabinet, least = self.surroundings.cabinet, 1.5 * self.near_field_spacing_m
+        cabinet, least = self.surroundings.cabinet, 1.5 * (self.near_field_spacing_m or 0.0)
         if cabinet is not None and cabinet.panel_thickness_m < least * (1.0 - 1e-9):
             yield (
                 f"surroundings.cabinet.panel_thickness_mm = {1e3 * cabinet.panel_thickness_m:g} mm:"

@@ -16,7 +16,6 @@ from vibroacoustics.radiation.near_grid import COURANT_NUMBER, near_grid
 from vibroacoustics.radiation.patterns import rigid_body
 from vibroacoustics.radiation.scene import Scene
 from vibroacoustics.radiation.thin_walls import check_walls, solid_parts
-from vibroacoustics.study.radiation import RadiationSettings
 
 MACHINE = cylinder(0.0825, -0.19, 0.1)
 
@@ -73,13 +72,12 @@ def test_a_machine_in_a_hard_cup_is_refused():
 def test_grids_that_disagree_are_refused():
     finer = np.ones((2, 6, 10), dtype=complex)
     coarser_one = finer.copy()
-    settings = RadiationSettings(near_field_spacing_m=0.024, maximum_frequency_hz=1500.0)
     coarser_one[:, 3:] = 0.0  # weak motions
     finer[:, 1], coarser_one[:, 1] = 0.01, 0.03  # silent by symmetry but for the grid's errors
-    check_grids_agree(Radiated(finer, coarser_one), settings)
+    check_grids_agree(Radiated(finer, coarser_one), 0.024)
     coarser_one[:, 2, :7] = 2.5
     with pytest.raises(ParameterError, match=r"mm = 24 mm: .* error of tz .* 70 % of its pressure"):
-        check_grids_agree(Radiated(finer, coarser_one), settings)
+        check_grids_agree(Radiated(finer, coarser_one), 0.024)
 
 
 def test_parts_beside_an_upper_wall_mirror_those_beside_a_lower_one():

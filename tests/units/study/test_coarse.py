@@ -45,6 +45,18 @@ def test_cut_cells_stay_fine_enough_for_the_wave() -> None:
     assert any("cut cells of 42.8 instead of 35 mm" in words for words in looked.coarsened)
 
 
+@pytest.mark.parametrize(("highest_hz", "spacing_m"), [(4000.0, 0.0088), (1000.0, None)])
+def test_automatic_cut_cells_are_coarsened_where_the_wave_decides(highest_hz, spacing_m) -> None:
+    changes = {
+        "radiation.method": "cut-cells",
+        "radiation.near_field_spacing_mm": None,
+        "radiation.room_spacing_mm": None,
+        "radiation.maximum_frequency_hz": highest_hz,
+    }
+    looked = coarse(load_study(TINY).replace(changes))
+    assert looked.radiation.near_field_spacing_m == spacing_m
+
+
 def test_nothing_to_make_coarser() -> None:
     study = load_study(PIPELINES / "zhao_minicrank.toml")
     study = study.replace({"radiation.room_solver": "closed-form"})
