@@ -20,6 +20,7 @@ from multiprocessing import connection, resource_tracker
 from typing import Any, Final, Generic, NoReturn, Self, TypeAlias, TypeVar
 
 from .errors import SolverError
+from .threads import processors
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -297,6 +298,28 @@ class _Worker:
         code = self._process.exitcode or 0
         self.reason = signal.Signals(-code).name if code < 0 else f"exit code {code}"
         self._process.close()
+
+
+def side_by_side(
+    function: Callable[[Item], Result],
+    items: Iterable[Item],
+    otherwise: Callable[[Callable[[Item], Result], Iterable[Item]], Iterable[Result]] = map,
+) -> Iterator[Result]:
+    """Apply a function in copies of this process; the results are in the order of the items.
+
+    What the function changes in a copy is lost; results are what pickle takes.
+
+    Parameters
+    ----------
+    function : of any kind
+    items : anything that pickle takes
+    otherwise : applies it where this process cannot be copied, or has one processor alone
+    """
+    if processors() == 1 or not can_fork():
+        yield from otherwise(function, items)
+        return
+    with ProcessPool(processors(), inherited=function) as pool:
+        yield from pool.in_order(function, items)
 
 
 def can_fork() -> bool:

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import xarray as xr
 
 from ..base.fault import collected
+from ..base.processes import side_by_side
 from .blocks import Block, pictures
 from .columns import COLUMNS
 from .figures.style import Picture, file_name
@@ -53,9 +54,15 @@ def page_of(results: xr.Dataset) -> Page:
         sections = sections_of(results)
         columns_of(results)
     results = with_lines(results, lines, (SECTIONS, COLUMNS))
+
+    def blocks_of(number: int) -> tuple[Block, ...]:
+        return tuple(sections[number].blocks(results))
+
     parts = tuple(
-        Part(section.name, section.title, tuple(section.blocks(results)), section.folded)
-        for section in sections
+        Part(section.name, section.title, blocks, section.folded)
+        for section, blocks in zip(
+            sections, side_by_side(blocks_of, range(len(sections))), strict=True
+        )
     )
     of_study = parameters(results)
     return Page(of_study["title"], of_study["machine"]["name"], results.attrs["created_utc"], parts)

@@ -11,7 +11,7 @@ import xarray as xr
 from ..base.errors import ParameterError, SolverError
 from ..base.fault import FaultError
 from ..base.linear_algebra import one_thread_of_linear_algebra
-from ..base.processes import ProcessPool, can_fork
+from ..base.processes import side_by_side
 from ..base.threads import processors
 from ..base.vocabulary import stamped
 from ..study.sampling import Draw
@@ -52,7 +52,7 @@ def of_every_draw(
     results: list[Result] = []
     failures: list[str] = []
     progress(0)
-    for result, failure in _side_by_side(solved, draws):
+    for result, failure in _in_parallel(solved, draws):
         results.append(result)
         failures += [] if failure is None else [f"draw {len(results)}: {failure}"]
         progress(len(results))
@@ -65,15 +65,10 @@ def of_every_draw(
     return results
 
 
-def _side_by_side(compute: Callable[[Draw], Result], draws: Sequence[Draw]) -> Iterator[Result]:
-    """Compute in processes, which share no interpreter's lock; in threads where none can fork."""
-    with one_thread_of_linear_algebra():
-        if can_fork():
-            with ProcessPool(processors(), inherited=compute) as processes:
-                yield from processes.in_order(compute, draws)
-        else:
-            with ThreadPoolExecutor(processors()) as threads:
-                yield from threads.map(compute, draws)
+def _in_parallel(compute: Callable[[Draw], Result], draws: Sequence[Draw]) -> Iterator[Result]:
+    """Compute in processes, which share no interpreter's lock, or in threads."""
+    with one_thread_of_linear_algebra(), ThreadPoolExecutor(processors()) as threads:
+        yield from side_by_side(compute, draws, threads.map)
 
 
 def drawn_values(ranges: Sequence[Range], draws: Sequence[Draw]) -> xr.Dataset:
