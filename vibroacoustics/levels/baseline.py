@@ -27,7 +27,7 @@ from .measured_points import (
 )
 from .weighting import WEIGHTING
 
-_OF_REMAINDER: Final = [BASELINE_BANDS.index(band) for band in REMAINDER_BANDS]
+_UNMODELLED_COLUMNS: Final = [BASELINE_BANDS.index(band) for band in REMAINDER_BANDS]
 """Their columns among the bands of a baseline."""
 
 
@@ -82,7 +82,7 @@ def with_baseline(
     for (receiver, speed), point in points.items():
         at = axes.speeds.index(speed), slice(None), axes.receivers.index(receiver)
         changed = _changed(study, axes, (receiver, speed), point, sound)
-        elsewhere = ~np.isin(_OF_REMAINDER, point.band)
+        elsewhere = ~np.isin(_UNMODELLED_COLUMNS, point.band)
         left[at] = remaining[at[0]] @ elsewhere + changed.rest @ _a_weight(MIDDLE_HZ[point.band])
         weight = _a_weight(point.frequency_hz)
         left[at] += (changed.order - changed.modelled_order) @ weight

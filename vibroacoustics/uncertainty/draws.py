@@ -26,9 +26,9 @@ def of_every_draw(
     without_solution: Result,
     progress: Callable[[int], None],
 ) -> list[Result]:
-    """Compute a result of every draw, in their order; one warning counts draws without solution.
+    """Compute a result of every sample, in their order; one warning counts those without solution.
 
-    Results do not depend on the number of processors: a draw shares nothing with others.
+    Results do not depend on the number of processors: a sample shares nothing with others.
 
     Parameters
     ----------

@@ -58,7 +58,7 @@ class ByRevolution:
         asked = task.kwave_microphones
         table_hz = task.frequency_hz[asked.frequencies]
         added = addition(side, box, table_hz, greens, expected)
-        exact = closed.at(asked.frequencies, task.kwave_rows)
+        exact = closed.selected(asked.frequencies, task.kwave_rows)
         kwave = side.with_small(exact, added, asked.points, table_hz, _ON_BOX, progress)
         differences = differences_db(greens, iter(expected))
         return with_kwave(task, by_name(closed), by_name(kwave), differences)

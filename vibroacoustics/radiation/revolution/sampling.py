@@ -36,7 +36,7 @@ class Sampled:
     solved: IndexArray
     """Indices of the solved frequencies."""
 
-    def at(self, frequencies: slice, receivers: Sequence[int]) -> "Sampled":
+    def selected(self, frequencies: slice, receivers: Sequence[int]) -> "Sampled":
         """Return the pressures at the first frequencies and at some receivers."""
         pressure, error = self.pressure[frequencies, receivers], self.error[frequencies, receivers]
         return Sampled(pressure, error, self.solved[self.solved < len(pressure)])
