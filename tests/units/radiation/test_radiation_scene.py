@@ -44,6 +44,11 @@ def settings(body=None, **surroundings):
     return RadiationSettings(surroundings=Surroundings(**surroundings), **chosen)
 
 
+def in_cells_of_6_mm(cabinet):
+    surroundings = Surroundings(cabinet=cabinet)
+    return RadiationSettings(surroundings=surroundings, near_field_spacing_m=0.006)
+
+
 def refused(match, *, body=None, **surroundings):
     """A refusal of the scene in one line."""
     with pytest.raises(ParameterError, match=match) as caught:
@@ -210,8 +215,9 @@ class TestCabinet:
     def test_thin_panels_are_refused(self):
         thin = CABINET.model_copy(update={"panel_thickness_m": 0.0088})
         with pytest.raises(ValidationError, match=r"panel_thickness_mm = 8\.8 mm: thinner than a"):
-            settings(cabinet=thin)
-        settings(cabinet=CABINET.model_copy(update={"panel_thickness_m": 0.009}))
+            in_cells_of_6_mm(thin)
+        in_cells_of_6_mm(CABINET.model_copy(update={"panel_thickness_m": 0.009}))
+        settings(cabinet=thin)  # automatic cells are as thin as the panels ask for
 
 
 class TestFilePatterns:
