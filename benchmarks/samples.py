@@ -27,7 +27,7 @@ from vibroacoustics.stages.forces import with_published
 from vibroacoustics.stages.radiation import transfer_vectors
 from vibroacoustics.stages.sampled import sounds_of
 from vibroacoustics.stages.stage import advanced, applying
-from vibroacoustics.study.draws import batches_of_draws
+from vibroacoustics.study.draws import batches_of_draws, with_draw
 from vibroacoustics.transfer.received import Transmission
 from vibroacoustics.uncertainty.evidence import Evidence
 
@@ -125,8 +125,10 @@ def effective_share(chain: Chain, samples: list) -> float:
     sounds = [sampled.sound for sampled in sounds_of(chain, samples, lambda _: None)]
     machine = chain.study.machine
     weights = [
-        logsumexp(evidence.log_weights(sound, machine, number, data, priors))
-        for number, sound in enumerate(sounds)
+        logsumexp(
+            evidence.log_weights(sound, with_draw(machine, machine, sample), number, data, priors)
+        )
+        for number, (sound, sample) in enumerate(zip(sounds, samples, strict=True))
     ]
     return effective_samples(np.exp(np.array(weights) - max(weights))) / len(samples)
 
