@@ -105,6 +105,8 @@ def main() -> None:
     except MemoryError as error:
         print(f"error: not enough memory: {error}", file=sys.stderr)
         sys.exit(INPUT_ERROR)
+    finally:
+        gc.freeze()  # the interpreter would search all objects before it ends, for a second
 
 
 def _run(left_out: list[str]) -> None:
