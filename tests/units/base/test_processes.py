@@ -8,6 +8,7 @@ import sys
 import textwrap
 import time
 from collections.abc import Iterator
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from threading import Thread
@@ -39,7 +40,16 @@ def wait_for(condition, seconds: float = 20.0) -> None:
 
 
 def workers_of(parent: psutil.Process) -> list[psutil.Process]:
-    return [one for one in parent.children() if "resource_tracker" not in " ".join(one.cmdline())]
+    """Those started afresh, and copies, which have the command of their parent."""
+    commands, copied = [(one, command_of(one)) for one in parent.children()], command_of(parent)
+    return [one for one, command in commands if command == copied or "spawn_main" in command]
+
+
+def command_of(process: psutil.Process) -> str:
+    """Command line; empty of one that has ended and that another test has not waited for."""
+    with suppress(psutil.ZombieProcess, psutil.NoSuchProcess):
+        return " ".join(process.cmdline())
+    return ""
 
 
 def test_results_are_in_order_and_by_two_processes(pool):
@@ -301,7 +311,7 @@ def test_another_user_can_open_nothing(pool):
     running = pool.as_completed(process_work.pause, [0.0, 0.0, 20.0, 20.0])
     next(running), next(running)
     children = psutil.Process().children(recursive=True)
-    numbers = [one.pid for one in children if "multiprocessing" in " ".join(one.cmdline())]
+    numbers = [one.pid for one in children if "multiprocessing" in command_of(one)]
     assert len(numbers) >= 3
     done = subprocess.run(
         [sys.executable, "-c", textwrap.dedent(INTRUDER), *map(str, [os.getpid(), *numbers])],
