@@ -19,12 +19,13 @@ SAMPLES = 4
 SCRIPT = """
     import hashlib, os, sys
     import vibroacoustics.base.processes as processes
+    from vibroacoustics.base.worker_process import can_fork
     from drawn_chain import DrawnChain
     from sources_study import SOURCES_STUDY, made_up_modes
     from vibroacoustics.study.loading import load_study
     processes.processors = lambda: int(sys.argv[1])
     chain = DrawnChain.of(load_study(SOURCES_STUDY), lambda one, *_: (made_up_modes(one), False))
-    assert processes.can_fork()
+    assert can_fork()
     forked = []
     fork = os.fork
     os.fork = lambda: forked.append(1) or fork()

@@ -1,43 +1,23 @@
 """Processes of this machine that apply a function to many items: a pool that survives its workers.
 
-Every worker is started afresh (spawn), or is a copy of this process (fork) that knows a function
-of any kind. It shares one unnamed pair of sockets with this process.
-Nothing listens: there is no port, file or name that another process could open. A worker ends with
-this process, however that ends.
+Workers are `WorkerProcess`es: nothing listens, and they end with this process.
 """
 
-import multiprocessing
-import os
-import pickle
-import signal
-import sys
-import threading
-import traceback
-from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
-from contextlib import closing, contextmanager, suppress
-from dataclasses import dataclass
-from multiprocessing import connection, resource_tracker
-from typing import Any, Final, Generic, NoReturn, Self, TypeAlias, TypeVar
+from collections.abc import Callable, Generator, Iterable, Iterator
+from contextlib import closing
+from multiprocessing import connection
+from typing import Any, Final, Generic, NoReturn, Self
 
 from .errors import SolverError
 from .threads import processors
+from .worker_process import DONE, FAILED, Item, Result, Task, WorkerProcess, can_fork
 
-Item = TypeVar("Item")
-Result = TypeVar("Result")
-
-_SPAWN: Final = multiprocessing.get_context("spawn")
-_FORK: Final = multiprocessing.get_context("fork") if sys.platform == "linux" else None
-_Connection: TypeAlias = "connection.Connection[Any, Any]"
-_READY, _BEGUN, _DONE, _FAILED = range(4)
-"""Kinds of messages of a worker."""
 _MOST_DEATHS: Final = 2
 """Workers that end at an item before it is given up."""
 _FURTHER_IDLE_DEATHS: Final = 3
 """Workers, beyond the number of the pool, that may end without an item between two results."""
 _AHEAD: Final = 4
 """Items per worker that may be finished before the one whose result is due."""
-_END_S: Final = 5.0
-"""A worker without an item may take this long to end."""
 
 
 class ProcessPool:
@@ -65,7 +45,7 @@ class ProcessPool:
     def __init__(self, number: int, inherited: Callable[[Any], Any] | None = None) -> None:
         self._number = number
         self._inherited = inherited
-        self._workers: list[_Worker] = []
+        self._workers: list[WorkerProcess] = []
         self._idle_deaths = 0
 
     def __enter__(self) -> Self:
@@ -144,7 +124,7 @@ class ProcessPool:
         finally:
             self._end(self._busy())
 
-    def _busy(self) -> list["_Worker"]:
+    def _busy(self) -> list["WorkerProcess"]:
         return [worker for worker in self._workers if worker.task]
 
     def _give(self, function: Callable[[Item], Result], tasks: "_Tasks[Item]") -> None:
@@ -156,7 +136,7 @@ class ProcessPool:
             worker.take(None if function is self._inherited else function, task)
         while len(self._workers) < len(tasks.unfinished):
             ends = [worker.connection for worker in self._workers]
-            self._workers.append(_Worker(self._inherited, ends))
+            self._workers.append(WorkerProcess(self._inherited, ends))
 
     def _receive(
         self, tasks: "_Tasks[Item]", on_loss: Callable[[Item, str], Result]
@@ -173,13 +153,13 @@ class ProcessPool:
                 if task is not None and task.deaths == _MOST_DEATHS:
                     yield tasks.finish(task), on_loss(task.item, reason)
                 continue
-            if kind == _FAILED:
+            if kind == FAILED:
                 raise content
-            if kind == _DONE and task is not None:
+            if kind == DONE and task is not None:
                 self._idle_deaths = 0
                 yield tasks.finish(task), content
 
-    def _dead(self, worker: "_Worker") -> str:
+    def _dead(self, worker: "WorkerProcess") -> str:
         """Remove a worker that ended by itself; gives how."""
         self._end([worker])
         if worker.task and worker.begun:
@@ -190,22 +170,13 @@ class ProcessPool:
             raise SolverError(f"worker processes end before they begin to work: {worker.reason}")
         return worker.reason
 
-    def _end(self, workers: list["_Worker"]) -> None:
+    def _end(self, workers: list["WorkerProcess"]) -> None:
         workers = list(workers)
         for worker in workers:
             worker.close()
         for worker in workers:
             worker.join()
             self._workers.remove(worker)
-
-
-@dataclass(eq=False)
-class _Task(Generic[Item]):
-    """An item in work, and how many workers ended at it."""
-
-    index: int
-    item: Item
-    deaths: int = 0
 
 
 class _Tasks(Generic[Item]):
@@ -219,10 +190,10 @@ class _Tasks(Generic[Item]):
     """
 
     def __init__(self, items: Iterable[Item], number: int, ahead: int | None) -> None:
-        self._tasks = (_Task(index, item) for index, item in enumerate(items))
+        self._tasks = (Task(index, item) for index, item in enumerate(items))
         self._number, self._ahead = number, ahead
         self._taken = 0
-        self.unfinished: dict[int, _Task[Item]] = {}
+        self.unfinished: dict[int, Task[Item]] = {}
 
     def fill(self) -> None:
         """Take items until there is a task for every worker."""
@@ -233,7 +204,7 @@ class _Tasks(Generic[Item]):
             self.unfinished[task.index] = task
             self._taken += 1
 
-    def finish(self, task: _Task[Item]) -> int:
+    def finish(self, task: Task[Item]) -> int:
         """Forget a task; gives its index."""
         del self.unfinished[task.index]
         return task.index
@@ -241,63 +212,6 @@ class _Tasks(Generic[Item]):
     def _far_ahead(self) -> bool:
         first = min(self.unfinished, default=self._taken)
         return self._ahead is not None and self._taken - first >= self._ahead
-
-
-class _Worker:
-    """A process, and this end of the pipe that leads to it."""
-
-    def __init__(self, inherited: Callable[[Any], Any] | None, ends: Sequence[_Connection]) -> None:
-        context: Any = _SPAWN if inherited is None else _FORK
-        try:
-            self.connection, far_end = context.Pipe()
-            # A copy has this process's ends too, and would never see them closed.
-            copied = () if inherited is None else (*ends, self.connection)
-            self._process = context.Process(
-                target=_serve, args=(far_end, inherited, copied), daemon=True
-            )
-            with _interrupts_blocked(), far_end:  # closed here: else its end would go unnoticed
-                self._process.start()
-        except OSError as error:
-            raise SolverError(f"a worker process cannot start: {error.strerror}") from None
-        self.ready = self.begun = False
-        self.task: _Task[Any] | None = None
-        self.reason = ""
-
-    def take(self, function: Callable[[Item], Result] | None, task: _Task[Item]) -> None:
-        """Send a task; None is the inherited function."""
-        content = pickle.dumps((function, task.item))
-        self.task, self.begun = task, False
-        with suppress(OSError):  # it is dead, which `receive` reports
-            self.connection.send_bytes(content)
-
-    def receive(self) -> tuple[int, Any]:
-        """Receive a message and note what it says about the worker.
-
-        Raises
-        ------
-        EOFError, OSError
-            The worker is dead.
-        """
-        kind, content = self.connection.recv()
-        self.ready, self.begun = True, kind == _BEGUN
-        if kind in (_DONE, _FAILED):
-            self.task = None
-        return kind, content
-
-    def close(self) -> None:
-        """Kill the process if it is at work; let it end otherwise."""
-        if self.task or not self.ready:
-            self._process.kill()
-        self.connection.close()
-
-    def join(self) -> None:
-        """Wait for the end of the process, which `close` began."""
-        self._process.join(_END_S)
-        self._process.kill()
-        self._process.join()
-        code = self._process.exitcode or 0
-        self.reason = signal.Signals(-code).name if code < 0 else f"exit code {code}"
-        self._process.close()
 
 
 def side_by_side(
@@ -322,70 +236,9 @@ def side_by_side(
         yield from pool.in_order(function, items)
 
 
-def can_fork() -> bool:
-    """Return whether this process can be copied: on Linux, without a thread beside this one.
-
-    A copy has the calling thread alone: a lock that another one holds would stay closed for ever.
-    """
-    return _FORK is not None and threading.active_count() == 1
-
-
-def _serve(
-    pipe: _Connection, inherited: Callable[[Any], Any] | None, copied: Sequence[_Connection]
-) -> None:
-    """Answer items in a worker until the other end of the pipe is closed."""
-    for end in copied:
-        end.close()
-    threading.Thread(target=_end_with_parent, daemon=True).start()
-    with suppress(EOFError, OSError):
-        pipe.send((_READY, None))
-        while True:
-            content = pipe.recv_bytes()
-            pipe.send((_BEGUN, None))
-            pipe.send_bytes(_answer(content, inherited))
-
-
-def _end_with_parent() -> None:
-    """End this worker when its parent has ended, in the middle of an item too."""
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        parent.join()
-    os._exit(1)
-
-
-def _answer(content: bytes, inherited: Any) -> bytes:
-    """Apply the function to the item of a message; gives the result or the error as a message."""
-    try:
-        function, item = pickle.loads(content)  # noqa: S301 - of the process that started this one
-        return pickle.dumps((_DONE, (function or inherited)(item)))
-    except BaseException as error:
-        error.add_note(f"In a worker process:\n{traceback.format_exc()}")
-        return pickle.dumps((_FAILED, _portable(error)))
-
-
-def _portable(error: BaseException) -> BaseException:
-    """Give the error, or its text where it cannot be pickled."""
-    try:
-        pickle.loads(pickle.dumps(error))  # noqa: S301 - made one line before
-    except Exception:
-        return SolverError(f"{type(error).__name__}: {error}")
-    return error
-
-
 def _refuse(_: object, reason: str) -> NoReturn:
     """Report an item that ended two workers."""
     raise SolverError(
         f"two worker processes ended at the same item ({reason}): "
         "if memory ran out, use fewer workers"
     )
-
-
-@contextmanager
-def _interrupts_blocked() -> Iterator[None]:
-    """Block SIGINT, so that a process that is started here never gets it."""
-    resource_tracker.ensure_running()  # starts with the first process otherwise, and unblocks it
-    blocked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, blocked)

@@ -28,7 +28,7 @@ from .measured_points import (
 from .weighting import WEIGHTING
 
 _UNMODELLED_COLUMNS: Final = [BASELINE_BANDS.index(band) for band in REMAINDER_BANDS]
-"""Their columns among the bands of a baseline."""
+"""Columns of unmodelled noise among the bands of a baseline."""
 
 
 @dataclass(frozen=True)

@@ -150,9 +150,8 @@ def _case(results: xr.Dataset, option: str, microphone: str, speed: float) -> xr
             raise ParameterError(
                 f"{word} = {value}{unit}: the results hold no such one; there are {known}"
             )
-    in_room = (
-        microphone not in results.variables["receiver"].values
-    )  # of one name the microphone counts
+    # A microphone precedes a listener with the same name.
+    in_room = microphone not in results.variables["receiver"].values
     if in_room and "room_pressure_line" not in results:
         raise SchemaError("the results hold no sound in the room: run the study again")
     names = _IN_ROOM if in_room else _AT_MICROPHONE

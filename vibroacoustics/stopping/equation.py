@@ -10,6 +10,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from ..base.arrays import Array
+from ..base.periodic_spline import value_and_slope
 from ..machine.stopping import Stopping
 from ..mechanics.moving_parts import MovingPart
 
@@ -63,21 +64,6 @@ def brake_shift(time_s: Array, shift_rad: float, duration_s: float) -> Shift:
 
 
 _shift_at: Any = numba.njit(cache=True, nogil=True, error_model="numpy")(brake_shift)
-
-
-@numba.njit(cache=True, nogil=True, error_model="numpy")
-def value_and_slope(spline: Array, angle: float) -> tuple[float, float]:
-    """Value and slope of a periodic cubic spline of equal pieces over one turn."""
-    pieces = spline.shape[1]
-    turn = angle / (2.0 * np.pi)
-    position = (turn - np.floor(turn)) * pieces
-    piece = min(int(position), pieces - 1)
-    step = (position - piece) * (2.0 * np.pi / pieces)
-    value, slope = 0.0, 0.0
-    for power in range(4):
-        slope = slope * step + value
-        value = value * step + spline[power, piece]
-    return value, slope
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")

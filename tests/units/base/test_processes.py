@@ -17,7 +17,7 @@ import process_work
 import psutil
 import pytest
 
-from vibroacoustics.base import processes
+from vibroacoustics.base import worker_process
 from vibroacoustics.base.errors import SolverError
 from vibroacoustics.base.processes import ProcessPool
 
@@ -145,7 +145,7 @@ def test_two_maps_at_a_time_are_refused(pool):
 
 
 def test_workers_that_cannot_begin(monkeypatch):
-    monkeypatch.setattr(processes, "_serve", process_work.leave)
+    monkeypatch.setattr(worker_process, "_serve", process_work.leave)
     with (
         ProcessPool(1) as broken,
         pytest.raises(SolverError, match="end before they begin to work: exit code 7"),
@@ -248,7 +248,8 @@ FORKED = """
     from pathlib import Path
     from threading import Event, Thread
     from process_work import end_once
-    from vibroacoustics.base.processes import ProcessPool, can_fork
+    from vibroacoustics.base.processes import ProcessPool
+    from vibroacoustics.base.worker_process import can_fork
     known = {"squares": partial(end_once, Path(sys.argv[1]), 1)}
     square = lambda number: known["squares"](number)
     assert can_fork()

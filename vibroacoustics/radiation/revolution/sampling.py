@@ -47,9 +47,7 @@ def sample(table_hz: Array, delay_s: Array, solve: Solve) -> Sampled:
     solved = first_solved(table_hz)
     pressure, error = solve(solved)
     while True:
-        smooth = pressure / _trend(table_hz[solved], delay_s)
-        beside = _left_out(table_hz[solved], smooth) / _GAIN
-        beside *= np.abs(_trend(table_hz[solved], delay_s))
+        smooth, beside = _smooth_and_error(table_hz[solved], delay_s, pressure)
         # Nor do more frequencies help where the meshes' error is larger.
         allowed = TOLERANCE * np.abs(pressure).max(axis=1) + error.max(axis=1)
         wrong = np.any(beside.max(axis=1) > allowed, axis=1)
@@ -74,10 +72,27 @@ def first_solved(table_hz: Array) -> IndexArray:
 
 def interpolated(
     table_hz: Array, delay_s: Array, solved: IndexArray, pressure: ComplexArray
-) -> ComplexArray:
-    """Pressures at all frequencies from those at solved ones, (frequency, receiver, pattern)."""
-    smooth = pressure / _trend(table_hz[solved], delay_s)
-    return _spline(table_hz[solved], smooth, table_hz) * _trend(table_hz, delay_s)
+) -> Sampled:
+    """Pressures at all frequencies from exact ones at solved frequencies.
+
+    Parameters
+    ----------
+    table_hz : shape (frequency,)
+    delay_s : shape (receiver,)
+    solved : indices of the solved frequencies
+    pressure : there, shape (solved, receiver, pattern), Pa
+    """
+    smooth, beside = _smooth_and_error(table_hz[solved], delay_s, pressure)
+    return _everywhere(table_hz, delay_s, solved, smooth, np.zeros(pressure.shape), beside)
+
+
+def _smooth_and_error(
+    solved_hz: Array, delay_s: Array, pressure: ComplexArray
+) -> tuple[ComplexArray, Array]:
+    """Pressures without their trend, and the estimated error of interpolation beside each, Pa."""
+    trend = _trend(solved_hz, delay_s)
+    smooth = pressure / trend
+    return smooth, _left_out(solved_hz, smooth) / _GAIN * np.abs(trend)
 
 
 def _between(solved: IndexArray, wrong: IndexArray) -> IndexArray:

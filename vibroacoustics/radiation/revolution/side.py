@@ -173,7 +173,11 @@ class RevolutionSide:
         added = np.array(in_threads([partial(addition, int(index)) for index in indices]))
         progress(name, indices.size, indices.size)
         everywhere = interpolated(table_hz, self.delays_s(points), indices, added)
-        return replace(pressure, pressure=pressure.pressure + everywhere)
+        return replace(
+            pressure,
+            pressure=pressure.pressure + everywhere.pressure,
+            error=pressure.error + everywhere.error,
+        )
 
     def delays_s(self, points: Array) -> Array:
         """Travel time to points (point, 3), the mean of that from the body and from its image."""

@@ -11,6 +11,7 @@ import numba
 import numpy as np
 
 from ...base.arrays import Array
+from ...base.periodic_spline import spline_value
 from .contact import Face
 
 KEYS: Final = 4
@@ -40,20 +41,6 @@ class Coupling(NamedTuple):
     sticking_speed: float
     moment: Array
     ring_force: Array
-
-
-@numba.njit(cache=True, nogil=True, error_model="numpy", inline="always")
-def spline_value(spline: Array, angle: float) -> float:
-    """Value of a periodic cubic spline of equal pieces over one turn."""
-    pieces = spline.shape[1]
-    turn = angle / (2.0 * np.pi)
-    position = (turn - np.floor(turn)) * pieces
-    piece = min(int(position), pieces - 1)
-    step = (position - piece) * (2.0 * np.pi / pieces)
-    value = spline[0, piece]
-    for power in range(1, 4):
-        value = value * step + spline[power, piece]
-    return float(value)
 
 
 class Drive(NamedTuple):

@@ -21,8 +21,8 @@ SETTLING_REVOLUTIONS: Final = 4
 """Left out: from the start in the middle of the slots. At rated load, at all corners of the assumed
 ranges, forces are then within 2e-8 N of those after ten."""
 REPEATED: Final = 1e-4
-"""Change of forces from one revolution to the next, of the largest, below which they repeat. The
-change that would follow is at most a fifth of it; a tenth of it changes no level by 0.003 dB."""
+"""Change of forces from one revolution to the next, of the largest, below which they repeat; the
+one that follows is a fifth of it or less. A tenth of it changes no level by more than 0.003 dB."""
 SAMPLE_RATE_HZ: Final = 1e5
 """At least; of an unloaded ring's 14 N rms at 3500 rpm 0.13 N rms lie above 32 kHz."""
 MOST_STEPS: Final = 1000
