@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import Final
@@ -23,6 +24,8 @@ from vibroacoustics.results import manifest
 STUDY: Final = Path(__file__).resolve().parents[1] / "studies" / "tiny.toml"
 WARM_CACHE: Final = Path(tempfile.mkdtemp(prefix="torture-cache-"))
 atexit.register(shutil.rmtree, WARM_CACHE, ignore_errors=True)
+MOST_S: Final = 2.0
+"""Time within which workers end after their command."""
 
 
 def start(out: Path, cache_folder: Path) -> subprocess.Popen[str]:
@@ -123,11 +126,24 @@ def signal_a_command(folder: Path, chance: random.Random) -> list[str]:
 
 
 def children_of(session: int) -> list[str]:
-    try:
-        os.killpg(session, 0)
-    except ProcessLookupError:
-        return []
-    return ["left: a child"]
+    """What is left of a session's processes; a worker ends a moment after its command."""
+    end = time.monotonic() + MOST_S
+    while running(session):
+        if time.monotonic() > end:
+            return ["left: a child"]
+        time.sleep(0.05)
+    return []
+
+
+def running(session: int) -> list[int]:
+    """Processes of a session that have not ended; who collects the ended ones is init's affair."""
+    found = []
+    for path in Path("/proc").glob("[0-9]*/stat"):
+        with suppress(OSError):
+            state, _, _, of = path.read_text().rpartition(")")[2].split()[:4]
+            if int(of) == session and state not in "ZX":
+                found.append(int(path.parent.name))
+    return found
 
 
 COMMAND_TRIALS: Final[tuple[Trial, ...]] = (kill_a_command, signal_a_command)
