@@ -7,7 +7,7 @@ from vibroacoustics.base.units import shaft_frequency_hz
 from vibroacoustics.machine.frame import Frame
 from vibroacoustics.mechanics.critical_speed import free_scroll_shaft
 from vibroacoustics.mechanics.scroll_shaft import ScrollShaft
-from vibroacoustics.study.draws import draws_of, with_draw
+from vibroacoustics.study.samples import samples_of, with_sample
 from vibroacoustics.transfer.frame.bearings import Bearing, bearings_of
 
 FREQUENCY_HZ = np.array([500.0, 700.0])
@@ -21,7 +21,8 @@ def main() -> None:
     """Print eccentricity ratio, loss factor and share of samples with oil whirl."""
     study = va.load_study("pipelines/copeland_sources.toml")
     machines = [study.machine]
-    machines += [with_draw(study.machine, study.machine, draw) for draw in draws_of(study).draws]
+    samples = samples_of(study).samples
+    machines += [with_sample(study.machine, study.machine, sample) for sample in samples]
     every = [(machine, bearings(machine)) for machine in machines]
     for number, name in enumerate(NAMES):
         loss = np.array([loss_factors(each[number]) for _, each in every])

@@ -27,7 +27,7 @@ from vibroacoustics.stages.forces import with_published
 from vibroacoustics.stages.radiation import transfer_vectors
 from vibroacoustics.stages.sampled import sounds_of
 from vibroacoustics.stages.stage import advanced, applying
-from vibroacoustics.study.draws import batches_of_draws, with_draw
+from vibroacoustics.study.samples import batches_of_samples, with_sample
 from vibroacoustics.transfer.received import Transmission
 from vibroacoustics.uncertainty.evidence import Evidence
 
@@ -46,7 +46,7 @@ def main(count: int) -> None:
     """Print the rates at the published level and for all cases, and differences of levels."""
     study = va.load_study(STUDY)
     chain = chain_of(study)
-    samples = next(batches_of_draws(study))[:count]
+    samples = next(batches_of_samples(study))[:count]
     print(f"{processors()} processors, {count} samples at the published level, {count // 4} of all")
     published = at_published(chain)
     seconds, levels, processor_s = timed(published, samples)
@@ -126,7 +126,7 @@ def effective_share(chain: Chain, samples: list) -> float:
     machine = chain.study.machine
     weights = [
         logsumexp(
-            evidence.log_weights(sound, with_draw(machine, machine, sample), number, data, priors)
+            evidence.log_weights(sound, with_sample(machine, machine, sample), number, data, priors)
         )
         for number, (sound, sample) in enumerate(zip(sounds, samples, strict=True))
     ]

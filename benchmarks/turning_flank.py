@@ -15,7 +15,7 @@ from vibroacoustics.machine.machine import Machine
 from vibroacoustics.machine.shell_structure import ShellStructure
 from vibroacoustics.mechanics.critical_speed import free_scroll_shaft
 from vibroacoustics.mechanics.scroll_shaft import ScrollShaft
-from vibroacoustics.study.draws import draws_of, with_draw
+from vibroacoustics.study.samples import samples_of, with_sample
 from vibroacoustics.transfer.frame import contacts_of, inner_set
 from vibroacoustics.transfer.frame.of_machine import SHAFT_ELEMENT_M
 
@@ -29,13 +29,13 @@ def main() -> None:
     """Print the error in decibel of two models without turning contact, over samples."""
     print("exact solution beside a turn integrated by Runge and Kutta:", check())
     study = va.load_study("pipelines/copeland_sources.toml")
-    draws = draws_of(study).draws[:SAMPLES]
+    samples = samples_of(study).samples[:SAMPLES]
     random = np.random.default_rng(1)
     speeds = 2.0 * np.pi * random.uniform(45.0, 60.0, SAMPLES)
-    samples = [with_draw(study.machine, study.machine, draw) for draw in draws]
+    machines = [with_sample(study.machine, study.machine, sample) for sample in samples]
     for stiffness in STIFFNESS_N_PER_M:
         errors = np.array(
-            [of_sample(*each, stiffness, random) for each in zip(samples, speeds, strict=True)]
+            [of_sample(*each, stiffness, random) for each in zip(machines, speeds, strict=True)]
         )
         for band, values in zip(BANDS_HZ, np.moveaxis(errors, 1, 0), strict=True):
             each = np.quantile(values, [0.1, 0.5, 0.9], axis=0).T.round(1).tolist()

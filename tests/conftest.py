@@ -20,7 +20,7 @@ from vibroacoustics.study.study import Study
 READING = (blocks, modes, reading)
 LONGEST_FIRST = (
     "test_doctests.py", "test_wrong_results.py", "test_cli.py", "test_sources_in_chain.py",
-    "test_small_things.py", "test_bad_recordings.py", "test_bad_studies.py", "test_draws.py",
+    "test_small_things.py", "test_bad_recordings.py", "test_bad_studies.py", "test_samples.py",
     "test_oldham_keys.py", "test_run_flags.py",
 )  # fmt: skip
 """Files of more than ten seconds: a worker that begins one last keeps all others waiting."""

@@ -14,7 +14,7 @@ VERBS = ("source_levels_over_speed", "campbell", "speed_frequency_map")
 
 
 def main() -> None:
-    """Two sources, few draws: a minute or two."""
+    """Two sources, few samples: a minute or two."""
     sys.path.insert(0, str(GALLERY))
     from rough_radiation import rough_radiation
 

@@ -2,8 +2,8 @@
 What carries the level, and how well is it known?
 =================================================
 
-Gas forces, Oldham keys and motor drive an elastic shell. What is not known is drawn from its range;
-every draw keeps its levels. Method and findings: :doc:`/sources_of_sound`.
+Gas forces, Oldham keys and motor drive an elastic shell. What is not known is sampled from its
+range; every sample keeps its levels. Method and findings: :doc:`/sources_of_sound`.
 
 .. literalinclude:: /gallery/studies/sources.toml
    :language: toml
@@ -39,14 +39,14 @@ for path in share["path"].values[np.argsort(-abs(share.values))[:6]]:
     print(f"{path:35s} {100.0 * share.sel(path=path).item():+6.1f} %")
 
 # %%
-# With the draws
+# With the samples
 # --------------
-# Draws were weighed by how well they agree with the published level; those that do went on.
-print(f"{results.sizes['bank_draw']} draws were weighed, {results.sizes['draw']} went on")
-drawn = results["source_level_by_draw"].sel(option="none")
+# Samples were weighed by how well they agree with the published level; those that do went on.
+print(f"{results.sizes['prior_sample']} samples were weighed, {results.sizes['sample']} went on")
+sampled = results["source_level_by_sample"].sel(option="none")
 figure, axes = plt.subplots(layout="constrained")
 for number, source in enumerate(("gas", "keys", "moving_parts")):
-    levels = drawn.sel(sound_source=source)
+    levels = sampled.sel(sound_source=source)
     axes.plot(np.full(levels.size, number), levels, "o", alpha=0.5)
     axes.plot(number, alone.sel(sound_source=source), "k_", markersize=30)
 axes.set(xticks=range(3), xticklabels=["gas", "keys", "moving parts"], ylabel="level, dB(A)")
@@ -54,12 +54,12 @@ axes.set(xticks=range(3), xticklabels=["gas", "keys", "moving parts"], ylabel="l
 # %%
 # What makes the spread
 # ---------------------
-# Rank correlation of each drawn value with the level of all modelled sources, the twelve largest;
-# more draws make it sharper.
-level = results["level_modelled_by_draw"].sel(option="none")
+# Rank correlation of each sampled value with the level of all modelled sources, the twelve largest;
+# more samples make it sharper.
+level = results["level_modelled_by_sample"].sel(option="none")
 ranks = {
-    name: np.argsort(np.argsort(results["drawn_value"].sel(drawn_parameter=name)))
-    for name in results["drawn_parameter"].values
+    name: np.argsort(np.argsort(results["sampled_value"].sel(uncertain_parameter=name)))
+    for name in results["uncertain_parameter"].values
 }
 loudness = np.argsort(np.argsort(level))
 correlation = {name: np.corrcoef(rank, loudness)[0, 1] for name, rank in ranks.items()}

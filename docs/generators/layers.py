@@ -12,7 +12,7 @@ WORDS: Final = {
     "report": "HTML, Markdown, CSV",
     "pipeline": "the order of stages",
     "scoring": "criteria, ranks",
-    "uncertainty": "draws, bands",
+    "uncertainty": "samples, bands",
     "results": "files, provenance",
     "balancers": "one file an option",
     "stopping": "switched off",

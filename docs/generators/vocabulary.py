@@ -14,7 +14,7 @@ from .tables import code, table
 PACKAGE: Final = Path(vibroacoustics.__file__).parent
 SUBJECTS: Final = PACKAGE / "base" / "variables"
 CHAIN: Final = (
-    "study", "forces", "motion", "radiation", "sound_field", "levels", "sources", "draws",
+    "study", "forces", "motion", "radiation", "sound_field", "levels", "sources", "samples",
     "stopping", "scores", "columns", "recordings", "orders", "comparison", "limits",
 )  # fmt: skip
 """Subjects in the order of the chain; further ones stand behind."""

@@ -1,4 +1,4 @@
-"""A made-up hammer test: a draw of a study's shell is the truth, with noise on its mobilities."""
+"""A made-up hammer test: a sample of a study's shell is the truth, with noise on its mobilities."""
 
 from dataclasses import replace
 
@@ -7,8 +7,8 @@ from measured_bench import noisy
 from sources_study import SOURCES_STUDY
 
 import vibroacoustics as va
-from vibroacoustics.study.draws import with_draw
 from vibroacoustics.study.measured_shell import MeasuredShell, PartPoint, WallPoint
+from vibroacoustics.study.samples import with_sample
 from vibroacoustics.transfer.wall_mobility import wall_mobility, wall_of
 
 FREQUENCY = np.arange(300.0, 1801.0, 5.0)
@@ -28,9 +28,9 @@ def hammered_study(highest_hz=1800.0):
     return va.load_study(SOURCES_STUDY).replace({"radiation.maximum_frequency_hz": highest_hz})
 
 
-def mobilities(study, path, draw, frequency=FREQUENCY):
-    """Of a draw's shell, shape (response, reference, frequency)."""
-    machine = with_draw(study.machine, study.machine, draw)
+def mobilities(study, path, sample, frequency=FREQUENCY):
+    """Of a sample's shell, shape (response, reference, frequency)."""
+    machine = with_sample(study.machine, study.machine, sample)
     return wall_mobility(machine, path, wall(path), REFERENCES, frequency)
 
 

@@ -23,7 +23,7 @@ class Machine:
 
 
 def synthetic_machine(number: int) -> Machine:
-    """A machine of its own for every number; all of it is drawn.
+    """A machine of its own for every number; all of it is sampled.
 
     800 to 7000 rpm, steady, run-up, run-down or fluctuating; four to eight orders of random size
     with a weak first; hum at multiples of 50 or 60 Hz, off the nominal by up to 0.1 %; a gear mesh

@@ -34,7 +34,7 @@ option = "weight"
 [design.search]
 population = 32
 generations = 60
-fresh_draws = 400
+fresh_samples = 400
 [design.objectives.quiet]
 figure = "order_level_db"
 order = 1
@@ -89,7 +89,7 @@ option = "sprung"
 [design.search]
 population = 24
 generations = 40
-fresh_draws = 100
+fresh_samples = 100
 [design.objectives.change]
 figure = "order_change_db"
 order = 1
@@ -136,7 +136,7 @@ def test_promise_of_a_robust_design_is_kept_by_fresh_pieces() -> None:
         * np.array([variable.factor for variable in problem.space.variables])
     )
     promised = promise(problem, design, 10_000)
-    others = problem.by_draw(design[None], problem.draws(10_000, 2))[0, :, 0]
+    others = problem.by_sample(design[None], problem.samples(10_000, 2))[0, :, 0]
     assert np.quantile(others, 0.9) == pytest.approx(promised.promised[0], abs=0.05)
     assert promised.promised[0] > promised.meant[0]
     assert promised.low[0] <= promised.promised[0] <= promised.high[0]

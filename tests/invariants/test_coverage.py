@@ -11,7 +11,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from drawn_chain import DrawnChain
+from sampled_chain import SampledChain
 from sources_study import SOURCES_STUDY
 from support import ROOT
 
@@ -19,9 +19,9 @@ from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.levels.agreement import LEVELS_DB, Prior, data_of, log_weights
 from vibroacoustics.levels.by_source import GAIN_BANDS, SourceSound
 from vibroacoustics.levels.remainder import unmodelled_bands
-from vibroacoustics.study.draws import fitting, with_draw
 from vibroacoustics.study.loading import load_study
-from vibroacoustics.study.sampling import draw_at, latin_hypercubes
+from vibroacoustics.study.samples import fitting, with_sample
+from vibroacoustics.study.sampling import latin_hypercubes, sample_at
 from vibroacoustics.uncertainty.discrepancy import Discrepancy
 from vibroacoustics.uncertainty.evidence import with_gain
 
@@ -60,7 +60,7 @@ class Ensemble:
     low_part: np.ndarray
 
     @classmethod
-    def of(cls, chain, draws, sounds, discrepancy_of):
+    def of(cls, chain, samples, sounds, discrepancy_of):
         """Energies in Pa².
 
         Parameters
@@ -70,8 +70,8 @@ class Ensemble:
         study, rows = chain.study, []
         gas, below = chain.axes.sources.index("gas"), part_below()
         speeds, options = study.operation.speed_rpm, list(study.options)
-        for number, (draw, sound) in enumerate(zip(draws, sounds, strict=True)):
-            machine = with_draw(study.machine, study.machine, draw)
+        for number, (sample, sound) in enumerate(zip(samples, sounds, strict=True)):
+            machine = with_sample(study.machine, study.machine, sample)
             of_sample = discrepancy_of(number)
             heard = of_sample.sounds(sound)
             modelled = [[[one[s, o].total[0, 0] for o in options] for s in speeds] for one in heard]
@@ -191,22 +191,22 @@ class Prepared:
     """A chain with its prior ensemble, and what infers from it."""
 
     worlds: Worlds
-    draws: list
+    samples: list
     sounds: list
     inference: Inference
     scale: float
 
     @classmethod
-    def of(cls, chain, draws, sounds):
+    def of(cls, chain, samples, sounds):
         assert tuple(chain.study.options) == KEPT
         worlds = Worlds(chain)
-        nominal = Ensemble.of(chain, draws, sounds, worlds.scaled())
+        nominal = Ensemble.of(chain, samples, sounds, worlds.scaled())
         scale = float(np.median(nominal.modelled[:, 0, 0, 0]))
-        prior = Ensemble.of(chain, draws, sounds, worlds.discrepant()).relative_to(scale)
-        return cls(worlds, draws, sounds, Inference(prior), scale)
+        prior = Ensemble.of(chain, samples, sounds, worlds.discrepant()).relative_to(scale)
+        return cls(worlds, samples, sounds, Inference(prior), scale)
 
-    def truths(self, draws, sounds, world):
-        return Ensemble.of(self.worlds.chain, draws, sounds, world).relative_to(self.scale)
+    def truths(self, samples, sounds, world):
+        return Ensemble.of(self.worlds.chain, samples, sounds, world).relative_to(self.scale)
 
 
 def worlds_of(worlds):
@@ -275,9 +275,9 @@ def ensemble():
     )
     chain = SimpleNamespace(study=study, axes=SimpleNamespace(sources=list(SPREAD_DB)))
     ranges = [one for one in study.ranges if one.table == "remainder"]
-    draws = next(latin_hypercubes(ranges, study.uncertainty.model_copy(update=MADE_UP)))
+    samples = next(latin_hypercubes(ranges, study.uncertainty.model_copy(update=MADE_UP)))
     rng, keys = np.random.default_rng(7), list(product(speeds, KEPT))
-    return Prepared.of(chain, draws, made_up_sounds(keys, rng, len(draws)))
+    return Prepared.of(chain, samples, made_up_sounds(keys, rng, len(samples)))
 
 
 @pytest.mark.parametrize("number", range(4))
@@ -287,7 +287,7 @@ def test_coverage_of_made_up_sources(ensemble, number):
     All 15 dB quieter is a row of the chain only: 2.5 deviations of the made-up gas.
     """
     name, world = list(worlds_of(ensemble.worlds).items())[number]
-    truths = ensemble.truths(ensemble.draws, ensemble.sounds, world)
+    truths = ensemble.truths(ensemble.samples, ensemble.sounds, world)
     rng = np.random.default_rng(4)
     found, inside, _ = held(ensemble.inference, truths, rng, leave_out=True)
     print(name, found.round(2), inside.round(2))
@@ -297,22 +297,22 @@ def test_coverage_of_made_up_sources(ensemble, number):
 def at_ends(study, rng, count):
     """Samples whose values are all at an end of their ranges, where these fit together."""
     ends = rng.integers(0, 2, (count, len(study.ranges)))
-    rows = [fitting(study, draw_at(study.ranges, np.clip(one, 0.0, 1.0 - 1e-9))) for one in ends]
+    rows = [fitting(study, sample_at(study.ranges, np.clip(one, 0.0, 1.0 - 1e-9))) for one in ends]
     return [row for row in rows if fits(study, row)]
 
 
-def fits(study, draw):
+def fits(study, sample):
     try:
-        with_draw(study.machine, study.machine, draw)
+        with_sample(study.machine, study.machine, sample)
     except ParameterError:
         return False
     return True
 
 
-def with_oil(draws, factor):
+def with_oil(samples, factor):
     """Samples whose oil layer on the key faces is thicker by a factor."""
     layer = ("keys", "oil_layer_m")
-    return [{**draw, layer: factor * draw[layer]} for draw in draws]
+    return [{**sample, layer: factor * sample[layer]} for sample in samples]
 
 
 @pytest.mark.long
@@ -325,19 +325,19 @@ def test_coverage_of_the_inner_sources():
     study = load_study(ROOT / "pipelines" / "copeland_sources.toml")
     others = {f"options.{name}": None for name in study.options if name not in KEPT}
     study = study.replace({**others, "operation.stopping": False})
-    chain = DrawnChain.of(study)
-    draws = chain.hypercube(MACHINES + 200)
-    prepared = Prepared.of(chain, draws, chain.sounds(draws))
+    chain = SampledChain.of(study)
+    samples = chain.hypercube(MACHINES + 200)
+    prepared = Prepared.of(chain, samples, chain.sounds(samples))
     worlds, fresh = prepared.worlds, chain.hypercube(MACHINES, seed=11)
     sounds = chain.sounds(fresh)
     rows = {name: (fresh, sounds, world) for name, world in worlds_of(worlds).items()}
     ends = at_ends(study, np.random.default_rng(5), MACHINES)
-    for name, draws in (
+    for name, samples in (
         ("ends of the ranges", ends),
         ("oil layer / 10", with_oil(fresh, 0.1)),
         ("oil layer x 10", with_oil(fresh, 10.0)),
     ):
-        rows[name] = (draws, chain.sounds(draws), worlds.scaled())
+        rows[name] = (samples, chain.sounds(samples), worlds.scaled())
     print("\n", QUANTITIES)
     table = {}
     for name, row in rows.items():
@@ -362,7 +362,7 @@ def test_weights_are_those_of_the_package(ensemble):
     update = {"level_dba": published_db, "deviation_db": LEVEL_DEVIATION_DB}
     data = data_of(noise.model_copy(update={**update, "spectral_share": share_of}))
     flat = Prior("flat", "", lambda level: np.where(np.isin(level, GRID_DB), 1.0, 0.0))
-    machine = with_draw(study.machine, study.machine, ensemble.draws[number])
+    machine = with_sample(study.machine, study.machine, ensemble.samples[number])
     spectrum = unmodelled_bands(study, machine)
     gain = Discrepancy.of(study.uncertainty, len(chain.axes.sources), number).gain
     modelled = with_gain(ensemble.sounds[number][study.catalogue_case].mutual[:, :, 0], gain)

@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from drawn_chain import DrawnChain
+from sampled_chain import SampledChain
 from sources_study import SOURCES_STUDY, made_up_modes
 from support import ROOT
 
@@ -20,11 +20,11 @@ SCRIPT = """
     import hashlib, os, sys
     import vibroacoustics.base.processes as processes
     from vibroacoustics.base.worker_process import can_fork
-    from drawn_chain import DrawnChain
+    from sampled_chain import SampledChain
     from sources_study import SOURCES_STUDY, made_up_modes
     from vibroacoustics.study.loading import load_study
     processes.processors = lambda: int(sys.argv[1])
-    chain = DrawnChain.of(load_study(SOURCES_STUDY), lambda one, *_: (made_up_modes(one), False))
+    chain = SampledChain.of(load_study(SOURCES_STUDY), lambda one, *_: (made_up_modes(one), False))
     assert can_fork()
     forked = []
     fork = os.fork
@@ -56,12 +56,12 @@ def test_samples_are_bit_equal_for_any_number_of_processes():
 
 
 @cache
-def chain_with(*names: str) -> DrawnChain:
+def chain_with(*names: str) -> SampledChain:
     """The study with some of its options alone."""
     study = load_study(SOURCES_STUDY)
     options = {name: one for name, one in study.options.items() if not names or name in names}
     study = study.model_copy(update={"options": options})
-    return DrawnChain.of(study, lambda one, *_: (made_up_modes(one), False))
+    return SampledChain.of(study, lambda one, *_: (made_up_modes(one), False))
 
 
 @pytest.mark.parametrize("name", list(load_study(SOURCES_STUDY).options))

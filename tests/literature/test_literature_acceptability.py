@@ -36,7 +36,7 @@ def at_quantiles(shares: np.ndarray) -> np.ndarray:
 
 
 def utility_of(values: np.ndarray) -> np.ndarray:
-    """Utilities, shape (draw, option, criterion); response is better the higher."""
+    """Utilities, shape (sample, option, criterion); response is better the higher."""
     ends = at_quantiles(np.array([[[0.025]], [[0.975]]]))
     low, high = ends[0].min(axis=0), ends[1].max(axis=0)
     rising = np.array([True, False, False, False])
@@ -72,12 +72,12 @@ def exact_places(utility: np.ndarray) -> np.ndarray:
 
 
 def test_places_are_the_exact_volumes_of_their_weights() -> None:
-    """Draws that count by different weights."""
+    """Samples that count by different weights."""
     shares = qmc.LatinHypercube(12, seed=3).random(12).reshape(12, 3, 4)
-    utility, draw_weight = utility_of(at_quantiles(shares)), np.arange(1.0, 13.0)
-    exact = np.average([exact_places(one) for one in utility], axis=0, weights=draw_weight)
+    utility, sample_weight = utility_of(at_quantiles(shares)), np.arange(1.0, 13.0)
+    exact = np.average([exact_places(one) for one in utility], axis=0, weights=sample_weight)
     np.testing.assert_allclose(exact.sum(axis=0), 1.0, atol=1e-9)
-    places = rank_acceptability(utility, draw_weight, any_weights(4, 40_000, 1))
+    places = rank_acceptability(utility, sample_weight, any_weights(4, 40_000, 1))
     assert np.abs(places - exact).max() < ALLOWED
 
 
@@ -101,9 +101,9 @@ def test_pairs_have_the_closed_form_of_their_share() -> None:
 
 def test_places_agree_with_a_sampling_of_values_and_weights_together() -> None:
     """By other random numbers: quantiles on a lattice, weights as gaps between sorted numbers."""
-    draws = qmc.Sobol(12, seed=5).random(512).reshape(512, 3, 4)
+    samples = qmc.Sobol(12, seed=5).random(512).reshape(512, 3, 4)
     places = rank_acceptability(
-        utility_of(at_quantiles(draws)), np.ones(512), any_weights(4, 400, 6)
+        utility_of(at_quantiles(samples)), np.ones(512), any_weights(4, 400, 6)
     )
     generator = np.random.default_rng(7)
     gaps = np.diff(np.sort(generator.random((200_000, 3)), axis=1), axis=1, prepend=0.0, append=1.0)

@@ -71,7 +71,7 @@ def test_option_changes_the_measured_power_by_its_modelled_part(results: xr.Data
 
 
 def test_nothing_beside_the_model_leaves_bands_empty_never_zero(tiny: xr.Dataset) -> None:
-    silent = tiny.assign(remainder_band_level=tiny["remainder_band_level"] * 0.0 - 300.0)
+    silent = tiny.assign(unmodelled_band_level=tiny["unmodelled_band_level"] * 0.0 - 300.0)
     sheet = va.data_sheet(silent, "none")
     total, rest = _column(sheet, "total_db"), _column(sheet, "rest_db")
     beyond = np.array([band.band_hz > 800.0 for band in sheet.sound_power.bands])
@@ -96,20 +96,20 @@ def test_remainder_is_that_of_the_published_level(tiny: xr.Dataset) -> None:
 
 def _sampled(tiny: xr.Dataset, spread_db: np.ndarray, weight: np.ndarray) -> xr.Dataset:
     """The results with samples of the level that differ from the nominal one by a spread."""
-    coords = {"draw": np.arange(1, spread_db.size + 1)}
+    coords = {"sample": np.arange(1, spread_db.size + 1)}
     by_receiver = {name: tiny[name].values for name in ("speed", "option", "receiver")}
     modelled = tiny["level_modelled"].sel(weighting="A").transpose("speed", "option", "receiver")
     levels = {
-        "level_total_by_draw": tiny["level_total"].values,
-        "level_modelled_by_draw": modelled.values,
+        "level_total_by_sample": tiny["level_total"].values,
+        "level_modelled_by_sample": modelled.values,
     }
-    by_draw = {
+    by_sample = {
         name: stamp(name, level[None] + spread_db[:, None, None, None], coords | by_receiver)
         for name, level in levels.items()
     }
     of_both = {"prior": ["flat", "near"], **coords}
     return tiny.assign(
-        **by_draw, draw_weight=stamp("draw_weight", np.tile(weight, (2, 1)), of_both)
+        **by_sample, sample_weight=stamp("sample_weight", np.tile(weight, (2, 1)), of_both)
     )
 
 
@@ -125,8 +125,8 @@ def test_level_is_the_median_and_k_what_95_percent_of_the_samples_stay_below(
     # Half of the samples are at the nominal values and count nothing.
     spread = np.where(np.arange(count) % 2, deviation_db * random - below_db, 0.0)
     weight = np.where(np.arange(count) % 2, 2.0 / count, 0.0)
-    drawn = _sampled(tiny, spread, weight)
-    power = va.data_sheet(drawn, "none").sound_power
+    sampled = _sampled(tiny, spread, weight)
+    power = va.data_sheet(sampled, "none").sound_power
     error_db = 4.0 * 1.2533 * deviation_db / np.sqrt(count / 2)  # of a median, four deviations
     assert power.level_dba == pytest.approx(given.level_dba - below_db, abs=error_db)
     assert power.modelled_dba == pytest.approx(given.modelled_dba - below_db, abs=error_db)
@@ -137,7 +137,7 @@ def test_level_is_the_median_and_k_what_95_percent_of_the_samples_stay_below(
     level_db, k_db = power.declared
     exact = power.level_dba + power.uncertainty_k_db
     assert exact <= level_db + k_db < exact + 1.0
-    assert f"L_WA = {level_db} dB, K_WA = {k_db} dB" in headline(va.data_sheet(drawn, "none"))
+    assert f"L_WA = {level_db} dB, K_WA = {k_db} dB" in headline(va.data_sheet(sampled, "none"))
 
 
 def test_k_is_never_zero(tiny: xr.Dataset) -> None:
@@ -265,7 +265,7 @@ def test_tones_that_stand_out_are_stated_at_their_microphone(results: xr.Dataset
     sheet = va.data_sheet(results, "none", microphones=["p1", "p2"])
     assert sheet.tones == ()
     quiet = results.drop_vars("baseline_band_level")
-    quiet["remainder_band_level"] = quiet["remainder_band_level"] * 0.0 + 20.0
+    quiet["unmodelled_band_level"] = quiet["unmodelled_band_level"] * 0.0 + 20.0
     stated = va.data_sheet(quiet, "none", microphones=["p1", "p2"]).tones
     assert stated
     (tone,) = [one for one in stated if one.name == "order 5"]
@@ -280,7 +280,7 @@ def test_tones_that_stand_out_are_stated_at_their_microphone(results: xr.Dataset
 def test_tones_without_noise_are_not_judged(results: xr.Dataset) -> None:
     """Without noise every tone would stand out infinitely far."""
     bare = results.drop_vars("baseline_band_level")
-    for name in ("remainder_band_level", "noise_band_level"):
+    for name in ("unmodelled_band_level", "noise_band_level"):
         bare[name] = bare[name] * 0.0 - 300.0
     sheet = va.data_sheet(bare, "none", microphones=["p1", "p2"])
     assert sheet.tones == ()

@@ -39,11 +39,11 @@ def results() -> xr.Dataset:
 
 
 def changed_by(percent: Sequence[float]) -> Shift:
-    """A force of 10 N that changes by as much in each of four draws."""
+    """A force of 10 N that changes by as much in each of four samples."""
     before, changes = np.array([10.0]), np.asarray(percent, dtype=float)
-    drawn_db = 20.0 * np.log10(1.0 + changes[:, None] / 100.0)
+    sampled_db = 20.0 * np.log10(1.0 + changes[:, None] / 100.0)
     after = before * (1.0 + changes.mean() / 100.0)
-    return Shift(FORCE, before, after, drawn_db, WEIGHT, Measurable())
+    return Shift(FORCE, before, after, sampled_db, WEIGHT, Measurable())
 
 
 @pytest.mark.parametrize(

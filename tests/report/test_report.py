@@ -161,7 +161,7 @@ def _sound(
             "order_level": stamp("order_level", levels, {**weighted, "order": orders}),
             "level_modelled": stamp("level_modelled", modelled, weighted),
             "level_total": stamp("level_total", total, at),
-            "level_remainder": stamp("level_remainder", published_dba),
+            "level_unmodelled": stamp("level_unmodelled", published_dba),
             "source_level": stamp("source_level", modelled[:, :, None, :, 1], by_source),
             "line_difference": stamp("line_difference", np.full(total.shape, -0.02), at),
             "green_difference": stamp("green_difference", np.full((len(receivers), 3), -0.07), gap),

@@ -46,18 +46,20 @@ def with_evidence(results: xr.Dataset, forces: list[dict]) -> xr.Dataset:
 
 @pytest.fixture(scope="module")
 def results() -> xr.Dataset:
-    """A ring's force of 45 N, three draws of the bank at 50, 53 and 59 dB(A)."""
+    """A ring's force of 45 N, three samples of the bank at 50, 53 and 59 dB(A)."""
     results = with_sources({"none": 40.0, "idle": 40.0})
     phasor = np.zeros((2, 2, 1, 3, 5), dtype=complex)
     phasor[..., 0, 1], phasor[..., 1, 1] = 45.0, 27.0j  # an ellipse, 45 N its longer half
     coords = {dim: results[dim].values for dim in ("speed", "option", "source", "axis", "order")}
-    level = results["bank_level"].copy(data=np.resize([50.0, 53.0, 59.0, np.nan], 11))
+    level = results["prior_sample_level"].copy(data=np.resize([50.0, 53.0, 59.0, np.nan], 11))
     forces = [
         {**FORCE, "speed_rpm": 2900.0, "force_1x_n": 60.0, "deviation_n": 5.0},
         {**FORCE, "speed_rpm": 3500.0, "force_1x_n": 110.0, "deviation_n": 5.0},
         {**FORCE, "speed_rpm": 1000.0, "force_1x_n": 1.0, "deviation_n": 5.0},
     ]
-    results = results.assign(force_order=stamp("force_order", phasor, coords), bank_level=level)
+    results = results.assign(
+        force_order=stamp("force_order", phasor, coords), prior_sample_level=level
+    )
     return with_evidence(results, forces)
 
 
@@ -67,8 +69,8 @@ def test_the_level_is_that_of_the_sources_with_the_spread_before_any_data(
     level = rungs(results)[0]
     assert level.simulation == pytest.approx(energy(7.0, 50.0, 40.0))
     assert level.data == PUBLISHED_DBA
-    drawn = results["bank_level"].values
-    assert level.inputs == pytest.approx(np.std(drawn[np.isfinite(drawn)]))
+    sampled = results["prior_sample_level"].values
+    assert level.inputs == pytest.approx(np.std(sampled[np.isfinite(sampled)]))
     assert level.published == 2.0
     assert level.numerical == pytest.approx(20.0 * np.log10(1.01))  # of vectors off by 1 %
     assert level.error == pytest.approx(level.simulation - PUBLISHED_DBA)

@@ -13,10 +13,10 @@ from test_report import PUBLISHED_DBA, make_results
 from vibroacoustics.base.vocabulary import DERIVED_SUPPLY, GIVEN_SUPPLY, WEIGHTINGS, check, stamp
 from vibroacoustics.report import comparison_text, render
 from vibroacoustics.report.assumptions import not_modelled, remainder_sentence
-from vibroacoustics.report.bands import Band, draws, percent, resampled
-from vibroacoustics.report.drawn_words import drawn_sentences, held_sentence
+from vibroacoustics.report.bands import Band, percent, resampled, sample_values
 from vibroacoustics.report.extremes import extremes_table
 from vibroacoustics.report.option_verdict import option_verdict, option_verdicts
+from vibroacoustics.report.sampled_words import held_sentence, sampled_sentences
 from vibroacoustics.report.scores import too_close_words
 from vibroacoustics.report.source_changes import changes_sentence
 from vibroacoustics.report.source_tables import change_tables, figures_table, source_tables
@@ -37,9 +37,9 @@ SOURCES = ["moving_parts", "gas", "keys", "motor"]
 PRIORS = {"prior": ["flat", "near"]}
 BANDS_HZ = [50.0, 100.0, 1000.0, 2000.0]
 SPREAD_DB = np.array([-4.0, 0.0, 3.0])
-"""Of every source but the moving parts, over the draws."""
-OF_DRAW = [0, 0, 0, 1, 1, 1, 1, 1, 2, 2, 2]
-"""Spread of each draw: the quantiles at 10, 50 and 90 % of eleven are the second, sixth, tenth."""
+"""Of every source but the moving parts, over the samples."""
+OF_SAMPLE = [0, 0, 0, 1, 1, 1, 1, 1, 2, 2, 2]
+"""Spread of each sample: quantiles at 10, 50 and 90 % of eleven are the second, sixth, tenth."""
 
 
 def energy(*levels_db: float) -> float:
@@ -60,15 +60,15 @@ def with_sources(
     factors = {name: 0.5 if name == "rattles" else 1.0 for name in keys_dba}
     results = make_results(factors, receivers=("front_1m",))
     speeds = [float(speed) for speed in results["speed"].values]
-    drawn = np.zeros((3, 2, len(keys_dba), 4, 1))
+    sampled = np.zeros((3, 2, len(keys_dba), 4, 1))
     for number, keys in enumerate(keys_dba.values()):
         levels = np.array([7.0, gas_dba, keys, -120.0])
         spread = SPREAD_DB[:, None] * np.array([0.0, 1.0, 1.0, 1.0])
-        drawn[:, :, number, :, 0] = (levels + spread)[:, None]
-    assumed = drawn[1] + assumed_above_db * np.array([0.0, 1.0, 1.0, 0.0])[:, None]
-    drawn = drawn[OF_DRAW + [2] * left_out]
-    weight = np.repeat([1.0 / len(OF_DRAW), 0.0], [len(OF_DRAW), left_out])
-    made = _levels(speeds, list(keys_dba), drawn, assumed, weight)
+        sampled[:, :, number, :, 0] = (levels + spread)[:, None]
+    assumed = sampled[1] + assumed_above_db * np.array([0.0, 1.0, 1.0, 0.0])[:, None]
+    sampled = sampled[OF_SAMPLE + [2] * left_out]
+    weight = np.repeat([1.0 / len(OF_SAMPLE), 0.0], [len(OF_SAMPLE), left_out])
+    made = _levels(speeds, list(keys_dba), sampled, assumed, weight)
     kept = results.drop_dims(["sound_source", "figure"]).drop_vars(
         set(made.data_vars), errors="ignore"
     )
@@ -102,32 +102,34 @@ def with_sources(
 def _levels(
     speeds: list[float],
     options: list[str],
-    drawn: np.ndarray,
+    sampled: np.ndarray,
     assumed: np.ndarray,
     weight: np.ndarray,
 ) -> xr.Dataset:
     place = {"speed": speeds, "option": options, "receiver": ["front_1m"]}
     by_source = {**place, "sound_source": SOURCES}
-    draws = {"draw": np.arange(1, weight.size + 1)}
-    bank = {"bank_draw": draws["draw"]}
-    power, own = 10.0 ** (drawn / 10.0), 10.0 ** (assumed / 10.0)
+    samples = {"sample": np.arange(1, weight.size + 1)}
+    bank = {"prior_sample": samples["sample"]}
+    power, own = 10.0 ** (sampled / 10.0), 10.0 ** (assumed / 10.0)
     band = np.stack([assumed - 40.0, assumed - 30.0, assumed, assumed - 10.0], axis=-1)
     arrays = {
         "source_level": stamp("source_level", assumed, by_source),
         "source_share": stamp("source_share", own / own.sum(axis=-2, keepdims=True), by_source),
-        "source_level_by_draw": stamp("source_level_by_draw", drawn, {**draws, **by_source}),
-        "draw_weight": stamp("draw_weight", [weight, weight], {**PRIORS, **draws}),
-        "bank_weight": stamp("bank_weight", [weight, weight], {**PRIORS, **bank}),
-        "bank_level": stamp("bank_level", np.full(weight.size, 57.0), bank),
-        "bank_value": stamp(
-            "bank_value",
-            np.zeros((weight.size, 1)),
-            {**bank, "drawn_parameter": ["gas.polytropic_index"]},
+        "source_level_by_sample": stamp(
+            "source_level_by_sample", sampled, {**samples, **by_source}
         ),
-        "drawn_value": stamp(
-            "drawn_value",
-            draws["draw"][:, None].astype(float),
-            {**draws, "drawn_parameter": ["gas.polytropic_index"]},
+        "sample_weight": stamp("sample_weight", [weight, weight], {**PRIORS, **samples}),
+        "prior_sample_weight": stamp("prior_sample_weight", [weight, weight], {**PRIORS, **bank}),
+        "prior_sample_level": stamp("prior_sample_level", np.full(weight.size, 57.0), bank),
+        "prior_sample_value": stamp(
+            "prior_sample_value",
+            np.zeros((weight.size, 1)),
+            {**bank, "uncertain_parameter": ["gas.polytropic_index"]},
+        ),
+        "sampled_value": stamp(
+            "sampled_value",
+            samples["sample"][:, None].astype(float),
+            {**samples, "uncertain_parameter": ["gas.polytropic_index"]},
         ),
         "source_band_level": stamp("source_band_level", band, {**by_source, "band": BANDS_HZ}),
     }
@@ -139,9 +141,9 @@ def _levels(
         ("modelled", power.sum(axis=-2), modelled),
         ("total", power.sum(axis=-2) + rest, total),
     ):
-        drawn_level, level = 10.0 * np.log10(many), 10.0 * np.log10(single)
-        arrays[f"level_{name}_by_draw"] = stamp(
-            f"level_{name}_by_draw", drawn_level, {**draws, **place}
+        sampled_level, level = 10.0 * np.log10(many), 10.0 * np.log10(single)
+        arrays[f"level_{name}_by_sample"] = stamp(
+            f"level_{name}_by_sample", sampled_level, {**samples, **place}
         )
         arrays[f"change_{name}"] = stamp(f"change_{name}", level - level[:, :1], place)
     weighted = {**place, "weighting": list(WEIGHTINGS)}
@@ -149,9 +151,9 @@ def _levels(
     arrays["level_modelled"] = stamp("level_modelled", of_all, weighted)
     arrays["level_total"] = stamp("level_total", 10.0 * np.log10(total), place)
     remainder = 10.0 * np.log10(np.maximum(rest[:, 0, 0, 0], 1e-30))
-    arrays["level_remainder_by_draw"] = stamp("level_remainder_by_draw", remainder, draws)
-    arrays["level_remainder"] = stamp(
-        "level_remainder", 10.0 * np.log10(np.maximum(left, 1e-30)).item()
+    arrays["level_unmodelled_by_sample"] = stamp("level_unmodelled_by_sample", remainder, samples)
+    arrays["level_unmodelled"] = stamp(
+        "level_unmodelled", 10.0 * np.log10(np.maximum(left, 1e-30)).item()
     )
     figures = np.zeros((2, len(options), len(FIGURES) + 1))
     figures[..., 1:3] = [70.0, 0.2]
@@ -176,7 +178,7 @@ def files(results: xr.Dataset) -> dict[str, bytes]:
 
 
 def test_the_first_sentence_says_how_sure_the_carrier_is_by_prior(results: xr.Dataset) -> None:
-    """Gas makes 50.1 % in the three of eleven draws in which it has 53 dB(A) of 56."""
+    """Gas makes 50.1 % in the three of eleven samples in which it has 53 dB(A) of 56."""
     text = headline(results).replace("\u00a0", " ")
     assert text.startswith("Whether gas forces carry the 56 dB(A) at front_1m and 2900 rpm")
     assert "27 % if what is not modelled lies anywhere from 26 dB below" in text
@@ -189,9 +191,9 @@ def test_the_first_sentence_says_how_sure_the_carrier_is_by_prior(results: xr.Da
 
 def test_weights_of_a_prior_change_how_sure_the_carrier_is(results: xr.Dataset) -> None:
     other = results.copy(deep=True)
-    loudest = np.array(OF_DRAW + [2] * 16) == 2
-    counting = other["draw_weight"].values[1] > 0.0
-    other["draw_weight"][1] = np.where(loudest & counting, 1.0 / 3.0, 0.0)
+    loudest = np.array(OF_SAMPLE + [2] * 16) == 2
+    counting = other["sample_weight"].values[1] > 0.0
+    other["sample_weight"][1] = np.where(loudest & counting, 1.0 / 3.0, 0.0)
     text = headline(other).replace("\u00a0", " ")
     assert "27 % if what is not modelled" in text
     assert "100 % if it lies" in text
@@ -202,8 +204,8 @@ def test_the_reasons_name_the_loudest_source_with_its_band(results: xr.Dataset) 
     assert changes == changes_sentence(results)
     assert carrier == carrier_sentence(results)
     text = carrier.replace("\u00a0", " ")
-    # Of eleven draws three are lowest and three highest: the weight below the lower end, 10 ± 9 %,
-    # reaches over its step, that below median and upper end stays on theirs.
+    # Of eleven samples three are lowest and three highest: the weight below the lower end,
+    # 10 ± 9 %, reaches over its step, that below median and upper end stays on theirs.
     assert "is: gas forces, 50.0 dB(A)" in text
     assert "(10 to 90 % quantiles 46 to 53.0)" in text
     # 10^((50 − 56)/10) = 0.251, 10^((46 − 56)/10) = 0.100, 10^((53 − 56)/10) = 0.501
@@ -232,30 +234,30 @@ def test_shares_of_sources_and_remainder_add_up(results: xr.Dataset) -> None:
 def test_the_report_says_how_sure_the_ranking_is(results: xr.Dataset) -> None:
     sure = " ".join(certainty_sentences(results))
     assert "do not overlap (3.0 dB apart)" in sure
-    assert "27 draws were computed where the level is published" in sure
+    assert "27 samples were computed where the level is published" in sure
     assert "worth 11 equal ones" in sure
-    assert "2 values are drawn" in sure
+    assert "2 values are sampled" in sure
     assert "gas: polytropic index; path through the shell: mobility change" in sure
     close = " ".join(certainty_sentences(with_sources({"none": 48.0})))
     assert "overlap (46 to 53.0 and 44 to 51.0 dB(A)): which is the louder is not sure" in close
 
 
-def test_too_few_draws_that_agree_are_told(results: xr.Dataset) -> None:
+def test_too_few_samples_that_agree_are_told(results: xr.Dataset) -> None:
     """Neither bands nor shares: the values as given stand alone."""
-    names = [name for name in results.variables if "draw" in results[name].dims]
+    names = [name for name in results.variables if "sample" in results[name].dims]
     few = results.drop_vars([*names])
-    few["bank_weight"] = few["bank_weight"] * 0.0
-    few["bank_weight"][:, :2] = 0.5
+    few["prior_sample_weight"] = few["prior_sample_weight"] * 0.0
+    few["prior_sample_weight"][:, :2] = 0.5
     text = headline(few).replace("\u00a0", " ")
     assert "at the assumed values is: gas forces" in text
     assert "quantiles" not in text
     told = shares_sentence(few).replace("\u00a0", " ")
-    assert "27 draws, 100 % of them louder than the published 56 dB(A)" in told
+    assert "27 samples, 100 % of them louder than the published 56 dB(A)" in told
     assert "worth no more than 2.0" in told
     assert b"not resolved" in render(few)["report.html"]
 
 
-def test_what_is_not_drawn_is_told_with_range_and_reason(results: xr.Dataset) -> None:
+def test_what_is_not_sampled_is_told_with_range_and_reason(results: xr.Dataset) -> None:
     held = {"table": "shell", "field": "dome_height_m", "lowest": 0.0, "highest": 0.06}
     told = with_parameters(results, held_ranges=[{**held, "reason": "give the outside"}])
     text = held_sentence(told)
@@ -264,7 +266,7 @@ def test_what_is_not_drawn_is_told_with_range_and_reason(results: xr.Dataset) ->
     assert held_sentence(results) == ""
 
 
-def test_values_drawn_apart_from_their_sources_and_the_projection_are_told(
+def test_values_sampled_apart_from_their_sources_and_the_projection_are_told(
     results: xr.Dataset,
 ) -> None:
     ranges = [
@@ -273,22 +275,22 @@ def test_values_drawn_apart_from_their_sources_and_the_projection_are_told(
         {"table": "structure.stator", "field": "welds"},
     ]
     told = with_parameters(results, ranges=ranges)
-    coords = {"drawn_parameter": ["housing.inertia_xx_kg_m2", "structure.thickness_m"]}
-    told = told.drop_dims("drawn_parameter")
+    coords = {"uncertain_parameter": ["housing.inertia_xx_kg_m2", "structure.thickness_m"]}
+    told = told.drop_dims("uncertain_parameter")
     told["projection_error"] = stamp("projection_error", [np.nan, 0.0096], coords)
-    text = " ".join(drawn_sentences(told)).replace("\u00a0", " ")
+    text = " ".join(sampled_sentences(told)).replace("\u00a0", " ")
     assert "shell: thickness; shell stator: welds" in text
     assert "housing inertia xx (housing mass)" in text
     assert "off by at most: shell thickness 0.96 %" in text
 
 
-def test_draws_without_solution_are_told(results: xr.Dataset) -> None:
+def test_samples_without_solution_are_told(results: xr.Dataset) -> None:
     failed = results.copy(deep=True)
-    failed["draw_weight"][:, 0] = 0.0
-    failed["level_modelled_by_draw"][0] = np.nan
-    failed["source_level_by_draw"][0] = np.nan
-    assert draws(failed).unsolved == 1
-    assert draws(failed).computed == draws(results).computed
+    failed["sample_weight"][:, 0] = 0.0
+    failed["level_modelled_by_sample"][0] = np.nan
+    failed["source_level_by_sample"][0] = np.nan
+    assert sample_values(failed).unsolved == 1
+    assert sample_values(failed).computed == sample_values(results).computed
     assert "1 of them have no solution" in left_out_sentence(failed)
 
 
@@ -346,12 +348,14 @@ def test_without_sources_the_same_option_is_better() -> None:
 
 def test_a_band_on_both_sides_of_zero_judges_nothing() -> None:
     results = with_sources({"none": 40.0, "idle": 40.0})
-    for name in ("level_modelled_by_draw", "level_total_by_draw"):
+    for name in ("level_modelled_by_sample", "level_total_by_sample"):
         results[name].loc[{"option": "idle"}] += xr.DataArray(
-            np.array([-0.3, 0.0, 0.2])[OF_DRAW], dims="draw", coords={"draw": results["draw"]}
+            np.array([-0.3, 0.0, 0.2])[OF_SAMPLE],
+            dims="sample",
+            coords={"sample": results["sample"]},
         )
     assert option_verdict(results, "idle").judgement == "no difference that could be measured"
-    assert "In most draws no option changes the level" in changes_sentence(results)
+    assert "In most samples no option changes the level" in changes_sentence(results)
     assert "measured: idle by −0.3 to +0.2 dB." in changes_sentence(results)
 
 
@@ -359,24 +363,24 @@ def test_a_band_on_both_sides_of_zero_judges_nothing() -> None:
     ("change_db", "judgement"),
     [
         ([-9.0, 0.4, 0.4], "no difference that could be measured"),
-        ([-9.0, 0.6, 0.4], "no difference that could be measured"),  # 5 of 11 draws up, 3 down
+        ([-9.0, 0.6, 0.4], "no difference that could be measured"),  # 5 of 11 samples up, 3 down
         ([0.0, 0.6, 0.6], "worse"),
         ([-0.6, -0.6, 9.0], "better"),
     ],
 )
-def test_a_level_counts_if_it_could_be_measured_in_most_draws(
+def test_a_level_counts_if_it_could_be_measured_in_most_samples(
     change_db: list[float], judgement: str
 ) -> None:
     results = with_sources({"none": 40.0, "it": 40.0})
-    results["level_total_by_draw"].loc[{"option": "it"}] += xr.DataArray(
-        np.array(change_db)[OF_DRAW], dims="draw", coords={"draw": results["draw"]}
+    results["level_total_by_sample"].loc[{"option": "it"}] += xr.DataArray(
+        np.array(change_db)[OF_SAMPLE], dims="sample", coords={"sample": results["sample"]}
     )
     assert option_verdict(results, "it").judgement == judgement
 
 
 def test_the_smallest_change_that_counts_is_a_setting() -> None:
     results = with_sources({"none": 40.0, "it": 40.0})
-    results["level_total_by_draw"].loc[{"option": "it"}] += 0.6
+    results["level_total_by_sample"].loc[{"option": "it"}] += 0.6
     assert option_verdict(results, "it").judgement == "worse"
     scoring = json.loads(results.attrs["parameters"])["scoring"]
     blunt = with_parameters(results, scoring={**scoring, "measurable": {"level_db": 1.0}})
@@ -407,7 +411,7 @@ def test_tables_markdown_and_csv_have_the_same_verdicts(
 
 def test_rows_of_the_same_values_are_one_sample(results: xr.Dataset) -> None:
     paired = results.copy(deep=True)
-    paired["drawn_value"][1] = paired["drawn_value"][0]
+    paired["sampled_value"][1] = paired["sampled_value"][0]
     weights = resampled(paired, 0)
     np.testing.assert_array_equal(weights[:, 0], weights[:, 1])
     assert (resampled(results, 0)[:, 0] != resampled(results, 0)[:, 1]).any()
@@ -422,26 +426,26 @@ def test_the_tables_show_bands_in_place_of_single_levels(results: xr.Dataset) ->
     assert f"{band[1]:.1f} ({band[0]:.0f} to {band[2]:.1f})" in page
 
 
-def test_forces_count_and_show_in_the_draws_where_they_were_drawn(results: xr.Dataset) -> None:
-    """`idle` shakes as `none` at the values as given, by a fifth more in eight of eleven draws."""
+def test_forces_count_and_show_in_the_samples_where_they_were_sampled(results: xr.Dataset) -> None:
+    """`idle` shakes as `none` at the values as given, a fifth more in eight of eleven samples."""
     speeds, options = results["speed"].values, results["option"].values
-    coords = {"draw": results["draw"].values, "speed": speeds, "option": options}
-    force = np.full((results.sizes["draw"], 2, 3), 40.0)
+    coords = {"sample": results["sample"].values, "speed": speeds, "option": options}
+    force = np.full((results.sizes["sample"], 2, 3), 40.0)
     force[3:, :, 2] = 48.0
-    drawn = results.assign(
+    sampled = results.assign(
         {
             name: stamp(name, force, coords)
-            for name in ("force_1x_by_draw", "moment_1x_by_draw", "foot_force_1x_by_draw")
+            for name in ("force_1x_by_sample", "moment_1x_by_sample", "foot_force_1x_by_sample")
         }
     )
-    verdict = option_verdict(drawn, "idle")
+    verdict = option_verdict(sampled, "idle")
     assert verdict.judgement == "worse"
-    assert verdict.reason.startswith("1× force 0 to +20 % (measurable in 73 % of the draws")
-    assert "40 to 48" in comparison_text(drawn)
-    row = render(drawn)["comparison.csv"].decode().splitlines()[0]
+    assert verdict.reason.startswith("1× force 0 to +20 % (measurable in 73 % of the samples")
+    assert "40 to 48" in comparison_text(sampled)
+    row = render(sampled)["comparison.csv"].decode().splitlines()[0]
     assert "force_1x_10_percent_n" in row
-    fewer = drawn.copy(deep=True)
-    fewer["draw_weight"][:, 3:] = 0.0
+    fewer = sampled.copy(deep=True)
+    fewer["sample_weight"][:, 3:] = 0.0
     assert option_verdict(fewer, "idle").judgement == "no difference that could be measured"
 
 
@@ -455,7 +459,7 @@ def test_the_first_reason_names_what_becomes_louder(results: xr.Dataset) -> None
     ]
     assert f"louder with rattles (+{whole[0]:.0f} to +{whole[1]:.1f} dB)" in first
     assert "no other option changes" in first
-    assert "27 draws were computed where the level is published" in " ".join(
+    assert "27 samples were computed where the level is published" in " ".join(
         reasons(results, option_verdicts(results))
     )
 
@@ -499,7 +503,7 @@ def test_sources_csv_equals_the_dataset(results: xr.Dataset, files: dict[str, by
             float(own["source_share"]), rel=1e-8
         )
         assert float(row["level_90_percent_dba"]) == pytest.approx(
-            float(own["source_level_by_draw"][9]), rel=1e-8
+            float(own["source_level_by_sample"][9]), rel=1e-8
         )
 
 
@@ -540,7 +544,7 @@ def test_what_is_not_modelled_follows_the_study(results: xr.Dataset) -> None:
     assert "The shell is rigid" not in inside
     for word in ("bearings", "flanks", "oil", "pipes", "floor"):
         assert word in inside
-    rest = np.sort(results["level_remainder_by_draw"].values[: len(OF_DRAW)])
+    rest = np.sort(results["level_unmodelled_by_sample"].values[: len(OF_SAMPLE)])
     assert f"{rest[1]:.1f} to {rest[9]:.1f} dB(A)" in remainder_sentence(results)
 
 

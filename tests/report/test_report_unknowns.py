@@ -8,7 +8,7 @@ from test_report_sources import with_sources
 
 from vibroacoustics.base import rounding
 from vibroacoustics.base.vocabulary import stamp
-from vibroacoustics.report.drawn_words import file_unit
+from vibroacoustics.report.sampled_words import file_unit
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.unknowns import (
     NOT_RESOLVED,
@@ -22,22 +22,24 @@ KNOWLEDGE = ["before", "flat", "near"]
 
 
 def with_unknowns(floors=(0.1, 0.1, 0.1), gain=(0.5, 0.2, 0.0), votes=(5, 0, 0), perfect=0.9):
-    """Results of eleven draws of a rising gain, the loud ones of no weight."""
+    """Results of eleven samples of a rising gain, the loud ones of no weight."""
     results = with_sources({"none": 40.0, "rattles": 62.0, "idle": 40.0})
-    draws = np.arange(1, results.sizes["bank_draw"] + 1)
-    values = np.stack([draws - 6.0, 1.0 + 0.01 * draws, 0.1 + 0.0 * draws], axis=1)
+    samples = np.arange(1, results.sizes["prior_sample"] + 1)
+    values = np.stack([samples - 6.0, 1.0 + 0.01 * samples, 0.1 + 0.0 * samples], axis=1)
     share = np.array([[0.8, 0.15, 0.004], [0.7, 0.25, 0.004], [0.6, 0.3, 0.004]])
-    by_name = {"drawn_parameter": NAMES}
+    by_name = {"uncertain_parameter": NAMES}
     known = {"knowledge": KNOWLEDGE}
     choices = {"choice": ["sound", "sound and foot force"]}
     chosen = {"choice_option": ["none", "idle"]}
-    kept = results.drop_dims("drawn_parameter")
-    kept["bank_weight"] = kept["bank_weight"] * np.where(draws <= 6, 1.0, 0.0)
+    kept = results.drop_dims("uncertain_parameter")
+    kept["prior_sample_weight"] = kept["prior_sample_weight"] * np.where(samples <= 6, 1.0, 0.0)
     ends = {"level_share": share, "level_share_low": 0.8 * share, "level_share_high": 1.1 * share}
     both = {"parameter_information": gain, "parameter_information_votes": votes}
     return kept.assign(
-        bank_value=stamp("bank_value", values, {"bank_draw": draws, **by_name}),
-        drawn_value=stamp("drawn_value", values, {"draw": draws, **by_name}),
+        prior_sample_value=stamp(
+            "prior_sample_value", values, {"prior_sample": samples, **by_name}
+        ),
+        sampled_value=stamp("sampled_value", values, {"sample": samples, **by_name}),
         level_share_floor=stamp("level_share_floor", np.array(floors), known),
         **{name: stamp(name, value, {**known, **by_name}) for name, value in ends.items()},
         choice_utility=stamp("choice_utility", np.zeros((2, 2)), {**choices, **chosen}),

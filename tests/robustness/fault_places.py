@@ -101,7 +101,7 @@ def places_of(root: Path) -> list[Place]:
 def chosen(places: Sequence[Place], seed: int) -> Iterator[Place]:
     """Places in the order of a seed, at most one a statement; a longer sample begins the same.
 
-    Each is drawn by its room, with the root of the number of its places as weight, then by its
+    Each is sampled by its room, with the root of the number of its places as weight, then by its
     kind, all alike, then among those left.
     """
     generator = random.Random(seed)

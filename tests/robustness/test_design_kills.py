@@ -19,11 +19,11 @@ pytestmark = pytest.mark.long
 DESIGN = """
 [design]
 option = "weight"
-draws = 8
+tolerance_samples = 8
 [design.search]
 population = 16
 generations = 24
-fresh_draws = 100
+fresh_samples = 100
 [design.objectives.quiet]
 figure = "order_level_db"
 order = 1

@@ -26,7 +26,7 @@ from vibroacoustics.results.run_attributes import Parameters, Words
 from vibroacoustics.results.run_variables import (
     COORDINATES_OF,
     EMPTY_WHERE_NONE,
-    ONLY_DRAWS_THAT_COUNT,
+    ONLY_SAMPLES_THAT_COUNT,
     needed_variables,
 )
 from vibroacoustics.results.storage import write_results
@@ -34,11 +34,11 @@ from vibroacoustics.study.loading import load_study
 
 RUNS: Final = {
     "rigid": tiny_run,
-    "sources": sources_run,  # with draws and a stop
+    "sources": sources_run,  # with samples and a stop
 }
 ATTRIBUTES: Final = {"parameters": Parameters, "words": Words}
 GONE: Final = object()
-EMPTY: Final = EMPTY_WHERE_NONE | ONLY_DRAWS_THAT_COUNT
+EMPTY: Final = EMPTY_WHERE_NONE | ONLY_SAMPLES_THAT_COUNT
 POSITIVE: Final = {
     "mass_kg", "level_dba", "outer_diameter_m", "height_m", "length_m", "width_m", "diameter_m",
     "distance_m",
@@ -255,15 +255,15 @@ def test_options_are_gone(name: str, tmp_path: Path) -> None:
     assert refused_or_made(results.sel(option=[REFERENCE_OPTION]), tmp_path) == [0, 0]
 
 
-def test_no_draw_counts() -> None:
+def test_no_sample_counts() -> None:
     results = run("sources")
-    assert_no_run(filled(results, "draw_weight", 0.0))
+    assert_no_run(filled(results, "sample_weight", 0.0))
     unsolved = results.copy(deep=True)
-    unsolved["level_total_by_draw"][0] = np.nan
-    unsolved["draw_weight"][:, 0] = 1.0
+    unsolved["level_total_by_sample"][0] = np.nan
+    unsolved["sample_weight"][:, 0] = 1.0
     assert_no_run(unsolved)
-    unsolved["draw_weight"][:, 0] = 0.0
-    unsolved["draw_weight"][:, 1:] = 1.0
+    unsolved["sample_weight"][:, 0] = 0.0
+    unsolved["sample_weight"][:, 1:] = 1.0
     check_run(unsolved)
 
 

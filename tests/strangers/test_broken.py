@@ -26,7 +26,7 @@ from vibroacoustics.recordings.recorded import Request
 from vibroacoustics.results.storage import open_results
 from vibroacoustics.scoring import values
 from vibroacoustics.study.loading import load_study
-from vibroacoustics.uncertainty.draws import of_every_draw
+from vibroacoustics.uncertainty.every_sample import in_every_sample
 
 IMPORTS = "import sys\nimport numpy as np\nimport vibroacoustics as va\n"
 LONG = "raise RuntimeError('x' * 5000)"
@@ -328,14 +328,14 @@ def test_option_that_fails_when_the_study_is_read_is_left_out(forgotten, tmp_pat
 
 
 @pytest.mark.parametrize("counting", [True, False])
-def test_criterion_may_be_no_number_in_a_draw_that_does_not_count(counting):
-    drawn = xr.DataArray([[1.0, 2.0], [np.nan, 3.0]], dims=("draw", "option"))
+def test_criterion_may_be_no_number_in_a_sample_that_does_not_count(counting):
+    sampled = xr.DataArray([[1.0, 2.0], [np.nan, 3.0]], dims=("sample", "option"))
     counts = np.array([True, counting])
     if counting:
-        with pytest.raises(ParameterError, match="odd_n: by draw has values that are not finite"):
-            values._of_draws("odd_n", drawn, counts)
+        with pytest.raises(ParameterError, match="odd_n: by sample has values that are not finite"):
+            values._of_samples("odd_n", sampled, counts)
     else:
-        assert values._of_draws("odd_n", drawn, counts).shape == (2, 2)
+        assert values._of_samples("odd_n", sampled, counts).shape == (2, 2)
 
 
 def test_run_goes_on_without_a_source(tmp_path, monkeypatch):
@@ -462,11 +462,11 @@ def test_single_samples_without_a_source_have_no_solution(forgotten, tmp_path):
     load_plugin(file)
     source = SOURCES["few"]()
     with pytest.warns(
-        UserWarning, match=r"1 of 3 draws .* draw 2: kind of source few: few.py, line"
+        UserWarning, match=r"1 of 3 samples .* sample 2: kind of source few: few.py, line"
     ):
-        loads = of_every_draw(
+        loads = in_every_sample(
             [{("a", "b"): value} for value in (0.0, 1.0, 0.0)],
-            lambda draw: bool(source.loads(Sampled, draw["a", "b"])),
+            lambda sample: bool(source.loads(Sampled, sample["a", "b"])),
             False,
             lambda _: None,
         )

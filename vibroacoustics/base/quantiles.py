@@ -15,8 +15,8 @@ def weighted_quantiles(values: Array, weight: Array, shares: Sequence[float]) ->
 
     Parameters
     ----------
-    values : shape (draw, ...)
-    weight : not below zero, shape (draw,); values of weight zero do not count
+    values : shape (sample, ...)
+    weight : not below zero, shape (sample,); values of weight zero do not count
     shares : from 0 to 1
     """
     counting = weight > 0.0

@@ -107,7 +107,7 @@ def stamp(
 
     Examples
     --------
-    >>> level = va.stamp("level_remainder", 55.9, source="catalogue")
+    >>> level = va.stamp("level_unmodelled", 55.9, source="catalogue")
     >>> level.attrs["units"], level.attrs["source"]
     ('dB', 'catalogue')
     """

@@ -28,20 +28,20 @@ def study_lines(study: Study) -> Iterator[str]:
             "level: none is published (overall_noise): levels hold what the model holds, at "
             f"{study.catalogue_receiver} and {study.catalogue_speed_rpm:g} rpm first"
         )
-    yield f"draws: {draws_text(study)}"
+    yield f"samples: {samples_text(study)}"
 
 
-def draws_text(study: Study) -> str:
-    """How many values are drawn how often."""
+def samples_text(study: Study) -> str:
+    """How many values are sampled how often."""
     if not study.ranges:
         if not study.sources:
             ranges = sum(record.lowest is not None for record in study.records)
             though = f", though {ranges} values have a range" if ranges else ""
-            return f"none{though}: values are drawn where a study has sources, [sources.NAME]"
-        return "none: no value that is read has a range that is drawn"
-    drawn, wanted = len(study.ranges), study.uncertainty.random_samples
+            return f"none{though}: values are sampled where a study has sources, [sources.NAME]"
+        return "none: no value that is read has a range that is sampled"
+    sampled, wanted = len(study.ranges), study.uncertainty.random_samples
     held = len(study.held_ranges)
-    return f"{drawn} values until {wanted} draws are effective; {held} ranges are not drawn"
+    return f"{sampled} values until {wanted} samples are effective; {held} ranges are not sampled"
 
 
 def cost_lines(cost: RunCost) -> Iterator[str]:

@@ -31,7 +31,8 @@ Out = Annotated[
 Coarse = Annotated[
     bool,
     typer.Option(
-        "--coarse", help="A first look: fewer speeds and draws, coarser grids, with its error told."
+        "--coarse",
+        help="A first look: fewer speeds and samples, coarser grids, with its error told.",
     ),
 ]
 AsJson = Annotated[

@@ -33,7 +33,7 @@ _HEAD: Final = """\
 #:schema {schemas}/{schema}.json
 # From {name} of vibroacoustics: put the values of your machine in place of these.
 # Units are in the keys. A machine's value, also one that an option changes, is {{ value, source }},
-# with a range where it is assumed; elsewhere a number does. Ranges are drawn where a study has
+# with a range where it is assumed; elsewhere a number does. Ranges are sampled where a study has
 # [sources.NAME].
 """
 

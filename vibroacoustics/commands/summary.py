@@ -34,7 +34,7 @@ def summary(study: Study, results: xr.Dataset, folder: Path, seconds: float) -> 
         "results": str(folder / RESULTS_NAME),
         "report": str(folder / REPORT_NAME),
         "seconds": round(seconds, 1),
-        "draws": int(results.sizes.get("draw", 0)),
+        "samples": int(results.sizes.get("sample", 0)),
         "coarsened": list(study.coarsened),
         "kwave_difference_db": kwave_difference_db(results),
         "receivers": {

@@ -35,7 +35,7 @@ def explained(problem: Problem, searched: Searched, evaluate: Evaluate) -> xr.Da
     settings = problem.design.search
     search = searched_dataset(problem, searched)
     rows = _best_rows(problem, searched, search, settings.best)
-    promises = [promise(problem, searched.designs[row], settings.fresh_draws) for row in rows]
+    promises = [promise(problem, searched.designs[row], settings.fresh_samples) for row in rows]
     spread = _spread(problem, searched)
     return with_shares(with_best(search, rows, promises), problem, spread, evaluate(spread))
 

@@ -27,7 +27,7 @@ class Plan:
 
     Attributes
     ----------
-    designs, pieces : number of them; a piece is a design with a draw of its tolerances
+    designs, pieces : number of them; a piece is a design with a sample of its tolerances
     speeds : number of them
     seconds : expected
     result_bytes : in memory
@@ -89,18 +89,18 @@ def planned(problem: Problem, designs: Array, longest_s: float = LONGEST_S) -> P
     ParameterError
         It takes longer.
     """
-    count, draws = len(designs), problem.draws()
+    count, samples = len(designs), problem.samples()
     routes = [problem.engine.routes(option) for option in problem.space.options]
     runs = {key: r.reason for each in routes for key, r in each.items() if not r.linear}
     runs.pop(OPTION, None)
     if runs:
         seconds = _run_seconds(problem, designs) * _number_of_runs(problem, designs, list(runs))
     else:
-        seconds = _seconds(problem, designs, draws)
+        seconds = _seconds(problem, designs, samples)
     columns = len(problem.space.variables) + len(problem.wanted) + 2
     plan = Plan(
         count,
-        count * len(draws),
+        count * len(samples),
         len(problem.study.operation.speed_rpm),
         seconds,
         result_bytes(problem, count),
@@ -114,23 +114,23 @@ def planned(problem: Problem, designs: Array, longest_s: float = LONGEST_S) -> P
     return plan
 
 
-def _seconds(problem: Problem, designs: Array, draws: Array) -> float:
+def _seconds(problem: Problem, designs: Array, samples: Array) -> float:
     """Of all designs by linear algebra, from those of some."""
-    tried = max(MOST_TRIED // len(draws), 1)
+    tried = max(MOST_TRIED // len(samples), 1)
     rows = np.linspace(0, len(designs) - 1, min(tried, len(designs))).astype(int)
-    problem.evaluate(designs[rows[:1]], draws[:1])  # what is made once
+    problem.evaluate(designs[rows[:1]], samples[:1])  # what is made once
     begin = time.perf_counter()
-    problem.evaluate(designs[rows], draws)
+    problem.evaluate(designs[rows], samples)
     return (time.perf_counter() - begin) * len(designs) / len(rows)
 
 
 def _run_seconds(problem: Problem, designs: Array) -> float:
     """Of one design by a run."""
     rows = np.linspace(0, len(designs) - 1, min(TRIED_RUNS, len(designs))).astype(int)
-    draw = np.full((1, len(problem.pieces.scatters)), 0.5)
-    problem.evaluate(designs[rows[:1]], draw)
+    sample = np.full((1, len(problem.pieces.scatters)), 0.5)
+    problem.evaluate(designs[rows[:1]], sample)
     begin = time.perf_counter()
-    problem.evaluate(designs[rows[1:]], draw)
+    problem.evaluate(designs[rows[1:]], sample)
     return (time.perf_counter() - begin) / max(len(rows) - 1, 1)
 
 
@@ -141,7 +141,7 @@ def _number_of_runs(problem: Problem, designs: Array, keys: list[str]) -> int:
     varied = [column for column in columns if column < designs.shape[1]]
     different = len(np.unique(designs[:, varied], axis=0)) if varied else 1
     scattered = {scatter.column for scatter in problem.pieces.scatters} & set(columns)
-    return len(designs) * len(problem.draws()) if scattered else different
+    return len(designs) * len(problem.samples()) if scattered else different
 
 
 def duration(seconds: float) -> str:

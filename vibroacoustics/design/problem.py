@@ -115,28 +115,28 @@ class Problem:
         """What the model leaves of the machine's level, (option, speed, receiver), Pa²."""
         return remainder_of(self.study, self.space.options, self._radiation)
 
-    def draws(self, count: int | None = None, number: int = 0) -> Array:
-        """Draws of the tolerances, shape (draw, scatter); the same at every call.
+    def samples(self, count: int | None = None, number: int = 0) -> Array:
+        """Samples of the tolerances, shape (sample, scatter); the same at every call.
 
         Parameters
         ----------
-        count : of draws; those of the study where it is not given
+        count : of samples; those of the study where it is not given
         number : of the set; sets of other numbers are independent
         """
-        return self.pieces.draws(count or self.design.draws, number)
+        return self.pieces.samples(count or self.design.tolerance_samples, number)
 
-    def evaluate(self, designs: Array, draws: Array | None = None) -> Judged:
+    def evaluate(self, designs: Array, samples: Array | None = None) -> Judged:
         """What is wanted of designs.
 
         Parameters
         ----------
         designs : shape (design, variable), SI; see `Space`
-        draws : of the tolerances, shape (draw, scatter); those of `draws()` where none are given
+        samples : of the tolerances, shape (sample, scatter); default: those of `samples()`
         """
-        draws = self.draws() if draws is None else draws
-        size = max(MOST_PIECES // len(draws), 1)
+        samples = self.samples() if samples is None else samples
+        size = max(MOST_PIECES // len(samples), 1)
         parts = [
-            self._judged(designs[first : first + size], draws, first)
+            self._judged(designs[first : first + size], samples, first)
             for first in range(0, len(designs), size)
         ]
         values = np.concatenate([part[0] for part in parts]) if parts else self._no_values()
@@ -152,15 +152,15 @@ class Problem:
         """
         return Judged(values, *self._signed(values), failed)
 
-    def by_draw(self, designs: Array, draws: Array) -> Array:
-        """Every wanted value of every piece, shape (design, draw, wanted), in its unit.
+    def by_sample(self, designs: Array, samples: Array) -> Array:
+        """Every wanted value of every piece, shape (design, sample, wanted), in its unit.
 
         Parameters
         ----------
         designs : shape (design, variable), SI
-        draws : of the tolerances, shape (draw, scatter)
+        samples : of the tolerances, shape (sample, scatter)
         """
-        return self._of_pieces(designs, draws)[0]
+        return self._of_pieces(designs, samples)[0]
 
     def without_option(self) -> Array:
         """Every wanted value of the study as given without an option, shape (wanted,)."""
@@ -184,27 +184,27 @@ class Problem:
     def _no_values(self) -> Array:
         return np.zeros((0, len(self.wanted)))
 
-    def _judged(self, designs: Array, draws: Array, first: int) -> tuple[Array, dict[int, str]]:
-        by_draw, outcome = self._of_pieces(designs, draws)
+    def _judged(self, designs: Array, samples: Array, first: int) -> tuple[Array, dict[int, str]]:
+        by_sample, outcome = self._of_pieces(designs, samples)
         values = np.stack(
             [
-                over(by_draw[:, :, column], 1, wanted.draws, more_is_better(wanted))
+                over(by_sample[:, :, column], 1, wanted.samples, more_is_better(wanted))
                 for column, wanted in enumerate(self.wanted.values())
             ],
             axis=1,
         )
-        failed = {first + row // len(draws): why for row, why in outcome.failed.items()}
+        failed = {first + row // len(samples): why for row, why in outcome.failed.items()}
         values[[row - first for row in failed]] = np.nan
         return values, failed
 
-    def _of_pieces(self, designs: Array, draws: Array) -> tuple[Array, Outcome]:
-        pieces = self.pieces.made(designs, draws).reshape(len(designs) * len(draws), -1)
+    def _of_pieces(self, designs: Array, samples: Array) -> tuple[Array, Outcome]:
+        pieces = self.pieces.made(designs, samples).reshape(len(designs) * len(samples), -1)
         outcome = self.engine.outcome(pieces)
         columns = [
             of_each(figure, outcome.seen, self._setting(wanted, pieces), more_is_better(wanted))
             for figure, wanted in zip(self.figures, self.wanted.values(), strict=True)
         ]
-        return np.stack(columns, axis=1).reshape(len(designs), len(draws), -1), outcome
+        return np.stack(columns, axis=1).reshape(len(designs), len(samples), -1), outcome
 
     def _setting(self, wanted: Wanted, pieces: Array) -> Setting:
         def remainder() -> Array:

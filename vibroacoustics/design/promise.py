@@ -1,4 +1,4 @@
-"""What a design promises of the pieces that are built: from draws that no search has seen."""
+"""What a design promises of the pieces that are built: from samples that no search has seen."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -10,7 +10,7 @@ from .problem import Problem, more_is_better
 from .statistics import over
 
 _SET: Final = 1
-"""Of the draws that the promise is made of; the search has set 0."""
+"""Of the samples that the promise is made of; the search has set 0."""
 _DEVIATIONS: Final = 1.96
 
 
@@ -21,16 +21,16 @@ class Promise:
     Attributes
     ----------
     meant : of the piece as meant, without a tolerance
-    promised : the statistic over draws that the study asks for
-    low, high : 95 % limits of the promised value, from the number of draws alone
-    draws : number of pieces
+    promised : the statistic over samples that the study asks for
+    low, high : 95 % limits of the promised value, from the number of samples alone
+    samples : number of pieces
     """
 
     meant: Array
     promised: Array
     low: Array
     high: Array
-    draws: int
+    samples: int
 
 
 def promise(problem: Problem, design: Array, count: int, number: int = _SET) -> Promise:
@@ -40,20 +40,20 @@ def promise(problem: Problem, design: Array, count: int, number: int = _SET) -> 
     ----------
     problem : that it belongs to
     design : shape (variable,), SI
-    count : of draws
-    number : of the set of draws
+    count : of samples
+    number : of the set of samples
     """
-    draws = problem.draws(count, number)
-    by_draw = problem.by_draw(design[None], draws)[0]
-    as_meant = problem.by_draw(design[None], np.full((1, draws.shape[1]), 0.5))[0, 0]
+    samples = problem.samples(count, number)
+    by_sample = problem.by_sample(design[None], samples)[0]
+    as_meant = problem.by_sample(design[None], np.full((1, samples.shape[1]), 0.5))[0, 0]
     columns = []
-    for values, wanted in zip(by_draw.T, problem.wanted.values(), strict=True):
+    for values, wanted in zip(by_sample.T, problem.wanted.values(), strict=True):
         upwards = more_is_better(wanted)
-        value = over(values, 0, wanted.draws, upwards)
-        low, high = _limits(values, wanted.draws, upwards)
+        value = over(values, 0, wanted.samples, upwards)
+        low, high = _limits(values, wanted.samples, upwards)
         columns.append((float(value), low, high))
     promised, low, high = np.array(columns).T
-    return Promise(as_meant, promised, low, high, len(draws))
+    return Promise(as_meant, promised, low, high, len(samples))
 
 
 def _limits(values: Array, statistic: str | float, upwards: bool) -> tuple[float, float]:

@@ -68,8 +68,8 @@ def _method(problem: Problem, count: int) -> str:
     name = "Differential evolution with a simplex at the end" if single else "NSGA-II (pymoo)"
     return (
         f"{name}: {search.population} designs a generation, at most {search.generations} "
-        f"generations, seed {search.seed}, {count} designs in all; {problem.design.draws} draws of "
-        "the tolerances, the same for all designs."
+        f"generations, seed {search.seed}, {count} designs in all; "
+        f"{problem.design.tolerance_samples} samples of the tolerances, the same for all designs."
     )
 
 
@@ -84,10 +84,10 @@ def with_best(dataset: xr.Dataset, rows: IndexArray, promises: list[Promise]) ->
     }
     best = xr.Dataset({name: stamp(name, one) for name, one in data.items()})
     ranks = {"best_rank": np.arange(1, len(rows) + 1)}
-    draws = promises[0].draws if promises else 0
+    samples = promises[0].samples if promises else 0
     return check(
         dataset.merge(best.assign_coords(ranks)).assign_attrs(
-            {**dataset.attrs, "promise_draws": draws}
+            {**dataset.attrs, "promise_samples": samples}
         )
     )
 
@@ -163,7 +163,7 @@ def _label(figure: DesignFigure, wanted: Wanted) -> str:
     parts += [f"{wanted.order}×"] if wanted.order is not None else []
     parts += [_over(wanted.speeds, "speed")] if figure.of_speeds else []
     parts += [_over(wanted.receivers, "microphone")] if figure.is_level else []
-    return ", ".join([*parts, _over(wanted.draws, "piece")])
+    return ", ".join([*parts, _over(wanted.samples, "piece")])
 
 
 def _over(statistic: str | float, noun: str) -> str:

@@ -1,4 +1,4 @@
-"""One number of a figure: over microphones, speeds and draws."""
+"""One number of a figure: over microphones, speeds and samples."""
 
 import numpy as np
 

@@ -172,7 +172,7 @@ def judged_all(problem: Problem, designs: Array, progress: Progress, evaluate: E
     evaluate : takes some of them
     """
     order = np.lexsort(designs[:, ::-1].T)
-    size = max(BATCH // len(problem.draws()), 1)
+    size = max(BATCH // len(problem.samples()), 1)
     values = np.full((len(designs), len(problem.wanted)), np.nan)
     failed: dict[int, str] = {}
     for first in range(0, len(designs), size):

@@ -1,4 +1,4 @@
-"""What scatters from piece to piece: draws of values about those of a design."""
+"""What scatters from piece to piece: samples of values about those of a design."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -105,12 +105,12 @@ class Pieces:
             limits[scatter.column] = np.min(made), np.max(made)
         return limits
 
-    def draws(self, count: int, number: int = 0) -> Array:
-        """Shares of the ranges, shape (draw, scatter), the same at every call.
+    def samples(self, count: int, number: int = 0) -> Array:
+        """Shares of the ranges, shape (sample, scatter), the same at every call.
 
         Parameters
         ----------
-        count : of draws
+        count : of samples
         number : of the set; sets of other numbers are independent
         """
         if not self.scatters:
@@ -118,17 +118,17 @@ class Pieces:
         sampler = qmc.LatinHypercube(len(self.scatters), rng=_RANDOM + number)
         return np.asarray(sampler.random(count))
 
-    def made(self, designs: Array, draws: Array) -> Array:
-        """Values of pieces, shape (design, draw, variable).
+    def made(self, designs: Array, samples: Array) -> Array:
+        """Values of pieces, shape (design, sample, variable).
 
         Parameters
         ----------
         designs : shape (design, variable of the space)
-        draws : shape (draw, scatter)
+        samples : shape (sample, scatter)
         """
         meant = np.concatenate([designs, np.tile(self.present, (len(designs), 1))], axis=1)
-        pieces = np.repeat(meant[:, None], len(draws), axis=1)
-        for scatter, share in zip(self.scatters, draws.T, strict=True):
+        pieces = np.repeat(meant[:, None], len(samples), axis=1)
+        for scatter, share in zip(self.scatters, samples.T, strict=True):
             column = scatter.column
             pieces[:, :, column] = scatter.at(meant[:, None, column], share)
         return pieces

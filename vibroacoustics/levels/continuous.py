@@ -33,7 +33,7 @@ def noise_levels(
     rest = np.zeros((*remaining.shape[:2], len(BASELINE_BANDS)))
     rest[..., _OF_REMAINDER] = remaining / weighting_power("A", MIDDLE_HZ[_OF_REMAINDER])
     bands = {"noise_band": [band.nominal_hz for band in BASELINE_BANDS]}
-    values = {"noise_band_level": level(noise), "remainder_band_level": level(rest)}
+    values = {"noise_band_level": level(noise), "unmodelled_band_level": level(rest)}
     return stamped(values, axes.by_receiver | bands)
 
 

@@ -63,7 +63,7 @@ def level_variables(
         "order_level": order_level,
         "level_modelled": np.stack(modelled, axis=-1),
         "level_total": total,
-        "level_remainder": level(np.asarray(remainder)),
+        "level_unmodelled": level(np.asarray(remainder)),
         **_of_sources(axes, sound),
         **{name: every - every[:, [reference]] for name, every in changes.items()},
     }
@@ -87,7 +87,7 @@ def _of_sources(axes: LevelAxes, sound: Mapping[CaseKey, SourceSound]) -> dict[s
     }
 
 
-def draw_variables(
+def sample_level_variables(
     axes: LevelAxes,
     sounds: Sequence[Mapping[CaseKey, SourceSound]],
     remaining: Array,
@@ -95,43 +95,43 @@ def draw_variables(
     weight: Array,
     prior_names: Sequence[str],
 ) -> xr.Dataset:
-    """A-weighted levels of every draw.
+    """A-weighted levels of every sample.
 
-    A draw without a solution has weight 0, and its levels are empty.
+    A sample without a solution has weight 0, and its levels are empty.
 
     Parameters
     ----------
     axes : of the levels
-    sounds : of every case, by draw
-    remaining : mean square that each draw leaves unexplained, Pa², shape (draw, speed, option,
+    sounds : of every case, by sample
+    remaining : mean square that each sample leaves unexplained, Pa², shape (sample, speed, option,
         receiver)
-    remainder : the same at the published point without an option, shape (draw,), Pa²
-    weight : of the draws, shape (prior, draw)
+    remainder : the same at the published point without an option, shape (sample,), Pa²
+    weight : of the samples, shape (prior, sample)
     prior_names : of the remainder
     """
     alone = np.array([axes.gathered(sound, "alone") for sound in sounds])
     modelled = np.array([axes.gathered(sound, "part")[:, :, 0].sum(axis=2) for sound in sounds])
     total = modelled + remaining
     values = {
-        "source_level_by_draw": _level_or_none(alone),
-        "level_modelled_by_draw": _level_or_none(modelled),
-        "level_total_by_draw": _level_or_none(total),
-        "level_remainder_by_draw": level(remainder),
-        "draw_weight": _of_solved(weight, modelled),
+        "source_level_by_sample": _level_or_none(alone),
+        "level_modelled_by_sample": _level_or_none(modelled),
+        "level_total_by_sample": _level_or_none(total),
+        "level_unmodelled_by_sample": level(remainder),
+        "sample_weight": _of_solved(weight, modelled),
     }
-    draws = np.arange(1, len(sounds) + 1)
-    return stamped(values, {**axes.by_source, "draw": draws, "prior": list(prior_names)})
+    samples = np.arange(1, len(sounds) + 1)
+    return stamped(values, {**axes.by_source, "sample": samples, "prior": list(prior_names)})
 
 
 def _of_solved(weight: Array, modelled: Array) -> Array:
-    """Weights that sum up to one over the draws that have a solution, shape (prior, draw)."""
+    """Weights that sum up to one over the samples that have a solution, shape (prior, sample)."""
     solved = ~np.isnan(modelled).any(axis=(1, 2, 3))
     total = (weight * solved).sum(axis=1, keepdims=True)
     return np.asarray(weight * solved / np.where(total > 0.0, total, 1.0))
 
 
 def _level_or_none(mean_square: Array) -> Array:
-    """Levels; empty where a draw has no solution."""
+    """Levels; empty where a sample has no solution."""
     return np.where(np.isnan(mean_square), np.nan, level(np.nan_to_num(mean_square)))
 
 

@@ -76,9 +76,9 @@ def measured_points(
 
 
 def evidence(points: Iterable[PointKey]) -> list[PointKey]:
-    """Points that weigh draws: at each microphone the lowest, a middle and the highest speed.
+    """Points that weigh samples: at each microphone the lowest, a middle and the highest speed.
 
-    Speeds between them tell nearly the same of the machine, and each costs every draw a case.
+    Speeds between them tell nearly the same of the machine, and each costs every sample a case.
     """
     by_receiver: dict[str, list[float]] = {}
     for receiver, speed in points:

@@ -35,7 +35,7 @@ def remainder(
     study : with the published level
     axes : with its receiver
     sound : of the case without a balancer at its speed and operating point, and of other cases
-    may_be_none : whether none is left where the model alone is louder, as in a draw
+    may_be_none : whether none is left where the model alone is louder, as in a sample
 
     Raises
     ------
@@ -85,7 +85,7 @@ def unmodelled_bands(study: Study, machine: Machine) -> Array:
     return bands
 
 
-def remaining_by_draw(
+def remaining_by_sample(
     study: Study,
     axes: LevelAxes,
     sounds: Sequence[Mapping[CaseKey, SourceSound]],
@@ -105,7 +105,7 @@ def remaining_by_draw(
 def over_published(
     study: Study, axes: LevelAxes, sounds: Sequence[Mapping[CaseKey, SourceSound]]
 ) -> Array:
-    """What draws model over the published level, shape (draw,), dB; not a number without solution.
+    """What samples model over the published level, (sample,), dB; not a number without solution.
 
     Over 0 dB(A) where none is published.
 
@@ -113,7 +113,7 @@ def over_published(
     ----------
     study : with the published level
     axes : with its receiver
-    sounds : of the case of the published level, by draw
+    sounds : of the case of the published level, by sample
     """
     receiver = list(axes.receivers).index(study.catalogue_receiver)
     square = np.array([sound[study.catalogue_case].total[0, receiver] for sound in sounds])

@@ -111,7 +111,7 @@ def room_variables(
     """
     levels = air_variables(air)
     levels = levels.merge(line_variables(sound, results.merge(levels)))
-    levels = levels.merge(drawn_band(air, results.merge(levels), receiver))
+    levels = levels.merge(sampled_band(air, results.merge(levels), receiver))
     return levels.merge(plate_variables(results.merge(levels), plate_per_power))
 
 
@@ -151,29 +151,29 @@ def power_level(power_band: Array) -> Array:
     return np.asarray(level_of_power(power / REFERENCE_POWER_W))
 
 
-def drawn_band(air: AirInRoom, results: xr.Dataset, receiver: str) -> xr.Dataset:
-    """Levels by air that 5, 50 and 95 % of the draws stay below; empty without draws.
+def sampled_band(air: AirInRoom, results: xr.Dataset, receiver: str) -> xr.Dataset:
+    """Levels by air that 5, 50 and 95 % of the samples stay below; empty without samples.
 
-    A draw changes what comes of the model, and what does not, at each listener as at the microphone
-    of the published level.
+    A sample changes what comes of the model, and what does not, at each listener as at the
+    microphone of the published level.
 
     Parameters
     ----------
     air : at the listeners
-    results : of the levels by draw at the microphones, with `room_level`
+    results : of the levels by sample at the microphones, with `room_level`
     receiver : microphone of the published level
     """
-    if "level_total_by_draw" not in results:
+    if "level_total_by_sample" not in results:
         return xr.Dataset()
     there = results.sel(receiver=receiver)
     given = _square(there["level_modelled"].sel(weighting="A").transpose("speed", "option"))
-    drawn = _square(there["level_modelled_by_draw"].transpose("draw", "speed", "option"))
-    rest, rests = (beside_model(results, receiver, name) for name in ("", "_by_draw"))
+    sampled = _square(there["level_modelled_by_sample"].transpose("sample", "speed", "option"))
+    rest, rests = (beside_model(results, receiver, name) for name in ("", "_by_sample"))
     silent = rest <= 0.0
-    of_model = drawn / np.where(given > 0.0, given, 1.0)
+    of_model = sampled / np.where(given > 0.0, given, 1.0)
     of_rest = np.where(silent, 0.0, rests / np.where(silent, 1.0, rest))
     square = air.modelled * of_model[..., None] + air.rest * of_rest[..., None]
-    weight = results["draw_weight"].isel(prior=0).values
+    weight = results["sample_weight"].isel(prior=0).values
     levels = level(np.nan_to_num(square))
     ends = weighted_quantiles(levels, weight, list(BAND_SHARES.values()))
     names = [f"room_level_{end}" for end in BAND_SHARES]
@@ -185,7 +185,7 @@ def plate_variables(results: xr.Dataset, plate_per_power: Callable[[Array], Arra
 
     Parameters
     ----------
-    results : with the plate's powers and spans, `room_level` and, of draws, `room_level_middle`
+    results : with the plate's powers and spans, `room_level` and, of samples, `room_level_middle`
     plate_per_power : mean square per power of the plate, of frequencies, shape
         (listener, frequency), Pa²/W
     """

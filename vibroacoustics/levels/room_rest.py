@@ -24,7 +24,7 @@ def rest_in_bands(results: xr.Dataset, receiver: str) -> Array:
     results : of the levels
     receiver : at which the machine's noise is published
     """
-    rest = _square(results["remainder_band_level"].transpose("speed", "option", "noise_band"))
+    rest = _square(results["unmodelled_band_level"].transpose("speed", "option", "noise_band"))
     if "baseline_band_level" in results:
         there = results["baseline_band_level"].sel(receiver=receiver)
         measured = _square(there.transpose("speed", "option", "baseline_band"))
@@ -36,22 +36,24 @@ def rest_in_bands(results: xr.Dataset, receiver: str) -> Array:
     return np.asarray(rest * factor[..., None])
 
 
-def beside_model(results: xr.Dataset, receiver: str, by_draw: str = "") -> Array:
-    """A-weighted mean squares of the machine less those of the model, ([draw,] speed, option), Pa².
+def beside_model(results: xr.Dataset, receiver: str, by_sample: str = "") -> Array:
+    """A-weighted mean squares of the machine less those of the model, Pa².
+
+    Its shape is ([sample,] speed, option).
 
     Parameters
     ----------
     results : of the levels
     receiver : microphone
-    by_draw : `_by_draw` for those of every draw
+    by_sample : `_by_sample` for those of every sample
     """
     total, modelled = (
-        results[f"{name}{by_draw}"].sel(receiver=receiver)
+        results[f"{name}{by_sample}"].sel(receiver=receiver)
         for name in ("level_total", "level_modelled")
     )
-    if not by_draw:
+    if not by_sample:
         modelled = modelled.sel(weighting="A")
-    dims = ("draw", "speed", "option") if by_draw else ("speed", "option")
+    dims = ("sample", "speed", "option") if by_sample else ("speed", "option")
     squares = (_square(each.transpose(*dims)) for each in (total, modelled))
     return np.maximum(next(squares) - next(squares), 0.0)
 

@@ -1,4 +1,4 @@
-"""Values of a machine that follow from others: they go with them when those are drawn."""
+"""Values of a machine that follow from others: they go with them when those are sampled."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

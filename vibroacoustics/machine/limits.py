@@ -1,4 +1,4 @@
-"""Limits that other values set to one: its range is narrowed to them before it is drawn."""
+"""Limits that other values set to one: its range is narrowed to them before it is sampled."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

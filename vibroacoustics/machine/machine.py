@@ -97,7 +97,7 @@ class Machine(KindOfParameters):
     labels: ClassVar[Mapping[str, str]] = {}
     """Plain words for its reported figures, where the name does not say it."""
     derived: ClassVar[tuple[Derived, ...]] = INERTIAS
-    """Values that follow from others, where they are not drawn themselves."""
+    """Values that follow from others, where they are not sampled themselves."""
 
     speed_growth: ClassVar[Growth | None] = None
     """Growth of the level of such machines with speed, where a file gives none; none where
@@ -117,7 +117,7 @@ class Machine(KindOfParameters):
     """Tables that may be left out and that the machine itself reads where it has them."""
 
     limits: ClassVar[tuple[Limit, ...]] = OF_EVERY_MACHINE
-    """What other values leave of a value's range, in the order in which they are drawn."""
+    """What other values leave of a value's range, in the order in which they are sampled."""
 
     def contradictions(self) -> Contradictions:
         if self.floor is not None and self.floor_mobility is not None:

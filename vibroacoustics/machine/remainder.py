@@ -9,7 +9,7 @@ from ..base.arrays import Array
 from ..base.decibel import level_of_power, power_of_level
 from ..base.parameters import Contradictions, Held, Parameters
 
-PRIOR: Final = Held("say what is held of the remainder before anything is drawn")
+PRIOR: Final = Held("say what is held of the remainder before anything is sampled")
 LEAST_FLAT_DB: Final = 1.0
 OF_THE_REMAINDER: Final = frozenset(
     f"remainder.{name}" for name in ("speed_growth_db", "peak_frequency_hz", "slope_db")

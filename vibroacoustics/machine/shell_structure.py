@@ -55,7 +55,7 @@ class ShellStructure(Parameters):
         "poisson_ratio",
         "density_kg_per_m3",
     )
-    """Values that modes change with; they are drawn by projection on the modes as given."""
+    """Values that modes change with; they are sampled by projection on the modes as given."""
     changes_shapes: ClassVar[tuple[str, ...]] = ("thickness_m", "poisson_ratio")
     """Those that also change the shapes of modes: their projection is not exact."""
     bearing_housing: Joint

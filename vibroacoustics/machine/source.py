@@ -21,7 +21,7 @@ Result = TypeVar("Result")
 
 @dataclass(frozen=True)
 class Shared:
-    """Results that the cases of one draw share, each computed once."""
+    """Results that the cases of one sample share, each computed once."""
 
     _known: dict[Hashable, Any] = field(default_factory=dict, repr=False)
 
@@ -39,12 +39,12 @@ class Case:
 
     Attributes
     ----------
-    machine : as the option leaves it, with the values of a draw
+    machine : as the option leaves it, with the values of a sample
     added : by the option
     revolution : steady, of the machine as given
     supply_frequency_hz : of the motor, as the study gives it or a source derives it; else none
     maximum_frequency_hz : lines and noise up to here
-    shared : with the other cases of the draw
+    shared : with the other cases of the sample
 
     Examples
     --------

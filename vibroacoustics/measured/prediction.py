@@ -95,9 +95,9 @@ def _labelled(settings: Prediction, bench: Bench, path: Path) -> xr.Dataset:
         "receiver": list(settings.measured.microphones),
         "frequency": bench.frequency_hz,
     }
-    by_draw = np.stack(drawn, axis=1)
-    variables = line_variables(np.array(pressures), by_draw, lines)
-    variables |= total_variables(np.array(pressures), by_draw, lines)
+    by_sample = np.stack(drawn, axis=1)
+    variables = line_variables(np.array(pressures), by_sample, lines)
+    variables |= total_variables(np.array(pressures), by_sample, lines)
     tried_at = {"option": lines["option"], "tried_truncation": list(TRIED)}
     variables["truncation"] = stamp("truncation", truncations, {"option": lines["option"]})
     variables["truncation_error"] = stamp("truncation_error", errors, tried_at)

@@ -13,7 +13,7 @@ from ..base.constants import SPEED_OF_SOUND_M_PER_S
 from ..base.errors import ParameterError
 
 _KEPT: Final = 16
-"""Sets of frequencies whose values are kept, as draws ask for the same ones."""
+"""Sets of frequencies whose values are kept, as samples ask for the same ones."""
 
 
 class Interpolant:

@@ -10,7 +10,7 @@ from .bands import band, band_words
 from .remainder import growth_sentence
 from .study import (
     catalogue_receiver,
-    has_draws,
+    has_samples,
     operating_points,
     overall_noise,
     parameters,
@@ -118,11 +118,11 @@ def remainder_sentence(results: xr.Dataset) -> str:
         for record in parameters(results)["records"]
     )
     who = "The catalogue gives" if not assumed else "The level of the whole machine is assumed:"
-    if has_draws(results):
-        rest = band(results, "level_remainder")
-        left = f"{rest.ends(rounding.fixed)} dB(A) ({band_words(results)} of the draws)"
+    if has_samples(results):
+        rest = band(results, "level_unmodelled")
+        left = f"{rest.ends(rounding.fixed)} dB(A) ({band_words(results)} of the samples)"
     else:
-        left = f"{rounding.fixed(results['level_remainder'].item())} dB(A)"
+        left = f"{rounding.fixed(results['level_unmodelled'].item())} dB(A)"
     return (
         f"{who} {noise['level_dba']:g} dB(A) at {noise['distance_m']:g} m and "
         f"{noise['speed_rpm']:g} rpm{_point_words(results)}. What the model leaves of "
@@ -136,7 +136,7 @@ def remainder_sentence(results: xr.Dataset) -> str:
 def discrepancy_sentence(results: xr.Dataset) -> str:
     """Deviations of the model that no range covers; empty where nothing was sampled."""
     settings = parameters(results).get("uncertainty") or {}
-    if not has_draws(results) or "path_deviation_db" not in settings:
+    if not has_samples(results) or "path_deviation_db" not in settings:
         return ""
     path, source, band_db, added = (
         f"{settings[f'{name}_deviation_db']:g} dB" for name in ("path", "source", "band", "added")

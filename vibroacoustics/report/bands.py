@@ -14,7 +14,7 @@ from ..base.remembered import remembered
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.agreement import effective_samples
 from ..uncertainty.interval_digits import bootstrap_weights, quantile_errors
-from .study import a_weighted, at_catalogue, has_draws, quoted_dba, quoted_speed
+from .study import a_weighted, at_catalogue, has_samples, quoted_dba, quoted_speed
 
 Units = tuple[float, float, float]
 """Powers of ten to which lowest, middle and highest are written; 0 where nothing was sampled."""
@@ -71,18 +71,18 @@ def quantiles(results: xr.Dataset, name: str) -> xr.DataArray:
     Parameters
     ----------
     results : of a run
-    name : `source_level`, `level_modelled`, `level_total`, `level_remainder`, `change_modelled`
+    name : `source_level`, `level_modelled`, `level_total`, `level_unmodelled`, `change_modelled`
         or `change_total`; `force_1x`, `moment_1x` or `foot_force_1x` where they were sampled
     """
-    return over_draws(results, _by_sample(results, name))
+    return over_samples(results, _by_sample(results, name))
 
 
 @remembered
 def _by_sample(results: xr.Dataset, name: str) -> xr.DataArray:
     """A variable by sample, its nominal value without samples; names as of `quantiles`."""
-    if not has_draws(results):
+    if not has_samples(results):
         return a_weighted(results[name])
-    level = results[f"{name.replace('change', 'level')}_by_draw"]
+    level = results[f"{name.replace('change', 'level')}_by_sample"]
     if name.startswith("change"):
         level = level - level.sel(option=REFERENCE_OPTION, drop=True)
     return level
@@ -90,10 +90,10 @@ def _by_sample(results: xr.Dataset, name: str) -> xr.DataArray:
 
 def has_band(results: xr.Dataset, name: str) -> bool:
     """Whether a variable was sampled; names as of `quantiles`, and `force_1x` and the like."""
-    return has_draws(results) and f"{name.replace('change', 'level')}_by_draw" in results
+    return has_samples(results) and f"{name.replace('change', 'level')}_by_sample" in results
 
 
-def over_draws(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> xr.DataArray:
+def over_samples(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> xr.DataArray:
     """Quantiles of a level over the weighted samples, (quantile, ...); itself without samples.
 
     Parameters
@@ -102,12 +102,12 @@ def over_draws(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> xr.D
     level : by sample
     prior : number of the prior of unmodelled noise
     """
-    if "draw" not in level.dims:
+    if "sample" not in level.dims:
         return level.expand_dims(quantile=list(QUANTILES))
-    by_draw = level.transpose("draw", ...)
-    weight = results["draw_weight"].values[prior]
-    values = weighted_quantiles(by_draw.values, weight, QUANTILES)
-    like = by_draw.isel(draw=0, drop=True).expand_dims(quantile=list(QUANTILES))
+    by_sample = level.transpose("sample", ...)
+    weight = results["sample_weight"].values[prior]
+    values = weighted_quantiles(by_sample.values, weight, QUANTILES)
+    like = by_sample.isel(sample=0, drop=True).expand_dims(quantile=list(QUANTILES))
     return like.copy(data=values)
 
 
@@ -132,7 +132,7 @@ def _band_of_samples(
     if values.ndim == 0:
         nominal = float(values)
         return Band(nominal, nominal, nominal)
-    weight = results.variables["draw_weight"].values[prior]
+    weight = results.variables["sample_weight"].values[prior]
     return band_of(values, weight, resampled(results, prior), finest)
 
 
@@ -159,9 +159,9 @@ def band_of(
 @remembered
 def resampled(results: xr.Dataset, prior: int) -> Array:
     """Weights of bootstraps, (ensemble, sample); what has the same values is chosen together."""
-    values = results["drawn_value"].transpose("draw", ...).values
+    values = results["sampled_value"].transpose("sample", ...).values
     _, sample = np.unique(values, axis=0, return_inverse=True)
-    return bootstrap_weights(results["draw_weight"].values[prior], sample.ravel())
+    return bootstrap_weights(results["sample_weight"].values[prior], sample.ravel())
 
 
 @remembered
@@ -179,8 +179,8 @@ def _samples_and_positions(
 ) -> tuple[Array, dict[str, dict[Any, int]]]:
     """Values by sample, samples last, and the position of each coordinate by dimension."""
     samples = _by_sample(results, name)
-    samples = samples.transpose(..., "draw", missing_dims="ignore")
-    dims = [str(dim) for dim in samples.dims if dim != "draw"]
+    samples = samples.transpose(..., "sample", missing_dims="ignore")
+    dims = [str(dim) for dim in samples.dims if dim != "sample"]
     positions = {
         dim: {key: n for n, key in enumerate(samples[dim].values.tolist())} for dim in dims
     }
@@ -235,22 +235,22 @@ def share_band(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> Band
     level : by sample, dB(A)
     prior : number of the prior of unmodelled noise
     """
-    if not has_draws(results):
+    if not has_samples(results):
         return band_over(results, level).share_of(quoted_dba(results))
-    share = power_of_level(level - total_by_draw(results, prior))
+    share = power_of_level(level - total_by_sample(results, prior))
     return band_over(results, share, FINEST_RATIO, prior)
 
 
 @remembered
-def total_by_draw(results: xr.Dataset, prior: int) -> xr.DataArray:
+def total_by_sample(results: xr.Dataset, prior: int) -> xr.DataArray:
     """Level of the whole machine without an option at the published speed, (sample,), dB(A)."""
     at = at_catalogue(results, speed=quoted_speed(results))
-    modelled = power_of_level(results["level_modelled_by_draw"].sel(at))
-    rest = power_of_level(results["level_remainder_by_draw"])
+    modelled = power_of_level(results["level_modelled_by_sample"].sel(at))
+    rest = power_of_level(results["level_unmodelled_by_sample"])
     return level_of_power(modelled + rest)
 
 
-class Draws(NamedTuple):
+class Samples(NamedTuple):
     """How many samples there are.
 
     Attributes
@@ -267,17 +267,17 @@ class Draws(NamedTuple):
     unsolved: int
 
 
-def draws(results: xr.Dataset) -> Draws:
+def sample_values(results: xr.Dataset) -> Samples:
     """How many samples the bands rest on."""
-    weight = results["bank_weight"].values[0]
+    weight = results["prior_sample_weight"].values[0]
     effective = effective_samples(weight)
-    if not has_draws(results):
-        return Draws(weight.size, effective, 0, 0)
-    levels = results["level_modelled_by_draw"].transpose("draw", ...).values
+    if not has_samples(results):
+        return Samples(weight.size, effective, 0, 0)
+    levels = results["level_modelled_by_sample"].transpose("sample", ...).values
     unsolved = np.isnan(levels).reshape(len(levels), -1).any(axis=1)
-    values = results["drawn_value"].transpose("draw", ...).values
+    values = results["sampled_value"].transpose("sample", ...).values
     computed = (len(np.unique(values[rows], axis=0)) for rows in (slice(None), unsolved))
-    return Draws(weight.size, effective, *computed)
+    return Samples(weight.size, effective, *computed)
 
 
 def band_words(results: xr.Dataset) -> str:

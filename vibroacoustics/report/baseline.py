@@ -51,7 +51,7 @@ def _files(baseline: dict[str, Any]) -> str:
 def limits(results: xr.Dataset) -> tuple[str, ...]:
     """What the measurement covers, and what it cannot tell."""
     sentences = [_of_bands(results), _of_orders(results), _of_speeds(results)]
-    sentences += [_of_model(results), _of_others(results), _of_draws(results)]
+    sentences += [_of_model(results), _of_others(results), _of_samples(results)]
     return tuple(filter(None, sentences))
 
 
@@ -175,12 +175,12 @@ def _of_others(results: xr.Dataset) -> str:
     return f"At {', '.join(others)} nothing was measured: there the catalogue level stands."
 
 
-def _of_draws(results: xr.Dataset) -> str:
-    if "bank_weight" not in results:
+def _of_samples(results: xr.Dataset) -> str:
+    if "prior_sample_weight" not in results:
         return ""
     tolerance = (baseline_of(results) or {}).get("tolerance_db", 0.0)
     return (
-        f"Draws are weighed by what was measured, sure to ± {tolerance:g} dB: by the A-weighted "
+        f"Samples are weighed by what was measured, sure to ± {tolerance:g} dB: by the A-weighted "
         "level in the measured bands and orders at the lowest, a middle and the highest speed at "
         "each microphone, together as one measurement."
     )

@@ -20,7 +20,7 @@ from .study import (
     few_speeds,
     few_speeds_words,
     first_order_hz,
-    has_draws,
+    has_samples,
     options,
     overall_noise,
     speeds,
@@ -67,15 +67,15 @@ def comparison_text(results: xr.Dataset) -> str:
 
 def bands_sentence(results: xr.Dataset) -> str:
     """What the bands in the tables are; empty where there are none."""
-    if not has_draws(results):
+    if not has_samples(results):
         return ""
-    return f"What is drawn is shown as the middle of the draws ({band_words(results)})."
+    return f"What is sampled is shown as the median of the samples ({band_words(results)})."
 
 
 def _ends_sentence(results: xr.Dataset) -> str:
-    if not has_draws(results):
+    if not has_samples(results):
         return ""
-    return f"What is drawn is shown as its {band_words(results)}; 1x levels are as assumed."
+    return f"What is sampled is shown as its {band_words(results)}; 1x levels are as assumed."
 
 
 def _no_total(results: xr.Dataset) -> str:
@@ -143,9 +143,9 @@ class _Cells:
             if level[option] < rounding.LEVEL_FLOOR_DB:
                 return "silent"
         if column.band and has_band(self.results, column.band):
-            drawn = self._band(column.band, option, speed)
+            sampled = self._band(column.band, option, speed)
             write = partial(_write, column, self.results)
-            return drawn.ends(write) if self.ends_only else drawn.middle_and_ends(write)
+            return sampled.ends(write) if self.ends_only else sampled.middle_and_ends(write)
         return column.write(value, self.results)
 
     def _band(self, name: str, option: int, speed: int) -> Band:

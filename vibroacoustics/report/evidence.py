@@ -94,14 +94,16 @@ def _catalogue_level(results: xr.Dataset) -> Iterator[Rung]:
     noise, receiver = overall_noise(results), catalogue_receiver(results)
     if noise is None:
         return
-    drawn = results["bank_level"].values if "bank_level" in results else np.zeros(0)
-    drawn = drawn[np.isfinite(drawn)]
+    sampled = (
+        results["prior_sample_level"].values if "prior_sample_level" in results else np.zeros(0)
+    )
+    sampled = sampled[np.isfinite(sampled)]
     speed = noise["speed_rpm"]
     if speed in results["speed"].values and not elsewhere(results):
         level = results["level_modelled"].sel(at_catalogue(results, speed=speed, weighting="A"))
         simulated = float(level)
-    elif drawn.size:
-        simulated = float(np.median(drawn))
+    elif sampled.size:
+        simulated = float(np.median(sampled))
     else:
         return
     what = "all modelled sources" if has_sources(results) else "moving parts"
@@ -111,7 +113,7 @@ def _catalogue_level(results: xr.Dataset) -> Iterator[Rung]:
         simulated,
         noise["level_dba"],
         grid_error_db(results, receiver),
-        float(np.std(drawn)) if drawn.size else 0.0,
+        float(np.std(sampled)) if sampled.size else 0.0,
         noise.get("deviation_db", _DEVIATION_DB),
         _source(results, "overall_noise.level_dba"),
     )

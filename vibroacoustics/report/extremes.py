@@ -9,7 +9,7 @@ from .bands import has_band, quantiles
 from .column_values import column
 from .quantities import JUDGED, Quantity
 from .shifts import at_receiver, shift
-from .study import balancers, catalogue_receiver, has_draws, options
+from .study import balancers, catalogue_receiver, has_samples, options
 from .tables import Table
 
 NONE_MEASURABLE: Final = "none that could be measured"
@@ -26,7 +26,7 @@ def extremes_table(results: xr.Dataset) -> Table | None:
         "Best of those measurably better",
         "Worst of those measurably worse",
     )
-    values = "; what is drawn is the middle of the draws" if has_draws(results) else ""
+    values = "; what is sampled is the median of the samples" if has_samples(results) else ""
     return Table(
         f"Best and worst, levels at {catalogue_receiver(results)}{values}",
         head,
@@ -54,11 +54,11 @@ def _extremes(results: xr.Dataset, quantity: Quantity) -> tuple[str, ...]:
 
 
 def _highest(results: xr.Dataset, quantity: Quantity) -> dict[str, float]:
-    """Largest over the speeds by option, of what was drawn the middle over the draws."""
-    drawn = quantity.drawn and has_band(results, quantity.drawn)
+    """Largest over the speeds by option, of what was sampled the middle over the samples."""
+    sampled = quantity.sampled and has_band(results, quantity.sampled)
     values = (
-        quantiles(results, quantity.drawn).sel(quantile=0.5)
-        if drawn
+        quantiles(results, quantity.sampled).sel(quantile=0.5)
+        if sampled
         else column(results, quantity.column)
     )
     values = at_receiver(values, catalogue_receiver(results))

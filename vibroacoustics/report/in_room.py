@@ -202,11 +202,11 @@ def power_sentence(results: xr.Dataset) -> str:
     power = float(
         results["room_sound_power_level"].sel(speed=nearest_speed(results), option=REFERENCE_OPTION)
     )
-    drawn = "; the draws keep to what is published" if "room_level_middle" in by_air else ""
+    sampled = "; the samples keep to what is published" if "room_level_middle" in by_air else ""
     return (
         f"On a hard floor in the open the machine has a sound power level of "
         f"{rounding.level(power)} dB(A) re 1 pW with the values as given; {_published(results)}"
-        f"{drawn}. With the values as given it is "
+        f"{sampled}. With the values as given it is "
         f"{rounding.level(float(by_air['room_level']))} dB(A) by air at {name}."
     )
 
@@ -235,7 +235,7 @@ def _both(at: xr.Dataset) -> float:
 
 
 def _by_air(at: xr.Dataset) -> float:
-    """The middle of the draws where there are some."""
+    """The median of the samples where there are some."""
     return float(at["room_level_middle" if "room_level_middle" in at else "room_level"])
 
 

@@ -11,12 +11,12 @@ from .blocks import Light, LightRow, Lights
 from .option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, judge, option_verdicts
 from .quantities import FOOT_FORCE, FORCE, LINE, MOMENT, TOTAL
 from .shifts import Shift, extent, measurable, shift
-from .study import balancers, catalogue_receiver, has_draws, other_receivers
+from .study import balancers, catalogue_receiver, has_samples, other_receivers
 
 FULL_SCALE: Final = {"%": 100.0, "dB": 20.0}
 """Change at which a bar reaches the end of its cell."""
 _SURE: Final = QUANTILES[0]
-"""Share of the draws with a measurable change from which on it is not said that there is none."""
+"""Share of the samples with a measurable change from which on it is not said that there is none."""
 
 Word: TypeAlias = Literal["better", "worse", "mixed", "not sure", "no difference"]
 _WORDS: Final[dict[str, Word]] = {
@@ -47,7 +47,7 @@ def light(shifts: Sequence[Shift]) -> Light:
     """The light of a quantity, at one microphone or several.
 
     Better and worse are as the verdicts say; not sure is what is neither, although the band of
-    the draws reaches beyond what could be measured.
+    the samples reaches beyond what could be measured.
     """
     full = FULL_SCALE[shifts[0].unit]
     changes = extent(shifts)
@@ -73,7 +73,7 @@ def _word(shifts: Sequence[Shift]) -> Word:
 
 
 def _change(shifts: Sequence[Shift]) -> str:
-    """The range over draws, speeds and microphones; a word where there was or is nothing."""
+    """The range over samples, speeds and microphones; a word where there was or is nothing."""
     first = shifts[0]
     if len(shifts) == 1 and first.before.min() < first.quantity.floor:
         return "appears" if first.after.max() >= first.quantity.floor else "0"
@@ -84,10 +84,14 @@ def _change(shifts: Sequence[Shift]) -> str:
 
 def _note(results: xr.Dataset) -> str:
     least = measurable(results)
-    over = "10 to 90 % of the draws at all speeds" if has_draws(results) else "all speeds, as given"
+    over = (
+        "10 to 90 % of the samples at all speeds"
+        if has_samples(results)
+        else "all speeds, as given"
+    )
     return (
         f"Numbers and bars: {over}; bars end at ±100 % and ±20 dB. Grey: less than "
         f"{100.0 * least.force_ratio:g} % or {least.level_db:g} dB, which could not be measured. "
         "Mixed: better at a speed or microphone, worse at another. Not sure: beyond grey in some "
-        f"draws, but not in more than {100.0 * least.draws_ratio:g} % of them."
+        f"samples, but not in more than {100.0 * least.samples_ratio:g} % of them."
     )

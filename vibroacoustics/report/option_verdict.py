@@ -49,7 +49,7 @@ def table_words(results: xr.Dataset) -> dict[str, str]:
 def option_verdict(results: xr.Dataset, option: str) -> OptionVerdict:
     """Judge one option by what can be measured: 1x force, moment, foot force and line, total.
 
-    The line counts at every microphone, the total in the draws.
+    The line counts at every microphone, the total in the samples.
     """
     shifts = [shift(results, quantity, option) for quantity in JUDGED]
     elsewhere = {

@@ -16,12 +16,12 @@ HEARD_DB: Final = 1.0
 
 @dataclass(frozen=True)
 class Quantity:
-    """A column of the comparison, how a sentence calls it, and its variable over the draws."""
+    """A column of the comparison, how a sentence calls it, and its variable over the samples."""
 
     column: str
     words: str
     unit: str
-    drawn: str = ""
+    sampled: str = ""
 
     @property
     def is_level(self) -> bool:

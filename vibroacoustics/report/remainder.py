@@ -12,7 +12,7 @@ from .bands import Band, band_over
 from .study import (
     a_weighted,
     at_catalogue,
-    has_draws,
+    has_samples,
     overall_noise,
     parameters,
     quoted_speed,
@@ -28,8 +28,8 @@ NO_LEVEL: Final = (
 
 
 def remainder_band(results: xr.Dataset, speed: float) -> Band:
-    """Level of the remainder at a speed without an option, over the draws."""
-    at, suffix = at_catalogue(results, speed=speed), "_by_draw" if has_draws(results) else ""
+    """Level of the remainder at a speed without an option, over the samples."""
+    at, suffix = at_catalogue(results, speed=speed), "_by_sample" if has_samples(results) else ""
     total, modelled = (
         a_weighted(results[f"level_{name}{suffix}"].sel(at)) for name in ("total", "modelled")
     )

@@ -13,7 +13,7 @@ from ..scoring.scores import ANY_WEIGHTS, OF_THE_STUDY
 from . import labels
 from .bands import percent
 from .option_verdict import NO_CHANGE, option_verdicts
-from .study import has_draws, has_sources, options, parameters
+from .study import has_samples, has_sources, options, parameters
 from .tables import Table, to_csv
 
 SUM_TOLERANCE: Final = 1e-6
@@ -80,8 +80,8 @@ def values_table(results: xr.Dataset) -> Table:
         for option in options(results)
     )
     head = ("Option", *(f"{label}, {unit}" if unit else label for _, label, unit in criteria))
-    drawn = ", as assumed" if has_draws(results) else ""
-    return Table(f"Values of the criteria{drawn}", head, rows)
+    sampled = ", as assumed" if has_samples(results) else ""
+    return Table(f"Values of the criteria{sampled}", head, rows)
 
 
 def scores_table(results: xr.Dataset) -> Table:
@@ -104,7 +104,7 @@ def scope_words(results: xr.Dataset) -> str:
     """Say that the scores count further sources."""
     if not has_sources(results):
         return ""
-    where = "in each draw" if has_draws(results) else "at the assumed values"
+    where = "in each sample" if has_samples(results) else "at the assumed values"
     return f" The change of level in the scores counts all sources, {where}."
 
 
@@ -188,12 +188,12 @@ def _names(results: xr.Dataset, dim: str) -> list[str]:
 def acceptability_words(results: xr.Dataset, winners: Sequence[str]) -> str:
     """How sure the first rank is; files of older versions have it by the weights alone."""
     whatever = 100.0 * float(results["first_place_share"].sel(option=winners).sum())
-    if "rank_acceptability" not in results or not has_draws(results):
-        return f", and in {whatever:.0f} % of the weightings drawn at random"
+    if "rank_acceptability" not in results or not has_samples(results):
+        return f", and in {whatever:.0f} % of the weightings sampled at random"
     first = results["rank_acceptability"].isel(rank_position=0).sel(option=winners).sum("option")
     by_study = 100.0 * float(first.sel({"criteria_weights": OF_THE_STUDY}))
     return (
-        f": by these weights in {by_study:.0f} % of the draws, and with draws and weights at "
+        f": by these weights in {by_study:.0f} % of the samples, and with samples and weights at "
         f"random in {whatever:.0f} %"
     )
 
@@ -225,5 +225,5 @@ def acceptability_table(results: xr.Dataset) -> Table | None:
         for option in ranked(results)
     )
     head = ("Option", *(f"Rank {number:g}" for number in probability["rank_position"].values))
-    drawn = "over draws and weights together" if has_draws(results) else "over the weights"
-    return Table(f"Probability of each rank, {drawn}", head, rows)
+    sampled = "over samples and weights together" if has_samples(results) else "over the weights"
+    return Table(f"Probability of each rank, {sampled}", head, rows)

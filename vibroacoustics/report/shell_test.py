@@ -10,19 +10,19 @@ from ..base import rounding
 from ..base.arrays import Array
 from ..base.quantiles import weighted_quantiles
 from .bands import QUANTILES, band_of, band_words
-from .drawn_words import named
 from .labels import unit
+from .sampled_words import named
 from .study import catalogue_receiver
 from .tables import Table
 
 NARROWED: Final = 0.8
 """Values whose band is narrowed to less than this part are listed."""
 GIVEN_UP: Final = 20.0
-"""Effective draws below which a warning is given."""
+"""Effective samples below which a warning is given."""
 
 
 def applies(results: xr.Dataset) -> bool:
-    """Whether a hammer test weighed the draws."""
+    """Whether a hammer test weighed the samples."""
     return "shell_likelihood" in results
 
 
@@ -32,7 +32,7 @@ def test_sentence(results: xr.Dataset) -> str:
     unused = f"; {about['unused']} others have nodes without a name" if about["unused"] else ""
     return (
         f"{about['mobilities']} mobilities from {about['lowest_frequency_hz']:g} to "
-        f"{about['highest_frequency_hz']:g} Hz{unused}. Draws count by how well their shell "
+        f"{about['highest_frequency_hz']:g} Hz{unused}. Samples count by how well their shell "
         "agrees with them: in the mean level of each third octave within "
         f"{about['gain_tolerance_db']:g} dB, in the natural frequencies of clear peaks within "
         f"{100.0 * about['frequency_tolerance_ratio']:g} %, in their loss factors within "
@@ -54,14 +54,14 @@ def peaks_sentence(results: xr.Dataset) -> str:
     return f"Clear peaks, with loss factor: {', '.join(peaks)}."
 
 
-def draws_sentence(results: xr.Dataset) -> str:
-    """How many draws were held against the test, and how many equal ones remain."""
+def samples_sentence(results: xr.Dataset) -> str:
+    """How many samples were held against the test, and how many equal ones remain."""
     weight = results["shell_likelihood"].values
     effective = float(weight.sum() ** 2 / (weight**2).sum())
     few = " That is few: bands after the test are rough." if effective < GIVEN_UP else ""
     return (
-        f"{weight.size} draws were held against the test; they are worth {effective:.0f} equal "
-        f"ones after it.{few} The sound of {results.sizes['bank_draw']} of them was computed."
+        f"{weight.size} samples were held against the test; they are worth {effective:.0f} equal "
+        f"ones after it.{few} The sound of {results.sizes['prior_sample']} of them was computed."
     )
 
 
@@ -91,7 +91,7 @@ def _rows(results: xr.Dataset) -> Iterator[tuple[str, str, str]]:
             symbol = unit(name.rpartition(".")[2])
             words = f"{named(name)}, {symbol}" if symbol else named(name)
             yield _row(words, values, likelihood, _number)
-    before, after = results["shell_level_before"].values, results["bank_level"].values
+    before, after = results["shell_level_before"].values, results["prior_sample_level"].values
     known = np.isfinite(before), np.isfinite(after)
     weight = results["shell_weight"].values[known[1]]
     words = f"modelled level at {catalogue_receiver(results)}, dB(A)"

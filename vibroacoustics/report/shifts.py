@@ -31,7 +31,7 @@ class Shift:
     ----------
     quantity : which
     before, after : nominal values, shape (speed,)
-    drawn_db : change in each sample, shape (sample, speed); that of the nominal values where the
+    sampled_db : change in each sample, shape (sample, speed); that of the nominal values where the
         quantity is not sampled
     weight : of the samples, of sum one
     least : smallest changes that could be measured
@@ -41,7 +41,7 @@ class Shift:
     quantity: Quantity
     before: Array
     after: Array
-    drawn_db: Array
+    sampled_db: Array
     weight: Array
     least: Measurable
     weights: Array | None = None
@@ -54,12 +54,12 @@ class Shift:
     @property
     def worsens(self) -> bool:
         """Whether it grows by what could be measured in most samples, at a speed at least."""
-        return self.grown > self.least.draws_ratio
+        return self.grown > self.least.samples_ratio
 
     @property
     def improves(self) -> bool:
         """Whether it falls by what could be measured in most samples, at a speed at least."""
-        return self.fallen > self.least.draws_ratio
+        return self.fallen > self.least.samples_ratio
 
     @property
     def grown(self) -> float:
@@ -79,8 +79,8 @@ class Shift:
             gain = np.maximum(self.after, quietest) - np.maximum(self.before, quietest)
             return np.asarray(gain[None])
         if self.quantity.is_level:
-            return self.drawn_db
-        return np.asarray(amplitude_of_level(self.drawn_db) - 1.0)
+            return self.sampled_db
+        return np.asarray(amplitude_of_level(self.sampled_db) - 1.0)
 
     @property
     def _threshold(self) -> float:
@@ -98,7 +98,7 @@ class Shift:
         share = self.grown if self.worsens else self.fallen
         if share > _ALL:
             return size
-        return f"{size} (measurable in {100.0 * share:.0f} % of the draws at a speed)"
+        return f"{size} (measurable in {100.0 * share:.0f} % of the samples at a speed)"
 
     def size(self) -> str:
         """`+22 to +24 %` of forces, `+2.2 to +25.2 dB` of levels: over samples and speeds."""
@@ -116,7 +116,7 @@ class Shift:
     @cached_property
     def bands(self) -> list[Band]:
         """Band of the change at every speed: dB of levels, % of forces."""
-        changes, finest = self.drawn_db, FINEST_DB
+        changes, finest = self.sampled_db, FINEST_DB
         if not self.quantity.is_level:
             changes = np.asarray(100.0 * (amplitude_of_level(changes) - 1.0))
             finest = 100.0 * FINEST_RATIO
@@ -166,11 +166,11 @@ def shift(
     values = at_receiver(column(results, quantity.column), at)
     before = values.sel(option=REFERENCE_OPTION).values
     after = values.sel(option=option).values
-    if quantity.drawn and has_band(results, quantity.drawn):
-        drawn_db, weight, weights = _drawn_change(results, quantity, option, at)
+    if quantity.sampled and has_band(results, quantity.sampled):
+        sampled_db, weight, weights = _sampled_change(results, quantity, option, at)
     else:
-        drawn_db, weight, weights = _gain(quantity, before, after)[None], np.ones(1), None
-    return Shift(quantity, before, after, drawn_db, weight, measurable(results), weights)
+        sampled_db, weight, weights = _gain(quantity, before, after)[None], np.ones(1), None
+    return Shift(quantity, before, after, sampled_db, weight, measurable(results), weights)
 
 
 def extent(shifts: Sequence[Shift]) -> Band:
@@ -194,14 +194,14 @@ def _gain(quantity: Quantity, before: Array, after: Array) -> Array:
     return np.asarray(gain)
 
 
-def _drawn_change(
+def _sampled_change(
     results: xr.Dataset, quantity: Quantity, option: str, receiver: str
 ) -> tuple[Array, Array, Array]:
     """Change in the samples that count, shape (sample, speed), dB, and their weights."""
     counting, weight, weights = _counting(results)
-    drawn = at_receiver(results[f"{quantity.drawn}_by_draw"], receiver)
+    sampled = at_receiver(results[f"{quantity.sampled}_by_sample"], receiver)
     before, after = (
-        drawn.sel(option=name).transpose("draw", "speed").values[counting]
+        sampled.sel(option=name).transpose("sample", "speed").values[counting]
         for name in (REFERENCE_OPTION, option)
     )
     return _gain(quantity, before, after), weight, weights
@@ -210,7 +210,7 @@ def _drawn_change(
 @remembered
 def _counting(results: xr.Dataset) -> tuple[Array, Array, Array]:
     """Which samples count, their weights of sum one, and those of their bootstraps."""
-    weight = results["draw_weight"].values[0]
+    weight = results["sample_weight"].values[0]
     counting = weight > 0.0
     of_counting = weight[counting]
     return counting, of_counting / of_counting.sum(), resampled(results, 0)[:, counting]

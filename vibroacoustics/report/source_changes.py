@@ -12,7 +12,7 @@ from ..base.remembered import remembered
 from .bands import Band, band_words, bands_by_speed, hull
 from .quantities import TOLERANCE_DB, TOTAL
 from .shifts import shift
-from .study import at_catalogue, balancers, has_draws, many_speeds, options, speeds, total_of
+from .study import at_catalogue, balancers, has_samples, many_speeds, options, speeds, total_of
 
 
 class SourceChange(NamedTuple):
@@ -46,9 +46,9 @@ def changes_sentence(results: xr.Dataset) -> str:
     if rest:
         which = "no other option" if louder or quieter else "no option"
         bands = [band for option in rest for band in source_change(results, option).total]
-        drawn = "In most draws " if has_draws(results) else "As assumed "
+        sampled = "In most samples " if has_samples(results) else "As assumed "
         parts.append(
-            f"{drawn}{which} changes the level of {of} by what could be "
+            f"{sampled}{which} changes the level of {of} by what could be "
             f"measured: {', '.join(rest)} by "
             f"{change_words(hull(bands))}."
         )
@@ -60,7 +60,7 @@ def change_sentences(results: xr.Dataset, option: str) -> list[str]:
     change = source_change(results, option)
     return [
         f"With all sources the modelled level changes by {_by_speed(results, change.sources)} "
-        f"({band_words(results)} of the draws), the total by {_by_speed(results, change.total)}.",
+        f"({band_words(results)} of the samples), the total by {_by_speed(results, change.total)}.",
         *_impacts(results, option),
     ]
 

@@ -20,7 +20,7 @@ from .study import (
     at_catalogue,
     balancers,
     catalogue_receiver,
-    has_draws,
+    has_samples,
     options,
     overall_noise,
     quoted_speed,
@@ -89,7 +89,7 @@ def figures_table(results: xr.Dataset) -> Table:
 
 def sources_csv(results: xr.Dataset) -> bytes:
     """One row per option, speed, microphone and source, to nine significant digits."""
-    drawn = quantiles(results, "source_level")
+    sampled = quantiles(results, "source_level")
     columns = {
         "option": results["option"],
         "speed_rpm": results["speed"],
@@ -98,7 +98,7 @@ def sources_csv(results: xr.Dataset) -> bytes:
         "level_dba": results["source_level"],
     }
     for quantile in QUANTILES:
-        columns[f"level_{100.0 * quantile:.0f}_percent_dba"] = drawn.sel(quantile=quantile)
+        columns[f"level_{100.0 * quantile:.0f}_percent_dba"] = sampled.sel(quantile=quantile)
     columns["share_of_modelled_energy"] = results["source_share"]
     return dataset_csv(("option", "speed", "receiver", "sound_source"), columns)
 
@@ -108,7 +108,7 @@ def _source_table(results: xr.Dataset, speed: float) -> Table:
     head = [
         "Source, the loudest first",
         "Level as assumed, dB(A)",
-        f"Middle of the draws ({band_words(results)}), dB(A)",
+        f"Middle of the samples ({band_words(results)}), dB(A)",
         "Share of the modelled energy, as assumed",
     ]
     if quoted:
@@ -156,16 +156,16 @@ def _sum_rows(results: xr.Dataset, speed: float, quoted: bool) -> list[tuple[str
 
 
 def _remainder_level(results: xr.Dataset) -> xr.DataArray:
-    """Level of the remainder by draw, or as given."""
-    if not has_draws(results):
-        return results["level_remainder"]
-    return results["level_remainder_by_draw"]
+    """Level of the remainder by sample, or as given."""
+    if not has_samples(results):
+        return results["level_unmodelled"]
+    return results["level_unmodelled_by_sample"]
 
 
 def _row(
-    name: str, level_dba: float, drawn: Band, share: str, of_machine: Band | None
+    name: str, level_dba: float, sampled: Band, share: str, of_machine: Band | None
 ) -> tuple[str, ...]:
-    cells = (name, rounding.level(level_dba), drawn.middle_and_ends(rounding.level), share)
+    cells = (name, rounding.level(level_dba), sampled.middle_and_ends(rounding.level), share)
     return cells if of_machine is None else (*cells, of_machine.in_percent())
 
 

@@ -11,16 +11,25 @@ from ..base.remembered import remembered
 from ..base.vocabulary import DERIVED_SUPPLY, REFERENCE_OPTION
 from ..levels.agreement import priors_of
 from ..machine.remainder import Remainder
-from .bands import Band, band, band_words, draws, energy_share, percent, share_band, total_by_draw
-from .drawn_words import drawn_sentences
+from .bands import (
+    Band,
+    band,
+    band_words,
+    energy_share,
+    percent,
+    sample_values,
+    share_band,
+    total_by_sample,
+)
 from .energy_words import UNMODELLED, energy_band, has_energy_shares, majority
+from .sampled_words import sampled_sentences
 from .study import (
     a_weighted,
     at_catalogue,
     catalogue_receiver,
     elsewhere,
     first_order_hz,
-    has_draws,
+    has_samples,
     many_speeds,
     overall_noise,
     parameters,
@@ -53,7 +62,7 @@ def carrier_sentence(results: xr.Dataset) -> str:
     speed, overall = quoted_speed(results), quoted_dba(results)
     source, level = ranked(results, speed)[0]
     assumed, published = _assumed_level(results, source), overall_noise(results)
-    if not has_draws(results):
+    if not has_samples(results):
         return (
             f"At {catalogue_receiver(results)} and {speed:g} rpm, without a balancer, the loudest "
             f"modelled source at the assumed values is: {source_name(results, source)}, "
@@ -65,7 +74,7 @@ def carrier_sentence(results: xr.Dataset) -> str:
     return (
         f"At {catalogue_receiver(results)} and {speed:g} rpm, without a balancer, the loudest "
         f"modelled source is: {source_name(results, source)}, "
-        f"{level.middle_text(rounding.level)} dB(A) in the middle of the draws "
+        f"{level.middle_text(rounding.level)} dB(A) in the median of the samples "
         f"({band_words(results)} {level.ends(rounding.level)}) or "
         f"{rounding.level(assumed)} dB(A) at the assumed values; "
         f"{' or '.join(share.in_percent() for share in shares)} of the energy of "
@@ -75,19 +84,19 @@ def carrier_sentence(results: xr.Dataset) -> str:
 
 def shares_sentence(results: xr.Dataset) -> str:
     """How much of the energy of the whole machine each source accounts for, by prior."""
-    if not has_draws(results):
+    if not has_samples(results):
         return _unresolved(results)
     first, *others = (_shares(results, prior) for prior in range(results.sizes["prior"]))
     published = overall_noise(results)
     if published is None:
         return (
             "No level of the machine is published. Of the energy of all that is modelled, in the "
-            f"middle of the draws with the {band_words(results)} in brackets: {first}."
+            f"median of the samples with the {band_words(results)} in brackets: {first}."
         )
     texts = [
         f"Of the energy of the whole machine there, published as {published['level_dba']:g} dB(A) "
-        f"and taken as sure to ± {published.get('deviation_db', 2.0):g} dB, in the middle of the "
-        f"draws with the {band_words(results)} in brackets: {first}."
+        f"and taken as sure to ± {published.get('deviation_db', 2.0):g} dB, in the median of the "
+        f"samples with the {band_words(results)} in brackets: {first}."
     ]
     names = prior_words(results)
     texts.append(f"That holds for a remainder {names[0]}.")
@@ -129,7 +138,7 @@ def _modelled_and_rest(results: xr.Dataset, prior: int) -> tuple[Band, Band]:
         lowest, middle, highest = (1.0 - share for share in rest[2::-1])
         return Band(lowest, middle, highest), rest
     modelled = share_band(results, at_published(results, "level_modelled"), prior)
-    return modelled, share_band(results, results["level_remainder_by_draw"], prior)
+    return modelled, share_band(results, results["level_unmodelled_by_sample"], prior)
 
 
 def _is_of_all_samples(results: xr.Dataset, prior: int) -> bool:
@@ -146,8 +155,8 @@ def source_share(results: xr.Dataset, source: str, prior: int = 0) -> Band:
 
 
 def at_published(results: xr.Dataset, name: str, source: str | None = None) -> xr.DataArray:
-    """A level by draw, or as given, without an option where the level is published."""
-    level = results[f"{name}_by_draw" if has_draws(results) else name]
+    """A level by sample, or as given, without an option where the level is published."""
+    level = results[f"{name}_by_sample" if has_samples(results) else name]
     of_source = {} if source is None else {"sound_source": source}
     return a_weighted(level.sel(at_catalogue(results, speed=quoted_speed(results), **of_source)))
 
@@ -155,22 +164,22 @@ def at_published(results: xr.Dataset, name: str, source: str | None = None) -> x
 def certainty_sentences(results: xr.Dataset) -> list[str]:
     """What the ranking and the bands rest on."""
     texts = [_ranking(results), left_out_sentence(results), _as_assumed(results)]
-    texts += drawn_sentences(results) if has_draws(results) else []
+    texts += sampled_sentences(results) if has_samples(results) else []
     return [*filter(None, [*texts, _up_to(results), _not_an_order(results)])]
 
 
 def left_out_sentence(results: xr.Dataset) -> str:
-    """How many draws the bands rest on, and how they were weighed."""
-    if "bank_weight" not in results:
-        return "No value of the sources has a range: nothing was drawn, and there are no bands."
-    if not has_draws(results):
+    """How many samples the bands rest on, and how they were weighed."""
+    if "prior_sample_weight" not in results:
+        return "No value of the sources has a range: nothing was sampled, and there are no bands."
+    if not has_samples(results):
         return _unresolved(results)
-    tried, effective, computed, unsolved = draws(results)
+    tried, effective, computed, unsolved = sample_values(results)
     failed = f" {unsolved} of them have no solution." if unsolved else ""
     if overall_noise(results) is None and "baseline_band_level" not in results:
         how = "by the hammer test alone" if "shell_weight" in results else "alike"
         return (
-            f"{tried} draws were computed. As no level of the machine is published, they count "
+            f"{tried} samples were computed. As no level of the machine is published, they count "
             f"{how}: they are worth {effective:.0f} equal ones. The bands rest on {computed} of "
             f"them.{failed}"
         )
@@ -178,7 +187,7 @@ def left_out_sentence(results: xr.Dataset) -> str:
     if "baseline_band_level" in results:
         where = "where the sound was measured"
     return (
-        f"{tried} draws were computed {where} and "
+        f"{tried} samples were computed {where} and "
         f"weighed by how well they agree with it: they are worth {effective:.0f} equal ones. "
         f"The bands rest on {computed} of them.{failed}"
     )
@@ -186,21 +195,22 @@ def left_out_sentence(results: xr.Dataset) -> str:
 
 def _unresolved(results: xr.Dataset) -> str:
     """Why there are neither shares nor bands."""
-    if "bank_weight" not in results:
-        return "No value of the sources has a range: nothing was drawn, and there are no bands."
-    tried, effective, *_ = draws(results)
+    if "prior_sample_weight" not in results:
+        return "No value of the sources has a range: nothing was sampled, and there are no bands."
+    tried, effective, *_ = sample_values(results)
     if overall_noise(results) is None:
         return (
-            f"Shares and bands are not resolved: {tried} draws are worth no more than "
+            f"Shares and bands are not resolved: {tried} samples are worth no more than "
             f"{effective:.1f} that have a solution. What follows holds at the assumed values only."
         )
     overall = quoted_dba(results)
-    louder = float((results["bank_level"] > overall).mean())
+    louder = float((results["prior_sample_level"] > overall).mean())
     agree = "the measured baseline" if "baseline_band_level" in results else "it"
     return (
-        f"Shares and bands are not resolved: {tried} draws, {percent(louder)} of them louder than "
-        f"the published {overall:g} dB(A) by the modelled sources alone, are worth no more than "
-        f"{effective:.1f} that agree with {agree}. What follows holds at the assumed values only."
+        f"Shares and bands are not resolved: {tried} samples, {percent(louder)} of them louder "
+        f"than the published {overall:g} dB(A) by the modelled sources alone, are worth no more "
+        f"than {effective:.1f} that agree with {agree}. What follows holds at the assumed values "
+        "only."
     )
 
 
@@ -234,7 +244,7 @@ def _as_assumed(results: xr.Dataset) -> str:
         return ""
     side = "above" if value > level.highest else "below"
     return (
-        f"At the assumed values, nothing drawn, {source_name(results, source)} alone reach "
+        f"At the assumed values, nothing sampled, {source_name(results, source)} alone reach "
         f"{rounding.level(value)} dB(A), {side} the band: its share is not known better than from "
         f"{percent(source_share(results, source).lowest)} to "
         f"{percent(energy_share(value, overall))}."
@@ -296,7 +306,7 @@ _HALF: Final = 0.5
 
 
 def sure_sentence(results: xr.Dataset) -> str:
-    """Whether the loudest modelled source carries the level of the whole machine, with draws."""
+    """Whether the loudest modelled source carries the level of the whole machine, with samples."""
     source, _ = ranked(results, quoted_speed(results))[0]
     probability = [_carries(results, source, number) for number in range(results.sizes["prior"])]
     name = source_name(results, source)
@@ -326,8 +336,8 @@ def _carries(results: xr.Dataset, source: str, prior: int) -> float:
     """Probability that a source makes more than half of the energy of the machine."""
     if _is_of_all_samples(results, prior):
         return majority(results, source)
-    level = at_published(results, "source_level", source).transpose("draw").values
-    total = total_by_draw(results, prior).transpose("draw").values
-    weight = results["draw_weight"].values[prior]
-    share = np.nan_to_num(power_of_level(level - total))  # none in a draw without solution
+    level = at_published(results, "source_level", source).transpose("sample").values
+    total = total_by_sample(results, prior).transpose("sample").values
+    weight = results["sample_weight"].values[prior]
+    share = np.nan_to_num(power_of_level(level - total))  # none in a sample without solution
     return float(weight[share > _HALF].sum() / weight.sum())

@@ -135,9 +135,9 @@ def has_sources(results: xr.Dataset) -> bool:
     return bool(results.sizes["sound_source"] > 1)
 
 
-def has_draws(results: xr.Dataset) -> bool:
-    """Whether values were drawn from their ranges."""
-    return "draw_weight" in results
+def has_samples(results: xr.Dataset) -> bool:
+    """Whether values were sampled from their ranges."""
+    return "sample_weight" in results
 
 
 def first_order_hz(results: xr.Dataset) -> Array:

@@ -8,9 +8,9 @@ import xarray as xr
 from ..base import rounding
 from ..base.arrays import Array
 from ..uncertainty.shares import ASKED
-from .bands import band_of, band_words, draws, percent
-from .drawn_words import file_unit, named
-from .study import catalogue_receiver, has_draws
+from .bands import band_of, band_words, percent, sample_values
+from .sampled_words import file_unit, named
+from .study import catalogue_receiver, has_samples
 from .tables import Table
 
 NOT_RESOLVED: Final = "not resolved"
@@ -52,8 +52,8 @@ def resolved_sentence(results: xr.Dataset) -> str:
         for name, count in zip(shares["knowledge"].values, counts, strict=True)
     ]
     return (
-        f"Number of the {shares.sizes['drawn_parameter']} unknowns with a resolved share in the "
-        f"variance of the modelled level at {catalogue_receiver(results)} without a balancer: "
+        f"Number of the {shares.sizes['uncertain_parameter']} unknowns with a resolved share in "
+        f"the variance of the modelled level at {catalogue_receiver(results)} without a balancer: "
         f"{', '.join(words)}."
     )
 
@@ -65,7 +65,7 @@ def unknowns_table(results: xr.Dataset) -> Table | None:
     knowledge = [str(name) for name in shares["knowledge"].values]
     columns = [number for number in range(len(knowledge)) if seen[number].any()]
     largest = np.where(seen, shares.values, 0.0).max(axis=0)
-    names = [str(name) for name in shares["drawn_parameter"].values]
+    names = [str(name) for name in shares["uncertain_parameter"].values]
     rows = tuple(
         (
             _with_unit(results, names[at]),
@@ -113,24 +113,27 @@ def _most_valuable(results: xr.Dataset) -> str:
     certain = int(results["parameter_information_votes"][best]) == ASKED
     everything = f"{rounding.fixed(float(results['perfect_information']))} dB"
     if certain and gain[best] > float(results["parameter_information_floor"]):
-        name = named(str(results["drawn_parameter"].values[best]))
+        name = named(str(results["uncertain_parameter"].values[best]))
         return (
             f"Before an option is chosen on {choice}, measure {name}: its value is worth "
             f"{rounding.fixed(float(gain[best]))} dB in the mean, all values {everything}"
         )
     return (
         f"All unknown values together are worth {everything} for a choice on {choice}; which one "
-        f"to measure, {draws(results).computed} samples do not show"
+        f"to measure, {sample_values(results).computed} samples do not show"
     )
 
 
 def _values(results: xr.Dataset, name: str, prior: int) -> str:
     """Median and interval of an unknown's values by a prior; by equal weights for -1."""
-    if prior >= 0 and not has_draws(results):
+    if prior >= 0 and not has_samples(results):
         return rounding.NOTHING
-    values = results["bank_value"].sel(drawn_parameter=name).values / file_unit(results, name)[1]
+    values = (
+        results["prior_sample_value"].sel(uncertain_parameter=name).values
+        / file_unit(results, name)[1]
+    )
     before = results["shell_weight"].values if "shell_weight" in results else np.ones(values.size)
-    weight = before if prior < 0 else results["bank_weight"].values[prior]
+    weight = before if prior < 0 else results["prior_sample_weight"].values[prior]
     return band_of(values, weight).middle_and_ends(rounding.three_digits)
 
 

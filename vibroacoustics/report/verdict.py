@@ -12,13 +12,13 @@ from . import conflict
 from .baseline import not_measured
 from .column_values import column
 from .comparison import comparison
-from .drawn_words import not_drawn_sentence
 from .energy_words import spectrum_sentence
 from .evidence import agreement_sentence
 from .option_verdict import MIXED, NO_CHANGE, WORSE, OptionVerdict
 from .quantities import FOOT_FORCE, FORCE, HEARD_DB, LINE, MOMENT, TOLERANCE_DB, TOTAL
 from .ranking_words import ranking_sentence
 from .remainder import growth_sentence, measured_rpm, remainder_band
+from .sampled_words import not_sampled_sentence
 from .shifts import measurable, shift
 from .source_changes import changes_sentence
 from .source_words import (
@@ -32,7 +32,7 @@ from .study import (
     balancers,
     catalogue_receiver,
     first_order_hz,
-    has_draws,
+    has_samples,
     has_sources,
     many_speeds,
     overall_noise,
@@ -53,7 +53,7 @@ def headline(results: xr.Dataset) -> str:
     """What carries the level where that is modelled; else what balancing does to the level."""
     receiver, names = catalogue_receiver(results), balancers(results)
     if has_sources(results):
-        return sure_sentence(results) if has_draws(results) else carrier_sentence(results)
+        return sure_sentence(results) if has_samples(results) else carrier_sentence(results)
     if not names:
         return f"This study has no balancing option beside {REFERENCE_OPTION}."
     line = np.concatenate([shift(results, LINE, name).gain_db for name in names])
@@ -77,7 +77,7 @@ def reasons(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> list[str]
         texts += [*_of_evidence(results), left_out_sentence(results)]
         texts[:0] = _of_sources(results)
     else:
-        texts += filter(None, [_remainder(results), not_drawn_sentence(results)])
+        texts += filter(None, [_remainder(results), not_sampled_sentence(results)])
     texts = [text for text in texts if text]
     if not verdicts:
         return texts
@@ -87,7 +87,7 @@ def reasons(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> list[str]
 def _of_sources(results: xr.Dataset) -> list[str]:
     """What the options change, what carries the level, what to measure next."""
     changes = [changes_sentence(results)] if balancers(results) else []
-    if not has_draws(results):
+    if not has_samples(results):
         return changes
     sentences = [*changes, carrier_sentence(results), measure_next_sentence(results)]
     return [sentence for sentence in sentences if sentence]
@@ -200,7 +200,7 @@ def _remainder(results: xr.Dataset) -> str:
             f"from sources that balancing does not touch."
         )
     return (
-        f"In the model {carried}. The rest, {rounding.fixed(results['level_remainder'].item())} "
+        f"In the model {carried}. The rest, {rounding.fixed(results['level_unmodelled'].item())} "
         f"dB(A) at {quoted_speed(results):g} rpm, comes from sources that balancing "
         f"does not touch. {growth_sentence(results)}"
     )

@@ -87,7 +87,7 @@ def _check_parts(results: xr.Dataset, parameters: Parameters) -> None:
     hangs = "block_velocity_order" in results or "block" in results["body"].values
     alone = results.sizes["sound_source"] == 1
     needed = {
-        "ranges": parameters.ranges is not None or "draw_weight" not in results,
+        "ranges": parameters.ranges is not None or "sample_weight" not in results,
         "options": not hangs or set(results["option"].values.tolist()) <= parameters.options.keys(),
         "machine.suspension": not hangs or suspended,
         "machine.stopping": machine.stopping or "stopping_force" not in results,

@@ -122,7 +122,7 @@ class Record(Part):
     file: str
 
 
-class DrawnRange(Part):
+class SampledRange(Part):
     table: str
     field: str
     independent_of: list[str] = []
@@ -144,7 +144,7 @@ class Measurable(Part):
     level_db: Positive
     force_ratio: Positive
     quietest_line_db: Level
-    draws_ratio: Number
+    samples_ratio: Number
 
 
 class Scoring(Part):
@@ -206,7 +206,7 @@ class Parameters(Part):
     options: dict[str, Option]
     receivers: dict[str, Position]
     records: list[Record]
-    ranges: list[DrawnRange] | None = None
+    ranges: list[SampledRange] | None = None
     held_ranges: list[HeldRange] = []
     scoring: Scoring
     radiation: Radiation

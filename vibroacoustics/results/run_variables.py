@@ -25,7 +25,7 @@ _RULES: Final = tomllib.loads(
 """Which variables a run has, and with what; the file explains each table."""
 COORDINATES_OF: Final[dict[str, list[str]]] = _RULES["coordinates_of"]
 EMPTY_WHERE_NONE: Final = frozenset(_RULES["empty_where_none"])
-ONLY_DRAWS_THAT_COUNT: Final = frozenset(_RULES["only_draws_that_count"])
+ONLY_SAMPLES_THAT_COUNT: Final = frozenset(_RULES["only_samples_that_count"])
 ADDED_MASS: Final = "added_mass_kg"
 """Figure that every option has."""
 LABELS: Final[dict[str, tuple[str, ...]]] = {
@@ -67,8 +67,8 @@ def check_variables(results: xr.Dataset) -> None:
     for variable in known.data_vars.values():
         _check_dimensions(known, variable)
         check_numbers(variable)
-    for name in ONLY_DRAWS_THAT_COUNT & known.keys():
-        _check_finite(known[name].isel(draw=known["draw_weight"].values[0] > 0.0))
+    for name in ONLY_SAMPLES_THAT_COUNT & known.keys():
+        _check_finite(known[name].isel(sample=known["sample_weight"].values[0] > 0.0))
     _check_labels(known)
 
 
@@ -114,7 +114,7 @@ def check_numbers(array: xr.DataArray) -> None:
     """
     if array.dtype.kind not in "iufc":
         raise SchemaError(f"{array.name} holds no numbers")
-    if array.name not in EMPTY_WHERE_NONE | ONLY_DRAWS_THAT_COUNT:
+    if array.name not in EMPTY_WHERE_NONE | ONLY_SAMPLES_THAT_COUNT:
         _check_finite(array)
 
 
@@ -142,5 +142,5 @@ def _check_labels(results: xr.Dataset) -> None:
     if not results["mode_shape"].any(("body", "dof")).all():
         raise SchemaError("mode_shape: in a mode nothing moves")
     _check_finite(results["reported_figure"].sel(figure=ADDED_MASS).rename(ADDED_MASS))
-    if "draw_weight" in results and not (results["draw_weight"].values[0] > 0.0).any():
-        raise SchemaError("draw_weight: no draw counts")
+    if "sample_weight" in results and not (results["sample_weight"].values[0] > 0.0).any():
+        raise SchemaError("sample_weight: no sample counts")

@@ -1,4 +1,4 @@
-"""Criteria, scores, ranks and how sure they are, whatever the weights and the draws."""
+"""Criteria, scores, ranks and how sure they are, whatever the weights and the samples."""
 
 from .acceptability import any_weights, rank_acceptability
 from .given import given_values

@@ -1,4 +1,4 @@
-"""Probability of each rank, over draws and weights of the criteria together."""
+"""Probability of each rank, over samples and weights of the criteria together."""
 
 from collections.abc import Iterable, Iterator
 from typing import Final
@@ -17,7 +17,7 @@ def any_weights(criteria: int, number: int, seed: int) -> Iterator[Array]:
 
     Yields
     ------
-    for one draw after another, without an end, other ones: shape (weighting, criterion)
+    for one sample after another, without an end, other ones: shape (weighting, criterion)
     """
     generator = np.random.default_rng(seed)
     while True:  # Dirichlet's distribution of ones
@@ -25,7 +25,7 @@ def any_weights(criteria: int, number: int, seed: int) -> Iterator[Array]:
         yield parts / parts.sum(axis=1, keepdims=True)
 
 
-def rank_acceptability(utility: Array, draw_weight: Array, shares: Iterable[Array]) -> Array:
+def rank_acceptability(utility: Array, sample_weight: Array, shares: Iterable[Array]) -> Array:
     """Probability of each position in the ranking, the first is best, (option, position).
 
     Rank acceptability index of stochastic multicriteria acceptability analysis, by Monte Carlo
@@ -34,16 +34,16 @@ def rank_acceptability(utility: Array, draw_weight: Array, shares: Iterable[Arra
 
     Parameters
     ----------
-    utility : of each option by each criterion, shape (draw, option, criterion)
-    draw_weight : of the draws, shape (draw,), of any sum
-    shares : weights of the criteria that go with each draw, each shape (weighting, criterion)
+    utility : of each option by each criterion, shape (sample, option, criterion)
+    sample_weight : of the samples, shape (sample,), of any sum
+    shares : weights of the criteria that go with each sample, each shape (weighting, criterion)
     """
     options = utility.shape[1]
     probability = np.zeros((options, options))
-    for values, weight, weights in zip(utility, draw_weight, shares, strict=False):
+    for values, weight, weights in zip(utility, sample_weight, shares, strict=False):
         if weight > 0.0:
             probability += weight * _positions(weights @ values.T)
-    return np.asarray(probability / draw_weight.sum())
+    return np.asarray(probability / sample_weight.sum())
 
 
 # With its types, so that it is compiled where it is imported: a check does not rank.

@@ -18,7 +18,7 @@ from .ranking import METHODS, utilities
 from .values import Scored, scored_criteria
 
 ANY_WEIGHTS: Final = "any"
-"""Ranks with weights of the criteria drawn evenly from all that there are."""
+"""Ranks with weights of the criteria sampled evenly from all that there are."""
 OF_THE_STUDY: Final = "of the study"
 """Ranks with the weights that the study gives."""
 
@@ -29,7 +29,7 @@ def score(results: xr.Dataset, settings: Scoring | None = None) -> xr.Dataset:
     Parameters
     ----------
     results : dataset of a run
-    settings : scale and weight of each criterion, number (a draw) and seed of the random
+    settings : scale and weight of each criterion, number (a sample) and seed of the random
         weightings; those that the results were made with if none are given
 
     Returns
@@ -97,16 +97,16 @@ def _positions(
     settings: Scoring,
 ) -> Array:
     """Probability of each rank by any weights and those of the study, (2, option, position)."""
-    weight = results["draw_weight"].values[0] if "draw_weight" in results else np.ones(1)
-    of_draws = np.repeat(utility[None], weight.size, axis=0)
+    weight = results["sample_weight"].values[0] if "sample_weight" in results else np.ones(1)
+    of_samples = np.repeat(utility[None], weight.size, axis=0)
     for number, criterion in enumerate(criteria):
-        if criterion.by_draw is not None:
+        if criterion.by_sample is not None:
             scale = settings.criteria[criterion.name]
             ends = np.array(scale.best), np.array(scale.worst)
-            of_draws[..., number] = utilities(criterion.by_draw, *ends)
-    drawn = any_weights(len(criteria), settings.random_weightings, settings.seed)
+            of_samples[..., number] = utilities(criterion.by_sample, *ends)
+    sampled = any_weights(len(criteria), settings.random_weightings, settings.seed)
     as_given = repeat(shares[None])
-    return np.stack([rank_acceptability(of_draws, weight, some) for some in (drawn, as_given)])
+    return np.stack([rank_acceptability(of_samples, weight, some) for some in (sampled, as_given)])
 
 
 def _stored_settings(results: xr.Dataset) -> Scoring:

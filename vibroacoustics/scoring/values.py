@@ -19,14 +19,14 @@ class Scored(NamedTuple):
     ----------
     name, label, unit : key in study files, plain words, symbol
     values : (option,), in that unit
-    by_draw : (draw, option), in that unit; none where no draw changes it
+    by_sample : (sample, option), in that unit; none where no sample changes it
     """
 
     name: str
     label: str
     unit: str
     values: Array
-    by_draw: Array | None = None
+    by_sample: Array | None = None
 
 
 def scored_criteria(results: xr.Dataset, settings: Scoring) -> list[Scored]:
@@ -63,20 +63,20 @@ def _computed(name: str, results: xr.Dataset) -> Scored:
     for option in _options_without(values):
         raise ParameterError(f"criterion {name}: has no finite value for the option {option}")
     scored = _worded(name, criterion.label, criterion.unit, values)
-    drawn = criterion.by_draw(results) if "draw_weight" in results else None
-    if drawn is None:
+    sampled = criterion.by_sample(results) if "sample_weight" in results else None
+    if sampled is None:
         return scored
-    counts = results["draw_weight"].values[0] > 0.0
-    return scored._replace(by_draw=_of_draws(name, drawn, counts))
+    counts = results["sample_weight"].values[0] > 0.0
+    return scored._replace(by_sample=_of_samples(name, sampled, counts))
 
 
-def _of_draws(name: str, drawn: xr.DataArray, counts: Array) -> Array:
-    """Values in each draw, (draw, option); finite in those that count, whose weight is not 0."""
-    if set(drawn.dims) != {"draw", "option"}:
-        raise ParameterError(f"criterion {name}: by draw has dims {drawn.dims}")
-    values = np.asarray(drawn.transpose("draw", "option").values)
+def _of_samples(name: str, sampled: xr.DataArray, counts: Array) -> Array:
+    """Values in each sample, (sample, option); finite in those whose weight is not 0."""
+    if set(sampled.dims) != {"sample", "option"}:
+        raise ParameterError(f"criterion {name}: by sample has dims {sampled.dims}")
+    values = np.asarray(sampled.transpose("sample", "option").values)
     if not np.isfinite(values[counts]).all():
-        raise ParameterError(f"criterion {name}: by draw has values that are not finite")
+        raise ParameterError(f"criterion {name}: by sample has values that are not finite")
     return values
 
 

@@ -26,7 +26,7 @@ def full_scale_of(results: xr.Dataset, calibration_db: float | None = None) -> f
     calibration_db : level of a tone that has to fit, too
     """
     peak = abs(results["pressure_line"].sum("sound_source")).sum("line")
-    square = _square(results["noise_band_level"]) + _square(results["remainder_band_level"])
+    square = _square(results["noise_band_level"]) + _square(results["unmodelled_band_level"])
     if "baseline_band_level" in results:
         square = square + _square(results["baseline_band_level"])
     if "baseline_order_level" in results:

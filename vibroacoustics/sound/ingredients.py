@@ -20,7 +20,7 @@ _AT_1_KHZ: Final = 30
 HALF_BAND: Final = OCTAVE_RATIO ** (1.0 / 6.0)
 """Upper edge of a third octave over its centre, 10^0.05."""
 _AT_MICROPHONE: Final = (
-    "pressure_line", "noise_band_level", "remainder_band_level", "baseline_band_level",
+    "pressure_line", "noise_band_level", "unmodelled_band_level", "baseline_band_level",
     "baseline_order_level",
 )  # fmt: skip
 _IN_ROOM: Final = ("room_pressure_line", "room_plate_line_level", "room_noise_band_level")
@@ -122,7 +122,7 @@ def ingredients(results: xr.Dataset, option: str, microphone: str, speed: float)
         return Ingredients(_room_lines(case), _bands(case, _square(case["room_noise_band_level"])))
     lines = _measured_orders(case, _modelled_lines(case))
     number = third_octave_number(case["noise_band"].values)
-    square = _square(case["noise_band_level"]) + _square(case["remainder_band_level"])
+    square = _square(case["noise_band_level"]) + _square(case["unmodelled_band_level"])
     if "baseline_band_level" in case:
         square = _measured_bands(case, lines, number, square)
     return Ingredients(lines, _bands(case, square))

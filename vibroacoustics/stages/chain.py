@@ -11,9 +11,9 @@ from ..base.errors import PluginError
 from ..base.progress import Progress, no_progress
 from ..machine.cases import Cases
 from ..radiation.given import Radiation
-from ..study.sampling import Draw
+from ..study.sampling import Sample
 from ..study.study import Study
-from ..uncertainty.drawn import drawn_cases
+from ..uncertainty.sampled_cases import sampled_cases
 
 Product = TypeVar("Product")
 
@@ -87,7 +87,7 @@ class Chain:
         products = {kind: product for kind, product in self.products.items() if kind in reads}
         return replace(self, results=self.results.drop_vars(others), products=products)
 
-    def at(self, sample: Draw) -> "Chain":
+    def at(self, sample: Sample) -> "Chain":
         """Return the chain with the cases and loads of one sample, and nominal results.
 
         Parameters
@@ -99,7 +99,7 @@ class Chain:
         ParameterError, SolverError
             A machine cannot run so, an option cannot be built, or a source cannot act.
         """
-        return self.having(drawn_cases(self[Cases], self.study, sample))
+        return self.having(sampled_cases(self[Cases], self.study, sample))
 
 
 def is_among(thing: str | type, things: Collection[str | type]) -> bool:

@@ -5,14 +5,14 @@ from typing import Final
 from ..base.registry import register
 from ..levels.nominal import NominalSound, Sound
 from ..machine.cases import Cases
-from ..study.sampling import Draw
+from ..study.sampling import Sample
 from ..study.study import Study
 from ..transfer.path import ShellPath
 from ..transfer.received import Transmission
 from ..transfer.study_path import projection_errors
 from ..uncertainty.bank import Bank
 from ..uncertainty.cost import ensemble_cost
-from ..uncertainty.draws import errors_of_projection
+from ..uncertainty.every_sample import errors_of_projection
 from ..uncertainty.evidence import Evidence
 from ..uncertainty.hammer_test import HammerTest
 from ..uncertainty.posterior import posterior
@@ -34,8 +34,8 @@ class PosteriorEnsemble(Stage):
     name = "ensemble"
     reads = (Cases, PublishedCases, Transmission, NominalSound, ShellPath, HammerTest)
     gives = (
-        Bank, Evidence, "bank_*", "datum_*", "conflict_tail", "energy_*", "evidence_effective",
-        "level_share*", "projection_error", "shell_likelihood", "shell_gain",
+        Bank, Evidence, "prior_sample_*", "datum_*", "conflict_tail", "energy_*",
+        "evidence_effective", "level_share*", "projection_error", "shell_likelihood", "shell_gain",
         "shell_*_ratio", "shell_value", "shell_level_before", "shell_weight", "shell_peak_loss",
     )  # fmt: skip
 
@@ -46,7 +46,7 @@ class PosteriorEnsemble(Stage):
         study, shell, weighing = chain.study, chain.get(ShellPath), _weighing(chain)
         evidence = Evidence(weighing[NominalSound])
 
-        def sounds_at_evidence(batch: list[Draw], before: int, expected: int) -> list[Sound]:
+        def sounds_at_evidence(batch: list[Sample], before: int, expected: int) -> list[Sound]:
             def done(number: int) -> None:
                 chain.progress(_WEIGHTED, before + number, expected)
 
@@ -54,7 +54,7 @@ class PosteriorEnsemble(Stage):
 
         test = chain.get(HammerTest)
         bank, results = posterior(evidence, sounds_at_evidence, test, chain.progress)
-        chain.progress(_WEIGHTED, len(bank.draws), len(bank.draws))
+        chain.progress(_WEIGHTED, len(bank.samples), len(bank.samples))
         errors = {} if shell is None else projection_errors(study, shell, chain.progress)
         return Given(results.merge(errors_of_projection(study.ranges, errors)), (bank, evidence))
 

@@ -19,8 +19,8 @@ class Levels(Stage):
     name = "levels"
     reads = (Cases, PublishedCases, Transmission, "velocity_order")
     gives = (
-        NominalSound, "pressure_line", "order_level", "noise_band_level", "remainder_band_level",
-        "level_modelled", "level_remainder", "level_total", "change_1x", "change_modelled",
+        NominalSound, "pressure_line", "order_level", "noise_band_level", "unmodelled_band_level",
+        "level_modelled", "level_unmodelled", "level_total", "change_1x", "change_modelled",
         "change_total", "source_level", "source_band_level", "source_share", "baseline_*",
     )  # fmt: skip
 

@@ -38,8 +38,8 @@ class SoundInRoom(Stage):
     name = "room"
     reads = (
         Cases, ShellPath, NominalSound, "velocity_order", "level_total*", "level_modelled*",
-        "pressure_line", "noise_band_level", "remainder_band_level", "baseline_band_level",
-        "draw_weight", "structure_borne_*",
+        "pressure_line", "noise_band_level", "unmodelled_band_level", "baseline_band_level",
+        "sample_weight", "structure_borne_*",
     )  # fmt: skip
     gives = ("room_*",)
 

@@ -8,11 +8,11 @@ from ..base.arrays import Array
 from ..levels.nominal import NominalSound, Sound, by_source
 from ..machine.cases import Cases
 from ..machine.source import CaseKey
-from ..study.draws import batches_of_draws
-from ..study.sampling import Draw
+from ..study.samples import batches_of_samples
+from ..study.sampling import Sample
 from ..study.study import Study
 from ..transfer.received import Transmission
-from ..uncertainty.draws import of_every_draw
+from ..uncertainty.every_sample import in_every_sample
 from ..uncertainty.first_order import changed_first_order, unknown_first_order
 from .chain import Chain
 
@@ -31,7 +31,7 @@ class SampledSound(NamedTuple):
 
 
 def sounds_of(
-    chain: Chain, samples: list[Draw], progress: Callable[[int], None]
+    chain: Chain, samples: list[Sample], progress: Callable[[int], None]
 ) -> list[SampledSound]:
     """Compute the sound of every case of a chain with every sample.
 
@@ -43,14 +43,14 @@ def sounds_of(
     """
     nominal, cases, path = chain[NominalSound], chain[Cases], chain[Transmission]
 
-    def sound_of(sample: Draw) -> SampledSound:
+    def sound_of(sample: Sample) -> SampledSound:
         sampled = chain.at(sample)[Cases]
         sound = by_source(chain.study, nominal.axes, path.received(sampled))
         return SampledSound(sound, changed_first_order(cases, sampled))
 
     unknown = {key: nominal.sound[key].unknown for key in cases.cases}
     without = SampledSound(unknown, unknown_first_order(unknown))
-    return of_every_draw(samples, sound_of, without, progress)
+    return in_every_sample(samples, sound_of, without, progress)
 
 
 def timed_sounds(chain: Chain, study: Study, count: int) -> tuple[list[Sound], float]:
@@ -62,7 +62,7 @@ def timed_sounds(chain: Chain, study: Study, count: int) -> tuple[list[Sound], f
     study : with all speeds
     count : number of samples
     """
-    samples = next(batches_of_draws(study))[:count]
+    samples = next(batches_of_samples(study))[:count]
     start = _processor_time_s()
     sampled = sounds_of(chain, samples, lambda _: None)
     return [each.sound for each in sampled], _processor_time_s() - start

@@ -30,7 +30,7 @@ class Samples(Stage):
         "moment_amplitude", "foot_force_amplitude",
     )  # fmt: skip
     gives = (
-        "*_by_draw", "draw_weight", "drawn_value", "choice_utility", "perfect_information",
+        "*_by_sample", "sample_weight", "sampled_value", "choice_utility", "perfect_information",
         "parameter_information*",
     )  # fmt: skip
 
@@ -42,7 +42,7 @@ class Samples(Stage):
         if not bank.suffices:
             return Given()
         chosen = bank.chosen(chain.study.uncertainty.seed)
-        samples = [bank.draws[number] for number in chosen[0].tolist()]
+        samples = [bank.samples[number] for number in chosen[0].tolist()]
 
         def done(number: int) -> None:
             chain.progress("sources", number, len(samples))

@@ -88,7 +88,7 @@ class BaselineSettings(Parameters):
     spectra: Literal["peak", "rms"] = "peak"
     """What spectra of phasors are in."""
     tolerance_db: float = Field(default=1.5, ge=0.1, le=10.0)
-    """Standard deviation of measured levels, for the weights of draws."""
+    """Standard deviation of measured levels, for the weights of samples."""
 
     @field_validator("file", "recorded_speed_rpm", mode="before")
     @classmethod
@@ -158,7 +158,7 @@ class MeasuredSound(Parameters):
     sound: MeasuredSoundPath | None = None
     """Pressure per force, in place of radiation and room."""
     shell: MeasuredShell | None = None
-    """Hammer tests, which weigh the draws."""
+    """Hammer tests, which weigh the samples."""
 
     def problems(self, receivers: Sequence[str], speeds: Sequence[float]) -> Iterator[str]:
         """Why it does not fit a study: microphones that it has not, no speed that is covered."""

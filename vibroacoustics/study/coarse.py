@@ -8,20 +8,20 @@ from .radiation import BODY_SPACING_M
 from .study import Study
 
 MOST_SPEEDS: Final = 7
-LEAST_DRAWS: Final = 8
-_FEWER_DRAWS: Final = 5
+LEAST_SAMPLES: Final = 8
+_FEWER_SAMPLES: Final = 5
 _COARSER_GRID: Final = 1.5
 _NODES_PER_WAVE: Final = 8.0
 _HIGHEST_IN_ROOM_HZ: Final = 710.0
 """End of the third octave of 630 Hz, from which on the diffuse field stands alone."""
 _END: Final = 0.05
-"""Share of the draws beyond each end of a band of 90 %."""
+"""Share of the samples beyond each end of a band of 90 %."""
 _DENSITY: Final = 0.1031
 """Of the normal distribution at its 5 % quantile."""
 
 
 def coarse(study: Study) -> Study:
-    """The study with fewer speeds and draws, a coarser grid, a room to 710 Hz and without k-Wave.
+    """The study with fewer speeds and samples, a coarser grid, a room to 710 Hz and without k-Wave.
 
     `coarsened` of the result says what was changed and what error is expected.
 
@@ -36,7 +36,7 @@ def coarse(study: Study) -> Study:
     """
     changes = [
         change
-        for part in (_speeds, _room, _waves_in_room, _grid, _draws)
+        for part in (_speeds, _room, _waves_in_room, _grid, _samples)
         if (change := part(study)) is not None
     ]
     values: dict[str, Any] = {}
@@ -105,23 +105,23 @@ def _grid(study: Study) -> _Change:
     return {"radiation.near_field_spacing_mm": 1e3 * coarser}, words
 
 
-def _draws(study: Study) -> _Change:
+def _samples(study: Study) -> _Change:
     wanted = study.uncertainty.random_samples
-    fewer = max(LEAST_DRAWS, wanted // _FEWER_DRAWS)
+    fewer = max(LEAST_SAMPLES, wanted // _FEWER_SAMPLES)
     if not study.ranges or fewer >= wanted:
         return None
-    before, after = (standard_error_of_end(draws) for draws in (wanted, fewer))
+    before, after = (standard_error_of_end(samples) for samples in (wanted, fewer))
     words = (
-        f"{fewer} instead of {wanted} effective draws: each end of a band of 90 % has a standard "
+        f"{fewer} instead of {wanted} effective samples: each end of a band of 90 % has a standard "
         f"error of {after:.2f} instead of {before:.2f} standard deviations of the level"
     )
     return {"uncertainty.random_samples": fewer}, words
 
 
-def standard_error_of_end(draws: int) -> float:
-    """Standard error of the 5 % quantile of so many draws, over the standard deviation.
+def standard_error_of_end(samples: int) -> float:
+    """Standard error of the 5 % quantile of so many samples, over the standard deviation.
 
-    √(p (1 - p)/n)/φ, for draws from a normal distribution (David and Nagaraja, Order Statistics,
+    √(p (1 - p)/n)/φ, for samples from a normal distribution (David and Nagaraja, Order Statistics,
     2003, section 10.2).
     """
-    return sqrt(_END * (1.0 - _END) / draws) / _DENSITY
+    return sqrt(_END * (1.0 - _END) / samples) / _DENSITY

@@ -42,12 +42,12 @@ class Criterion:
         """
         raise NotImplementedError
 
-    def by_draw(self, results: xr.Dataset) -> xr.DataArray | None:
-        """Value of each option in each draw, over `draw` and `option`; none where it is the same.
+    def by_sample(self, results: xr.Dataset) -> xr.DataArray | None:
+        """Value of each option in each sample, over `sample`, `option`; none where it is the same.
 
         Parameters
         ----------
-        results : dataset of a run with draws, without scores; not a number in draws that do not
+        results : dataset of a run with samples, without scores; not a number in samples that do not
             count
         """
         return None

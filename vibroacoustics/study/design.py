@@ -53,7 +53,7 @@ class Tolerance(Parameters):
 
 
 class Wanted(Parameters):
-    """A figure of a design, one number over speeds, microphones and draws."""
+    """A figure of a design, one number over speeds, microphones and samples."""
 
     figure: str = Field(min_length=1)
     order: int | None = Field(default=None, ge=1, le=1000)
@@ -61,10 +61,10 @@ class Wanted(Parameters):
     """Name of a reported figure, for `figure = "reported"`."""
     speeds: Statistic = "worst"
     receivers: Statistic = "mean"
-    draws: Statistic = 0.9
-    """Over the draws of the tolerances; 0.9 is met by nine pieces of ten."""
+    samples: Statistic = 0.9
+    """Over the samples of the tolerances; 0.9 is met by nine pieces of ten."""
 
-    @field_validator("speeds", "receivers", "draws")
+    @field_validator("speeds", "receivers", "samples")
     @classmethod
     def _share(cls, given: Statistic) -> Statistic:
         if isinstance(given, float) and not 0.0 < given <= 1.0:
@@ -99,7 +99,7 @@ class Search(Parameters):
     """Of the random numbers; the same seed asks for the same designs."""
     best: int = Field(default=5, ge=1, le=20)
     """Designs that are told one by one."""
-    fresh_draws: int = Field(default=10_000, ge=100, le=1_000_000)
+    fresh_samples: int = Field(default=10_000, ge=100, le=1_000_000)
     """Of the tolerances, that the search has not seen, behind what a design promises."""
 
 
@@ -113,7 +113,7 @@ class Design(Parameters):
     objectives: dict[str, Objective] = Field(min_length=1, max_length=16)
     constraints: dict[str, Constraint] = Field(default_factory=dict, max_length=32)
     tolerances: dict[str, Tolerance] = Field(default_factory=dict, max_length=64)
-    draws: int = Field(default=64, ge=1, le=1_000_000)
+    tolerance_samples: int = Field(default=64, ge=1, le=1_000_000)
     """Of the tolerances, the same for all designs."""
     sampling: Literal["grid", "latin-hypercube", "sobol"] = "grid"
     samples: int = Field(default=1000, ge=1, le=100_000_000)

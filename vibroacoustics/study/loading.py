@@ -12,7 +12,6 @@ from ..machine.option import OPTIONS
 from ..machine.source import SOURCES
 from .baseline import BaselineSettings
 from .baseline_files import read_baseline
-from .draws import warn_of_contradictions
 from .evidence_files import read_published_table, take_evidence
 from .failing import without_failing, without_source
 from .file_names import resolve_file_names
@@ -27,6 +26,7 @@ from .machine_file import (
 )
 from .ranges import is_used, ranges_of, tables_used
 from .reader import Reader
+from .samples import warn_of_contradictions
 from .structure_borne import StructureBorne
 from .study import Study
 from .title_tables import take_titles

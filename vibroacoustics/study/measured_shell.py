@@ -1,4 +1,4 @@
-"""Hammer tests of the shell: files, where their nodes are, how well draws must agree with them."""
+"""Hammer tests of the shell: files, where their nodes are, how well samples must agree."""
 
 from math import pi
 from typing import Literal
@@ -42,7 +42,7 @@ class PartPoint(Hit):
 
 
 class MeasuredShell(Parameters):
-    """Frequency responses between points of the shell, which weigh the draws."""
+    """Frequency responses between points of the shell, which weigh the samples."""
 
     frequency_responses: tuple[str, ...] = Field(min_length=1)
     units: dict[str, str] = Field(default_factory=dict)

@@ -1,4 +1,4 @@
-"""Which values of the machine a study reads and draws, and from which ranges."""
+"""Which values of the machine a study reads and samples, and from which ranges."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any, get_args
@@ -57,12 +57,12 @@ def is_used(record: ParameterRecord, machine: Machine, used: set[str]) -> bool:
 def ranges_of(
     machine: Machine, records: Iterable[ParameterRecord], content: Mapping[str, Any], reader: Reader
 ) -> tuple[tuple[Range, ...], tuple[HeldRange, ...]]:
-    """Ranges in SI of the values that are drawn, and of those that are not; none without sources.
+    """Ranges in SI of the values that are sampled, and of those that are not; none without sources.
 
-    A value is drawn unless its class says `Held`. The field must take both ends of its range; that
-    values contradict one another is seen when they are drawn.
+    A value is sampled unless its class says `Held`. The field must take both ends of its range;
+    that values contradict one another is seen when they are sampled.
     """
-    drawn: list[Range] = []
+    sampled: list[Range] = []
     held: list[HeldRange] = []
     measured = bool(content.get("shell_modes"))
     for record in records if _sources(content) else ():
@@ -80,15 +80,15 @@ def ranges_of(
         )
         reason = _why_held(owner, name, measured)
         if reason is None:
-            drawn.append(limits)
+            sampled.append(limits)
         else:
             held.append(HeldRange(**dict(limits), reason=reason))
-    return tuple(_with_sources(item, machine, drawn) for item in drawn), tuple(held)
+    return tuple(_with_sources(item, machine, sampled) for item in sampled), tuple(held)
 
 
-def _with_sources(limits: Range, machine: Machine, drawn: Iterable[Range]) -> Range:
-    """A range with the other drawn values that its value follows from, but is drawn apart from."""
-    names = {other.name for other in drawn}
+def _with_sources(limits: Range, machine: Machine, sampled: Iterable[Range]) -> Range:
+    """A range with other sampled values that its value follows from, but is sampled apart from."""
+    names = {other.name for other in sampled}
     sources = [
         source
         for derived in machine.derived
@@ -122,7 +122,7 @@ def _is_integer(annotation: Any) -> bool:
 
 
 def _why_held(owner: Parameters, name: str, measured: bool) -> str | None:
-    """Why a value is not drawn; none where it is."""
+    """Why a value is not sampled; none where it is."""
     field = type(owner).model_fields[name]
     if measured and isinstance(owner, ShellStructure) and name in owner.changes_modes:
         return "change modes, which are measured here"

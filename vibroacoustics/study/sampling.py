@@ -10,21 +10,21 @@ from ..base.arrays import Array
 from .uncertainty import Range, Uncertainty
 
 WIDE_RATIO: Final = 3.0
-"""A range wider than this is drawn evenly over its logarithm."""
+"""A range wider than this is sampled evenly over its logarithm."""
 
-Draw = Mapping[tuple[str, str], float]
-"""Drawn values in SI by table, dotted from the machine, and field."""
+Sample = Mapping[tuple[str, str], float]
+"""Sampled values in SI by table, dotted from the machine, and field."""
 
 
-def latin_hypercubes(ranges: Sequence[Range], settings: Uncertainty) -> Iterator[list[Draw]]:
-    """Sets of values drawn from their ranges (McKay, Beckman, Conover 1979), one after another."""
+def latin_hypercubes(ranges: Sequence[Range], settings: Uncertainty) -> Iterator[list[Sample]]:
+    """Samples of values from their ranges (McKay, Beckman, Conover 1979), one set after another."""
     sampler = scipy.stats.qmc.LatinHypercube(len(ranges), rng=settings.seed)
     while True:
-        yield [draw_at(ranges, row) for row in sampler.random(settings.random_samples)]
+        yield [sample_at(ranges, row) for row in sampler.random(settings.random_samples)]
 
 
-def draw_at(ranges: Sequence[Range], shares: Array) -> Draw:
-    """The draw whose values so large shares of their ranges lie below, shape (range,)."""
+def sample_at(ranges: Sequence[Range], shares: Array) -> Sample:
+    """The sample whose values so large shares of their ranges lie below, shape (range,)."""
     return {
         (limits.table, limits.field): _value(limits, float(share))
         for limits, share in zip(ranges, shares, strict=True)
@@ -42,13 +42,13 @@ def _value(limits: Range, share: float) -> float:
 
 
 def narrowed(limits: Range, value: float, least: float, greatest: float) -> float:
-    """A drawn value moved into the part of its range between two limits, at the same share of it.
+    """A sampled value moved into the part of its range between two limits, at the same share of it.
 
     Evenly spread values stay so. Where nothing of the range is left the value stays.
 
     Parameters
     ----------
-    limits : range that the value was drawn from
+    limits : range that the value was sampled from
     value : in it
     least, greatest : that the value may be
     """

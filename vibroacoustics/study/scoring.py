@@ -57,8 +57,8 @@ class Measurable(Parameters):
     """Of the force or moment without the option."""
     quietest_line_db: float = Field(default=0.0, ge=-40.0, le=60.0)
     """A line that is quieter counts as this."""
-    draws_ratio: float = Field(default=0.5, ge=0.0, lt=1.0)
-    """Share of the draws above which a change counts."""
+    samples_ratio: float = Field(default=0.5, ge=0.0, lt=1.0)
+    """Share of the samples above which a change counts."""
 
 
 class Scoring(Parameters):

@@ -60,7 +60,7 @@ class StudyTables(Parameters):
     shell_modes: MeasuredModes | None = None
     """Measured modes of the shell, in place of the computed ones."""
     ranges: tuple[Range, ...] = ()
-    """Of the machine's values that are drawn at random."""
+    """Of the machine's values that are sampled at random."""
     held_ranges: tuple[HeldRange, ...] = ()
     """Of those that are not, with the reason."""
     design: Design | None = None

@@ -1,4 +1,4 @@
-"""What is not known: ranges of values, and how many sets of values are drawn from them."""
+"""What is not known: ranges of values, and how many sets of values are sampled from them."""
 
 from pydantic import Field
 
@@ -16,7 +16,7 @@ class Range(Parameters):
     integer: bool = False
     """Whether it is a whole number."""
     independent_of: tuple[str, ...] = ()
-    """Drawn values that this one would follow from if its file gave it no range."""
+    """Sampled values that this one would follow from if its file gave it no range."""
 
     @property
     def name(self) -> str:
@@ -25,7 +25,7 @@ class Range(Parameters):
 
 
 class HeldRange(Range):
-    """Range of a value that is not drawn, and why."""
+    """Range of a value that is not sampled, and why."""
 
     reason: str
 

@@ -98,7 +98,7 @@ class ShellPath:
         return forces.reshape(len(forces), -1, 1)
 
     def with_structure(self, structure: ShellStructure) -> "ShellPath":
-        """The path with drawn values of joints and wall.
+        """The path with sampled values of joints and wall.
 
         Joints are exact; another wall changes frequencies and masses of the modes as given, by
         `ProjectedModes`, not their shapes. Measured modes stay.
@@ -120,14 +120,14 @@ def computed_path(
     least_factor: float,
     walls: Sequence[ShellStructure] = (),
 ) -> ShellPath:
-    """Modes of the closed shell that come below the highest frequency in any draw.
+    """Modes of the closed shell that come below the highest frequency in any sample.
 
     Parameters
     ----------
     shell : its shape
     structure : wall, material and joints
     maximum_frequency_hz : of the sound
-    least_factor : smallest factor on the natural frequencies that any draw may have
+    least_factor : smallest factor on the natural frequencies that any sample may have
     walls : that differ in one value each, at the ends of the ranges
     """
     highest = MODES_BEYOND * maximum_frequency_hz / least_factor

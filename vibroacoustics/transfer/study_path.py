@@ -11,11 +11,11 @@ from .shell_modes import SampledMode
 from .shell_modes.projection import projection_error
 
 _FACTOR: Final = "frequency_factor_ratio"
-"""Of the shell's variation: how natural frequencies differ in a draw."""
+"""Of the shell's variation: how natural frequencies differ in a sample."""
 
 
 def computed_shell_path(study: Study) -> ShellPath:
-    """Modes that reach the highest frequency in every draw."""
+    """Modes that reach the highest frequency in every sample."""
     machine = study.machine
     structure = machine.table(ShellStructure)
     factors = [item.lowest for item in study.ranges if item.field == _FACTOR]
@@ -28,7 +28,7 @@ def computed_shell_path(study: Study) -> ShellPath:
 def projection_errors(
     study: Study, path: ShellPath, progress: Progress = no_progress
 ) -> dict[str, float]:
-    """Largest relative error of a natural frequency by projection, by name of the drawn value.
+    """Largest relative error of a natural frequency by projection, by name of the sampled value.
 
     Over the modes up to the highest frequency, at both ends of the value's range, the other values
     as given. Only values that change the shapes of modes are in it.
@@ -47,7 +47,7 @@ def projection_errors(
 
 
 def _ends(study: Study, structure: ShellStructure) -> dict[str, list[ShellStructure]]:
-    """Walls at both ends of the range of each drawn value that modes change with."""
+    """Walls at both ends of the range of each sampled value that modes change with."""
     return {
         item.name: [
             structure.model_copy(update={item.field: end}) for end in (item.lowest, item.highest)

@@ -1,1 +1,1 @@
-"""What is not known: ranges, and draws of values from them."""
+"""What is not known: ranges, and samples of values from them."""

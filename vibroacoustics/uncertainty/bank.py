@@ -13,11 +13,11 @@ from ..base.vocabulary import stamped
 from ..levels.agreement import PRIOR_NAMES, effective_samples
 from ..levels.nominal import Sound
 from ..machine.machine import Machine
-from ..study.sampling import Draw
+from ..study.sampling import Sample
 from ..study.uncertainty import Range
 from .evidence import systematic
 
-MOST_DRAWS: Final = 4096
+MOST_SAMPLES: Final = 4096
 MOST_ROUNDS: Final = 41
 """Number of batches, each of as many samples as shall be effective."""
 LEAST_SHARE: Final = 0.5
@@ -47,13 +47,13 @@ class Bank:
 
     Attributes
     ----------
-    draws : all samples
+    samples : all samples
     batch : their sounds, levels and weights
     wanted : number of samples that shall be effective
     prior_names : of the unmodelled noise
     """
 
-    draws: list[Draw]
+    samples: list[Sample]
     batch: Weighted
     wanted: int
     prior_names: Sequence[str] = PRIOR_NAMES
@@ -93,27 +93,29 @@ class Bank:
     def labelled(self, ranges: Sequence[Range], published_dba: float) -> xr.Dataset:
         """All samples, their weights, their levels and their values."""
         values = {
-            "bank_weight": self.weight,
-            "bank_level": self.modelled_db + published_dba,
-            "bank_value": [[draw[one.table, one.field] for one in ranges] for draw in self.draws],
+            "prior_sample_weight": self.weight,
+            "prior_sample_level": self.modelled_db + published_dba,
+            "prior_sample_value": [
+                [sample[one.table, one.field] for one in ranges] for sample in self.samples
+            ],
         }
         coords = {
-            "bank_draw": np.arange(1, len(self.draws) + 1),
-            "drawn_parameter": [limits.name for limits in ranges],
+            "prior_sample": np.arange(1, len(self.samples) + 1),
+            "uncertain_parameter": [limits.name for limits in ranges],
             "prior": list(self.prior_names),
         }
         return stamped(values, coords)
 
 
 def bank_of(
-    batches: Iterable[list[Draw]],
-    weigh: Callable[[list[Draw], int, int], Weighted],
+    batches: Iterable[list[Sample]],
+    weigh: Callable[[list[Sample], int, int], Weighted],
     prior_names: Sequence[str],
     wanted: int,
 ) -> Bank:
     """Return samples until as many as are wanted are effective.
 
-    At most `MOST_ROUNDS` batches or `MOST_DRAWS` samples.
+    At most `MOST_ROUNDS` batches or `MOST_SAMPLES` samples.
 
     Parameters
     ----------
@@ -125,8 +127,8 @@ def bank_of(
     empty = Weighted([], [], np.zeros(0), np.zeros((len(prior_names), 0)))
     bank = Bank([], empty, wanted, prior_names)
     for hypercube in islice(batches, MOST_ROUNDS):
-        before = len(bank.draws)
-        batch = hypercube[: MOST_DRAWS - before]
+        before = len(bank.samples)
+        batch = hypercube[: MOST_SAMPLES - before]
         expected = before * wanted / max(bank.effective, 1.0) if before else 2.0 * wanted
         further = weigh(batch, before, max(round(expected), before + len(batch) + 1))
         joined = Weighted(
@@ -135,7 +137,7 @@ def bank_of(
             np.concatenate([bank.modelled_db, further.modelled_db]),
             np.concatenate([bank.batch.log_weight, further.log_weight], axis=1),
         )
-        bank = Bank(bank.draws + batch, joined, wanted, prior_names)
-        if bank.effective >= wanted or len(bank.draws) >= MOST_DRAWS:
+        bank = Bank(bank.samples + batch, joined, wanted, prior_names)
+        if bank.effective >= wanted or len(bank.samples) >= MOST_SAMPLES:
             break
     return bank

@@ -26,16 +26,16 @@ def choice_information(study: Study, levels: xr.Dataset, pairs: int) -> xr.Datas
     Parameters
     ----------
     study : options and published level
-    levels : of `draw_variables`, `first_order_by_draw` and `drawn_values`
+    levels : of `sample_level_variables`, `first_order_by_sample` and `sampled_values`
     pairs : number of successive pairs of each sample
     """
     names = [name for name in levels["option"].values.tolist() if study.options[name].to_be_built]
-    weight = levels["draw_weight"].values[0]
+    weight = levels["sample_weight"].values[0]
     if len(names) < 2 or not weight.any():
         return xr.Dataset()
     loss = _losses(levels.sel(receiver=study.catalogue_receiver))
     utility = -np.nan_to_num(loss.sel(option=names).max("speed").values)
-    values = levels["drawn_value"].values[::pairs]
+    values = levels["sampled_value"].values[::pairs]
     information = [_of_samples(values, one, weight, pairs) for one in utility]
     expected = weight @ utility
     perfect = utility.max(axis=2) @ weight - expected.max(axis=1)
@@ -50,16 +50,16 @@ def choice_information(study: Study, levels: xr.Dataset, pairs: int) -> xr.Datas
         {
             "choice": loss["choice"].values.tolist(),
             "choice_option": names,
-            "drawn_parameter": levels["drawn_parameter"].values.tolist(),
+            "uncertain_parameter": levels["uncertain_parameter"].values.tolist(),
         },
     )
 
 
 def _losses(levels: xr.Dataset) -> xr.DataArray:
-    """What an option loses by each choice, dB, dims choice, draw, option, speed."""
-    axes = ("draw", "option", "speed")
-    total = levels["level_total_by_draw"].transpose(*axes)
-    force = levels["foot_force_1x_by_draw"].transpose(*axes)
+    """What an option loses by each choice, dB, dims choice, sample, option, speed."""
+    axes = ("sample", "option", "speed")
+    total = levels["level_total_by_sample"].transpose(*axes)
+    force = levels["foot_force_1x_by_sample"].transpose(*axes)
     change = total - total.sel(option=REFERENCE_OPTION)
     ratio = (force / force.sel(option=REFERENCE_OPTION)).clip(min=_LEAST_RATIO)
     both = change + level_of_amplitude(ratio)

@@ -11,7 +11,7 @@ from ..levels.agreement import effective_samples
 from ..levels.nominal import Sound
 from ..radiation.cost import Cost
 from ..study.study import Study
-from .bank import MOST_DRAWS, MOST_ROUNDS
+from .bank import MOST_ROUNDS, MOST_SAMPLES
 from .evidence import Evidence
 
 _LEAST_BATCHES: Final = 2
@@ -60,7 +60,7 @@ def _expected(evidence: Evidence, sounds: Sequence[Sound], was_cached: bool) -> 
     With computed transfer vectors, by how well the first few agree: half as many to twice as many.
     """
     wanted = evidence.nominal.study.uncertainty.random_samples
-    most = min(MOST_ROUNDS * wanted, MOST_DRAWS)
+    most = min(MOST_ROUNDS * wanted, MOST_SAMPLES)
     if not was_cached:
         return min(_LEAST_BATCHES * wanted, most), min(_MOST_BATCHES * wanted, most)
     published, machine = evidence.published, evidence.nominal.study.machine

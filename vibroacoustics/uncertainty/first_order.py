@@ -1,4 +1,4 @@
-"""Forces at once per revolution of drawn machines."""
+"""Forces at once per revolution of sampled machines."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
@@ -21,7 +21,7 @@ _AMPLITUDES: Final = {
     "moment_1x": "moment_amplitude",
     "foot_force_1x": "foot_force_amplitude",
 }
-"""Amplitudes by draw, and where those of the values as given are."""
+"""Amplitudes by sample, and where those of the values as given are."""
 
 
 def first_order(case: Case, wrenches: Mapping[str, PortLoads]) -> Array:
@@ -39,26 +39,28 @@ def first_order(case: Case, wrenches: Mapping[str, PortLoads]) -> Array:
     return np.array([*halves, semi_major_axis(foot_force[0], -1).max()])
 
 
-def changed_first_order(nominal: Cases, drawn: Cases) -> dict[CaseKey, Array]:
+def changed_first_order(nominal: Cases, sampled: Cases) -> dict[CaseKey, Array]:
     """Compute `first_order` of the cases that move otherwise than the nominal ones."""
     return {
-        key: first_order(case, drawn.wrenches[key])
-        for key, case in drawn.cases.items()
-        if drawn.wrenches[key] is not nominal.wrenches[key]
+        key: first_order(case, sampled.wrenches[key])
+        for key, case in sampled.cases.items()
+        if sampled.wrenches[key] is not nominal.wrenches[key]
     }
 
 
 def unknown_first_order(cases: Iterable[CaseKey]) -> dict[CaseKey, Array]:
-    """The same of a draw without solution: not a number."""
+    """The same of a sample without solution: not a number."""
     return {key: np.full(len(_AMPLITUDES), np.nan) for key in cases}
 
 
-def first_order_by_draw(drawn: Sequence[Mapping[CaseKey, Array]], given: xr.Dataset) -> xr.Dataset:
-    """Forces at 1x of every draw; those as given where a draw leaves the motion.
+def first_order_by_sample(
+    sampled: Sequence[Mapping[CaseKey, Array]], given: xr.Dataset
+) -> xr.Dataset:
+    """Forces at 1x of every sample; those as given where a sample leaves the motion.
 
     Parameters
     ----------
-    drawn : of the cases that move otherwise, by draw
+    sampled : of the cases that move otherwise, by sample
     given : amplitudes of the values as given, by speed and option
     """
     of_given = [given[name].sel(order=1) for name in _AMPLITUDES.values()]
@@ -66,13 +68,13 @@ def first_order_by_draw(drawn: Sequence[Mapping[CaseKey, Array]], given: xr.Data
     stacked = np.stack([one.transpose("speed", "option").values for one in amplitudes], axis=-1)
     keys = product(given["speed"].values.tolist(), given["option"].values.tolist())
     rows = dict(zip(keys, stacked.reshape(-1, len(_AMPLITUDES)), strict=True))
-    values = [[one.get(key, row) for key, row in rows.items()] for one in drawn]
-    by_draw: Array = np.array(values).reshape(len(drawn), *stacked.shape)
+    values = [[one.get(key, row) for key, row in rows.items()] for one in sampled]
+    by_sample: Array = np.array(values).reshape(len(sampled), *stacked.shape)
     coords = {
-        "draw": np.arange(1, len(drawn) + 1),
+        "sample": np.arange(1, len(sampled) + 1),
         "speed": given["speed"].values,
         "option": given["option"].values,
     }
     return stamped(
-        {f"{name}_by_draw": by_draw[..., n] for n, name in enumerate(_AMPLITUDES)}, coords
+        {f"{name}_by_sample": by_sample[..., n] for n, name in enumerate(_AMPLITUDES)}, coords
     )

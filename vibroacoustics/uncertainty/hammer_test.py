@@ -1,4 +1,4 @@
-"""Draws of the shell held against hammer tests: those that agree go on."""
+"""Samples of the shell held against hammer tests: those that agree go on."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
@@ -12,9 +12,9 @@ from ..base.errors import ParameterError, SolverError
 from ..base.progress import Progress
 from ..base.vocabulary import stamped
 from ..machine.machine import Machine
-from ..study.draws import with_draw
 from ..study.measured_shell import MeasuredShell
-from ..study.sampling import Draw
+from ..study.samples import with_sample
+from ..study.sampling import Sample
 from ..study.study import Study
 from ..transfer.path import ShellPath
 from ..transfer.wall_mobility import Reference, ShellMobilities, Wall, wall_mobility, wall_of
@@ -22,9 +22,9 @@ from .shell_agreement import ShellAgreement, Tolerances, shell_agreement
 from .shell_features import Features, features
 
 MOST_TRIED: Final = 8192
-"""Draws that are held against a test."""
+"""Samples that are held against a test."""
 CHANCE: Final = 0.3
-"""A draw whose likelihood is less than this part of the best one goes on by chance only."""
+"""A sample whose likelihood is less than this part of the best one goes on by chance only."""
 LEAST_LIKELIHOOD: Final = float(np.exp(-0.5 * 3.0 * 3.0**2))
 """Of gain, frequencies and loss factors three tolerances off each."""
 OF_THE_SHELL: Final = ("structure", "variation", "frame", "shaft")
@@ -34,7 +34,7 @@ NO_MACHINE: Final = ShellAgreement(0.0, np.nan, np.nan, np.nan)
 
 @dataclass
 class HammerTest:
-    """A hammer test of the shell, and how draws agree with it.
+    """A hammer test of the shell, and how samples agree with it.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class HammerTest:
     mobilities : as measured
     measured : their features
     wall : points of the wall
-    tried : all draws that were held against it
+    tried : all samples that were held against it
     agreements : of each of them
     weights : of those that went on
     reference : likelihood to which weights are related
@@ -56,7 +56,7 @@ class HammerTest:
     mobilities: ShellMobilities
     measured: Features
     wall: Wall
-    tried: list[Draw] = field(default_factory=list)
+    tried: list[Sample] = field(default_factory=list)
     agreements: list[ShellAgreement] = field(default_factory=list)
     weights: list[float] = field(default_factory=list)
     reference: float = 0.0
@@ -79,7 +79,7 @@ class HammerTest:
         if path is None:
             raise ParameterError("measured.shell: no source drives an elastic shell")
         if not study.ranges:
-            raise ParameterError("measured.shell: weighs draws, and no value has a range")
+            raise ParameterError("measured.shell: weighs samples, and no value has a range")
         points = [(point.angle_rad, point.height_m) for point in settings.wall.values()]
         try:
             wall = wall_of(path, *np.array(points).T)
@@ -89,32 +89,32 @@ class HammerTest:
         return cls(study, path, settings, mobilities, measured, wall)
 
     def agreeing(
-        self, batches: Iterable[list[Draw]], wanted: int, progress: Progress
-    ) -> Iterator[list[Draw]]:
-        """Batches of draws that go on.
+        self, batches: Iterable[list[Sample]], wanted: int, progress: Progress
+    ) -> Iterator[list[Sample]]:
+        """Batches of samples that go on.
 
-        A draw of likelihood L goes on with the probability min(1, L/c) and the weight max(L, c), so
-        that none is computed whose weight would be next to nothing, and the sum of weights is right
-        on average (Russian roulette: Kahn 1956, Use of different Monte Carlo sampling techniques,
-        RAND P-766).
+        A sample of likelihood L goes on with the probability min(1, L/c) and the weight max(L, c),
+        so that none is computed whose weight would be next to nothing, and the sum of weights is
+        right on average (Russian roulette: Kahn 1956, Use of different Monte Carlo sampling
+        techniques, RAND P-766).
 
         Parameters
         ----------
-        batches : of draws from the ranges alone
+        batches : of samples from the ranges alone
         wanted : how many a batch shall have
-        progress : called with the number of draws that were held against the test
+        progress : called with the number of samples that were held against the test
 
         Raises
         ------
         ParameterError
-            No draw agrees.
+            No sample agrees.
         """
         random = np.random.default_rng(self.study.uncertainty.seed)
         done = 0
         for batch in batches:
-            self.agreements += [self._agreement(draw) for draw in batch]
+            self.agreements += [self._agreement(sample) for sample in batch]
             self.tried += batch
-            progress("draws at the hammer test", len(self.tried), MOST_TRIED)
+            progress("samples at the hammer test", len(self.tried), MOST_TRIED)
             likelihood = np.array([agreement.likelihood for agreement in self.agreements])
             least, fresh = CHANCE * likelihood.max(), likelihood[done:]
             is_last = len(self.tried) >= MOST_TRIED
@@ -123,7 +123,7 @@ class HammerTest:
                 self.reference = self.reference or float(likelihood.max())
                 goes = fresh > least * random.uniform(size=fresh.size)
                 self.weights += np.maximum(fresh, least)[goes].tolist()
-                yield [draw for draw, go in zip(self.tried[done:], goes, strict=True) if go]
+                yield [sample for sample, go in zip(self.tried[done:], goes, strict=True) if go]
                 done = len(self.tried)
             if is_last:
                 break
@@ -131,21 +131,21 @@ class HammerTest:
             raise ParameterError(self._why_none())
 
     def likelihood(self, before: int, count: int) -> Array:
-        """Weights of draws that went on over that of the best, shape (count,)."""
+        """Weights of samples that went on over that of the best, shape (count,)."""
         return np.array(self.weights[before : before + count]) / self.reference
 
     def _why_none(self) -> str:
         best = max(self.agreements, key=lambda one: one.likelihood, default=NO_MACHINE)
         return (
-            f"measured.shell: none of {len(self.tried)} draws agrees with the hammer test within "
+            f"measured.shell: none of {len(self.tried)} samples agrees with the hammer test within "
             f"three tolerances; the best one has {best.gain_db:+.1f} dB, "
             f"{best.frequency_ratio:.3f} of the natural frequencies and {best.loss_ratio:.2f} of "
             "the loss factors; check points and units, or give wider ranges or tolerances"
         )
 
-    def _agreement(self, draw: Draw) -> ShellAgreement:
+    def _agreement(self, sample: Sample) -> ShellAgreement:
         try:
-            return self.of_machine(with_draw(self.study.machine, self.study.machine, draw))
+            return self.of_machine(with_sample(self.study.machine, self.study.machine, sample))
         except (ParameterError, SolverError):
             return NO_MACHINE
 
@@ -163,8 +163,8 @@ class HammerTest:
             settings.frequency_tolerance_ratio,
             settings.loss_tolerance_ratio,
         )
-        drawn = features(self.mobility(machine), self.mobilities.frequency_hz)
-        return shell_agreement(self.measured, drawn, tolerances)
+        sampled = features(self.mobility(machine), self.mobilities.frequency_hz)
+        return shell_agreement(self.measured, sampled, tolerances)
 
     def mobility(self, machine: Machine) -> ComplexArray:
         """Of the measured pairs, m/(N s), shape (mobility, frequency)."""
@@ -181,12 +181,12 @@ class HammerTest:
         return np.asarray(every[rows, [used.index(one) for one in self.mobilities.reference]])
 
     def labelled(self, before_dba: Array, gone: int) -> xr.Dataset:
-        """How all draws agree, their values, and the peaks that were measured.
+        """How all samples agree, their values, and the peaks that were measured.
 
         Parameters
         ----------
-        before_dba : modelled level of draws from the ranges alone, shape (draw,)
-        gone : number of draws whose sound was computed
+        before_dba : modelled level of samples from the ranges alone, shape (sample,)
+        gone : number of samples whose sound was computed
         """
         ranges = [one for one in self.study.ranges if one.table.split(".")[0] in OF_THE_SHELL]
         values = {
@@ -194,17 +194,19 @@ class HammerTest:
             "shell_gain": [agreement.gain_db for agreement in self.agreements],
             "shell_frequency_ratio": [agreement.frequency_ratio for agreement in self.agreements],
             "shell_loss_ratio": [agreement.loss_ratio for agreement in self.agreements],
-            "shell_value": [[draw[one.table, one.field] for one in ranges] for draw in self.tried],
+            "shell_value": [
+                [sample[one.table, one.field] for one in ranges] for sample in self.tried
+            ],
             "shell_level_before": before_dba,
             "shell_weight": self.likelihood(0, gone),
         }
         if self.measured.peak_hz.size:
             values["shell_peak_loss"] = self.measured.loss_ratio
         coords = {
-            "shell_draw": np.arange(1, len(self.tried) + 1),
+            "shell_sample": np.arange(1, len(self.tried) + 1),
             "shell_parameter": [one.name for one in ranges],
-            "shell_level_draw": np.arange(1, len(before_dba) + 1),
-            "bank_draw": np.arange(1, gone + 1),
+            "shell_level_sample": np.arange(1, len(before_dba) + 1),
+            "prior_sample": np.arange(1, gone + 1),
             "shell_peak": self.measured.peak_hz,
         }
         labelled = stamped(values, coords)

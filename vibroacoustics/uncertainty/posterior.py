@@ -12,8 +12,8 @@ from ..base.decibel import power_of_level
 from ..base.progress import Progress
 from ..levels.agreement import LEVELS_DB
 from ..levels.nominal import Sound
-from ..study.draws import batches_of_draws, with_draw
-from ..study.sampling import Draw
+from ..study.samples import batches_of_samples, with_sample
+from ..study.sampling import Sample
 from .bank import Bank, Weighted, bank_of
 from .conflict import conflict_variables
 from .energy_shares import energy_shares
@@ -24,7 +24,7 @@ from .share_variables import level_shares
 
 def posterior(
     evidence: Evidence,
-    sounds_of: Callable[[list[Draw], int, int], list[Sound]],
+    sounds_of: Callable[[list[Sample], int, int], list[Sound]],
     test: HammerTest | None,
     progress: Progress,
 ) -> tuple[Bank, xr.Dataset]:
@@ -43,15 +43,15 @@ def posterior(
     weighted samples, and their variables with the shares of the values in the level
     """
     study, published = evidence.nominal.study, evidence.published
-    wanted, batches, prior_db = study.uncertainty.random_samples, batches_of_draws(study), None
+    wanted, batches, prior_db = study.uncertainty.random_samples, batches_of_samples(study), None
     if test is not None:
         first = next(batches)
         prior_db = evidence.modelled_db(sounds_of(first, 0, 2 * len(first)))
         batches = test.agreeing(joined([first], batches), wanted, progress)
 
-    def weigh(batch: list[Draw], before: int, expected: int) -> Weighted:
+    def weigh(batch: list[Sample], before: int, expected: int) -> Weighted:
         sounds = sounds_of(batch, before, expected)
-        machines = [with_draw(study.machine, study.machine, sample) for sample in batch]
+        machines = [with_sample(study.machine, study.machine, sample) for sample in batch]
         weights = [
             evidence.log_weights(sound, machine, before + n, published.data, published.priors)
             for n, (sound, machine) in enumerate(zip(sounds, machines, strict=True))
@@ -64,7 +64,7 @@ def posterior(
         return Weighted(sounds, machines, evidence.modelled_db(sounds), log_weight.T)
 
     ensemble = bank_of(batches, weigh, [prior.name for prior in published.priors], wanted)
-    count = len(ensemble.draws)
+    count = len(ensemble.samples)
     results = ensemble.labelled(study.ranges, published.level_dba)
     before: Array = np.ones(count)
     if test is not None and prior_db is not None:

@@ -8,15 +8,15 @@ import xarray as xr
 from ..base.arrays import Array, IndexArray
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import power_of_level
-from ..levels.labelled import draw_variables
+from ..levels.labelled import sample_level_variables
 from ..levels.nominal import NominalSound, Sound
-from ..levels.remainder import remaining_by_draw
+from ..levels.remainder import remaining_by_sample
 from ..machine.source import CaseKey
 from .bank import Bank
 from .choices import choice_information
-from .draws import drawn_values
+from .every_sample import sampled_values
 from .evidence import PAIRS, Evidence
-from .first_order import first_order_by_draw
+from .first_order import first_order_by_sample
 
 
 def sample_variables(
@@ -41,9 +41,9 @@ def sample_variables(
     results : amplitudes with the nominal values
     """
     study, axes, published = nominal.study, nominal.axes, evidence.published
-    samples = [ensemble.draws[number] for number in chosen[0].tolist()]
-    of_sample = first_order_by_draw(first_order, results)
-    of_sample = of_sample.merge(drawn_values(study.ranges, samples))
+    samples = [ensemble.samples[number] for number in chosen[0].tolist()]
+    of_sample = first_order_by_sample(first_order, results)
+    of_sample = of_sample.merge(sampled_values(study.ranges, samples))
     pair_sounds, machines, levels_db, weights = [], [], [], []
     for number, count, sound in zip(*map(list, chosen), sounds, strict=True):
         machine = ensemble.batch.machines[number]
@@ -58,8 +58,8 @@ def sample_variables(
     weight = weight / weight.sum(axis=1, keepdims=True)
     level_db = published.level_dba + np.concatenate(levels_db)
     rest = REFERENCE_PRESSURE_PA**2 * power_of_level(level_db) * bool(published.data)
-    residual = remaining_by_draw(study, axes, pair_sounds, machines, rest)
-    levels = draw_variables(axes, pair_sounds, residual, rest, weight, ensemble.prior_names)
-    repeated = of_sample.isel(draw=np.repeat(np.arange(len(samples)), PAIRS))
-    levels = levels.merge(repeated.assign_coords(draw=levels["draw"]))
+    residual = remaining_by_sample(study, axes, pair_sounds, machines, rest)
+    levels = sample_level_variables(axes, pair_sounds, residual, rest, weight, ensemble.prior_names)
+    repeated = of_sample.isel(sample=np.repeat(np.arange(len(samples)), PAIRS))
+    levels = levels.merge(repeated.assign_coords(sample=levels["sample"]))
     return levels.merge(choice_information(study, levels, PAIRS))

@@ -26,14 +26,14 @@ def level_shares(ranges: Sequence[Range], bank: Bank, before: Array) -> xr.Datas
     bank : all samples; where they do not suffice the priors' shares are empty
     before : weights of the samples before the published level, shape (sample,)
     """
-    values = np.array([[draw[one.table, one.field] for one in ranges] for draw in bank.draws])
+    values = np.array([[sample[one.table, one.field] for one in ranges] for sample in bank.samples])
     weighed = list(bank.prior_names) != [ALL_ALIKE.name]  # else after is as before
     after = bank.weight if bank.suffices else 0.0 * bank.weight
     weights = [before, *(after if weighed else ())]
     shares = [shares_of(values, bank.modelled_db, weight) for weight in weights]
     coords = {
         "knowledge": [BEFORE, *(bank.prior_names if weighed else ())],
-        "drawn_parameter": [limits.name for limits in ranges],
+        "uncertain_parameter": [limits.name for limits in ranges],
     }
     return stamped(labelled_shares("level_share", shares), coords)
 

@@ -1,4 +1,4 @@
-"""How well a draw's shell agrees with hammer tests: in gain, natural frequencies and loss."""
+"""How well a sample's shell agrees with hammer tests: in gain, natural frequencies and loss."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -32,7 +32,7 @@ class Tolerances:
 
 @dataclass(frozen=True)
 class ShellAgreement:
-    """A draw beside the test.
+    """A sample beside the test.
 
     Attributes
     ----------
@@ -48,23 +48,25 @@ class ShellAgreement:
     loss_ratio: float
 
 
-def shell_agreement(measured: Features, drawn: Features, tolerances: Tolerances) -> ShellAgreement:
+def shell_agreement(
+    measured: Features, sampled: Features, tolerances: Tolerances
+) -> ShellAgreement:
     """Likelihood exp(-(a + b + c)/2) of mean squared deviations in tolerances.
 
     a of the levels of all bands, b of the natural frequencies, each against the
-    nearest clear peak of the draw, c of the loss factors of the peaks that so meet. The mean, not
+    nearest clear peak of the sample, c of the loss factors of the peaks that so meet. The mean, not
     the sum: what a model of one shell makes wrong is alike in all its bands and peaks, so that each
     of the three counts as one measurement however many lines there are (composite likelihood:
     Varin, Reid and Firth 2011, Statistica Sinica 21, 5, section 2.3).
 
     Parameters
     ----------
-    measured, drawn : of the same mobilities at the same lines
+    measured, sampled : of the same mobilities at the same lines
     tolerances : of each kind
     """
-    levels = drawn.level_db - measured.level_db
+    levels = sampled.level_db - measured.level_db
     misfit = float(np.mean((levels / tolerances.gain_db) ** 2))
-    frequency, loss = _of_peaks(measured, drawn)
+    frequency, loss = _of_peaks(measured, sampled)
     if measured.peak_hz.size:
         off = np.log(frequency) / np.log1p(tolerances.frequency_ratio)
         misfit += float(np.mean(np.minimum(np.abs(off), MOST_DEVIATIONS) ** 2))
@@ -79,12 +81,12 @@ def shell_agreement(measured: Features, drawn: Features, tolerances: Tolerances)
     )
 
 
-def _of_peaks(measured: Features, drawn: Features) -> tuple[Array, Array]:
+def _of_peaks(measured: Features, sampled: Features) -> tuple[Array, Array]:
     """Natural frequency and loss factor of the nearest peak over those measured, each (peak,)."""
-    if not drawn.peak_hz.size:
+    if not sampled.peak_hz.size:
         nothing = np.full(measured.peak_hz.size, np.inf)
         return nothing, np.ones_like(nothing)
-    ratio = drawn.peak_hz / measured.peak_hz[:, None]
+    ratio = sampled.peak_hz / measured.peak_hz[:, None]
     nearest = np.argmin(np.abs(np.log(ratio)), axis=1)
     rows = np.arange(len(ratio))
-    return ratio[rows, nearest], drawn.loss_ratio[nearest] / measured.loss_ratio
+    return ratio[rows, nearest], sampled.loss_ratio[nearest] / measured.loss_ratio

@@ -44,7 +44,7 @@ def test_stamp_names_the_phasor_convention():
 
 
 def test_stamp_keeps_further_attributes():
-    assert stamp("level_remainder", 56.0, source="catalogue").attrs["source"] == "catalogue"
+    assert stamp("level_unmodelled", 56.0, source="catalogue").attrs["source"] == "catalogue"
 
 
 def test_stamp_refuses_unknown_names_and_shapes():

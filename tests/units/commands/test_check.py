@@ -14,7 +14,7 @@ from vibroacoustics.results.size import MOST_BYTES
 from vibroacoustics.results.storage import without_cache
 from vibroacoustics.study.loading import load_study
 
-DRAWN = ROOT / "tests" / "studies" / "sources_made_up.toml"
+SAMPLED = ROOT / "tests" / "studies" / "sources_made_up.toml"
 NOT_OF_PIPELINE = ("start and study", "report")
 
 
@@ -90,8 +90,8 @@ def test_time_is_within_a_factor_of_two(tmp_path: Path, monkeypatch: pytest.Monk
 
 
 @pytest.mark.long
-def test_time_with_draws_and_kwave_is_within_a_factor_of_two(tmp_path: Path) -> None:
-    study = load_study(DRAWN)
+def test_time_with_samples_and_kwave_is_within_a_factor_of_two(tmp_path: Path) -> None:
+    study = load_study(SAMPLED)
     with without_cache():
         cost = run_cost(study)
         start = time.process_time()
@@ -106,7 +106,7 @@ def test_lines_of_a_study(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
     closed = ("room_spacing_mm = 60.0", 'room_spacing_mm = 60.0\nroom_solver = "closed-form"')
     outcome = command_here("check", changed(tmp_path, closed))
     assert outcome.returncode == 0, outcome.stderr
-    for words in ("1 speeds x 2 options", "draws: none, though ",
+    for words in ("1 speeds x 2 options", "samples: none, though ",
                   "size of the result: 0.", "MB of memory",
                   "boundary elements: ", "of processor time; ", "nothing is wrong"):  # fmt: skip
         assert words in outcome.stdout, outcome.stdout

@@ -97,15 +97,15 @@ height_below_ring_mm = 25.0
 def test_quantile_of_pieces_is_kept_by_that_share_of_them(study):
     scattering = study_with(WEIGHT + design_table('"weight"', VARIABLES) + MORE + SCATTER)
     problem = Problem(scattering, made_up_radiation)
-    design, draws = problem.space.grid()[:1], problem.draws(50)
-    pieces = problem.by_draw(design, draws)[0]
-    value = problem.evaluate(design, draws).values[0]
+    design, samples = problem.space.grid()[:1], problem.samples(50)
+    pieces = problem.by_sample(design, samples)[0]
+    value = problem.evaluate(design, samples).values[0]
     assert ((pieces <= value).mean(axis=0) == 0.9).all()
-    mass = 0.01 * (1.0 + 0.1 * (2.0 * draws[:, 0] - 1.0))
+    mass = 0.01 * (1.0 + 0.1 * (2.0 * samples[:, 0] - 1.0))
     np.testing.assert_allclose(pieces[:, 2], mass, rtol=1e-12)
     heavier = scattering.replace(
         {"options.weight.mass_g": 1e3 * mass[0], "options.weight.angle_deg": 0.0,
-         "options.weight.radius_mm": 20.0 + 2.0 * (2.0 * draws[0, 1] - 1.0)}
+         "options.weight.radius_mm": 20.0 + 2.0 * (2.0 * samples[0, 1] - 1.0)}
     )  # fmt: skip
     level = run(heavier, radiation=made_up_radiation)["level_modelled"]
     expected = float(level.sel(option="weight", weighting="A", receiver="front_1m")[0])
@@ -127,12 +127,12 @@ machine.balance_quality.lower_angle_deg = { range = [0, 360] }
 """
     text = unbalance + WEIGHT + design_table('"weight"', VARIABLES)
     problem = Problem(study_with(text + scatter), made_up_radiation)
-    draws = problem.draws(2)
-    pieces = problem.by_draw(problem.space.grid()[1:2], draws)[0]
+    samples = problem.samples(2)
+    pieces = problem.by_sample(problem.space.grid()[1:2], samples)[0]
     bare = run(problem.study.model_copy(update={"ranges": ()}), radiation=made_up_radiation)
     without = float(bare.sel(option="none")["moment_amplitude"].sel(order=1).max())
     assert problem.without_option()[1] == pytest.approx(without, rel=1e-9)
-    for row, (used, angle) in enumerate(draws):
+    for row, (used, angle) in enumerate(samples):
         study = problem.study.replace(
             {"options.weight.mass_g": 10, "options.weight.angle_deg": 90.0,
              "machine.balance_quality.used_ratio": used,

@@ -78,34 +78,36 @@ def test_levels_are_what_was_measured_less_the_model_and_the_option(study, witho
     np.testing.assert_allclose(share, known / (known + power(NOISE_DB)), rtol=1e-9, atol=1e-30)
 
 
-def test_other_microphones_and_the_model_stay_and_draws_follow(study, without, results):
+def test_other_microphones_and_the_model_stay_and_samples_follow(study, without, results):
     others = [name for name in study.receivers if name != study.catalogue_receiver]
     for name in others:
         np.testing.assert_array_equal(
             results["level_total"].sel(receiver=name), without["level_total"].sel(receiver=name)
         )
     np.testing.assert_array_equal(results["level_modelled"], without["level_modelled"])
-    if "level_total_by_draw" in results:
+    if "level_total_by_sample" in results:
         at = results.sel(receiver=study.catalogue_receiver, option="none")
-        spread = at["level_total_by_draw"] - at["level_total"]
+        spread = at["level_total_by_sample"] - at["level_total"]
         assert float(abs(spread).median()) < 3.0
 
 
-def test_draws_are_weighed_by_what_was_measured(study, without, results):
+def test_samples_are_weighed_by_what_was_measured(study, without, results):
     """By the A-weighted level of the bands, which hold all that is modelled, to 1.5 dB."""
     receiver, speed = study.catalogue_receiver, study.operation.speed_rpm[0]
     exact_hz = 10.0 ** (np.rint(10.0 * np.log10(BANDS)) / 10.0)
     square = modelled_bands(without, receiver, speed) + power(NOISE_DB)
     measured_dba = 10.0 * np.log10(np.sum(square * power(a_weighting(exact_hz))))
-    both = slice(results.sizes["bank_draw"])  # the level and the share need more samples
-    np.testing.assert_array_equal(results["bank_level"], without["bank_level"][both])
-    over = results["bank_level"].values - measured_dba
+    both = slice(results.sizes["prior_sample"])  # the level and the share need more samples
+    np.testing.assert_array_equal(
+        results["prior_sample_level"], without["prior_sample_level"][both]
+    )
+    over = results["prior_sample_level"].values - measured_dba
     for prior in priors_of(study.machine.remainder):
-        weight = results["bank_weight"].sel(prior=prior.name).values
+        weight = results["prior_sample_weight"].sel(prior=prior.name).values
         log_weight = log_weight_of_points(over[None], 1.5, prior)
         expected = np.exp(log_weight - log_weight.max())
         np.testing.assert_allclose(weight, expected, rtol=0.05, atol=1e-4)
-    assert abs(results["bank_weight"] / without["bank_weight"] - 1.0).max() > 0.1
+    assert abs(results["prior_sample_weight"] / without["prior_sample_weight"] - 1.0).max() > 0.1
 
 
 @pytest.mark.long

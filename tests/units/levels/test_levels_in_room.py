@@ -14,7 +14,7 @@ from vibroacoustics.levels.in_room import (
     wave_gains,
 )
 from vibroacoustics.levels.measured_points import BASELINE_BANDS
-from vibroacoustics.levels.room_levels import AirInRoom, drawn_band
+from vibroacoustics.levels.room_levels import AirInRoom, sampled_band
 from vibroacoustics.levels.room_seam import shown_bands
 from vibroacoustics.mechanics.loads import Lines
 from vibroacoustics.mechanics.received_sound import NoisePower, ReceivedSound
@@ -124,10 +124,10 @@ def test_power_of_a_hemisphere():
     assert power_of_hemisphere(np.array(1.0), 1.0) == pytest.approx(2.0 * np.pi / RHO_C)
 
 
-def test_draws_change_model_and_rest_as_at_the_microphone():
-    """Model 60 dB, rest 50 dB there; in a draw 3 and 6 dB more; in the room 1 and 2 Pa²."""
+def test_samples_change_model_and_rest_as_at_the_microphone():
+    """Model 60 dB, rest 50 dB there; in a sample 3 and 6 dB more; in the room 1 and 2 Pa²."""
     coords = {"speed": [2900.0], "option": ["none"], "receiver": ["front"]}
-    drawn = {**coords, "draw": [1, 2]}
+    sampled = {**coords, "sample": [1, 2]}
 
     def levels(name, values, where, *dims):
         return xr.DataArray(np.reshape(values, [len(where[d]) for d in dims]), where, dims, name)
@@ -140,16 +140,18 @@ def test_draws_change_model_and_rest_as_at_the_microphone():
         {
             "level_modelled": levels("m", 60.0, coords, *cases).expand_dims(weighting=["A"]),
             "level_total": levels("t", sums(60.0, 50.0), coords, *cases),
-            "level_modelled_by_draw": levels("d", [60.0, 63.0], drawn, "draw", *cases),
-            "level_total_by_draw": levels("e", sums([60, 63], [50, 56]), drawn, "draw", *cases),
-            "draw_weight": (("prior", "draw"), [[0.5, 0.5]]),
+            "level_modelled_by_sample": levels("d", [60.0, 63.0], sampled, "sample", *cases),
+            "level_total_by_sample": levels(
+                "e", sums([60, 63], [50, 56]), sampled, "sample", *cases
+            ),
+            "sample_weight": (("prior", "sample"), [[0.5, 0.5]]),
             "room_level": (("speed", "option", "listener"), [[[0.0]]], {}),
         },
         coords={"listener": ["table"]},
     )
     none = [np.zeros(0)] * 4
     air = AirInRoom(np.array([[[1.0]]]), np.array([[[2.0]]]), *none)
-    band = drawn_band(air, results, "front")
+    band = sampled_band(air, results, "front")
     ends = 10.0 * np.log10(np.array([3.0, 10.0**0.3 + 2.0 * 10.0**0.6]) / 4e-10)
     assert band["room_level_middle"].item() == pytest.approx(ends.mean(), abs=1e-9)
     low, high = ends[0] + 0.05 * np.diff(ends), ends[0] + 0.95 * np.diff(ends)

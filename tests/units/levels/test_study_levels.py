@@ -111,7 +111,7 @@ def test_unmodelled_noise_has_the_shape_and_level_that_its_machine_gives():
     assert fall == pytest.approx([-10.0, -5.0, -10.0], abs=0.1)  # 10^0.3, not 2
 
 
-def test_a_draw_is_told_over_the_published_level():
+def test_a_sample_is_told_over_the_published_level():
     unsolved = {(3000.0, "none"): sound(1.0)[3000.0, "none"].unknown}
     over = over_published(STUDY, AXES, [sound(4e-10 * 10.0**9.1), unsolved])
     assert over[0] == pytest.approx(-3.0)

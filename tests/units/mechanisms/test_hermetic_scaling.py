@@ -1,10 +1,10 @@
-"""Hermetic compressor in other sizes and with drawn values: no start or tolerance has a size."""
+"""Hermetic compressor in other sizes and with sampled values: no start or tolerance has a size."""
 
 from functools import partial
 
 import numpy as np
 import pytest
-from drawn_machines import drawing
+from sampled_machines import all_sampled
 from support import ROOT
 
 from vibroacoustics.base.errors import SolverError
@@ -12,8 +12,8 @@ from vibroacoustics.base.parameters import Parameters
 from vibroacoustics.base.units import split_key
 from vibroacoustics.mechanisms.hermetic import cycle, pin
 from vibroacoustics.mechanisms.hermetic.cycle import cycle_at_speed, steady_cycle
-from vibroacoustics.study.draws import draws_of, with_draw
 from vibroacoustics.study.loading import load_machine
+from vibroacoustics.study.samples import samples_of, with_sample
 
 RATIO = 0.59
 POWERS = {"m": 1, "kg": 3, "kg_m2": 5, "pa": 2, "pa_s": 2, "n_m_s": 5}
@@ -73,8 +73,8 @@ def test_thicker_oils_lead_to_the_same_cycle(monkeypatch):
 
 
 @pytest.mark.long
-def test_all_of_64_drawn_machines_have_a_cycle(tmp_path, monkeypatch):
-    study = drawing(tmp_path, monkeypatch, "estupinan_hermetic", 64)
-    for draw in draws_of(study).draws:
-        machine = with_draw(study.machine, study.machine, draw)
+def test_all_of_64_sampled_machines_have_a_cycle(tmp_path, monkeypatch):
+    study = all_sampled(tmp_path, monkeypatch, "estupinan_hermetic", 64)
+    for sample in samples_of(study).samples:
+        machine = with_sample(study.machine, study.machine, sample)
         cycle_at_speed(machine, 2980.0, 144)

@@ -71,7 +71,7 @@ def test_ideal_mechanism_needs_the_load_torque_only():
 errors_um = st.floats(-100.0, 100.0)
 
 
-# Five in six draws do not close; those are what closing_margins is for.
+# Five in six samples do not close; those are what closing_margins is for.
 @settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
 @given(
     crank=errors_um, scroll=errors_um, minicrank=errors_um, bracket=errors_um,

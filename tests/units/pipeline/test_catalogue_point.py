@@ -17,7 +17,7 @@ GAS_ALONE = {
     "machine.overall_noise.level_dba": 90.0,
     "uncertainty.seed": 8,
 }
-BY_DRAW = ("level_remainder_by_draw", "draw_weight", "bank_level")
+BY_SAMPLE = ("level_unmodelled_by_sample", "sample_weight", "prior_sample_level")
 
 
 @pytest.fixture(scope="module")
@@ -27,18 +27,21 @@ def study():
 
 @pytest.fixture(scope="module")
 def at_ari(study):
-    """Without the index's range: what is drawn is then the same at both points."""
+    """Without the index's range: what is sampled is then the same at both points."""
     return run_made_up(study.replace({"operation.point": "ari"}))
 
 
 def test_remainder_is_that_of_the_point_of_the_published_level(study, at_ari):
-    """It is the same at both points, as given and in each draw; what the machine makes is not."""
+    """It is the same at both points, as given and in each sample; what the machine makes is not."""
     here = study.replace({"catalogue_point": "ari"})
     assert here.catalogue_machine.gas.discharge_pressure_pa == pytest.approx(33.86e5)
-    values = {"value": 1.067, "source": "test"}  # and with it, not of it, the same values are drawn
+    values = {
+        "value": 1.067,
+        "source": "test",
+    }  # and with it, not of it, the same values are sampled
     results = run_made_up(here.replace({"machine.gas.polytropic_index": values}))
-    assert results["level_remainder"].item() == pytest.approx(at_ari["level_remainder"].item())
-    for name in BY_DRAW:
+    assert results["level_unmodelled"].item() == pytest.approx(at_ari["level_unmodelled"].item())
+    for name in BY_SAMPLE:
         assert results[name].values == pytest.approx(at_ari[name].values, rel=1e-9), name
     off = results["level_modelled"].values - at_ari["level_modelled"].values
     assert abs(off).max() > 1.0

@@ -115,8 +115,8 @@ def test_paths_of_every_rigid_machine_add_up(name):
     "name", ["copeland_sources", "copeland_inverter", "dagilis_sources", "estupinan_sources"]
 )
 def test_paths_through_frame_yoke_and_gas_add_up(name):
-    draws = {"uncertainty.random_samples": 4}
-    results = run_made_up(shortened(name, **draws), gain=0.01)
+    samples = {"uncertainty.random_samples": 4}
+    results = run_made_up(shortened(name, **samples), gain=0.01)
     assert_adds_up(results)
 
 

@@ -1,4 +1,4 @@
-"""Sources of a machine with a frame: balance of their loads, switches, draws, refusals."""
+"""Sources of a machine with a frame: balance of their loads, switches, samples, refusals."""
 
 import numpy as np
 import pytest
@@ -94,15 +94,15 @@ def test_keys_stand_on_the_part_that_the_machine_says(study):
     assert FIXED_SCROLL not in of_each[1]
 
 
-def test_frame_changes_the_sound_and_is_drawn(study):
+def test_frame_changes_the_sound_and_is_sampled(study):
     alone = {"sources": {"gas": study.sources["gas"]}, "options": {"none": study.options["none"]}}
     operation = study.operation.model_copy(update={"stopping": False})
     results = run_made_up(study.model_copy(update={**alone, "operation": operation}))
-    names = set(results["drawn_parameter"].values.tolist())
+    names = set(results["uncertain_parameter"].values.tolist())
     assert {"frame.bolts.lateral_stiffness_n_per_m", "shaft.bearing_stiffness_n_per_m"} <= names
-    by_draw = results["source_level_by_draw"].sel(sound_source="gas", option="none")
-    assert np.all(np.isfinite(by_draw.values))
-    assert np.ptp(by_draw.values) > 1.0
+    by_sample = results["source_level_by_sample"].sel(sound_source="gas", option="none")
+    assert np.all(np.isfinite(by_sample.values))
+    assert np.ptp(by_sample.values) > 1.0
     assert results["source_level"].sel(sound_source="gas", option="none").max() > 0.0
 
 

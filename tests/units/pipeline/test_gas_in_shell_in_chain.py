@@ -1,4 +1,4 @@
-"""Gas in the shell in a study: it adds to the gas forces' sound, may be left out, is drawn."""
+"""Gas in the shell in a study: it adds to the gas forces' sound, may be left out, is sampled."""
 
 import numpy as np
 import pytest
@@ -36,7 +36,7 @@ GAS_ALONE = '[sources.gas]\nkind = "scroll-gas"\n'
 
 
 def text_with(tables="", without=WITHOUT, law=INERTIA):
-    """The gas alone, without options and draws of the others."""
+    """The gas alone, without options and samples of the others."""
     start, stop = TEXT.index("[sources.gas]"), TEXT.index("[uncertainty]")
     options = TEXT.index("[options.counterweight-half]"), TEXT.index("[receivers.front_1m]")
     text = TEXT[: options[0]] + TEXT[options[1] : start] + GAS_ALONE + law + tables + TEXT[stop:]
@@ -126,7 +126,7 @@ def test_pressures_of_dome_and_forces_add_as_phasors(study, without):
 
 
 @pytest.mark.long
-def test_gas_is_drawn_and_left_out(study, without):
+def test_gas_is_sampled_and_left_out(study, without):
     names = {limits.name for limits in study.ranges}
     assert {"discharge_dome.port_offset_m", "suction_annulus.inlets"} <= names
     shapes = {"discharge_dome.depth_m", "suction_annulus.inner_radius_m"}
@@ -134,13 +134,13 @@ def test_gas_is_drawn_and_left_out(study, without):
     assert shapes <= {limits.name for limits in study.held_ranges}
     assert not any(word in limits.name for limits in without.ranges for word in ("dome", "annulus"))
     assert not flows_of(without)
-    by_draw = run_made_up(study, gain=0.01)["source_level_by_draw"].sel(
+    by_sample = run_made_up(study, gain=0.01)["source_level_by_sample"].sel(
         sound_source="gas", option="none"
     )
-    assert np.all(np.isfinite(by_draw.values))
+    assert np.all(np.isfinite(by_sample.values))
 
 
-def test_leakage_and_filling_are_drawn_and_left_out(study, tmp_path):
+def test_leakage_and_filling_are_sampled_and_left_out(study, tmp_path):
     """Without both tables the torque is that of tight pockets at the suction pressure."""
     assert "leakage.tip_gap_m" in {limits.name for limits in study.ranges}
     left_out = 'without = ["frame", "leakage", "suction_pockets"]\n'

@@ -1,4 +1,4 @@
-"""A study's machine in its room, with vectors that are made up: levels, plate, draws, report."""
+"""A study's machine in its room, with vectors that are made up: levels, plate, samples, report."""
 
 import numpy as np
 import pytest
@@ -124,7 +124,7 @@ def test_orders_by_waves_are_velocity_times_vectors(kitchen):
     pressure = velocity.values * 0.01j * frequency
     band = at["room_band_level"].sel(listener="table")
     only_second = 0.5 * abs(pressure[2]) ** 2  # 96.7 Hz, alone in the third octave of 100 Hz
-    rest = 10.0 ** (at["remainder_band_level"].sel(noise_band=100.0) / 10.0) * 4e-10
+    rest = 10.0 ** (at["unmodelled_band_level"].sel(noise_band=100.0) / 10.0) * 4e-10
     by_hemisphere = 2.0 * np.pi * (1.0825**2 + 0.24**2) / RHO_C * rest
     gain = RHO_C / (2.0 * np.pi * RADIUS_M**2)  # as loud in the room as on the hemisphere
     expected = 10.0 * np.log10((only_second + by_hemisphere * gain) / 4e-10)
@@ -286,7 +286,7 @@ def test_report_says_how_loud_by_which_path_and_what_changes_it(kitchen):
 
 
 @pytest.mark.long
-def test_draws_make_a_band_of_all_sources():
+def test_samples_make_a_band_of_all_sources():
     study = va.load_study(SOURCES_STUDY)
     with pytest.MonkeyPatch.context() as patch:
         radiation = lambda study, *_: (made_up_modes(study), False)  # noqa: E731

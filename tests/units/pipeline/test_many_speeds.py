@@ -133,8 +133,8 @@ def test_a_speed_alone_agrees_with_the_same_in_a_list(folder, many, speed):
 
 def test_remainder_does_not_depend_on_the_speeds(folder, many):
     """The catalogue's speed of 2900 rpm is among the many, and not here."""
-    apart = run_at(folder, "speed_rpm = [3500.0]")["level_remainder"].item()
-    assert apart == pytest.approx(many["level_remainder"].item(), rel=1e-12)
+    apart = run_at(folder, "speed_rpm = [3500.0]")["level_unmodelled"].item()
+    assert apart == pytest.approx(many["level_unmodelled"].item(), rel=1e-12)
 
 
 def test_louder_model_is_refused_at_a_catalogue_speed_apart(tmp_path):
@@ -213,7 +213,7 @@ def test_sources_at_few_speeds_agree_with_the_same_in_a_list(folder, driven, spe
     few = run_made_up(study)
     for own in (speed, 2900.0):
         assert_same_at_speed(few, driven, own)
-    assert few["level_remainder"].item() == pytest.approx(driven["level_remainder"].item())
+    assert few["level_unmodelled"].item() == pytest.approx(driven["level_unmodelled"].item())
 
 
 @pytest.mark.long

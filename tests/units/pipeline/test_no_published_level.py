@@ -1,4 +1,4 @@
-"""A machine without a published level: no remainder, draws that count alike, plain words."""
+"""A machine without a published level: no remainder, samples that count alike, plain words."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ from support import TINY, made_up_radiation
 from vibroacoustics import pipeline, report
 from vibroacoustics.base.decibel import SILENCE_DB
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.commands.cost_lines import draws_text, study_lines
+from vibroacoustics.commands.cost_lines import samples_text, study_lines
 from vibroacoustics.report.data_sheet.files import headline
 from vibroacoustics.report.data_sheet.sheet import data_sheet
 from vibroacoustics.report.evidence import rungs
@@ -32,7 +32,7 @@ def study():
 
 
 @pytest.fixture(scope="module")
-def drawn(study):
+def sampled(study):
     return run_made_up(study)
 
 
@@ -54,37 +54,37 @@ def test_first_microphone_and_speed_stand_for_the_catalogues(study):
 
 
 @pytest.mark.long
-def test_the_total_is_what_is_modelled(rigid, drawn):
-    for results in (rigid, drawn):
+def test_the_total_is_what_is_modelled(rigid, sampled):
+    for results in (rigid, sampled):
         modelled = results["level_modelled"].sel(weighting="A")
         assert results["level_total"].values == pytest.approx(modelled.values)
-        assert results["level_remainder"].item() == SILENCE_DB
-    by_draw = drawn["level_total_by_draw"].values
-    assert by_draw == pytest.approx(drawn["level_modelled_by_draw"].values)
-    assert np.ptp(by_draw[:, 0, 0, 0]) > 1.0
+        assert results["level_unmodelled"].item() == SILENCE_DB
+    by_sample = sampled["level_total_by_sample"].values
+    assert by_sample == pytest.approx(sampled["level_modelled_by_sample"].values)
+    assert np.ptp(by_sample[:, 0, 0, 0]) > 1.0
 
 
-def test_draws_count_alike(drawn, study):
-    assert drawn["prior"].values.tolist() == ["even"]
-    assert (drawn["bank_weight"].values == 1.0).all()
-    assert drawn.sizes["bank_draw"] == study.uncertainty.random_samples
-    assert drawn["draw_weight"].values == pytest.approx(1.0 / drawn.sizes["draw"])
-    assert drawn["level_share"]["knowledge"].values.tolist() == ["before"]
+def test_samples_count_alike(sampled, study):
+    assert sampled["prior"].values.tolist() == ["even"]
+    assert (sampled["prior_sample_weight"].values == 1.0).all()
+    assert sampled.sizes["prior_sample"] == study.uncertainty.random_samples
+    assert sampled["sample_weight"].values == pytest.approx(1.0 / sampled.sizes["sample"])
+    assert sampled["level_share"]["knowledge"].values.tolist() == ["before"]
     names = [limits.name for limits in study.ranges]
     assert not any(name.startswith("remainder") for name in names)  # nothing hangs on it
 
 
 @pytest.mark.long
-def test_the_report_says_so(rigid, drawn):
-    plain, of_draws = text_of(rigid), text_of(drawn)
-    for text in (plain, of_draws):
+def test_the_report_says_so(rigid, sampled):
+    plain, of_samples = text_of(rigid), text_of(sampled)
+    for text in (plain, of_samples):
         assert "gives no published level: there is no remainder" in text
         assert "What is not modelled" in text
         assert "whole machine is assumed" not in text
     assert "the whole machine is not known: none is published." in plain
-    assert "Of the energy of all that is modelled" in of_draws
-    assert "they count alike: they are worth 20 equal ones" in of_draws
-    assert "0 dB(A) and taken as sure" not in of_draws
+    assert "Of the energy of all that is modelled" in of_samples
+    assert "they count alike: they are worth 20 equal ones" in of_samples
+    assert "0 dB(A) and taken as sure" not in of_samples
     assert [rung.quantity for rung in rungs(rigid)] == []
 
 
@@ -94,13 +94,13 @@ def test_the_data_sheet_says_so(rigid):
     assert headline(sheet).endswith("of what is modelled alone.")
 
 
-def test_ranges_that_are_not_drawn_are_told(rigid):
+def test_ranges_that_are_not_sampled_are_told(rigid):
     study = load_study(TINY)
     ranges = sum(record.lowest is not None for record in study.records)
     assert ranges > 1
-    assert f"none, though {ranges} values have a range" in draws_text(study)
+    assert f"none, though {ranges} values have a range" in samples_text(study)
     count = sum(record.lowest is not None for record in load_study(TINY).replace(NO_LEVEL).records)
-    assert f"{count} values have a range; they are not drawn" in text_of(rigid)
+    assert f"{count} values have a range; they are not sampled" in text_of(rigid)
     words = data_sheet(rigid, "none", 2900.0).sound_power.uncertainty_words
     assert words.startswith(f"nothing was sampled: K is not known. {count} values have a range")
 

@@ -17,11 +17,11 @@ STUDIES = ROOT / "tests" / "studies"
 OF_SOURCES = {
     "projection_error",
     "supply_frequency",
-    "source_level_by_draw",
-    "level_modelled_by_draw",
-    "level_total_by_draw",
-    "level_remainder_by_draw",
-    "draw_weight",
+    "source_level_by_sample",
+    "level_modelled_by_sample",
+    "level_total_by_sample",
+    "level_unmodelled_by_sample",
+    "sample_weight",
     "datum_value",
     "datum_deviation",
     "datum_expected",
@@ -30,8 +30,8 @@ OF_SOURCES = {
     "energy_share",
     "energy_majority",
     "evidence_effective",
-    "drawn_value",
-    "bank_weight",
+    "sampled_value",
+    "prior_sample_weight",
     "choice_utility",
     "perfect_information",
     "parameter_information",
@@ -41,11 +41,11 @@ OF_SOURCES = {
     "level_share_low",
     "level_share_high",
     "level_share_floor",
-    "force_1x_by_draw",
-    "moment_1x_by_draw",
-    "foot_force_1x_by_draw",
-    "bank_level",
-    "bank_value",
+    "force_1x_by_sample",
+    "moment_1x_by_sample",
+    "foot_force_1x_by_sample",
+    "prior_sample_level",
+    "prior_sample_value",
     "stopping_duration",
     "stopping_revolutions",
     "stopping_shaft_speed",
@@ -155,7 +155,7 @@ def test_catalogue_level_comes_out_where_it_was_measured(results, thesis_study):
 
 def test_total_is_never_below_the_modelled_level(results):
     assert np.all(results["level_total"] >= results["level_modelled"].sel(weighting="A"))
-    assert np.all(results["level_total"] >= results["level_remainder"])
+    assert np.all(results["level_total"] >= results["level_unmodelled"])
 
 
 def test_change_of_the_total_is_smaller_than_that_of_the_modelled_level(results):

@@ -1,4 +1,4 @@
-"""Sources in a study: balance of their loads, sums, draws, contraction, bad input."""
+"""Sources in a study: balance of their loads, sums, samples, contraction, bad input."""
 
 import dataclasses
 from operator import attrgetter
@@ -51,8 +51,8 @@ from vibroacoustics.sources.oldham_keys.spectra import spectral_density
 from vibroacoustics.sources.part_loads import key_torque_n_m
 from vibroacoustics.stages import ensemble, samples
 from vibroacoustics.stages.sampled import SampledSound
-from vibroacoustics.study.draws import with_draw
 from vibroacoustics.study.loading import load_study
+from vibroacoustics.study.samples import with_sample
 from vibroacoustics.study.sampling import latin_hypercubes
 from vibroacoustics.study.uncertainty import MeasuredModes, Range
 from vibroacoustics.transfer import MachineOnMounts
@@ -444,11 +444,11 @@ def test_rigid_machine_is_moved_by_momentum_alone(study, without):
     assert HOUSING not in lines.loads["keys"]
 
 
-def test_modes_reach_the_highest_frequency_in_every_draw(study):
+def test_modes_reach_the_highest_frequency_in_every_sample(study):
     """Where natural frequencies are lowered to 0.8, modes up to 1.25 times it come below it."""
     highest = study.radiation.maximum_frequency_hz
-    draws = next(latin_hypercubes(study.ranges, study.uncertainty))
-    lowest = min(draw["variation", "frequency_factor_ratio"] for draw in draws)
+    hypercube = next(latin_hypercubes(study.ranges, study.uncertainty))
+    lowest = min(sample["variation", "frequency_factor_ratio"] for sample in hypercube)
     every = elastic_shell(study.machine.shell, study.machine.structure, highest / lowest).modes
     assert {mode.name for mode in every} <= {mode.name for mode in path_of(study).modes}
 
@@ -466,10 +466,10 @@ def test_body_on_mounts_turns_about_z_alone_under_a_moment_about_z(study):
 
 def test_sources_do_not_change_the_moving_parts(results, without):
     """What a study without sources says of forces, motion and their sound, bit for bit."""
-    heard = {"pressure_line", "order_level", "level_modelled", "level_total", "level_remainder"}
+    heard = {"pressure_line", "order_level", "level_modelled", "level_total", "level_unmodelled"}
     heard |= {"source_level", "source_share", "source_band_level", "reported_figure"}
     heard |= {"change_1x", "change_modelled", "change_total", "criterion_value", "score", "rank"}
-    heard |= {"first_place_share", "noise_band_level", "remainder_band_level"}
+    heard |= {"first_place_share", "noise_band_level", "unmodelled_band_level"}
     heard |= {name for name, array in without.data_vars.items() if "path_speed" in array.dims}
     same = set(without.data_vars) - heard
     places = (one["rank_acceptability"].values for one in (without, results))
@@ -489,14 +489,14 @@ def test_sources_do_not_change_the_moving_parts(results, without):
     np.testing.assert_array_equal(among.values, figures.values)
 
 
-# --- draws ---------------------------------------------------------------------------------------
+# --- samples -------------------------------------------------------------------------------------
 
 
 def test_hypercube_takes_every_stratum_of_every_range_once(study):
     settings = study.uncertainty.model_copy(update={"random_samples": 12})
-    drawn = next(latin_hypercubes(study.ranges, settings))
+    sampled = next(latin_hypercubes(study.ranges, settings))
     for limits in study.ranges:
-        values = np.array([draw[limits.table, limits.field] for draw in drawn])
+        values = np.array([sample[limits.table, limits.field] for sample in sampled])
         low, high = limits.lowest, limits.highest
         wide = low > 0.0 and high / low > 3.0
         share = np.log(values / low) / np.log(high / low) if wide else (values - low) / (high - low)
@@ -512,49 +512,49 @@ def test_hypercube_is_reproducible_and_follows_its_seed(study):
     assert one != other
 
 
-def test_draw_changes_nothing_but_what_is_not_known(study):
+def test_sample_changes_nothing_but_what_is_not_known(study):
     base = study.machine
-    for draw in next(latin_hypercubes(study.ranges, study.uncertainty)):
-        drawn = with_draw(base, base, draw)
-        for (table, field), value in draw.items():
-            assert attrgetter(f"{table}.{field}")(drawn) == value
-        given = {pair: attrgetter(".".join(pair))(base) for pair in draw}
-        assert drawn != base
-        back = with_draw(drawn, drawn, given)
+    for sample in next(latin_hypercubes(study.ranges, study.uncertainty)):
+        sampled = with_sample(base, base, sample)
+        for (table, field), value in sample.items():
+            assert attrgetter(f"{table}.{field}")(sampled) == value
+        given = {pair: attrgetter(".".join(pair))(base) for pair in sample}
+        assert sampled != base
+        back = with_sample(sampled, sampled, given)
         for name in type(base).model_fields:
             if name != "housing":  # whose inertia across follows along, to rounding
                 assert getattr(back, name) == getattr(base, name), name
 
 
-def test_draw_leaves_what_an_option_has_changed(study):
-    """A redesign that sets the clearance keeps it in every draw."""
+def test_sample_leaves_what_an_option_has_changed(study):
+    """A redesign that sets the clearance keeps it in every sample."""
     changed = with_tables(study, keys={"clearance_m": 1e-6}).machine
-    draw = {("keys", "clearance_m"): 2e-5, ("keys", "friction_ratio"): 0.03}
-    drawn = with_draw(changed, study.machine, draw)
-    assert (drawn.keys.clearance_m, drawn.keys.friction_ratio) == (1e-6, 0.03)
+    sample = {("keys", "clearance_m"): 2e-5, ("keys", "friction_ratio"): 0.03}
+    sampled = with_sample(changed, study.machine, sample)
+    assert (sampled.keys.clearance_m, sampled.keys.friction_ratio) == (1e-6, 0.03)
 
 
-def test_wide_ranges_are_drawn_over_their_logarithm(study):
-    """Half of the draws lie below the geometric mean, not below the arithmetic one."""
+def test_wide_ranges_are_sampled_over_their_logarithm(study):
+    """Half of the samples lie below the geometric mean, not below the arithmetic one."""
     name = "contact_stiffness_n_per_m1p5"
     limits = Range(table="keys", field=name, lowest=1e9, highest=1e11)
     settings = study.uncertainty.model_copy(update={"random_samples": 10})
-    stiffness = [draw["keys", name] for draw in next(latin_hypercubes((limits,), settings))]
+    stiffness = [sample["keys", name] for sample in next(latin_hypercubes((limits,), settings))]
     assert np.count_nonzero(np.array(stiffness) < 1e10) == 5
 
 
-def run_with_draws(study, monkeypatch, squares):
-    """Results with draws whose gas alone has given A-weighted mean squares."""
+def run_with_samples(study, monkeypatch, squares):
+    """Results with samples whose gas alone has given A-weighted mean squares."""
     receivers, bands = len(study.receivers), len(filled_thirds(1200.0))
     gas = np.zeros(1 + len(study.sources))
     gas[1] = 1.0
     mutual = np.zeros((gas.size, gas.size, receivers, len(GAIN_BANDS)))
     mutual[1, 1, :, 20] = 1.0
-    by_draw: dict[tuple[float, ...], float] = {}
+    by_sample: dict[tuple[float, ...], float] = {}
 
-    def sounds(chain, draws, done):
-        for draw in draws:
-            by_draw.setdefault(tuple(draw.values()), squares[len(by_draw) % len(squares)])
+    def sounds(chain, batch, done):
+        for sample in batch:
+            by_sample.setdefault(tuple(sample.values()), squares[len(by_sample) % len(squares)])
         return [
             SampledSound(
                 {
@@ -568,7 +568,7 @@ def run_with_draws(study, monkeypatch, squares):
                 },
                 {},
             )
-            for square in (by_draw[tuple(draw.values())] for draw in draws)
+            for square in (by_sample[tuple(sample.values())] for sample in batch)
         ]
 
     for stage in (ensemble, samples):
@@ -577,47 +577,47 @@ def run_with_draws(study, monkeypatch, squares):
     return run_made_up(with_tables(study.replace(few), overall_noise={"spectral_share": None}))
 
 
-def test_draws_count_by_how_well_they_agree_with_the_published_level(study, monkeypatch):
+def test_samples_count_by_how_well_they_agree_with_the_published_level(study, monkeypatch):
     published = study.machine.overall_noise.level_dba
     overall = REFERENCE_PRESSURE_PA**2 * 10.0 ** (published / 10.0)
     quiet, loud = overall * np.array([0.1, 0.2, 0.3, 0.4]), [1.6 * overall, 1e4 * overall]
-    found = run_with_draws(study, monkeypatch, [*quiet, *loud])
-    level = found["bank_level"].values
+    found = run_with_samples(study, monkeypatch, [*quiet, *loud])
+    level = found["prior_sample_level"].values
     flat, _ = priors_of(study.machine.remainder)
     deviation_db = study.machine.overall_noise.deviation_db
     expected = np.exp(log_weight_of_points((level - published)[None], deviation_db, flat))
-    assert found["bank_weight"].values[0] == pytest.approx(expected / expected.max())
+    assert found["prior_sample_weight"].values[0] == pytest.approx(expected / expected.max())
     assert expected[level > published + 30.0].max() < 1e-12 * expected.max()
     at = {"option": "none", "receiver": "front_1m", "speed": 2900.0}
-    modelled = found["level_modelled_by_draw"].sel(at).values
+    modelled = found["level_modelled_by_sample"].sel(at).values
     assert modelled.max() < published + 30.0
-    # The remainder as drawn completes each draw's total.
-    whole = 10.0 ** (found["level_total_by_draw"].sel(at).values / 10.0)
-    rest = 10.0 ** (found["level_remainder_by_draw"].values / 10.0)
+    # The remainder as sampled completes each sample's total.
+    whole = 10.0 ** (found["level_total_by_sample"].sel(at).values / 10.0)
+    rest = 10.0 ** (found["level_unmodelled_by_sample"].values / 10.0)
     assert whole == pytest.approx(10.0 ** (modelled / 10.0) + rest)
-    assert found["draw_weight"].sum("draw").values == pytest.approx([1.0, 1.0])
+    assert found["sample_weight"].sum("sample").values == pytest.approx([1.0, 1.0])
 
 
 def test_a_model_that_is_much_too_loud_is_in_conflict_with_the_level(study, monkeypatch):
     """Its samples are alike, and so are their weights."""
-    found = run_with_draws(study, monkeypatch, [1.0, 1.0, 1.0, 1.0])
-    assert found.sizes["bank_draw"] == 4
+    found = run_with_samples(study, monkeypatch, [1.0, 1.0, 1.0, 1.0])
+    assert found.sizes["prior_sample"] == 4
     assert found["datum_tail"].sel(datum="level") < 1e-12
     assert found["conflict_tail"] == 0.0
 
 
 def test_samples_without_solution_give_no_intervals(study, monkeypatch):
-    found = run_with_draws(study, monkeypatch, [np.nan] * 4)
-    assert "draw_weight" not in found
-    assert found.sizes["bank_draw"] == 4 * MOST_ROUNDS
+    found = run_with_samples(study, monkeypatch, [np.nan] * 4)
+    assert "sample_weight" not in found
+    assert found.sizes["prior_sample"] == 4 * MOST_ROUNDS
     assert np.isfinite(found["level_total"].values).all()
 
 
 @pytest.mark.long
 def test_same_study_gives_the_same_numbers(study, results):
-    """Draws run side by side in threads; their order and numbers do not depend on that."""
+    """Samples run side by side in threads; their order and numbers do not depend on that."""
     again = run_made_up(study)
-    for name in ("level_modelled_by_draw", "source_level", "reported_figure", "drawn_value"):
+    for name in ("level_modelled_by_sample", "source_level", "reported_figure", "sampled_value"):
         np.testing.assert_array_equal(again[name].values, results[name].values)
 
 
@@ -650,7 +650,7 @@ def refused(folder, old, new, words, of_machine=False):
         ("= [50.0]", "= [650.0]", ["maximum_frequency_hz = 1200 Hz", "frequency is 1300 Hz"]),
         ("random_samples = 4", "random_samples = 3", ["uncertainty.random_samples = 3", "from 4"]),
         ("random_samples = 4", "doubts = []", ["uncertainty.doubts", "unknown key"]),
-        ("random_samples = 4", "draws = 4", ["uncertainty.draws", "unknown key"]),
+        ("random_samples = 4", "samples = 4", ["uncertainty.samples", "unknown key"]),
         ("[operation]", "[ranges]\n[operation]", ["ranges", "unknown key"]),
         ("revolutions = 2", "revolutions = 0", ["sources.keys.revolutions = 0", "from 1 to"]),
         ("revolutions = 2", "turns = 2", ["sources.keys.turns", "unknown key"]),
@@ -703,7 +703,7 @@ def test_supply_is_as_given(results):
 
 
 def test_supply_that_is_not_given_follows_from_speed_and_slip(tmp_path):
-    """It gives back the speed through the motor's torque curve; one for options and draws."""
+    """It gives back the speed through the motor's torque curve; one for options and samples."""
     text = TEXT.replace("supply_frequency_hz = [50.0]", "").replace("[2900.0]", "[3500.0, 2900.0]")
     results = run_made_up(load_text(tmp_path, text.replace("stopping = true", "")))
     supply = results["supply_frequency"]
@@ -825,7 +825,7 @@ def test_a_speed_alone_and_in_a_list_agree_with_all_sources(study):
     both = run_made_up(at_speeds_of(study, (3500.0, 2900.0), (60.0, 50.0)))
     alone = run_made_up(at_speeds_of(study, (2900.0,), (50.0,)))
     assert both.sizes["order"] == alone.sizes["order"] == 25
-    for name in ("level_modelled", "level_total", "source_level", "level_total_by_draw"):
+    for name in ("level_modelled", "level_total", "source_level", "level_total_by_sample"):
         same = both[name].sel(speed=2900.0)
         np.testing.assert_allclose(same, alone[name].sel(speed=2900.0), rtol=1e-9, err_msg=name)
     lines = both["pressure_line"].sel(speed=3500.0).isel(line=slice(21, 25))

@@ -33,8 +33,8 @@ def test_one_run_each_tells_both_together():
     assert np.isnan(scatter(np.array([60.0]), ["a"]).uncertainty)
 
 
-def test_variances_drawn_are_found_again():
-    """Of 400 sets of 6 specimens with 4 runs the mean estimates are what was drawn."""
+def test_variances_sampled_are_found_again():
+    """Of 400 sets of 6 specimens with 4 runs the mean estimates are what was sampled."""
     generator = np.random.default_rng(2)
     specimen = generator.normal(0.0, 1.5, (6, 1, 400))
     level = (60.0 + specimen + generator.normal(0.0, 0.5, (6, 4, 400))).reshape(24, 400)

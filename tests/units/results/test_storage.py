@@ -34,7 +34,7 @@ def results() -> xr.Dataset:
             "natural_frequency": stamp(
                 "natural_frequency", np.array([1 / 3, np.nan, np.inf, -0.0, 1e-310, 1e300])
             ),
-            "level_remainder": stamp("level_remainder", 55.99),
+            "level_unmodelled": stamp("level_unmodelled", 55.99),
         }
     )
     dataset.attrs = {"title": "test", "parameters": '{"a": [1, 2]}', "random_seed": 20061}
@@ -230,7 +230,7 @@ def test_failure_leaves_the_old_results_and_nothing_else(results, tmp_path, monk
 )
 def test_disk_that_fills_up(tmp_path, limit):
     """The limit of a file's size stands for a full disk; netCDF meets it where it will."""
-    old = xr.Dataset({"level_remainder": stamp("level_remainder", 55.99)})
+    old = xr.Dataset({"level_unmodelled": stamp("level_unmodelled", 55.99)})
     path = storage.write_results(old, tmp_path / "results.nc")
     words = in_child(f"""
         import resource

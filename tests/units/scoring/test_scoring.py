@@ -220,9 +220,9 @@ def test_best_option_on_every_criterion_scores_one():
 # --- robustness ----------------------------------------------------------------------------------
 
 
-def _places(utility, weightings=200, seed=3, draw_weight=(1.0,)):
+def _places(utility, weightings=200, seed=3, sample_weight=(1.0,)):
     weights = scoring.any_weights(np.shape(utility)[-1], weightings, seed)
-    return scoring.rank_acceptability(np.asarray(utility), np.array(draw_weight), weights)
+    return scoring.rank_acceptability(np.asarray(utility), np.array(sample_weight), weights)
 
 
 @given(utility=arrays(float, (2, 5, 4), elements=st.floats(0.0, 1.0)), seed=st.integers(0, 99))
@@ -249,28 +249,28 @@ def test_options_that_tie_share_their_places():
     assert places[3, 3] == 1.0
 
 
-def test_draws_count_by_their_weights():
-    """One draw of three quarters, one of a quarter that turns the order, one of nothing."""
+def test_samples_count_by_their_weights():
+    """One sample of three quarters, one of a quarter that turns the order, one of nothing."""
     one = np.array([[0.9, 0.9], [0.1, 0.1]])
     places = _places(np.array([one, one[::-1], np.full((2, 2), np.nan)]), 10, 3, (3.0, 1.0, 0.0))
     np.testing.assert_allclose(places[0], [0.75, 0.25])
 
 
-def test_draws_of_the_level_change_the_places():
-    """In half of the draws `a` is the quietest, in the others the loudest, by 20 dB each."""
+def test_samples_of_the_level_change_the_places():
+    """In half of the samples `a` is the quietest, in the others the loudest, by 20 dB each."""
     results = _results(["none", "a"])
-    coords = {"draw": [1, 2], "speed": results["speed"], "option": ["none", "a"]}
+    coords = {"sample": [1, 2], "speed": results["speed"], "option": ["none", "a"]}
     level = np.zeros((2, 2, 2, 2))
-    level[0, :, 1], level[1, :, 1] = -20.0, 20.0  # of (draw, speed, option, receiver)
-    drawn = stamp("level_modelled_by_draw", level, coords)
-    weight = stamp("draw_weight", [[0.5, 0.5]], {"prior": ["flat"], "draw": [1, 2]})
-    results = results.assign(level_modelled_by_draw=drawn, draw_weight=weight)
+    level[0, :, 1], level[1, :, 1] = -20.0, 20.0  # of (sample, speed, option, receiver)
+    sampled = stamp("level_modelled_by_sample", level, coords)
+    weight = stamp("sample_weight", [[0.5, 0.5]], {"prior": ["flat"], "sample": [1, 2]})
+    results = results.assign(level_modelled_by_sample=sampled, sample_weight=weight)
     of_level = {"level_change_db": CRITERIA["level_change_db"]}
     scores = scoring.score(results, _settings(**of_level))
     np.testing.assert_allclose(scores["rank_acceptability"], 0.5)
     np.testing.assert_allclose(scores["first_place_share"], 0.5)
-    results["draw_weight"][:] = [[1.0, 0.0]]
-    results["level_modelled_by_draw"][1] = np.nan
+    results["sample_weight"][:] = [[1.0, 0.0]]
+    results["level_modelled_by_sample"][1] = np.nan
     scores = scoring.score(results, _settings(**of_level))
     np.testing.assert_array_equal(scores["first_place_share"], [0.0, 1.0])
 

@@ -57,7 +57,7 @@ def test_noise_of_sources_and_remainder_go_to_their_bands():
     np.testing.assert_allclose(
         by_band.sel(noise_band=[80.0, 100.0, 4000.0]), [-300.0, 10.0 * np.log10(3e4), 30.0]
     )
-    assert levels["remainder_band_level"].sel(noise_band=1000.0) == pytest.approx(50.0)
+    assert levels["unmodelled_band_level"].sel(noise_band=1000.0) == pytest.approx(50.0)
 
 
 @pytest.mark.parametrize(

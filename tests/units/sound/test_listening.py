@@ -48,7 +48,7 @@ def test_no_option_exceeds_full_scale(results):
     assert gain.full_scale_of(results, 140.0) == 500.0
     silent = results.copy()
     silent["pressure_line"] = 0.0 * silent["pressure_line"]
-    for name in ("noise_band_level", "remainder_band_level"):
+    for name in ("noise_band_level", "unmodelled_band_level"):
         silent[name] = 0.0 * silent[name] - 300.0
     quiet = silent.drop_vars(["baseline_band_level", "baseline_order_level"])
     assert gain.full_scale_of(quiet) == 2e-5

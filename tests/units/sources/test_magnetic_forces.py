@@ -171,15 +171,15 @@ def test_source_of_the_capacitor_motor(study):
 
 @pytest.mark.long
 def test_forces_sound_in_a_study(study):
-    """With draws; the yoke is part of what tells one path from another."""
+    """With samples; the yoke is part of what tells one path from another."""
     fewer = {f"options.{name}": None for name in study.options if name != "none"}
     small = study.replace({**fewer, "sources.keys": None, "uncertainty.random_samples": 4})
     results = run_made_up(small, gain=0.2)
     level = results["source_level"].sel(option="none", sound_source="forces")
     assert (level > -50.0).all()
-    drawn = results["source_level_by_draw"].sel(option="none", sound_source="forces")
-    assert drawn.std("draw").min() > 0.1
-    assert "stator_yoke.thickness_m" in results["drawn_parameter"].values
+    sampled = results["source_level_by_sample"].sel(option="none", sound_source="forces")
+    assert sampled.std("sample").min() > 0.1
+    assert "stator_yoke.thickness_m" in results["uncertain_parameter"].values
 
 
 def test_all_of_the_synchronous_motor_are_orders():

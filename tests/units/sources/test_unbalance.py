@@ -81,9 +81,9 @@ def test_a_study_names_it(tmp_path):
     loads = study.sources["unbalance"].loads(case_of(study), {})
     expected = 3.2e3 * 6.3 / (3500.0 * np.pi / 30.0)
     assert loads.figures["residual_unbalance_g_mm"] == pytest.approx(expected)
-    drawn = {item.name for item in study.ranges if item.table == "balance_quality"}
-    assert "balance_quality.upper_angle_rad" in drawn
-    assert len(drawn) == 5
+    sampled = {item.name for item in study.ranges if item.table == "balance_quality"}
+    assert "balance_quality.upper_angle_rad" in sampled
+    assert len(sampled) == 5
 
 
 def test_a_machine_without_the_table_is_refused(tmp_path):

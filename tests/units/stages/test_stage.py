@@ -61,9 +61,11 @@ def test_two_stages_cannot_give_the_same():
 
 
 def test_what_a_stage_does_not_name_is_refused():
-    shown = stamp("level_remainder", 50.0).to_dataset()
+    shown = stamp("level_unmodelled", 50.0).to_dataset()
     chain = Chain(None, None)
-    with pytest.raises(PluginError, match="stage a: gives level_remainder, which it does not name"):
+    with pytest.raises(
+        PluginError, match="stage a: gives level_unmodelled, which it does not name"
+    ):
         advanced(chain, stage("a", given=Given(shown)))
     with pytest.raises(PluginError, match="stage a: gives Cases, which it does not name"):
         advanced(chain, stage("a", given=Given(products=(Cases({}, {}, {}),))))
@@ -86,11 +88,13 @@ def test_a_pattern_gives_what_fits_and_a_name_goes_before_it():
 
 
 def test_a_pattern_lets_a_stage_give_and_read_what_fits_alone():
-    shown = stamp("level_remainder", 50.0).to_dataset()
+    shown = stamp("level_unmodelled", 50.0).to_dataset()
     chain = advanced(Chain(None, None), stage("a", (), ("level_*",), Given(shown)))
-    assert list(chain.limited(("level_rem*",)).results) == ["level_remainder"]
+    assert list(chain.limited(("level_unm*",)).results) == ["level_unmodelled"]
     assert list(chain.limited(("room_*",)).results) == []
-    with pytest.raises(PluginError, match="stage a: gives level_remainder, which it does not name"):
+    with pytest.raises(
+        PluginError, match="stage a: gives level_unmodelled, which it does not name"
+    ):
         advanced(Chain(None, None), stage("a", (), ("room_*",), Given(shown)))
 
 

@@ -4,26 +4,26 @@ import numpy as np
 import pytest
 from support import PIPELINES, ROOT, TINY
 
-from vibroacoustics.study.coarse import LEAST_DRAWS, MOST_SPEEDS, coarse, standard_error_of_end
+from vibroacoustics.study.coarse import LEAST_SAMPLES, MOST_SPEEDS, coarse, standard_error_of_end
 from vibroacoustics.study.loading import load_study
 
 
-@pytest.mark.parametrize("draws", [20, 100])
-def test_standard_error_of_the_ends_of_bands(draws: int) -> None:
+@pytest.mark.parametrize("count", [20, 100])
+def test_standard_error_of_the_ends_of_bands(count: int) -> None:
     """Against the scatter of 5 % quantiles of that many random numbers."""
-    samples = np.random.default_rng(1).standard_normal((20_000, draws))
+    samples = np.random.default_rng(1).standard_normal((20_000, count))
     ends = np.quantile(samples, 0.05, axis=1, method="median_unbiased")
-    assert standard_error_of_end(draws) == pytest.approx(ends.std(), rel=0.1)
+    assert standard_error_of_end(count) == pytest.approx(ends.std(), rel=0.1)
 
 
-def test_fewer_draws_and_no_kwave() -> None:
+def test_fewer_samples_and_no_kwave() -> None:
     study = load_study(ROOT / "tests" / "studies" / "sources_made_up.toml")
     more = coarse(study.replace({"uncertainty.random_samples": 100}))
     assert more.uncertainty.random_samples == 20
     assert more.radiation.room_solver == "closed-form"
     assert any("standard error of 0.47 instead of 0.21" in words for words in more.coarsened)
-    few = coarse(study)  # four draws are fewer than the least
-    assert few.uncertainty.random_samples == study.uncertainty.random_samples < LEAST_DRAWS
+    few = coarse(study)  # four samples are fewer than the least
+    assert few.uncertainty.random_samples == study.uncertainty.random_samples < LEAST_SAMPLES
     assert len(few.coarsened) == 1
 
 

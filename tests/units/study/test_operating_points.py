@@ -79,7 +79,7 @@ def test_points_must_be_a_table(tmp_path: Path):
 # --- the opening ---------------------------------------------------------------------------------
 
 
-def test_a_study_draws_what_its_law_of_the_opening_reads(study):
+def test_a_study_samples_what_its_law_of_the_opening_reads(study):
     """The angle of the one law, passages, volumes and gas in the shell of the other, which has
     flows; the gas's state has no range."""
     inertia = study.replace({"machine.gas.opening_law": "inertia"})

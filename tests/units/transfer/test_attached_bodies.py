@@ -24,7 +24,7 @@ from vibroacoustics.study.loading import load_machine, load_study
 from vibroacoustics.transfer import on_mounts
 from vibroacoustics.transfer.transient import transient
 from vibroacoustics.transfer.tube import tube_stiffness
-from vibroacoustics.uncertainty.drawn import drawn_cases
+from vibroacoustics.uncertainty.sampled_cases import sampled_cases
 
 MACHINE = load_machine(MACHINE_FILE)
 HERMETIC = load_machine(ROOT / "data" / "machines" / "dagilis_slider_link.toml")
@@ -303,10 +303,10 @@ def test_samples_reach_attached_bodies_and_their_mass():
     assert given.revolution is cases[2900.0, "none"].revolution
     nominal = Cases(cases, {}, {key: {} for key in cases})
     sample = {("housing", "mass_kg"): 1.5 * mass}
-    sampled = drawn_cases(nominal, study, sample).cases[2900.0, "follower"]
+    sampled = sampled_cases(nominal, study, sample).cases[2900.0, "follower"]
     assert sampled.machine.attached == attached(mass_kg=0.015 * mass)
     assert sampled.added.figures["added_mass_kg"] == pytest.approx(0.015 * mass, rel=1e-12)
-    other = drawn_cases(nominal, study, {("mounts", "pitch_m"): 0.2}).cases[2900.0, "follower"]
+    other = sampled_cases(nominal, study, {("mounts", "pitch_m"): 0.2}).cases[2900.0, "follower"]
     assert other.machine.attached == given.machine.attached
 
 

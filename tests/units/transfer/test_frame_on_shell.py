@@ -245,9 +245,9 @@ def test_contacts_give_what_natural_motions_of_all_together_give(on_shell):
 
 def test_systems_side_by_side():
     """Complex symmetric matrices as a library solves them, more of them than go at a time."""
-    drawn = np.random.default_rng(1).normal(size=(4, 200, 7, 7))
-    matrix = drawn[0] + drawn[0].swapaxes(1, 2) + 1j * (drawn[1] @ drawn[1].swapaxes(1, 2))
-    right = np.moveaxis(drawn[2] + 1j * drawn[3], 0, -1)[:, :3]
+    sampled = np.random.default_rng(1).normal(size=(4, 200, 7, 7))
+    matrix = sampled[0] + sampled[0].swapaxes(1, 2) + 1j * (sampled[1] @ sampled[1].swapaxes(1, 2))
+    right = np.moveaxis(sampled[2] + 1j * sampled[3], 0, -1)[:, :3]
     rows, columns = upper_pairs(7)
     packed = matrix[:, rows, columns].T
     got = np.ascontiguousarray(right)

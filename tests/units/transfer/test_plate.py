@@ -203,9 +203,9 @@ def test_variance_by_random_matrices():
 
 
 def test_ranges_hold_the_mean_and_nine_in_ten():
-    draws = np.random.default_rng(2).lognormal(-0.5 * np.log(2.0), np.sqrt(np.log(2.0)), 40000)
+    samples = np.random.default_rng(2).lognormal(-0.5 * np.log(2.0), np.sqrt(np.log(2.0)), 40000)
     low, high = level_range(np.array(1.0), 0.0)
-    expected = 10.0 * np.log10(np.quantile(draws, [0.05, 0.95]) / draws.mean())
+    expected = 10.0 * np.log10(np.quantile(samples, [0.05, 0.95]) / samples.mean())
     np.testing.assert_allclose([low, high], expected, atol=0.15)
     np.testing.assert_allclose(level_range(np.array(0.0), 5.0), [-8.224, 8.224], atol=1e-3)
     assert np.all(np.diff(relative_variance(np.geomspace(0.01, 1e3, 100))) < 0.0)

@@ -7,7 +7,7 @@ import pytest
 
 from vibroacoustics.levels.agreement import PRIOR_NAMES
 from vibroacoustics.study.uncertainty import Range
-from vibroacoustics.uncertainty.bank import MOST_DRAWS, MOST_ROUNDS, Weighted, bank_of
+from vibroacoustics.uncertainty.bank import MOST_ROUNDS, MOST_SAMPLES, Weighted, bank_of
 
 GAIN = Range(table="variation", field="mobility_change_db", lowest=-10.0, highest=10.0)
 
@@ -25,7 +25,7 @@ def batches():
 def by_gain(batch, before, expected):
     """The sampled gain is the level relative to the published one."""
     assert expected > before + len(batch)
-    gain = np.array([draw["variation", "mobility_change_db"] for draw in batch])
+    gain = np.array([sample["variation", "mobility_change_db"] for sample in batch])
     near = -0.5 * (gain / 2.0) ** 2
     return Weighted(
         [{}] * len(batch), [None] * len(batch), gain, np.array([near, near - 0.1 * gain])
@@ -40,13 +40,13 @@ def without_solution(batch, *_):
 def test_samples_are_added_until_enough_are_effective():
     bank = bank_of(batches(), by_gain, PRIOR_NAMES, wanted=20)
     assert 20.0 <= bank.effective < 40.0
-    assert len(bank.draws) > 20
+    assert len(bank.samples) > 20
     assert bank.suffices
     labelled = bank.labelled([GAIN], 56.0)
-    assert labelled["bank_weight"].values == pytest.approx(bank.weight)
+    assert labelled["prior_sample_weight"].values == pytest.approx(bank.weight)
     assert bank.weight.max(axis=1).tolist() == [1.0, 1.0]
-    assert labelled["bank_level"].values == pytest.approx(bank.modelled_db + 56.0)
-    assert labelled["bank_value"].values[:, 0] == pytest.approx(bank.modelled_db)
+    assert labelled["prior_sample_level"].values == pytest.approx(bank.modelled_db + 56.0)
+    assert labelled["prior_sample_value"].values[:, 0] == pytest.approx(bank.modelled_db)
 
 
 def test_chosen_samples_are_as_many_as_their_weights_say():
@@ -71,8 +71,8 @@ def test_weights_far_from_the_data_count_relative_to_one_another():
 
 def test_a_model_without_solutions_does_not_suffice():
     bank = bank_of(batches(), without_solution, PRIOR_NAMES, wanted=20)
-    assert len(bank.draws) == 20 * MOST_ROUNDS
+    assert len(bank.samples) == 20 * MOST_ROUNDS
     assert bank.effective == 0.0
     assert not bank.suffices
     more = bank_of(batches_of(2000), without_solution, PRIOR_NAMES, 2000)
-    assert len(more.draws) == MOST_DRAWS
+    assert len(more.samples) == MOST_SAMPLES

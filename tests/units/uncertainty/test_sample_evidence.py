@@ -25,10 +25,10 @@ SPEED = 2900.0
 
 def levels_of(settings, samples=400, sources=3):
     """Levels of discrepancies, shape (all discrepancies, source, band), and of what is added."""
-    drawn = [Discrepancy.of(settings, sources, number) for number in range(samples)]
+    sampled = [Discrepancy.of(settings, sources, number) for number in range(samples)]
     return (
-        10.0 * np.log10(np.concatenate([one.gain for one in drawn])),
-        10.0 * np.log10(np.concatenate([one.added for one in drawn])),
+        10.0 * np.log10(np.concatenate([one.gain for one in sampled])),
+        10.0 * np.log10(np.concatenate([one.added for one in sampled])),
     )
 
 
@@ -129,17 +129,17 @@ def test_pairs_are_picked_as_their_weights_say():
     data, prior = evidence.published.data, evidence.published.priors[:1]
     exact = np.exp(evidence.log_weights(sound, machine, 0, data, prior))[0].sum(axis=0)
     priors = evidence.published.priors
-    drawn = [
+    sampled = [
         evidence.pairs(evidence.log_weights(sound, machine, number, data, priors), number)
         for number in range(200)
     ]
-    levels = np.concatenate([one.unmodelled_db for one in drawn])
+    levels = np.concatenate([one.unmodelled_db for one in sampled])
     mean = np.average(LEVELS_DB, weights=exact)
     deviation = np.sqrt(np.average((LEVELS_DB - mean) ** 2, weights=exact))
     assert levels.size == 200 * PAIRS
     assert levels.mean() == pytest.approx(mean, abs=4.0 * deviation / np.sqrt(levels.size))
     assert levels.std() == pytest.approx(np.hypot(deviation, 1.0 / np.sqrt(12.0)), rel=0.05)
-    assert drawn[0].weight[0].tolist() == [1.0] * PAIRS
+    assert sampled[0].weight[0].tolist() == [1.0] * PAIRS
 
 
 def test_a_sample_without_solution_has_no_weight_beside_a_baseline():

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from drawn_chain import DrawnChain, of_few_ranges
+from sampled_chain import SampledChain, of_few_ranges
 from scipy.stats import qmc
 from sources_study import SOURCES_STUDY, made_up_modes
 
 from vibroacoustics.study.loading import load_study
-from vibroacoustics.study.sampling import draw_at
+from vibroacoustics.study.sampling import sample_at
 from vibroacoustics.uncertainty.shares import ASKED, BINS, information_of, shares_of
 
 FACTORS = np.array([0.0, 1.0, 4.5, 9.0, 99.0])
@@ -20,8 +20,8 @@ CHAIN = {
 }
 
 
-def hypercube(draws, unknowns, seed=0):
-    return 2.0 * qmc.LatinHypercube(unknowns, rng=seed).random(draws) - 1.0
+def hypercube(samples, unknowns, seed=0):
+    return 2.0 * qmc.LatinHypercube(unknowns, rng=seed).random(samples) - 1.0
 
 
 def ishigami(unit):
@@ -197,10 +197,12 @@ def test_shares_of_the_chain_are_those_of_pick_freeze():
     alone = {f"sources.{name}": None for name in ("keys", "motor", "torque_ripple")}
     study = study.replace({**alone, "operation.supply_frequency_hz": None})
     study = of_few_ranges(study.replace({"operation.stopping": False}), CHAIN)
-    chain = DrawnChain.of(study, lambda one, *_: (made_up_modes(one), False))
-    draws = chain.hypercube(1024)
-    values = np.array([[draw[one.table, one.field] for one in study.ranges] for draw in draws])
-    shares = shares_of(values, chain.modelled_db(draws), np.ones(1024))
+    chain = SampledChain.of(study, lambda one, *_: (made_up_modes(one), False))
+    samples = chain.hypercube(1024)
+    values = np.array(
+        [[sample[one.table, one.field] for one in study.ranges] for sample in samples]
+    )
+    shares = shares_of(values, chain.modelled_db(samples), np.ones(1024))
     frozen = pick_freeze(chain, 512)
     print(f"\nshares {shares.share.round(3)}, pick-freeze {frozen.round(3)}")
     assert shares.share == pytest.approx(frozen, abs=0.05)
@@ -223,5 +225,5 @@ def pick_freeze(chain, count):
 
 
 def level(chain, shares):
-    """Modelled level of draws at these shares of the ranges, shape (draw,), dB."""
-    return chain.modelled_db([draw_at(chain.study.ranges, row) for row in shares])
+    """Modelled level of samples at these shares of the ranges, shape (sample,), dB."""
+    return chain.modelled_db([sample_at(chain.study.ranges, row) for row in shares])

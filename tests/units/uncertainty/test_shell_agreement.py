@@ -1,4 +1,4 @@
-"""Draws of a shell against hammer tests: features, likelihood, and a draw that is the truth."""
+"""Samples of a shell against hammer tests: features, likelihood, and a sample that is the truth."""
 
 from dataclasses import replace
 from functools import cache
@@ -12,7 +12,7 @@ import vibroacoustics as va
 from vibroacoustics.base.quantiles import weighted_quantiles
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.stages.hammer_test import hammer_test
-from vibroacoustics.study.draws import batches_of_draws
+from vibroacoustics.study.samples import batches_of_samples
 from vibroacoustics.transfer.wall_mobility import wall_of, wall_points
 from vibroacoustics.uncertainty.hammer_test import CHANCE
 from vibroacoustics.uncertainty.shell_agreement import Tolerances, shell_agreement
@@ -77,10 +77,10 @@ def study_and_path():
     return study, path_of(study)
 
 
-def draws(count, hypercube=0):
+def samples(count, hypercube=0):
     study, _ = study_and_path()
     uncertainty = study.uncertainty.model_copy(update={"random_samples": count})
-    batches = batches_of_draws(study.model_copy(update={"uncertainty": uncertainty}))
+    batches = batches_of_samples(study.model_copy(update={"uncertainty": uncertainty}))
     return [next(batches) for _ in range(hypercube + 1)][-1]
 
 
@@ -112,7 +112,7 @@ def test_a_hammer_test_is_read_with_its_turned_points(tmp_path):
 
 
 def weighed(tmp_path, truth, candidates, number, tolerances):
-    """Draws by the test of a truth with 3 % noise: their likelihoods."""
+    """Samples by the test of a truth with 3 % noise: their likelihoods."""
     study, path = study_and_path()
     file = write(tmp_path / "h.uff", mobilities(study, path, truth), 0.03, number)
     test = hammer_test(study.replace({"measured.shell": table(file)}), path)
@@ -122,19 +122,19 @@ def weighed(tmp_path, truth, candidates, number, tolerances):
     return np.array([one.likelihood for one in agreements])
 
 
-def features_of(drawn):
+def features_of(sampled):
     study, path = study_and_path()
-    return [features(mobilities(study, path, one).reshape(9, -1), FREQUENCY) for one in drawn]
+    return [features(mobilities(study, path, one).reshape(9, -1), FREQUENCY) for one in sampled]
 
 
-def held_and_width(tmp_path, drawn, truths, tolerances=TOLERANCES):
+def held_and_width(tmp_path, sampled, truths, tolerances=TOLERANCES):
     """Whether the weighted 90 % band holds each truth, and its width over that before."""
-    known = features_of(drawn)
+    known = features_of(sampled)
     held, width = [], []
     for number, truth in enumerate(truths):
         weight = weighed(tmp_path, truth, known, number, tolerances)
         for key in KEYS:
-            values = np.array([one[key] for one in drawn])
+            values = np.array([one[key] for one in sampled])
             low, high = weighted_quantiles(values, weight, [0.05, 0.95])
             before = np.quantile(values, [0.05, 0.95])
             held.append(low <= truth[key] <= high)
@@ -145,17 +145,17 @@ def held_and_width(tmp_path, drawn, truths, tolerances=TOLERANCES):
 @pytest.mark.long
 def test_the_truth_stays_in_bands_that_become_narrower(tmp_path):
     """Of three unknowns with wide tolerances; all of them are in the long test."""
-    drawn, truths = (
-        [{key: one[key] for key in KEYS} for one in draws(250, hypercube)] for hypercube in (0, 1)
+    sampled, truths = (
+        [{key: one[key] for key in KEYS} for one in samples(250, hypercube)] for hypercube in (0, 1)
     )
-    held, width = held_and_width(tmp_path, drawn, truths[:4], Tolerances(4.0, 0.05, 0.5))
+    held, width = held_and_width(tmp_path, sampled, truths[:4], Tolerances(4.0, 0.05, 0.5))
     assert held.mean() >= 0.8
     assert np.all(np.median(width, axis=0) < 0.9)
 
 
 @pytest.mark.long
 def test_bands_hold_nine_of_ten_truths(tmp_path):
-    held, width = held_and_width(tmp_path, draws(2000), draws(200, 1)[:60])
+    held, width = held_and_width(tmp_path, samples(2000), samples(200, 1)[:60])
     assert np.all(held.mean(axis=0) >= 0.85)
     assert np.all(np.median(width, axis=0) < 0.65)
 
@@ -168,12 +168,12 @@ WIDE = {"gain_tolerance_db": 20.0, "frequency_tolerance_percent": 50.0,
 
 def test_a_run_tells_before_and_after(tmp_path):
     study, path = study_and_path()
-    file = write(tmp_path / "h.uff", mobilities(study, path, draws(4)[0]), 0.03)
+    file = write(tmp_path / "h.uff", mobilities(study, path, samples(4)[0]), 0.03)
     results = run_made_up(study.replace({**FEW, "measured.shell": table(file, **WIDE)}))
     assert results["shell_likelihood"].attrs["mobilities"] == 9
-    count = results.sizes["shell_draw"]
+    count = results.sizes["shell_sample"]
     assert results["shell_value"].shape == (count, results.sizes["shell_parameter"])
-    assert results.sizes["bank_draw"] <= count
+    assert results.sizes["prior_sample"] <= count
     (section,) = [
         one for one in SECTIONS.values() if one.applies(results) and "hammer" in one.title
     ]
@@ -191,21 +191,21 @@ def test_weights_of_those_that_go_on_are_right_on_average(tmp_path):
     L (c - L); the bound is four standard deviations of the share.
     """
     study, path = study_and_path()
-    file = write(tmp_path / "h.uff", mobilities(study, path, draws(4)[0]))
+    file = write(tmp_path / "h.uff", mobilities(study, path, samples(4)[0]))
     test = hammer_test(study.replace({"measured.shell": table(file)}), path)
     likelihood = np.random.default_rng(1).uniform(size=4000) ** 8.0
     agreement = test.of_machine(study.machine)
     made = iter(likelihood)
-    test._agreement = lambda draw: replace(agreement, likelihood=float(next(made)))
+    test._agreement = lambda sample: replace(agreement, likelihood=float(next(made)))
     batches = ([{("a", "b"): value} for value in part] for part in np.split(likelihood, 40))
-    samples = [draw for batch in test.agreeing(batches, 20, lambda *_: None) for draw in batch]
-    weight = test.likelihood(0, len(samples))
+    gone = [sample for batch in test.agreeing(batches, 20, lambda *_: None) for sample in batch]
+    weight = test.likelihood(0, len(gone))
     least = CHANCE * likelihood.max()
     unlikely = likelihood[likelihood < least]
     share = unlikely.sum() / likelihood.sum()
     deviation = (1.0 - share) * np.sqrt(np.sum(unlikely * (least - unlikely))) / likelihood.sum()
-    below = np.array([draw["a", "b"] < least for draw in samples])
-    assert len(samples) < 2000
+    below = np.array([sample["a", "b"] < least for sample in gone])
+    assert len(gone) < 2000
     assert np.average(below, weights=weight) == pytest.approx(share, abs=4.0 * deviation)
 
 
@@ -236,10 +236,10 @@ def test_what_is_wrong_is_one_line(tmp_path, values, words):
     assert words in str(raised.value)
 
 
-def test_no_draw_that_agrees_is_one_line(tmp_path):
+def test_no_sample_that_agrees_is_one_line(tmp_path):
     study, path = study_and_path()
     file = write(tmp_path / "h.uff", 1e4 * mobilities(study, path, {}))
     test = hammer_test(study.replace({"measured.shell": table(file)}), path)
-    few = iter([draws(4)])
-    with pytest.raises(va.ParameterError, match="none of 4 draws agrees with the hammer test"):
+    few = iter([samples(4)])
+    with pytest.raises(va.ParameterError, match="none of 4 samples agrees with the hammer test"):
         list(test.agreeing(few, 4, lambda *_: None))

@@ -41,8 +41,8 @@ class Column:
         without a balancer, `silent` where it is with the option
     applies : whether results have such a column
     position : from left to right; a stranger's are the last
-    band : variable whose band over the draws the tables show in place of the value, where there
-        are draws
+    band : variable whose band over the samples the tables show in place of the value, where there
+        are samples
 
     Examples
     --------

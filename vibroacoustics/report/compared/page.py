@@ -101,7 +101,7 @@ def _validation(compared: Compared) -> list[Part]:
         return []
     note = (
         "E = S − D; u is the root of the sum of squares of u_num (grids of the radiation), u_input "
-        "(spread of the draws; of levels in all) and u_D (scatter of the runs and specimens), in "
+        "(spread of the samples; of levels in all) and u_D (scatter of the runs and specimens), in "
         "the form of ASME V&V 20. What is not known counts as zero, so u is a lower limit."
     )
     table: Block = rungs_table("The study beside the recordings", rungs)

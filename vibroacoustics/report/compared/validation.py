@@ -11,7 +11,7 @@ from ...base.decibel import level_of_amplitude
 from ...results.figure_limits import PRESSURE, Compared
 from ..evidence import Rung, grid_error_db
 from ..order_tables import shown_speeds
-from ..study import has_draws
+from ..study import has_samples
 from .levels import levels_at
 from .orders import known_channels, loud_orders
 
@@ -95,12 +95,12 @@ def _numerical(study: xr.Dataset, channel: str) -> float:
 
 
 def _inputs(study: xr.Dataset, option: str, channel: str, speed: float) -> float:
-    """Spread of the total over the draws; 0 where nothing was drawn."""
-    if not has_draws(study):
+    """Spread of the total over the samples; 0 where nothing was sampled."""
+    if not has_samples(study):
         return 0.0
     receiver = channel.removeprefix(PRESSURE)
-    level = study["level_total_by_draw"].sel(option=option, receiver=receiver, speed=speed)
-    weight = study["draw_weight"].values[0]
+    level = study["level_total_by_sample"].sel(option=option, receiver=receiver, speed=speed)
+    weight = study["sample_weight"].values[0]
     counts = weight > 0.0
     values, weight = level.values[counts], weight[counts] / weight[counts].sum()
     return float(np.sqrt(weight @ (values - weight @ values) ** 2))

@@ -14,11 +14,11 @@ from ...base.quantiles import weighted_quantiles
 from ...base.rounding import LEVEL_FLOOR_DB
 from ...levels.by_source import membership
 from ...levels.measured_power import BANDS
-from ..drawn_words import not_drawn_sentence
-from ..study import has_draws, overall_noise, parameters
+from ..sampled_words import not_sampled_sentence
+from ..study import has_samples, overall_noise, parameters
 from .model import BandPower, SoundPower
 
-SHARE_OF_DRAWS: Final = 0.95
+SHARE_OF_SAMPLES: Final = 0.95
 """Of machines below L_WA + K (ISO 4871)."""
 _LEAST_K_DB: Final = 0.05
 """Of samples whose levels differ; less is no uncertainty that could be declared."""
@@ -125,7 +125,7 @@ def _modelled(case: xr.Dataset) -> Array:
 
 def _total(case: xr.Dataset, modelled: Array) -> Array:
     """Energies of model and rest, (band, microphone), re 20 µPa: where one stands, the baseline."""
-    remainder = _energies(case["remainder_band_level"].expand_dims(receiver=case["receiver"]))
+    remainder = _energies(case["unmodelled_band_level"].expand_dims(receiver=case["receiver"]))
     both = modelled + remainder
     if "baseline_band_level" not in case:
         return both
@@ -161,31 +161,31 @@ def _levels(
 
     Without samples the nominal levels and no K; no K either where the samples do not differ.
     """
-    if not has_draws(case):
+    if not has_samples(case):
         modelled = case["level_modelled"].sel(weighting="A").values
         return nominal, float(power_db(modelled, surface_m2)), None
-    weight = case["draw_weight"].values[0]
+    weight = case["sample_weight"].values[0]
     by_sample = np.stack(
         [
-            power_db(case[name].transpose("draw", "receiver").values, surface_m2)
-            for name in ("level_total_by_draw", "level_modelled_by_draw")
+            power_db(case[name].transpose("sample", "receiver").values, surface_m2)
+            for name in ("level_total_by_sample", "level_modelled_by_sample")
         ],
         axis=-1,
     )
-    (level, alone), (limit, _) = weighted_quantiles(by_sample, weight, (0.5, SHARE_OF_DRAWS))
+    (level, alone), (limit, _) = weighted_quantiles(by_sample, weight, (0.5, SHARE_OF_SAMPLES))
     k_db = float(limit - level)
     return float(level), float(alone), k_db if k_db > _LEAST_K_DB else None
 
 
 def _uncertainty_words(case: xr.Dataset, nominal: float, k_db: float | None) -> str:
-    if not has_draws(case):
-        why = not_drawn_sentence(case)
+    if not has_samples(case):
+        why = not_sampled_sentence(case)
         return "nothing was sampled: K is not known" + (f". {why[:-1]}" if why else "")
-    weight = case["draw_weight"].values[0]
+    weight = case["sample_weight"].values[0]
     none = overall_noise(case) is None and "baseline_band_level" not in case
     how = "equally weighted" if none else "weighted by the published level or the baseline"
     k_words = (
-        f"K is the {SHARE_OF_DRAWS:.0%} quantile less L_WA"
+        f"K is the {SHARE_OF_SAMPLES:.0%} quantile less L_WA"
         if k_db is not None
         else "K is not known: the samples do not differ"
     )

@@ -75,7 +75,7 @@ def _best(search: xr.Dataset, designs: Evaluated) -> list[Block]:
         Text(
             f"{designs.count} designs were evaluated, {allowed} meet every constraint"
             f"{_failed(search)}. As meant: a piece without tolerances. Promised: "
-            f"{search.attrs['promise_draws']} fresh pieces, not seen by the search; 95 % limits "
+            f"{search.attrs['promise_samples']} fresh pieces, not seen by the search; 95 % limits "
             f"of the number of pieces alone: {_precision(search) or 'none, nothing scatters'}.",
             "note",
         ),
@@ -93,7 +93,7 @@ def _headline(search: xr.Dataset, designs: Evaluated) -> str:
 
 
 def _precision(search: xr.Dataset) -> str:
-    """How far a promised value may be off for the number of draws, in decibels where it is one."""
+    """How far a promised value may be off for the number of samples, in decibels if it is one."""
     low, value, high = (search[f"wanted_promised{end}"].values for end in ("_low", "", "_high"))
     each = np.maximum(high - value, value - low).max(axis=0)
     units, names = search["wanted_unit"].values, search["wanted"].values

@@ -4,7 +4,7 @@ import xarray as xr
 
 from ...base.vocabulary import REFERENCE_OPTION
 from ..bands import band_words
-from ..study import catalogue_receiver, has_draws, has_sources
+from ..study import catalogue_receiver, has_samples, has_sources
 from .campbell import LOUD_DB, campbell
 from .levels_over_speed import levels_over_speed, source_levels_over_speed
 from .orders_over_speed import over_speed_picture
@@ -24,10 +24,10 @@ def over_speed_figures(results: xr.Dataset) -> list[Picture]:
 
 
 def _bands(results: xr.Dataset) -> str:
-    if not has_draws(results):
+    if not has_samples(results):
         return ""
     return (
-        f" Lines: values as given. Bands: {band_words(results)} of the draws, which count by how "
+        f" Lines: values as given. Bands: {band_words(results)} of the samples, which count by how "
         "well they agree with what was published or measured."
     )
 

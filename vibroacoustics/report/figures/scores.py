@@ -8,7 +8,7 @@ from matplotlib import colormaps
 from matplotlib.figure import Figure
 
 from ...scoring.scores import ANY_WEIGHTS
-from ..study import has_draws, options
+from ..study import has_samples, options
 from .needs import needs
 from .panels import one_panel, stacked_bars
 from .style import COLOURS, Picture, png, wrap
@@ -57,14 +57,14 @@ def score_figures(results: xr.Dataset) -> list[Picture]:
     ]
     if "rank_acceptability" not in results:
         return pictures
-    drawn = "draws and weights together" if has_draws(results) else "weights"
+    sampled = "samples and weights together" if has_samples(results) else "weights"
     return [
         *pictures,
         Picture(
             "ranks",
             "Probability of every rank of every option as a stacked bar, the first rank leftmost; "
             "the numbers are in the table of ranks.",
-            f"Probability of each rank over {drawn}: the more of the dark left end, the surer an "
+            f"Probability of each rank over {sampled}: the more of the dark left end, the surer an "
             "option is among the first.",
             png(rank_acceptability(results)),
         ),
@@ -75,7 +75,7 @@ def score_figures(results: xr.Dataset) -> list[Picture]:
 def rank_acceptability(results: xr.Dataset) -> Figure:
     """Probability of each rank, a bar an option, the first rank leftmost.
 
-    Over draws and weights of the criteria together (stochastic multicriteria acceptability
+    Over samples and weights of the criteria together (stochastic multicriteria acceptability
     analysis).
 
     Parameters

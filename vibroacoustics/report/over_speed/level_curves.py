@@ -9,7 +9,7 @@ import xarray as xr
 from ...base.arrays import Array
 from ...base.vocabulary import REFERENCE_OPTION
 from ..bands import quantiles
-from ..study import a_weighted, catalogue_receiver, has_draws, options, source_name
+from ..study import a_weighted, catalogue_receiver, has_samples, options, source_name
 from ..titles import chosen
 
 MOST_CURVES: Final = 8
@@ -25,7 +25,7 @@ class LevelCurve(NamedTuple):
     label : of what
     speed_rpm : rising, shape (point,)
     level_db : shape (point,)
-    band_db : lowest and highest of the draws, shape (2, point); none without draws
+    band_db : lowest and highest of the samples, shape (2, point); none without samples
     """
 
     label: str
@@ -49,7 +49,7 @@ def option_curves(
     at = {"receiver": chosen(results, "receiver", receiver or catalogue_receiver(results))}
     names = [chosen(results, "option", one) for one in of] or options(results)[:MOST_CURVES]
     given = a_weighted(results[name].sel(at))
-    bands = quantiles(results, name).sel(at) if has_draws(results) else None
+    bands = quantiles(results, name).sel(at) if has_samples(results) else None
     return [_curve(given, bands if one == names[0] else None, one, option=one) for one in names]
 
 
@@ -69,7 +69,7 @@ def source_curves(
         "option": chosen(results, "option", option),
     }
     given = results["source_level"].sel(at)
-    bands = quantiles(results, "source_level").sel(at) if has_draws(results) else None
+    bands = quantiles(results, "source_level").sel(at) if has_samples(results) else None
     return [
         _curve(given, bands, source_name(results, source), sound_source=source)
         for source in map(str, given["sound_source"].values)

@@ -21,11 +21,11 @@ def _blocks(results: xr.Dataset) -> list[Block]:
     return [
         Text(
             "Simulation S beside data D, in the form of ASME V&V 20: the error E = S − D, and the "
-            "standard uncertainties of the numerics, of the inputs (all values with a range, drawn "
-            "evenly before any data are used) and of the data; u is the root of the sum of their "
-            f"squares. S agrees with D within a tolerance T where |E| + {ONE_SIDED:g} u ≤ T, with "
-            f"T = {LEVEL_TOLERANCE_DB:g} dB for levels and {percent(FORCE_TOLERANCE)} for forces; "
-            f"it differs where |E| > {COVERAGE:g} u; else that is undecided. A force that "
+            "standard uncertainties of the numerics, of the inputs (all values with a range, "
+            "sampled evenly before any data are used) and of the data; u is the root of the sum of "
+            f"their squares. S agrees with D within a tolerance T where |E| + {ONE_SIDED:g} u ≤ T, "
+            f"with T = {LEVEL_TOLERANCE_DB:g} dB for levels and {percent(FORCE_TOLERANCE)} for "
+            f"forces; it differs where |E| > {COVERAGE:g} u; else that is undecided. A force that "
             "is printed is no measurement.",
             "note",
         ),

@@ -39,8 +39,8 @@ def _blocks(results: xr.Dataset) -> list[Block]:
             "sound of a machine that shakes along x, y and z with equal powers. The sound of the "
             "plate is that of its mean power, sent out beside the machine's foot (assumed); where "
             "modes of the room cancel, one listener has 20 dB and more less of it than another. "
-            "Bands of the draws are those at the published microphone, of the model and of what it "
-            "does not explain each. "
+            "Bands of the samples are those at the published microphone, of the model and of what "
+            "it does not explain each. "
             f"{loudness_words(results)}",
             "note",
         ),

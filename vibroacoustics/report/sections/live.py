@@ -13,7 +13,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
     return [
         Text(
             "In report.html, where a browser runs its script, levels, spectrum and sound follow "
-            "sliders. They are those of the pipeline with the values as given, without draws, at "
+            "sliders. They are those of the pipeline with the values as given, without samples, at "
             f"computed speeds and at {MOST_MICROPHONES} microphones at most.",
             "note",
         ),

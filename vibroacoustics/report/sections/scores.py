@@ -11,16 +11,16 @@ from . import Section
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
-    draws = parameters(results)["scoring"]["random_weightings"]
+    weightings = parameters(results)["scoring"]["random_weightings"]
     return [
         Text(
             "Each criterion gives a utility from 0 (worst) to 1 (best) on a fixed scale. The "
             "weighted sum adds the utilities times their weights; TOPSIS measures closeness to "
             "the ideal option. Scale and weights are a choice of the study, not a "
-            f"result.{scores.scope_words(results)} So each rank has a probability: of each draw "
-            f"of the values that are not known, by its weight, with {draws} weightings drawn "
-            "evenly from all that there are (stochastic multicriteria acceptability analysis, "
-            "SMAA-2)."
+            f"result.{scores.scope_words(results)} So each rank has a probability: of each sample "
+            f"of the values that are not known, by its weight, with {weightings} weightings "
+            "sampled evenly from all that there are (stochastic multicriteria acceptability "
+            "analysis, SMAA-2)."
         ),
         scores.scores_table(results),
         *filter(None, [scores.acceptability_table(results)]),

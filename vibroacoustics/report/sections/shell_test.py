@@ -13,7 +13,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         Text(shell_test.test_sentence(results)),
         Text(shell_test.peaks_sentence(results)),
         shell_test.before_and_after(results),
-        Text(shell_test.draws_sentence(results), "note"),
+        Text(shell_test.samples_sentence(results), "note"),
     ]
 
 

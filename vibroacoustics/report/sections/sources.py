@@ -13,7 +13,7 @@ from ..speeds import chosen_speeds
 from ..study import few_speeds, has_sources, overall_noise
 from . import Section
 
-_REMAINDER: Final = " The remainder is what each draw leaves of the published level."
+_REMAINDER: Final = " The remainder is what each sample leaves of the published level."
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:

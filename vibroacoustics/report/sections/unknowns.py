@@ -9,10 +9,10 @@ from . import Section
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
-    draws = (
-        "No level is published: all draws count alike."
+    samples = (
+        "No level is published: all samples count alike."
         if list(results["level_share"]["knowledge"].values) == [unknowns.BEFORE]
-        else "Values before and after are those of all draws at the point of the published "
+        else "Values before and after are those of all samples at the point of the published "
         "level, after by their weights."
     )
     sentence = unknowns.measure_next_sentence(results)
@@ -24,7 +24,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         Text(
             "A share is what the variance is expected to lose once the unknown is known (first "
             "order), with its 80 % bootstrap interval. It is resolved where this interval lies "
-            f"above what chance gives the largest share. {draws}",
+            f"above what chance gives the largest share. {samples}",
             "note",
         ),
     ]

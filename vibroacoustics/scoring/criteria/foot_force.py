@@ -4,7 +4,7 @@ import xarray as xr
 
 from ...base.registry import register
 from ...study.criterion import Criterion
-from ..over_speeds import largest_by_draw
+from ..over_speeds import largest_by_sample
 
 
 @register
@@ -20,6 +20,6 @@ class FootForce(Criterion):
         """Largest 1x force into a foot, N."""
         return results["foot_force_amplitude"].sel(order=1).max(("speed", "foot"))
 
-    def by_draw(self, results: xr.Dataset) -> xr.DataArray | None:
-        """Largest 1x force into a foot in each draw, N."""
-        return largest_by_draw(results, "foot_force_1x_by_draw")
+    def by_sample(self, results: xr.Dataset) -> xr.DataArray | None:
+        """Largest 1x force into a foot in each sample, N."""
+        return largest_by_sample(results, "foot_force_1x_by_sample")

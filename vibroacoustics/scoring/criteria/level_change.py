@@ -25,9 +25,9 @@ class LevelChange(Criterion):
         """Change against `none`, dB."""
         return _worst_change(results["level_modelled"].sel(weighting="A"))
 
-    def by_draw(self, results: xr.Dataset) -> xr.DataArray:
-        """Change against `none` in each draw, dB."""
-        return _worst_change(results["level_modelled_by_draw"])
+    def by_sample(self, results: xr.Dataset) -> xr.DataArray:
+        """Change against `none` in each sample, dB."""
+        return _worst_change(results["level_modelled_by_sample"])
 
 
 def _worst_change(level: xr.DataArray) -> xr.DataArray:

@@ -4,7 +4,7 @@ import xarray as xr
 
 from ...base.registry import register
 from ...study.criterion import Criterion
-from ..over_speeds import largest_by_draw
+from ..over_speeds import largest_by_sample
 
 
 @register
@@ -20,6 +20,6 @@ class ResidualMoment(Criterion):
         """1x moment about the centre of mass, N m."""
         return results["moment_amplitude"].sel(order=1).max("speed")
 
-    def by_draw(self, results: xr.Dataset) -> xr.DataArray | None:
-        """1x moment about the centre of mass in each draw, N m."""
-        return largest_by_draw(results, "moment_1x_by_draw")
+    def by_sample(self, results: xr.Dataset) -> xr.DataArray | None:
+        """1x moment about the centre of mass in each sample, N m."""
+        return largest_by_sample(results, "moment_1x_by_sample")

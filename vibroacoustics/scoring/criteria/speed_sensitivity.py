@@ -26,9 +26,9 @@ class SpeedSensitivity(Criterion):
         """Largest minus smallest change, dB."""
         return _spread(results["foot_force_amplitude"].sel(order=1).max("foot"))
 
-    def by_draw(self, results: xr.Dataset) -> xr.DataArray | None:
-        """Largest minus smallest change in each draw, dB; none where the force was not drawn."""
-        name = "foot_force_1x_by_draw"
+    def by_sample(self, results: xr.Dataset) -> xr.DataArray | None:
+        """Largest minus smallest change in each sample, dB; none if the force was not sampled."""
+        name = "foot_force_1x_by_sample"
         return _spread(results[name]) if name in results else None
 
 

@@ -103,7 +103,7 @@ class GasInShell:
         return DrivenGas(squares, at_source, at_tube, on_modes, tube_area_m2, quality_ratio)
 
     def _driven_at(self, radius_m: float, height_m: float) -> Sequence[_OrderWithSource]:
-        """All orders with a source at a place; the last place is kept, as most draws share it."""
+        """All orders with a source at a place; the last place is kept, as most samples share it."""
         opening = radius_m, height_m
         for kept, every in self._last.copy():
             if kept == opening:

@@ -13,111 +13,113 @@ from pydantic import ValidationError
 from ..base.errors import ParameterError
 from ..base.parameters import Parameters
 from ..machine.machine import Machine
-from .sampling import Draw, latin_hypercubes, narrowed
+from .sampling import Sample, latin_hypercubes, narrowed
 from .study import Study
 
 MOST_ROUNDS: Final = 20
-"""Of sampling anew for draws that contradict themselves."""
+"""Of sampling anew for samples that contradict themselves."""
 
 Table = TypeVar("Table", bound=Parameters)
 
 
 @dataclass(frozen=True)
-class Sample:
-    """Draws that the machine and its sources can take.
+class SampleSet:
+    """Samples that the machine and its sources can take.
 
     Attributes
     ----------
-    draws : as many as the study asks for
+    samples : as many as the study asks for
     refused : why others were not taken, one line each
     """
 
-    draws: list[Draw]
+    samples: list[Sample]
     refused: tuple[str, ...]
 
     @property
     def tried(self) -> int:
-        """All draws, with those that were not taken."""
-        return len(self.draws) + len(self.refused)
+        """All samples, with those that were not taken."""
+        return len(self.samples) + len(self.refused)
 
 
-def batches_of_draws(study: Study) -> Iterator[list[Draw]]:
-    """Latin hypercubes of draws, one after another, without those that contradict themselves."""
+def batches_of_samples(study: Study) -> Iterator[list[Sample]]:
+    """Latin hypercubes of samples, one after another, without those that contradict themselves."""
     for hypercube in latin_hypercubes(study.ranges, study.uncertainty):
-        drawn = (fitting(study, plain) for plain in hypercube)
-        yield [draw for draw in drawn if _why_not(study, draw) is None]
+        sampled = (fitting(study, plain) for plain in hypercube)
+        yield [sample for sample in sampled if _why_not(study, sample) is None]
 
 
-def draws_of(study: Study) -> Sample:
-    """The draws of a study: those that contradict themselves are drawn anew.
+def samples_of(study: Study) -> SampleSet:
+    """The samples of a study: those that contradict themselves are sampled anew.
 
-    First the ranges that other values limit are narrowed (`Machine.limits`): such a value is drawn
-    evenly from what the others leave of its range. Where all values fit together the sample is the
-    Latin hypercube itself.
+    First the ranges that other values limit are narrowed (`Machine.limits`): such a value is
+    sampled evenly from what the others leave of its range. Where all values fit together the
+    samples are the Latin hypercube itself.
 
     Raises
     ------
     ParameterError
-        Nearly no draw fits together.
+        Nearly no sample fits together.
     """
     wanted, ranges = study.uncertainty.random_samples, study.ranges
     if not ranges:
-        return Sample([], ())
+        return SampleSet([], ())
     hypercubes = latin_hypercubes(ranges, study.uncertainty)
-    draws: list[Draw] = []
+    samples: list[Sample] = []
     refused: list[str] = []
     for hypercube in islice(hypercubes, MOST_ROUNDS):
         for plain in hypercube:
-            draw = fitting(study, plain)
-            reason = _why_not(study, draw)
+            sample = fitting(study, plain)
+            reason = _why_not(study, sample)
             if reason is not None:
                 refused.append(reason)
-            elif len(draws) < wanted:
-                draws.append(draw)
-        if len(draws) == wanted:
-            return Sample(draws, tuple(refused))
+            elif len(samples) < wanted:
+                samples.append(sample)
+        if len(samples) == wanted:
+            return SampleSet(samples, tuple(refused))
     raise ParameterError(
-        f"{study.source_file}: uncertainty: {len(refused)} of {len(draws) + len(refused)} draws "
-        f"contradict themselves, most often {_most_often(refused)}; narrow the ranges"
+        f"{study.source_file}: uncertainty: {len(refused)} of {len(samples) + len(refused)} "
+        f"samples contradict themselves, most often {_most_often(refused)}; narrow the ranges"
     )
 
 
-def fitting(study: Study, draw: Draw) -> Draw:
-    """A draw with the values that others limit moved into what these leave of their ranges."""
-    drawn, machine = dict(draw), study.machine
+def fitting(study: Study, sample: Sample) -> Sample:
+    """A sample with the values that others limit moved into what these leave of their ranges."""
+    sampled, machine = dict(sample), study.machine
     ranges = {limits.name: limits for limits in study.ranges}
     for limit in machine.limits:
         limits = ranges.get(limit.name)
         if limits is None:
             continue
-        values = {f"{table}.{field}".lstrip("."): value for (table, field), value in drawn.items()}
-        others = _unchecked(machine, values | _derived(machine, values, drawn))
+        values = {
+            f"{table}.{field}".lstrip("."): value for (table, field), value in sampled.items()
+        }
+        others = _unchecked(machine, values | _derived(machine, values, sampled))
         key = (limits.table, limits.field)
-        drawn[key] = narrowed(limits, drawn[key], *limit.rule(others))
-    return drawn
+        sampled[key] = narrowed(limits, sampled[key], *limit.rule(others))
+    return sampled
 
 
 def warn_of_contradictions(study: Study) -> None:
-    """Tell in one line how many draws contradict themselves, and in what.
+    """Tell in one line how many samples contradict themselves, and in what.
 
     Raises
     ------
     ParameterError
         Nearly all do.
     """
-    sample = draws_of(study)
-    if sample.refused:
-        share = len(sample.refused) / sample.tried
+    sample_set = samples_of(study)
+    if sample_set.refused:
+        share = len(sample_set.refused) / sample_set.tried
         warnings.warn(
-            f"{study.source_file}: {len(sample.refused)} of {sample.tried} draws "
-            f"({100.0 * share:.0f} %) contradict themselves and are drawn anew, most often "
-            f"{_most_often(sample.refused)}",
+            f"{study.source_file}: {len(sample_set.refused)} of {sample_set.tried} samples "
+            f"({100.0 * share:.0f} %) contradict themselves and are sampled anew, most often "
+            f"{_most_often(sample_set.refused)}",
             stacklevel=3,
         )
 
 
-def with_draw(machine: Machine, given: Machine, draw: Draw) -> Machine:
-    """A machine with drawn values and what follows from them.
+def with_sample(machine: Machine, given: Machine, sample: Sample) -> Machine:
+    """A machine with sampled values and what follows from them.
 
     What an option has changed of the given machine stays changed.
 
@@ -125,7 +127,7 @@ def with_draw(machine: Machine, given: Machine, draw: Draw) -> Machine:
     ----------
     machine : as an option leaves it
     given : of the study
-    draw : values by table and field
+    sample : values by table and field
 
     Raises
     ------
@@ -134,30 +136,30 @@ def with_draw(machine: Machine, given: Machine, draw: Draw) -> Machine:
     """
     changed = {
         f"{table}.{field}".lstrip("."): value
-        for (table, field), value in draw.items()
+        for (table, field), value in sample.items()
         if _read(machine, table, field) == _read(given, table, field)
     }
     if not changed:
         return machine
-    return _replaced(machine, changed | _derived(machine, changed, draw))
+    return _replaced(machine, changed | _derived(machine, changed, sample))
 
 
-def _derived(machine: Machine, changed: Mapping[str, float], draw: Draw) -> dict[str, float]:
-    """What follows from the drawn values of a machine, in the order of `derived`.
+def _derived(machine: Machine, changed: Mapping[str, float], sample: Sample) -> dict[str, float]:
+    """What follows from the sampled values of a machine, in the order of `derived`.
 
-    They are not checked before: drawn values may contradict a given one that follows from them.
+    They are not checked before: sampled values may contradict a given one that follows from them.
     """
     follows: dict[str, float] = {}
-    drawn = _unchecked(machine, changed)
+    sampled = _unchecked(machine, changed)
     for derived in machine.derived:
         table, _, field = derived.name.rpartition(".")
         value = _read(machine, table, field)
-        if (table, field) in draw or value is None:
+        if (table, field) in sample or value is None:
             continue
-        before, after = derived.rule(machine), derived.rule(drawn)
+        before, after = derived.rule(machine), derived.rule(sampled)
         if before is not None and after is not None and before != after:
             follows[derived.name] = value * after / before
-            drawn = _unchecked(drawn, {derived.name: follows[derived.name]})
+            sampled = _unchecked(sampled, {derived.name: follows[derived.name]})
     return follows
 
 
@@ -205,10 +207,10 @@ def _by_table(values: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, dict
     return direct, inner
 
 
-def _why_not(study: Study, draw: Draw) -> str | None:
-    """Why the machine or a source cannot take a draw; none where they can."""
+def _why_not(study: Study, sample: Sample) -> str | None:
+    """Why the machine or a source cannot take a sample; none where they can."""
     try:
-        machine = with_draw(study.machine, study.machine, draw)
+        machine = with_sample(study.machine, study.machine, sample)
     except ParameterError as error:
         return str(error)
     reasons = ((name, source.why_not(machine)) for name, source in study.sources.items())
@@ -216,7 +218,7 @@ def _why_not(study: Study, draw: Draw) -> str | None:
 
 
 def _most_often(reasons: Sequence[str]) -> str:
-    """The reason that comes most often, whatever its numbers, with the numbers of one draw."""
+    """The reason that comes most often, whatever its numbers, with the numbers of one sample."""
     words = Counter(reason.partition(" = ")[0] for reason in reasons)
     ((first, _),) = words.most_common(1)
     return next(reason for reason in reasons if reason.partition(" = ")[0] == first)

@@ -1,4 +1,4 @@
-"""All draws side by side, and their values."""
+"""All samples side by side, and their values."""
 
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -14,15 +14,15 @@ from ..base.linear_algebra import one_thread_of_linear_algebra
 from ..base.processes import side_by_side
 from ..base.threads import processors
 from ..base.vocabulary import stamped
-from ..study.sampling import Draw
+from ..study.sampling import Sample
 from ..study.uncertainty import Range
 
 Result = TypeVar("Result")
 
 
-def of_every_draw(
-    draws: Sequence[Draw],
-    compute: Callable[[Draw], Result],
+def in_every_sample(
+    samples: Sequence[Sample],
+    compute: Callable[[Sample], Result],
     without_solution: Result,
     progress: Callable[[int], None],
 ) -> list[Result]:
@@ -32,16 +32,16 @@ def of_every_draw(
 
     Parameters
     ----------
-    draws : sets of values
+    samples : sets of values
     compute : called with one of them, in several processes or threads at once; gives what pickle
         takes
-    without_solution : in place of the result of a draw with which the machine cannot run
-    progress : called with the number of draws that are done
+    without_solution : in place of the result of a sample with which the machine cannot run
+    progress : called with the number of samples that are done
     """
 
-    def solved(draw: Draw) -> tuple[Result, str | None]:
+    def solved(sample: Sample) -> tuple[Result, str | None]:
         try:
-            return compute(draw), None
+            return compute(sample), None
         except (
             ParameterError,
             SolverError,
@@ -52,35 +52,37 @@ def of_every_draw(
     results: list[Result] = []
     failures: list[str] = []
     progress(0)
-    for result, failure in _in_parallel(solved, draws):
+    for result, failure in _in_parallel(solved, samples):
         results.append(result)
-        failures += [] if failure is None else [f"draw {len(results)}: {failure}"]
+        failures += [] if failure is None else [f"sample {len(results)}: {failure}"]
         progress(len(results))
     if failures:
         warnings.warn(
-            f"{len(failures)} of {len(draws)} draws have no solution and are left out, such as: "
-            f"{failures[0]}",
+            f"{len(failures)} of {len(samples)} samples have no solution and are left out, "
+            f"such as: {failures[0]}",
             stacklevel=2,
         )
     return results
 
 
-def _in_parallel(compute: Callable[[Draw], Result], draws: Sequence[Draw]) -> Iterator[Result]:
+def _in_parallel(
+    compute: Callable[[Sample], Result], samples: Sequence[Sample]
+) -> Iterator[Result]:
     """Compute in processes, which share no interpreter's lock, or in threads."""
     with one_thread_of_linear_algebra(), ThreadPoolExecutor(processors()) as threads:
-        yield from side_by_side(compute, draws, threads.map)
+        yield from side_by_side(compute, samples, threads.map)
 
 
-def drawn_values(ranges: Sequence[Range], draws: Sequence[Draw]) -> xr.Dataset:
-    """The values of all draws, labelled."""
+def sampled_values(ranges: Sequence[Range], samples: Sequence[Sample]) -> xr.Dataset:
+    """The values of all samples, labelled."""
     names = [limits.name for limits in ranges]
-    values = [[draw[limits.table, limits.field] for limits in ranges] for draw in draws]
-    coords = {"draw": np.arange(1, len(draws) + 1), "drawn_parameter": names}
-    return stamped({"drawn_value": values}, coords)
+    values = [[sample[limits.table, limits.field] for limits in ranges] for sample in samples]
+    coords = {"sample": np.arange(1, len(samples) + 1), "uncertain_parameter": names}
+    return stamped({"sampled_value": values}, coords)
 
 
 def errors_of_projection(ranges: Sequence[Range], errors: Mapping[str, float]) -> xr.Dataset:
-    """Errors of the values that are drawn by projection on modes, empty for others, labelled."""
+    """Errors of the values that are sampled by projection on modes, empty for others, labelled."""
     names = [limits.name for limits in ranges]
     values = [errors.get(name, np.nan) for name in names]
-    return stamped({"projection_error": values}, {"drawn_parameter": names})
+    return stamped({"projection_error": values}, {"uncertain_parameter": names})

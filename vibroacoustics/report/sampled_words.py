@@ -1,4 +1,4 @@
-"""Which values were drawn, which were not and why, and how exact the draws are."""
+"""Which values were sampled, which were not and why, and how exact the samples are."""
 
 from collections.abc import Iterable
 from typing import Any, Final
@@ -15,12 +15,12 @@ _TABLES: Final = {"variation": "path through the shell", "structure": "shell"}
 """Plain words for tables; others go by their name."""
 
 
-def drawn_sentences(results: xr.Dataset) -> list[str]:
-    """Values drawn, those drawn apart from what they follow from, projection, values held."""
+def sampled_sentences(results: xr.Dataset) -> list[str]:
+    """Values sampled, those sampled apart from what they follow from, projection, values held."""
     ranges = parameters(results)["ranges"]
     count = f"{len(ranges)} values are" if len(ranges) > 1 else "One value is"
     texts = [
-        f"{count} drawn from their ranges by Latin hypercube: {_listed(ranges)}.",
+        f"{count} sampled from their ranges by Latin hypercube: {_listed(ranges)}.",
         _independent(ranges),
         _projection(results),
         held_sentence(results),
@@ -29,22 +29,22 @@ def drawn_sentences(results: xr.Dataset) -> list[str]:
 
 
 def held_sentence(results: xr.Dataset) -> str:
-    """Values that have a range and are not drawn, with their ranges and the reasons."""
+    """Values that have a range and are not sampled, with their ranges and the reasons."""
     by_reason: dict[str, list[str]] = {}
     for item in parameters(results).get("held_ranges", ()):
         by_reason.setdefault(item["reason"], []).append(_with_range(item))
     if not by_reason:
         return ""
     texts = [f"{', '.join(items)}, which {reason}" for reason, items in by_reason.items()]
-    return f"Not drawn, though they have a range: {'; '.join(texts)}."
+    return f"Not sampled, though they have a range: {'; '.join(texts)}."
 
 
-def not_drawn_sentence(results: xr.Dataset) -> str:
-    """That ranges are not drawn without sources; empty where none is given, or sources are there.
+def not_sampled_sentence(results: xr.Dataset) -> str:
+    """That ranges are not sampled without sources; empty where none is given, or sources are there.
 
     Parameters
     ----------
-    results : of a run without draws
+    results : of a run without samples
     """
     count = sum(record["lowest"] is not None for record in parameters(results)["records"])
     if not count or has_sources(results):
@@ -53,7 +53,7 @@ def not_drawn_sentence(results: xr.Dataset) -> str:
         "1 value has a range; it is" if count == 1 else f"{count} values have a range; they are"
     )
     return (
-        f"{values} not drawn, so that nothing has a band: values are drawn only where a "
+        f"{values} not sampled, so that nothing has a band: values are sampled only where a "
         "study has sources of sound, tables [sources.NAME]."
     )
 
@@ -71,13 +71,13 @@ def _table(dotted: str) -> str:
 
 
 def named(dotted: str) -> str:
-    """Plain words for a drawn value by its dotted name, without its unit."""
+    """Plain words for a sampled value by its dotted name, without its unit."""
     table, _, field = dotted.rpartition(".")
     return f"{_table(table)} {labels.name(field).lower()}"
 
 
 def file_unit(results: xr.Dataset, dotted: str) -> tuple[str, float]:
-    """Symbol and factor to SI of the unit in which a file gives a drawn value; else SI."""
+    """Symbol and factor to SI of the unit in which a file gives a sampled value; else SI."""
     for record in parameters(results).get("records", ()):
         table, _, key = str(record["field"]).rpartition(".")
         stem, unit = split_key(key)
@@ -105,8 +105,8 @@ def _independent(ranges: Iterable[dict[str, Any]]) -> str:
     if not texts:
         return ""
     return (
-        "Drawn apart from what it follows from, in brackets, because the machine's file gives both "
-        f"a range: {'; '.join(texts)}."
+        "Sampled apart from what it follows from, in brackets, because the machine's file gives "
+        f"both a range: {'; '.join(texts)}."
     )
 
 
@@ -117,7 +117,7 @@ def _projection(results: xr.Dataset) -> str:
     errors = results["projection_error"]
     texts = [
         f"{named(str(name))} {percent(float(error))}"
-        for name, error in zip(errors["drawn_parameter"].values, errors.values, strict=True)
+        for name, error in zip(errors["uncertain_parameter"].values, errors.values, strict=True)
         if np.isfinite(error)
     ]
     if not texts:

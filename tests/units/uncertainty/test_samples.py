@@ -1,4 +1,4 @@
-"""What can be drawn: every value with a range, whole numbers, what follows, what contradicts."""
+"""What can be sampled: every value with a range, whole numbers, what follows, what contradicts."""
 
 import shutil
 from dataclasses import replace
@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from drawn_machines import drawing
+from sampled_machines import all_sampled
 from sources_study import (
     SOURCES_STUDY,
     case_of,
@@ -27,8 +27,8 @@ from vibroacoustics.machine.source import Shared
 from vibroacoustics.radiation.pressure import wrench_pressure
 from vibroacoustics.radiation.transfer_vectors import pressure_per_velocity
 from vibroacoustics.sources.cases import without_time_series
-from vibroacoustics.study.draws import draws_of, with_draw
 from vibroacoustics.study.loading import load_study
+from vibroacoustics.study.samples import samples_of, with_sample
 from vibroacoustics.study.sampling import latin_hypercubes, narrowed
 from vibroacoustics.study.study import Study
 from vibroacoustics.study.uncertainty import Range
@@ -37,9 +37,9 @@ from vibroacoustics.transfer.machine import on_mounts
 from vibroacoustics.transfer.observers import Observers
 from vibroacoustics.transfer.path import computed_path
 from vibroacoustics.transfer.study_path import projection_errors
-from vibroacoustics.uncertainty.drawn import drawn_cases, moves_otherwise
-from vibroacoustics.uncertainty.draws import of_every_draw
+from vibroacoustics.uncertainty.every_sample import in_every_sample
 from vibroacoustics.uncertainty.first_order import changed_first_order
+from vibroacoustics.uncertainty.sampled_cases import moves_otherwise, sampled_cases
 
 TEXT = SOURCES_STUDY.read_text(encoding="utf-8")
 MACHINE_TEXT = MACHINE_FILE.read_text(encoding="utf-8")
@@ -87,15 +87,18 @@ def within(study: Study, *names: str) -> Study:
 # --- which values --------------------------------------------------------------------------------
 
 
-def test_every_value_with_a_range_is_drawn_or_held_with_a_reason(study):
+def test_every_value_with_a_range_is_sampled_or_held_with_a_reason(study):
     """Of the tables that the study reads: that of the shaft is not among them."""
     ranged = {
         record.field.rpartition(".")[0]
         for record in study.records
         if record.file == MACHINE_FILE.name and record.lowest is not None
     }
-    drawn, held = {item.table for item in study.ranges}, {item.table for item in study.held_ranges}
-    assert drawn | held == ranged
+    sampled, held = (
+        {item.table for item in study.ranges},
+        {item.table for item in study.held_ranges},
+    )
+    assert sampled | held == ranged
     assert held == {"kinematics", "shell", "stopping", "overall_noise", "remainder"}
     count = sum(record.lowest is not None for record in study.records)
     assert len(study.ranges) + len(study.held_ranges) == count > 60
@@ -104,12 +107,12 @@ def test_every_value_with_a_range_is_drawn_or_held_with_a_reason(study):
     assert "two studies" in study.held_ranges[0].reason
 
 
-def test_a_study_without_sources_draws_nothing():
+def test_a_study_without_sources_samples_nothing():
     thesis = load_study(ROOT / "pipelines" / "copeland_thesis.toml")
     assert thesis.ranges == thesis.held_ranges == ()
 
 
-def test_data_of_the_catalogue_are_not_drawn(tmp_path):
+def test_data_of_the_catalogue_are_not_sampled(tmp_path):
     level = 'value = 56.0, source = "thesis table 2, sound pressure level at 1 m"'
     changed = load_changed(tmp_path, (level, f"{level}, range = [54.0, 58.0]"))
     held = {item.name: item.reason for item in changed.held_ranges}
@@ -141,7 +144,7 @@ OF_EVERY_KIND = ("mayekawa_wbhe", "mayekawa_banks", "dagilis_slider_link", "estu
     ],
 )
 def test_every_machine_takes_the_ends_of_its_ranges(tmp_path, monkeypatch, name, value):
-    study = drawing(tmp_path, monkeypatch, name, 200)
+    study = all_sampled(tmp_path, monkeypatch, name, 200)
     assert value in {item.name for item in study.ranges}
     lists = {item.name for item in study.held_ranges if item.reason == "are lists"}
     assert bool(lists) == (study.machine.suspension is not None or name == "mayekawa_banks")
@@ -149,23 +152,23 @@ def test_every_machine_takes_the_ends_of_its_ranges(tmp_path, monkeypatch, name,
 
 @pytest.mark.filterwarnings("error:.*contradict themselves")
 @pytest.mark.parametrize("name", OF_EVERY_KIND)
-def test_all_of_200_draws_of_every_machine_fit_together(tmp_path, monkeypatch, name):
+def test_all_of_200_samples_of_every_machine_fit_together(tmp_path, monkeypatch, name):
     """Without limits 11, 2, 15, 10 and 35 % of them contradict themselves."""
-    study = drawing(tmp_path, monkeypatch, name, 200)
-    sample = draws_of(study)
-    assert len(sample.draws) == 200
-    assert not sample.refused
+    study = all_sampled(tmp_path, monkeypatch, name, 200)
+    found = samples_of(study)
+    assert len(found.samples) == 200
+    assert not found.refused
     for limits in study.ranges:
-        values = [draw[limits.table, limits.field] for draw in sample.draws]
+        values = [sample[limits.table, limits.field] for sample in found.samples]
         assert limits.lowest <= min(values) <= max(values) <= limits.highest
 
 
-def test_draws_are_refused_without_the_limits(tmp_path, monkeypatch):
-    """That the draws above fit is the limits' doing."""
-    study = drawing(tmp_path, monkeypatch, "zhao_minicrank", 200)
+def test_samples_are_refused_without_the_limits(tmp_path, monkeypatch):
+    """That the samples above fit is the limits' doing."""
+    study = all_sampled(tmp_path, monkeypatch, "zhao_minicrank", 200)
     monkeypatch.setattr(type(study.machine), "limits", ())
-    sample = draws_of(study)
-    assert len(sample.refused) > 0.2 * sample.tried
+    found = samples_of(study)
+    assert len(found.refused) > 0.2 * found.tried
 
 
 def test_a_narrowed_value_keeps_its_share_of_the_range():
@@ -181,14 +184,15 @@ def test_a_narrowed_value_keeps_its_share_of_the_range():
 # --- whole numbers -------------------------------------------------------------------------------
 
 
-def test_whole_numbers_are_drawn_as_such_and_each_as_often(study):
+def test_whole_numbers_are_sampled_as_such_and_each_as_often(study):
     limits = Range(table="structure.stator", field="welds", lowest=4, highest=8, integer=True)
     settings = study.uncertainty.model_copy(update={"random_samples": 50})
-    drawn = [
-        draw["structure.stator", "welds"] for draw in next(latin_hypercubes((limits,), settings))
+    sampled = [
+        sample["structure.stator", "welds"]
+        for sample in next(latin_hypercubes((limits,), settings))
     ]
-    assert all(isinstance(value, int) for value in drawn)
-    assert np.bincount(drawn, minlength=9)[4:].tolist() == [10] * 5
+    assert all(isinstance(value, int) for value in sampled)
+    assert np.bincount(sampled, minlength=9)[4:].tolist() == [10] * 5
     whole = {item.name for item in study.ranges if item.integer}
     assert whole == {
         f"structure.{joint}.welds" for joint in ("bearing_housing", "fixed_scroll", "stator")
@@ -206,26 +210,28 @@ def test_range_of_a_whole_number_with_a_broken_end_is_refused(tmp_path):
 
 def test_orbit_follows_the_wraps(study):
     base = study.machine
-    drawn = with_draw(base, base, {("wraps", "thickness_m"): 3.0e-3})
-    ratio = drawn.wraps.orbit_radius_m / base.wraps.orbit_radius_m
+    sampled = with_sample(base, base, {("wraps", "thickness_m"): 3.0e-3})
+    ratio = sampled.wraps.orbit_radius_m / base.wraps.orbit_radius_m
     assert ratio > 1.05
-    assert drawn.kinematics.orbit_radius_m == pytest.approx(
+    assert sampled.kinematics.orbit_radius_m == pytest.approx(
         ratio * base.kinematics.orbit_radius_m, rel=1e-12
     )
 
 
-def test_inertias_follow_the_masses_unless_they_are_drawn_themselves(study):
+def test_inertias_follow_the_masses_unless_they_are_sampled_themselves(study):
     base = study.machine
     mass = {("housing", "mass_kg"): 28.0, ("orbiting_scroll", "mass_kg"): 1.8}
-    drawn = with_draw(base, base, mass)
-    assert drawn.housing.inertia_xx_kg_m2 == pytest.approx(0.57 * 28.0 / 35.0)
-    assert drawn.housing.inertia_yy_kg_m2 == pytest.approx(0.57 * 28.0 / 35.0)
-    assert drawn.keys.scroll_inertia_kg_m2 == pytest.approx(8e-4 * 1.5)
-    apart = with_draw(base, base, {**mass, ("housing", "inertia_xx_kg_m2"): 0.5})
+    sampled = with_sample(base, base, mass)
+    assert sampled.housing.inertia_xx_kg_m2 == pytest.approx(0.57 * 28.0 / 35.0)
+    assert sampled.housing.inertia_yy_kg_m2 == pytest.approx(0.57 * 28.0 / 35.0)
+    assert sampled.keys.scroll_inertia_kg_m2 == pytest.approx(8e-4 * 1.5)
+    apart = with_sample(base, base, {**mass, ("housing", "inertia_xx_kg_m2"): 0.5})
     assert apart.housing.inertia_xx_kg_m2 == 0.5
     assert apart.housing.inertia_yy_kg_m2 == pytest.approx(0.5)  # round about z
     light = {("housing", "inertia_xx_kg_m2"): 0.45, ("housing", "inertia_zz_kg_m2"): 0.10}
-    assert with_draw(base, base, light).housing.inertia_yy_kg_m2 == pytest.approx(0.45)  # not 0.57
+    assert with_sample(base, base, light).housing.inertia_yy_kg_m2 == pytest.approx(
+        0.45
+    )  # not 0.57
     said = {item.name: item.independent_of for item in study.ranges if item.independent_of}
     assert said == {
         "housing.inertia_xx_kg_m2": ("housing.mass_kg",),
@@ -237,37 +243,37 @@ def test_inertias_follow_the_masses_unless_they_are_drawn_themselves(study):
 def test_the_twelve_values_change_themselves_alone(study):
     """As a plain copy with these values: nothing follows from them."""
     base = study.machine
-    for draw in next(latin_hypercubes(study.ranges, study.uncertainty)):
+    for sample in next(latin_hypercubes(study.ranges, study.uncertainty)):
         tables: dict[str, dict[str, float]] = {}
         for table, field in TWELVE:
-            tables.setdefault(table, {})[field] = draw[table, field]
-        twelve = {pair: draw[pair] for pair in TWELVE}
-        assert with_draw(base, base, twelve) == with_tables(study, **tables).machine
-        assert not moves_otherwise(with_draw(base, base, twelve), base, study)
+            tables.setdefault(table, {})[field] = sample[table, field]
+        twelve = {pair: sample[pair] for pair in TWELVE}
+        assert with_sample(base, base, twelve) == with_tables(study, **tables).machine
+        assert not moves_otherwise(with_sample(base, base, twelve), base, study)
 
 
 # --- contradictions ------------------------------------------------------------------------------
 
 
-def test_draws_that_contradict_themselves_are_told_and_drawn_anew(tmp_path):
+def test_samples_that_contradict_themselves_are_told_and_sampled_anew(tmp_path):
     """8 welds of up to 100° do not fit around: 360° are 45° each."""
     old = 'lands of 30 mm", range = [10.0, 40.0]'
     many = TEXT.replace("random_samples = 4", "random_samples = 20")
-    told = r"study\.toml: \d+ of \d+ draws \(\d+ %\) contradict themselves.*spread_deg"
+    told = r"study\.toml: \d+ of \d+ samples \(\d+ %\) contradict themselves.*spread_deg"
     with pytest.warns(UserWarning, match=told):
         changed = load_changed(tmp_path, (old, old.replace("40.0", "100.0")), study=many)
-    sample = draws_of(changed)
-    assert len(sample.draws) == changed.uncertainty.random_samples
-    assert sample.refused
-    for draw in sample.draws:
-        joint = with_draw(changed.machine, changed.machine, draw).structure.stator
+    found = samples_of(changed)
+    assert len(found.samples) == changed.uncertainty.random_samples
+    assert found.refused
+    for sample in found.samples:
+        joint = with_sample(changed.machine, changed.machine, sample).structure.stator
         assert joint.welds * joint.spread_rad <= 2.0 * np.pi
 
 
 def test_ranges_that_hardly_ever_fit_are_refused(tmp_path):
     old = 'lands of 30 mm", range = [10.0, 40.0]'
     few = 'lands of the laminations touch the shell", range = [4, 8]'
-    with pytest.raises(ParameterError, match=r"draws contradict themselves.*welds") as refusal:
+    with pytest.raises(ParameterError, match=r"samples contradict themselves.*welds") as refusal:
         load_changed(
             tmp_path,
             (old, old.replace("[10.0, 40.0]", "[20.0, 360.0]")),
@@ -276,7 +282,7 @@ def test_ranges_that_hardly_ever_fit_are_refused(tmp_path):
     assert len(str(refusal.value).splitlines()) == 1
 
 
-def test_sources_have_their_say_on_a_draw(study, monkeypatch):
+def test_sources_have_their_say_on_a_sample(study, monkeypatch):
     """The wraps must orbit as the machine does."""
     kind = type(study.sources["gas"])
     monkeypatch.setattr(
@@ -284,13 +290,13 @@ def test_sources_have_their_say_on_a_draw(study, monkeypatch):
         "why_not",
         classmethod(lambda cls, m: "too light" if m.housing.mass_kg < 31.5 else None),
     )
-    sample = draws_of(study)
-    assert set(sample.refused) == {"sources.gas: too light"}
-    assert all(draw["housing", "mass_kg"] >= 31.5 for draw in sample.draws)
+    found = samples_of(study)
+    assert set(found.refused) == {"sources.gas: too light"}
+    assert all(sample["housing", "mass_kg"] >= 31.5 for sample in found.samples)
 
 
 @pytest.mark.long
-def test_a_draw_without_solution_has_no_weight(study, monkeypatch):
+def test_a_sample_without_solution_has_no_weight(study, monkeypatch):
     revolution = type(study.machine).revolution
 
     def at_times(machine: Machine, speed_rpm: float, samples: int):
@@ -299,19 +305,19 @@ def test_a_draw_without_solution_has_no_weight(study, monkeypatch):
         return revolution(machine, speed_rpm, samples)
 
     monkeypatch.setattr(type(study.machine), "revolution", at_times)
-    heavy = [draw["orbiting_scroll", "mass_kg"] > 1.55 for draw in draws_of(study).draws]
+    heavy = [sample["orbiting_scroll", "mass_kg"] > 1.55 for sample in samples_of(study).samples]
     assert sum(heavy) == 1
     quiet = with_tables(study, overall_noise={"level_dba": 90.0})
-    with pytest.warns(UserWarning, match="1 of 4 draws have no solution.*it does not turn"):
+    with pytest.warns(UserWarning, match="1 of 4 samples have no solution.*it does not turn"):
         results = run_made_up(quiet)
     first = slice(len(heavy))  # of the bank
-    assert np.isnan(results["bank_level"].values[first]).tolist() == heavy
-    assert (results["bank_weight"].values[0, first] == 0.0).tolist() == heavy
-    assert not np.isnan(results["level_modelled_by_draw"].values).any()
+    assert np.isnan(results["prior_sample_level"].values[first]).tolist() == heavy
+    assert (results["prior_sample_weight"].values[0, first] == 0.0).tolist() == heavy
+    assert not np.isnan(results["level_modelled_by_sample"].values).any()
 
 
-def test_every_draw_is_told_of_in_order():
-    found = of_every_draw([{("a", "b"): 1.0}, {("a", "b"): 2.0}], lambda d: d["a", "b"], -1.0, no)
+def test_every_sample_is_told_of_in_order():
+    found = in_every_sample([{("a", "b"): 1.0}, {("a", "b"): 2.0}], lambda d: d["a", "b"], -1.0, no)
     assert found == [1.0, 2.0]
 
 
@@ -327,37 +333,37 @@ def rigid(study):
     return pressure_per_velocity(made_up_modes(study)["transfer_vector"])
 
 
-def drawn_pressure(study, rigid, draw, option="none"):
+def sampled_pressure(study, rigid, sample, option="none"):
     case = case_of(study, option)
     bare, _ = without_time_series(replace(case, shared=Shared()), {})
     key = (case.speed_rpm, option)
-    drawn = drawn_cases(Cases({key: bare}, {}, {key: {}}), study, draw)
-    if not drawn.wrenches[key]:
+    sampled = sampled_cases(Cases({key: bare}, {}, {key: {}}), study, sample)
+    if not sampled.wrenches[key]:
         return None
-    path, moved = LoadPath(on_mounts(drawn.cases[key].machine)), drawn.wrenches[key]
+    path, moved = LoadPath(on_mounts(sampled.cases[key].machine)), sampled.wrenches[key]
     orders = np.arange(next(iter(moved["moving_parts"].values())).shape[-1])
     frequency = case.shaft_frequency_hz * orders
     return {name: path.observed(Observers(rigid), load, frequency) for name, load in moved.items()}
 
 
 def test_motion_as_given_sounds_as_in_the_results(study, rigid):
-    """A change by 1e-12 of a mount goes the way of the draws."""
+    """A change by 1e-12 of a mount goes the way of the samples."""
     results = sources_run()
     stiffness = study.machine.mounts.vertical_stiffness_n_per_m * (1.0 + 1e-12)
-    draw = {("mounts", "vertical_stiffness_n_per_m"): stiffness}
+    sample = {("mounts", "vertical_stiffness_n_per_m"): stiffness}
     for option in study.options:
         expected = wrench_pressure(results, "transfer_vector").sel(speed=2900.0, option=option)
         expected = expected.sum("source").transpose("receiver", "order").values
-        found = drawn_pressure(study, rigid, draw, option)["moving_parts"]
+        found = sampled_pressure(study, rigid, sample, option)["moving_parts"]
         size = np.abs(expected).max()
         np.testing.assert_allclose(found, expected, atol=1e-9 * size, err_msg=option)
 
 
-def test_forces_at_1x_are_those_of_a_machine_with_the_drawn_values(study):
-    """Of every option, beside a run of a study whose machine has the drawn mounts."""
+def test_forces_at_1x_are_those_of_a_machine_with_the_sampled_values(study):
+    """Of every option, beside a run of a study whose machine has the sampled mounts."""
     stiffness = 4.0 * study.machine.mounts.lateral_stiffness_n_per_m
-    draw = {("mounts", "lateral_stiffness_n_per_m"): stiffness}
-    machine = with_draw(study.machine, study.machine, draw)
+    sample = {("mounts", "lateral_stiffness_n_per_m"): stiffness}
+    machine = with_sample(study.machine, study.machine, sample)
     expected = run_made_up(study.model_copy(update={"machine": machine, "ranges": ()}))
     given = run_made_up(study.model_copy(update={"ranges": ()}))
     for option in study.options:
@@ -365,19 +371,19 @@ def test_forces_at_1x_are_those_of_a_machine_with_the_drawn_values(study):
         bare, _ = without_time_series(replace(case, shared=Shared()), {})
         key = (case.speed_rpm, option)
         nominal = Cases({key: bare}, {}, {key: {}})
-        drawn = changed_first_order(nominal, drawn_cases(nominal, study, draw))[key]
+        sampled = changed_first_order(nominal, sampled_cases(nominal, study, sample))[key]
         at = {"speed": 2900.0, "option": option, "order": 1}
         force, moment = (expected[f"{name}_amplitude"].sel(at) for name in ("force", "moment"))
         foot = expected["foot_force_amplitude"].sel(at).max()
         np.testing.assert_allclose(
-            drawn, [force, moment, foot], rtol=1e-9, atol=1e-9, err_msg=option
+            sampled, [force, moment, foot], rtol=1e-9, atol=1e-9, err_msg=option
         )
         assert abs(foot / given["foot_force_amplitude"].sel(at).max() - 1.0) > 0.1
 
 
 @pytest.mark.long
-def test_forces_by_draw_are_in_the_results_and_as_given_where_no_draw_moves(study):
-    """Draws of the keys' friction leave the motion."""
+def test_forces_by_sample_are_in_the_results_and_as_given_where_no_sample_moves(study):
+    """Samples of the keys' friction leave the motion."""
     ranges = (Range(table="keys", field="friction_ratio", lowest=0.05, highest=0.15),)
     settings = study.uncertainty.model_copy(update={"random_samples": 4})
     quiet = study.model_copy(update={"ranges": ranges, "uncertainty": settings})
@@ -385,47 +391,49 @@ def test_forces_by_draw_are_in_the_results_and_as_given_where_no_draw_moves(stud
     for name in ("force", "moment", "foot_force"):
         given = results[f"{name}_amplitude"].sel(order=1)
         given = given.max("foot") if "foot" in given.dims else given
-        drawn = results[f"{name}_1x_by_draw"]
-        assert drawn.sizes["draw"] == results.sizes["draw"]
-        np.testing.assert_array_equal(drawn, given.broadcast_like(drawn).transpose(*drawn.dims))
+        sampled = results[f"{name}_1x_by_sample"]
+        assert sampled.sizes["sample"] == results.sizes["sample"]
+        np.testing.assert_array_equal(
+            sampled, given.broadcast_like(sampled).transpose(*sampled.dims)
+        )
 
 
-def test_motion_that_a_draw_leaves_is_not_computed_anew(study, rigid):
-    assert drawn_pressure(study, rigid, {("keys", "friction_ratio"): 0.05}) is None
-    assert drawn_pressure(study, rigid, {("structure", "thickness_m"): 3e-3}) is None
+def test_motion_that_a_sample_leaves_is_not_computed_anew(study, rigid):
+    assert sampled_pressure(study, rigid, {("keys", "friction_ratio"): 0.05}) is None
+    assert sampled_pressure(study, rigid, {("structure", "thickness_m"): 3e-3}) is None
 
 
 def test_soft_mounts_and_heavy_rings_change_the_first_order(study, rigid):
     """Far above resonance velocity is force over mass: a lighter machine is louder by its mass;
     the ring alone makes the force, so its sound grows as its mass."""
-    given = drawn_pressure(study, rigid, {("mounts", "pitch_m"): 0.19})["moving_parts"][:, 1]
-    lossy = drawn_pressure(study, rigid, {("mounts", "loss_factor_ratio"): 0.2})
+    given = sampled_pressure(study, rigid, {("mounts", "pitch_m"): 0.19})["moving_parts"][:, 1]
+    lossy = sampled_pressure(study, rigid, {("mounts", "loss_factor_ratio"): 0.2})
     assert np.abs(lossy["moving_parts"][:, 1] / given - 1.0).max() > 1e-4
-    heavy = drawn_pressure(
+    heavy = sampled_pressure(
         study, rigid, {("oldham", "mass_kg"): 2.0 * 0.0727, ("mounts", "pitch_m"): 0.19}
     )
     np.testing.assert_allclose(heavy["moving_parts"][:, 1], 2.0 * given, rtol=1e-9)
 
 
-def test_counterweights_balance_every_draw(study, rigid):
+def test_counterweights_balance_every_sample(study, rigid):
     """They follow from the orbiting parts: a heavier scroll shakes no more than a light one."""
-    draw = {("orbiting_scroll", "mass_kg"): 1.8, ("orbiting_scroll", "height_m"): 0.07}
+    sample = {("orbiting_scroll", "mass_kg"): 1.8, ("orbiting_scroll", "height_m"): 0.07}
     case = case_of(study)
-    drawn = with_draw(study.machine, study.machine, draw)
-    wrenches = drawn.revolution(2900.0, 256).wrenches
+    sampled = with_sample(study.machine, study.machine, sample)
+    wrenches = sampled.revolution(2900.0, 256).wrenches
     force = sum(w.force_n for name, w in wrenches.items() if name != "oldham")
     assert np.abs(wrenches["orbiting_scroll"].force_n).max() > 500.0
     assert np.abs(force).max() < 1e-8  # rounding of some kN
-    assert moves_otherwise(drawn, case.machine, study)
+    assert moves_otherwise(sampled, case.machine, study)
 
 
-def test_options_are_built_for_every_draw(study, rigid):
-    """Half the ring on the shaft: half of the drawn ring."""
+def test_options_are_built_for_every_sample(study, rigid):
+    """Half the ring on the shaft: half of the sampled ring."""
     ring = {("oldham", "mass_kg"): 0.1}
     one, both = (
-        drawn_pressure(study, rigid, ring, name) for name in ("none", "counterweight-half")
+        sampled_pressure(study, rigid, ring, name) for name in ("none", "counterweight-half")
     )
-    given = drawn_pressure(study, rigid, {("oldham", "height_m"): 0.11 + 1e-9}, "none")
+    given = sampled_pressure(study, rigid, {("oldham", "height_m"): 0.11 + 1e-9}, "none")
     assert np.abs(one["moving_parts"][:, 1]).max() > np.abs(given["moving_parts"][:, 1]).max()
     assert not np.allclose(one["moving_parts"][:, 1], both["moving_parts"][:, 1], rtol=0.05)
 
@@ -472,7 +480,7 @@ def test_projection_of_poissons_ratio_has_the_right_sign_by_mode(study):
     assert np.abs(factor / path.natural_hz - 1.0).max() > 1e-3
 
 
-def test_joints_of_a_draw_are_exact(study):
+def test_joints_of_a_sample_are_exact(study):
     stator = study.machine.structure.stator.model_copy(update={"welds": 4, "height_m": -0.03})
     changed = changed_structure(study, stator=stator)
     least = path_of(study)
@@ -497,17 +505,20 @@ def test_results_say_the_error_of_the_projection(study):
     results = run_made_up(within(study, "structure.thickness_m", "mounts.pitch_m"))
     error = results["projection_error"]
     assert isinstance(error, xr.DataArray)
-    assert 1e-4 < error.sel(drawn_parameter="structure.thickness_m").item() < 0.03
-    assert np.isnan(error.sel(drawn_parameter="mounts.pitch_m").item())
-    assert list(results["drawn_parameter"].values) == ["mounts.pitch_m", "structure.thickness_m"]
-    values = results["drawn_value"].sel(drawn_parameter="structure.thickness_m").values
+    assert 1e-4 < error.sel(uncertain_parameter="structure.thickness_m").item() < 0.03
+    assert np.isnan(error.sel(uncertain_parameter="mounts.pitch_m").item())
+    assert list(results["uncertain_parameter"].values) == [
+        "mounts.pitch_m",
+        "structure.thickness_m",
+    ]
+    values = results["sampled_value"].sel(uncertain_parameter="structure.thickness_m").values
     assert np.all((values >= 2.5e-3) & (values <= 4e-3))
-    moving = results["source_level_by_draw"].sel(sound_source="moving_parts", option="none")
+    moving = results["source_level_by_sample"].sel(sound_source="moving_parts", option="none")
     assert np.ptp(moving.values[:, 0, 0]) > 1e-3
 
 
-def test_a_draw_reads_back(study):
-    for draw in draws_of(study).draws:
-        drawn = with_draw(study.machine, study.machine, draw)
-        for (table, field), value in draw.items():
-            assert attrgetter(f"{table}.{field}")(drawn) == value
+def test_a_sample_reads_back(study):
+    for sample in samples_of(study).samples:
+        sampled = with_sample(study.machine, study.machine, sample)
+        for (table, field), value in sample.items():
+            assert attrgetter(f"{table}.{field}")(sampled) == value

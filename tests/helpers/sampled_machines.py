@@ -1,4 +1,4 @@
-"""Studies of every machine that draw all of its values."""
+"""Studies of every machine that sample all of its values."""
 
 from pathlib import Path
 
@@ -10,8 +10,8 @@ from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.study import Study
 
 
-def drawing(folder: Path, monkeypatch: pytest.MonkeyPatch, name: str, count: int) -> Study:
-    """A study of `pipelines` with a source that asks for nothing, so that values are drawn."""
+def all_sampled(folder: Path, monkeypatch: pytest.MonkeyPatch, name: str, count: int) -> Study:
+    """A study of `pipelines` with a source that asks for nothing, so that values are sampled."""
     monkeypatch.setattr(ScrollGasForces, "why_not", classmethod(lambda *_: None))
     monkeypatch.setattr(ScrollGasForces, "drives_shell", False)
     text = (ROOT / "pipelines" / f"{name}.toml").read_text(encoding="utf-8")

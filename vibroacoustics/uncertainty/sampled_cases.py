@@ -1,4 +1,4 @@
-"""The cases of a study with drawn values: what moves otherwise turns anew."""
+"""The cases of a study with sampled values: what moves otherwise turns anew."""
 
 from dataclasses import replace
 from functools import partial
@@ -10,18 +10,18 @@ from ..machine.cases import Cases
 from ..machine.machine import Machine
 from ..machine.source import Case, CaseKey, Shared
 from ..sources.cases import added_by, loads_of, without_time_series, wrench_lines
-from ..study.draws import with_draw
-from ..study.sampling import Draw
+from ..study.samples import with_sample
+from ..study.sampling import Sample
 from ..study.study import Study
 
 _SHELL: Final = {"shell", "structure", "variation", "frame", "shaft", "overall_noise", "remainder"}
 """Tables that say nothing of the motion."""
 
 
-def drawn_cases(nominal: Cases, study: Study, draw: Draw) -> Cases:
-    """Compute the cases with drawn values; they share no result with those of other draws.
+def sampled_cases(nominal: Cases, study: Study, sample: Sample) -> Cases:
+    """Compute the cases with sampled values; they share no result with those of other samples.
 
-    Where a draw changes what moves, or the machine on its mounts, revolution and what an option
+    Where a sample changes what moves, or the machine on its mounts, revolution and what an option
     adds are computed anew, and what the wrenches of the moving parts sound like; other cases have
     the nominal wrenches.
 
@@ -29,34 +29,34 @@ def drawn_cases(nominal: Cases, study: Study, draw: Draw) -> Cases:
     ----------
     nominal : with the nominal values
     study : with its machine and options
-    draw : values by table and field
+    sample : values by table and field
 
     Raises
     ------
     ParameterError, SolverError
         A machine cannot run so, an option not be built, a source not act.
     """
-    drawn = Cases({}, {}, {})
+    sampled = Cases({}, {}, {})
     shared = Shared()
     for _, of_speed in groupby(nominal.cases.items(), key=lambda item: item[0][0]):
         turned = Shared()  # let go with the speed: courses over crank angle are large
         for key, given in of_speed:
-            machine = shared(id(given.machine), partial(_sampled, given, study, key, draw))
+            machine = shared(id(given.machine), partial(_sampled, given, study, key, sample))
             case = replace(given, machine=machine, shared=shared)
             if moves_otherwise(machine, given.machine, study):
                 case = _turned(case, study, key, turned)
             loads = loads_of(study, case)
-            drawn.wrenches[key] = nominal.wrenches[key]
+            sampled.wrenches[key] = nominal.wrenches[key]
             if case.revolution.wrenches:
                 highest = study.highest_order(case.speed_rpm)
-                drawn.wrenches[key] = wrench_lines(case, loads, highest)
-            drawn.cases[key], drawn.loads[key] = without_time_series(case, loads)
-    return drawn
+                sampled.wrenches[key] = wrench_lines(case, loads, highest)
+            sampled.cases[key], sampled.loads[key] = without_time_series(case, loads)
+    return sampled
 
 
-def _sampled(case: Case, study: Study, key: CaseKey, sample: Draw) -> Machine:
+def _sampled(case: Case, study: Study, key: CaseKey, sample: Sample) -> Machine:
     """The machine of a case with sampled values, and the bodies attached to this machine."""
-    machine = with_draw(case.machine, study.machine, sample)
+    machine = with_sample(case.machine, study.machine, sample)
     return machine.carrying(study.option_of(key).attached(machine))
 
 

@@ -11,12 +11,12 @@ from vibroacoustics.stages.forces import with_published
 from vibroacoustics.stages.radiation import transfer_vectors
 from vibroacoustics.stages.sampled import sounds_of
 from vibroacoustics.stages.stage import advanced, applying
-from vibroacoustics.study.draws import batches_of_draws
+from vibroacoustics.study.samples import batches_of_samples
 from vibroacoustics.transfer.received import Transmission
 
 
 @dataclass(frozen=True)
-class DrawnChain:
+class SampledChain:
     """What a run has computed before it samples: the chain with its nominal sound."""
 
     chain: Chain
@@ -48,25 +48,25 @@ class DrawnChain:
         """As many samples of all ranges, less those that contradict themselves."""
         update = {"random_samples": count, "seed": seed}
         settings = self.study.uncertainty.model_copy(update=update)
-        return next(batches_of_draws(self.study.model_copy(update={"uncertainty": settings})))
+        return next(batches_of_samples(self.study.model_copy(update={"uncertainty": settings})))
 
-    def modelled_db(self, draws):
+    def modelled_db(self, samples):
         """What is modelled over the published level at its point, shape (sample,)."""
         key = self.study.catalogue_case
-        sounds = self._sounds(draws, [key])
+        sounds = self._sounds(samples, [key])
         return over_published(self.study, self.axes, sounds)
 
-    def sounds(self, draws):
+    def sounds(self, samples):
         """Sound of every case at the published level's receiver, by sample."""
-        return self._sounds(draws, list(self.chain[Cases].cases))
+        return self._sounds(samples, list(self.chain[Cases].cases))
 
-    def _sounds(self, draws, keys):
+    def _sounds(self, samples, keys):
         of, nominal = self.chain[Cases], self.chain[NominalSound]
         chain = self.chain.having(
             replace(of, cases={key: of.cases[key] for key in keys}),
             replace(nominal, sound={key: nominal.sound[key] for key in keys}),
         )
-        return [sampled.sound for sampled in sounds_of(chain, draws, lambda number: None)]
+        return [sampled.sound for sampled in sounds_of(chain, samples, lambda number: None)]
 
 
 def of_few_ranges(study, names):
